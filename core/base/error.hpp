@@ -1,0 +1,22 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace pleuel {
+
+/// What the user gave cannot be used: the message names the file, the JSON pointer, the value and
+/// the rule. The command ends with exit code 2.
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The simulation could not go on: the message says where (time, step, iteration, residual) and
+/// what to try. The command ends with exit code 3; an optimizer sees a failed evaluation.
+class SimulationError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace pleuel
