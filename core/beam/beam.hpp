@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "core/section/section_properties.hpp"
+
+namespace pleuel {
+
+/// One Euler–Bernoulli element between two nodes.
+template <class Scalar>
+struct BeamElement {
+  Scalar length;         ///< ℓ [m]
+  Scalar young, shear;   ///< E, G [Pa]
+  Scalar density;        ///< ρ [kg/m³]
+  SectionProperties<Scalar> section;
+};
+
+/// A straight chain of elements along local x; node i is the start of element i.
+template <class Scalar>
+struct Beam {
+  std::vector<BeamElement<Scalar>> elements;
+  Scalar mass_damping = Scalar(0);       ///< α [1/s] of D = α S_ff + β K
+  Scalar stiffness_damping = Scalar(0);  ///< β [s]
+
+  int node_count() const { return static_cast<int>(elements.size()) + 1; }
+
+  /// Local x of a node [m].
+  Scalar node_position(int node) const {
+    Scalar x(0);
+    for (int i = 0; i < node; ++i) x += elements[static_cast<std::size_t>(i)].length;
+    return x;
+  }
+};
+
+}  // namespace pleuel

@@ -1,0 +1,181 @@
+#pragma once
+
+#include "core/beam/beam.hpp"
+#include "core/beam/beam_shape.hpp"
+#include "core/beam/elastic_coordinates.hpp"
+#include "core/beam/invariants.hpp"
+
+namespace pleuel {
+
+/// Whether the inertia of the sections about their own axes (I_y, I_z) enters the inertia
+/// integrals. Torsional inertia of twisting sections is always there.
+enum class RotaryInertia { included, neglected };
+
+/// Element stiffness (12 × 12): ∫ EA u'u' + EI_z v''v'' + EI_y w''w'' + GJ θx'θx' dx.
+template <class Scalar>
+Eigen::Matrix<Scalar, 12, 12> element_stiffness(const BeamElement<Scalar>& element) {
+  using Matrix = Eigen::Matrix<Scalar, 12, 12>;
+  const SectionProperties<Scalar>& section = element.section;
+  Matrix stiffness = Matrix::Constant(Scalar(0));
+  const Scalar axial = element.young * section.area / element.length;
+  const Scalar torsional = element.shear * section.torsion / element.length;
+  for (int i : {0, 3}) {
+    const Scalar& k = i == 0 ? axial : torsional;
+    stiffness(i, i) += k;
+    stiffness(i + 6, i + 6) += k;
+    stiffness(i, i + 6) -= k;
+    stiffness(i + 6, i) -= k;
+  }
+  const Scalar bending_z = element.young * section.inertia_z;
+  const Scalar bending_y = element.young * section.inertia_y;
+  for (const GaussPoint& point : gauss_points) {
+    const auto v = deflection_y_row(point.xi, element.length, 2);
+    const auto w = deflection_z_row(point.xi, element.length, 2);
+    const Scalar weight = point.weight * element.length;
+    stiffness += (weight * bending_z) * (v.transpose() * v) +
+                 (weight * bending_y) * (w.transpose() * w);
+  }
+  return stiffness;
+}
+
+namespace beam_detail {
+
+/// Adds ∫ρ over one line of points p₀ = base, displacement = shape, with mass `mass`.
+template <class Scalar>
+struct InvariantSum {
+  Invariants<Scalar>& sum;
+  const std::array<int, 12>& indices;
+
+  void add(const Scalar& mass, const Eigen::Matrix<Scalar, 3, 1>& base,
+           const ElementShape<Scalar>& shape) {
+    sum.second_moment += mass * base * base.transpose();
+    for (int j = 0; j < 12; ++j) {
+      const int column = indices[static_cast<std::size_t>(j)];
+      if (column < 0) continue;
+      for (int k = 0; k < 3; ++k) {
+        for (int l = 0; l < 3; ++l) sum.mixed(3 * k + l, column) += mass * base(k) * shape(l, j);
+      }
+      add_moments(mass, shape, j, column);
+    }
+  }
+
+  void add_moments(const Scalar& mass, const ElementShape<Scalar>& shape, int j, int column) {
+    for (int i = 0; i < 12; ++i) {
+      const int row = indices[static_cast<std::size_t>(i)];
+      if (row < 0) continue;
+      const int position = sum.pattern.find(row, column);
+      for (std::size_t p = 0; p < sum.pairs.size(); ++p) {
+        const auto [k, l] = sum.pairs[p];
+        sum.moments(position, static_cast<int>(p)) += mass * shape(k, i) * shape(l, j);
+      }
+    }
+  }
+};
+
+template <class Scalar>
+void add_element_inertia(const BeamElement<Scalar>& element, const Scalar& start,
+                         RotaryInertia rotary, const std::array<int, 12>& indices,
+                         Invariants<Scalar>& sum) {
+  using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
+  const Scalar zero(0), one(1);
+  InvariantSum<Scalar> integral{sum, indices};
+  for (const GaussPoint& point : gauss_points) {
+    const Scalar per_area = element.density * point.weight * element.length;
+    const Scalar mass = per_area * element.section.area;
+    const Scalar x = start + point.xi * element.length;
+    const ElementShape<Scalar> shape = axis_shape(point.xi, element.length);
+    sum.mass += mass;
+    sum.first_moment(0) += mass * x;
+    for (int j = 0; j < 12; ++j) {
+      const int column = indices[static_cast<std::size_t>(j)];
+      if (column >= 0) sum.shape.col(column) += mass * shape.col(j);
+    }
+    integral.add(mass, Vector3(x, zero, zero), shape);
+    // Off-axis points: ∫y dA = ∫z dA = ∫yz dA = 0 leave the second moments of the section only.
+    ElementShape<Scalar> y_shape = y_offset_shape(point.xi, element.length);
+    ElementShape<Scalar> z_shape = z_offset_shape(point.xi, element.length);
+    Vector3 y_base(zero, one, zero), z_base(zero, zero, one);
+    if (rotary == RotaryInertia::neglected) {
+      y_shape.row(0).setConstant(zero);
+      z_shape.row(0).setConstant(zero);
+      y_base(1) = zero;
+      z_base(2) = zero;
+    }
+    integral.add(per_area * element.section.inertia_z, y_base, y_shape);
+    integral.add(per_area * element.section.inertia_y, z_base, z_shape);
+  }
+}
+
+/// The pairs of displacement directions that the coordinates of a beam can couple.
+inline std::vector<std::pair<int, int>> coupled_pairs(const ElasticCoordinates& coordinates) {
+  std::array<bool, 3> moves{};
+  for (int node = 0; node < coordinates.node_count(); ++node) {
+    const auto has = [&](int displacement) { return coordinates.index(node, displacement) >= 0; };
+    moves[0] = moves[0] || has(0) || has(4) || has(5);
+    moves[1] = moves[1] || has(1) || has(3) || has(5);
+    moves[2] = moves[2] || has(2) || has(3) || has(4);
+  }
+  std::vector<std::pair<int, int>> pairs;
+  for (int k = 0; k < 3; ++k) {
+    for (int l = 0; l < 3; ++l) {
+      if (moves[static_cast<std::size_t>(k)] && moves[static_cast<std::size_t>(l)]) {
+        pairs.emplace_back(k, l);
+      }
+    }
+  }
+  return pairs;
+}
+
+}  // namespace beam_detail
+
+/// Pattern of a beam's matrices: the active coordinates of an element are coupled.
+inline ElasticPattern beam_pattern(const ElasticCoordinates& coordinates) {
+  std::vector<std::vector<int>> groups;
+  for (int i = 0; i + 1 < coordinates.node_count(); ++i) {
+    const auto indices = coordinates.element_indices(i);
+    groups.emplace_back(indices.begin(), indices.end());
+  }
+  return pattern_of_groups(coordinates.size(), groups);
+}
+
+/// Invariants of a beam in its local axes (origin at the first node), by one set of shape functions
+/// and exact quadrature.
+template <class Scalar>
+Invariants<Scalar> beam_invariants(const Beam<Scalar>& beam, const ElasticCoordinates& coordinates,
+                                   RotaryInertia rotary = RotaryInertia::included) {
+  Invariants<Scalar> sum;
+  const Scalar zero(0);
+  sum.pattern = beam_pattern(coordinates);
+  sum.pairs = beam_detail::coupled_pairs(coordinates);
+  const int n = sum.size(), nonzeros = sum.pattern.nonzeros();
+  sum.shape.setConstant(3, n, zero);
+  sum.mixed.setConstant(9, n, zero);
+  sum.moments.setConstant(nonzeros, static_cast<int>(sum.pairs.size()), zero);
+  sum.stiffness.setConstant(nonzeros, zero);
+  sum.mass_matrix.setConstant(nonzeros, zero);
+
+  Scalar start(0);
+  for (int e = 0; e < static_cast<int>(beam.elements.size()); ++e) {
+    const BeamElement<Scalar>& element = beam.elements[static_cast<std::size_t>(e)];
+    const auto indices = coordinates.element_indices(e);
+    beam_detail::add_element_inertia(element, start, rotary, indices, sum);
+    const auto stiffness = element_stiffness(element);
+    for (int i = 0; i < 12; ++i) {
+      for (int j = 0; j < 12; ++j) {
+        const int row = indices[static_cast<std::size_t>(i)];
+        const int col = indices[static_cast<std::size_t>(j)];
+        if (row >= 0 && col >= 0) sum.stiffness(sum.pattern.find(row, col)) += stiffness(i, j);
+      }
+    }
+    start += element.length;
+  }
+  for (std::size_t p = 0; p < sum.pairs.size(); ++p) {
+    if (sum.pairs[p].first == sum.pairs[p].second) {
+      sum.mass_matrix += sum.moments.col(static_cast<int>(p));
+    }
+  }
+  sum.damping = beam.mass_damping * sum.mass_matrix + beam.stiffness_damping * sum.stiffness;
+  return sum;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+/// Shape functions of the 3D Euler–Bernoulli beam element: the one source of its mass, stiffness,
+/// inertia shape integrals and recovery.
+///
+/// Element coordinates (12): u v w θx θy θz at the first node, then at the second, in local axes.
+/// A material point (x, y, z) is displaced by
+///     u = u₀ − y v₀' − z w₀',   v = v₀ − z θx,   w = w₀ + y θx
+/// with u₀, θx linear and v₀, w₀ cubic (Hermite) in ξ = x/ℓ; θz = v₀', θy = −w₀'.
+namespace pleuel {
+
+inline constexpr int element_coordinates = 12;
+
+template <class Scalar>
+using ElementShape = Eigen::Matrix<Scalar, 3, element_coordinates>;
+template <class Scalar>
+using ElementRow = Eigen::Matrix<Scalar, 1, element_coordinates>;
+
+/// Hermite polynomials for (v₁, v'₁, v₂, v'₂), differentiated `order` times with respect to x.
+template <class Scalar>
+std::array<Scalar, 4> hermite(double xi, const Scalar& length, int order = 0) {
+  switch (order) {
+    case 0:
+      return {Scalar(1 - 3 * xi * xi + 2 * xi * xi * xi), Scalar(length * (xi - 2 * xi * xi + xi * xi * xi)),
+              Scalar(3 * xi * xi - 2 * xi * xi * xi), Scalar(length * (xi * xi * xi - xi * xi))};
+    case 1:
+      return {Scalar((6 * xi * xi - 6 * xi) / length), Scalar(1 - 4 * xi + 3 * xi * xi),
+              Scalar((6 * xi - 6 * xi * xi) / length), Scalar(3 * xi * xi - 2 * xi)};
+    default:
+      return {Scalar((12 * xi - 6) / (length * length)), Scalar((6 * xi - 4) / length),
+              Scalar((6 - 12 * xi) / (length * length)), Scalar((6 * xi - 2) / length)};
+  }
+}
+
+/// Row of v₀ (in the x–y plane), differentiated `order` times.
+template <class Scalar>
+ElementRow<Scalar> deflection_y_row(double xi, const Scalar& length, int order = 0) {
+  const auto h = hermite(xi, length, order);
+  ElementRow<Scalar> row = ElementRow<Scalar>::Constant(Scalar(0));
+  row(1) = h[0];
+  row(5) = h[1];
+  row(7) = h[2];
+  row(11) = h[3];
+  return row;
+}
+
+/// Row of w₀ (in the x–z plane; θy = −w₀'), differentiated `order` times.
+template <class Scalar>
+ElementRow<Scalar> deflection_z_row(double xi, const Scalar& length, int order = 0) {
+  const auto h = hermite(xi, length, order);
+  ElementRow<Scalar> row = ElementRow<Scalar>::Constant(Scalar(0));
+  row(2) = h[0];
+  row(4) = -h[1];
+  row(8) = h[2];
+  row(10) = -h[3];
+  return row;
+}
+
+/// Linear interpolation of the coordinates `first` and `first` + 6 (0: u₀, 3: θx).
+template <class Scalar>
+ElementRow<Scalar> linear_row(int first, double xi) {
+  ElementRow<Scalar> row = ElementRow<Scalar>::Constant(Scalar(0));
+  row(first) = Scalar(1 - xi);
+  row(first + 6) = Scalar(xi);
+  return row;
+}
+
+/// Displacement of the beam axis.
+template <class Scalar>
+ElementShape<Scalar> axis_shape(double xi, const Scalar& length) {
+  ElementShape<Scalar> shape;
+  shape.row(0) = linear_row<Scalar>(0, xi);
+  shape.row(1) = deflection_y_row(xi, length);
+  shape.row(2) = deflection_z_row(xi, length);
+  return shape;
+}
+
+/// Displacement per unit y of an off-axis point: (−v₀', 0, θx).
+template <class Scalar>
+ElementShape<Scalar> y_offset_shape(double xi, const Scalar& length) {
+  ElementShape<Scalar> shape = ElementShape<Scalar>::Constant(Scalar(0));
+  shape.row(0) = -deflection_y_row(xi, length, 1);
+  shape.row(2) = linear_row<Scalar>(3, xi);
+  return shape;
+}
+
+/// Displacement per unit z of an off-axis point: (−w₀', −θx, 0).
+template <class Scalar>
+ElementShape<Scalar> z_offset_shape(double xi, const Scalar& length) {
+  ElementShape<Scalar> shape = ElementShape<Scalar>::Constant(Scalar(0));
+  shape.row(0) = -deflection_z_row(xi, length, 1);
+  shape.row(1) = -linear_row<Scalar>(3, xi);
+  return shape;
+}
+
+/// Gauss–Legendre points on [0, 1]: exact for polynomials of degree 7, so for every integral of a
+/// product of two shape functions here.
+struct GaussPoint {
+  double xi, weight;
+};
+inline constexpr std::array<GaussPoint, 4> gauss_points = {{
+    {0.069431844202973712, 0.173927422568726929},
+    {0.330009478207571868, 0.326072577431273071},
+    {0.669990521792428132, 0.326072577431273071},
+    {0.930568155797026288, 0.173927422568726929},
+}};
+
+}  // namespace pleuel

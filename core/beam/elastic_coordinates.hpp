@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+/// Which nodal displacements of a beam are its elastic coordinates q_f.
+namespace pleuel {
+
+/// The six displacements of a node in local axes, in this order: u v w θx θy θz.
+using NodalFlags = std::array<bool, 6>;
+
+class ElasticCoordinates {
+ public:
+  /// @param node_count  nodes of the beam
+  /// @param active      displacements that the scene can excite; others have no coordinates
+  ElasticCoordinates(int node_count, const NodalFlags& active);
+
+  /// Removes a displacement that the reference condition sets to zero.
+  void clamp(int node, int displacement);
+
+  int size() const { return size_; }
+  int node_count() const { return static_cast<int>(index_.size()); }
+
+  /// Index in q_f of a nodal displacement, or −1 where it is zero.
+  int index(int node, int displacement) const {
+    return index_[static_cast<std::size_t>(node)][static_cast<std::size_t>(displacement)];
+  }
+
+  /// Indices in q_f of the twelve coordinates of an element (nodes `element`, `element` + 1).
+  std::array<int, 12> element_indices(int element) const;
+
+ private:
+  void number();
+
+  std::vector<std::array<int, 6>> index_;
+  int size_ = 0;
+};
+
+/// Tangent frame: the first node is clamped in the body frame.
+ElasticCoordinates tangent_coordinates(int node_count, const NodalFlags& active);
+
+/// Chord frame: u, v, w, θx of the first node and v, w of the last vanish.
+ElasticCoordinates chord_coordinates(int node_count, const NodalFlags& active);
+
+}  // namespace pleuel

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "core/effects/floating_frame_residual.hpp"
+#include "core/system/term.hpp"
+
+namespace pleuel {
+
+/// Inertia (with all velocity forces), linear elasticity, Rayleigh damping and weight of one body.
+/// The equations stand in floating_frame_residual.hpp; the tangent here is derived by hand, since
+/// this is where the time goes.
+class FloatingFrameBody : public Term {
+ public:
+  /// @param name         of the body
+  /// @param frame        its coordinates begin at frame.offset: frame, then elastic
+  /// @param invariants   of the body
+  /// @param derivatives  dI/dx of the variables that the body depends on
+  /// @param gravity      [m/s²], global axes
+  FloatingFrameBody(std::string name, BodyFrame frame, Invariants<double> invariants,
+                    std::vector<DesignDerivative<Invariants<double>>> derivatives,
+                    const Eigen::Vector3d& gravity);
+
+  std::string name() const override { return "inertia and elasticity of " + name_; }
+  void declare_entries(EntryList& entries) const override;
+  void add_residual(const State& state, ConstraintLevel level, Eigen::VectorXd& residual) override;
+  void write_tangent(const State& state, const Weights& weights, ConstraintLevel level,
+                     double* entries) override;
+  void add_design_derivative(const State& state, ConstraintLevel level,
+                             Eigen::MatrixXd& columns) override;
+
+  const BodyFrame& frame() const { return frame_; }
+  const Invariants<double>& invariants() const { return invariants_; }
+
+ private:
+  void evaluate(const State& state);
+  void set_rigid_columns(const Weights& weights);
+  void set_elastic_columns(const Weights& weights);
+  void write_elastic_block(const Weights& weights, double*& entries) const;
+
+  std::string name_;
+  BodyFrame frame_;
+  Invariants<double> invariants_;
+  std::vector<DesignDerivative<Invariants<double>>> derivatives_;
+  Eigen::Vector3d gravity_;
+
+  // Scratch of one evaluation.
+  FrameMotion<double> motion_;
+  BodyProducts<double> products_;
+  Eigen::Matrix<double, 7, 7> rigid_rigid_;
+  Eigen::MatrixXd rigid_elastic_;  ///< 7 × n
+  Eigen::MatrixXd elastic_rigid_;  ///< n × 7
+};
+
+}  // namespace pleuel

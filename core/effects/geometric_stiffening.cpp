@@ -1,0 +1,106 @@
+#include "core/effects/geometric_stiffening.hpp"
+
+namespace pleuel {
+
+GeometricStiffening::GeometricStiffening(
+    std::string body, std::vector<StiffeningElement> elements, double damping,
+    std::vector<DesignDerivative<std::vector<StiffeningDerivative>>> derivatives)
+    : body_(std::move(body)),
+      elements_(std::move(elements)),
+      damping_(damping),
+      derivatives_(std::move(derivatives)) {
+  for (auto* vector : {&strain_.q, &strain_.v, &strain_.gradient, &strain_.slope_v}) {
+    vector->resize(12);  // the largest element, so that no step allocates
+  }
+}
+
+void GeometricStiffening::declare_entries(EntryList& entries) const {
+  for (const StiffeningElement& element : elements_) {
+    for (int row : element.coordinates) {
+      for (int col : element.coordinates) entries.emplace_back(row, col);
+    }
+  }
+}
+
+void GeometricStiffening::evaluate(const StiffeningElement& element, const State& state) {
+  const auto size = static_cast<Eigen::Index>(element.coordinates.size());
+  if (strain_.q.size() != size) {
+    for (auto* vector : {&strain_.q, &strain_.v, &strain_.gradient, &strain_.slope_v}) {
+      vector->resize(size);
+    }
+  }
+  for (Eigen::Index i = 0; i < size; ++i) {
+    strain_.q(i) = state.q(element.coordinates[static_cast<std::size_t>(i)]);
+    strain_.v(i) = state.v(element.coordinates[static_cast<std::size_t>(i)]);
+  }
+  strain_.gradient.noalias() = element.slopes * strain_.q;
+  strain_.slope_v.noalias() = element.slopes * strain_.v;
+  strain_.linear = element.elongation.dot(strain_.q);
+  strain_.linear_rate = element.elongation.dot(strain_.v);
+  strain_.total = strain_.linear + 0.5 * strain_.q.dot(strain_.gradient);
+  strain_.total_rate = strain_.linear_rate + strain_.v.dot(strain_.gradient);
+  strain_.gradient += element.elongation;
+}
+
+void GeometricStiffening::add_residual(const State& state, ConstraintLevel,
+                                       Eigen::VectorXd& residual) {
+  for (const StiffeningElement& element : elements_) {
+    evaluate(element, state);
+    const double total = element.axial_stiffness * (strain_.total + damping_ * strain_.total_rate);
+    const double linear =
+        element.axial_stiffness * (strain_.linear + damping_ * strain_.linear_rate);
+    for (std::size_t i = 0; i < element.coordinates.size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      residual(element.coordinates[i]) +=
+          total * strain_.gradient(k) - linear * element.elongation(k);
+    }
+  }
+}
+
+void GeometricStiffening::write_tangent(const State& state, const Weights& weights,
+                                        ConstraintLevel, double* entries) {
+  for (const StiffeningElement& element : elements_) {
+    evaluate(element, state);
+    const double kappa = element.axial_stiffness;
+    const double material = kappa * (weights.q + weights.v * damping_);
+    const double geometric =
+        weights.q * kappa * (strain_.total + damping_ * strain_.total_rate);
+    const double rate = weights.q * kappa * damping_;
+    const auto size = static_cast<Eigen::Index>(element.coordinates.size());
+    for (Eigen::Index i = 0; i < size; ++i) {
+      for (Eigen::Index j = 0; j < size; ++j) {
+        *entries++ = material * (strain_.gradient(i) * strain_.gradient(j) -
+                                 element.elongation(i) * element.elongation(j)) +
+                     rate * strain_.gradient(i) * strain_.slope_v(j) +
+                     geometric * element.slopes(i, j);
+      }
+    }
+  }
+}
+
+void GeometricStiffening::add_design_derivative(const State& state, ConstraintLevel,
+                                                Eigen::MatrixXd& columns) {
+  for (const auto& [variable, changes] : derivatives_) {
+    for (const StiffeningDerivative& change : changes) {
+      const StiffeningElement& element = elements_[static_cast<std::size_t>(change.element)];
+      evaluate(element, state);
+      const double kappa = element.axial_stiffness, d_kappa = change.axial_stiffness;
+      const Eigen::VectorXd d_slope_q = change.slopes * strain_.q;
+      const double total = strain_.total + damping_ * strain_.total_rate;
+      const double linear = strain_.linear + damping_ * strain_.linear_rate;
+      const double d_total = 0.5 * strain_.q.dot(d_slope_q) +
+                             damping_ * strain_.v.dot(d_slope_q) +
+                             change.damping * strain_.total_rate;
+      for (std::size_t i = 0; i < element.coordinates.size(); ++i) {
+        const auto k = static_cast<Eigen::Index>(i);
+        const double b = element.elongation(k);
+        columns(element.coordinates[i], variable) +=
+            d_kappa * (total * strain_.gradient(k) - linear * b) +
+            kappa * (d_total * strain_.gradient(k) + total * d_slope_q(k) -
+                     change.damping * strain_.linear_rate * b);
+      }
+    }
+  }
+}
+
+}  // namespace pleuel

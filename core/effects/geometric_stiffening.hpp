@@ -1,0 +1,74 @@
+#pragma once
+
+#include "core/beam/beam.hpp"
+#include "core/beam/beam_shape.hpp"
+#include "core/beam/elastic_coordinates.hpp"
+#include "core/system/term.hpp"
+
+namespace pleuel {
+
+/// Constants of geometric stiffening of one element, on its active coordinates.
+struct StiffeningElement {
+  std::vector<int> coordinates;  ///< indices in q
+  Eigen::VectorXd elongation;    ///< b: Δu = bᵀ q
+  double axial_stiffness = 0.0;  ///< κ = EA/ℓ [N/m]
+  Eigen::MatrixXd slopes;        ///< Ĝ: ∫ v'² + w'² dx = qᵀ Ĝ q [1/m]
+};
+
+/// Derivative of those constants with respect to one design variable.
+struct StiffeningDerivative {
+  int element;
+  double axial_stiffness = 0.0;
+  double damping = 0.0;
+  Eigen::MatrixXd slopes;
+};
+
+/// The axial force of a member stiffens its bending, and bending shortens it: von Kármán's strain,
+/// averaged over each element,
+///     g = Δu + ½ qᵀ Ĝ q,    V = ½ κ g²
+/// in place of the linear ½ κ Δu², with viscous stress β ġ (stiffness-proportional damping):
+///     f = κ (g + β ġ)(b + Ĝ q) − κ (Δu + β Δu̇) b
+/// The linear part is in K and D; this term is what is missing there. Without it a rotating beam has
+/// centrifugal softening only and diverges (Simo & Vu-Quoc 1987; Wallrapp & Schwertassek 1991).
+class GeometricStiffening : public Term {
+ public:
+  GeometricStiffening(std::string body, std::vector<StiffeningElement> elements, double damping,
+                      std::vector<DesignDerivative<std::vector<StiffeningDerivative>>> derivatives);
+
+  std::string name() const override { return "geometric stiffening of " + body_; }
+  void declare_entries(EntryList& entries) const override;
+  void add_residual(const State& state, ConstraintLevel level, Eigen::VectorXd& residual) override;
+  void write_tangent(const State& state, const Weights& weights, ConstraintLevel level,
+                     double* entries) override;
+  void add_design_derivative(const State& state, ConstraintLevel level,
+                             Eigen::MatrixXd& columns) override;
+
+ private:
+  /// Strain measures of one element in one state.
+  struct Strain {
+    Eigen::VectorXd q, v, gradient, slope_v;       ///< gradient = b + Ĝ q, slope_v = Ĝ q̇
+    double linear, linear_rate, total, total_rate;  ///< Δu, Δu̇, g, ġ
+  };
+  void evaluate(const StiffeningElement& element, const State& state);
+
+  std::string body_;
+  std::vector<StiffeningElement> elements_;
+  double damping_;
+  std::vector<DesignDerivative<std::vector<StiffeningDerivative>>> derivatives_;
+  Strain strain_;  ///< scratch
+};
+
+/// Ĝ of one element in its twelve coordinates.
+template <class Scalar>
+Eigen::Matrix<Scalar, 12, 12> slope_matrix(const Scalar& length) {
+  using Matrix = Eigen::Matrix<Scalar, 12, 12>;
+  Matrix matrix = Matrix::Constant(Scalar(0));
+  for (const GaussPoint& point : gauss_points) {
+    const auto v = deflection_y_row(point.xi, length, 1);
+    const auto w = deflection_z_row(point.xi, length, 1);
+    matrix += (point.weight * length) * (v.transpose() * v + w.transpose() * w);
+  }
+  return matrix;
+}
+
+}  // namespace pleuel

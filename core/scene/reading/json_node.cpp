@@ -1,0 +1,124 @@
+#include "core/scene/reading/json_node.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "core/scene/reading/suggestion.hpp"
+
+namespace pleuel {
+namespace {
+
+/// The value as JSON, shortened: a message is a line, not a listing.
+std::string shown(const Json& value) {
+  constexpr std::size_t longest = 60;
+  std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
+  if (text.size() > longest) text = text.substr(0, longest) + "…";
+  return text;
+}
+
+}  // namespace
+
+JsonNode::JsonNode(const Json& value, const std::string& file, std::string pointer)
+    : value_(&value),
+      file_(&file),
+      pointer_(std::move(pointer)),
+      place_(pointer_.empty() ? "the problem" : pointer_) {}
+
+void JsonNode::fail(const std::string& rule) const {
+  throw InputError(fmt::format("{}: {} {}", *file_, place_, rule));
+}
+
+void JsonNode::fail_with_value(const std::string& rule, const std::string& more) const {
+  fail(fmt::format("{}, got {}{}", rule, shown(*value_), more));
+}
+
+void JsonNode::expect_object() const {
+  if (!value_->is_object()) fail_with_value("must be an object {…}");
+}
+
+void JsonNode::allow_keys(std::initializer_list<std::string_view> known) const {
+  expect_object();
+  for (const auto& [key, member] : value_->items()) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    const std::vector<std::string> words(known.begin(), known.end());
+    fail(fmt::format("has the unknown key \"{}\"{}", key, hint(key, words)));
+  }
+}
+
+JsonNode JsonNode::at(const std::string& key) const {
+  if (std::optional<JsonNode> child = find(key)) return *child;
+  std::vector<std::string> present;
+  for (const auto& [name, member] : value_->items()) present.push_back(name);
+  const std::string similar = closest(key, present);
+  fail(fmt::format("is missing the key \"{}\"{}", key,
+                   similar.empty() ? "" : fmt::format("; is \"{}\" a misspelling?", similar)));
+}
+
+std::optional<JsonNode> JsonNode::find(const std::string& key) const {
+  expect_object();
+  const auto member = value_->find(key);
+  if (member == value_->end()) return std::nullopt;
+  return JsonNode(*member, *file_, child_pointer(pointer_, key));
+}
+
+JsonMembers JsonNode::members() const {
+  expect_object();
+  JsonMembers members;
+  for (const auto& [key, member] : value_->items()) {
+    if (key.empty()) fail("has a member without a name");
+    members.emplace_back(key, JsonNode(member, *file_, child_pointer(pointer_, key)));
+  }
+  return members;
+}
+
+std::vector<JsonNode> JsonNode::items() const {
+  if (!value_->is_array()) fail_with_value("must be a list […]");
+  std::vector<JsonNode> items;
+  for (std::size_t i = 0; i < value_->size(); ++i) {
+    items.emplace_back((*value_)[i], *file_, child_pointer(pointer_, std::to_string(i)));
+  }
+  return items;
+}
+
+std::vector<JsonNode> JsonNode::items(std::size_t size) const {
+  const bool is_right = value_->is_array() && value_->size() == size;
+  if (!is_right) fail_with_value(fmt::format("must be a list of {} values", size));
+  return items();
+}
+
+double JsonNode::number() const {
+  if (!value_->is_number()) fail_with_value("must be a number");
+  return value_->get<double>();
+}
+
+int JsonNode::whole_number(int least, int most) const {
+  const double number = value_->is_number() ? value_->get<double>() : 0.5;
+  if (number != std::floor(number) || number < least || number > most) {
+    fail_with_value(fmt::format("must be a whole number from {} to {}", least, most));
+  }
+  return static_cast<int>(number);
+}
+
+std::string JsonNode::text() const {
+  const bool is_text = value_->is_string() && !value_->get_ref<const std::string&>().empty();
+  if (!is_text) fail_with_value("must be a text in quotes, not empty");
+  return value_->get<std::string>();
+}
+
+void fail_choice(const JsonNode& node, const std::vector<std::string>& words) {
+  const std::string rule = fmt::format("must be {}", quoted_list(words, "or"));
+  if (!node.value().is_string()) node.fail_with_value(rule);
+  const std::string meant = closest(node.value().get<std::string>(), words);
+  node.fail_with_value(rule, meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant));
+}
+
+void fail_unknown_name(const JsonNode& node, std::string_view kind,
+                       const std::vector<std::string>& known) {
+  const std::string name = node.text();
+  node.fail(fmt::format("names the unknown {} \"{}\"{}", kind, name, hint(name, known)));
+}
+
+}  // namespace pleuel

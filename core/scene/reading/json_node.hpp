@@ -1,0 +1,77 @@
+#pragma once
+
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/scene/reading/json_text.hpp"
+
+namespace pleuel {
+
+class JsonNode;
+using JsonMembers = std::vector<std::pair<std::string, JsonNode>>;
+
+/// A value of the document that knows where it is, so that every complaint can say so. Refers to
+/// the document and the name of the file: both must outlive it. Everything throws InputError.
+class JsonNode {
+ public:
+  JsonNode(const Json& value, const std::string& file, std::string pointer = "");
+
+  const Json& value() const { return *value_; }
+
+  /// Where it is, for a message: the JSON pointer, or "the problem" for the whole document.
+  const std::string& place() const { return place_; }
+
+  /// Ends the reading with "file: pointer rule".
+  [[noreturn]] void fail(const std::string& rule) const;
+  /// Ends the reading with "file: pointer rule, got value", and what else there is to say.
+  [[noreturn]] void fail_with_value(const std::string& rule, const std::string& more = "") const;
+
+  /// Must be an object whose keys are all among these.
+  void allow_keys(std::initializer_list<std::string_view> known) const;
+  JsonNode at(const std::string& key) const;  ///< must be there
+  std::optional<JsonNode> find(const std::string& key) const;
+  JsonMembers members() const;           ///< of an object with free, non-empty names
+  std::vector<JsonNode> items() const;   ///< of a list
+  std::vector<JsonNode> items(std::size_t size) const;  ///< of a list of this length
+
+  double number() const;
+  int whole_number(int least, int most) const;
+  std::string text() const;  ///< not empty
+
+ private:
+  void expect_object() const;
+
+  const Json* value_;
+  const std::string* file_;
+  std::string pointer_;
+  std::string place_;
+};
+
+/// Words a user can choose from, and what they mean here.
+template <class Meaning>
+using Choices = std::initializer_list<std::pair<std::string_view, Meaning>>;
+
+/// Ends the reading: the node's text is none of the words.
+[[noreturn]] void fail_choice(const JsonNode& node, const std::vector<std::string>& words);
+
+template <class Meaning>
+Meaning read_choice(const JsonNode& node, Choices<Meaning> choices) {
+  std::vector<std::string> words;
+  for (const auto& [word, meaning] : choices) {
+    if (node.value().is_string() && node.value().get_ref<const std::string&>() == word) {
+      return meaning;
+    }
+    words.emplace_back(word);
+  }
+  fail_choice(node, words);
+}
+
+/// Ends the reading: `names the unknown material "stel"; did you mean "steel"?`
+[[noreturn]] void fail_unknown_name(const JsonNode& node, std::string_view kind,
+                                    const std::vector<std::string>& known);
+
+}  // namespace pleuel

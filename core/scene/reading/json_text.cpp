@@ -1,0 +1,138 @@
+#include "core/scene/reading/json_text.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+
+namespace pleuel {
+namespace {
+
+std::string line_and_column(const std::string& text, std::size_t position) {
+  const std::size_t end = std::min(position, text.size());
+  const std::size_t start_of_line = end == 0 ? 0 : text.rfind('\n', end - 1) + 1;
+  const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(end), '\n');
+  return fmt::format("line {}, column {}", line, std::max<std::size_t>(end - start_of_line, 1));
+}
+
+/// The library's sentence without its number and its own line and column.
+std::string plain_reason(const std::string& what) {
+  for (const char* start : {"syntax error", "number overflow"}) {
+    const std::size_t position = what.find(start);
+    if (position != std::string::npos) return what.substr(position);
+  }
+  return what;
+}
+
+/// Builds the document event by event; `open_` holds the objects and lists not yet closed.
+class DocumentBuilder : public nlohmann::json_sax<Json> {
+ public:
+  DocumentBuilder(const std::string& text, const std::string& file) : text_(text), file_(file) {}
+
+  Json take() { return std::move(document_); }
+
+  bool null() override { return add(Json(nullptr)); }
+  bool boolean(bool value) override { return add(Json(value)); }
+  bool number_integer(number_integer_t value) override { return add(Json(value)); }
+  bool number_unsigned(number_unsigned_t value) override { return add(Json(value)); }
+  bool number_float(number_float_t value, const string_t&) override { return add(Json(value)); }
+  bool string(string_t& value) override { return add(Json(value)); }
+  bool binary(binary_t&) override { return false; }  // JSON text has no such thing
+
+  bool start_object(std::size_t) override { return open(Json::object()); }
+  bool start_array(std::size_t) override { return open(Json::array()); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+
+  bool key(string_t& key) override {
+    if (open_.back().value->contains(key)) {
+      throw InputError(fmt::format("{}: {} is there twice", file_,
+                                   child_pointer(open_.back().pointer, key)));
+    }
+    key_ = key;
+    return true;
+  }
+
+  bool parse_error(std::size_t position, const std::string&,
+                   const nlohmann::json::exception& error) override {
+    throw InputError(fmt::format("{}: {}: {}", file_, line_and_column(text_, position),
+                                 plain_reason(error.what())));
+  }
+
+ private:
+  struct Open {
+    Json* value;
+    std::string pointer;
+  };
+
+  std::string pointer_of_next() const {
+    if (open_.empty()) return "";
+    const Json& parent = *open_.back().value;
+    return child_pointer(open_.back().pointer,
+                         parent.is_array() ? std::to_string(parent.size()) : key_);
+  }
+
+  Json* place(Json&& value) {
+    if (open_.empty()) return &(document_ = std::move(value));
+    Json& parent = *open_.back().value;
+    if (parent.is_object()) return &(parent[key_] = std::move(value));
+    parent.push_back(std::move(value));
+    return &parent.back();
+  }
+
+  bool add(Json&& value) {
+    place(std::move(value));
+    return true;
+  }
+
+  bool open(Json&& empty) {
+    std::string pointer = pointer_of_next();
+    if (open_.size() >= deepest_nesting) {
+      throw InputError(fmt::format("{}: {} is nested deeper than {} levels", file_, pointer,
+                                   deepest_nesting));
+    }
+    Json* value = place(std::move(empty));
+    open_.push_back({value, std::move(pointer)});
+    return true;
+  }
+
+  bool close() {
+    open_.pop_back();
+    return true;
+  }
+
+  const std::string& text_;
+  const std::string& file_;
+  Json document_;
+  std::vector<Open> open_;
+  std::string key_;
+};
+
+}  // namespace
+
+Json parse_json(const std::string& text, const std::string& file) {
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
+    throw InputError(fmt::format("{}: is empty; a problem file is a JSON object", file));
+  }
+  DocumentBuilder builder(text, file);
+  Json::sax_parse(text, &builder);
+  return builder.take();
+}
+
+std::string child_pointer(const std::string& parent, const std::string& key) {
+  std::string pointer = parent + "/";
+  for (const char c : key) {
+    if (c == '~') {
+      pointer += "~0";
+    } else if (c == '/') {
+      pointer += "~1";
+    } else {
+      pointer += c;
+    }
+  }
+  return pointer;
+}
+
+}  // namespace pleuel

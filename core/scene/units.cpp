@@ -1,0 +1,154 @@
+#include "core/scene/units.hpp"
+
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <udunits2.h>
+
+namespace pleuel {
+namespace {
+
+struct FreeSystem {
+  void operator()(ut_system* system) const { ut_free_system(system); }
+};
+struct FreeUnit {
+  void operator()(ut_unit* unit) const { ut_free(unit); }
+};
+struct FreeConverter {
+  void operator()(cv_converter* converter) const { cv_free(converter); }
+};
+using SystemHandle = std::unique_ptr<ut_system, FreeSystem>;
+using UnitHandle = std::unique_ptr<ut_unit, FreeUnit>;
+using ConverterHandle = std::unique_ptr<cv_converter, FreeConverter>;
+
+UnitHandle parse_unit(const ut_system* system, const std::string& text) {
+  return UnitHandle(ut_parse(system, text.c_str(), UT_UTF8));
+}
+
+void add_name(ut_system* system, const char* name, const std::string& definition) {
+  const UnitHandle unit = parse_unit(system, definition);
+  if (!unit || ut_map_name_to_unit(name, UT_UTF8, unit.get()) != UT_SUCCESS) {
+    throw std::runtime_error(fmt::format("the database of units does not know {}", definition));
+  }
+}
+
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
+
+std::string trim(std::string_view text) {
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  return std::string(text);
+}
+
+/// Whether the digit at `position` belongs to an exponent (m2, m^2, m-2, m^-2) or is the 1 of "1/s".
+bool is_exponent(const std::string& unit, std::size_t position) {
+  if (position == 0) return unit.size() > 1 && unit[0] == '1' && unit[1] == '/';
+  std::size_t before = position - 1;
+  if (unit[before] == '-' || unit[before] == '+') {
+    if (before == 0) return false;
+    --before;
+  }
+  const auto character = static_cast<unsigned char>(unit[before]);
+  return std::isalpha(character) != 0 || character == '^' || character >= 0x80;
+}
+
+/// UDUNITS also takes numbers for units ("mm 30" is 30 mm, "000 mm" is nothing): here they are
+/// slips of the pen, as in "1 000 mm" or "120 mm 30".
+bool has_stray_number(const std::string& unit) {
+  for (std::size_t i = 0; i < unit.size(); ++i) {
+    if (!is_digit(unit[i])) continue;
+    if (!is_exponent(unit, i)) return true;
+    while (i + 1 < unit.size() && is_digit(unit[i + 1])) ++i;
+  }
+  return false;
+}
+
+bool has_angle(const ut_unit* unit) {
+  char definition[256];
+  const int length = ut_format(unit, definition, sizeof definition, UT_ASCII | UT_DEFINITION);
+  if (length < 0 || length >= static_cast<int>(sizeof definition)) return false;
+  return std::string_view(definition, static_cast<std::size_t>(length)).find("rad") !=
+         std::string_view::npos;
+}
+
+}  // namespace
+
+struct UnitSystem::Database {
+  SystemHandle system;
+};
+
+UnitSystem::UnitSystem() : database_(std::make_unique<Database>()) {
+  ut_set_error_message_handler(ut_ignore);  // the library would print; we throw
+  database_->system.reset(ut_read_xml(nullptr));
+  if (!database_->system) throw std::runtime_error("the UDUNITS-2 database of units is not readable");
+  add_name(database_->system.get(), "deg", "degree");
+  add_name(database_->system.get(), "rev", "turn");
+  add_name(database_->system.get(), "Nm", "N m");
+}
+
+UnitSystem::~UnitSystem() = default;
+UnitSystem::UnitSystem(UnitSystem&&) noexcept = default;
+UnitSystem& UnitSystem::operator=(UnitSystem&&) noexcept = default;
+
+double UnitSystem::scale(const std::string& unit, const Quantity& quantity) const {
+  const std::string name = trim(unit);
+  const UnitHandle from =
+      has_stray_number(name) ? nullptr : parse_unit(database_->system.get(), name);
+  if (!from) throw UnitError(fmt::format("\"{}\" is not a known unit", name));
+  const UnitHandle to = parse_unit(database_->system.get(), std::string(quantity.unit));
+  if (!to || ut_are_convertible(from.get(), to.get()) == 0) {
+    throw UnitError(fmt::format("\"{}\" measures something else", name));
+  }
+  if (has_angle(to.get()) && !has_angle(from.get())) {
+    throw UnitError(fmt::format("\"{}\" names no angle; write rad/s, deg/s or rpm", name));
+  }
+  if (has_angle(from.get()) && !has_angle(to.get())) {
+    throw UnitError(fmt::format("\"{}\" measures something else", name));
+  }
+  const ConverterHandle converter(ut_get_converter(from.get(), to.get()));
+  const double scale = converter ? cv_convert_double(converter.get(), 1.0) : 0.0;
+  const bool is_proportional = converter && cv_convert_double(converter.get(), 0.0) == 0.0;
+  if (!is_proportional || !std::isfinite(scale) || scale == 0.0) {
+    throw UnitError(fmt::format("\"{}\" does not count from zero", name));
+  }
+  return scale;
+}
+
+double UnitSystem::read(const std::string& text, const Quantity& quantity) const {
+  const WrittenQuantity written = split_quantity(text);
+  if (written.unit.empty() && quantity == quantities::pure_number) return written.value;
+  if (written.unit.empty()) throw UnitError("a number in quotes needs its unit");
+  const double value = written.value * scale(written.unit, quantity);
+  if (!std::isfinite(value) || (value == 0.0 && written.value != 0.0)) {
+    throw UnitError("it is out of the range of numbers");
+  }
+  return value;
+}
+
+WrittenQuantity split_quantity(const std::string& text) {
+  const std::string trimmed = trim(text);
+  const char* begin = trimmed.data();
+  const char* end = begin + trimmed.size();
+  if (begin != end && *begin == '+' && begin + 1 != end && begin[1] != '-') ++begin;
+  WrittenQuantity written;
+  const auto [rest, status] = std::from_chars(begin, end, written.value);
+  if (status == std::errc::result_out_of_range) {
+    throw UnitError("it is out of the range of numbers");
+  }
+  if (status != std::errc() || !std::isfinite(written.value)) {
+    throw UnitError("it does not begin with a number");
+  }
+  written.unit = trim(std::string_view(rest, static_cast<std::size_t>(end - rest)));
+  return written;
+}
+
+std::string describe(const Quantity& quantity) {
+  if (quantity == quantities::pure_number) return std::string(quantity.name);
+  return fmt::format("{} [{}]", quantity.name, quantity.unit);
+}
+
+}  // namespace pleuel

@@ -1,0 +1,70 @@
+#include "core/system/system.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace pleuel {
+
+System::System(int coordinates, int multipliers, int variables,
+               std::vector<std::unique_ptr<Term>> terms)
+    : coordinates_(coordinates),
+      multipliers_(multipliers),
+      variables_(variables),
+      terms_(std::move(terms)) {
+  build_pattern();
+}
+
+void System::build_pattern() {
+  EntryList entries;
+  for (const auto& term : terms_) {
+    first_entry_.push_back(entries.size());
+    term->declare_entries(entries);
+  }
+  std::vector<Eigen::Triplet<double>> triplets;
+  for (const auto& [row, col] : entries) triplets.emplace_back(row, col, 0.0);
+  // The diagonal serves the initial state, which weighs the distance to the given coordinates.
+  for (int i = 0; i < coordinates_; ++i) triplets.emplace_back(i, i, 0.0);
+  pattern_.resize(size(), size());
+  pattern_.setFromTriplets(triplets.begin(), triplets.end());
+  pattern_.makeCompressed();
+  for (const auto& [row, col] : entries) {
+    const int* begin = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[col];
+    const int* end = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[col + 1];
+    const int* found = std::lower_bound(begin, end, row);
+    assert(found != end && *found == row);
+    slots_.push_back(static_cast<int>(found - pattern_.innerIndexPtr()));
+  }
+  entries_.resize(entries.size());
+}
+
+void System::residual(const State& state, ConstraintLevel level, Eigen::VectorXd& residual) {
+  residual.setZero(size());
+  for (const auto& term : terms_) term->add_residual(state, level, residual);
+}
+
+void System::tangent(const State& state, const Weights& weights, ConstraintLevel level,
+                     Matrix& matrix) {
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    terms_[i]->write_tangent(state, weights, level, entries_.data() + first_entry_[i]);
+  }
+  double* values = matrix.valuePtr();
+  std::fill(values, values + matrix.nonZeros(), 0.0);
+  for (std::size_t i = 0; i < slots_.size(); ++i) values[slots_[i]] += entries_[i];
+}
+
+void System::design_derivative(const State& state, ConstraintLevel level,
+                               Eigen::MatrixXd& columns) {
+  columns.setZero(size(), variables_);
+  for (const auto& term : terms_) term->add_design_derivative(state, level, columns);
+}
+
+void scale_dynamic_block(int coordinates, double factor, System::Matrix& matrix) {
+  for (int col = 0; col < coordinates; ++col) {
+    for (int i = matrix.outerIndexPtr()[col]; i < matrix.outerIndexPtr()[col + 1]; ++i) {
+      if (matrix.innerIndexPtr()[i] >= coordinates) break;  // rows are sorted
+      matrix.valuePtr()[i] *= factor;
+    }
+  }
+}
+
+}  // namespace pleuel

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+#include "core/system/term.hpp"
+
+namespace pleuel {
+
+/// The equations of motion R(q, v, a, λ, t; x) = 0 of a mechanism: a sum of terms on one fixed
+/// sparsity pattern. Knows no concrete term.
+class System {
+ public:
+  using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+
+  /// @param coordinates  n
+  /// @param multipliers  m
+  /// @param variables    number of design variables
+  System(int coordinates, int multipliers, int variables, std::vector<std::unique_ptr<Term>> terms);
+
+  int coordinates() const { return coordinates_; }
+  int multipliers() const { return multipliers_; }
+  int variables() const { return variables_; }
+  int size() const { return coordinates_ + multipliers_; }
+  const std::vector<std::unique_ptr<Term>>& terms() const { return terms_; }
+
+  /// A zero matrix with the pattern of the tangent, (n + m) × (n + m).
+  Matrix make_matrix() const { return pattern_; }
+
+  /// R, n + m entries.
+  void residual(const State& state, ConstraintLevel level, Eigen::VectorXd& residual);
+
+  /// [ w.q R_q + w.v R_v + w.a R_a,  R_λ ] into a matrix from make_matrix(); nothing is allocated.
+  void tangent(const State& state, const Weights& weights, ConstraintLevel level, Matrix& matrix);
+
+  /// ∂R/∂x at fixed state into an (n + m) × variables matrix.
+  void design_derivative(const State& state, ConstraintLevel level, Eigen::MatrixXd& columns);
+
+ private:
+  void build_pattern();
+
+  int coordinates_, multipliers_, variables_;
+  std::vector<std::unique_ptr<Term>> terms_;
+  Matrix pattern_;
+  std::vector<int> slots_;       ///< value index of each declared entry, terms in order
+  std::vector<double> entries_;  ///< scratch, same order
+  std::vector<std::size_t> first_entry_;
+};
+
+/// matrix.row(0 … n−1) of coordinate columns *= factor: the scaling of the dynamic rows by βh²,
+/// with λ scaled by the same factor (Bottasso, Dopico & Trainelli 2008).
+void scale_dynamic_block(int coordinates, double factor, System::Matrix& matrix);
+
+}  // namespace pleuel

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace pleuel {
+
+/// One instant of a mechanism. q, v, a: generalized coordinates and their rates (n);
+/// lambda: Lagrange multipliers (m).
+struct State {
+  double time = 0.0;
+  Eigen::VectorXd q, v, a, lambda;
+
+  State() = default;
+  State(int coordinates, int multipliers)
+      : q(Eigen::VectorXd::Zero(coordinates)),
+        v(Eigen::VectorXd::Zero(coordinates)),
+        a(Eigen::VectorXd::Zero(coordinates)),
+        lambda(Eigen::VectorXd::Zero(multipliers)) {}
+};
+
+/// Weights of the tangent q R_q + v R_v + a R_a.
+struct Weights {
+  double q = 0.0, v = 0.0, a = 0.0;
+};
+
+/// In which form a constraint Φ(q, t) = 0 stands in the residual: Φ, dΦ/dt or d²Φ/dt².
+enum class ConstraintLevel { position, velocity, acceleration };
+
+/// Rows and columns of a term's tangent, in the order in which it writes them. Columns and rows
+/// 0 … n−1 belong to the coordinates, n … n+m−1 to the multipliers. An entry may occur repeatedly.
+using EntryList = std::vector<std::pair<int, int>>;
+
+/// One physical idea: a summand of the residual
+///     R = [ M(q) a − Q(q, v, t) + Φ_qᵀ λ ;  Φ(q, t) at the given level ]                 (n + m)
+/// A term may keep scratch memory: a System and its terms belong to one thread.
+class Term {
+ public:
+  virtual ~Term() = default;
+
+  /// What it is, for the table of effects.
+  virtual std::string name() const = 0;
+
+  virtual void declare_entries(EntryList& entries) const = 0;
+
+  /// residual += this term's R.
+  virtual void add_residual(const State& state, ConstraintLevel level,
+                            Eigen::VectorXd& residual) = 0;
+
+  /// Writes the entries of  w.q R_q + w.v R_v + w.a R_a  in coordinate columns, and of R_λ in
+  /// multiplier columns, in the order of declare_entries().
+  virtual void write_tangent(const State& state, const Weights& weights, ConstraintLevel level,
+                             double* entries) = 0;
+
+  /// columns.col(j) += ∂R/∂x_j at fixed state, (n + m) × variables.
+  virtual void add_design_derivative(const State& state, ConstraintLevel level,
+                                     Eigen::MatrixXd& columns) = 0;
+};
+
+/// The derivative of a term's data with respect to one design variable.
+template <class Data>
+struct DesignDerivative {
+  int variable;
+  Data data;
+};
+
+}  // namespace pleuel
