@@ -1,0 +1,131 @@
+#include "optimization/evaluation_cache.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "optimization/scaling.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Line searches return to one of the last few designs, never to one of long ago.
+constexpr std::size_t remembered_designs = 8;
+
+/// What is not a finite number in the evaluation; empty if all is well.
+std::string find_not_finite(const Problem& problem, const Evaluation& evaluation) {
+  if (!std::isfinite(evaluation.objective)) {
+    return fmt::format("{} is {}", problem.objective_name(), evaluation.objective);
+  }
+  for (Eigen::Index j = 0; j < evaluation.constraints.size(); ++j) {
+    if (!std::isfinite(evaluation.constraints[j])) {
+      return fmt::format("{} is {}", problem.constraints()[j].name, evaluation.constraints[j]);
+    }
+  }
+  const bool gradients_finite =
+      evaluation.objective_gradient.allFinite() && evaluation.constraint_jacobian.allFinite();
+  return gradients_finite ? "" : "a gradient is not finite";
+}
+
+[[maybe_unused]] bool has_right_shape(const Problem& problem, const Evaluation& evaluation,
+                                      Request request) {
+  const auto variables = static_cast<Eigen::Index>(problem.variables().size());
+  const auto constraints = static_cast<Eigen::Index>(problem.constraints().size());
+  if (evaluation.constraints.size() != constraints) return false;
+  if (request == Request::values) return true;
+  return evaluation.objective_gradient.size() == variables &&
+         evaluation.constraint_jacobian.rows() == constraints &&
+         (constraints == 0 || evaluation.constraint_jacobian.cols() == variables);
+}
+
+}  // namespace
+
+Attempt attempt_evaluation(Problem& problem, const Eigen::VectorXd& x, Request request) {
+  try {
+    Evaluation evaluation = problem.evaluate(x, request);
+    assert(has_right_shape(problem, evaluation, request));
+    std::string failure = find_not_finite(problem, evaluation);
+    if (!failure.empty()) return {std::nullopt, std::move(failure)};
+    return {std::move(evaluation), ""};
+  } catch (const SimulationError& error) {
+    return {std::nullopt, error.what()};
+  }
+}
+
+EvaluationCache::EvaluationCache(Problem& problem, const KnownDesign& start, Scales scales,
+                                 Watch watch)
+    : problem_(problem), scales_(std::move(scales)), watch_(std::move(watch)), best_(start) {
+  best_.max_violation =
+      pleuel::max_violation(problem_, start.evaluation.constraints, scales_.constraints);
+  remember(start.x, Request::values_and_gradients, {start.evaluation, ""});
+}
+
+const Evaluation* EvaluationCache::evaluate(const Eigen::VectorXd& x, Request request) {
+  const Entry* entry = find(x, request);
+  if (entry == nullptr) entry = &remember(x, request, attempt_evaluation(problem_, x, request));
+  return entry->evaluation ? &*entry->evaluation : nullptr;
+}
+
+double EvaluationCache::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - watch_.begin).count();
+}
+
+const EvaluationCache::Entry* EvaluationCache::find(const Eigen::VectorXd& x,
+                                                    Request request) const {
+  const auto answers = [&](const Entry& entry) {
+    const bool failed = !entry.evaluation;
+    const bool enough = request == Request::values || entry.request == request || failed;
+    return enough && entry.x == x;
+  };
+  const auto entry = std::find_if(entries_.begin(), entries_.end(), answers);
+  return entry == entries_.end() ? nullptr : &*entry;
+}
+
+const EvaluationCache::Entry& EvaluationCache::remember(const Eigen::VectorXd& x, Request request,
+                                                        Attempt attempt) {
+  if (entries_.size() == remembered_designs) entries_.pop_back();
+  entries_.push_front({x, request, std::move(attempt.evaluation)});
+  record(entries_.front(), attempt.failure);
+  return entries_.front();
+}
+
+void EvaluationCache::record(const Entry& entry, const std::string& failure) {
+  const bool with_gradients = entry.request == Request::values_and_gradients;
+  gradient_evaluations_ += with_gradients ? 1 : 0;
+  iterations_ += with_gradients && entry.evaluation ? 1 : 0;
+  consecutive_failures_ = entry.evaluation ? 0 : consecutive_failures_ + 1;
+
+  EvaluationRecord record;
+  record.evaluation = evaluations() + 1;
+  record.iteration = iterations_;
+  record.request = entry.request;
+  record.x = entry.x;
+  record.failure = failure;
+  record.seconds = seconds();
+  if (!history_.empty()) {
+    record.step =
+        (entry.x - history_.back().x).cwiseQuotient(scales_.variables).lpNorm<Eigen::Infinity>();
+  }
+  if (entry.evaluation) {
+    record.objective = entry.evaluation->objective;
+    record.constraints = entry.evaluation->constraints;
+    record.max_violation = pleuel::max_violation(problem_, record.constraints, scales_.constraints);
+    update_best(entry, record.max_violation);
+  }
+  history_.push_back(std::move(record));
+  if (watch_.observer) watch_.observer(history_.back());
+}
+
+void EvaluationCache::update_best(const Entry& entry, double violation) {
+  const bool feasible = violation <= strict_feasibility;
+  const bool both_feasible = feasible && best_.max_violation <= strict_feasibility;
+  const bool better = both_feasible ? entry.evaluation->objective < best_.evaluation.objective
+                                    : violation < best_.max_violation;
+  if (better) best_ = {entry.x, *entry.evaluation, violation};
+}
+
+}  // namespace pleuel

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <optional>
+#include <string>
+
+#include <Eigen/Dense>
+
+#include "optimization/history.hpp"
+#include "optimization/problem.hpp"
+
+namespace pleuel {
+
+/// A design whose largest relative violation is below this counts as one that keeps the limits,
+/// when designs are ranked: tighter than what a verdict allows, so that no tolerance is exploited.
+inline constexpr double strict_feasibility = 1e-6;
+
+/// The outcome of an evaluation that may fail: the evaluation, or why there is none.
+struct Attempt {
+  std::optional<Evaluation> evaluation;
+  std::string failure;
+};
+
+/// Evaluates and turns a SimulationError, or a number that is not finite, into a failure.
+/// Anything else that is thrown is a fault of the program and passes through.
+Attempt attempt_evaluation(Problem& problem, const Eigen::VectorXd& x, Request request);
+
+/// A design together with what is known of it.
+struct KnownDesign {
+  Eigen::VectorXd x;
+  Evaluation evaluation;
+  double max_violation = 0.0;  ///< relative
+};
+
+/// Backends ask for objective, constraints, and gradients of one design in separate calls: here one
+/// evaluation serves them all. It counts, keeps the history, and remembers the best design.
+class EvaluationCache {
+ public:
+  /// Magnitudes that stay the same over the run.
+  struct Scales {
+    Eigen::VectorXd variables;    ///< for the recorded step
+    Eigen::VectorXd constraints;  ///< for relative violations
+  };
+
+  /// Who watches, and since when the time runs.
+  struct Watch {
+    Observer observer;
+    std::chrono::steady_clock::time_point begin;
+  };
+
+  /// The first evaluation, that of the start, has been made: the scales follow from it.
+  EvaluationCache(Problem& problem, const KnownDesign& start, Scales scales, Watch watch);
+
+  /// The evaluation at x, made only if it is not known yet; nullptr if it failed. The pointer is
+  /// valid until the next call.
+  const Evaluation* evaluate(const Eigen::VectorXd& x, Request request);
+
+  /// The best design seen: the lowest objective among those that keep the limits (strictly), or, if
+  /// none does, the one with the smallest violation.
+  const KnownDesign& best() const { return best_; }
+
+  Problem& problem() const { return problem_; }
+  const Scales& scales() const { return scales_; }
+  const History& history() const { return history_; }
+  int evaluations() const { return static_cast<int>(history_.size()); }
+  int gradient_evaluations() const { return gradient_evaluations_; }
+  int iterations() const { return iterations_; }
+  int consecutive_failures() const { return consecutive_failures_; }
+  double seconds() const;
+
+ private:
+  struct Entry {
+    Eigen::VectorXd x;
+    Request request;
+    std::optional<Evaluation> evaluation;
+  };
+
+  const Entry* find(const Eigen::VectorXd& x, Request request) const;
+  const Entry& remember(const Eigen::VectorXd& x, Request request, Attempt attempt);
+  void record(const Entry& entry, const std::string& failure);
+  void update_best(const Entry& entry, double violation);
+
+  Problem& problem_;
+  Scales scales_;
+  Watch watch_;
+  std::deque<Entry> entries_;  ///< the latest at the front
+  KnownDesign best_;
+  History history_;
+  int gradient_evaluations_ = 0;
+  int iterations_ = 0;
+  int consecutive_failures_ = 0;
+};
+
+}  // namespace pleuel

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "optimization/problem.hpp"
+
+namespace pleuel {
+
+/// One call of Problem::evaluate.
+struct EvaluationRecord {
+  int evaluation = 0;  ///< 1, 2, 3, …
+  int iteration = 0;   ///< designs at which gradients were known so far, this one included
+  Request request = Request::values;
+  Eigen::VectorXd x;            ///< [SI]
+  std::string failure;          ///< empty: it succeeded; else why not, and the numbers below say 0
+  double objective = 0.0;       ///< [SI]
+  Eigen::VectorXd constraints;  ///< raw values [SI]; empty after a failure
+  double max_violation = 0.0;   ///< relative, see scaling.hpp
+  double step = 0.0;            ///< ‖Δx / s‖∞ from the evaluation before
+  double seconds = 0.0;         ///< wall time since the start of solve()
+};
+
+using History = std::vector<EvaluationRecord>;
+
+/// Sees every evaluation as it happens; may be empty.
+using Observer = std::function<void(const EvaluationRecord&)>;
+
+}  // namespace pleuel

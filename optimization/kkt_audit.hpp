@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Dense>
+
+#include "optimization/evaluation_cache.hpp"
+
+namespace pleuel {
+
+/// How well a design fulfils the conditions of Karush, Kuhn & Tucker, and the multipliers:
+///
+///     ∇f + Σⱼ μⱼ ∇cⱼ + β = 0,   μⱼ > 0 only at the upper limit of cⱼ, μⱼ < 0 only at its lower
+///     one; β likewise at the bounds of the variables
+struct KktAudit {
+  /// μ, size = constraints; the shadow price: raising the active limit of cⱼ by 1 changes the
+  /// optimal objective by −μⱼ. Unit of the objective / unit of the constraint.
+  Eigen::VectorXd constraint_multipliers;
+  /// β, size = variables; unit of the objective / unit of the variable.
+  Eigen::VectorXd bound_multipliers;
+  /// ‖(s ∘ (∇f + Σ μ ∇c + β); λ ∘ slack)‖₂ / gradient_scale: stationarity and complementarity in
+  /// one.
+  double residual = 0.0;
+  /// What residuals are compared with, in units of the objective; see audit_kkt().
+  double gradient_scale = 0.0;
+};
+
+/// Multipliers by nonnegative least squares on the gradients in scaled variables. All limits that
+/// are within 10 % (of their magnitude) take part; one with slack pays for its multiplier with the
+/// row λ · slack, so that no activity tolerance decides.
+///
+/// gradient_scale is ‖s ∘ ∇f‖₂. Near an optimum without active limits this vanishes with the
+/// residual: it is therefore at least min(‖s ∘ ∇f(start)‖₂, max(|f|, 10⁻³ |f(start)|)).
+/// @param design  with gradients of the true, un-aggregated constraints.
+/// @param start   evaluation of the first design, with gradients.
+/// @param scales  magnitudes C of the constraints.
+KktAudit audit_kkt(const Problem& problem, const KnownDesign& design, const Evaluation& start,
+                   const Eigen::VectorXd& scales);
+
+}  // namespace pleuel

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <memory>
+
+#include "optimization/optimizer.hpp"
+
+namespace pleuel {
+
+std::unique_ptr<Optimizer> make_nlopt_mma(const BackendOptions& options);
+std::unique_ptr<Optimizer> make_nlopt_ccsaq(const BackendOptions& options);
+std::unique_ptr<Optimizer> make_nlopt_slsqp(const BackendOptions& options);
+
+}  // namespace pleuel

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "core/base/error.hpp"
+
+/// The one interface between what is optimized and what optimizes it:
+///
+///     minimize f(x)   subject to   lower ≤ c(x) ≤ upper,   lower ≤ x ≤ upper
+///
+/// Everything is in SI units. Scaling, one-sided rows, and caching are the business of the
+/// optimizer (scaled_problem.hpp, evaluation_cache.hpp).
+namespace pleuel {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A number of the design that the optimizer may choose; lower == upper fixes it.
+struct Variable {
+  std::string name;
+  double start = 0.0;
+  double lower = -infinity;
+  double upper = infinity;
+};
+
+/// lower ≤ c(x) ≤ upper on the raw value of a response; lower == upper asks for equality.
+struct Constraint {
+  std::string name;
+  double lower = -infinity;
+  double upper = infinity;
+
+  bool is_equality() const { return lower == upper; }
+};
+
+/// What is known of one design. Gradients are empty unless they were requested.
+struct Evaluation {
+  double objective = 0.0;
+  Eigen::VectorXd constraints;          ///< raw values c, size = number of constraints
+  Eigen::VectorXd objective_gradient;   ///< size = number of variables
+  Eigen::MatrixXd constraint_jacobian;  ///< constraints × variables
+
+  bool has_gradients() const { return objective_gradient.size() > 0; }
+};
+
+enum class Request { values, values_and_gradients };
+
+/// This design cannot be evaluated: the optimizer must look elsewhere. Every SimulationError counts
+/// as such, and so does a value or gradient that is not finite.
+class EvaluationFailure : public SimulationError {
+ public:
+  using SimulationError::SimulationError;
+};
+
+/// Something to optimize.
+class Problem {
+ public:
+  virtual ~Problem() = default;
+
+  virtual const std::vector<Variable>& variables() const = 0;
+  virtual const std::vector<Constraint>& constraints() const = 0;
+  virtual std::string objective_name() const = 0;
+
+  /// Values, and gradients if requested, of the design x (within its bounds). Backends often ask
+  /// for the gradients of the very design whose values they saw last: keep its simulation.
+  /// @throws EvaluationFailure or any other SimulationError if the design cannot be evaluated.
+  virtual Evaluation evaluate(const Eigen::VectorXd& x, Request request) = 0;
+};
+
+/// A problem whose evaluation is a function object; for tests and small uses.
+class FunctionProblem : public Problem {
+ public:
+  using Function = std::function<Evaluation(const Eigen::VectorXd& x, Request request)>;
+
+  FunctionProblem(std::vector<Variable> variables, std::vector<Constraint> constraints,
+                  Function function);
+
+  const std::vector<Variable>& variables() const override { return variables_; }
+  const std::vector<Constraint>& constraints() const override { return constraints_; }
+  std::string objective_name() const override { return "objective"; }
+  Evaluation evaluate(const Eigen::VectorXd& x, Request request) override;
+
+ private:
+  std::vector<Variable> variables_;
+  std::vector<Constraint> constraints_;
+  Function function_;
+};
+
+/// The start values of all variables, moved onto a bound that they miss by rounding only.
+/// @throws InputError if there is no variable, if bounds or limits contradict each other or are not
+///         numbers, or if a start lies outside its bounds; the message names the variable.
+Eigen::VectorXd checked_start(const Problem& problem);
+
+/// "width = 0.02, height = 0.03": a design for messages.
+std::string describe_design(const Problem& problem, const Eigen::VectorXd& x);
+
+}  // namespace pleuel

@@ -1,0 +1,126 @@
+#include "optimization/scaled_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "optimization/scaling.hpp"
+
+namespace pleuel {
+
+ScaledProblem::ScaledProblem(EvaluationCache& cache, const KnownDesign& around, Budget budget)
+    : cache_(cache),
+      around_(around.x),
+      budget_(budget),
+      variable_scales_(variable_scales(cache.problem(), around.x)),
+      constraint_scales_(cache.scales().constraints),
+      objective_scale_(objective_scale(around.evaluation, variable_scales_)) {
+  const std::vector<Variable>& variables = cache.problem().variables();
+  for (Eigen::Index i = 0; i < around_.size(); ++i) {
+    if (variables[i].lower < variables[i].upper) free_.push_back(i);
+  }
+  const std::vector<Constraint>& constraints = cache.problem().constraints();
+  for (std::size_t j = 0; j < constraints.size(); ++j) {
+    add_rows(static_cast<Eigen::Index>(j), constraints[j]);
+  }
+  update_stop();
+}
+
+void ScaledProblem::add_rows(Eigen::Index constraint, const Constraint& limits) {
+  if (limits.is_equality()) {
+    equalities_.push_back({constraint, 1.0, limits.upper});
+    return;
+  }
+  if (std::isfinite(limits.upper)) inequalities_.push_back({constraint, 1.0, limits.upper});
+  if (std::isfinite(limits.lower)) inequalities_.push_back({constraint, -1.0, limits.lower});
+}
+
+Eigen::VectorXd ScaledProblem::lower() const {
+  Eigen::VectorXd bounds(around_.size());
+  for (Eigen::Index i = 0; i < bounds.size(); ++i) {
+    bounds[i] = cache_.problem().variables()[i].lower;
+  }
+  return to_scaled(bounds);
+}
+
+Eigen::VectorXd ScaledProblem::upper() const {
+  Eigen::VectorXd bounds(around_.size());
+  for (Eigen::Index i = 0; i < bounds.size(); ++i) {
+    bounds[i] = cache_.problem().variables()[i].upper;
+  }
+  return to_scaled(bounds);
+}
+
+std::optional<ScaledEvaluation> ScaledProblem::evaluate(const Eigen::VectorXd& y,
+                                                        Request request) noexcept {
+  if (should_stop_) return std::nullopt;
+  try {
+    const Evaluation* evaluation = cache_.evaluate(to_design(y), request);
+    update_stop();
+    if (evaluation == nullptr) return std::nullopt;
+    return scale(*evaluation);
+  } catch (...) {
+    exception_ = std::current_exception();
+    should_stop_ = true;
+    return std::nullopt;
+  }
+}
+
+void ScaledProblem::rethrow() const {
+  if (exception_) std::rethrow_exception(exception_);
+}
+
+void ScaledProblem::update_stop() {
+  should_stop_ = cache_.iterations() >= budget_.iterations ||
+                 cache_.consecutive_failures() >= budget_.consecutive_failures;
+}
+
+Eigen::VectorXd ScaledProblem::to_design(const Eigen::VectorXd& y) const {
+  Eigen::VectorXd x = around_;
+  for (Eigen::Index k = 0; k < y.size(); ++k) {
+    const Eigen::Index i = free_[k];
+    const Variable& variable = cache_.problem().variables()[i];
+    x[i] = std::clamp(y[k] * variable_scales_[i], variable.lower, variable.upper);
+  }
+  return x;
+}
+
+Eigen::VectorXd ScaledProblem::to_scaled(const Eigen::VectorXd& x) const {
+  return x.cwiseQuotient(variable_scales_)(free_);
+}
+
+Eigen::VectorXd ScaledProblem::values(const std::vector<Row>& rows,
+                                      const Evaluation& evaluation) const {
+  Eigen::VectorXd result(static_cast<Eigen::Index>(rows.size()));
+  for (Eigen::Index k = 0; k < result.size(); ++k) {
+    const auto& [j, sign, limit] = rows[k];
+    result[k] = sign * (evaluation.constraints[j] - limit) / constraint_scales_[j];
+  }
+  return result;
+}
+
+Eigen::MatrixXd ScaledProblem::jacobian(const std::vector<Row>& rows,
+                                        const Evaluation& evaluation) const {
+  Eigen::MatrixXd result(static_cast<Eigen::Index>(rows.size()), variables());
+  for (Eigen::Index k = 0; k < result.rows(); ++k) {
+    const auto& [j, sign, limit] = rows[k];
+    const Eigen::VectorXd gradient =
+        evaluation.constraint_jacobian.row(j).transpose().cwiseProduct(variable_scales_);
+    result.row(k) = sign / constraint_scales_[j] * gradient(free_).transpose();
+  }
+  return result;
+}
+
+ScaledEvaluation ScaledProblem::scale(const Evaluation& evaluation) const {
+  ScaledEvaluation scaled;
+  scaled.objective = evaluation.objective / objective_scale_;
+  scaled.inequalities = values(inequalities_, evaluation);
+  scaled.equalities = values(equalities_, evaluation);
+  if (!evaluation.has_gradients()) return scaled;
+  scaled.objective_gradient =
+      evaluation.objective_gradient.cwiseProduct(variable_scales_)(free_) / objective_scale_;
+  scaled.inequality_jacobian = jacobian(inequalities_, evaluation);
+  scaled.equality_jacobian = jacobian(equalities_, evaluation);
+  return scaled;
+}
+
+}  // namespace pleuel

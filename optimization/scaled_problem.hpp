@@ -1,0 +1,85 @@
+#pragma once
+
+#include <exception>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "optimization/evaluation_cache.hpp"
+
+namespace pleuel {
+
+/// What a backend sees at y.
+struct ScaledEvaluation {
+  double objective = 0.0;
+  Eigen::VectorXd inequalities;  ///< g ≤ 0
+  Eigen::VectorXd equalities;    ///< h = 0
+  Eigen::VectorXd objective_gradient;
+  Eigen::MatrixXd inequality_jacobian;  ///< inequalities × variables
+  Eigen::MatrixXd equality_jacobian;    ///< equalities × variables
+};
+
+/// The problem as the backends see it, with numbers of order one and limits in the form they want:
+///
+///     y = x / s,   f(y) = f / F,   g(y) = ±(c − limit) / C ≤ 0,   h(y) = (c − limit) / C = 0
+///
+/// with the magnitudes s, F, C of scaling.hpp. A constraint with two limits gives two rows, one
+/// without any gives none; a fixed variable is no variable here. It also says when to stop.
+class ScaledProblem {
+ public:
+  struct Budget {
+    int iterations = 0;            ///< of the cache, counted since the start of the run
+    int consecutive_failures = 0;  ///< after this many the region is hopeless
+  };
+
+  /// @param around  the design whose magnitudes scale the problem, and where the backend starts;
+  ///                with gradients.
+  ScaledProblem(EvaluationCache& cache, const KnownDesign& around, Budget budget);
+
+  int variables() const { return static_cast<int>(free_.size()); }
+  int inequalities() const { return static_cast<int>(inequalities_.size()); }
+  int equalities() const { return static_cast<int>(equalities_.size()); }
+  Eigen::VectorXd start() const { return to_scaled(around_); }
+  Eigen::VectorXd lower() const;
+  Eigen::VectorXd upper() const;
+
+  /// nullopt if the evaluation failed or if the backend should stop. Never throws, since it is
+  /// called through C: a fault of the program is kept for rethrow().
+  std::optional<ScaledEvaluation> evaluate(const Eigen::VectorXd& y, Request request) noexcept;
+
+  /// The budget is used up or something was thrown: no more evaluations are made.
+  bool should_stop() const { return should_stop_; }
+  /// Throws what an evaluation threw, if it did.
+  void rethrow() const;
+
+  /// The design of y, exactly within its bounds.
+  Eigen::VectorXd to_design(const Eigen::VectorXd& y) const;
+
+ private:
+  /// sign · (c − limit) / C
+  struct Row {
+    Eigen::Index constraint;
+    double sign;
+    double limit;
+  };
+
+  void add_rows(Eigen::Index constraint, const Constraint& limits);
+  void update_stop();
+  Eigen::VectorXd to_scaled(const Eigen::VectorXd& x) const;
+  Eigen::VectorXd values(const std::vector<Row>& rows, const Evaluation& evaluation) const;
+  Eigen::MatrixXd jacobian(const std::vector<Row>& rows, const Evaluation& evaluation) const;
+  ScaledEvaluation scale(const Evaluation& evaluation) const;
+
+  EvaluationCache& cache_;
+  Eigen::VectorXd around_;
+  Budget budget_;
+  std::vector<Eigen::Index> free_;  ///< the variables that are not fixed
+  std::vector<Row> inequalities_, equalities_;
+  Eigen::VectorXd variable_scales_, constraint_scales_;
+  double objective_scale_;
+  bool should_stop_ = false;
+  std::exception_ptr exception_;
+};
+
+}  // namespace pleuel

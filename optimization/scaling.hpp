@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Dense>
+
+#include "optimization/problem.hpp"
+
+/// Natural magnitudes of variables, constraints, and objective: what "relative" and "of order one"
+/// mean in this folder.
+namespace pleuel {
+
+/// Magnitude s of each variable near the design x: |xᵢ|, but at least a tenth of the range between
+/// finite bounds and at most all of it; 1 where nothing is known. Always positive.
+Eigen::VectorXd variable_scales(const Problem& problem, const Eigen::VectorXd& x);
+
+/// Magnitude C of each constraint: its larger finite limit, so that (c − upper)/C is σ/σ_allow − 1.
+/// Where the limits are 0, the change of c with the variables, ‖s ∘ ∇c‖∞; where that vanishes too,
+/// |c|, or 1. Always positive.
+/// @param evaluation  at x, with gradients.
+/// @param scales      s of variable_scales().
+Eigen::VectorXd constraint_scales(const Problem& problem, const Evaluation& evaluation,
+                                  const Eigen::VectorXd& scales);
+
+/// Magnitude F of the objective: max(|f|, ‖s ∘ ∇f‖∞), or 1 where both vanish. Always positive.
+double objective_scale(const Evaluation& evaluation, const Eigen::VectorXd& scales);
+
+/// max over constraints of the amount by which c leaves its limits, divided by C; 0 if none does.
+double max_violation(const Problem& problem, const Eigen::VectorXd& constraints,
+                     const Eigen::VectorXd& scales);
+
+}  // namespace pleuel

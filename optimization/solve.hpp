@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+
+#include <Eigen/Dense>
+
+#include "optimization/history.hpp"
+#include "optimization/problem.hpp"
+#include "optimization/verdict.hpp"
+
+namespace pleuel {
+
+struct SolveOptions {
+  /// One of optimizer_names().
+  std::string backend = "nlopt-slsqp";
+  /// Relative change of objective and scaled variables at which the backend stops, in (0, 1). Keep
+  /// it above the noise of the simulation; the verdict does not depend on it.
+  double tolerance = 1e-6;
+  /// Designs at which gradients may be computed, restarts included; at least 1.
+  int max_iterations = 200;
+  /// How often a backend that ended at an unproven design starts anew from there, with fresh
+  /// scaling and approximations and a tenth of the tolerance; 0 takes its first answer.
+  int max_restarts = 6;
+  /// Failed evaluations in a row after which the run is given up, at least 1.
+  int max_consecutive_failures = 20;
+  /// What the verdict asks for.
+  Tolerances verdict;
+};
+
+struct Result {
+  Status status = Status::failed;
+  std::string message;  ///< a sentence: why this status
+  std::string backend;
+  Eigen::VectorXd x;  ///< [SI]
+  /// At x, with gradients. Without any entry if the start already failed.
+  Evaluation evaluation;
+  /// μ and β of KktAudit: d(optimal objective) / d(active limit) = −μ.
+  Eigen::VectorXd constraint_multipliers, bound_multipliers;
+  double kkt_residual = 0.0;   ///< relative
+  double max_violation = 0.0;  ///< relative
+  int evaluations = 0;
+  int gradient_evaluations = 0;
+  int iterations = 0;  ///< designs at which gradients were computed
+  int restarts = 0;
+  double seconds = 0.0;
+  History history;
+};
+
+/// Optimizes from the start values of the problem with one backend, and proves or doubts the
+/// answer: check the start → backend → audit → restart from there if the design is unproven →
+/// result.
+/// @throws InputError if the backend is unknown or cannot take the constraints, or if the start
+/// lies
+///         outside its bounds. A start that cannot be evaluated is not thrown but `failed`.
+Result solve(Problem& problem, const SolveOptions& options, const Observer& observer = {});
+
+}  // namespace pleuel
