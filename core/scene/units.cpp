@@ -35,8 +35,12 @@ void add_name(ut_system* system, const char* name, const std::string& definition
   }
 }
 
-bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
-bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
+bool is_digit(char c) {
+  return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
+bool is_space(char c) {
+  return std::isspace(static_cast<unsigned char>(c)) != 0;
+}
 
 std::string trim(std::string_view text) {
   while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
@@ -44,7 +48,8 @@ std::string trim(std::string_view text) {
   return std::string(text);
 }
 
-/// Whether the digit at `position` belongs to an exponent (m2, m^2, m-2, m^-2) or is the 1 of "1/s".
+/// Whether the digit at `position` belongs to an exponent (m2, m^2, m-2, m^-2) or is the 1 of
+/// "1/s".
 bool is_exponent(const std::string& unit, std::size_t position) {
   if (position == 0) return unit.size() > 1 && unit[0] == '1' && unit[1] == '/';
   std::size_t before = position - 1;
@@ -84,7 +89,8 @@ struct UnitSystem::Database {
 UnitSystem::UnitSystem() : database_(std::make_unique<Database>()) {
   ut_set_error_message_handler(ut_ignore);  // the library would print; we throw
   database_->system.reset(ut_read_xml(nullptr));
-  if (!database_->system) throw std::runtime_error("the UDUNITS-2 database of units is not readable");
+  if (!database_->system)
+    throw std::runtime_error("the UDUNITS-2 database of units is not readable");
   add_name(database_->system.get(), "deg", "degree");
   add_name(database_->system.get(), "rev", "turn");
   add_name(database_->system.get(), "Nm", "N m");

@@ -14,9 +14,11 @@ namespace {
 /// The value as JSON, shortened: a message is a line, not a listing.
 std::string shown(const Json& value) {
   constexpr std::size_t longest = 60;
-  std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
-  if (text.size() > longest) text = text.substr(0, longest) + "…";
-  return text;
+  std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (text.size() <= longest) return text;
+  std::size_t end = longest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // UTF-8
+  return text.substr(0, end) + "…";
 }
 
 }  // namespace
@@ -115,10 +117,18 @@ void fail_choice(const JsonNode& node, const std::vector<std::string>& words) {
   node.fail_with_value(rule, meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant));
 }
 
-void fail_unknown_name(const JsonNode& node, std::string_view kind,
+void fail_unknown_name(const JsonNode& node, std::string_view kind, const std::string& name,
                        const std::vector<std::string>& known) {
-  const std::string name = node.text();
   node.fail(fmt::format("names the unknown {} \"{}\"{}", kind, name, hint(name, known)));
+}
+
+std::string read_known_name(const JsonNode& node, std::string_view kind,
+                            const std::vector<std::string>& known) {
+  const std::string name = node.text();
+  if (std::find(known.begin(), known.end(), name) == known.end()) {
+    fail_unknown_name(node, kind, name, known);
+  }
+  return name;
 }
 
 }  // namespace pleuel

@@ -34,8 +34,8 @@ class JsonNode {
   void allow_keys(std::initializer_list<std::string_view> known) const;
   JsonNode at(const std::string& key) const;  ///< must be there
   std::optional<JsonNode> find(const std::string& key) const;
-  JsonMembers members() const;           ///< of an object with free, non-empty names
-  std::vector<JsonNode> items() const;   ///< of a list
+  JsonMembers members() const;                          ///< of an object with free, non-empty names
+  std::vector<JsonNode> items() const;                  ///< of a list
   std::vector<JsonNode> items(std::size_t size) const;  ///< of a list of this length
 
   double number() const;
@@ -72,6 +72,10 @@ Meaning read_choice(const JsonNode& node, Choices<Meaning> choices) {
 
 /// Ends the reading: `names the unknown material "stel"; did you mean "steel"?`
 [[noreturn]] void fail_unknown_name(const JsonNode& node, std::string_view kind,
-                                    const std::vector<std::string>& known);
+                                    const std::string& name, const std::vector<std::string>& known);
+
+/// The node's text, which must be one of the known names of this kind of thing.
+std::string read_known_name(const JsonNode& node, std::string_view kind,
+                            const std::vector<std::string>& known);
 
 }  // namespace pleuel

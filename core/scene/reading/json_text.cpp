@@ -48,8 +48,8 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
 
   bool key(string_t& key) override {
     if (open_.back().value->contains(key)) {
-      throw InputError(fmt::format("{}: {} is there twice", file_,
-                                   child_pointer(open_.back().pointer, key)));
+      throw InputError(
+          fmt::format("{}: {} is there twice", file_, child_pointer(open_.back().pointer, key)));
     }
     key_ = key;
     return true;
@@ -90,8 +90,8 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   bool open(Json&& empty) {
     std::string pointer = pointer_of_next();
     if (open_.size() >= deepest_nesting) {
-      throw InputError(fmt::format("{}: {} is nested deeper than {} levels", file_, pointer,
-                                   deepest_nesting));
+      throw InputError(
+          fmt::format("{}: {} is nested deeper than {} levels", file_, pointer, deepest_nesting));
     }
     Json* value = place(std::move(empty));
     open_.push_back({value, std::move(pointer)});

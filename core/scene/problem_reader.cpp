@@ -1,0 +1,106 @@
+#include "core/scene/problem_reader.hpp"
+
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "core/scene/reading/goal_reader.hpp"
+#include "core/scene/reading/json_node.hpp"
+#include "core/scene/reading/number_reader.hpp"
+#include "core/scene/reading/override.hpp"
+#include "core/scene/reading/response_reader.hpp"
+#include "core/scene/reading/scene_check.hpp"
+#include "core/scene/reading/scene_reader.hpp"
+#include "core/scene/reading/settings_reader.hpp"
+#include "core/scene/reading/variable_reader.hpp"
+#include "core/scene/units.hpp"
+
+namespace pleuel {
+namespace {
+
+std::string read_text(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) {
+    throw InputError(fmt::format("{}: there is no such file", path.string()));
+  }
+  if (std::filesystem::is_directory(status)) {
+    throw InputError(fmt::format("{}: is a directory, not a problem file", path.string()));
+  }
+  std::ifstream stream(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (!stream) throw InputError(fmt::format("{}: cannot be read", path.string()));
+  return text;
+}
+
+std::vector<std::string> variable_names(const JsonNode& root) {
+  std::vector<std::string> names;
+  if (const auto variables = root.find("variables")) {
+    for (const auto& [name, variable] : variables->members()) names.push_back(name);
+  }
+  return names;
+}
+
+void read_heading(const JsonNode& root, ProblemFile& problem) {
+  root.allow_keys({"$schema", "name", "description", "scene", "effects", "simulation", "variables",
+                   "responses", "objective", "constraints", "optimizer", "pareto", "accuracy"});
+  if (const auto schema = root.find("$schema")) schema->text();
+  if (const auto name = root.find("name")) problem.name = name->text();
+  if (const auto description = root.find("description")) problem.description = description->text();
+}
+
+void read_settings(const JsonNode& root, const NumberReader& numbers, ProblemFile& problem) {
+  if (const auto effects = root.find("effects")) problem.effects = read_effects(*effects);
+  problem.simulation = read_simulation(root.at("simulation"), numbers);
+  if (const auto optimizer = root.find("optimizer")) problem.optimizer = read_optimizer(*optimizer);
+  if (const auto pareto = root.find("pareto")) {
+    problem.pareto = read_pareto(*pareto, problem, numbers);
+  }
+  if (const auto accuracy = root.find("accuracy")) {
+    problem.accuracy = read_accuracy(*accuracy, numbers);
+  }
+}
+
+/// The variables come late: where they are used tells what they measure.
+ProblemFile read_document(const JsonNode& root) {
+  ProblemFile problem;
+  read_heading(root, problem);
+  const UnitSystem units;
+  NumberReader numbers(units, variable_names(root));
+  problem.scene = read_scene(root.at("scene"), numbers);
+  if (const auto responses = root.find("responses")) {
+    problem.responses = read_responses(*responses, problem.scene);
+  }
+  if (const auto objective = root.find("objective")) {
+    problem.objective = read_objective(*objective, problem.responses, numbers);
+  }
+  if (const auto constraints = root.find("constraints")) {
+    problem.constraints = read_constraints(*constraints, problem.responses, numbers);
+  }
+  if (const auto variables = root.find("variables")) {
+    problem.variables = read_variables(*variables, numbers);
+  }
+  read_settings(root, numbers, problem);
+  check_scene(root.at("scene"), problem);
+  return problem;
+}
+
+}  // namespace
+
+ProblemFile read_problem(const std::filesystem::path& path,
+                         const std::vector<std::string>& overrides) {
+  ProblemFile problem = read_problem_text(read_text(path), path.string(), overrides);
+  if (problem.name.empty()) problem.name = path.stem().string();
+  return problem;
+}
+
+ProblemFile read_problem_text(const std::string& text, const std::string& file,
+                              const std::vector<std::string>& overrides) {
+  Json document = parse_json(text, file);
+  for (const std::string& assignment : overrides) apply_override(document, assignment, file);
+  return read_document(JsonNode(document, file));
+}
+
+}  // namespace pleuel

@@ -1,0 +1,132 @@
+#include "core/scene/reading/goal_reader.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/scene/reading/scene_reader.hpp"
+#include "core/scene/response_quantity.hpp"
+
+namespace pleuel {
+namespace {
+
+const ResponseSettings& read_response_name(const JsonNode& node,
+                                           const std::vector<ResponseSettings>& responses) {
+  const std::string name = read_known_name(node, "response", names_of(responses));
+  return *std::find_if(responses.begin(), responses.end(),
+                       [&name](const ResponseSettings& response) { return response.name == name; });
+}
+
+/// The quantity that the terms have in common: that of the first variable bound in the scene.
+Quantity quantity_of(const std::vector<std::pair<int, double>>& linear,
+                     const NumberReader& numbers) {
+  for (const auto& [variable, coefficient] : linear) {
+    if (const auto quantity = numbers.quantity_of(variable)) return *quantity;
+  }
+  return quantities::pure_number;
+}
+
+Quantity read_linear(const JsonNode& node, ConstraintSettings& constraint, NumberReader& numbers) {
+  const JsonMembers members = node.members();
+  for (const auto& [name, coefficient] : members) {
+    if (coefficient.number() == 0.0) coefficient.fail_with_value("must not be zero");
+    constraint.linear.emplace_back(numbers.variable(coefficient, name), coefficient.number());
+  }
+  if (members.empty()) node.fail("must have at least one variable");
+  const Quantity quantity = quantity_of(constraint.linear, numbers);
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const auto& [variable, coefficient] = constraint.linear[i];
+    numbers.add_use(
+        {Number::bound(variable, coefficient), quantity, Range::any, members[i].second});
+  }
+  return quantity;
+}
+
+void read_limits(const JsonNode& node, const Quantity& quantity, const NumberReader& numbers,
+                 ConstraintSettings& constraint) {
+  const std::optional<JsonNode> lower = node.find("lower"), upper = node.find("upper");
+  if (!lower && !upper) node.fail("has no limit; it needs \"upper\", \"lower\" or both");
+  if (lower) constraint.lower = numbers.fixed(*lower, quantity);
+  if (upper) constraint.upper = numbers.fixed(*upper, quantity);
+  if (lower && upper && *constraint.lower > *constraint.upper) {
+    lower->fail_with_value("must not be above the upper limit");
+  }
+}
+
+ConstraintSettings read_constraint(const std::string& name, const JsonNode& node,
+                                   const std::vector<ResponseSettings>& responses,
+                                   NumberReader& numbers) {
+  node.allow_keys({"response", "linear", "lower", "upper"});
+  ConstraintSettings constraint;
+  constraint.name = name;
+  const std::optional<JsonNode> linear = node.find("linear");
+  if (linear && node.find("response")) node.fail("has both \"response\" and \"linear\"");
+  if (linear) {
+    read_limits(node, read_linear(*linear, constraint, numbers), numbers, constraint);
+    return constraint;
+  }
+  const ResponseSettings& response = read_response_name(node.at("response"), responses);
+  constraint.response = response.name;
+  read_limits(node, quantity_of(response), numbers, constraint);
+  return constraint;
+}
+
+const ConstraintSettings& read_varied_constraint(const JsonNode& node, const ProblemFile& problem) {
+  const std::string name = read_known_name(node, "constraint", names_of(problem.constraints));
+  const ConstraintSettings& constraint = *std::find_if(
+      problem.constraints.begin(), problem.constraints.end(),
+      [&name](const ConstraintSettings& candidate) { return candidate.name == name; });
+  if (constraint.lower && constraint.upper) {
+    node.fail(fmt::format("must name a constraint with one limit, but \"{}\" has two", name));
+  }
+  return constraint;
+}
+
+Quantity quantity_of(const ConstraintSettings& constraint, const ProblemFile& problem,
+                     const NumberReader& numbers) {
+  for (const ResponseSettings& response : problem.responses) {
+    if (response.name == constraint.response) return quantity_of(response);
+  }
+  return quantity_of(constraint.linear, numbers);
+}
+
+}  // namespace
+
+Objective read_objective(const JsonNode& node, const std::vector<ResponseSettings>& responses,
+                         const NumberReader& numbers) {
+  node.allow_keys({"minimize", "scale"});
+  Objective objective;
+  const ResponseSettings& response = read_response_name(node.at("minimize"), responses);
+  objective.response = response.name;
+  if (const auto scale = node.find("scale")) {
+    objective.scale = numbers.fixed(*scale, quantity_of(response), Range::positive);
+  }
+  return objective;
+}
+
+std::vector<ConstraintSettings> read_constraints(const JsonNode& node,
+                                                 const std::vector<ResponseSettings>& responses,
+                                                 NumberReader& numbers) {
+  std::vector<ConstraintSettings> constraints;
+  for (const auto& [name, constraint] : node.members()) {
+    constraints.push_back(read_constraint(name, constraint, responses, numbers));
+  }
+  return constraints;
+}
+
+ParetoSettings read_pareto(const JsonNode& node, const ProblemFile& problem,
+                           const NumberReader& numbers) {
+  node.allow_keys({"constraint", "from", "to", "points"});
+  if (!problem.objective) node.fail("needs an objective, and the problem has none");
+  const ConstraintSettings& constraint = read_varied_constraint(node.at("constraint"), problem);
+  const Quantity quantity = quantity_of(constraint, problem, numbers);
+  ParetoSettings pareto;
+  pareto.constraint = constraint.name;
+  pareto.from = numbers.fixed(node.at("from"), quantity);
+  pareto.to = numbers.fixed(node.at("to"), quantity);
+  if (pareto.from == pareto.to) node.at("to").fail_with_value("must differ from \"from\"");
+  if (const auto points = node.find("points")) pareto.points = points->whole_number(2, 10000);
+  return pareto;
+}
+
+}  // namespace pleuel

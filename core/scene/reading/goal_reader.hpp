@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "core/scene/problem_file.hpp"
+#include "core/scene/reading/json_node.hpp"
+#include "core/scene/reading/number_reader.hpp"
+
+/// What the design is to reach: objective, constraints, and the study that trades one for the
+/// other.
+namespace pleuel {
+
+/// @throws InputError
+Objective read_objective(const JsonNode& node, const std::vector<ResponseSettings>& responses,
+                         const NumberReader& numbers);
+
+/// Limits have the unit of the response, or of the variables in a linear constraint.
+/// @throws InputError
+std::vector<ConstraintSettings> read_constraints(const JsonNode& node,
+                                                 const std::vector<ResponseSettings>& responses,
+                                                 NumberReader& numbers);
+
+/// `problem` has its constraints already. @throws InputError
+ParetoSettings read_pareto(const JsonNode& node, const ProblemFile& problem,
+                           const NumberReader& numbers);
+
+}  // namespace pleuel

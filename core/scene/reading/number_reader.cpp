@@ -1,0 +1,130 @@
+#include "core/scene/reading/number_reader.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace pleuel {
+namespace {
+
+std::string unit_in_brackets(const Quantity& quantity) {
+  if (quantity == quantities::pure_number) return "";
+  return fmt::format(" [{}]", quantity.unit);
+}
+
+}  // namespace
+
+bool is_within(Range range, double value) {
+  switch (range) {
+    case Range::any:
+      return true;
+    case Range::positive:
+      return value > 0.0;
+    case Range::not_negative:
+      return value >= 0.0;
+    case Range::poisson:
+      return value > -1.0 && value < 0.5;
+    case Range::fraction:
+      return value >= 0.0 && value <= 1.0;
+  }
+  return false;
+}
+
+std::string rule_of(Range range, const Quantity& quantity) {
+  switch (range) {
+    case Range::any:
+      break;
+    case Range::positive:
+      return "must be positive" + unit_in_brackets(quantity);
+    case Range::not_negative:
+      return "must not be negative" + unit_in_brackets(quantity);
+    case Range::poisson:
+      return "must be greater than -1 and less than 0.5";
+    case Range::fraction:
+      return "must be from 0 to 1";
+  }
+  return "must be " + describe(quantity);
+}
+
+NumberReader::NumberReader(const UnitSystem& units, std::vector<std::string> variables)
+    : units_(&units), variables_(std::move(variables)) {}
+
+double NumberReader::fixed(const JsonNode& node, const Quantity& quantity, Range range) const {
+  const std::string expected = "must be " + describe(quantity);
+  double value = 0.0;
+  if (node.value().is_number()) {
+    value = node.value().get<double>();
+  } else if (node.value().is_string()) {
+    try {
+      value = units_->read(node.value().get<std::string>(), quantity);
+    } catch (const UnitError& error) {
+      node.fail_with_value(expected, fmt::format(": {}", error.what()));
+    }
+  } else {
+    node.fail_with_value(expected + ": a number in SI units or a text with unit");
+  }
+  if (!is_within(range, value)) node.fail_with_value(rule_of(range, quantity));
+  return value;
+}
+
+Number NumberReader::designable(const JsonNode& node, const Quantity& quantity, Range range) {
+  if (node.value().is_object()) return binding(node, quantity, range);
+  if (node.value().is_number() || node.value().is_string()) return fixed(node, quantity, range);
+  node.fail_with_value(
+      fmt::format("must be {}: a number in SI units, a text with unit or {{\"variable\": name}}",
+                  describe(quantity)));
+}
+
+Number NumberReader::binding(const JsonNode& node, const Quantity& quantity, Range range) {
+  node.allow_keys({"variable", "factor"});
+  const JsonNode name = node.at("variable");
+  const std::optional<JsonNode> factor = node.find("factor");
+  if (factor && factor->number() == 0.0) factor->fail_with_value("must not be zero");
+  const Number number = Number::bound(variable(name, name.text()), factor ? factor->number() : 1.0);
+  add_use({number, quantity, range, node});
+  return number;
+}
+
+std::array<Number, 3> NumberReader::triple(const JsonNode& node, const Quantity& quantity) {
+  const std::vector<JsonNode> items = node.items(3);
+  return {designable(items[0], quantity), designable(items[1], quantity),
+          designable(items[2], quantity)};
+}
+
+std::array<double, 3> NumberReader::direction(const JsonNode& node) const {
+  const std::vector<JsonNode> items = node.items(3);
+  const std::array<double, 3> direction = {items[0].number(), items[1].number(), items[2].number()};
+  if (direction == std::array<double, 3>{0.0, 0.0, 0.0}) node.fail_with_value("must not be zero");
+  return direction;
+}
+
+int NumberReader::variable(const JsonNode& node, const std::string& name) const {
+  const auto found = std::find(variables_.begin(), variables_.end(), name);
+  if (found == variables_.end()) fail_unknown_name(node, "variable", name, variables_);
+  return static_cast<int>(found - variables_.begin());
+}
+
+void NumberReader::add_use(VariableUse use) {
+  const VariableUse* first = first_use(use.number.variable);
+  if (first != nullptr && !(first->quantity == use.quantity)) {
+    use.node.fail(fmt::format("uses the variable \"{}\" as {}, but {} uses it as {}",
+                              variables_[static_cast<std::size_t>(use.number.variable)],
+                              describe(use.quantity), first->node.place(),
+                              describe(first->quantity)));
+  }
+  uses_.push_back(std::move(use));
+}
+
+const VariableUse* NumberReader::first_use(int variable) const {
+  const auto first = std::find_if(uses_.begin(), uses_.end(), [variable](const VariableUse& use) {
+    return use.number.variable == variable;
+  });
+  return first == uses_.end() ? nullptr : &*first;
+}
+
+std::optional<Quantity> NumberReader::quantity_of(int variable) const {
+  const VariableUse* first = first_use(variable);
+  return first == nullptr ? std::nullopt : std::optional<Quantity>(first->quantity);
+}
+
+}  // namespace pleuel

@@ -1,0 +1,106 @@
+#include "core/scene/reading/override.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "core/scene/reading/suggestion.hpp"
+
+namespace pleuel {
+namespace {
+
+/// One assignment on its way down the document.
+class Override {
+ public:
+  Override(const std::string& assignment, const std::string& file)
+      : assignment_(assignment), file_(file) {}
+
+  void apply(Json& document) const {
+    const std::size_t equals = assignment_.find('=');
+    if (equals == std::string::npos) fail("has no \"=\"; write /json/pointer=value");
+    const std::vector<std::string> keys = split(assignment_.substr(0, equals));
+    Json* place = &document;
+    std::string pointer;
+    for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
+      place = &child(*place, pointer, keys[i]);
+      pointer = child_pointer(pointer, keys[i]);
+    }
+    const Json value = read_value(assignment_.substr(equals + 1));
+    if (place->is_object()) {
+      (*place)[keys.back()] = value;
+    } else {
+      child(*place, pointer, keys.back()) = value;
+    }
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& rule) const {
+    throw InputError(fmt::format("{}: --set {}: {}", file_, assignment_, rule));
+  }
+
+  std::vector<std::string> split(const std::string& pointer) const {
+    if (pointer.empty() || pointer.front() != '/') {
+      fail("must begin with a JSON pointer such as /simulation/step");
+    }
+    std::vector<std::string> keys;
+    for (std::size_t i = 0; i < pointer.size(); ++i) {
+      if (pointer[i] == '/') {
+        keys.emplace_back();
+      } else if (pointer[i] == '~') {
+        const char code = i + 1 < pointer.size() ? pointer[++i] : ' ';
+        if (code != '0' && code != '1') fail("has a \"~\" that is neither ~0 (~) nor ~1 (/)");
+        keys.back() += code == '0' ? '~' : '/';
+      } else {
+        keys.back() += pointer[i];
+      }
+    }
+    return keys;
+  }
+
+  Json& child(Json& parent, const std::string& pointer, const std::string& key) const {
+    if (parent.is_array()) return parent[index(parent.size(), pointer, key)];
+    if (!parent.is_object()) fail(fmt::format("{} has no members", shown(pointer)));
+    if (parent.contains(key)) return parent[key];
+    std::vector<std::string> known;
+    for (const auto& [name, member] : parent.items()) known.push_back(name);
+    fail(fmt::format("{} has no key \"{}\"{}", shown(pointer), key, hint(key, known)));
+  }
+
+  std::size_t index(std::size_t size, const std::string& pointer, const std::string& key) const {
+    std::size_t index = 0;
+    const char* end = key.data() + key.size();
+    const auto [rest, status] = std::from_chars(key.data(), end, index);
+    if (status != std::errc() || rest != end || index >= size) {
+      fail(fmt::format("{} is a list of {} values, counted from 0, and has no \"{}\"",
+                       shown(pointer), size, key));
+    }
+    return index;
+  }
+
+  static std::string shown(const std::string& pointer) {
+    return pointer.empty() ? "the problem" : pointer;
+  }
+
+  static Json read_value(const std::string& text) {
+    try {
+      return parse_json(text, "");
+    } catch (const InputError&) {
+      return Json(text);
+    }
+  }
+
+  const std::string& assignment_;
+  const std::string& file_;
+};
+
+}  // namespace
+
+void apply_override(Json& document, const std::string& assignment, const std::string& file) {
+  Override(assignment, file).apply(document);
+}
+
+}  // namespace pleuel

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "core/scene/problem_file.hpp"
+#include "core/scene/reading/json_node.hpp"
+
+namespace pleuel {
+
+/// What only the scene as a whole can tell: beams have a length, walls of tubes fit, joints sit on
+/// nodes, every body is held by a joint. Where a design variable moves something, this must hold at
+/// the start design and with each variable at either bound (tubes: at the start).
+/// @param node  the scene in the document, to say where it is wrong.
+/// @throws InputError
+void check_scene(const JsonNode& node, const ProblemFile& problem);
+
+}  // namespace pleuel

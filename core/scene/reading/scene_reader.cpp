@@ -1,0 +1,52 @@
+#include "core/scene/reading/scene_reader.hpp"
+
+namespace pleuel {
+namespace {
+
+Material read_material(const std::string& name, const JsonNode& node, NumberReader& numbers) {
+  node.allow_keys({"young", "poisson", "density"});
+  Material material;
+  material.name = name;
+  material.young = numbers.designable(node.at("young"), quantities::stress, Range::positive);
+  material.poisson =
+      numbers.designable(node.at("poisson"), quantities::pure_number, Range::poisson);
+  material.density = numbers.designable(node.at("density"), quantities::density, Range::positive);
+  return material;
+}
+
+void read_bodies(const JsonNode& node, Scene& scene, NumberReader& numbers) {
+  const std::vector<std::string> materials = names_of(scene.materials);
+  for (const auto& [name, body] : node.members()) {
+    if (name == ground_name) body.fail("has the name that is kept for the ground");
+    scene.bodies.push_back(read_body(name, body, materials, numbers));
+  }
+  if (scene.bodies.empty()) node.fail("has no body");
+}
+
+void read_joints(const JsonNode& node, Scene& scene, NumberReader& numbers) {
+  std::vector<std::string> bodies = names_of(scene.bodies);
+  bodies.emplace_back(ground_name);
+  for (const auto& [name, joint] : node.members()) {
+    scene.joints.push_back(read_joint(name, joint, bodies, numbers));
+  }
+}
+
+}  // namespace
+
+Scene read_scene(const JsonNode& node, NumberReader& numbers) {
+  node.allow_keys({"gravity", "materials", "bodies", "joints"});
+  Scene scene;
+  if (const auto gravity = node.find("gravity")) {
+    scene.gravity = numbers.triple(*gravity, quantities::acceleration);
+  }
+  if (const auto materials = node.find("materials")) {
+    for (const auto& [name, material] : materials->members()) {
+      scene.materials.push_back(read_material(name, material, numbers));
+    }
+  }
+  read_bodies(node.at("bodies"), scene, numbers);
+  read_joints(node.at("joints"), scene, numbers);
+  return scene;
+}
+
+}  // namespace pleuel

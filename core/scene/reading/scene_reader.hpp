@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scene/reading/json_node.hpp"
+#include "core/scene/reading/number_reader.hpp"
+#include "core/scene/scene.hpp"
+
+namespace pleuel {
+
+/// Gravity, materials, bodies and joints, with every name in them known. @throws InputError
+Scene read_scene(const JsonNode& node, NumberReader& numbers);
+
+/// `materials` are the names there are. @throws InputError
+Body read_body(const std::string& name, const JsonNode& node,
+               const std::vector<std::string>& materials, NumberReader& numbers);
+
+/// `bodies` are the names there are, "ground" among them. @throws InputError
+Joint read_joint(const std::string& name, const JsonNode& node,
+                 const std::vector<std::string>& bodies, NumberReader& numbers);
+
+/// @throws InputError
+Section read_section(const JsonNode& node, NumberReader& numbers);
+
+/// Names of materials, bodies, joints, … in their order.
+template <class Named>
+std::vector<std::string> names_of(const std::vector<Named>& things) {
+  std::vector<std::string> names;
+  for (const Named& thing : things) names.push_back(thing.name);
+  return names;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,100 @@
+#include "core/scene/reading/settings_reader.hpp"
+
+#include <fmt/format.h>
+
+namespace pleuel {
+namespace {
+
+constexpr int most_elements = 10000;
+constexpr int most_iterations = 1000000;
+constexpr double most_steps = 1e9;
+
+/// A tolerance of one or more asks for nothing.
+double read_tolerance(const JsonNode& node) {
+  if (node.number() <= 0.0 || node.number() >= 1.0) {
+    node.fail_with_value("must be greater than 0 and less than 1");
+  }
+  return node.number();
+}
+
+EffectChoice read_effect(const JsonNode& node) {
+  return read_choice<EffectChoice>(
+      node,
+      {{"auto", EffectChoice::automatic}, {"on", EffectChoice::on}, {"off", EffectChoice::off}});
+}
+
+void read_times(const JsonNode& node, const NumberReader& numbers, SimulationSettings& settings) {
+  const JsonNode end_time = node.at("end_time"), step = node.at("step");
+  settings.end_time = numbers.fixed(end_time, quantities::time, Range::positive);
+  settings.step = numbers.fixed(step, quantities::time, Range::positive);
+  if (settings.step > settings.end_time) {
+    step.fail_with_value("must not be longer than the simulation");
+  }
+  if (settings.end_time / settings.step > most_steps) {
+    step.fail_with_value(fmt::format("must not make more than {:g} steps", most_steps));
+  }
+}
+
+}  // namespace
+
+EffectSettings read_effects(const JsonNode& node) {
+  node.allow_keys({"spatial_motion", "geometric_stiffening"});
+  EffectSettings effects;
+  if (const auto choice = node.find("spatial_motion"))
+    effects.spatial_motion = read_effect(*choice);
+  if (const auto choice = node.find("geometric_stiffening")) {
+    effects.geometric_stiffening = read_effect(*choice);
+  }
+  return effects;
+}
+
+SimulationSettings read_simulation(const JsonNode& node, const NumberReader& numbers) {
+  node.allow_keys({"end_time", "step", "scheme", "spectral_radius", "formulation",
+                   "newton_tolerance", "max_newton_iterations"});
+  SimulationSettings settings;
+  read_times(node, numbers, settings);
+  if (const auto scheme = node.find("scheme"))
+    read_choice<int>(*scheme, {{"generalized-alpha", 0}});
+  if (const auto formulation = node.find("formulation")) {
+    read_choice<int>(*formulation, {{"index-3", 0}});
+  }
+  if (const auto radius = node.find("spectral_radius")) {
+    settings.spectral_radius = numbers.fixed(*radius, quantities::pure_number, Range::fraction);
+  }
+  if (const auto tolerance = node.find("newton_tolerance")) {
+    settings.newton_tolerance = read_tolerance(*tolerance);
+  }
+  if (const auto most = node.find("max_newton_iterations")) {
+    settings.max_newton_iterations = most->whole_number(1, most_iterations);
+  }
+  return settings;
+}
+
+OptimizerSettings read_optimizer(const JsonNode& node) {
+  node.allow_keys({"backend", "tolerance", "max_iterations"});
+  OptimizerSettings settings;
+  if (const auto backend = node.find("backend")) settings.backend = backend->text();
+  if (const auto tolerance = node.find("tolerance"))
+    settings.tolerance = read_tolerance(*tolerance);
+  if (const auto most = node.find("max_iterations")) {
+    settings.max_iterations = most->whole_number(1, most_iterations);
+  }
+  return settings;
+}
+
+AccuracySettings read_accuracy(const JsonNode& node, const NumberReader& numbers) {
+  node.allow_keys({"steps", "elements", "error"});
+  AccuracySettings settings;
+  for (const JsonNode& step : node.at("steps").items()) {
+    settings.steps.push_back(numbers.fixed(step, quantities::time, Range::positive));
+  }
+  for (const JsonNode& elements : node.at("elements").items()) {
+    settings.elements.push_back(elements.whole_number(1, most_elements));
+  }
+  if (settings.steps.empty()) node.at("steps").fail("must have at least one step");
+  if (settings.elements.empty()) node.at("elements").fail("must have at least one number");
+  if (const auto error = node.find("error")) settings.error = read_tolerance(*error);
+  return settings;
+}
+
+}  // namespace pleuel

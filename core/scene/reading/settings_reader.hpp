@@ -1,0 +1,19 @@
+#pragma once
+
+#include "core/scene/problem_file.hpp"
+#include "core/scene/reading/json_node.hpp"
+#include "core/scene/reading/number_reader.hpp"
+
+/// How to compute: effects, simulation, optimizer, accuracy. All throw InputError.
+namespace pleuel {
+
+EffectSettings read_effects(const JsonNode& node);
+
+SimulationSettings read_simulation(const JsonNode& node, const NumberReader& numbers);
+
+/// Whether the backend is there is for the optimizer to say.
+OptimizerSettings read_optimizer(const JsonNode& node);
+
+AccuracySettings read_accuracy(const JsonNode& node, const NumberReader& numbers);
+
+}  // namespace pleuel

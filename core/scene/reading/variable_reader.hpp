@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "core/scene/problem_file.hpp"
+#include "core/scene/reading/json_node.hpp"
+#include "core/scene/reading/number_reader.hpp"
+
+namespace pleuel {
+
+/// Start values and bounds, once `numbers` has seen where the variables are used: that tells their
+/// quantities. Every variable must be used, and every number bound to one must keep to its range at
+/// the start value and at both bounds. @throws InputError
+std::vector<DesignVariable> read_variables(const JsonNode& node, const NumberReader& numbers);
+
+}  // namespace pleuel

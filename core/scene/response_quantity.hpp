@@ -1,0 +1,12 @@
+#pragma once
+
+#include "core/scene/problem_file.hpp"
+#include "core/scene/units.hpp"
+
+namespace pleuel {
+
+/// What a response measures: mass [kg], stress [Pa], deflection and position [m], drive torque
+/// [N m]; an integral over time multiplies by [s]. `.unit` is the SI unit of values and limits.
+Quantity quantity_of(const ResponseSettings& response);
+
+}  // namespace pleuel
