@@ -8,11 +8,7 @@ GeometricStiffening::GeometricStiffening(
     : body_(std::move(body)),
       elements_(std::move(elements)),
       damping_(damping),
-      derivatives_(std::move(derivatives)) {
-  for (auto* vector : {&strain_.q, &strain_.v, &strain_.gradient, &strain_.slope_v}) {
-    vector->resize(12);  // the largest element, so that no step allocates
-  }
-}
+      derivatives_(std::move(derivatives)) {}
 
 void GeometricStiffening::declare_entries(EntryList& entries) const {
   for (const StiffeningElement& element : elements_) {
@@ -24,11 +20,8 @@ void GeometricStiffening::declare_entries(EntryList& entries) const {
 
 void GeometricStiffening::evaluate(const StiffeningElement& element, const State& state) {
   const auto size = static_cast<Eigen::Index>(element.coordinates.size());
-  if (strain_.q.size() != size) {
-    for (auto* vector : {&strain_.q, &strain_.v, &strain_.gradient, &strain_.slope_v}) {
-      vector->resize(size);
-    }
-  }
+  strain_.q.resize(size);
+  strain_.v.resize(size);
   for (Eigen::Index i = 0; i < size; ++i) {
     strain_.q(i) = state.q(element.coordinates[static_cast<std::size_t>(i)]);
     strain_.v(i) = state.v(element.coordinates[static_cast<std::size_t>(i)]);
@@ -85,7 +78,7 @@ void GeometricStiffening::add_design_derivative(const State& state, ConstraintLe
       const StiffeningElement& element = elements_[static_cast<std::size_t>(change.element)];
       evaluate(element, state);
       const double kappa = element.axial_stiffness, d_kappa = change.axial_stiffness;
-      const Eigen::VectorXd d_slope_q = change.slopes * strain_.q;
+      const ElementVector d_slope_q = change.slopes * strain_.q;
       const double total = strain_.total + damping_ * strain_.total_rate;
       const double linear = strain_.linear + damping_ * strain_.linear_rate;
       const double d_total = 0.5 * strain_.q.dot(d_slope_q) +

@@ -7,12 +7,16 @@
 
 namespace pleuel {
 
+/// Vectors and matrices of at most the twelve coordinates of an element: no heap.
+using ElementVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 12, 1>;
+using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 12, 12>;
+
 /// Constants of geometric stiffening of one element, on its active coordinates.
 struct StiffeningElement {
   std::vector<int> coordinates;  ///< indices in q
-  Eigen::VectorXd elongation;    ///< b: Δu = bᵀ q
+  ElementVector elongation;      ///< b: Δu = bᵀ q
   double axial_stiffness = 0.0;  ///< κ = EA/ℓ [N/m]
-  Eigen::MatrixXd slopes;        ///< Ĝ: ∫ v'² + w'² dx = qᵀ Ĝ q [1/m]
+  ElementMatrix slopes;          ///< Ĝ: ∫ v'² + w'² dx = qᵀ Ĝ q [1/m]
 };
 
 /// Derivative of those constants with respect to one design variable.
@@ -20,7 +24,7 @@ struct StiffeningDerivative {
   int element;
   double axial_stiffness = 0.0;
   double damping = 0.0;
-  Eigen::MatrixXd slopes;
+  ElementMatrix slopes;
 };
 
 /// The axial force of a member stiffens its bending, and bending shortens it: von Kármán's strain,
@@ -46,7 +50,7 @@ class GeometricStiffening : public Term {
  private:
   /// Strain measures of one element in one state.
   struct Strain {
-    Eigen::VectorXd q, v, gradient, slope_v;       ///< gradient = b + Ĝ q, slope_v = Ĝ q̇
+    ElementVector q, v, gradient, slope_v;          ///< gradient = b + Ĝ q, slope_v = Ĝ q̇
     double linear, linear_rate, total, total_rate;  ///< Δu, Δu̇, g, ġ
   };
   void evaluate(const StiffeningElement& element, const State& state);

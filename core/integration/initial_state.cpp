@@ -1,0 +1,101 @@
+#include "core/integration/initial_state.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+
+namespace pleuel {
+
+namespace {
+
+constexpr int max_iterations = 50;
+
+void factorize_or_throw(LinearSolver& solver, const System::Matrix& matrix, const char* what) {
+  if (solver.factorize(matrix)) return;
+  throw SimulationError(fmt::format(
+      "the mechanism cannot be started: the equations of its initial {} are singular; look for "
+      "joints that constrain the same motion twice, or for a body that nothing holds and that has "
+      "no inertia",
+      what));
+}
+
+void assemble_positions(Mechanism& mechanism, LinearSolver& solver, System::Matrix& matrix,
+                        State& state) {
+  System& system = *mechanism.system;
+  const int n = system.coordinates(), m = system.multipliers();
+  Eigen::VectorXd residual;
+  State at = state;
+  at.lambda.setZero();
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    system.residual(at, ConstraintLevel::position, residual);
+    const double violation = m > 0 ? residual.tail(m).lpNorm<Eigen::Infinity>() : 0.0;
+    assembly_matrix(mechanism, at, matrix);
+    factorize_or_throw(solver, matrix, "positions");
+    Eigen::VectorXd step(n + m);
+    step.head(n) = mechanism.assembly_weight.cwiseProduct(mechanism.guess.q - at.q);
+    step.tail(m) = -residual.tail(m);
+    solver.solve(step);
+    at.q += step.head(n);
+    if (!at.q.allFinite()) break;
+    const double correction = step.head(n).cwiseQuotient(mechanism.scale).lpNorm<Eigen::Infinity>();
+    if (violation < 1e-10 && correction < 1e-10) {
+      state.q = at.q;
+      return;
+    }
+  }
+  throw SimulationError(
+      "the mechanism cannot be assembled: its joints cannot all be closed near the given positions; "
+      "check the points of the joints and the lengths of the bodies");
+}
+
+void project_velocities(Mechanism& mechanism, LinearSolver& solver, System::Matrix& matrix,
+                        State& state) {
+  System& system = *mechanism.system;
+  const int n = system.coordinates(), m = system.multipliers();
+  Eigen::VectorXd residual;
+  system.residual(state, ConstraintLevel::velocity, residual);
+  assembly_matrix(mechanism, state, matrix);
+  factorize_or_throw(solver, matrix, "velocities");
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(n + m);
+  step.tail(m) = -residual.tail(m);
+  solver.solve(step);
+  state.v += step.head(n);
+}
+
+void solve_accelerations(Mechanism& mechanism, LinearSolver& solver, System::Matrix& matrix,
+                         State& state) {
+  System& system = *mechanism.system;
+  const int n = system.coordinates(), m = system.multipliers();
+  Eigen::VectorXd residual;
+  system.tangent(state, {.a = 1.0}, ConstraintLevel::acceleration, matrix);
+  factorize_or_throw(solver, matrix, "accelerations");
+  for (int i = 0; i < 2; ++i) {  // linear: the second solve removes round-off
+    system.residual(state, ConstraintLevel::acceleration, residual);
+    solver.solve(residual);
+    state.a -= residual.head(n);
+    state.lambda -= residual.tail(m);
+  }
+}
+
+}  // namespace
+
+void assembly_matrix(Mechanism& mechanism, const State& state, System::Matrix& matrix) {
+  const int n = mechanism.system->coordinates();
+  mechanism.system->tangent(state, {.q = 1.0}, ConstraintLevel::position, matrix);
+  scale_dynamic_block(n, 0.0, matrix);
+  for (int i = 0; i < n; ++i) matrix.coeffRef(i, i) = mechanism.assembly_weight(i);
+}
+
+State initial_state(Mechanism& mechanism) {
+  State state = mechanism.guess;
+  state.a.setZero();
+  state.lambda.setZero();
+  System::Matrix matrix = mechanism.system->make_matrix();
+  LinearSolver solver(matrix);
+  assemble_positions(mechanism, solver, matrix, state);
+  project_velocities(mechanism, solver, matrix, state);
+  solve_accelerations(mechanism, solver, matrix, state);
+  return state;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <memory>
+
+#include "core/system/system.hpp"
+
+namespace pleuel {
+
+/// Equations of motion together with where they start from and how large their unknowns are.
+struct Mechanism {
+  std::unique_ptr<System> system;
+  /// Positions and velocities to start from; made consistent with the constraints by assembly.
+  State guess;
+  /// Derivatives of guess.q and guess.v with respect to the design variables, n × variables.
+  Eigen::MatrixXd guess_q_x, guess_v_x;
+  /// Typical magnitude of each coordinate: lengths [m] or 1 [rad].
+  Eigen::VectorXd scale;
+  /// Weights of the distance to the guess in the assembly; elastic coordinates weigh most, so that
+  /// assembly moves frames rather than deforms bodies.
+  Eigen::VectorXd assembly_weight;
+};
+
+}  // namespace pleuel

@@ -1,0 +1,25 @@
+#include "core/integration/scheme.hpp"
+
+namespace pleuel {
+
+Scheme generalized_alpha(double step, double spectral_radius) {
+  const double h = step, rho = spectral_radius;
+  const double alpha_m = (2 * rho - 1) / (rho + 1), alpha_f = rho / (rho + 1);
+  const double gamma = 0.5 - alpha_m + alpha_f;
+  const double beta = 0.25 * (1 - alpha_m + alpha_f) * (1 - alpha_m + alpha_f);
+
+  Scheme scheme;
+  scheme.name = "generalized-alpha";
+  scheme.step = h;
+  // With a⁺ = 0: w⁺ = (α_f a − α_m w) / (1 − α_m); z is what the true a⁺ adds to q⁺.
+  const double a_share = alpha_f / (1 - alpha_m), w_share = -alpha_m / (1 - alpha_m);
+  scheme.history << 1, h, h * h * beta * a_share, h * h * (0.5 - beta + beta * w_share),  //
+      0, 1, h * gamma * a_share, h * (1 - gamma + gamma * w_share),                       //
+      0, 0, 0, 0,                                                                         //
+      0, 0, a_share, w_share;
+  const double w_of_z = 1 / (h * h * beta);
+  scheme.correction << 1, h * gamma * w_of_z, w_of_z * (1 - alpha_m) / (1 - alpha_f), w_of_z;
+  return scheme;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+namespace pleuel {
+
+/// A one-step scheme for second-order systems as data: with y = (q, v, a, w) — w an algorithmic
+/// acceleration — and the unknown z of the new step (the correction of q),
+///     y⁺ = history · y + correction z
+/// Newton, direct differentiation and the adjoint are written once for all such schemes.
+struct Scheme {
+  std::string name;
+  double step = 0.0;            ///< h [s]
+  Eigen::Matrix4d history;      ///< rows: new q, v, a, w; columns: old q, v, a, w
+  Eigen::Vector4d correction;   ///< (1, γ', β', …): weights of the tangent, too
+
+  /// Scale of the dynamic rows and of λ that keeps the step matrix well conditioned as h → 0.
+  double dynamic_scale() const { return 1.0 / correction(2); }
+};
+
+/// Generalized-α (Chung & Hulbert 1993; for constrained systems Arnold & Brüls 2007), second order,
+///     (1−α_m) w⁺ + α_m w = (1−α_f) a⁺ + α_f a,
+///     q⁺ = q + h v + h²(½−β) w + h²β w⁺,   v⁺ = v + h(1−γ) w + hγ w⁺
+/// @param spectral_radius  ρ∞ in [0, 1]: 1 keeps high frequencies, 0 removes them in one step
+Scheme generalized_alpha(double step, double spectral_radius);
+
+}  // namespace pleuel

@@ -1,0 +1,151 @@
+#include "core/integration/simulate.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "core/integration/initial_state.hpp"
+#include "core/integration/linear_solver.hpp"
+
+namespace pleuel {
+
+void Trajectory::load(int step, State& state) const {
+  state.time = time(step);
+  state.q = q.col(step);
+  state.v = v.col(step);
+  state.a = a.col(step);
+  state.lambda = lambda.col(step);
+}
+
+int step_count(const SimulationOptions& options) {
+  // A step that divides the time up to round-off is not shortened.
+  return std::max(1, static_cast<int>(std::ceil(options.end_time / options.step * (1 - 1e-12))));
+}
+
+namespace {
+
+class TimeLoop {
+ public:
+  TimeLoop(Mechanism& mechanism, const SimulationOptions& options)
+      : system_(*mechanism.system),
+        scale_(mechanism.scale),
+        options_(options),
+        steps_(step_count(options)),
+        scheme_(generalized_alpha(options.end_time / steps_, options.spectral_radius)),
+        state_(initial_state(mechanism)),
+        w_(state_.a),
+        matrix_(system_.make_matrix()),
+        solver_(matrix_),
+        correction_(system_.size()) {}
+
+  Trajectory run() {
+    allocate();
+    store(0);
+    for (int step = 1; step <= steps_; ++step) {
+      predict(step);
+      correct(step);
+      store(step);
+    }
+    trajectory_.factorizations = solver_.factorizations();
+    return std::move(trajectory_);
+  }
+
+ private:
+  void allocate() {
+    const int n = system_.coordinates();
+    trajectory_.scheme = scheme_;
+    trajectory_.time.resize(steps_ + 1);
+    for (auto* matrix : {&trajectory_.q, &trajectory_.v, &trajectory_.a}) {
+      matrix->resize(n, steps_ + 1);
+    }
+    trajectory_.lambda.resize(system_.multipliers(), steps_ + 1);
+    for (auto* vector : {&old_q_, &old_v_, &old_a_, &old_w_}) vector->resize(n);
+    residual_.resize(system_.size());
+  }
+
+  void store(int step) {
+    trajectory_.time(step) = state_.time;
+    trajectory_.q.col(step) = state_.q;
+    trajectory_.v.col(step) = state_.v;
+    trajectory_.a.col(step) = state_.a;
+    trajectory_.lambda.col(step) = state_.lambda;
+  }
+
+  /// y⁺ = history · y, then the correction that keeps the acceleration.
+  void predict(int step) {
+    const Eigen::Matrix4d& h = scheme_.history;
+    old_q_ = state_.q;
+    old_v_ = state_.v;
+    old_a_ = state_.a;
+    old_w_ = w_;
+    state_.q = h(0, 0) * old_q_ + h(0, 1) * old_v_ + h(0, 2) * old_a_ + h(0, 3) * old_w_;
+    state_.v = h(1, 0) * old_q_ + h(1, 1) * old_v_ + h(1, 2) * old_a_ + h(1, 3) * old_w_;
+    state_.a = h(2, 0) * old_q_ + h(2, 1) * old_v_ + h(2, 2) * old_a_ + h(2, 3) * old_w_;
+    w_ = h(3, 0) * old_q_ + h(3, 1) * old_v_ + h(3, 2) * old_a_ + h(3, 3) * old_w_;
+    correction_.head(system_.coordinates()) = (old_a_ - state_.a) / scheme_.correction(2);
+    apply(correction_.head(system_.coordinates()));
+    state_.time = options_.end_time * step / steps_;
+  }
+
+  template <class Vector>
+  void apply(const Vector& z) {
+    state_.q += scheme_.correction(0) * z;
+    state_.v += scheme_.correction(1) * z;
+    state_.a += scheme_.correction(2) * z;
+    w_ += scheme_.correction(3) * z;
+  }
+
+  void correct(int step) {
+    const int n = system_.coordinates(), m = system_.multipliers();
+    const double s = scheme_.dynamic_scale();
+    const Weights weights{scheme_.correction(0), scheme_.correction(1), scheme_.correction(2)};
+    for (int iteration = 1; iteration <= options_.max_newton_iterations; ++iteration) {
+      ++trajectory_.newton_iterations;
+      system_.residual(state_, ConstraintLevel::position, residual_);
+      system_.tangent(state_, weights, ConstraintLevel::position, matrix_);
+      scale_dynamic_block(n, s, matrix_);
+      correction_.head(n) = -s * residual_.head(n);
+      correction_.tail(m) = -residual_.tail(m);
+      if (!solver_.factorize(matrix_)) fail(step, iteration, "the step matrix is singular");
+      solver_.solve(correction_);
+      apply(correction_.head(n));
+      state_.lambda += correction_.tail(m) / s;
+      const double size =
+          correction_.head(n).cwiseQuotient(scale_).template lpNorm<Eigen::Infinity>();
+      if (!std::isfinite(size)) fail(step, iteration, "the solution is not finite");
+      if (size <= options_.newton_tolerance) return;
+    }
+    fail(step, options_.max_newton_iterations, "Newton's method does not converge");
+  }
+
+  [[noreturn]] void fail(int step, int iteration, const char* what) const {
+    throw SimulationError(fmt::format(
+        "simulation stopped at t = {:.6g} s (step {} of {}, Newton iteration {}): {}; largest "
+        "residual {:.3g}. Try a smaller /simulation/step (now {:.3g} s), or look for a position in "
+        "which the mechanism locks",
+        state_.time, step, steps_, iteration, what, residual_.lpNorm<Eigen::Infinity>(),
+        scheme_.step));
+  }
+
+  System& system_;
+  const Eigen::VectorXd& scale_;
+  SimulationOptions options_;
+  int steps_;
+  Scheme scheme_;
+  State state_;
+  Eigen::VectorXd w_;
+  System::Matrix matrix_;
+  LinearSolver solver_;
+  Eigen::VectorXd correction_, residual_;
+  Eigen::VectorXd old_q_, old_v_, old_a_, old_w_;
+  Trajectory trajectory_;
+};
+
+}  // namespace
+
+Trajectory simulate(Mechanism& mechanism, const SimulationOptions& options) {
+  return TimeLoop(mechanism, options).run();
+}
+
+}  // namespace pleuel

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "core/integration/mechanism.hpp"
+#include "core/integration/scheme.hpp"
+
+namespace pleuel {
+
+struct SimulationOptions {
+  double end_time = 0.0;          ///< [s]; the start is t = 0
+  double step = 0.0;              ///< [s]; shortened so that it divides the time
+  double spectral_radius = 0.8;   ///< ρ∞ of generalized-α
+  /// A Newton iteration is the last if no coordinate is corrected by more than this, relative to
+  /// its scale. Newton's method converges quadratically: the error left is about its square.
+  double newton_tolerance = 1e-9;
+  int max_newton_iterations = 20;
+};
+
+/// All steps of a simulation; column i belongs to time(i).
+struct Trajectory {
+  Eigen::VectorXd time;
+  Eigen::MatrixXd q, v, a;  ///< n × (steps + 1)
+  Eigen::MatrixXd lambda;   ///< m × (steps + 1), unscaled
+  Scheme scheme;
+  int newton_iterations = 0;
+  int factorizations = 0;
+
+  int steps() const { return static_cast<int>(time.size()) - 1; }
+  void load(int step, State& state) const;
+};
+
+/// Number of steps of a simulation: the last time is end_time exactly.
+int step_count(const SimulationOptions& options);
+
+/// Integrates the index-3 equations [M a − Q + Φ_qᵀ λ; Φ] = 0 (Arnold & Brüls 2007). Each step solves
+///     [ s(β'M + γ'C + K)  Φ_qᵀ ; Φ_q  0 ] [Δq; s Δλ] = −[s R_dyn; Φ],   s = 1/β' ~ h²
+/// by Newton's method with the exact tangent. Nothing is allocated in the time loop.
+/// @throws SimulationError saying time, step, iteration and what to try
+Trajectory simulate(Mechanism& mechanism, const SimulationOptions& options);
+
+}  // namespace pleuel

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/frame/body_frame.hpp"
+#include "core/joints/drive_motion.hpp"
+
+/// What a joint is: two markers and a list of scalar equations between vectors attached to them.
+namespace pleuel {
+
+/// A place on a body: the frame, and the elastic coordinates that displace and turn it.
+struct Marker {
+  BodyFrame frame;
+  /// Indices in q of the local displacements u v w and rotations θx θy θz; −1 where they are zero.
+  std::array<int, 6> elastic = {-1, -1, -1, -1, -1, -1};
+};
+
+enum class EquationKind {
+  coincident,    ///< e · (P₂ − P₁) = 0, e fixed in space
+  on_plane,      ///< d · (P₂ − P₁) = 0, d attached to the first marker
+  perpendicular, ///< d · d' = 0, d attached to the first, d' to the second marker
+  drive,         ///< d'·(cos f(t) d_b − sin f(t) d_a) = 0: d' has turned by f from d_a to d_b
+  planar_angle,  ///< φ₂ − φ₁ = offset (+ f(t) with a drive), about the normal of the plane
+};
+
+struct JointEquation {
+  EquationKind kind;
+  Eigen::Vector3d fixed = Eigen::Vector3d::Zero();  ///< e
+  int first = -1, second = -1, third = -1;          ///< directions d (or d_a), d', d_b
+};
+
+/// The numbers of a joint, which may depend on the design.
+template <class Scalar>
+struct JointData {
+  std::array<Vector3<Scalar>, 2> points;    ///< undeformed, local axes of each body [m]
+  std::vector<Vector3<Scalar>> directions;  ///< unit vectors, local axes of the body they belong to
+  Scalar offset = Scalar(0);                ///< of planar_angle [rad]
+  SpeedDrive<Scalar> drive;
+};
+
+struct JointTopology {
+  std::string name;
+  std::array<Marker, 2> markers;
+  std::vector<JointEquation> equations;
+  bool is_driven = false;
+  int multiplier = 0;  ///< row of the first equation (counted from the number of coordinates)
+};
+
+}  // namespace pleuel

@@ -1,0 +1,185 @@
+#include "core/joints/joint_term.hpp"
+
+#include <cassert>
+
+namespace pleuel {
+
+namespace {
+
+std::vector<int> local_coordinates(const JointTopology& topology) {
+  std::vector<int> coordinates;
+  for (const Marker& marker : topology.markers) {
+    for (int i = 0; i < marker.frame.size(); ++i) coordinates.push_back(marker.frame.offset + i);
+    for (int index : marker.elastic) {
+      if (index >= 0) coordinates.push_back(index);
+    }
+  }
+  return coordinates;
+}
+
+/// Joint data as dual numbers of any width, all derivatives zero.
+template <class Scalar>
+JointData<Scalar> cast_data(const JointData<double>& data) {
+  JointData<Scalar> cast;
+  for (std::size_t i = 0; i < 2; ++i) cast.points[i] = data.points[i].template cast<Scalar>();
+  for (const auto& direction : data.directions) {
+    cast.directions.push_back(direction.template cast<Scalar>());
+  }
+  cast.offset = Scalar(data.offset);
+  cast.drive = {Scalar(data.drive.speed), Scalar(data.drive.ramp)};
+  return cast;
+}
+
+Dual with_derivative(double value, double derivative) {
+  return Dual(value, Dual::DerType::Constant(derivative));
+}
+
+JointData<Dual> seed_data(const JointData<double>& data, const JointData<double>& derivative) {
+  JointData<Dual> seeded = cast_data<Dual>(data);
+  for (std::size_t i = 0; i < 2; ++i) {
+    seeded.points[i] = data.points[i].binaryExpr(derivative.points[i], &with_derivative);
+  }
+  for (std::size_t i = 0; i < data.directions.size(); ++i) {
+    seeded.directions[i] = data.directions[i].binaryExpr(derivative.directions[i], &with_derivative);
+  }
+  seeded.offset = with_derivative(data.offset, derivative.offset);
+  seeded.drive.speed = with_derivative(data.drive.speed, derivative.drive.speed);
+  seeded.drive.ramp = with_derivative(data.drive.ramp, derivative.drive.ramp);
+  return seeded;
+}
+
+/// `Slots` bounds the number of local coordinates and equations together.
+template <int Slots>
+class JointTerm : public Term {
+ public:
+  JointTerm(JointTopology topology, JointData<double> data,
+            const std::vector<DesignDerivative<JointData<double>>>& derivatives)
+      : topology_(std::move(topology)),
+        data_(std::move(data)),
+        dual_data_(cast_data<WideDual>(data_)),
+        coordinates_(local_coordinates(topology_)) {
+    for (const auto& [variable, derivative] : derivatives) {
+      derivatives_.push_back({variable, seed_data(data_, derivative)});
+    }
+  }
+
+  std::string name() const override { return "joint " + topology_.name; }
+
+  void declare_entries(EntryList& entries) const override {
+    for (int row : coordinates_) {
+      for (int col : coordinates_) entries.emplace_back(row, col);
+      for (int i = 0; i < equations(); ++i) entries.emplace_back(row, topology_.multiplier + i);
+    }
+    for (int i = 0; i < equations(); ++i) {
+      for (int col : coordinates_) entries.emplace_back(topology_.multiplier + i, col);
+    }
+  }
+
+  void add_residual(const State& state, ConstraintLevel level, Eigen::VectorXd& residual) override {
+    const Result<double> result = evaluate(data_, load<double>(state), state.time, level);
+    for (int i = 0; i < local_size(); ++i) residual(coordinate(i)) += result.forces[index(i)];
+    for (int i = 0; i < equations(); ++i) {
+      residual(topology_.multiplier + i) += result.equations[index(i)];
+    }
+  }
+
+  void write_tangent(const State& state, const Weights& weights, ConstraintLevel level,
+                     double* entries) override {
+    Local<WideDual> local = load<WideDual>(state);
+    for (int i = 0; i < local_size(); ++i) {
+      local.q[index(i)].derivatives()[i] = weights.q;
+      local.v[index(i)].derivatives()[i] = weights.v;
+      local.a[index(i)].derivatives()[i] = weights.a;
+    }
+    for (int i = 0; i < equations(); ++i) {
+      local.lambda[index(i)].derivatives()[local_size() + i] = 1.0;
+    }
+    const Result<WideDual> result = evaluate(dual_data_, local, state.time, level);
+    for (int row = 0; row < local_size(); ++row) {
+      for (int col = 0; col < local_size() + equations(); ++col) {
+        *entries++ = result.forces[index(row)].derivatives()[col];
+      }
+    }
+    for (int row = 0; row < equations(); ++row) {
+      for (int col = 0; col < local_size(); ++col) {
+        *entries++ = result.equations[index(row)].derivatives()[col];
+      }
+    }
+  }
+
+  void add_design_derivative(const State& state, ConstraintLevel level,
+                             Eigen::MatrixXd& columns) override {
+    for (const auto& [variable, data] : derivatives_) {
+      const Result<Dual> result = evaluate(data, load<Dual>(state), state.time, level);
+      for (int i = 0; i < local_size(); ++i) {
+        columns(coordinate(i), variable) += derivative_of(result.forces[index(i)]);
+      }
+      for (int i = 0; i < equations(); ++i) {
+        columns(topology_.multiplier + i, variable) += derivative_of(result.equations[index(i)]);
+      }
+    }
+  }
+
+ private:
+  using WideDual = DualOf<Slots>;
+
+  template <class Scalar>
+  struct Local {
+    std::array<Scalar, Slots> q, v, a, lambda;
+  };
+  template <class Scalar>
+  struct Result {
+    std::array<Scalar, Slots> forces, equations;
+  };
+
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  int local_size() const { return static_cast<int>(coordinates_.size()); }
+  int equations() const { return static_cast<int>(topology_.equations.size()); }
+  int coordinate(int i) const { return coordinates_[index(i)]; }
+
+  template <class Scalar>
+  Local<Scalar> load(const State& state) const {
+    Local<Scalar> local;
+    for (int i = 0; i < local_size(); ++i) {
+      local.q[index(i)] = Scalar(state.q(coordinate(i)));
+      local.v[index(i)] = Scalar(state.v(coordinate(i)));
+      local.a[index(i)] = Scalar(state.a(coordinate(i)));
+    }
+    const auto first = topology_.multiplier - state.q.size();
+    for (int i = 0; i < equations(); ++i) local.lambda[index(i)] = Scalar(state.lambda(first + i));
+    return local;
+  }
+
+  template <class Scalar>
+  Result<Scalar> evaluate(const JointData<Scalar>& data, const Local<Scalar>& local, double time,
+                          ConstraintLevel level) const {
+    Result<Scalar> result;
+    for (int i = 0; i < local_size(); ++i) result.forces[index(i)] = Scalar(0);
+    JointEvaluation<Scalar> evaluation(topology_, data, time);
+    evaluation.set_state(local.q.data(), local.v.data(), local.a.data());
+    evaluation.evaluate(level, local.lambda.data(), result.forces.data(), result.equations.data());
+    return result;
+  }
+
+  JointTopology topology_;
+  JointData<double> data_;
+  JointData<WideDual> dual_data_;
+  std::vector<DesignDerivative<JointData<Dual>>> derivatives_;
+  std::vector<int> coordinates_;
+};
+
+}  // namespace
+
+std::unique_ptr<Term> make_joint_term(
+    JointTopology topology, JointData<double> data,
+    std::vector<DesignDerivative<JointData<double>>> derivatives) {
+  const std::size_t needed = local_coordinates(topology).size() + topology.equations.size();
+  assert(needed <= 32);
+  // Joints of planar mechanisms stay below 16 slots and run on the narrower numbers.
+  if (needed <= 16) {
+    return std::make_unique<JointTerm<16>>(std::move(topology), std::move(data), derivatives);
+  }
+  return std::make_unique<JointTerm<32>>(std::move(topology), std::move(data), derivatives);
+}
+
+}  // namespace pleuel

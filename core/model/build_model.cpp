@@ -1,0 +1,170 @@
+#include <cassert>
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "core/effects/euler_parameter_norm.hpp"
+#include "core/joints/joint_term.hpp"
+#include "core/model/joint_builder.hpp"
+#include "core/model/model.hpp"
+
+namespace pleuel {
+
+const BodyModel& Model::body(const std::string& name) const {
+  for (const BodyModel& body : bodies) {
+    if (body.name == name) return body;
+  }
+  throw InputError(fmt::format("there is no body \"{}\"", name));
+}
+
+const JointModel& Model::joint(const std::string& name) const {
+  for (const JointModel& joint : joints) {
+    if (joint.name == name) return joint;
+  }
+  throw InputError(fmt::format("there is no joint \"{}\"", name));
+}
+
+namespace {
+
+/// The largest distance between bodies and joints [m]: the scale of lengths.
+double size_of(const Scene& scene, const Design<double>& start) {
+  std::vector<Eigen::Vector3d> points;
+  for (const Joint& joint : scene.joints) points.push_back(resolve_point(joint.at, start));
+  for (const Body& body : scene.bodies) {
+    points.push_back(body_pose(body, start).origin);
+    if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
+      points.push_back(resolve_point(beam->to, start));
+    }
+  }
+  double size = 0.0;
+  for (const auto& a : points) {
+    for (const auto& b : points) size = std::max(size, (a - b).norm());
+  }
+  return size > 0.0 ? size : 1.0;
+}
+
+class ModelBuilder {
+ public:
+  ModelBuilder(const Scene& scene, const EffectSettings& effects, const Design<double>& start,
+               const Design<double>& design)
+      : context_{scene, effects, start, design, std::nullopt, resolve_point(scene.gravity, design)} {
+  }
+
+  Model build() {
+    decide_motion();
+    for (const Body& body : context_.scene.bodies) {
+      model_.bodies.push_back(make_body_model(body, context_, coordinates_));
+      const BodyModel& added = model_.bodies.back();
+      coordinates_ += added.frame.size() + (added.is_beam() ? added.coordinates->size() : 0);
+    }
+    add_body_terms();
+    add_joints();
+    set_guess();
+    model_.gravity = context_.gravity;
+    model_.mechanism.system = std::make_unique<System>(coordinates_, multipliers_,
+                                                       context_.variables(), std::move(terms_));
+    return std::move(model_);
+  }
+
+ private:
+  void decide_motion() {
+    const PlaneAnalysis analysis = find_motion_plane(context_.scene, context_.start);
+    EffectRecord record{"spatial_motion", true, analysis.reason};
+    switch (context_.effects.spatial_motion) {
+      case EffectChoice::automatic: context_.plane = analysis.plane; break;
+      case EffectChoice::on: record.reason = "asked for"; break;
+      case EffectChoice::off:
+        if (!analysis.plane) {
+          throw InputError("/effects/spatial_motion is \"off\", but " + analysis.reason);
+        }
+        context_.plane = analysis.plane;
+        break;
+    }
+    record.is_built = !context_.plane.has_value();
+    model_.effects.push_back(record);
+  }
+
+  void add_body_terms() {
+    bool has_stiffening = false, has_damping = false;
+    for (std::size_t i = 0; i < model_.bodies.size(); ++i) {
+      BodyModel& body = model_.bodies[i];
+      for (auto& term : make_body_terms(context_.scene.bodies[i], body, context_)) {
+        terms_.push_back(std::move(term));
+      }
+      if (body.frame.rotation == RotationCoordinates::euler_parameters) {
+        terms_.push_back(std::make_unique<EulerParameterNorm>(
+            body.name, body.frame.offset + body.frame.translations(), coordinates_ + multipliers_));
+        ++multipliers_;
+      }
+      has_stiffening = has_stiffening || body.has_stiffening;
+      has_damping = has_damping || body.beam.stiffness_damping > 0 || body.beam.mass_damping > 0;
+    }
+    const bool is_forced = context_.effects.geometric_stiffening != EffectChoice::automatic;
+    model_.effects.push_back({"geometric_stiffening", has_stiffening,
+                              is_forced ? "asked for" : "built for every beam"});
+    model_.effects.push_back({"damping", has_damping,
+                              has_damping ? "given for a body" : "no body has any"});
+    const bool has_gravity = !context_.gravity.isZero();
+    model_.effects.push_back({"gravity", has_gravity, has_gravity ? "given" : "none is given"});
+  }
+
+  void add_joints() {
+    for (const Joint& joint : context_.scene.joints) {
+      JointParts parts = make_joint(joint, model_.bodies, context_, coordinates_, multipliers_);
+      multipliers_ += static_cast<int>(parts.topology.equations.size());
+      model_.joints.push_back(parts.model);
+      terms_.push_back(make_joint_term(std::move(parts.topology), std::move(parts.data),
+                                       std::move(parts.derivatives)));
+    }
+  }
+
+  void set_guess() {
+    Mechanism& mechanism = model_.mechanism;
+    const double size = size_of(context_.scene, context_.start);
+    mechanism.guess = State(coordinates_, multipliers_);
+    mechanism.guess_q_x.setZero(coordinates_, context_.variables());
+    mechanism.guess_v_x.setZero(coordinates_, context_.variables());
+    mechanism.scale.setOnes(coordinates_);
+    mechanism.assembly_weight.setConstant(coordinates_, 1e4);
+    for (std::size_t i = 0; i < model_.bodies.size(); ++i) {
+      const Body& body = context_.scene.bodies[i];
+      const BodyModel& built = model_.bodies[i];
+      const BodyFrame& frame = built.frame;
+      mechanism.guess.q.segment(frame.offset, frame.size()) =
+          frame_coordinates(frame, body_pose(body, context_.design));
+      for (int variable : variables_of(body, context_.scene)) {
+        mechanism.guess_q_x.col(variable).segment(frame.offset, frame.size()) = derivative_matrix(
+            frame_coordinates(frame, body_pose(body, context_.seeded(variable))));
+      }
+      mechanism.scale.segment(frame.offset, frame.translations()).setConstant(size);
+      mechanism.assembly_weight.segment(frame.offset, frame.size()).setOnes();
+      set_elastic_scale(built, size);
+    }
+    mechanism.assembly_weight.array() /= mechanism.scale.array().square();
+  }
+
+  void set_elastic_scale(const BodyModel& body, double size) {
+    if (!body.is_beam()) return;
+    for (int node = 0; node < body.coordinates->node_count(); ++node) {
+      for (int i = 0; i < 3; ++i) {
+        if (body.coordinate(node, i) >= 0) {
+          model_.mechanism.scale(body.coordinate(node, i)) = size;
+        }
+      }
+    }
+  }
+
+  BuildContext context_;
+  Model model_;
+  std::vector<std::unique_ptr<Term>> terms_;
+  int coordinates_ = 0, multipliers_ = 0;
+};
+
+}  // namespace
+
+Model build_model(const Scene& scene, const EffectSettings& effects, const Design<double>& start,
+                  const Design<double>& design) {
+  return ModelBuilder(scene, effects, start, design).build();
+}
+
+}  // namespace pleuel

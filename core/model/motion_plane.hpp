@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/model/scene_geometry.hpp"
+
+namespace pleuel {
+
+/// A plane in which a whole mechanism moves.
+struct MotionPlane {
+  Eigen::Vector3d normal;
+  Eigen::Matrix<double, 3, 2> basis;  ///< two unit vectors, right-handed with the normal
+  Eigen::Vector3d point;              ///< a point of the plane [m]
+};
+
+struct PlaneAnalysis {
+  std::optional<MotionPlane> plane;
+  std::string reason;  ///< why there is one, or what leaves the plane
+};
+
+/// Whether a mechanism moves in one plane, to the last digit: geometry, joint axes, gravity and
+/// principal axes of all sections are symmetric about it. An exact decision.
+PlaneAnalysis find_motion_plane(const Scene& scene, const Design<double>& start);
+
+}  // namespace pleuel

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <set>
+
+#include "core/beam/beam.hpp"
+#include "core/frame/body_frame.hpp"
+#include "core/scene/scene.hpp"
+
+/// From the plain structs of a scene to vectors, sections and beams, for any scalar type.
+namespace pleuel {
+
+template <class Scalar>
+Vector3<Scalar> resolve_point(const Point& point, const Design<Scalar>& design) {
+  return {resolve(point[0], design), resolve(point[1], design), resolve(point[2], design)};
+}
+
+inline Eigen::Vector3d to_vector(const std::array<double, 3>& array) {
+  return {array[0], array[1], array[2]};
+}
+
+template <class Scalar>
+SectionProperties<Scalar> resolve_section(const Section& section, const Design<Scalar>& design) {
+  struct Visitor {
+    const Design<Scalar>& design;
+    SectionProperties<Scalar> operator()(const RectangleSection& s) const {
+      return rectangle_section(resolve(s.width, design), resolve(s.height, design));
+    }
+    SectionProperties<Scalar> operator()(const CircleSection& s) const {
+      return round_section(resolve(s.diameter, design), Scalar(0));
+    }
+    SectionProperties<Scalar> operator()(const TubeSection& s) const {
+      const Scalar outer = resolve(s.outer_diameter, design);
+      return round_section(outer, Scalar(outer - 2.0 * resolve(s.thickness, design)));
+    }
+  };
+  return std::visit(Visitor{design}, section);
+}
+
+inline const Material& find_material(const Scene& scene, const std::string& name) {
+  const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                  [&](const Material& material) { return material.name == name; });
+  assert(found != scene.materials.end());
+  return *found;
+}
+
+/// Shares of a beam's length that its segments take.
+inline std::vector<double> length_fractions(const BeamBody& body) {
+  double elements = 0.0;
+  for (const Segment& segment : body.segments) elements += segment.elements;
+  std::vector<double> fractions;
+  for (const Segment& segment : body.segments) {
+    fractions.push_back(segment.fraction.value_or(segment.elements / elements));
+  }
+  return fractions;
+}
+
+template <class Scalar>
+Beam<Scalar> resolve_beam(const BeamBody& body, const Scene& scene, const Design<Scalar>& design) {
+  const Material& material = find_material(scene, body.material);
+  const Scalar length =
+      Vector3<Scalar>(resolve_point(body.to, design) - resolve_point(body.from, design)).norm();
+  const std::vector<double> fractions = length_fractions(body);
+  Beam<Scalar> beam;
+  for (std::size_t i = 0; i < body.segments.size(); ++i) {
+    const Segment& segment = body.segments[i];
+    BeamElement<Scalar> element;
+    element.length = length * (fractions[i] / segment.elements);
+    element.young = resolve(material.young, design);
+    element.shear = element.young / (2.0 * (1.0 + resolve(material.poisson, design)));
+    element.density = resolve(material.density, design);
+    element.section = resolve_section(segment.section, design);
+    beam.elements.insert(beam.elements.end(), static_cast<std::size_t>(segment.elements), element);
+  }
+  beam.mass_damping = resolve(body.damping.mass, design);
+  beam.stiffness_damping = resolve(body.damping.stiffness, design);
+  return beam;
+}
+
+/// Position and orientation of a body at t = 0.
+template <class Scalar>
+struct Pose {
+  Vector3<Scalar> origin;
+  Matrix3<Scalar> rotation;  ///< body to global axes
+};
+
+/// Local x from `from` to `to`; local y the part normal to it of the reference vector (by default
+/// z × x, or global y for beams along z).
+template <class Scalar>
+Pose<Scalar> beam_pose(const BeamBody& body, const Design<Scalar>& design) {
+  Pose<Scalar> pose;
+  pose.origin = resolve_point(body.from, design);
+  const Vector3<Scalar> x = (resolve_point(body.to, design) - pose.origin).normalized();
+  Vector3<Scalar> y;
+  if (body.reference) {
+    const Vector3<Scalar> reference = to_vector(*body.reference).template cast<Scalar>();
+    const Scalar along = reference.dot(x);
+    y = reference - along * x;
+  } else {
+    y = Vector3<Scalar>(-x(1), x(0), Scalar(0));
+    const bool is_vertical = std::abs(value_of(x(0))) + std::abs(value_of(x(1))) < 1e-9;
+    if (is_vertical) y = Eigen::Vector3d::UnitY().template cast<Scalar>() - x(1) * x;
+  }
+  y /= Scalar(y.norm());
+  pose.rotation << x, y, Vector3<Scalar>(x.cross(y));
+  return pose;
+}
+
+template <class Scalar>
+Pose<Scalar> body_pose(const Body& body, const Design<Scalar>& design) {
+  if (const auto* beam = std::get_if<BeamBody>(&body.shape)) return beam_pose(*beam, design);
+  const auto* rigid = std::get_if<RigidBody>(&body.shape);
+  const Point& at = rigid ? rigid->at : std::get<PointMass>(body.shape).at;
+  return {resolve_point(at, design), Matrix3<double>::Identity().template cast<Scalar>()};
+}
+
+/// The design variables that the numbers of a body are bound to.
+std::set<int> variables_of(const Body& body, const Scene& scene);
+
+}  // namespace pleuel
