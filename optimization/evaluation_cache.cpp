@@ -58,20 +58,28 @@ Attempt attempt_evaluation(Problem& problem, const Eigen::VectorXd& x, Request r
 
 EvaluationCache::EvaluationCache(Problem& problem, const KnownDesign& start, Scales scales,
                                  Watch watch)
-    : problem_(problem), scales_(std::move(scales)), watch_(std::move(watch)), best_(start) {
-  best_.max_violation =
-      pleuel::max_violation(problem_, start.evaluation.constraints, scales_.constraints);
+    : problem_(problem), scales_(std::move(scales)), watch_(std::move(watch)) {
   remember(start.x, Request::values_and_gradients, {start.evaluation, ""});
 }
 
 const Evaluation* EvaluationCache::evaluate(const Eigen::VectorXd& x, Request request) {
   const Entry* entry = find(x, request);
-  if (entry == nullptr) entry = &remember(x, request, attempt_evaluation(problem_, x, request));
+  if (entry == nullptr) {
+    const bool values_were_known = has_values(x);
+    if (gradients_fail_alone_) request = Request::values_and_gradients;
+    entry = &remember(x, request, attempt_evaluation(problem_, x, request));
+    if (values_were_known && !entry->evaluation) gradients_fail_alone_ = true;
+  }
   return entry->evaluation ? &*entry->evaluation : nullptr;
 }
 
 double EvaluationCache::seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - watch_.begin).count();
+}
+
+bool EvaluationCache::has_values(const Eigen::VectorXd& x) const {
+  const Entry* entry = find(x, Request::values);
+  return entry != nullptr && entry->evaluation.has_value();
 }
 
 const EvaluationCache::Entry* EvaluationCache::find(const Eigen::VectorXd& x,
@@ -114,18 +122,22 @@ void EvaluationCache::record(const Entry& entry, const std::string& failure) {
     record.objective = entry.evaluation->objective;
     record.constraints = entry.evaluation->constraints;
     record.max_violation = pleuel::max_violation(problem_, record.constraints, scales_.constraints);
-    update_best(entry, record.max_violation);
   }
   history_.push_back(std::move(record));
   if (watch_.observer) watch_.observer(history_.back());
 }
 
-void EvaluationCache::update_best(const Entry& entry, double violation) {
-  const bool feasible = violation <= strict_feasibility;
-  const bool both_feasible = feasible && best_.max_violation <= strict_feasibility;
-  const bool better = both_feasible ? entry.evaluation->objective < best_.evaluation.objective
-                                    : violation < best_.max_violation;
-  if (better) best_ = {entry.x, *entry.evaluation, violation};
+const EvaluationRecord& EvaluationCache::best(double allowed_violation) const {
+  const auto is_better = [&](const EvaluationRecord& one, const EvaluationRecord& other) {
+    if (!one.failure.empty()) return false;
+    const bool both_allowed = std::max(one.max_violation, other.max_violation) <= allowed_violation;
+    return both_allowed ? one.objective < other.objective : one.max_violation < other.max_violation;
+  };
+  const EvaluationRecord* best = &history_.front();  // the start, which did not fail
+  for (const EvaluationRecord& record : history_) {
+    if (is_better(record, *best)) best = &record;
+  }
+  return *best;
 }
 
 }  // namespace pleuel

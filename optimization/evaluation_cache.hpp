@@ -12,10 +12,6 @@
 
 namespace pleuel {
 
-/// A design whose largest relative violation is below this counts as one that keeps the limits,
-/// when designs are ranked: tighter than what a verdict allows, so that no tolerance is exploited.
-inline constexpr double strict_feasibility = 1e-6;
-
 /// The outcome of an evaluation that may fail: the evaluation, or why there is none.
 struct Attempt {
   std::optional<Evaluation> evaluation;
@@ -34,7 +30,7 @@ struct KnownDesign {
 };
 
 /// Backends ask for objective, constraints, and gradients of one design in separate calls: here one
-/// evaluation serves them all. It counts, keeps the history, and remembers the best design.
+/// evaluation serves them all. It counts and keeps the history.
 class EvaluationCache {
  public:
   /// Magnitudes that stay the same over the run.
@@ -53,12 +49,14 @@ class EvaluationCache {
   EvaluationCache(Problem& problem, const KnownDesign& start, Scales scales, Watch watch);
 
   /// The evaluation at x, made only if it is not known yet; nullptr if it failed. The pointer is
-  /// valid until the next call.
+  /// valid until the next call. Once gradients have failed where the values alone did not, values
+  /// are always tried together with gradients: a backend can step back from a design that fails at
+  /// once, but not from one that it has already accepted.
   const Evaluation* evaluate(const Eigen::VectorXd& x, Request request);
 
-  /// The best design seen: the lowest objective among those that keep the limits (strictly), or, if
-  /// none does, the one with the smallest violation.
-  const KnownDesign& best() const { return best_; }
+  /// The best design seen: the lowest objective among those that exceed no limit by more than this
+  /// (relative), or, if there is none, the one with the smallest violation.
+  const EvaluationRecord& best(double allowed_violation) const;
 
   Problem& problem() const { return problem_; }
   const Scales& scales() const { return scales_; }
@@ -76,20 +74,20 @@ class EvaluationCache {
     std::optional<Evaluation> evaluation;
   };
 
+  bool has_values(const Eigen::VectorXd& x) const;
   const Entry* find(const Eigen::VectorXd& x, Request request) const;
   const Entry& remember(const Eigen::VectorXd& x, Request request, Attempt attempt);
   void record(const Entry& entry, const std::string& failure);
-  void update_best(const Entry& entry, double violation);
 
   Problem& problem_;
   Scales scales_;
   Watch watch_;
   std::deque<Entry> entries_;  ///< the latest at the front
-  KnownDesign best_;
   History history_;
   int gradient_evaluations_ = 0;
   int iterations_ = 0;
   int consecutive_failures_ = 0;
+  bool gradients_fail_alone_ = false;
 };
 
 }  // namespace pleuel

@@ -19,7 +19,7 @@ constexpr double least_magnitude = 1e-2;  ///< part of s that replaces |x| near 
 Eigen::VectorXd generic_direction(const Problem& problem, const Eigen::VectorXd& x,
                                   double orientation) {
   std::mt19937 engine;
-  const Eigen::VectorXd s = variable_scales(problem, x);
+  const Eigen::VectorXd s = local_scales(problem, x);
   Eigen::VectorXd direction(x.size());
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const double part = 0.5 + 0.5 * static_cast<double>(engine()) / std::mt19937::max();
@@ -69,7 +69,7 @@ Eigen::VectorXd weighted_errors(const Eigen::VectorXd& difference, const KnownDe
 GradientCheck check_gradients(EvaluationCache& cache, const KnownDesign& design,
                               const KktAudit& audit) {
   const Problem& problem = cache.problem();
-  const Eigen::VectorXd s = variable_scales(problem, design.x);
+  const Eigen::VectorXd s = local_scales(problem, design.x);
   const double dimension = std::sqrt(static_cast<double>(design.x.size()));
   GradientCheck check;
   for (const double orientation : {1.0, -1.0}) {

@@ -20,21 +20,23 @@ struct Limit {
   Eigen::Index index;
   double sign;
   double magnitude;
-  double slack;              ///< max(0, −g)
+  double value;              ///< g
   Eigen::VectorXd gradient;  ///< s ∘ ∇g
+
+  double slack() const { return std::max(0.0, -value); }
 };
 
 /// Adds the sides of lower ≤ value ≤ upper that are near.
 /// @param side  index, magnitude, and the gradient s ∘ ∇c / magnitude; the rest is filled in here.
 void add_near_limits(std::vector<Limit>& limits, const Limit& side, double value, double lower,
                      double upper) {
-  const double to_upper = std::max(0.0, (upper - value) / side.magnitude);
-  const double to_lower = std::max(0.0, (value - lower) / side.magnitude);
-  if (to_upper < near_limit) {
-    limits.push_back({side.index, 1.0, side.magnitude, to_upper, side.gradient});
+  const double above = (value - upper) / side.magnitude;
+  const double below = (lower - value) / side.magnitude;
+  if (above > -near_limit) {
+    limits.push_back({side.index, 1.0, side.magnitude, above, side.gradient});
   }
-  if (to_lower < near_limit) {
-    limits.push_back({side.index, -1.0, side.magnitude, to_lower, -side.gradient});
+  if (below > -near_limit) {
+    limits.push_back({side.index, -1.0, side.magnitude, below, -side.gradient});
   }
 }
 
@@ -69,25 +71,37 @@ Eigen::MatrixXd system_matrix(const std::vector<Limit>& limits, Eigen::Index var
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(variables + count, count);
   for (Eigen::Index k = 0; k < count; ++k) {
     matrix.col(k).head(variables) = limits[k].gradient;
-    matrix(variables + k, k) = limits[k].slack;
+    matrix(variables + k, k) = limits[k].slack();
   }
   return matrix;
 }
 
-double gradient_scale(const KnownDesign& design, const Evaluation& start,
-                      const Eigen::VectorXd& variable_scales) {
-  const double here = variable_scales.cwiseProduct(design.evaluation.objective_gradient).norm();
-  const double at_start = variable_scales.cwiseProduct(start.objective_gradient).norm();
-  const double value =
-      std::max(std::abs(design.evaluation.objective), 1e-3 * std::abs(start.objective));
-  return std::max({here, std::min(at_start, value), std::numeric_limits<double>::min()});
+/// Σ λ |g|: what slack leaves to be gained, and what violations gained already.
+double complementarity(const std::vector<Limit>& limits, const Eigen::VectorXd& lambda) {
+  double sum = 0.0;
+  for (Eigen::Index k = 0; k < lambda.size(); ++k) sum += lambda[k] * std::abs(limits[k].value);
+  return sum;
+}
+
+/// |f|, but not nothing where f vanishes at the optimum.
+double objective_value_scale(const KnownDesign& design, const Evaluation& start) {
+  return std::max({std::abs(design.evaluation.objective), 1e-3 * std::abs(start.objective),
+                   std::numeric_limits<double>::min()});
+}
+
+double gradient_scale(const Problem& problem, const KnownDesign& design, const Evaluation& start,
+                      const Eigen::VectorXd& scales) {
+  const double here = scaled_objective_gradient(problem, design.evaluation, scales).norm();
+  const double at_start = scaled_objective_gradient(problem, start, scales).norm();
+  return std::max({here, std::min(at_start, objective_value_scale(design, start)),
+                   std::numeric_limits<double>::min()});
 }
 
 }  // namespace
 
 KktAudit audit_kkt(const Problem& problem, const KnownDesign& design, const Evaluation& start,
                    const Eigen::VectorXd& scales) {
-  const Eigen::VectorXd s = variable_scales(problem, design.x);
+  const Eigen::VectorXd s = local_scales(problem, design.x);
   const Eigen::Index variables = s.size();
   std::vector<Limit> limits = near_constraints(problem, design.evaluation, scales, s);
   const std::size_t first_bound = limits.size();
@@ -100,8 +114,11 @@ KktAudit audit_kkt(const Problem& problem, const KnownDesign& design, const Eval
   const Eigen::VectorXd lambda = nonnegative_least_squares(matrix, right);
 
   KktAudit audit;
-  audit.gradient_scale = gradient_scale(design, start, s);
-  audit.residual = (matrix * lambda - right).norm() / audit.gradient_scale;
+  audit.gradient_scale = gradient_scale(problem, design, start, s);
+  const double stationarity = (matrix * lambda - right).head(variables).norm();
+  const double value_scale = std::min(audit.gradient_scale, objective_value_scale(design, start));
+  audit.residual =
+      std::max(stationarity / audit.gradient_scale, complementarity(limits, lambda) / value_scale);
   audit.constraint_multipliers = Eigen::VectorXd::Zero(scales.size());
   audit.bound_multipliers = Eigen::VectorXd::Zero(variables);
   for (std::size_t k = 0; k < limits.size(); ++k) {

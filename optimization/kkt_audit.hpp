@@ -16,8 +16,10 @@ struct KktAudit {
   Eigen::VectorXd constraint_multipliers;
   /// β, size = variables; unit of the objective / unit of the variable.
   Eigen::VectorXd bound_multipliers;
-  /// ‖(s ∘ (∇f + Σ μ ∇c + β); λ ∘ slack)‖₂ / gradient_scale: stationarity and complementarity in
-  /// one.
+  /// The larger one of ‖s ∘ (∇f + Σ μ ∇c + β)‖₂ / gradient_scale (stationarity) and
+  /// Σ λ |g| / min(gradient_scale, |f|) (complementarity: for convex problems the part of the
+  /// objective that slack leaves to be gained, or that violated limits have gained). |f| counts as
+  /// at least 10⁻³ |f(start)|.
   double residual = 0.0;
   /// What residuals are compared with, in units of the objective; see audit_kkt().
   double gradient_scale = 0.0;

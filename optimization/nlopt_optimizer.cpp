@@ -18,8 +18,9 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 /// search of SLSQP and the conservative factors of MMA still compute a sensible shorter step.
 constexpr double failure_penalty = 10.0;
 
-/// Violations that the backend itself may leave, of g in units of the limit.
-constexpr double row_tolerance = 1e-8;
+/// Violations, in units of the limit, up to which a design counts as feasible for the backend. It
+/// answers with the best feasible design, so that a tighter value would lose a good end to noise.
+constexpr double row_tolerance = 1e-6;
 
 /// What the C callbacks of one run share.
 struct Bridge {

@@ -25,6 +25,8 @@ struct Variable {
   double start = 0.0;
   double lower = -infinity;
   double upper = infinity;
+
+  bool is_fixed() const { return lower == upper; }
 };
 
 /// lower ≤ c(x) ≤ upper on the raw value of a response; lower == upper asks for equality.

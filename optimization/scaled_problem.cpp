@@ -13,10 +13,10 @@ ScaledProblem::ScaledProblem(EvaluationCache& cache, const KnownDesign& around, 
       budget_(budget),
       variable_scales_(variable_scales(cache.problem(), around.x)),
       constraint_scales_(cache.scales().constraints),
-      objective_scale_(objective_scale(around.evaluation, variable_scales_)) {
+      objective_scale_(objective_scale(cache.problem(), around.evaluation, variable_scales_)) {
   const std::vector<Variable>& variables = cache.problem().variables();
   for (Eigen::Index i = 0; i < around_.size(); ++i) {
-    if (variables[i].lower < variables[i].upper) free_.push_back(i);
+    if (!variables[i].is_fixed()) free_.push_back(i);
   }
   const std::vector<Constraint>& constraints = cache.problem().constraints();
   for (std::size_t j = 0; j < constraints.size(); ++j) {
@@ -71,6 +71,7 @@ void ScaledProblem::rethrow() const {
 
 void ScaledProblem::update_stop() {
   should_stop_ = cache_.iterations() >= budget_.iterations ||
+                 cache_.evaluations() >= budget_.evaluations ||
                  cache_.consecutive_failures() >= budget_.consecutive_failures;
 }
 

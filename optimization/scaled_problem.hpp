@@ -30,6 +30,7 @@ class ScaledProblem {
  public:
   struct Budget {
     int iterations = 0;            ///< of the cache, counted since the start of the run
+    int evaluations = 0;           ///< likewise
     int consecutive_failures = 0;  ///< after this many the region is hopeless
   };
 

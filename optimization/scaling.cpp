@@ -9,7 +9,9 @@ namespace {
 
 /// Bounds beyond this are a habit of writing "none".
 constexpr double practically_infinite = 1e19;
-constexpr double smallest_part_of_range = 0.1;
+/// Backends see variables that may cross their range in steps of order one; the audit looks closer.
+constexpr double part_of_range_for_backends = 0.1;
+constexpr double part_of_range_for_audit = 0.01;
 
 bool is_limited(double limit) {
   return std::abs(limit) < practically_infinite;
@@ -19,13 +21,22 @@ double positive_or(double value, double fallback) {
   return value > 0.0 ? value : fallback;
 }
 
-double variable_scale(const Variable& variable, double x) {
-  const double magnitude = std::abs(x);
+double variable_scale(const Variable& variable, double x, double part_of_range) {
   const double range = variable.upper - variable.lower;
-  if (!is_limited(variable.lower) || !is_limited(variable.upper) || range <= 0.0) {
-    return positive_or(magnitude, 1.0);
+  if (variable.is_fixed()) return positive_or(std::abs(x), 1.0);
+  if (!is_limited(variable.lower) || !is_limited(variable.upper)) {
+    return std::max(std::abs(x), positive_or(std::abs(variable.start), 1.0));
   }
-  return std::clamp(magnitude, smallest_part_of_range * range, range);
+  return std::clamp(std::abs(x), part_of_range * range, range);
+}
+
+Eigen::VectorXd scales_with(double part_of_range, const Problem& problem,
+                            const Eigen::VectorXd& x) {
+  Eigen::VectorXd scales(x.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    scales[i] = variable_scale(problem.variables()[i], x[i], part_of_range);
+  }
+  return scales;
 }
 
 double largest_limit(const Constraint& constraint) {
@@ -39,11 +50,11 @@ double largest_limit(const Constraint& constraint) {
 }  // namespace
 
 Eigen::VectorXd variable_scales(const Problem& problem, const Eigen::VectorXd& x) {
-  Eigen::VectorXd scales(x.size());
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    scales[i] = variable_scale(problem.variables()[i], x[i]);
-  }
-  return scales;
+  return scales_with(part_of_range_for_backends, problem, x);
+}
+
+Eigen::VectorXd local_scales(const Problem& problem, const Eigen::VectorXd& x) {
+  return scales_with(part_of_range_for_audit, problem, x);
 }
 
 Eigen::VectorXd constraint_scales(const Problem& problem, const Evaluation& evaluation,
@@ -61,9 +72,19 @@ Eigen::VectorXd constraint_scales(const Problem& problem, const Evaluation& eval
   return result;
 }
 
-double objective_scale(const Evaluation& evaluation, const Eigen::VectorXd& scales) {
+Eigen::VectorXd scaled_objective_gradient(const Problem& problem, const Evaluation& evaluation,
+                                          const Eigen::VectorXd& scales) {
+  Eigen::VectorXd changes = evaluation.objective_gradient.cwiseProduct(scales);
+  for (Eigen::Index i = 0; i < changes.size(); ++i) {
+    if (problem.variables()[i].is_fixed()) changes[i] = 0.0;
+  }
+  return changes;
+}
+
+double objective_scale(const Problem& problem, const Evaluation& evaluation,
+                       const Eigen::VectorXd& scales) {
   const double change =
-      evaluation.objective_gradient.cwiseProduct(scales).lpNorm<Eigen::Infinity>();
+      scaled_objective_gradient(problem, evaluation, scales).lpNorm<Eigen::Infinity>();
   return positive_or(std::max(std::abs(evaluation.objective), change), 1.0);
 }
 

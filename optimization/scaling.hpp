@@ -8,9 +8,14 @@
 /// mean in this folder.
 namespace pleuel {
 
-/// Magnitude s of each variable near the design x: |xᵢ|, but at least a tenth of the range between
-/// finite bounds and at most all of it; 1 where nothing is known. Always positive.
+/// Magnitude s of each variable near the design x, for the backends: |xᵢ|, but at least a tenth of
+/// the range between its bounds and at most all of it; without finite bounds at least |start|, or 1
+/// if that is 0. Always positive.
 Eigen::VectorXd variable_scales(const Problem& problem, const Eigen::VectorXd& x);
+
+/// The same for the audit, with at least a hundredth of the range: a step of s is a change of a
+/// small variable that an engineer would call large.
+Eigen::VectorXd local_scales(const Problem& problem, const Eigen::VectorXd& x);
 
 /// Magnitude C of each constraint: its larger finite limit, so that (c − upper)/C is σ/σ_allow − 1.
 /// Where the limits are 0, the change of c with the variables, ‖s ∘ ∇c‖∞; where that vanishes too,
@@ -20,8 +25,13 @@ Eigen::VectorXd variable_scales(const Problem& problem, const Eigen::VectorXd& x
 Eigen::VectorXd constraint_scales(const Problem& problem, const Evaluation& evaluation,
                                   const Eigen::VectorXd& scales);
 
+/// s ∘ ∇f, the change of the objective with each variable; 0 for fixed variables.
+Eigen::VectorXd scaled_objective_gradient(const Problem& problem, const Evaluation& evaluation,
+                                          const Eigen::VectorXd& scales);
+
 /// Magnitude F of the objective: max(|f|, ‖s ∘ ∇f‖∞), or 1 where both vanish. Always positive.
-double objective_scale(const Evaluation& evaluation, const Eigen::VectorXd& scales);
+double objective_scale(const Problem& problem, const Evaluation& evaluation,
+                       const Eigen::VectorXd& scales);
 
 /// max over constraints of the amount by which c leaves its limits, divided by C; 0 if none does.
 double max_violation(const Problem& problem, const Eigen::VectorXd& constraints,

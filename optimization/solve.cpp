@@ -57,37 +57,49 @@ EvaluationCache make_cache(Problem& problem, const KnownDesign& start,
 /// One optimization from a start that could be evaluated.
 class Run {
  public:
-  Run(EvaluationCache& cache, const SolveOptions& options)
-      : cache_(cache), options_(options), start_(cache.best()) {}
+  Run(EvaluationCache& cache, const KnownDesign& start, const SolveOptions& options)
+      : cache_(cache), options_(options), start_(start) {}
 
   Result solve() {
     double tolerance = options_.tolerance;
     Verdict verdict = improve(start_, tolerance);
-    while (verdict.status != Status::verified && may_restart()) {
+    while (may_restart(verdict)) {
       ++restarts_;
       tolerance *= tolerance_factor;
-      verdict = improve(verdict.design, tolerance);
+      Verdict next = improve(verdict.design, tolerance);
+      unchanged_restarts_ = next.design.x == verdict.design.x ? unchanged_restarts_ + 1 : 0;
+      verdict = std::move(next);
     }
     return make_result(std::move(verdict));
   }
 
  private:
   static constexpr double tolerance_factor = 0.1;
+  /// Violation up to which a design is preferred: tighter than what a verdict allows, so that no
+  /// tolerance is exploited.
+  static constexpr double strict_violation = 1e-6;
 
   /// Where the backend comes to from this design, or the best design seen so far if that is better:
   /// a backend may stop slightly outside the limits, or leave a good point.
   Verdict improve(const KnownDesign& from, double tolerance) {
     const Eigen::VectorXd end = run_backend(from, tolerance);
-    const std::optional<Verdict> answer = audit(end);
-    if (answer && is_clean(*answer)) return *answer;
-    const std::optional<Verdict> best = audit(cache_.best().x);
-    if (answer && (!best || is_better(*answer, *best))) return *answer;
-    return best ? *best : judge(cache_, from, start_.evaluation, options_.verdict);
+    const Eigen::VectorXd strictly_best = cache_.best(strict_violation).x;
+    const Eigen::VectorXd best = cache_.best(options_.verdict.violation).x;
+
+    Verdict verdict = judge(cache_, from, start_.evaluation, options_.verdict);
+    for (const Eigen::VectorXd& x : {end, strictly_best, best}) {
+      std::optional<Verdict> candidate = audit(x);
+      if (candidate && is_better(*candidate, verdict)) verdict = std::move(*candidate);
+      const bool strict = verdict.design.max_violation <= strict_violation;
+      if (verdict.status == Status::verified && strict) break;
+    }
+    return verdict;
   }
 
   Eigen::VectorXd run_backend(const KnownDesign& from, double tolerance) {
-    ScaledProblem scaled(cache_, from,
-                         {options_.max_iterations, options_.max_consecutive_failures});
+    ScaledProblem scaled(
+        cache_, from,
+        {options_.max_iterations, max_evaluations(), options_.max_consecutive_failures});
     if (scaled.variables() == 0) return from.x;
     const BackendEnd end = make_optimizer(options_.backend, {tolerance})->minimize(scaled);
     scaled.rethrow();
@@ -106,22 +118,31 @@ class Run {
     return judge(cache_, design, start_.evaluation, options_.verdict);
   }
 
-  /// Proven, and within the limits by the measure that makes a design the best one seen.
-  static bool is_clean(const Verdict& answer) {
-    return answer.status == Status::verified && answer.design.max_violation <= strict_feasibility;
+  /// Proven before unproven, within the limits before outside; then the lower objective, or the
+  /// smaller violation.
+  bool is_better(const Verdict& one, const Verdict& other) const {
+    const auto rank = [&](const Verdict& verdict) {
+      const bool verified = verdict.status == Status::verified;
+      const bool strict = verdict.design.max_violation <= strict_violation;
+      const bool within = verdict.design.max_violation <= options_.verdict.violation;
+      return verified && strict ? 3 : verified ? 2 : within ? 1 : 0;
+    };
+    if (rank(one) != rank(other)) return rank(one) > rank(other);
+    return rank(one) > 0 ? one.design.evaluation.objective < other.design.evaluation.objective
+                         : one.design.max_violation < other.design.max_violation;
   }
 
-  static bool is_better(const Verdict& answer, const Verdict& best) {
-    if (best.status == Status::verified) return false;
-    if (answer.status == Status::verified) return true;
-    const bool keeps_limits = answer.status != Status::infeasible;
-    return keeps_limits && answer.design.evaluation.objective < best.design.evaluation.objective;
+  int max_evaluations() const { return 5 * options_.max_iterations; }
+
+  bool is_exhausted() const {
+    return cache_.iterations() >= options_.max_iterations ||
+           cache_.evaluations() >= max_evaluations();
   }
 
-  bool is_exhausted() const { return cache_.iterations() >= options_.max_iterations; }
-
-  bool may_restart() const {
-    return restarts_ < options_.max_restarts && !is_exhausted() && !is_lost_;
+  bool may_restart(const Verdict& verdict) const {
+    const bool is_settled = verdict.status == Status::verified || verdict.gradients_are_disproved;
+    return !is_settled && !is_exhausted() && !is_lost_ && unchanged_restarts_ < 2 &&
+           restarts_ < options_.max_restarts;
   }
 
   Result make_result(Verdict verdict) const {
@@ -147,30 +168,33 @@ class Run {
 
   /// Why the search for an optimum ended where it did.
   void add_reason(Result& result) const {
-    if (is_lost_) {
-      const EvaluationRecord& last = last_failure();
-      result.status = Status::failed;
-      result.message = fmt::format("{} evaluations in a row failed, the last with: {} (at {}); {}",
-                                   options_.max_consecutive_failures, last.failure,
-                                   describe_design(cache_.problem(), last.x), result.message);
-    } else if (is_exhausted()) {
-      result.message += fmt::format("; all {} iterations are used", options_.max_iterations);
+    if (is_lost_) result.status = Status::failed;
+    if (is_exhausted()) {
+      result.message += fmt::format("; the budget of {} iterations ({} evaluations) is used up",
+                                    options_.max_iterations, max_evaluations());
     } else {
       result.message += fmt::format("; {} said after {} restarts: {}", options_.backend, restarts_,
                                     backend_reason_);
     }
+    result.message += describe_failures();
   }
 
-  const EvaluationRecord& last_failure() const {
+  std::string describe_failures() const {
+    const auto failed = [](const EvaluationRecord& record) { return !record.failure.empty(); };
     const History& history = cache_.history();
-    return *std::find_if(history.rbegin(), history.rend(),
-                         [](const EvaluationRecord& record) { return !record.failure.empty(); });
+    const auto last = std::find_if(history.rbegin(), history.rend(), failed);
+    if (last == history.rend()) return "";
+    return fmt::format("; {} of {} evaluations failed{}, the last with: {} (at {})",
+                       std::count_if(history.begin(), history.end(), failed), history.size(),
+                       is_lost_ ? " and too many in a row" : "", last->failure,
+                       describe_design(cache_.problem(), last->x));
   }
 
   EvaluationCache& cache_;
   const SolveOptions& options_;
   const KnownDesign start_;
   int restarts_ = 0;
+  int unchanged_restarts_ = 0;
   bool is_lost_ = false;
   std::string backend_reason_ = "nothing, since no variable is free";
 };
@@ -184,8 +208,10 @@ Result solve(Problem& problem, const SolveOptions& options, const Observer& obse
   Attempt first = attempt_evaluation(problem, x, Request::values_and_gradients);
   if (!first.evaluation) return failed_start(problem, x, first.failure, options.backend, watch);
 
-  EvaluationCache cache = make_cache(problem, {x, std::move(*first.evaluation)}, watch);
-  return Run(cache, options).solve();
+  KnownDesign start{x, std::move(*first.evaluation)};
+  EvaluationCache cache = make_cache(problem, start, watch);
+  start.max_violation = cache.history().front().max_violation;
+  return Run(cache, start, options).solve();
 }
 
 }  // namespace pleuel

@@ -16,7 +16,8 @@ struct SolveOptions {
   /// Relative change of objective and scaled variables at which the backend stops, in (0, 1). Keep
   /// it above the noise of the simulation; the verdict does not depend on it.
   double tolerance = 1e-6;
-  /// Designs at which gradients may be computed, restarts included; at least 1.
+  /// Designs at which gradients may be computed, restarts included; at least 1. Five times as many
+  /// evaluations are allowed, since a line search that finds no way down has no other end.
   int max_iterations = 200;
   /// How often a backend that ended at an unproven design starts anew from there, with fresh
   /// scaling and approximations and a tenth of the tolerance; 0 takes its first answer.
@@ -24,7 +25,7 @@ struct SolveOptions {
   /// Failed evaluations in a row after which the run is given up, at least 1.
   int max_consecutive_failures = 20;
   /// What the verdict asks for.
-  Tolerances verdict;
+  Tolerances verdict{};
 };
 
 struct Result {

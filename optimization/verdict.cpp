@@ -31,6 +31,7 @@ void judge_gradients(Verdict& verdict, EvaluationCache& cache, const Tolerances&
   if (!check.is_possible) {
     verdict.message = "the designs beside this one cannot be evaluated: its gradients are unproven";
   } else if (check.error > tolerances.gradient) {
+    verdict.gradients_are_disproved = true;
     verdict.message = fmt::format(
         "the gradient of {} differs from differences of its values by {:.2g} (relative; allowed "
         "{:.2g}): it is wrong, noisy, or this is a kink",

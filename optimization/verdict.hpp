@@ -35,6 +35,7 @@ struct Verdict {
   std::string message;  ///< a sentence
   KnownDesign design;   ///< with gradients
   KktAudit audit;
+  bool gradients_are_disproved = false;  ///< by differences, where all else is well
 };
 
 /// Audits a design on the true values of the problem, in this order: limits, KKT conditions,

@@ -1,0 +1,224 @@
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "backend_names.hpp"
+#include "complex_step.hpp"
+#include "known_problems.hpp"
+#include "optimization/optimizer.hpp"
+#include "optimization/solve.hpp"
+
+namespace pleuel::test {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// What happens to an evaluation of the cantilever whose deflection is beyond a limit.
+using Mishap = std::function<void(Evaluation&)>;
+
+/// The cantilever, with a mishap where it is too slender: as a simulation that does not converge.
+FunctionProblem fragile_cantilever(double deflection, Mishap mishap) {
+  const KnownProblem known = cantilever();
+  return {known.problem.variables(), known.problem.constraints(),
+          [=](const Eigen::VectorXd& x, Request request) mutable {
+            Evaluation evaluation = FunctionProblem(known.problem).evaluate(x, request);
+            if (evaluation.constraints[0] > deflection) mishap(evaluation);
+            return evaluation;
+          }};
+}
+
+void throw_failure(Evaluation&) {
+  throw EvaluationFailure("Newton did not converge");
+}
+void throw_simulation_error(Evaluation&) {
+  throw SimulationError("singular step matrix");
+}
+void spoil_objective(Evaluation& evaluation) {
+  evaluation.objective = nan;
+}
+void spoil_constraint(Evaluation& evaluation) {
+  evaluation.constraints[0] = nan;
+}
+void spoil_gradient(Evaluation& evaluation) {
+  evaluation.constraint_jacobian *= infinity;
+}
+
+struct MishapCase {
+  std::string name;
+  Mishap mishap;
+};
+
+const std::vector<MishapCase>& mishaps() {
+  static const std::vector<MishapCase> list = {{"Throw", throw_failure},
+                                               {"SimulationError", throw_simulation_error},
+                                               {"NanObjective", spoil_objective},
+                                               {"NanConstraint", spoil_constraint},
+                                               {"InfiniteGradient", spoil_gradient}};
+  return list;
+}
+
+using Case = std::tuple<std::string, std::size_t>;
+
+class FailingEvaluations : public testing::TestWithParam<Case> {
+ protected:
+  SolveOptions options_{.backend = std::get<0>(GetParam())};
+  Mishap mishap_ = mishaps()[std::get<1>(GetParam())].mishap;
+};
+
+// The designs with 1.02 of the allowed deflection are out of bounds for the backend: on the way
+// down from the start (deflection 1.0) it must run into them.
+TEST_P(FailingEvaluations, BesideTheOptimumDoNotHideIt) {
+  FunctionProblem problem = fragile_cantilever(1.02, mishap_);
+  const Result result = solve(problem, options_);
+  EXPECT_EQ(result.status, Status::verified) << result.message;
+  EXPECT_NEAR(result.evaluation.objective, cantilever().optimum, 1e-3 * cantilever().optimum);
+  EXPECT_LE(result.max_violation, 1e-4);
+}
+
+TEST_P(FailingEvaluations, EveryoneIsInTheHistory) {
+  FunctionProblem problem = fragile_cantilever(1.02, mishap_);
+  int calls = 0, failures = 0;
+  FunctionProblem counted(
+      problem.variables(), problem.constraints(), [&](const Eigen::VectorXd& x, Request request) {
+        ++calls;
+        Evaluation all = cantilever().problem.evaluate(x, Request::values_and_gradients);
+        const bool hidden = std::get<1>(GetParam()) == 4 && request == Request::values;
+        if (all.constraints[0] > 1.02 && !hidden) ++failures;
+        return problem.evaluate(x, request);
+      });
+  const Result result = solve(counted, options_);
+  EXPECT_GT(failures, 0);
+  EXPECT_EQ(result.evaluations, calls);
+  EXPECT_EQ(std::count_if(result.history.begin(), result.history.end(),
+                          [](const EvaluationRecord& record) { return !record.failure.empty(); }),
+            failures);
+}
+
+TEST_P(FailingEvaluations, NoDesignThatABackendAsksForIsNaN) {
+  FunctionProblem problem = fragile_cantilever(1.02, mishap_);
+  const Result result = solve(problem, options_);
+  for (const EvaluationRecord& record : result.history) EXPECT_TRUE(record.x.allFinite());
+}
+
+TEST_P(FailingEvaluations, AtTheStartEndTheRunWithTheReason) {
+  FunctionProblem problem = fragile_cantilever(0.5, mishap_);
+  const Result result = solve(problem, options_);
+  EXPECT_EQ(result.status, Status::failed);
+  EXPECT_THAT(result.message, testing::HasSubstr("the start cannot be evaluated"));
+  EXPECT_THAT(result.message, testing::HasSubstr("x1 = 5"));
+  EXPECT_EQ(result.history.size(), 1u);
+}
+
+std::string name_of_case(const testing::TestParamInfo<Case>& tested) {
+  std::string name = std::get<0>(tested.param);
+  std::erase(name, '-');
+  return name + mishaps()[std::get<1>(tested.param)].name;
+}
+
+std::vector<Case> failing_cases() {
+  std::vector<Case> cases;
+  for (const std::string& backend : optimizer_names()) {
+    for (std::size_t i = 0; i < mishaps().size(); ++i) cases.emplace_back(backend, i);
+  }
+  return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, FailingEvaluations, testing::ValuesIn(failing_cases()),
+                         name_of_case);
+
+class Failure : public testing::TestWithParam<std::string> {
+ protected:
+  SolveOptions options_{.backend = GetParam()};
+};
+
+// Only the start can be evaluated: each backend must give up, and return the start.
+TEST_P(Failure, EverywhereButAtTheStartIsGivenUp) {
+  KnownProblem known = cantilever();
+  const Eigen::VectorXd start = checked_start(known.problem);
+  FunctionProblem problem(known.problem.variables(), known.problem.constraints(),
+                          [&](const Eigen::VectorXd& x, Request request) {
+                            if (x != start) throw EvaluationFailure("no equilibrium");
+                            return known.problem.evaluate(x, request);
+                          });
+  const Result result = solve(problem, options_);
+  EXPECT_NE(result.status, Status::verified);
+  EXPECT_EQ(result.x, start);
+  EXPECT_LE(result.evaluations, 1 + 20 * (1 + options_.max_restarts));
+  EXPECT_THAT(result.message, testing::HasSubstr("no equilibrium"));
+}
+
+TEST_P(Failure, OfTheProgramItselfPassesThrough) {
+  KnownProblem known = cantilever();
+  int calls = 0;
+  FunctionProblem problem(known.problem.variables(), known.problem.constraints(),
+                          [&](const Eigen::VectorXd& x, Request request) {
+                            if (++calls == 3) throw std::logic_error("a fault of ours");
+                            return known.problem.evaluate(x, request);
+                          });
+  EXPECT_THROW(solve(problem, options_), std::logic_error);
+}
+
+// At full width everywhere the deflection is Σ aᵢ / 1000 = 0.125: less cannot be had.
+TEST_P(Failure, ToFindADesignWithinContradictoryLimitsIsInfeasible) {
+  KnownProblem known = cantilever(0.1);
+  const Result result = solve(known.problem, options_);
+  EXPECT_EQ(result.status, Status::infeasible);
+  EXPECT_THAT(result.message, testing::HasSubstr("deflection"));
+  EXPECT_GT(result.max_violation, 0.2);
+}
+
+// A gradient wrong in one component leads to a design where the wrong conditions hold.
+TEST_P(Failure, ToDifferentiateCorrectlyIsNotVerified) {
+  KnownProblem known = cantilever();
+  FunctionProblem problem(known.problem.variables(), known.problem.constraints(),
+                          [&](const Eigen::VectorXd& x, Request request) {
+                            Evaluation evaluation = known.problem.evaluate(x, request);
+                            if (evaluation.has_gradients())
+                              evaluation.constraint_jacobian(0, 2) *= 1.2;
+                            return evaluation;
+                          });
+  const Result result = solve(problem, options_);
+  EXPECT_EQ(result.status, Status::stalled) << result.message;
+}
+
+// min max(|a − 1|, 2 |b|) + a / 2 over [−1, 3]²: 1/2 at (1, 0), where no gradient exists.
+TEST_P(Failure, OfDifferentiabilityIsNotVerified) {
+  FunctionProblem problem(
+      {{"a", 2.5, -1.0, 3.0}, {"b", 0.7, -1.0, 3.0}}, {}, [](const Eigen::VectorXd& x, Request) {
+        const bool first = std::abs(x[0] - 1.0) > 2.0 * std::abs(x[1]);
+        Evaluation evaluation;
+        evaluation.objective = std::max(std::abs(x[0] - 1.0), 2.0 * std::abs(x[1])) + 0.5 * x[0];
+        evaluation.objective_gradient =
+            first ? Eigen::Vector2d(std::copysign(1.0, x[0] - 1.0) + 0.5, 0.0)
+                  : Eigen::Vector2d(0.5, std::copysign(2.0, x[1]));
+        evaluation.constraint_jacobian.resize(0, 2);
+        return evaluation;
+      });
+  const Result result = solve(problem, options_);
+  EXPECT_EQ(result.status, Status::stalled) << result.message;
+}
+
+// min −a with b ≤ (1 − a)³, b ≥ 0: at the optimum (1, 0) the gradients of both limits are parallel
+// and no multipliers exist (Kuhn & Tucker 1951). Nothing that fails the conditions may be called
+// proven.
+TEST_P(Failure, OfTheConstraintQualificationIsNotVerifiedElsewhere) {
+  FunctionProblem problem({{"a", 0.0, -2.0, 2.0}, {"b", 0.5, 0.0, 2.0}}, {{"cusp", -infinity, 0.0}},
+                          by_complex_step([](const auto& x) {
+                            using Scalar = std::decay_t<decltype(x[0])>;
+                            const Scalar gap = 1.0 - x[0];
+                            Vector<Scalar> result(2);
+                            result << -x[0], x[1] - gap * gap * gap;
+                            return result;
+                          }));
+  const Result result = solve(problem, options_);
+  if (result.status == Status::verified) {
+    EXPECT_NEAR(result.x[0], 1.0, 1e-2);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, Failure, testing::ValuesIn(optimizer_names()), name_of_backend);
+
+}  // namespace
+}  // namespace pleuel::test

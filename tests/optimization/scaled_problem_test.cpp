@@ -1,0 +1,114 @@
+#include "optimization/scaled_problem.hpp"
+
+#include <gtest/gtest.h>
+
+#include "complex_step.hpp"
+#include "known_problems.hpp"
+#include "optimization/scaling.hpp"
+#include "optimization/solve.hpp"
+
+namespace pleuel::test {
+namespace {
+
+/// f = 100 a b², one constraint of each kind; b is fixed.
+class EveryKind : public testing::Test {
+ protected:
+  template <typename V>
+  static auto responses(const V& x) {
+    Vector<typename V::Scalar> result(6);
+    result << 100.0 * x[0] * x[1] * x[1], x[0], 2.0 * x[0], 3.0 * x[0], 4.0 * x[0], 5.0 * x[0];
+    return result;
+  }
+
+  FunctionProblem problem_{{{"a", 30e-3, 10e-3, 60e-3}, {"b", 2.0, 2.0, 2.0}},
+                           {{"upper", -infinity, 0.02},
+                            {"lower", 0.05, infinity},
+                            {"both", 0.05, 0.1},
+                            {"equal", 0.2, 0.2},
+                            {"free", -infinity, infinity}},
+                           by_complex_step([](const auto& x) { return responses(x); })};
+  Eigen::VectorXd start_ = checked_start(problem_);
+  KnownDesign design_{start_, problem_.evaluate(start_, Request::values_and_gradients)};
+  Eigen::VectorXd scales_ = variable_scales(problem_, start_);
+  EvaluationCache cache_{problem_,
+                         design_,
+                         {scales_, constraint_scales(problem_, design_.evaluation, scales_)},
+                         {{}, {}}};
+  ScaledProblem scaled_{cache_, design_, {100, 100, 10}};
+};
+
+TEST_F(EveryKind, OfConstraintBecomesOneSidedRowsOfOrderOne) {
+  ASSERT_EQ(scaled_.inequalities(), 4);  // upper, lower, and both sides of the third
+  ASSERT_EQ(scaled_.equalities(), 1);
+  const auto evaluation = scaled_.evaluate(scaled_.start(), Request::values);
+  ASSERT_TRUE(evaluation);
+  // a = 0.03: (0.03 − 0.02)/0.02, (0.05 − 0.06)/0.05, (0.09 − 0.1)/0.1, (0.05 − 0.09)/0.1.
+  EXPECT_TRUE(evaluation->inequalities.isApprox(Eigen::Vector4d(0.5, -0.2, -0.1, -0.4), 1e-12));
+  EXPECT_NEAR(evaluation->equalities[0], (0.12 - 0.2) / 0.2, 1e-12);
+  EXPECT_NEAR(evaluation->objective, 1.0, 1e-12);
+}
+
+TEST_F(EveryKind, OfGradientIsTheSlopeOfItsRow) {
+  const Eigen::VectorXd y = scaled_.start();
+  const auto here = scaled_.evaluate(y, Request::values_and_gradients);
+  const double step = 1e-6;  // the rows are linear: only rounding, 1e-16 / 1e-6
+  const auto there = scaled_.evaluate(y.array() + step, Request::values);
+  ASSERT_TRUE(here && there);
+  const auto slope = [&](const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
+    return Eigen::VectorXd((to - from) / step);
+  };
+  EXPECT_TRUE(here->inequality_jacobian.col(0).isApprox(
+      slope(here->inequalities, there->inequalities), 1e-8));
+  EXPECT_TRUE(
+      here->equality_jacobian.col(0).isApprox(slope(here->equalities, there->equalities), 1e-8));
+  EXPECT_NEAR(here->objective_gradient[0], (there->objective - here->objective) / step, 1e-8);
+}
+
+TEST_F(EveryKind, OfVariableButTheFixedOnesIsSeen) {
+  EXPECT_EQ(scaled_.variables(), 1);
+  EXPECT_EQ(scaled_.to_design(scaled_.start()), start_);
+}
+
+TEST_F(EveryKind, OfDesignStaysExactlyWithinItsBounds) {
+  EXPECT_EQ(scaled_.to_design(scaled_.upper())[0], 60e-3);
+  EXPECT_EQ(scaled_.to_design(scaled_.lower())[0], 10e-3);
+  EXPECT_EQ(scaled_.to_design(scaled_.upper() * 1.1)[0], 60e-3);
+}
+
+TEST_F(EveryKind, OfQuestionAboutOneDesignCostsOneEvaluation) {
+  const Eigen::VectorXd y = scaled_.start() * 1.1;
+  scaled_.evaluate(y, Request::values_and_gradients);
+  scaled_.evaluate(y, Request::values);
+  scaled_.evaluate(y, Request::values_and_gradients);
+  EXPECT_EQ(cache_.evaluations(), 2);  // the start is the other one
+}
+
+TEST(Observer, SeesEveryEvaluationAsItHappens) {
+  KnownProblem known = cantilever();
+  int calls = 0;
+  FunctionProblem problem(known.problem.variables(), known.problem.constraints(),
+                          [&](const Eigen::VectorXd& x, Request request) {
+                            ++calls;
+                            return known.problem.evaluate(x, request);
+                          });
+  int seen = 0;
+  const Result result = solve(problem, {}, [&](const EvaluationRecord& record) {
+    EXPECT_EQ(record.evaluation, ++seen);
+    EXPECT_EQ(record.evaluation, calls);
+  });
+  EXPECT_EQ(seen, result.evaluations);
+  EXPECT_EQ(result.history.back().iteration, result.iterations);
+}
+
+TEST(Budget, OfIterationsIsKept) {
+  for (const std::string backend : {"nlopt-mma", "nlopt-ccsaq", "nlopt-slsqp", "ipopt"}) {
+    KnownProblem known = hs100();
+    const Result result = solve(known.problem, {.backend = backend, .max_iterations = 4});
+    EXPECT_EQ(result.status, Status::stalled);
+    EXPECT_LE(result.iterations, 4 + 3);  // at most three designs are audited after the end
+    EXPECT_NE(result.message.find("budget of 4 iterations"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace pleuel::test
