@@ -28,9 +28,10 @@ UnitHandle parse_unit(const ut_system* system, const std::string& text) {
   return UnitHandle(ut_parse(system, text.c_str(), UT_UTF8));
 }
 
-void add_name(ut_system* system, const char* name, const std::string& definition) {
+/// As a symbol, not as a name: case matters in symbols only, and "Nm" must not become "nm".
+void add_symbol(ut_system* system, const char* symbol, const std::string& definition) {
   const UnitHandle unit = parse_unit(system, definition);
-  if (!unit || ut_map_name_to_unit(name, UT_UTF8, unit.get()) != UT_SUCCESS) {
+  if (!unit || ut_map_symbol_to_unit(symbol, UT_UTF8, unit.get()) != UT_SUCCESS) {
     throw std::runtime_error(fmt::format("the database of units does not know {}", definition));
   }
 }
@@ -80,6 +81,30 @@ bool has_angle(const ut_unit* unit) {
          std::string_view::npos;
 }
 
+void check_dimension(const std::string& name, const ut_unit* from, const ut_unit* to) {
+  const bool has_right_dimension = to != nullptr && ut_are_convertible(from, to) != 0;
+  if (has_right_dimension && has_angle(to) && !has_angle(from)) {
+    throw UnitError(fmt::format("\"{}\" names no angle; write rad/s, deg/s or rpm", name));
+  }
+  if (!has_right_dimension || has_angle(from) != has_angle(to)) {
+    throw UnitError(fmt::format("\"{}\" measures something else", name));
+  }
+}
+
+double proportional_factor(const std::string& name, ut_unit* from, ut_unit* to) {
+  const ConverterHandle converter(ut_get_converter(from, to));
+  const double scale = converter ? cv_convert_double(converter.get(), 1.0) : 0.0;
+  const double zero = converter ? cv_convert_double(converter.get(), 0.0) : 0.0;
+  if (!std::isfinite(zero)) {  // a reciprocal, which the library converts too: s to 1/s
+    throw UnitError(fmt::format("\"{}\" measures something else", name));
+  }
+  if (zero != 0.0) throw UnitError(fmt::format("\"{}\" does not count from zero", name));
+  if (!std::isfinite(scale) || scale == 0.0) {
+    throw UnitError(fmt::format("\"{}\" is out of the range of numbers", name));
+  }
+  return scale;
+}
+
 }  // namespace
 
 struct UnitSystem::Database {
@@ -91,9 +116,9 @@ UnitSystem::UnitSystem() : database_(std::make_unique<Database>()) {
   database_->system.reset(ut_read_xml(nullptr));
   if (!database_->system)
     throw std::runtime_error("the UDUNITS-2 database of units is not readable");
-  add_name(database_->system.get(), "deg", "degree");
-  add_name(database_->system.get(), "rev", "turn");
-  add_name(database_->system.get(), "Nm", "N m");
+  add_symbol(database_->system.get(), "deg", "degree");
+  add_symbol(database_->system.get(), "rev", "turn");
+  add_symbol(database_->system.get(), "Nm", "N m");
 }
 
 UnitSystem::~UnitSystem() = default;
@@ -106,22 +131,8 @@ double UnitSystem::scale(const std::string& unit, const Quantity& quantity) cons
       has_stray_number(name) ? nullptr : parse_unit(database_->system.get(), name);
   if (!from) throw UnitError(fmt::format("\"{}\" is not a known unit", name));
   const UnitHandle to = parse_unit(database_->system.get(), std::string(quantity.unit));
-  if (!to || ut_are_convertible(from.get(), to.get()) == 0) {
-    throw UnitError(fmt::format("\"{}\" measures something else", name));
-  }
-  if (has_angle(to.get()) && !has_angle(from.get())) {
-    throw UnitError(fmt::format("\"{}\" names no angle; write rad/s, deg/s or rpm", name));
-  }
-  if (has_angle(from.get()) && !has_angle(to.get())) {
-    throw UnitError(fmt::format("\"{}\" measures something else", name));
-  }
-  const ConverterHandle converter(ut_get_converter(from.get(), to.get()));
-  const double scale = converter ? cv_convert_double(converter.get(), 1.0) : 0.0;
-  const bool is_proportional = converter && cv_convert_double(converter.get(), 0.0) == 0.0;
-  if (!is_proportional || !std::isfinite(scale) || scale == 0.0) {
-    throw UnitError(fmt::format("\"{}\" does not count from zero", name));
-  }
-  return scale;
+  check_dimension(name, from.get(), to.get());
+  return proportional_factor(name, from.get(), to.get());
 }
 
 double UnitSystem::read(const std::string& text, const Quantity& quantity) const {

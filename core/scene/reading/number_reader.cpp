@@ -1,6 +1,7 @@
 #include "core/scene/reading/number_reader.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,7 @@ std::string unit_in_brackets(const Quantity& quantity) {
 }  // namespace
 
 bool is_within(Range range, double value) {
+  if (!std::isfinite(value)) return false;
   switch (range) {
     case Range::any:
       return true;

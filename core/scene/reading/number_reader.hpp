@@ -14,7 +14,7 @@ namespace pleuel {
 /// What a number must be beyond its physical quantity.
 enum class Range { any, positive, not_negative, poisson, fraction };
 
-/// Whether the value keeps to the range.
+/// Whether the value is finite and keeps to the range.
 bool is_within(Range range, double value);
 
 /// The rule as a part of a sentence: "must be positive [m]".

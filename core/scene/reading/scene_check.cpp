@@ -110,7 +110,7 @@ void check_inertia(const JsonNode& node, const RigidBody& body, const Design<dou
       entry(2);
   const JsonNode list = node.at("inertia");
   if (inertia.trace() == 0.0)
-    list.fail_with_value("must not be zero; a body without is a point-mass");
+    list.fail_with_value("must not be all zero (a body without inertia is a point-mass)");
   const Eigen::Vector3d principal = inertia.selfadjointView<Eigen::Lower>().eigenvalues();
   if (principal.minCoeff() < -rounding_tolerance * inertia.trace()) {
     list.fail_with_value("must have no negative principal moment (xx, yy, zz, xy, xz, yz)");

@@ -1,0 +1,240 @@
+#include <filesystem>
+#include <numbers>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/scene/problem_reader.hpp"
+#include "core/scene/response_quantity.hpp"
+#include "tests/scene/good_problem.hpp"
+
+namespace pleuel::test {
+namespace {
+
+using std::numbers::pi;
+using testing::ElementsAre;
+
+ProblemFile read_file(const std::string& name) {
+  return read_problem(std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems" / name);
+}
+
+const BeamBody& beam(const ProblemFile& problem, std::size_t body) {
+  return std::get<BeamBody>(problem.scene.bodies[body].shape);
+}
+
+double start_mass(const ProblemFile& problem) {
+  double mass = 0.0;
+  Design<double> start;
+  for (const DesignVariable& variable : problem.variables) start.push_back(variable.start);
+  for (const Segment& segment : beam(problem, 0).segments) {
+    const auto& circle = std::get<CircleSection>(segment.section);
+    const double diameter = resolve(circle.diameter, start);
+    mass += 0.25 * pi * diameter * diameter * 0.12 * 7850.0 * segment.elements / 8.0;
+  }
+  return mass;
+}
+
+// The numbers are those of the issue that asks for these problems.
+class SliderCrank : public testing::TestWithParam<std::string> {};
+
+INSTANTIATE_TEST_SUITE_P(Files, SliderCrank,
+                         testing::Values("slider_crank.json", "slider_crank_round.json",
+                                         "slider_crank_tapered.json"));
+
+TEST_P(SliderCrank, HasTheCommonMechanism) {
+  const ProblemFile problem = read_file(GetParam());
+  const Scene& scene = problem.scene;
+  ASSERT_EQ(scene.bodies.size(), 3U);
+  ASSERT_EQ(scene.joints.size(), 4U);
+  EXPECT_EQ(scene.materials[0].young.constant, 2.1e11);
+  EXPECT_EQ(scene.materials[0].poisson.constant, 0.3);
+  EXPECT_EQ(scene.materials[0].density.constant, 7850.0);
+  EXPECT_EQ(beam(problem, 0).to[0].constant, 0.12);
+  EXPECT_EQ(beam(problem, 1).from[0].constant, 0.12);
+  EXPECT_EQ(beam(problem, 1).to[0].constant, 0.3);
+  EXPECT_EQ(beam(problem, 0).frame, ReferenceCondition::tangent);
+  EXPECT_EQ(beam(problem, 1).frame, ReferenceCondition::chord);
+  for (std::size_t i : {0U, 1U}) {
+    EXPECT_EQ(beam(problem, i).damping.stiffness.constant, 1e-5);
+    EXPECT_EQ(beam(problem, i).damping.mass.constant, 0.0);
+  }
+  EXPECT_EQ(std::get<PointMass>(scene.bodies[2].shape).mass.constant, 0.2826);
+  for (const Number& component : scene.gravity) EXPECT_EQ(component.constant, 0.0);
+}
+
+TEST_P(SliderCrank, IsDrivenFromRestToSpeed) {
+  const ProblemFile problem = read_file(GetParam());
+  const Joint& bearing = problem.scene.joints[0];
+  EXPECT_EQ(bearing.name, "bearing");
+  EXPECT_THAT(bearing.bodies, ElementsAre("ground", "crank"));
+  const auto& drive = std::get<RampToSpeedDrive>(*bearing.drive);
+  EXPECT_EQ(drive.speed.constant, 200.0);
+  EXPECT_EQ(drive.ramp.constant, 0.05);
+}
+
+TEST_P(SliderCrank, IsSimulatedForTwoRevolutionsAfterTheRamp) {
+  const ProblemFile problem = read_file(GetParam());
+  EXPECT_EQ(problem.simulation.end_time, 0.05 + 4.0 * pi / 200.0);
+  EXPECT_EQ(problem.simulation.step, 2.5e-5);
+  EXPECT_EQ(problem.simulation.spectral_radius, 0.8);
+  EXPECT_EQ(problem.effects.geometric_stiffening, EffectChoice::on);
+  EXPECT_EQ(problem.effects.spatial_motion, EffectChoice::automatic);
+}
+
+TEST_P(SliderCrank, IsLimitedInStressAndDeflection) {
+  const ProblemFile problem = read_file(GetParam());
+  for (const ConstraintSettings& constraint : problem.constraints) {
+    if (constraint.name.find("strength") != std::string::npos) {
+      EXPECT_EQ(constraint.upper, 2e8);
+    } else if (constraint.response == "rod_bow") {
+      EXPECT_EQ(constraint.upper, 2e-4);
+    } else if (constraint.response == "crank_tip") {
+      EXPECT_EQ(constraint.upper, 5e-4);
+    } else {
+      EXPECT_FALSE(constraint.linear.empty()) << constraint.name;
+    }
+  }
+  EXPECT_EQ(problem.objective->response, "crank_and_rod");
+  EXPECT_THAT(problem.responses[0].bodies, ElementsAre("crank", "rod"));
+  for (const DesignVariable& variable : problem.variables) {
+    EXPECT_EQ(variable.lower, 0.004);
+    EXPECT_EQ(variable.upper, 0.06);
+    EXPECT_EQ(variable.unit, "mm");
+  }
+}
+
+TEST_P(SliderCrank, HasBothStudies) {
+  const ProblemFile problem = read_file(GetParam());
+  EXPECT_EQ(problem.pareto->constraint, "rod_stiffness");
+  EXPECT_EQ(problem.pareto->from, 1e-4);
+  EXPECT_EQ(problem.pareto->to, 4e-4);
+  EXPECT_EQ(problem.pareto->points, 7);
+  EXPECT_THAT(problem.accuracy->steps, ElementsAre(2e-4, 1e-4, 5e-5, 2.5e-5));
+}
+
+TEST(RectangularSliderCrank, HasFourVariablesAndProportions) {
+  const ProblemFile problem = read_file("slider_crank.json");
+  ASSERT_EQ(problem.variables.size(), 4U);
+  EXPECT_EQ(problem.variables[0].start, 0.02);  // crank width
+  EXPECT_EQ(problem.variables[3].start, 0.03);  // rod height
+  const auto& rod = std::get<RectangleSection>(beam(problem, 1).segments[0].section);
+  EXPECT_EQ(rod.width.variable, 2);
+  EXPECT_EQ(rod.height.variable, 3);
+  EXPECT_EQ(beam(problem, 1).segments[0].elements, 6);
+  const std::vector<std::pair<int, double>> proportion = {{3, 1.0}, {2, -2.0}};
+  EXPECT_EQ(problem.constraints.size(), 6U);
+  EXPECT_EQ(problem.constraints[5].linear, proportion);
+  EXPECT_EQ(problem.constraints[5].upper, 0.0);
+}
+
+TEST(RoundSliderCrank, HasTwoVariables) {
+  const ProblemFile problem = read_file("slider_crank_round.json");
+  EXPECT_EQ(problem.variables.size(), 2U);
+  EXPECT_EQ(problem.constraints.size(), 4U);
+  EXPECT_EQ(std::get<CircleSection>(beam(problem, 1).segments[0].section).diameter.variable, 1);
+}
+
+TEST(TaperedSliderCrank, HasAVariableAndAStressLimitForEachSegment) {
+  const ProblemFile problem = read_file("slider_crank_tapered.json");
+  EXPECT_EQ(problem.variables.size(), 8U);
+  EXPECT_EQ(problem.constraints.size(), 10U);
+  for (int i = 0; i < 8; ++i) {
+    const std::size_t body = i < 4 ? 0 : 1;
+    const Segment& segment = beam(problem, body).segments[static_cast<std::size_t>(i % 4)];
+    EXPECT_EQ(segment.elements, 2);
+    EXPECT_EQ(std::get<CircleSection>(segment.section).diameter.variable, i);
+    const ResponseSettings& stress = problem.responses[static_cast<std::size_t>(1 + i)];
+    EXPECT_EQ(stress.type, ResponseType::stress);
+    EXPECT_EQ(stress.bodies[0], body == 0 ? "crank" : "rod");
+    EXPECT_EQ(stress.segment, i % 4);
+    EXPECT_EQ(problem.constraints[static_cast<std::size_t>(i)].response, stress.name);
+  }
+}
+
+TEST(TaperedSliderCrank, HasSegmentsThatFillTheMembers) {
+  // Four segments of equal diameter weigh what one bar does: π/4 · (30 mm)² · 120 mm · 7850 kg/m³.
+  EXPECT_NEAR(start_mass(read_file("slider_crank_tapered.json")), 0.66587, 1e-5);
+}
+
+TEST(ExudynSliderCrank, HasTheDataOfTheReference) {
+  const ProblemFile problem = read_file("slider_crank_exudyn.json");
+  EXPECT_TRUE(problem.variables.empty());
+  EXPECT_FALSE(problem.objective.has_value());
+  EXPECT_EQ(beam(problem, 0).to[0].constant, 0.15);
+  EXPECT_EQ(beam(problem, 1).to[0].constant, 0.45);
+  EXPECT_EQ(std::get<CircleSection>(beam(problem, 0).segments[0].section).diameter.constant, 0.03);
+  EXPECT_EQ(std::get<CircleSection>(beam(problem, 1).segments[0].section).diameter.constant, 0.01);
+  EXPECT_EQ(beam(problem, 0).segments[0].elements, 8);
+  EXPECT_EQ(beam(problem, 1).damping.stiffness.constant, 0.0);
+  EXPECT_EQ(std::get<PointMass>(problem.scene.bodies[2].shape).mass.constant, 0.5);
+  const auto& drive = std::get<RampToSpeedDrive>(*problem.scene.joints[0].drive);
+  EXPECT_EQ(drive.speed.constant, 150.0);
+  EXPECT_EQ(problem.simulation.end_time, 0.15);
+  EXPECT_EQ(problem.simulation.step, 5e-5);
+  EXPECT_EQ(problem.simulation.spectral_radius, 0.9);
+  EXPECT_EQ(problem.effects.geometric_stiffening, EffectChoice::on);
+}
+
+TEST(ExudynSliderCrank, TakesTheOtherRodByAnOverride) {
+  const ProblemFile problem =
+      read_problem(std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems/slider_crank_exudyn.json",
+                   {"/scene/bodies/rod/section/diameter=30 mm"});
+  EXPECT_EQ(std::get<CircleSection>(beam(problem, 1).segments[0].section).diameter.constant, 0.03);
+}
+
+TEST(GoodProblem, KeepsWhatItSaysInTheOrderOfTheFile) {
+  const ProblemFile problem = read(good_json());
+  EXPECT_EQ(problem.name, "good");
+  EXPECT_EQ(problem.scene.gravity[1].constant, -9.81);
+  EXPECT_EQ(problem.scene.materials[1].name, "alloy");
+  EXPECT_DOUBLE_EQ(problem.scene.materials[1].poisson.constant, 0.33);
+  EXPECT_DOUBLE_EQ(problem.scene.materials[1].density.constant, 2700.0);
+  EXPECT_EQ(problem.scene.bodies[3].name, "wheel");
+  EXPECT_EQ(std::get<RigidBody>(problem.scene.bodies[3].shape).inertia[2].constant, 0.2);
+  EXPECT_EQ(beam(problem, 0).damping.mass.constant, 2.0);
+  EXPECT_EQ(beam(problem, 1).reference->at(2), 1.0);
+  EXPECT_EQ(beam(problem, 1).segments[1].fraction, 0.75);
+  EXPECT_EQ(problem.scene.joints[1].type, JointType::fixed);
+  EXPECT_EQ(problem.scene.joints[4].type, JointType::point_on_line);
+  EXPECT_THAT(problem.scene.joints[4].axis, ElementsAre(1.0, 0.0, 0.0));
+  const auto& drive = std::get<RampToSpeedDrive>(*problem.scene.joints[0].drive);
+  EXPECT_NEAR(drive.speed.constant, 157.07963267948966, 1e-12);  // 1500 · 2π/60
+  EXPECT_EQ(problem.simulation.newton_tolerance, 1e-10);
+  EXPECT_EQ(problem.simulation.max_newton_iterations, 12);
+  EXPECT_EQ(problem.optimizer.backend, "ipopt");
+  EXPECT_EQ(problem.optimizer.max_iterations, 50);
+  EXPECT_THAT(problem.accuracy->elements, ElementsAre(2, 4));
+}
+
+TEST(GoodProblem, HasItsResponses) {
+  const std::vector<ResponseSettings> responses = read(good_json()).responses;
+  EXPECT_EQ(responses[1].segment, 1);
+  EXPECT_EQ(responses[2].direction, 2);  // local z
+  EXPECT_EQ(responses[2].at, 0.5);
+  EXPECT_EQ(responses[3].direction, 0);  // global x
+  EXPECT_EQ(responses[3].over_time, OverTime::final);
+  EXPECT_EQ(responses[4].joint, "bearing");
+  EXPECT_EQ(quantity_of(responses[0]).unit, "kg");
+  EXPECT_EQ(quantity_of(responses[1]).unit, "Pa");
+  EXPECT_EQ(quantity_of(responses[2]).unit, "m");
+  EXPECT_EQ(quantity_of(responses[4]).unit, "N m s");
+}
+
+TEST(GoodProblem, MayOmitWhatHasADefault) {
+  Json document = good_json();
+  for (const char* key : {"$schema", "name", "description", "effects", "objective", "constraints",
+                          "optimizer", "pareto", "accuracy", "responses"}) {
+    document.erase(key);
+  }
+  document["scene"].erase("gravity");
+  document["simulation"] = Json::parse(R"({"end_time": 1, "step": 0.1})");
+  const ProblemFile problem = read(document);
+  EXPECT_EQ(problem.simulation.spectral_radius, 0.8);
+  EXPECT_EQ(problem.optimizer.backend, "nlopt-slsqp");
+  EXPECT_EQ(problem.effects.geometric_stiffening, EffectChoice::automatic);
+  EXPECT_FALSE(problem.pareto.has_value());
+}
+
+}  // namespace
+}  // namespace pleuel::test

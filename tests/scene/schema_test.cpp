@@ -1,0 +1,108 @@
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validator.hpp>
+
+#include "tests/scene/good_problem.hpp"
+
+namespace pleuel::test {
+namespace {
+
+const std::filesystem::path problems = std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems";
+
+nlohmann::json load(const std::filesystem::path& path) {
+  std::ifstream stream(path);
+  return nlohmann::json::parse(stream);
+}
+
+class ProblemSchema : public testing::Test {
+ protected:
+  ProblemSchema() {
+    const nlohmann::json document = load(problems / "problem.schema.json");
+    valijson::SchemaParser parser(valijson::SchemaParser::kDraft7);
+    parser.populateSchema(valijson::adapters::NlohmannJsonAdapter(document), schema_);
+  }
+
+  /// The complaints of the schema; empty if it is content.
+  std::string complaints(const nlohmann::json& document) {
+    valijson::Validator validator;
+    valijson::ValidationResults results;
+    if (validator.validate(schema_, valijson::adapters::NlohmannJsonAdapter(document), &results)) {
+      return "";
+    }
+    std::string text = "not valid";
+    valijson::ValidationResults::Error error;
+    while (results.popError(error)) text += "\n" + error.description;
+    return text;
+  }
+
+  std::string complaints_about_edit(const std::string& pointer, const std::string& value) {
+    return complaints(nlohmann::json::parse(edited(pointer, value).dump()));
+  }
+
+  valijson::Schema schema_;
+};
+
+TEST_F(ProblemSchema, AcceptsEveryProblemFile) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(problems)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.path().extension() != ".json" || name == "problem.schema.json") continue;
+    EXPECT_EQ(complaints(load(entry.path())), "") << name;
+    ++files;
+  }
+  EXPECT_GE(files, 4);
+}
+
+TEST_F(ProblemSchema, AcceptsTheGoodProblem) {
+  EXPECT_EQ(complaints(nlohmann::json::parse(good_text())), "");
+}
+
+TEST_F(ProblemSchema, RefusesWhatTheReaderRefuses) {
+  const std::vector<std::pair<std::string, std::string>> edits = {
+      {"/scene", "remove"},
+      {"/simulation/step", "remove"},
+      {"/colour", "1"},
+      {"/scene/bodies/ground", R"({"type": "point-mass", "at": [0, 0, 0], "mass": 1})"},
+      {"/scene/bodies/crank/section/diamter", "1"},
+      {"/scene/bodies/crank/section/type", "\"hexagon\""},
+      {"/scene/bodies/crank/section/width", "true"},
+      {"/scene/bodies/crank/section/width", R"({"variable": "width", "factor": 0})"},
+      {"/scene/bodies/crank/segments", "[]"},
+      {"/scene/bodies/crank/elements", "0"},
+      {"/scene/bodies/crank/elements", "2.5"},
+      {"/scene/bodies/crank/from", "[0, 0]"},
+      {"/scene/bodies/wheel/inertia", "[1, 1, 1]"},
+      {"/scene/joints/bearing/drive/type", "\"motor\""},
+      {"/scene/joints/guide/axis", "remove"},
+      {"/scene/joints/guide/drive", R"({"type": "constant-speed", "speed": 1})"},
+      {"/scene/joints/hub/axis", "[0, 0, 1]"},
+      {"/effects/torsion", "\"on\""},
+      {"/effects/spatial_motion", "true"},
+      {"/simulation/scheme", "\"euler\""},
+      {"/simulation/spectral_radius", "1.5"},
+      {"/variables/width/lower", "remove"},
+      {"/variables/width/start", "\"thick\""},
+      {"/responses/weight/over_time", "\"max\""},
+      {"/responses/stress/over_time", "remove"},
+      {"/responses/bow/at", "1.5"},
+      {"/responses/bow/direction", "\"x\""},
+      {"/constraints/strength/upper", "remove"},
+      {"/constraints/slender/response", "\"bow\""},
+      {"/optimizer/tolerance", "0"},
+      {"/pareto/points", "1"},
+      {"/accuracy/steps", "[]"}};
+  for (const auto& [pointer, value] : edits) {
+    EXPECT_NE(complaints_about_edit(pointer, value), "") << pointer << " = " << value;
+    EXPECT_NE(complaint(edited(pointer, value)), "") << pointer << " = " << value;
+  }
+}
+
+}  // namespace
+}  // namespace pleuel::test

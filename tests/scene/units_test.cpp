@@ -1,0 +1,130 @@
+#include "core/scene/units.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace pleuel {
+namespace {
+
+/// What the reading of a text complains about; empty if it does not.
+std::string complaint(const std::string& text, const Quantity& quantity) {
+  const UnitSystem units;
+  try {
+    units.read(text, quantity);
+  } catch (const UnitError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+struct Reading {
+  std::string text;
+  Quantity quantity;
+  double value;  // SI, by the definition of the unit
+};
+
+class UnitReading : public testing::TestWithParam<Reading> {};
+
+TEST_P(UnitReading, GivesTheValueInSi) {
+  const UnitSystem units;
+  const Reading& reading = GetParam();
+  // Conversion is one or two multiplications: a few units in the last place.
+  EXPECT_NEAR(units.read(reading.text, reading.quantity), reading.value,
+              1e-14 * std::abs(reading.value));
+}
+
+using namespace quantities;
+constexpr double pi = std::numbers::pi;
+
+INSTANTIATE_TEST_SUITE_P(
+    Units, UnitReading,
+    testing::Values(Reading{"120 mm", length, 0.12}, Reading{"120mm", length, 0.12},
+                    Reading{" +1.5e2 mm ", length, 0.15}, Reading{"-3 cm", length, -0.03},
+                    Reading{".5 m", length, 0.5}, Reading{"1 in", length, 0.0254},
+                    Reading{"5 \xC2\xB5m", length, 5e-6}, Reading{"0 mm", length, 0.0},
+                    Reading{"5 nm", length, 5e-9}, Reading{"210 GPa", stress, 2.1e11},
+                    Reading{"200 N/mm^2", stress, 2e8}, Reading{"200 N/mm2", stress, 2e8},
+                    Reading{"200 N mm-2", stress, 2e8}, Reading{"7850 kg/m^3", density, 7850.0},
+                    Reading{"7.85 g/cm^3", density, 7850.0},
+                    Reading{"7850 kg/m\xC2\xB3", density, 7850.0}, Reading{"2 t", mass, 2000.0},
+                    Reading{"1e-5 s", time, 1e-5}, Reading{"50 ms", time, 0.05},
+                    Reading{"2 min", time, 120.0}, Reading{"2 1/s", rate, 2.0},
+                    Reading{"2 Hz", rate, 2.0}, Reading{"9.81 m/s^2", acceleration, 9.81},
+                    Reading{"3 N m", torque, 3.0}, Reading{"3 Nm", torque, 3.0},
+                    Reading{"3 J", torque, 3.0}, Reading{"4 kg m^2", inertia, 4.0},
+                    Reading{"5 N m s", torque_time, 5.0}, Reading{"5 mm s", length_time, 0.005},
+                    Reading{"5 MPa s", stress_time, 5e6}, Reading{"0.3", pure_number, 0.3},
+                    Reading{"30 %", pure_number, 0.3}));
+
+INSTANTIATE_TEST_SUITE_P(UnitsOfAngularSpeed, UnitReading,
+                         testing::Values(Reading{"200 rad/s", angular_speed, 200.0},
+                                         Reading{"1500 rpm", angular_speed, 50.0 * pi},
+                                         Reading{"1500 rev/min", angular_speed, 50.0 * pi},
+                                         Reading{"180 deg/s", angular_speed, pi},
+                                         Reading{"180 degree/s", angular_speed, pi}));
+
+TEST(Units, OfAnotherQuantityAreRefused) {
+  EXPECT_EQ(complaint("12 kg", length), "\"kg\" measures something else");
+  EXPECT_EQ(complaint("12 mm^2", length), "\"mm^2\" measures something else");
+  EXPECT_EQ(complaint("12 mm", pure_number), "\"mm\" measures something else");
+  EXPECT_EQ(complaint("12 rad m", length), "\"rad m\" measures something else");
+  EXPECT_EQ(complaint("12 rpm", rate), "\"rpm\" measures something else");
+}
+
+TEST(Units, WithoutAnAngleAreNoAngularSpeed) {  // 1500 1/min may be 25 rad/s or 157 rad/s
+  EXPECT_EQ(complaint("25 Hz", angular_speed), "\"Hz\" names no angle; write rad/s, deg/s or rpm");
+  EXPECT_EQ(complaint("1500 1/min", angular_speed),
+            "\"1/min\" names no angle; write rad/s, deg/s or rpm");
+}
+
+TEST(Units, ThatAreUnknownAreRefused) {
+  EXPECT_EQ(complaint("12 mmm", length), "\"mmm\" is not a known unit");
+  EXPECT_EQ(complaint("1,5 mm", length), "\",5 mm\" is not a known unit");
+  EXPECT_EQ(complaint("0x10 mm", length), "\"x10 mm\" is not a known unit");
+}
+
+TEST(Units, MayNotHideASecondNumber) {  // the library would read 30 mm, 0 m, −20 mm, …
+  for (const char* text :
+       {"1 mm 30", "1 000 mm", "120 mm -20", "1 mm*30", "1 mm.30", "1 m/2", "3 2/s", "1 mm + 2"}) {
+    EXPECT_NE(complaint(text, std::string(text) == "3 2/s" ? rate : length), "") << text;
+  }
+}
+
+TEST(Units, ThatDoNotCountFromZeroAreRefused) {
+  EXPECT_NE(complaint("20 m from 3", length), "");
+  EXPECT_NE(complaint("20 m @ 3", length), "");
+}
+
+TEST(Units, AreNeededInsideQuotes) {
+  EXPECT_EQ(complaint("12", length), "a number in quotes needs its unit");
+}
+
+TEST(Numbers, MustBeFiniteAndComeFirst) {
+  for (const char* text :
+       {"", " ", "mm", "nan m", "inf m", "-inf m", "infinity", "+-1 m", "- 1 m"}) {
+    EXPECT_EQ(complaint(text, length), "it does not begin with a number") << text;
+  }
+}
+
+TEST(Numbers, MustBeInRange) {
+  for (const char* text : {"1e400 m", "1e308 km", "1e-400 m", "1e-320 nm"}) {
+    EXPECT_EQ(complaint(text, length), "it is out of the range of numbers") << text;
+  }
+}
+
+TEST(Units, KeepWhatTheUserWrote) {
+  const WrittenQuantity written = split_quantity("  -1.5e-3 kg/m^3 ");
+  EXPECT_EQ(written.value, -1.5e-3);
+  EXPECT_EQ(written.unit, "kg/m^3");
+}
+
+TEST(Units, ScaleBackForDisplay) {
+  const UnitSystem units;
+  EXPECT_DOUBLE_EQ(0.12 / units.scale("mm", length), 120.0);
+}
+
+}  // namespace
+}  // namespace pleuel
