@@ -20,16 +20,15 @@ void factorize_or_throw(LinearSolver& solver, const System::Matrix& matrix, cons
 }
 
 void assemble_positions(Mechanism& mechanism, LinearSolver& solver, System::Matrix& matrix,
-                        State& state) {
+                        InitialState& initial) {
   System& system = *mechanism.system;
   const int n = system.coordinates(), m = system.multipliers();
   Eigen::VectorXd residual;
-  State at = state;
-  at.lambda.setZero();
+  State at = initial.state;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     system.residual(at, ConstraintLevel::position, residual);
     const double violation = m > 0 ? residual.tail(m).lpNorm<Eigen::Infinity>() : 0.0;
-    assembly_matrix(mechanism, at, matrix);
+    projection_matrix(mechanism, at, matrix);
     factorize_or_throw(solver, matrix, "positions");
     Eigen::VectorXd step(n + m);
     step.head(n) = mechanism.assembly_weight.cwiseProduct(mechanism.guess.q - at.q);
@@ -39,7 +38,8 @@ void assemble_positions(Mechanism& mechanism, LinearSolver& solver, System::Matr
     if (!at.q.allFinite()) break;
     const double correction = step.head(n).cwiseQuotient(mechanism.scale).lpNorm<Eigen::Infinity>();
     if (violation < 1e-10 && correction < 1e-10) {
-      state.q = at.q;
+      initial.state.q = at.q;
+      initial.position_multipliers = step.tail(m);
       return;
     }
   }
@@ -49,17 +49,19 @@ void assemble_positions(Mechanism& mechanism, LinearSolver& solver, System::Matr
 }
 
 void project_velocities(Mechanism& mechanism, LinearSolver& solver, System::Matrix& matrix,
-                        State& state) {
+                        InitialState& initial) {
+  State& state = initial.state;
   System& system = *mechanism.system;
   const int n = system.coordinates(), m = system.multipliers();
   Eigen::VectorXd residual;
   system.residual(state, ConstraintLevel::velocity, residual);
-  assembly_matrix(mechanism, state, matrix);
+  projection_matrix(mechanism, state, matrix);
   factorize_or_throw(solver, matrix, "velocities");
   Eigen::VectorXd step = Eigen::VectorXd::Zero(n + m);
   step.tail(m) = -residual.tail(m);
   solver.solve(step);
   state.v += step.head(n);
+  initial.velocity_multipliers = step.tail(m);
 }
 
 void solve_accelerations(Mechanism& mechanism, LinearSolver& solver, System::Matrix& matrix,
@@ -79,23 +81,24 @@ void solve_accelerations(Mechanism& mechanism, LinearSolver& solver, System::Mat
 
 }  // namespace
 
-void assembly_matrix(Mechanism& mechanism, const State& state, System::Matrix& matrix) {
+void projection_matrix(Mechanism& mechanism, const State& state, System::Matrix& matrix) {
   const int n = mechanism.system->coordinates();
   mechanism.system->tangent(state, {.q = 1.0}, ConstraintLevel::position, matrix);
   scale_dynamic_block(n, 0.0, matrix);
   for (int i = 0; i < n; ++i) matrix.coeffRef(i, i) = mechanism.assembly_weight(i);
 }
 
-State initial_state(Mechanism& mechanism) {
-  State state = mechanism.guess;
-  state.a.setZero();
-  state.lambda.setZero();
+InitialState initial_state(Mechanism& mechanism) {
+  InitialState initial;
+  initial.state = mechanism.guess;
+  initial.state.a.setZero();
+  initial.state.lambda.setZero();
   System::Matrix matrix = mechanism.system->make_matrix();
   LinearSolver solver(matrix);
-  assemble_positions(mechanism, solver, matrix, state);
-  project_velocities(mechanism, solver, matrix, state);
-  solve_accelerations(mechanism, solver, matrix, state);
-  return state;
+  assemble_positions(mechanism, solver, matrix, initial);
+  project_velocities(mechanism, solver, matrix, initial);
+  solve_accelerations(mechanism, solver, matrix, initial.state);
+  return initial;
 }
 
 }  // namespace pleuel

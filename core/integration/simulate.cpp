@@ -33,7 +33,7 @@ class TimeLoop {
         options_(options),
         steps_(step_count(options)),
         scheme_(generalized_alpha(options.end_time / steps_, options.spectral_radius)),
-        state_(initial_state(mechanism)),
+        state_(initial_state(mechanism).state),
         w_(state_.a),
         matrix_(system_.make_matrix()),
         solver_(matrix_),

@@ -1,0 +1,149 @@
+#include "core/response/reduction.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace pleuel {
+
+namespace {
+
+/// Peaks within this relative distance of the highest are called tied.
+constexpr double tie_gap = 1e-3;
+
+struct Peak {
+  double height, time;
+  int channel, step;
+  double sign;
+  std::array<double, 3> weights;  ///< of the samples before, at and after `step`
+};
+
+/// Vertex of the parabola through (−1, a), (0, b), (1, c), b ≥ a, c. By the envelope theorem the
+/// derivative of the height is the Lagrange polynomials at the vertex.
+Peak interpolate(double a, double b, double c) {
+  const double curvature = a - 2 * b + c;
+  const double s = curvature < 0.0 ? 0.5 * (a - c) / curvature : 0.0;
+  Peak peak{};
+  peak.weights = {0.5 * s * (s - 1), 1 - s * s, 0.5 * s * (s + 1)};
+  peak.height = peak.weights[0] * a + peak.weights[1] * b + peak.weights[2] * c;
+  peak.time = s;
+  return peak;
+}
+
+/// All local maxima of sign · y that can reach the highest sample.
+void add_peaks(const Eigen::VectorXd& time, const Eigen::MatrixXd& values, double sign,
+               double threshold, std::vector<Peak>& peaks) {
+  const auto last = static_cast<int>(values.cols()) - 1;
+  const double h = last > 0 ? time(1) - time(0) : 0.0;
+  for (int step = 0; step <= last; ++step) {
+    for (int channel = 0; channel < values.rows(); ++channel) {
+      const double b = sign * values(channel, step);
+      if (b < threshold) continue;
+      const double a = step > 0 ? sign * values(channel, step - 1) : b;
+      const double c = step < last ? sign * values(channel, step + 1) : b;
+      if (b < a || b <= c) {
+        if (!(step == last && b >= a)) continue;
+      }
+      Peak peak{b, 0.0, channel, step, sign, {0.0, 1.0, 0.0}};
+      if (step > 0 && step < last) {
+        const Peak vertex = interpolate(a, b, c);
+        peak.height = vertex.height;
+        peak.time = vertex.time;
+        peak.weights = vertex.weights;
+      }
+      peak.time = time(step) + h * peak.time;
+      peaks.push_back(peak);
+    }
+  }
+}
+
+Reduction reduce_peaks(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
+                       const std::vector<double>& signs) {
+  double highest = -std::numeric_limits<double>::infinity();
+  for (double sign : signs) highest = std::max(highest, (sign * values).maxCoeff());
+  const double threshold = highest - 0.05 * std::abs(highest);
+  std::vector<Peak> peaks;
+  for (double sign : signs) add_peaks(time, values, sign, threshold, peaks);
+  Reduction reduction;
+  if (peaks.empty()) {  // a constant history
+    reduction.value = values(0, 0);
+    reduction.samples = {{0, 0, 1.0}};
+    return reduction;
+  }
+  const auto best = std::max_element(peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) {
+    return a.height < b.height;
+  });
+  reduction.value = best->height;
+  for (int i = 0; i < 3; ++i) {
+    const double weight = best->sign * best->weights[static_cast<std::size_t>(i)];
+    if (weight != 0.0) reduction.samples.push_back({best->step + i - 1, best->channel, weight});
+  }
+  for (const Peak& peak : peaks) {
+    const bool is_other = peak.channel != best->channel || std::abs(peak.step - best->step) > 1;
+    const double gap = (best->height - peak.height) / std::abs(best->height);
+    if (!is_other || gap > tie_gap) continue;
+    if (!reduction.tie || gap < reduction.tie->gap) {
+      reduction.tie = PeakTie{best->time, peak.time, best->channel, peak.channel, gap};
+    }
+  }
+  return reduction;
+}
+
+/// Trapezoidal weights [s].
+Eigen::VectorXd quadrature(const Eigen::VectorXd& time) {
+  const auto n = time.size();
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index i = 0; i + 1 < n; ++i) {
+    const double half = 0.5 * (time(i + 1) - time(i));
+    weights(i) += half;
+    weights(i + 1) += half;
+  }
+  return weights;
+}
+
+Reduction reduce_linear(const Eigen::VectorXd& weights, const Eigen::MatrixXd& values) {
+  assert(values.rows() == 1);
+  Reduction reduction;
+  reduction.value = values.row(0) * weights;
+  for (Eigen::Index i = 0; i < weights.size(); ++i) {
+    if (weights(i) != 0.0) reduction.samples.push_back({static_cast<int>(i), 0, weights(i)});
+  }
+  return reduction;
+}
+
+Reduction reduce_rms(const Eigen::VectorXd& time, const Eigen::MatrixXd& values) {
+  const Eigen::VectorXd weights = quadrature(time) / (time(time.size() - 1) - time(0));
+  Eigen::Index channel = 0;
+  const double square = (values.cwiseAbs2() * weights).maxCoeff(&channel);
+  Reduction reduction;
+  reduction.value = std::sqrt(square);
+  if (reduction.value == 0.0) return reduction;
+  for (Eigen::Index i = 0; i < weights.size(); ++i) {
+    reduction.samples.push_back({static_cast<int>(i), static_cast<int>(channel),
+                                 weights(i) * values(channel, i) / reduction.value});
+  }
+  return reduction;
+}
+
+}  // namespace
+
+Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::MatrixXd& values) {
+  const Eigen::Index last = time.size() - 1;
+  switch (kind) {
+    case OverTime::max: return reduce_peaks(time, values, {1.0});
+    case OverTime::max_abs: return reduce_peaks(time, values, {1.0, -1.0});
+    case OverTime::min: {
+      Reduction reduction = reduce_peaks(time, values, {-1.0});
+      reduction.value = -reduction.value;
+      for (Sample& sample : reduction.samples) sample.weight = -sample.weight;
+      return reduction;
+    }
+    case OverTime::rms: return reduce_rms(time, values);
+    case OverTime::mean: return reduce_linear(quadrature(time) / (time(last) - time(0)), values);
+    case OverTime::integral: return reduce_linear(quadrature(time), values);
+    case OverTime::final: break;
+  }
+  return reduce_linear(Eigen::VectorXd::Unit(time.size(), last), values);
+}
+
+}  // namespace pleuel

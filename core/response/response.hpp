@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/integration/simulate.hpp"
+#include "core/model/model.hpp"
+#include "core/response/reduction.hpp"
+#include "core/response/signal.hpp"
+
+namespace pleuel {
+
+/// A number that the user asks for: a signal reduced over time, or a constant of the design.
+struct Response {
+  std::string name;
+  std::string unit;                  ///< SI
+  OverTime over_time = OverTime::max;
+  std::unique_ptr<Signal> signal;    ///< null: a constant
+  double constant = 0.0;
+  Eigen::VectorXd constant_x;        ///< its derivatives, one a design variable
+};
+
+/// Builds the responses of a model, which must outlive them.
+std::vector<Response> make_responses(const std::vector<ResponseSettings>& settings,
+                                     const Model& model);
+
+/// The history of a signal, channels × (steps + 1).
+Eigen::MatrixXd observe(Signal& signal, const Trajectory& trajectory);
+
+/// One simulated design: everything that values and gradients are made from.
+struct Analysis {
+  Model model;
+  Trajectory trajectory;
+  std::vector<Response> responses;
+  std::vector<Reduction> reductions;       ///< one a response
+  std::vector<Eigen::MatrixXd> histories;  ///< one a response; empty for constants
+};
+
+/// Builds and simulates the mechanism of a problem at a design, and reduces its responses.
+/// @param x  design variables [SI]
+/// @throws SimulationError
+std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::VectorXd& x);
+
+/// The start values of the design variables.
+Eigen::VectorXd start_design(const ProblemFile& problem);
+
+}  // namespace pleuel

@@ -1,0 +1,100 @@
+#include "sensitivity/direct.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "core/integration/linear_solver.hpp"
+#include "sensitivity/initial_sensitivity.hpp"
+
+namespace pleuel {
+
+namespace {
+
+class DirectDifferentiation {
+ public:
+  DirectDifferentiation(Mechanism& mechanism, const Trajectory& trajectory)
+      : system_(*mechanism.system),
+        trajectory_(trajectory),
+        sensitivity_(initial_sensitivity(mechanism, initial_state(mechanism))),
+        old_(sensitivity_),
+        state_(system_.coordinates(), system_.multipliers()),
+        step_matrix_(system_.make_matrix()),
+        rate_matrix_(system_.make_matrix()),
+        solver_(step_matrix_) {}
+
+  void run(const SensitivityObserver& observer) {
+    trajectory_.load(0, state_);
+    observer(0, state_, sensitivity_);
+    for (int step = 1; step <= trajectory_.steps(); ++step) {
+      trajectory_.load(step, state_);
+      predict();
+      form_right_hand_side();
+      solve(step);
+      observer(step, state_, sensitivity_);
+    }
+  }
+
+ private:
+  /// ŝ = history · s, then shifted along the correction to ŝ_q = 0: the unknown is s_q itself.
+  void predict() {
+    std::swap(old_, sensitivity_);
+    const Eigen::Matrix4d& h = trajectory_.scheme.history;
+    const auto combine = [&](int row, Eigen::MatrixXd& out) {
+      out = h(row, 0) * old_.q + h(row, 1) * old_.v + h(row, 2) * old_.a + h(row, 3) * old_.w;
+    };
+    combine(0, sensitivity_.q);
+    combine(1, sensitivity_.v);
+    combine(2, sensitivity_.a);
+    combine(3, sensitivity_.w);
+    const Eigen::Vector4d& b = trajectory_.scheme.correction;
+    sensitivity_.v -= b(1) / b(0) * sensitivity_.q;
+    sensitivity_.a -= b(2) / b(0) * sensitivity_.q;
+    sensitivity_.w -= b(3) / b(0) * sensitivity_.q;
+  }
+
+  void form_right_hand_side() {
+    const int n = system_.coordinates();
+    system_.design_derivative(state_, ConstraintLevel::position, rhs_);
+    system_.tangent(state_, {.v = 1.0}, ConstraintLevel::position, rate_matrix_);
+    rhs_.noalias() += rate_matrix_.leftCols(n) * sensitivity_.v;
+    system_.tangent(state_, {.a = 1.0}, ConstraintLevel::position, rate_matrix_);
+    rhs_.noalias() += rate_matrix_.leftCols(n) * sensitivity_.a;
+    rhs_.topRows(n) *= trajectory_.scheme.dynamic_scale();
+    rhs_ *= -1.0;
+  }
+
+  void solve(int step) {
+    const int n = system_.coordinates();
+    const Eigen::Vector4d& b = trajectory_.scheme.correction;
+    const double scale = trajectory_.scheme.dynamic_scale();
+    system_.tangent(state_, {b(0), b(1), b(2)}, ConstraintLevel::position, step_matrix_);
+    scale_dynamic_block(n, scale, step_matrix_);
+    if (!solver_.factorize(step_matrix_)) {
+      throw SimulationError(
+          fmt::format("the sensitivities are singular at t = {:.6g} s (step {})", state_.time, step));
+    }
+    solver_.solve(rhs_);
+    sensitivity_.q = rhs_.topRows(n);
+    sensitivity_.lambda = rhs_.bottomRows(system_.multipliers()) / scale;
+    sensitivity_.v += b(1) / b(0) * sensitivity_.q;
+    sensitivity_.a += b(2) / b(0) * sensitivity_.q;
+    sensitivity_.w += b(3) / b(0) * sensitivity_.q;
+  }
+
+  System& system_;
+  const Trajectory& trajectory_;
+  StateSensitivity sensitivity_, old_;
+  State state_;
+  System::Matrix step_matrix_, rate_matrix_;
+  LinearSolver solver_;
+  Eigen::MatrixXd rhs_;
+};
+
+}  // namespace
+
+void differentiate(Mechanism& mechanism, const Trajectory& trajectory,
+                   const SensitivityObserver& observer) {
+  DirectDifferentiation(mechanism, trajectory).run(observer);
+}
+
+}  // namespace pleuel

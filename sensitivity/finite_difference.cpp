@@ -1,0 +1,47 @@
+#include "sensitivity/finite_difference.hpp"
+
+namespace pleuel {
+
+namespace {
+
+Eigen::VectorXd values(const Analysis& analysis) {
+  Eigen::VectorXd all(static_cast<Eigen::Index>(analysis.reductions.size()));
+  for (std::size_t i = 0; i < analysis.reductions.size(); ++i) {
+    all(static_cast<Eigen::Index>(i)) = analysis.reductions[i].value;
+  }
+  return all;
+}
+
+double step_of(double x, double step) { return x == 0.0 ? step : step * std::abs(x); }
+
+Eigen::VectorXd values_at(const ProblemFile& problem, Eigen::VectorXd x, Eigen::Index j,
+                          double value) {
+  x(j) = value;
+  return values(*analyze(problem, x));
+}
+
+}  // namespace
+
+Eigen::MatrixXd forward_differences(const ProblemFile& problem, const Eigen::VectorXd& x,
+                                    const Analysis& at_x, double step) {
+  const Eigen::VectorXd base = values(at_x);
+  Eigen::MatrixXd result(base.size(), x.size());
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
+    const double upper = x(j) + step_of(x(j), step);
+    result.col(j) = (values_at(problem, x, j, upper) - base) / (upper - x(j));
+  }
+  return result;
+}
+
+Eigen::MatrixXd central_differences(const ProblemFile& problem, const Eigen::VectorXd& x,
+                                    double step) {
+  Eigen::MatrixXd result(static_cast<Eigen::Index>(problem.responses.size()), x.size());
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
+    const double upper = x(j) + step_of(x(j), step), lower = x(j) - step_of(x(j), step);
+    result.col(j) = (values_at(problem, x, j, upper) - values_at(problem, x, j, lower)) /
+                    (upper - lower);
+  }
+  return result;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,92 @@
+#include "sensitivity/gradients.hpp"
+
+#include <map>
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "sensitivity/direct.hpp"
+#include "sensitivity/finite_difference.hpp"
+
+namespace pleuel {
+
+std::string to_string(GradientMethod method) {
+  switch (method) {
+    case GradientMethod::direct: return "direct";
+    case GradientMethod::forward_difference: return "forward-difference";
+    default: return "central-difference";
+  }
+}
+
+GradientMethod gradient_method(const std::string& name) {
+  for (auto method : {GradientMethod::direct, GradientMethod::forward_difference,
+                      GradientMethod::central_difference}) {
+    if (to_string(method) == name) return method;
+  }
+  throw InputError(fmt::format(
+      "there is no gradient method \"{}\"; known are direct, forward-difference, central-difference",
+      name));
+}
+
+namespace {
+
+struct Use {
+  std::size_t response;
+  int channel;
+  double weight;
+};
+
+/// Which samples of which responses are needed at each step.
+std::map<int, std::vector<Use>> samples_by_step(const Analysis& analysis) {
+  std::map<int, std::vector<Use>> steps;
+  for (std::size_t i = 0; i < analysis.reductions.size(); ++i) {
+    for (const Sample& sample : analysis.reductions[i].samples) {
+      steps[sample.step].push_back({i, sample.channel, sample.weight});
+    }
+  }
+  return steps;
+}
+
+}  // namespace
+
+Eigen::MatrixXd direct_gradients(Analysis& analysis) {
+  const System& system = *analysis.model.mechanism.system;
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(
+      static_cast<Eigen::Index>(analysis.responses.size()), system.variables());
+  for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
+    const Response& response = analysis.responses[i];
+    if (!response.signal) result.row(static_cast<Eigen::Index>(i)) = response.constant_x.transpose();
+  }
+  const auto uses = samples_by_step(analysis);
+  if (uses.empty() || system.variables() == 0) return result;
+  SignalGradient gradient(system.coordinates(), system.multipliers(), system.variables());
+  const SignalGradient zero = gradient;
+  differentiate(
+      analysis.model.mechanism, analysis.trajectory,
+      [&](int step, const State& state, const StateSensitivity& s) {
+        const auto found = uses.find(step);
+        if (found == uses.end()) return;
+        for (const Use& use : found->second) {
+          gradient = zero;
+          analysis.responses[use.response].signal->add_gradient(state, use.channel, use.weight,
+                                                                gradient);
+          result.row(static_cast<Eigen::Index>(use.response)) +=
+              gradient.q.transpose() * s.q + gradient.v.transpose() * s.v +
+              gradient.a.transpose() * s.a + gradient.lambda.transpose() * s.lambda +
+              gradient.design.transpose();
+        }
+      });
+  return result;
+}
+
+Eigen::MatrixXd gradients(const ProblemFile& problem, const Eigen::VectorXd& x, Analysis& analysis,
+                          GradientMethod method, const GradientOptions& options) {
+  switch (method) {
+    case GradientMethod::direct: return direct_gradients(analysis);
+    case GradientMethod::forward_difference:
+      return forward_differences(problem, x, analysis, options.difference_step);
+    default: return central_differences(problem, x, options.difference_step);
+  }
+}
+
+}  // namespace pleuel

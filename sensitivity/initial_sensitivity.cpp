@@ -1,0 +1,121 @@
+#include "sensitivity/initial_sensitivity.hpp"
+
+#include "core/base/error.hpp"
+#include "core/integration/linear_solver.hpp"
+
+namespace pleuel {
+
+namespace {
+
+class InitialDifferentiation {
+ public:
+  InitialDifferentiation(Mechanism& mechanism, const InitialState& initial)
+      : mechanism_(mechanism),
+        system_(*mechanism.system),
+        initial_(initial),
+        n_(system_.coordinates()),
+        m_(system_.multipliers()),
+        matrix_(system_.make_matrix()),
+        solver_(matrix_) {}
+
+  StateSensitivity run() {
+    differentiate_positions();
+    differentiate_velocities();
+    differentiate_accelerations();
+    sensitivity_.w = sensitivity_.a;
+    return std::move(sensitivity_);
+  }
+
+ private:
+  /// The part of R_q and R_x that is linear in the multipliers: (Φ_qᵀ μ)_q and (Φ_qᵀ μ)_x.
+  struct Curvature {
+    System::Matrix q;
+    Eigen::MatrixXd x;
+  };
+  Curvature curvature(const State& state, const Eigen::VectorXd& multipliers) {
+    State with = state, without = state;
+    with.lambda = multipliers;
+    without.lambda.setZero();
+    Curvature result{system_.make_matrix(), {}};
+    System::Matrix subtracted = system_.make_matrix();
+    Eigen::MatrixXd subtracted_x;
+    const Weights position{.q = 1.0};
+    system_.tangent(with, position, ConstraintLevel::position, result.q);
+    system_.tangent(without, position, ConstraintLevel::position, subtracted);
+    system_.design_derivative(with, ConstraintLevel::position, result.x);
+    system_.design_derivative(without, ConstraintLevel::position, subtracted_x);
+    result.q -= subtracted;
+    result.x -= subtracted_x;
+    return result;
+  }
+
+  void solve(Eigen::MatrixXd& rhs) {
+    if (!solver_.factorize(matrix_)) {
+      throw SimulationError("the derivatives of the initial state are singular");
+    }
+    solver_.solve(rhs);
+  }
+
+  void differentiate_positions() {
+    State state = initial_.state;
+    state.v.setZero();
+    state.a.setZero();
+    const Curvature curved = curvature(state, initial_.position_multipliers);
+    Eigen::MatrixXd rhs;
+    system_.design_derivative(state, ConstraintLevel::position, rhs);
+    rhs *= -1.0;
+    rhs.topRows(n_) = mechanism_.assembly_weight.asDiagonal() * mechanism_.guess_q_x -
+                      curved.x.topRows(n_);
+    projection_matrix(mechanism_, state, matrix_);
+    matrix_ += curved.q;
+    solve(rhs);
+    sensitivity_.q = rhs.topRows(n_);
+  }
+
+  void differentiate_velocities() {
+    State state = initial_.state;
+    state.a.setZero();
+    const Curvature curved = curvature(state, initial_.velocity_multipliers);
+    Eigen::MatrixXd rhs;
+    system_.design_derivative(state, ConstraintLevel::velocity, rhs);
+    rhs.topRows(n_) = curved.x.topRows(n_) + (curved.q.leftCols(n_) * sensitivity_.q).topRows(n_) -
+                      mechanism_.assembly_weight.asDiagonal() * mechanism_.guess_v_x;
+    system_.tangent(state, {.q = 1.0}, ConstraintLevel::velocity, matrix_);
+    rhs.bottomRows(m_) += (matrix_.leftCols(n_) * sensitivity_.q).bottomRows(m_);
+    rhs *= -1.0;
+    projection_matrix(mechanism_, state, matrix_);
+    solve(rhs);
+    sensitivity_.v = rhs.topRows(n_);
+  }
+
+  void differentiate_accelerations() {
+    const State& state = initial_.state;
+    Eigen::MatrixXd rhs;
+    system_.design_derivative(state, ConstraintLevel::acceleration, rhs);
+    system_.tangent(state, {.q = 1.0}, ConstraintLevel::acceleration, matrix_);
+    rhs += matrix_.leftCols(n_) * sensitivity_.q;
+    system_.tangent(state, {.v = 1.0}, ConstraintLevel::acceleration, matrix_);
+    rhs += matrix_.leftCols(n_) * sensitivity_.v;
+    rhs *= -1.0;
+    system_.tangent(state, {.a = 1.0}, ConstraintLevel::acceleration, matrix_);
+    solve(rhs);
+    sensitivity_.a = rhs.topRows(n_);
+    sensitivity_.lambda = rhs.bottomRows(m_);
+  }
+
+  Mechanism& mechanism_;
+  System& system_;
+  const InitialState& initial_;
+  int n_, m_;
+  System::Matrix matrix_;
+  LinearSolver solver_;
+  StateSensitivity sensitivity_;
+};
+
+}  // namespace
+
+StateSensitivity initial_sensitivity(Mechanism& mechanism, const InitialState& initial) {
+  return InitialDifferentiation(mechanism, initial).run();
+}
+
+}  // namespace pleuel

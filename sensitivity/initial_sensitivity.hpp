@@ -1,0 +1,13 @@
+#pragma once
+
+#include "core/integration/initial_state.hpp"
+#include "sensitivity/state_sensitivity.hpp"
+
+namespace pleuel {
+
+/// Derivatives of the consistent initial values: assembly, velocity projection and initial
+/// accelerations are differentiated as they are computed (implicit function theorem), the curvature
+/// of the constraints included.
+StateSensitivity initial_sensitivity(Mechanism& mechanism, const InitialState& initial);
+
+}  // namespace pleuel
