@@ -93,7 +93,7 @@ double gradient_scale(const Problem& problem, const KnownDesign& design, const E
                       const Eigen::VectorXd& scales) {
   const double here = scaled_objective_gradient(problem, design.evaluation, scales).norm();
   const double at_start = scaled_objective_gradient(problem, start, scales).norm();
-  return std::max({here, std::min(at_start, objective_value_scale(design, start)),
+  return std::max({here, std::min(at_start, 0.1 * objective_value_scale(design, start)),
                    std::numeric_limits<double>::min()});
 }
 

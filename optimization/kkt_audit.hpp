@@ -30,7 +30,7 @@ struct KktAudit {
 /// row λ · slack, so that no activity tolerance decides.
 ///
 /// gradient_scale is ‖s ∘ ∇f‖₂. Near an optimum without active limits this vanishes with the
-/// residual: it is therefore at least min(‖s ∘ ∇f(start)‖₂, max(|f|, 10⁻³ |f(start)|)).
+/// residual: it is therefore at least min(‖s ∘ ∇f(start)‖₂, |f| / 10), with the same floor of |f|.
 /// @param design  with gradients of the true, un-aggregated constraints.
 /// @param start   evaluation of the first design, with gradients.
 /// @param scales  magnitudes C of the constraints.

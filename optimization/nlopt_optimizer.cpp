@@ -22,18 +22,28 @@ constexpr double failure_penalty = 10.0;
 /// answers with the best feasible design, so that a tighter value would lose a good end to noise.
 constexpr double row_tolerance = 1e-6;
 
-/// What the C callbacks of one run share.
+/// Price K of elasticity, of order-one objective per relative violation: above the sum of the
+/// multipliers of any sensibly limited design, so that z ends at 0 (exact penalty).
+constexpr double elastic_price = 100.0;
+
+/// What the C callbacks of one run share. The variables of NLopt are y or, if elastic, (y, z).
 struct Bridge {
   ScaledProblem& problem;
   nlopt_opt handle;
+  Eigen::Index elastic_variables = 0;  ///< 0 or 1
   double worst_objective = 0.0;
   double worst_row = 0.0;
 
   std::optional<ScaledEvaluation> evaluate(unsigned n, const double* y, const double* gradient) {
     const Request request = gradient == nullptr ? Request::values : Request::values_and_gradients;
-    auto evaluation = problem.evaluate(Eigen::Map<const Eigen::VectorXd>(y, n), request);
+    const Eigen::Map<const Eigen::VectorXd> design(y, static_cast<int>(n) - elastic_variables);
+    auto evaluation = problem.evaluate(design, request);
     if (problem.should_stop()) nlopt_force_stop(handle);
     return evaluation;
+  }
+
+  double elasticity(unsigned n, const double* y) const {
+    return elastic_variables == 0 ? 0.0 : y[n - 1];
   }
 };
 
@@ -46,9 +56,11 @@ double evaluate_objective(unsigned n, const double* y, double* gradient, void* d
   }
   bridge.worst_objective = std::max(bridge.worst_objective, evaluation->objective);
   if (gradient != nullptr) {
-    Eigen::Map<Eigen::VectorXd>(gradient, n) = evaluation->objective_gradient;
+    Eigen::Map<Eigen::VectorXd> all(gradient, n);
+    all.setConstant(elastic_price);
+    all.head(n - bridge.elastic_variables) = evaluation->objective_gradient;
   }
-  return evaluation->objective;
+  return evaluation->objective + elastic_price * bridge.elasticity(n, y);
 }
 
 /// Rows of g or h, chosen by the members of ScaledEvaluation that hold them.
@@ -64,8 +76,11 @@ void evaluate_rows(unsigned m, double* result, unsigned n, const double* y, doub
   }
   const Eigen::VectorXd& values = (*evaluation).*Values;
   bridge.worst_row = std::max(bridge.worst_row, values.maxCoeff());
-  Eigen::Map<Eigen::VectorXd>(result, m) = values;
-  if (gradient != nullptr) Eigen::Map<RowMajor>(gradient, m, n) = (*evaluation).*Jacobian;
+  Eigen::Map<Eigen::VectorXd>(result, m) = values.array() - bridge.elasticity(n, y);
+  if (gradient == nullptr) return;
+  Eigen::Map<RowMajor> jacobian(gradient, m, n);
+  jacobian.setConstant(-1.0);
+  jacobian.leftCols(n - bridge.elastic_variables) = (*evaluation).*Jacobian;
 }
 
 void add_rows(Bridge& bridge) {
@@ -103,6 +118,10 @@ std::string describe(nlopt_result result) {
   }
 }
 
+/// MMA and CCSAQ find no way into the limits from a start far outside. There they solve Svanberg's
+/// elastic form (Svanberg 1987, eq. 29), which keeps all its limits from the first design on:
+///
+///     minimize f(y) + K z   subject to   g(y) ≤ z,   z ≥ 0
 class NloptOptimizer : public Optimizer {
  public:
   NloptOptimizer(nlopt_algorithm algorithm, const BackendOptions& options)
@@ -111,23 +130,41 @@ class NloptOptimizer : public Optimizer {
   bool takes_equalities() const override { return algorithm_ == NLOPT_LD_SLSQP; }
 
   BackendEnd minimize(ScaledProblem& problem) override {
-    const Handle handle(nlopt_create(algorithm_, static_cast<unsigned>(problem.variables())),
-                        &nlopt_destroy);
-    Bridge bridge{problem, handle.get()};
+    const double violation = elastic_violation(problem);
+    Eigen::VectorXd lower = problem.lower(), upper = problem.upper(), y = problem.start();
+    if (violation > 0.0) {
+      append(lower, 0.0);
+      append(upper, 2.0 * violation);
+      append(y, violation);
+    }
+    const Handle handle(nlopt_create(algorithm_, static_cast<unsigned>(y.size())), &nlopt_destroy);
+    Bridge bridge{problem, handle.get(), y.size() - problem.variables()};
     nlopt_set_min_objective(handle.get(), evaluate_objective, &bridge);
-    nlopt_set_lower_bounds(handle.get(), problem.lower().data());
-    nlopt_set_upper_bounds(handle.get(), problem.upper().data());
+    nlopt_set_lower_bounds(handle.get(), lower.data());
+    nlopt_set_upper_bounds(handle.get(), upper.data());
     add_rows(bridge);
     nlopt_set_ftol_rel(handle.get(), options_.tolerance);
     nlopt_set_xtol_rel(handle.get(), options_.tolerance);
 
-    Eigen::VectorXd y = problem.start();
     double objective = 0.0;
     const nlopt_result result = nlopt_optimize(handle.get(), y.data(), &objective);
-    return {y, describe(result)};
+    return {y.head(problem.variables()), describe(result)};
   }
 
  private:
+  static void append(Eigen::VectorXd& vector, double entry) {
+    vector.conservativeResize(vector.size() + 1);
+    vector[vector.size() - 1] = entry;
+  }
+
+  /// Largest g at the start where MMA needs elasticity, else 0.
+  double elastic_violation(ScaledProblem& problem) const {
+    if (takes_equalities() || problem.inequalities() == 0) return 0.0;
+    const auto start = problem.evaluate(problem.start(), Request::values);
+    const double violation = start ? start->inequalities.maxCoeff() : 0.0;
+    return violation > row_tolerance ? violation : 0.0;
+  }
+
   nlopt_algorithm algorithm_;
   BackendOptions options_;
 };

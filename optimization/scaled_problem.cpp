@@ -9,6 +9,8 @@ namespace pleuel {
 
 ScaledProblem::ScaledProblem(EvaluationCache& cache, const KnownDesign& around, Budget budget)
     : cache_(cache),
+      iterations_(cache.iterations()),
+      evaluations_(cache.evaluations()),
       around_(around.x),
       budget_(budget),
       variable_scales_(variable_scales(cache.problem(), around.x)),
@@ -70,9 +72,14 @@ void ScaledProblem::rethrow() const {
 }
 
 void ScaledProblem::update_stop() {
+  if (cache_.iterations() > iterations_) {
+    iterations_ = cache_.iterations();
+    evaluations_ = cache_.evaluations();
+  }
   should_stop_ = cache_.iterations() >= budget_.iterations ||
                  cache_.evaluations() >= budget_.evaluations ||
-                 cache_.consecutive_failures() >= budget_.consecutive_failures;
+                 cache_.consecutive_failures() >= budget_.consecutive_failures ||
+                 cache_.evaluations() - evaluations_ >= budget_.line_search;
 }
 
 Eigen::VectorXd ScaledProblem::to_design(const Eigen::VectorXd& y) const {

@@ -32,6 +32,7 @@ class ScaledProblem {
     int iterations = 0;            ///< of the cache, counted since the start of the run
     int evaluations = 0;           ///< likewise
     int consecutive_failures = 0;  ///< after this many the region is hopeless
+    int line_search = 0;           ///< evaluations without gradients in a row: no way down is found
   };
 
   /// @param around  the design whose magnitudes scale the problem, and where the backend starts;
@@ -73,6 +74,8 @@ class ScaledProblem {
   ScaledEvaluation scale(const Evaluation& evaluation) const;
 
   EvaluationCache& cache_;
+  int iterations_ = 0;   ///< of the cache, when gradients were last computed here
+  int evaluations_ = 0;  ///< likewise
   Eigen::VectorXd around_;
   Budget budget_;
   std::vector<Eigen::Index> free_;  ///< the variables that are not fixed

@@ -75,6 +75,8 @@ class Run {
 
  private:
   static constexpr double tolerance_factor = 0.1;
+  /// Evaluations without gradients after which a backend is better started anew.
+  static constexpr int longest_line_search = 30;
   /// Violation up to which a design is preferred: tighter than what a verdict allows, so that no
   /// tolerance is exploited.
   static constexpr double strict_violation = 1e-6;
@@ -97,9 +99,9 @@ class Run {
   }
 
   Eigen::VectorXd run_backend(const KnownDesign& from, double tolerance) {
-    ScaledProblem scaled(
-        cache_, from,
-        {options_.max_iterations, max_evaluations(), options_.max_consecutive_failures});
+    ScaledProblem scaled(cache_, from,
+                         {options_.max_iterations, max_evaluations(),
+                          options_.max_consecutive_failures, longest_line_search});
     if (scaled.variables() == 0) return from.x;
     const BackendEnd end = make_optimizer(options_.backend, {tolerance})->minimize(scaled);
     scaled.rethrow();

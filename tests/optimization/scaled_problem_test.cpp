@@ -34,7 +34,7 @@ class EveryKind : public testing::Test {
                          design_,
                          {scales_, constraint_scales(problem_, design_.evaluation, scales_)},
                          {{}, {}}};
-  ScaledProblem scaled_{cache_, design_, {100, 100, 10}};
+  ScaledProblem scaled_{cache_, design_, {100, 100, 10, 30}};
 };
 
 TEST_F(EveryKind, OfConstraintBecomesOneSidedRowsOfOrderOne) {
