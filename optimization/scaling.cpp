@@ -21,12 +21,15 @@ double positive_or(double value, double fallback) {
   return value > 0.0 ? value : fallback;
 }
 
+bool has_range(const Variable& variable) {
+  return is_limited(variable.lower) && is_limited(variable.upper);
+}
+
 double variable_scale(const Variable& variable, double x, double part_of_range) {
-  const double range = variable.upper - variable.lower;
   if (variable.is_fixed()) return positive_or(std::abs(x), 1.0);
-  if (!is_limited(variable.lower) || !is_limited(variable.upper)) {
-    return std::max(std::abs(x), positive_or(std::abs(variable.start), 1.0));
-  }
+  if (!has_range(variable))
+    return positive_or(std::max(std::abs(x), std::abs(variable.start)), 1.0);
+  const double range = variable.upper - variable.lower;
   return std::clamp(std::abs(x), part_of_range * range, range);
 }
 
@@ -54,7 +57,15 @@ Eigen::VectorXd variable_scales(const Problem& problem, const Eigen::VectorXd& x
 }
 
 Eigen::VectorXd local_scales(const Problem& problem, const Eigen::VectorXd& x) {
-  return scales_with(part_of_range_for_audit, problem, x);
+  Eigen::VectorXd scales = scales_with(part_of_range_for_audit, problem, x);
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    if (!has_range(problem.variables()[i])) largest = std::max(largest, scales[i]);
+  }
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    if (!has_range(problem.variables()[i])) scales[i] = largest;
+  }
+  return scales;
 }
 
 Eigen::VectorXd constraint_scales(const Problem& problem, const Evaluation& evaluation,

@@ -10,11 +10,12 @@ namespace pleuel {
 
 /// Magnitude s of each variable near the design x, for the backends: |xᵢ|, but at least a tenth of
 /// the range between its bounds and at most all of it; without finite bounds at least |start|, or 1
-/// if that is 0. Always positive.
+/// if both are 0. Always positive.
 Eigen::VectorXd variable_scales(const Problem& problem, const Eigen::VectorXd& x);
 
 /// The same for the audit, with at least a hundredth of the range: a step of s is a change of a
-/// small variable that an engineer would call large.
+/// small variable that an engineer would call large. Variables without finite bounds share the
+/// largest of their magnitudes, since nothing says that one of them near 0 is meant to be small.
 Eigen::VectorXd local_scales(const Problem& problem, const Eigen::VectorXd& x);
 
 /// Magnitude C of each constraint: its larger finite limit, so that (c − upper)/C is σ/σ_allow − 1.

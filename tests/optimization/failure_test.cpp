@@ -149,6 +149,21 @@ TEST_P(Failure, EverywhereButAtTheStartIsGivenUp) {
   EXPECT_THAT(result.message, testing::HasSubstr("no equilibrium"));
 }
 
+TEST_P(Failure, TooOftenInARowEndsTheRun) {
+  KnownProblem known = cantilever();
+  const Eigen::VectorXd start = checked_start(known.problem);
+  FunctionProblem problem(known.problem.variables(), known.problem.constraints(),
+                          [&](const Eigen::VectorXd& x, Request request) {
+                            if (x != start) throw EvaluationFailure("no equilibrium");
+                            return known.problem.evaluate(x, request);
+                          });
+  options_.max_consecutive_failures = 2;
+  const Result result = solve(problem, options_);
+  EXPECT_EQ(result.status, Status::failed);
+  EXPECT_EQ(result.evaluations, 3);
+  EXPECT_THAT(result.message, testing::HasSubstr("too many in a row"));
+}
+
 TEST_P(Failure, OfTheProgramItselfPassesThrough) {
   KnownProblem known = cantilever();
   int calls = 0;

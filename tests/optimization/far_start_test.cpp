@@ -42,8 +42,7 @@ TEST_P(FarStart, EndsAtTheOptimumOrUnverified) {
       ++runs;
       if (result.status != Status::verified) continue;
       ++verified;
-      const double tolerance = known.name == "HS100" ? 5e-3 : 1e-3;
-      EXPECT_NEAR(result.evaluation.objective, known.optimum, tolerance * std::abs(known.optimum))
+      EXPECT_NEAR(result.evaluation.objective, known.optimum, 1e-3 * std::abs(known.optimum))
           << known.name;
     }
   }

@@ -111,6 +111,26 @@ TEST_P(Multipliers, AreGivenInTheUnitsOfTheProblem) {
               tolerance * known.optimum);
 }
 
+// The same deflection limited twice: the limit with 4 % slack holds nothing, though its gradient
+// explains the optimum xᵢ = aᵢ^{1/4} S^{1/3} as well as that of the other one.
+TEST(Multiplier, BelongsToTheLimitThatIsReached) {
+  KnownProblem known = cantilever();
+  FunctionProblem problem(
+      known.problem.variables(), {{"loose", -infinity, 1.04}, {"tight", -infinity, 1.0}},
+      [&](const Eigen::VectorXd& x, Request request) {
+        Evaluation evaluation = known.problem.evaluate(x, request);
+        evaluation.constraints = evaluation.constraints.replicate(2, 1).eval();
+        evaluation.constraint_jacobian = evaluation.constraint_jacobian.replicate(2, 1).eval();
+        return evaluation;
+      });
+  const Eigen::VectorXd roots = Vector<double>{{61.0, 37.0, 19.0, 7.0, 1.0}}.array().sqrt().sqrt();
+  const Eigen::VectorXd optimum = roots * std::cbrt(roots.sum());
+  const Verdict verdict = judge_anew(problem, checked_start(problem), optimum);
+  EXPECT_EQ(verdict.status, Status::verified) << verdict.message;
+  EXPECT_NEAR(verdict.audit.constraint_multipliers[0], 0.0, 1e-9);
+  EXPECT_NEAR(verdict.audit.constraint_multipliers[1], known.optimum / 3.0, 1e-9);
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, Multipliers, testing::ValuesIn(optimizer_names()),
                          name_of_backend);
 
