@@ -119,7 +119,7 @@ std::string describe(nlopt_result result) {
 }
 
 /// MMA and CCSAQ find no way into the limits from a start far outside. There they solve Svanberg's
-/// elastic form (Svanberg 1987, eq. 29), which keeps all its limits from the first design on:
+/// elastic form (Svanberg 1987), which keeps all its limits from the first design on:
 ///
 ///     minimize f(y) + K z   subject to   g(y) ≤ z,   z ≥ 0
 class NloptOptimizer : public Optimizer {

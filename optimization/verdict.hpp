@@ -39,7 +39,8 @@ struct Verdict {
 };
 
 /// Audits a design on the true values of the problem, in this order: limits, KKT conditions,
-/// gradients against differences (the last only if all else is well).
+/// gradients against differences (the last only if all else is well). The conditions are of first
+/// order: a start exactly on a saddle that no backend leaves would pass.
 /// @param design  with gradients.
 /// @param start   evaluation of the first design, with gradients.
 Verdict judge(EvaluationCache& cache, const KnownDesign& design, const Evaluation& start,

@@ -26,7 +26,7 @@ KnownProblem hs100();
 /// @param limit  d, of the tip deflection Σ aᵢ / xᵢ³.
 KnownProblem cantilever(double limit = 1.0);
 
-/// Three bars, two loads, stress limits (Nowcki 1974). f* = 100 (2√2 x₁ + x₂), only the first
+/// Three bars, two loads, stress limits (Nowacki 1974). f* = 100 (2√2 x₁ + x₂), only the first
 /// stress is active.
 KnownProblem three_bar_truss();
 
