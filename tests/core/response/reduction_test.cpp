@@ -1,0 +1,93 @@
+#include "core/response/reduction.hpp"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace pleuel;
+
+constexpr int steps = 40;
+const Eigen::VectorXd grid = Eigen::VectorXd::LinSpaced(steps + 1, 0.0, 0.2);
+
+Eigen::MatrixXd sampled(double (*f)(double)) {
+  return grid.unaryExpr([f](double t) { return f(t); }).transpose();
+}
+
+TEST(Reduction, FindsThePeakOfAParabolaBetweenTheSteps) {
+  const auto y = sampled([](double t) { return 3.0 - 70.0 * (t - 0.0831) * (t - 0.0831); });
+  EXPECT_NEAR(reduce(OverTime::max, grid, y).value, 3.0, 1e-14);
+  EXPECT_NEAR(reduce(OverTime::min, grid, -y).value, -3.0, 1e-14);
+  EXPECT_NEAR(reduce(OverTime::max_abs, grid, -y).value, 3.0, 1e-14);
+  EXPECT_NEAR(reduce(OverTime::max_abs, grid, y).value, 3.0, 1e-14);
+}
+
+TEST(Reduction, TakesAPeakAtTheEndsAsItIs) {
+  EXPECT_EQ(reduce(OverTime::max, grid, sampled([](double t) { return 2 - t; })).value, 2.0);
+  EXPECT_EQ(reduce(OverTime::max, grid, sampled([](double t) { return t; })).value, 0.2);
+  EXPECT_EQ(reduce(OverTime::min, grid, sampled([](double t) { return t - 1; })).value, -1.0);
+  EXPECT_EQ(reduce(OverTime::max, grid, sampled([](double) { return -4.0; })).value, -4.0);
+}
+
+/// ∫ sin²: the trapezoidal rule is exact for trigonometric polynomials over whole periods.
+TEST(Reduction, AveragesByTheTrapezoidalRule) {
+  const auto y = sampled([](double t) { return 1.5 + std::sin(2 * std::numbers::pi * t / 0.1); });
+  EXPECT_NEAR(reduce(OverTime::mean, grid, y).value, 1.5, 1e-14);
+  EXPECT_NEAR(reduce(OverTime::integral, grid, y).value, 0.3, 1e-14);
+  EXPECT_NEAR(reduce(OverTime::rms, grid, y).value, std::sqrt(1.5 * 1.5 + 0.5), 1e-14);
+  EXPECT_NEAR(reduce(OverTime::final, grid, y).value, 1.5, 1e-13);
+}
+
+class EveryReduction : public testing::TestWithParam<OverTime> {};
+
+/// Weights are derivatives: against central differences of each sample of a wavy history, which for
+/// peaks are those of the envelope theorem.
+TEST_P(EveryReduction, HasTheDerivativesOfItsValueAsWeights) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-0.05, 0.05);
+  Eigen::MatrixXd y = sampled([](double t) { return std::sin(31 * t) - 0.4 + 2 * t; });
+  for (double& entry : y.reshaped()) entry += 0.1 * uniform(random);
+  const Reduction at = reduce(GetParam(), grid, y);
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(steps + 1);
+  for (const Sample& sample : at.samples) weights(sample.step) += sample.weight;
+  for (int i = 0; i <= steps; ++i) {
+    const double h = 1e-5;
+    Eigen::MatrixXd up = y, down = y;
+    up(0, i) += h;
+    down(0, i) -= h;
+    const double slope =
+        (reduce(GetParam(), grid, up).value - reduce(GetParam(), grid, down).value) / (2 * h);
+    EXPECT_NEAR(weights(i), slope, 1e-7) << "sample " << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, EveryReduction,
+                         testing::Values(OverTime::max, OverTime::min, OverTime::max_abs,
+                                         OverTime::rms, OverTime::mean, OverTime::integral,
+                                         OverTime::final));
+
+TEST(Reduction, TakesTheHighestChannel) {
+  Eigen::MatrixXd y(2, steps + 1);
+  y.row(0) = sampled([](double t) { return 1.0 - 50 * (t - 0.04) * (t - 0.04); });
+  y.row(1) = sampled([](double t) { return 1.2 - 50 * (t - 0.151) * (t - 0.151); });
+  const Reduction at = reduce(OverTime::max, grid, y);
+  EXPECT_NEAR(at.value, 1.2, 1e-14);
+  for (const Sample& sample : at.samples) EXPECT_EQ(sample.channel, 1);
+  EXPECT_FALSE(at.tie.has_value());
+}
+
+TEST(Reduction, TellsPeaksOfNearlyTheSameHeight) {
+  const auto y = sampled([](double t) { return std::sin(2 * std::numbers::pi * t / 0.1); });
+  const Reduction twice = reduce(OverTime::max, grid, y);  // two equal peaks
+  ASSERT_TRUE(twice.tie.has_value());
+  EXPECT_NEAR(std::abs(twice.tie->time - twice.tie->other_time), 0.1, 1e-12);
+  const Reduction both = reduce(OverTime::max_abs, grid, y);
+  ASSERT_TRUE(both.tie.has_value());
+  EXPECT_NEAR(both.tie->gap, 0.0, 1e-9);
+  const auto damped =
+      sampled([](double t) { return std::exp(-t) * std::sin(2 * std::numbers::pi * t / 0.1); });
+  EXPECT_FALSE(reduce(OverTime::max, grid, damped).tie.has_value());
+}
+
+}  // namespace

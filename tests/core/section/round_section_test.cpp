@@ -1,0 +1,71 @@
+#include <complex>
+
+#include <gtest/gtest.h>
+
+#include "core/section/section_properties.hpp"
+
+namespace {
+
+using namespace pleuel;
+
+TEST(RoundSection, SecondMomentsAreTheIntegralsOverItsArea) {
+  const double outer = 0.03, inner = 0.021;
+  const int n = 2000;
+  double area = 0.0, polar = 0.0;  // rings: dA = 2πr dr
+  for (int i = 0; i < n; ++i) {
+    const double dr = (outer - inner) / 2 / n, r = inner / 2 + (i + 0.5) * dr;
+    area += 2 * std::numbers::pi * r * dr;
+    polar += 2 * std::numbers::pi * r * r * r * dr;
+  }
+  const auto tube = round_section(outer, inner);
+  EXPECT_NEAR(tube.area / area, 1.0, 1e-12);
+  EXPECT_NEAR((tube.inertia_y + tube.inertia_z) / polar, 1.0, 1e-6);  // midpoint rule: O(1/n²)
+  EXPECT_EQ(tube.inertia_y, tube.inertia_z);
+  EXPECT_NEAR(tube.torsion / polar, 1.0, 1e-6);
+}
+
+TEST(RoundSection, TubeWithoutHoleIsTheCircle) {
+  const double d = 0.03;
+  const auto circle = round_section(d, 0.0), tube = round_section(d, 1e-9);
+  EXPECT_NEAR(tube.area, circle.area, 3e-15 * circle.area);  // (1e-9/0.03)² of it is missing
+  EXPECT_NEAR(tube.torsion, circle.torsion, 1e-15 * circle.torsion);
+  EXPECT_NEAR(circle.area, std::numbers::pi * d * d / 4, 1e-15 * circle.area);
+}
+
+TEST(RoundSection, TubeIsTheDifferenceOfTwoCircles) {
+  const auto tube = round_section(0.03, 0.02), outer = round_section(0.03, 0.0),
+             inner = round_section(0.02, 0.0);
+  EXPECT_NEAR(tube.area, outer.area - inner.area, 1e-15 * outer.area);
+  EXPECT_NEAR(tube.inertia_z, outer.inertia_z - inner.inertia_z, 1e-15 * outer.inertia_z);
+}
+
+/// τ = 16 T/(π d³) for a solid shaft.
+TEST(RoundSection, ShearOfAShaftIsThatOfTheTextbook) {
+  const double d = 0.03;
+  const auto shaft = round_section(d, 0.0);
+  for (const auto& point : shaft.points) {
+    EXPECT_NEAR(point.shear, 16 / (std::numbers::pi * d * d * d), 1e-12 * point.shear);
+    EXPECT_NEAR(std::hypot(point.y, point.z), d / 2, 1e-17);
+  }
+}
+
+TEST(RoundSection, DerivativesAreThoseOfTheComplexStep) {
+  using Complex = std::complex<double>;
+  const double tiny = 1e-40;
+  for (int variable : {0, 1}) {
+    const auto step = round_section(Complex(0.03, variable == 0 ? tiny : 0.0),
+                                    Complex(0.02, variable == 1 ? tiny : 0.0));
+    Dual outer(0.03), inner(0.02);
+    (variable == 0 ? outer : inner).derivatives()[0] = 1.0;
+    const auto dual = round_section(outer, inner);
+    const auto expect_same = [&](const Dual& d, const Complex& c) {
+      EXPECT_NEAR(derivative_of(d), c.imag() / tiny, 1e-13 * std::abs(c.imag() / tiny));
+    };
+    expect_same(dual.area, step.area);
+    expect_same(dual.inertia_z, step.inertia_z);
+    expect_same(dual.torsion, step.torsion);
+    expect_same(dual.points[0].shear, step.points[0].shear);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,231 @@
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/dense.hpp"
+#include "tests/support/differences.hpp"
+#include "tests/support/sample_scenes.hpp"
+
+namespace {
+
+using namespace pleuel;
+
+/// A state somewhere near the start, with all rates and multipliers: no law of a term needs a
+/// consistent one.
+State random_state(const Model& model) {
+  const System& system = *model.mechanism.system;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  State state(system.coordinates(), system.multipliers());
+  state.time = 0.013;
+  state.q = model.mechanism.guess.q;
+  for (Eigen::Index i = 0; i < state.q.size(); ++i) {
+    const bool is_elastic =
+        model.mechanism.assembly_weight(i) * std::pow(model.mechanism.scale(i), 2) > 2;
+    state.q(i) += (is_elastic ? 1e-2 : 0.3) * model.mechanism.scale(i) * uniform(random);
+    state.v(i) = 5.0 * (is_elastic ? 1e-1 : 1.0) * model.mechanism.scale(i) * uniform(random);
+    state.a(i) = 50.0 * (is_elastic ? 1e-1 : 1.0) * model.mechanism.scale(i) * uniform(random);
+  }
+  for (double& lambda : state.lambda) lambda = 10.0 * uniform(random);
+  return state;
+}
+
+struct Case {
+  int sample;
+  ConstraintLevel level;
+};
+
+class EveryTerm : public testing::TestWithParam<Case> {
+ protected:
+  SampleScene sample_ = all_samples()[static_cast<std::size_t>(GetParam().sample)];
+  Model model_ = sample_.build();
+  State state_ = random_state(model_);
+
+  /// Compares ∂(residual)/∂(part of the state) with `expected`, column by column.
+  template <class Shift>
+  void expect_derivative(Term& term, const Eigen::MatrixXd& expected, Eigen::Index columns,
+                         const Eigen::VectorXd& steps, Shift&& shift, const char* what) {
+    for (Eigen::Index j = 0; j < columns; ++j) {
+      const Eigen::VectorXd found = derivative_at_zero(
+          [&](double s) {
+            State moved = state_;
+            shift(moved, j, s);
+            return residual_of(term, moved, GetParam().level);
+          },
+          steps(j));
+      // Round-off of a difference: 1e-16 of the residual, over the step.
+      const double noise =
+          1e-14 * residual_of(term, state_, GetParam().level).lpNorm<Eigen::Infinity>() / steps(j);
+      const double difference = (found - expected.col(j)).lpNorm<Eigen::Infinity>();
+      EXPECT_LE(difference, 1e-8 * expected.lpNorm<Eigen::Infinity>() + noise)
+          << term.name() << ", " << what << ", column " << j;
+    }
+  }
+};
+
+TEST_P(EveryTerm, HasTheTangentOfItsResidualInThePositions) {
+  const auto n = state_.q.size();
+  for (const auto& term : model_.mechanism.system->terms()) {
+    const auto tangent = tangent_of(*term, state_, {.q = 1.0}, GetParam().level).leftCols(n).eval();
+    expect_derivative(
+        *term, tangent, n, 1e-3 * model_.mechanism.scale,
+        [](State& at, Eigen::Index j, double s) { at.q(j) += s; }, "q");
+  }
+}
+
+TEST_P(EveryTerm, HasTheTangentOfItsResidualInTheVelocities) {
+  const auto n = state_.q.size();
+  for (const auto& term : model_.mechanism.system->terms()) {
+    const auto tangent = tangent_of(*term, state_, {.v = 1.0}, GetParam().level).leftCols(n).eval();
+    expect_derivative(
+        *term, tangent, n, 1.0 * model_.mechanism.scale,
+        [](State& at, Eigen::Index j, double s) { at.v(j) += s; }, "v");
+  }
+}
+
+TEST_P(EveryTerm, HasTheTangentOfItsResidualInTheAccelerations) {
+  const auto n = state_.q.size();
+  for (const auto& term : model_.mechanism.system->terms()) {
+    const auto tangent = tangent_of(*term, state_, {.a = 1.0}, GetParam().level).leftCols(n).eval();
+    expect_derivative(
+        *term, tangent, n, 10.0 * model_.mechanism.scale,
+        [](State& at, Eigen::Index j, double s) { at.a(j) += s; }, "a");
+  }
+}
+
+TEST_P(EveryTerm, HasTheTangentOfItsResidualInTheMultipliers) {
+  const auto m = state_.lambda.size();
+  for (const auto& term : model_.mechanism.system->terms()) {
+    const auto tangent = tangent_of(*term, state_, {}, GetParam().level).rightCols(m).eval();
+    expect_derivative(
+        *term, tangent, m, Eigen::VectorXd::Ones(m),
+        [](State& at, Eigen::Index j, double s) { at.lambda(j) += s; }, "lambda");
+  }
+}
+
+TEST_P(EveryTerm, HasTheWeightedSumOfItsTangents) {
+  const Weights weights{0.7, -1.3, 2.1};
+  const auto n = state_.q.size();
+  for (const auto& term : model_.mechanism.system->terms()) {
+    const auto part = [&](const Weights& w) {
+      return tangent_of(*term, state_, w, GetParam().level).leftCols(n).eval();
+    };
+    const Eigen::MatrixXd sum =
+        0.7 * part({.q = 1.0}) - 1.3 * part({.v = 1.0}) + 2.1 * part({.a = 1.0});
+    EXPECT_LE(relative_difference(part(weights), sum), 1e-14) << term->name();
+  }
+}
+
+/// By building the whole model anew at neighbouring designs.
+TEST_P(EveryTerm, HasTheDesignDerivativeOfItsResidual) {
+  System& system = *model_.mechanism.system;
+  const auto terms = system.terms().size();
+  for (int j = 0; j < system.variables(); ++j) {
+    const auto index = static_cast<std::size_t>(j);
+    const double x = sample_.design[index];
+    // Column i: the residual of term i.
+    const auto residuals_at = [&](double s) {
+      auto design = sample_.design;
+      design[index] += s;
+      const Model moved = sample_.build_at(design);
+      Eigen::MatrixXd residuals(system.size(), static_cast<Eigen::Index>(terms));
+      for (std::size_t i = 0; i < terms; ++i) {
+        residuals.col(static_cast<Eigen::Index>(i)) =
+            residual_of(*moved.mechanism.system->terms()[i], state_, GetParam().level);
+      }
+      return residuals;
+    };
+    const Eigen::MatrixXd found = derivative_at_zero(residuals_at, 2e-3 * std::abs(x));
+    for (std::size_t i = 0; i < terms; ++i) {
+      Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(system.size(), system.variables());
+      system.terms()[i]->add_design_derivative(state_, GetParam().level, columns);
+      const double scale = std::max(
+          residual_of(*system.terms()[i], state_, GetParam().level).lpNorm<Eigen::Infinity>(),
+          std::abs(x) * columns.col(j).lpNorm<Eigen::Infinity>());
+      const double difference =
+          (found.col(static_cast<Eigen::Index>(i)) - columns.col(j)).lpNorm<Eigen::Infinity>();
+      EXPECT_LE(difference * std::abs(x), 1e-8 * scale)
+          << system.terms()[i]->name() << ", variable " << sample_.variables[index];
+    }
+  }
+}
+
+class EverySample : public testing::TestWithParam<int> {
+ protected:
+  SampleScene sample_ = all_samples()[static_cast<std::size_t>(GetParam())];
+  Model model_ = sample_.build();
+  State state_ = random_state(model_);
+};
+
+/// The multipliers' part of the dynamic rows is Φ_qᵀ λ, with Φ_q from differences of Φ.
+TEST_P(EverySample, PushesAlongTheGradientsOfItsConstraints) {
+  const auto n = state_.q.size(), m = state_.lambda.size();
+  for (const auto& term : model_.mechanism.system->terms()) {
+    Eigen::VectorXd expected(n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      expected(j) = derivative_at_zero(
+          [&](double s) {
+            State moved = state_;
+            moved.q(j) += s;
+            return residual_of(*term, moved, ConstraintLevel::position).tail(m).dot(state_.lambda);
+          },
+          1e-3 * model_.mechanism.scale(j));
+    }
+    State free = state_;
+    free.lambda.setZero();
+    const Eigen::VectorXd found = (residual_of(*term, state_, ConstraintLevel::position) -
+                                   residual_of(*term, free, ConstraintLevel::position))
+                                      .head(n);
+    EXPECT_LE((found - expected).lpNorm<Eigen::Infinity>(),
+              1e-9 * expected.lpNorm<Eigen::Infinity>())
+        << term->name();
+  }
+}
+
+/// Φ̇ and Φ̈ are the time derivatives of Φ along q(t) = q + v t + a t²/2. The steps are small against
+/// the ramps of the drives (0.04 s); what is left is their fourth power, and round-off.
+TEST_P(EverySample, HasTheTimeDerivativesOfItsConstraints) {
+  const auto m = state_.lambda.size();
+  for (const auto& term : model_.mechanism.system->terms()) {
+    const auto position = [&](double t) -> Eigen::VectorXd {
+      State moved = state_;
+      moved.time += t;
+      moved.q += t * state_.v + 0.5 * t * t * state_.a;
+      return residual_of(*term, moved, ConstraintLevel::position).tail(m);
+    };
+    const auto expect_rate = [&](ConstraintLevel level, const Eigen::VectorXd& expected) {
+      const Eigen::VectorXd found = residual_of(*term, state_, level).tail(m);
+      EXPECT_LE((found - expected).lpNorm<Eigen::Infinity>(),
+                1e-7 * (1.0 + expected.lpNorm<Eigen::Infinity>()))
+          << term->name() << ", level " << static_cast<int>(level);
+    };
+    expect_rate(ConstraintLevel::velocity, derivative_at_zero(position, 2e-4));
+    expect_rate(ConstraintLevel::acceleration, second_derivative_at_zero(position, 4e-4));
+  }
+}
+
+std::vector<Case> all_cases() {
+  std::vector<Case> cases;
+  for (int sample = 0; sample < 3; ++sample) {
+    for (auto level :
+         {ConstraintLevel::position, ConstraintLevel::velocity, ConstraintLevel::acceleration}) {
+      cases.push_back({sample, level});
+    }
+  }
+  return cases;
+}
+
+std::string case_name(const testing::TestParamInfo<Case>& info) {
+  const char* levels[] = {"Position", "Velocity", "Acceleration"};
+  return all_samples()[static_cast<std::size_t>(info.param.sample)].name +
+         levels[static_cast<int>(info.param.level)];
+}
+
+std::string sample_name(const testing::TestParamInfo<int>& info) {
+  return all_samples()[static_cast<std::size_t>(info.param)].name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Samples, EveryTerm, testing::ValuesIn(all_cases()), case_name);
+INSTANTIATE_TEST_SUITE_P(Samples, EverySample, testing::Values(0, 1, 2), sample_name);
+
+}  // namespace
