@@ -1,0 +1,56 @@
+#include "cli/analysis_report.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/number_text.hpp"
+#include "cli/shown_unit.hpp"
+#include "cli/table.hpp"
+
+namespace pleuel {
+
+Json responses_document(const Analysis& analysis) {
+  Json document = Json::object();
+  for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
+    const Response& response = analysis.responses[i];
+    document[response.name] = {{"value", analysis.reductions[i].value}, {"unit", response.unit}};
+  }
+  return document;
+}
+
+Json effects_document(const Model& model) {
+  Json document = Json::array();
+  for (const EffectRecord& effect : model.effects) {
+    document.push_back(
+        {{"name", effect.name}, {"built", effect.is_built}, {"reason", effect.reason}});
+  }
+  return document;
+}
+
+std::string responses_text(const ProblemFile& problem, const Analysis& analysis) {
+  Table table({{"response", Table::Align::left}, {"value"}, {"unit", Table::Align::left}});
+  for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
+    const ShownUnit unit = unit_of(problem.responses[i]);
+    table.add_row({analysis.responses[i].name,
+                   significant(unit.shown(analysis.reductions[i].value)), unit.name});
+  }
+  return table.is_empty() ? "  The file asks for no responses.\n" : table.text();
+}
+
+std::string effects_text(const Model& model) {
+  Table table({{"effect", Table::Align::left},
+               {"built", Table::Align::left},
+               {"because", Table::Align::left}});
+  for (const EffectRecord& effect : model.effects) {
+    table.add_row({effect.name, effect.is_built ? "yes" : "no", effect.reason});
+  }
+  return table.text();
+}
+
+std::string size_text(const Analysis& analysis) {
+  const System& system = *analysis.model.mechanism.system;
+  return fmt::format("{} steps of {:.4g} s, {} coordinates, {} multipliers",
+                     analysis.trajectory.steps(), analysis.trajectory.scheme.step,
+                     system.coordinates(), system.multipliers());
+}
+
+}  // namespace pleuel

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "cli/json.hpp"
+#include "core/response/response.hpp"
+
+/// What simulate, gradient and check have in common to say of one simulated design.
+namespace pleuel {
+
+/// {NAME: {"value", "unit"}} [SI]
+Json responses_document(const Analysis& analysis);
+
+/// [{"name", "built", "reason"}]
+Json effects_document(const Model& model);
+
+/// Table of values in engineering units.
+std::string responses_text(const ProblemFile& problem, const Analysis& analysis);
+
+/// Table: effect, whether it is built, why.
+std::string effects_text(const Model& model);
+
+/// "4514 steps of 2.5e-05 s, 41 coordinates, 24 multipliers"
+std::string size_text(const Analysis& analysis);
+
+}  // namespace pleuel

@@ -1,0 +1,121 @@
+#include "cli/arguments.hpp"
+
+#include <algorithm>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/versions.hpp"
+#include "core/base/error.hpp"
+
+namespace pleuel {
+
+namespace {
+
+constexpr const char* footer = R"(
+Every command that takes FILE also takes --set (repeatable) and --json.
+Exit codes: 0 done, 2 bad input, 3 simulation failed, 4 ended without a verified optimum,
+1 a fault of the program.)";
+
+CLI::App* add_command(CLI::App& app, Arguments& arguments, const std::string& name,
+                      const std::string& description) {
+  CLI::App* command = app.add_subcommand(name, description);
+  command->add_flag("--json", arguments.wants_json,
+                    "print the result as one JSON document on standard output");
+  return command;
+}
+
+CLI::App* add_file_command(CLI::App& app, Arguments& arguments, const std::string& name,
+                           const std::string& description) {
+  CLI::App* command = add_command(app, arguments, name, description);
+  command->add_option("FILE", arguments.file, "problem file (JSON)")->required();
+  command
+      ->add_option("--set", arguments.overrides,
+                   "override a value of the file; repeatable: --set \"/simulation/step=0.1 ms\"")
+      ->type_name("/POINTER=VALUE")
+      ->allow_extra_args(false);
+  return command;
+}
+
+void add_output(CLI::App* command, Arguments& arguments) {
+  command
+      ->add_option("-o,--output", arguments.output,
+                   "run folder (default: runs/<file>-" + command->get_name() + ")")
+      ->type_name("DIR");
+}
+
+void add_backend(CLI::App* command, Arguments& arguments) {
+  command
+      ->add_option("--backend", arguments.backend,
+                   "optimizer instead of the file's; see `pleuel backends`")
+      ->type_name("NAME");
+}
+
+void add_gradient(CLI::App& app, Arguments& arguments) {
+  CLI::App* gradient =
+      add_file_command(app, arguments, "gradient", "gradients of all responses at the start");
+  gradient
+      ->add_option("--method", arguments.methods,
+                   "direct (default), forward-difference, central-difference; repeat to compare")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  gradient
+      ->add_option("--step", arguments.difference_step,
+                   "relative step of the differences (default 1e-5)")
+      ->type_name("NUMBER")
+      ->check(CLI::PositiveNumber);
+}
+
+void add_commands(CLI::App& app, Arguments& arguments) {
+  add_file_command(app, arguments, "check",
+                   "validate, describe the mechanism, verify the derivatives, estimate the time");
+  add_output(add_file_command(app, arguments, "simulate", "simulate the start design"), arguments);
+  add_gradient(app, arguments);
+  CLI::App* optimize =
+      add_file_command(app, arguments, "optimize", "find the best design and prove it");
+  add_output(optimize, arguments);
+  add_backend(optimize, arguments);
+  CLI::App* pareto = add_file_command(app, arguments, "pareto",
+                                      "the best designs for a row of values of one limit");
+  add_output(pareto, arguments);
+  add_backend(pareto, arguments);
+  add_output(add_file_command(app, arguments, "accuracy",
+                              "errors and times for steps x elements; the cheapest that will do"),
+             arguments);
+  add_command(app, arguments, "backends", "list the optimizers");
+}
+
+/// A misspelt command deserves better than "not expected".
+void check_command_name(const CLI::App& app, const std::vector<std::string>& words) {
+  if (words.empty() || words.front().starts_with("-")) return;
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+  if (std::find(known.begin(), known.end(), words.front()) != known.end()) return;
+  throw InputError(fmt::format("there is no command \"{}\"; known are {}", words.front(),
+                               fmt::join(known, ", ")));
+}
+
+}  // namespace
+
+std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
+  Arguments arguments;
+  arguments.words.assign(argv + 1, argv + argc);
+  CLI::App app("Pleuel: gradient-based design optimization of flexible mechanisms", "pleuel");
+  app.footer(footer);
+  app.require_subcommand(1);
+  app.set_version_flag("--version", std::string("pleuel ") + versions::pleuel);
+  add_commands(app, arguments);
+  check_command_name(app, arguments.words);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    app.exit(help);
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    throw InputError(std::string(error.what()) + "; see pleuel --help");
+  }
+  arguments.command = app.get_subcommands().front()->get_name();
+  return arguments;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pleuel {
+
+/// What the user typed.
+struct Arguments {
+  std::string command;
+  std::filesystem::path file;
+  std::vector<std::string> overrides;           ///< "/json/pointer=value"
+  std::optional<std::filesystem::path> output;  ///< run folder
+  std::optional<std::string> backend;
+  std::vector<std::string> methods;
+  double difference_step = 1e-5;  ///< relative
+  bool wants_json = false;
+  std::vector<std::string> words;  ///< the command line as it was
+
+  /// Where lines appear while the work goes on: standard output belongs to JSON if that is wanted.
+  std::FILE* progress() const { return wants_json ? stderr : stdout; }
+};
+
+/// @returns nothing if help or the version was asked for and printed
+/// @throws InputError for anything that is not a command line of pleuel
+std::optional<Arguments> parse_arguments(int argc, const char* const* argv);
+
+}  // namespace pleuel

@@ -1,0 +1,139 @@
+#include <fmt/format.h>
+
+#include "cli/analysis_report.hpp"
+#include "cli/commands.hpp"
+#include "cli/number_text.hpp"
+#include "cli/problem_input.hpp"
+#include "cli/shown_unit.hpp"
+#include "cli/stopwatch.hpp"
+#include "cli/table.hpp"
+#include "cli/ties.hpp"
+#include "core/base/error.hpp"
+#include "sensitivity/gradients.hpp"
+
+namespace pleuel {
+
+namespace {
+
+struct MethodResult {
+  GradientMethod method;
+  Eigen::MatrixXd gradients;  ///< responses × variables [SI]
+  double seconds = 0.0;
+};
+
+std::vector<GradientMethod> chosen_methods(const Arguments& arguments) {
+  std::vector<GradientMethod> methods;
+  for (const std::string& name : arguments.methods) methods.push_back(gradient_method(name));
+  if (methods.empty()) methods.push_back(GradientMethod::direct);
+  return methods;
+}
+
+std::vector<MethodResult> compute(const ProblemFile& problem, Analysis& analysis,
+                                  const std::vector<GradientMethod>& methods,
+                                  const GradientOptions& options) {
+  std::vector<MethodResult> results;
+  for (const GradientMethod method : methods) {
+    const Stopwatch stopwatch;
+    MethodResult result{method, {}, 0.0};
+    result.gradients = gradients(problem, start_design(problem), analysis, method, options);
+    result.seconds = stopwatch.seconds();
+    results.push_back(std::move(result));
+  }
+  return results;
+}
+
+Json gradients_document(const ProblemFile& problem, const std::vector<MethodResult>& results,
+                        Eigen::Index response) {
+  Json document = Json::object();
+  for (const MethodResult& result : results) {
+    Json& row = document[to_string(result.method)] = Json::object();
+    for (std::size_t j = 0; j < problem.variables.size(); ++j) {
+      row[problem.variables[j].name] = result.gradients(response, static_cast<Eigen::Index>(j));
+    }
+  }
+  return document;
+}
+
+Json make_document(const ProblemFile& problem, const Analysis& analysis,
+                   const std::vector<MethodResult>& results, double simulation_seconds) {
+  Json document = {{"responses", responses_document(analysis)},
+                   {"seconds", {{"simulate", simulation_seconds}}}};
+  for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
+    Json& response = document["responses"][analysis.responses[i].name];
+    response["gradients"] = gradients_document(problem, results, static_cast<Eigen::Index>(i));
+    if (analysis.reductions[i].tie) response["tie"] = tie_document(analysis, i);
+  }
+  for (const MethodResult& result : results) {
+    document["seconds"][to_string(result.method)] = result.seconds;
+  }
+  return document;
+}
+
+std::vector<Table::Column> columns(const std::vector<MethodResult>& results) {
+  std::vector<Table::Column> columns = {{"response", Table::Align::left},
+                                        {"variable", Table::Align::left}};
+  for (const MethodResult& result : results) columns.push_back({to_string(result.method)});
+  columns.push_back({"unit", Table::Align::left});
+  if (results.size() > 1) columns.push_back({"largest difference"});
+  return columns;
+}
+
+/// Of the entries of one row, relative to the largest.
+double spread(const std::vector<MethodResult>& results, Eigen::Index i, Eigen::Index j) {
+  Eigen::VectorXd entries(static_cast<Eigen::Index>(results.size()));
+  for (Eigen::Index k = 0; k < entries.size(); ++k) {
+    entries(k) = results[static_cast<std::size_t>(k)].gradients(i, j);
+  }
+  const double largest = entries.cwiseAbs().maxCoeff();
+  return largest > 0.0 ? (entries.maxCoeff() - entries.minCoeff()) / largest : 0.0;
+}
+
+std::string gradients_text(const ProblemFile& problem, const std::vector<MethodResult>& results) {
+  Table table(columns(results));
+  for (std::size_t i = 0; i < problem.responses.size(); ++i) {
+    const ShownUnit value_unit = unit_of(problem.responses[i]);
+    for (std::size_t j = 0; j < problem.variables.size(); ++j) {
+      const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
+      const ShownUnit unit = unit_of(problem, j);
+      std::vector<std::string> cells = {j == 0 ? problem.responses[i].name : "",
+                                        problem.variables[j].name};
+      for (const MethodResult& result : results) {
+        const double shown = value_unit.shown(result.gradients(row, column)) * unit.factor;
+        cells.push_back(significant(shown, 7));
+      }
+      cells.push_back(fmt::format("{}/{}", value_unit.name, unit.name));
+      if (results.size() > 1) cells.push_back(magnitude(spread(results, row, column)));
+      table.add_row(std::move(cells));
+    }
+  }
+  return table.text();
+}
+
+std::string seconds_text(const std::vector<MethodResult>& results, double simulation_seconds) {
+  std::string text = "\nTime: simulation " + duration(simulation_seconds);
+  for (const MethodResult& result : results) {
+    text += fmt::format(", {} {}", to_string(result.method), duration(result.seconds));
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+Outcome run_gradient(const Arguments& arguments) {
+  const std::vector<GradientMethod> methods = chosen_methods(arguments);
+  const ProblemFile problem = read_input(arguments).problem;
+  if (problem.variables.empty()) {
+    throw InputError("/variables is missing: there is nothing to differentiate for");
+  }
+  const Stopwatch stopwatch;
+  const auto analysis = analyze(problem, start_design(problem));
+  const double simulation_seconds = stopwatch.seconds();
+  const std::vector<MethodResult> results =
+      compute(problem, *analysis, methods, {arguments.difference_step});
+  return {ExitCode::done, make_document(problem, *analysis, results, simulation_seconds),
+          fmt::format("Gradients at the start of {}\n\n{}{}{}", problem.name,
+                      gradients_text(problem, results), ties_text(*analysis),
+                      seconds_text(results, simulation_seconds))};
+}
+
+}  // namespace pleuel

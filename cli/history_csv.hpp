@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+
+#include "cli/csv_file.hpp"
+#include "optimization/history.hpp"
+#include "optimization/problem.hpp"
+
+namespace pleuel {
+
+/// history.csv: a line for every evaluation as it happens [SI].
+class HistoryCsv {
+ public:
+  HistoryCsv(const std::filesystem::path& path, const Problem& problem);
+  void add(const EvaluationRecord& record);
+
+ private:
+  std::size_t constraints_;
+  CsvFile csv_;
+};
+
+}  // namespace pleuel

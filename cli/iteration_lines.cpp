@@ -1,0 +1,44 @@
+#include "cli/iteration_lines.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "cli/number_text.hpp"
+
+namespace pleuel {
+
+namespace {
+
+constexpr const char* columns = "  {:>9}  {:>16}  {:>13}  {:>9}  {:>9}\n";
+
+/// What happened and where; history.csv keeps the rest of the sentence.
+std::string first_clause(const std::string& message) {
+  return message.substr(0, std::min(message.find("; "), message.find(". ")));
+}
+
+}  // namespace
+
+IterationLines::IterationLines(std::FILE* out, const ProblemFile& problem)
+    : out_(out), unit_(unit_of(find_response(problem, problem.objective->response))) {
+  fmt::print(out_, columns, "iteration", fmt::format("objective [{}]", unit_.name), "max violation",
+             "step", "seconds");
+  std::fflush(out_);
+}
+
+void IterationLines::see(const EvaluationRecord& record) {
+  step_ = std::max(step_, record.step);
+  if (!record.failure.empty()) {
+    fmt::print(out_, "  evaluation {} failed: {}\n", record.evaluation,
+               first_clause(record.failure));
+  } else if (record.iteration > iteration_) {
+    fmt::print(out_, columns, record.iteration, significant(unit_.shown(record.objective), 6),
+               magnitude(record.max_violation), magnitude(step_),
+               fmt::format("{:.1f}", record.seconds));
+    iteration_ = record.iteration;
+    step_ = 0.0;
+  }
+  std::fflush(out_);
+}
+
+}  // namespace pleuel

@@ -1,0 +1,37 @@
+#include "cli/number_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace pleuel {
+
+std::string significant(double value, int digits) {
+  if (value == 0.0) return "0";
+  if (!std::isfinite(value)) return fmt::format("{}", value);
+  const auto exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
+  if (exponent < -4 || exponent > 7) return fmt::format("{:.{}e}", value, digits - 1);
+  return fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent));
+}
+
+std::string magnitude(double value) {
+  return value == 0.0 ? "0" : fmt::format("{:.1e}", value);
+}
+
+std::string percent(double fraction) {
+  return fmt::format("{:.1f} %", 100.0 * fraction);
+}
+
+std::string signed_percent(double fraction) {
+  return (fraction < 0 ? "−" : "+") + percent(std::abs(fraction));
+}
+
+std::string duration(double seconds) {
+  if (seconds < 9.95) return fmt::format("{:.2g} s", seconds);
+  if (seconds < 99.95) return fmt::format("{:.1f} s", seconds);
+  const auto whole = static_cast<long>(std::lround(seconds));
+  return fmt::format("{} min {} s", whole / 60, whole % 60);
+}
+
+}  // namespace pleuel

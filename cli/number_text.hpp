@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+/// Numbers for people.
+namespace pleuel {
+
+/// `digits` significant digits without exponent where that is readable: 25.130, 0.20000, 1.2e-07.
+std::string significant(double value, int digits = 5);
+
+/// Two digits with exponent, for errors and residuals: 3.1e-08; "0" for zero.
+std::string magnitude(double value);
+
+/// "45.2 %"
+std::string percent(double fraction);
+
+/// "+2.1 %", "−45.2 %"
+std::string signed_percent(double fraction);
+
+/// "0.083 s", "12.4 s", "3 min 20 s"
+std::string duration(double seconds);
+
+}  // namespace pleuel

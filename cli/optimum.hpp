@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "cli/shown_unit.hpp"
+#include "optimization/solve.hpp"
+
+namespace pleuel {
+
+/// What the reports of an optimization are made from.
+struct Optimum {
+  const ProblemFile& problem;
+  const Result& result;
+  /// Values of all responses; empty if the start cannot be simulated.
+  Eigen::VectorXd start_responses, responses;
+
+  bool has_design() const { return result.evaluation.has_gradients(); }
+};
+
+/// The limit of a constraint that is nearer to its value, and how much of it is used.
+struct UsedLimit {
+  double limit = 0.0;
+  bool is_upper = true;
+  std::optional<double> utilisation;  ///< 1 = at the limit; none where the ratio says nothing
+};
+
+UsedLimit used_limit(const ConstraintSettings& constraint, double value);
+
+/// Within a millionth of the range of a variable.
+bool is_at_lower_bound(const DesignVariable& variable, double value);
+bool is_at_upper_bound(const DesignVariable& variable, double value);
+
+}  // namespace pleuel

@@ -1,0 +1,84 @@
+#include "cli/optimum_document.hpp"
+
+#include "core/scene/response_quantity.hpp"
+
+namespace pleuel {
+
+namespace {
+
+Json objective_document(const Optimum& optimum) {
+  const std::string& name = optimum.problem.objective->response;
+  Json document = {{"name", name}, {"unit", unit_of(find_response(optimum.problem, name)).si}};
+  if (!optimum.has_design()) return document;
+  document["value"] = optimum.result.evaluation.objective;
+  document["start"] = optimum.result.history.front().objective;
+  return document;
+}
+
+Json variables_document(const Optimum& optimum) {
+  Json document = Json::object();
+  for (std::size_t i = 0; i < optimum.problem.variables.size(); ++i) {
+    const DesignVariable& variable = optimum.problem.variables[i];
+    document[variable.name] = {{"value", optimum.result.x(static_cast<Eigen::Index>(i))},
+                               {"unit", unit_of(optimum.problem, i).si},
+                               {"lower", variable.lower},
+                               {"upper", variable.upper},
+                               {"start", variable.start}};
+  }
+  return document;
+}
+
+Json constraint_document(const Optimum& optimum, std::size_t i) {
+  const ConstraintSettings& constraint = optimum.problem.constraints[i];
+  const auto row = static_cast<Eigen::Index>(i);
+  const double value = optimum.result.evaluation.constraints(row);
+  const UsedLimit used = used_limit(constraint, value);
+  Json document = {{"value", value},
+                   {"limit", used.limit},
+                   {"side", used.is_upper ? "upper" : "lower"},
+                   {"unit", unit_of(optimum.problem, constraint).si},
+                   {"multiplier", optimum.result.constraint_multipliers(row)}};
+  if (used.utilisation) document["utilisation"] = *used.utilisation;
+  return document;
+}
+
+Json responses_document(const Optimum& optimum) {
+  Json document = Json::object();
+  for (std::size_t i = 0; i < optimum.problem.responses.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    const ResponseSettings& response = optimum.problem.responses[i];
+    document[response.name] = {{"value", optimum.responses(row)},
+                               {"unit", quantity_of(response).unit},
+                               {"start", optimum.start_responses(row)}};
+  }
+  return document;
+}
+
+}  // namespace
+
+Json optimum_document(const Optimum& optimum) {
+  const Result& result = optimum.result;
+  Json document = {{"status", to_string(result.status)},
+                   {"message", result.message},
+                   {"backend", result.backend},
+                   {"objective", objective_document(optimum)},
+                   {"variables", variables_document(optimum)},
+                   {"constraints", Json::object()}};
+  if (optimum.has_design()) {
+    for (std::size_t i = 0; i < optimum.problem.constraints.size(); ++i) {
+      document["constraints"][optimum.problem.constraints[i].name] =
+          constraint_document(optimum, i);
+    }
+    document["responses"] = responses_document(optimum);
+  }
+  document["kkt_residual"] = result.kkt_residual;
+  document["max_violation"] = result.max_violation;
+  document["evaluations"] = result.evaluations;
+  document["gradient_evaluations"] = result.gradient_evaluations;
+  document["iterations"] = result.iterations;
+  document["restarts"] = result.restarts;
+  document["seconds"] = result.seconds;
+  return document;
+}
+
+}  // namespace pleuel

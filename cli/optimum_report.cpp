@@ -1,0 +1,127 @@
+#include "cli/optimum_report.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/number_text.hpp"
+#include "cli/table.hpp"
+
+namespace pleuel {
+
+namespace {
+
+std::string status_text(const Result& result) {
+  switch (result.status) {
+    case Status::verified:
+      return "VERIFIED: " + result.message;
+    case Status::stalled:
+      return "NOT VERIFIED (stalled): " + result.message;
+    case Status::infeasible:
+      return "NOT VERIFIED (infeasible): " + result.message;
+    default:
+      return "FAILED: " + result.message;
+  }
+}
+
+std::string objective_text(const Optimum& optimum) {
+  const std::string& name = optimum.problem.objective->response;
+  const ShownUnit unit = unit_of(find_response(optimum.problem, name));
+  const double start = optimum.result.history.front().objective;
+  const double end = optimum.result.evaluation.objective;
+  std::string text = fmt::format("{}: {} → {} {}", name, significant(unit.shown(start)),
+                                 significant(unit.shown(end)), unit.name);
+  if (start != 0.0) text += fmt::format(" ({})", signed_percent((end - start) / std::abs(start)));
+  return text + "\n";
+}
+
+std::string bound_mark(const DesignVariable& variable, double value) {
+  if (variable.lower == variable.upper) return "fixed";
+  if (is_at_lower_bound(variable, value)) return "at its lower bound";
+  return is_at_upper_bound(variable, value) ? "at its upper bound" : "";
+}
+
+std::string variables_text(const Optimum& optimum) {
+  Table table({{"variable", Table::Align::left},
+               {"start"},
+               {optimum.result.status == Status::verified ? "optimum" : "end"},
+               {"lower"},
+               {"upper"},
+               {"unit", Table::Align::left},
+               {"", Table::Align::left}});
+  for (std::size_t i = 0; i < optimum.problem.variables.size(); ++i) {
+    const DesignVariable& variable = optimum.problem.variables[i];
+    const ShownUnit unit = unit_of(optimum.problem, i);
+    const double value = optimum.result.x(static_cast<Eigen::Index>(i));
+    table.add_row({variable.name, significant(unit.shown(variable.start)),
+                   significant(unit.shown(value)), significant(unit.shown(variable.lower)),
+                   significant(unit.shown(variable.upper)), unit.name,
+                   bound_mark(variable, value)});
+  }
+  return table.text();
+}
+
+/// −μ · 1 % of the limit, relative to the objective: what one more percent of a limit is worth.
+std::string worth(const Optimum& optimum, double multiplier, double limit) {
+  const double objective = optimum.result.evaluation.objective;
+  const double gain = -multiplier * 0.01 * std::abs(limit);
+  if (gain == 0.0 || objective == 0.0) return "–";
+  return (gain < 0 ? "−" : "+") + fmt::format("{:.2f} %", 100 * std::abs(gain / objective));
+}
+
+std::vector<std::string> constraint_row(const Optimum& optimum, std::size_t i) {
+  const ConstraintSettings& constraint = optimum.problem.constraints[i];
+  const auto row = static_cast<Eigen::Index>(i);
+  const double value = optimum.result.evaluation.constraints(row);
+  const double multiplier = optimum.result.constraint_multipliers(row);
+  const UsedLimit used = used_limit(constraint, value);
+  const ShownUnit unit = unit_of(optimum.problem, constraint);
+  const ShownUnit objective_unit =
+      unit_of(find_response(optimum.problem, optimum.problem.objective->response));
+  return {constraint.name,
+          significant(unit.shown(value)),
+          (used.is_upper ? "≤ " : "≥ ") + significant(unit.shown(used.limit)),
+          unit.name,
+          used.utilisation ? percent(*used.utilisation) : "–",
+          multiplier == 0.0 ? "0" : significant(objective_unit.shown(multiplier) * unit.factor, 3),
+          worth(optimum, multiplier, used.limit)};
+}
+
+std::string constraints_text(const Optimum& optimum) {
+  const ShownUnit objective_unit =
+      unit_of(find_response(optimum.problem, optimum.problem.objective->response));
+  Table table({{"constraint", Table::Align::left},
+               {"value"},
+               {"limit"},
+               {"unit", Table::Align::left},
+               {"used"},
+               {fmt::format("multiplier [{}/unit]", objective_unit.name)},
+               {"1 % more limit"}});
+  for (std::size_t i = 0; i < optimum.problem.constraints.size(); ++i) {
+    table.add_row(constraint_row(optimum, i));
+  }
+  return table.is_empty() ? "" : "\n" + table.text();
+}
+
+/// The sentence of a verified optimum gives its residuals already.
+std::string residuals_text(const Result& result) {
+  if (result.status == Status::verified) return "";
+  return fmt::format("KKT residual {}, largest violation of a limit {} (both relative)\n",
+                     magnitude(result.kkt_residual), magnitude(result.max_violation));
+}
+
+std::string effort_text(const Result& result) {
+  return fmt::format("{}: {} evaluations, {} with gradients, {} restarts, {}\n", result.backend,
+                     result.evaluations, result.gradient_evaluations, result.restarts,
+                     duration(result.seconds));
+}
+
+}  // namespace
+
+std::string optimum_report(const Optimum& optimum) {
+  const std::string status = "\n" + status_text(optimum.result) + "\n";
+  if (!optimum.has_design()) return status;
+  return status + "\n" + objective_text(optimum) + "\n" + variables_text(optimum) +
+         constraints_text(optimum) + "\n" + residuals_text(optimum.result) +
+         effort_text(optimum.result);
+}
+
+}  // namespace pleuel

@@ -1,0 +1,50 @@
+#include "cli/shown_unit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "cli/variable_quantity.hpp"
+#include "core/scene/response_quantity.hpp"
+#include "core/scene/units.hpp"
+
+namespace pleuel {
+
+ShownUnit engineering_unit(std::string_view si) {
+  struct Entry {
+    std::string_view si, name;
+    double factor;
+  };
+  static constexpr std::array<Entry, 4> entries = {
+      {{"m", "mm", 1e-3}, {"Pa", "MPa", 1e6}, {"m s", "mm s", 1e-3}, {"Pa s", "MPa s", 1e6}}};
+  for (const Entry& entry : entries) {
+    if (entry.si == si) return {std::string(si), std::string(entry.name), entry.factor};
+  }
+  return {std::string(si), std::string(si), 1.0};
+}
+
+ShownUnit unit_of(const ProblemFile& problem, std::size_t variable) {
+  const Quantity quantity = variable_quantity(problem, static_cast<int>(variable));
+  const std::string& written = problem.variables[variable].unit;
+  if (written.empty()) return engineering_unit(quantity.unit);
+  return {std::string(quantity.unit), written, UnitSystem().scale(written, quantity)};
+}
+
+ShownUnit unit_of(const ResponseSettings& response) {
+  return engineering_unit(quantity_of(response).unit);
+}
+
+ShownUnit unit_of(const ProblemFile& problem, const ConstraintSettings& constraint) {
+  if (constraint.linear.empty()) return unit_of(find_response(problem, constraint.response));
+  return unit_of(problem, static_cast<std::size_t>(constraint.linear.front().first));
+}
+
+const ResponseSettings& find_response(const ProblemFile& problem, const std::string& name) {
+  const auto found =
+      std::find_if(problem.responses.begin(), problem.responses.end(),
+                   [&name](const ResponseSettings& response) { return response.name == name; });
+  if (found == problem.responses.end()) throw std::logic_error("no response " + name);
+  return *found;
+}
+
+}  // namespace pleuel

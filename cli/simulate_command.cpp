@@ -1,0 +1,54 @@
+#include <fmt/format.h>
+
+#include "cli/analysis_report.hpp"
+#include "cli/commands.hpp"
+#include "cli/number_text.hpp"
+#include "cli/problem_input.hpp"
+#include "cli/run_record.hpp"
+#include "cli/stopwatch.hpp"
+#include "cli/trajectory_csv.hpp"
+
+namespace pleuel {
+
+namespace {
+
+Json simulation_document(const Analysis& analysis, double seconds) {
+  const Trajectory& trajectory = analysis.trajectory;
+  const System& system = *analysis.model.mechanism.system;
+  return {{"responses", responses_document(analysis)},
+          {"steps", trajectory.steps()},
+          {"newton_iterations", trajectory.newton_iterations},
+          {"factorizations", trajectory.factorizations},
+          {"seconds", seconds},
+          {"effects", effects_document(analysis.model)},
+          {"coordinates", system.coordinates()},
+          {"multipliers", system.multipliers()}};
+}
+
+std::string simulation_text(const ProblemFile& problem, const Analysis& analysis, double seconds) {
+  const Trajectory& trajectory = analysis.trajectory;
+  return fmt::format("{}: {}\n\n{}\n{}, {} Newton iterations, {} factorizations\n", problem.name,
+                     size_text(analysis), responses_text(problem, analysis), duration(seconds),
+                     trajectory.newton_iterations, trajectory.factorizations);
+}
+
+}  // namespace
+
+Outcome run_simulate(const Arguments& arguments) {
+  const ProblemInput input = read_input(arguments);
+  RunRecord record(arguments, input, Json::object());
+  record.begin_phase("simulate");
+  const Stopwatch stopwatch;
+  const auto analysis = analyze(input.problem, start_design(input.problem));
+  const double seconds = stopwatch.seconds();
+  record.begin_phase("write");
+  write_trajectory(record.folder() / "trajectory.csv", *analysis);
+  Outcome outcome{ExitCode::done, simulation_document(*analysis, seconds),
+                  simulation_text(input.problem, *analysis, seconds)};
+  outcome.text += fmt::format("Written to {}: trajectory.csv, result.json, run_card.json\n",
+                              record.folder().string());
+  record.finish(outcome);
+  return outcome;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,28 @@
+#include "cli/solve_settings.hpp"
+
+#include "optimization/optimizer.hpp"
+
+namespace pleuel {
+
+SolveOptions solve_options(const ProblemFile& problem, const Arguments& arguments) {
+  SolveOptions options;
+  options.backend = arguments.backend.value_or(problem.optimizer.backend);
+  options.tolerance = problem.optimizer.tolerance;
+  options.max_iterations = problem.optimizer.max_iterations;
+  make_optimizer(options.backend, {options.tolerance});  // throws before a folder is touched
+  return options;
+}
+
+Json options_document(const SolveOptions& options) {
+  return {{"backend", options.backend},
+          {"tolerance", options.tolerance},
+          {"max_iterations", options.max_iterations},
+          {"max_restarts", options.max_restarts},
+          {"max_consecutive_failures", options.max_consecutive_failures},
+          {"verdict",
+           {{"kkt_residual", options.verdict.kkt_residual},
+            {"violation", options.verdict.violation},
+            {"gradient", options.verdict.gradient}}}};
+}
+
+}  // namespace pleuel

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "cli/arguments.hpp"
+#include "cli/json.hpp"
+#include "core/scene/problem_file.hpp"
+#include "optimization/solve.hpp"
+
+namespace pleuel {
+
+/// Options of the file, with the command line's backend.
+/// @throws InputError if there is no such backend
+SolveOptions solve_options(const ProblemFile& problem, const Arguments& arguments);
+
+/// For the run card.
+Json options_document(const SolveOptions& options);
+
+}  // namespace pleuel

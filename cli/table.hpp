@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pleuel {
+
+/// Aligned columns for the terminal: the first columns to the left, numbers to the right.
+class Table {
+ public:
+  enum class Align { left, right };
+  struct Column {
+    std::string title;
+    Align align = Align::right;
+  };
+
+  explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
+
+  /// @param cells  one a column; missing ones are empty
+  void add_row(std::vector<std::string> cells);
+  bool is_empty() const { return rows_.empty(); }
+
+  /// Title line and rows, each indented by two spaces and ended by a newline.
+  std::string text() const;
+
+ private:
+  std::string line(const std::vector<std::string>& cells,
+                   const std::vector<std::size_t>& widths) const;
+
+  std::vector<Column> columns_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+/// Number of characters of a UTF-8 text.
+std::size_t characters(const std::string& text);
+
+/// Filled with spaces to `width` characters.
+std::string padded(const std::string& text, std::size_t width, Table::Align align);
+
+}  // namespace pleuel
