@@ -70,8 +70,8 @@ class DirectDifferentiation {
     system_.tangent(state_, {b(0), b(1), b(2)}, ConstraintLevel::position, step_matrix_);
     scale_dynamic_block(n, scale, step_matrix_);
     if (!solver_.factorize(step_matrix_)) {
-      throw SimulationError(
-          fmt::format("the sensitivities are singular at t = {:.6g} s (step {})", state_.time, step));
+      throw SimulationError(fmt::format("the sensitivities are singular at t = {:.6g} s (step {})",
+                                        state_.time, step));
     }
     solver_.solve(rhs_);
     sensitivity_.q = rhs_.topRows(n);

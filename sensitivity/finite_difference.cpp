@@ -12,7 +12,9 @@ Eigen::VectorXd values(const Analysis& analysis) {
   return all;
 }
 
-double step_of(double x, double step) { return x == 0.0 ? step : step * std::abs(x); }
+double step_of(double x, double step) {
+  return x == 0.0 ? step : step * std::abs(x);
+}
 
 Eigen::VectorXd values_at(const ProblemFile& problem, Eigen::VectorXd x, Eigen::Index j,
                           double value) {
@@ -38,8 +40,8 @@ Eigen::MatrixXd central_differences(const ProblemFile& problem, const Eigen::Vec
   Eigen::MatrixXd result(static_cast<Eigen::Index>(problem.responses.size()), x.size());
   for (Eigen::Index j = 0; j < x.size(); ++j) {
     const double upper = x(j) + step_of(x(j), step), lower = x(j) - step_of(x(j), step);
-    result.col(j) = (values_at(problem, x, j, upper) - values_at(problem, x, j, lower)) /
-                    (upper - lower);
+    result.col(j) =
+        (values_at(problem, x, j, upper) - values_at(problem, x, j, lower)) / (upper - lower);
   }
   return result;
 }

@@ -12,9 +12,12 @@ namespace pleuel {
 
 std::string to_string(GradientMethod method) {
   switch (method) {
-    case GradientMethod::direct: return "direct";
-    case GradientMethod::forward_difference: return "forward-difference";
-    default: return "central-difference";
+    case GradientMethod::direct:
+      return "direct";
+    case GradientMethod::forward_difference:
+      return "forward-difference";
+    default:
+      return "central-difference";
   }
 }
 
@@ -23,9 +26,10 @@ GradientMethod gradient_method(const std::string& name) {
                       GradientMethod::central_difference}) {
     if (to_string(method) == name) return method;
   }
-  throw InputError(fmt::format(
-      "there is no gradient method \"{}\"; known are direct, forward-difference, central-difference",
-      name));
+  throw InputError(
+      fmt::format("there is no gradient method \"{}\"; known are direct, forward-difference, "
+                  "central-difference",
+                  name));
 }
 
 namespace {
@@ -55,37 +59,39 @@ Eigen::MatrixXd direct_gradients(Analysis& analysis) {
       static_cast<Eigen::Index>(analysis.responses.size()), system.variables());
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     const Response& response = analysis.responses[i];
-    if (!response.signal) result.row(static_cast<Eigen::Index>(i)) = response.constant_x.transpose();
+    if (!response.signal)
+      result.row(static_cast<Eigen::Index>(i)) = response.constant_x.transpose();
   }
   const auto uses = samples_by_step(analysis);
   if (uses.empty() || system.variables() == 0) return result;
   SignalGradient gradient(system.coordinates(), system.multipliers(), system.variables());
   const SignalGradient zero = gradient;
-  differentiate(
-      analysis.model.mechanism, analysis.trajectory,
-      [&](int step, const State& state, const StateSensitivity& s) {
-        const auto found = uses.find(step);
-        if (found == uses.end()) return;
-        for (const Use& use : found->second) {
-          gradient = zero;
-          analysis.responses[use.response].signal->add_gradient(state, use.channel, use.weight,
-                                                                gradient);
-          result.row(static_cast<Eigen::Index>(use.response)) +=
-              gradient.q.transpose() * s.q + gradient.v.transpose() * s.v +
-              gradient.a.transpose() * s.a + gradient.lambda.transpose() * s.lambda +
-              gradient.design.transpose();
-        }
-      });
+  differentiate(analysis.model.mechanism, analysis.trajectory,
+                [&](int step, const State& state, const StateSensitivity& s) {
+                  const auto found = uses.find(step);
+                  if (found == uses.end()) return;
+                  for (const Use& use : found->second) {
+                    gradient = zero;
+                    analysis.responses[use.response].signal->add_gradient(state, use.channel,
+                                                                          use.weight, gradient);
+                    result.row(static_cast<Eigen::Index>(use.response)) +=
+                        gradient.q.transpose() * s.q + gradient.v.transpose() * s.v +
+                        gradient.a.transpose() * s.a + gradient.lambda.transpose() * s.lambda +
+                        gradient.design.transpose();
+                  }
+                });
   return result;
 }
 
 Eigen::MatrixXd gradients(const ProblemFile& problem, const Eigen::VectorXd& x, Analysis& analysis,
                           GradientMethod method, const GradientOptions& options) {
   switch (method) {
-    case GradientMethod::direct: return direct_gradients(analysis);
+    case GradientMethod::direct:
+      return direct_gradients(analysis);
     case GradientMethod::forward_difference:
       return forward_differences(problem, x, analysis, options.difference_step);
-    default: return central_differences(problem, x, options.difference_step);
+    default:
+      return central_differences(problem, x, options.difference_step);
   }
 }
 

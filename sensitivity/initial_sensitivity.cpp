@@ -64,8 +64,8 @@ class InitialDifferentiation {
     Eigen::MatrixXd rhs;
     system_.design_derivative(state, ConstraintLevel::position, rhs);
     rhs *= -1.0;
-    rhs.topRows(n_) = mechanism_.assembly_weight.asDiagonal() * mechanism_.guess_q_x -
-                      curved.x.topRows(n_);
+    rhs.topRows(n_) =
+        mechanism_.assembly_weight.asDiagonal() * mechanism_.guess_q_x - curved.x.topRows(n_);
     projection_matrix(mechanism_, state, matrix_);
     matrix_ += curved.q;
     solve(rhs);

@@ -14,15 +14,21 @@ using DualOf = Eigen::AutoDiffScalar<Eigen::Matrix<double, Slots, 1>>;
 /// One direction: the model is built once for each design variable, with that variable seeded.
 using Dual = DualOf<1>;
 
-inline double value_of(double number) { return number; }
-inline double value_of(const std::complex<double>& number) { return number.real(); }
+inline double value_of(double number) {
+  return number;
+}
+inline double value_of(const std::complex<double>& number) {
+  return number.real();
+}
 template <int Slots>
 double value_of(const DualOf<Slots>& number) {
   return number.value();
 }
 
 /// d(number)/d(direction); zero for a plain number.
-inline double derivative_of(double, int = 0) { return 0.0; }
+inline double derivative_of(double, int = 0) {
+  return 0.0;
+}
 template <int Slots>
 double derivative_of(const DualOf<Slots>& number, int direction = 0) {
   return number.derivatives()[direction];

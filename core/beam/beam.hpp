@@ -9,9 +9,9 @@ namespace pleuel {
 /// One Euler–Bernoulli element between two nodes.
 template <class Scalar>
 struct BeamElement {
-  Scalar length;         ///< ℓ [m]
-  Scalar young, shear;   ///< E, G [Pa]
-  Scalar density;        ///< ρ [kg/m³]
+  Scalar length;        ///< ℓ [m]
+  Scalar young, shear;  ///< E, G [Pa]
+  Scalar density;       ///< ρ [kg/m³]
   SectionProperties<Scalar> section;
 };
 

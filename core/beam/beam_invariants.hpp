@@ -32,8 +32,8 @@ Eigen::Matrix<Scalar, 12, 12> element_stiffness(const BeamElement<Scalar>& eleme
     const auto v = deflection_y_row(point.xi, element.length, 2);
     const auto w = deflection_z_row(point.xi, element.length, 2);
     const Scalar weight = point.weight * element.length;
-    stiffness += (weight * bending_z) * (v.transpose() * v) +
-                 (weight * bending_y) * (w.transpose() * w);
+    stiffness +=
+        (weight * bending_z) * (v.transpose() * v) + (weight * bending_y) * (w.transpose() * w);
   }
   return stiffness;
 }

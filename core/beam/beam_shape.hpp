@@ -25,7 +25,8 @@ template <class Scalar>
 std::array<Scalar, 4> hermite(double xi, const Scalar& length, int order = 0) {
   switch (order) {
     case 0:
-      return {Scalar(1 - 3 * xi * xi + 2 * xi * xi * xi), Scalar(length * (xi - 2 * xi * xi + xi * xi * xi)),
+      return {Scalar(1 - 3 * xi * xi + 2 * xi * xi * xi),
+              Scalar(length * (xi - 2 * xi * xi + xi * xi * xi)),
               Scalar(3 * xi * xi - 2 * xi * xi * xi), Scalar(length * (xi * xi * xi - xi * xi))};
     case 1:
       return {Scalar((6 * xi * xi - 6 * xi) / length), Scalar(1 - 4 * xi + 3 * xi * xi),
@@ -34,6 +35,16 @@ std::array<Scalar, 4> hermite(double xi, const Scalar& length, int order = 0) {
       return {Scalar((12 * xi - 6) / (length * length)), Scalar((6 * xi - 4) / length),
               Scalar((6 - 12 * xi) / (length * length)), Scalar((6 * xi - 2) / length)};
   }
+}
+
+/// ∫ v₀'² dx of the Hermite cubic with end displacements v₁, v₂ = v₁ + `difference` and slopes.
+template <class Scalar>
+Scalar slope_integral(const Scalar& difference, const Scalar& first_slope,
+                      const Scalar& second_slope, const Scalar& length) {
+  return 1.2 * difference * difference / length - 0.2 * difference * (first_slope + second_slope) +
+         length / 15.0 *
+             (2.0 * first_slope * first_slope - first_slope * second_slope +
+              2.0 * second_slope * second_slope);
 }
 
 /// Row of v₀ (in the x–y plane), differentiated `order` times.

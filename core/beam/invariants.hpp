@@ -48,9 +48,9 @@ struct Invariants {
   Scalar mass = Scalar(0);
   Eigen::Matrix<Scalar, 3, 1> first_moment = Eigen::Matrix<Scalar, 3, 1>::Constant(Scalar(0));
   Eigen::Matrix<Scalar, 3, 3> second_moment = Eigen::Matrix<Scalar, 3, 3>::Constant(Scalar(0));
-  Matrix shape;            ///< 3 × n
-  Matrix mixed;            ///< 9 × n
-  RowMajorMatrix moments;  ///< non-zeros × pairs
+  Matrix shape;                            ///< 3 × n
+  Matrix mixed;                            ///< 9 × n
+  RowMajorMatrix moments;                  ///< non-zeros × pairs
   Vector mass_matrix, stiffness, damping;  ///< non-zeros
 
   int size() const { return pattern.size; }

@@ -18,16 +18,22 @@ void EulerParameterNorm::add_residual(const State& state, ConstraintLevel level,
   const double lambda = state.lambda(multiplier_ - state.q.size());
   residual.segment<4>(first_) += lambda * q;
   switch (level) {
-    case ConstraintLevel::position: residual(multiplier_) += (q.squaredNorm() - 1.0) / 2.0; break;
-    case ConstraintLevel::velocity: residual(multiplier_) += q.dot(v); break;
+    case ConstraintLevel::position:
+      residual(multiplier_) += (q.squaredNorm() - 1.0) / 2.0;
+      break;
+    case ConstraintLevel::velocity:
+      residual(multiplier_) += q.dot(v);
+      break;
     case ConstraintLevel::acceleration:
       residual(multiplier_) += v.squaredNorm() + q.dot(a);
       break;
   }
 }
 
-void EulerParameterNorm::write_tangent(const State& state, const Weights& weights,
-                                       ConstraintLevel level, double* entries) {
+void EulerParameterNorm::linearize(const State& state, const Weights& weights,
+                                   ConstraintLevel level, Eigen::VectorXd& residual,
+                                   double* entries) {
+  add_residual(state, level, residual);
   const Eigen::Vector4d q = state.q.segment<4>(first_);
   const Eigen::Vector4d v = state.v.segment<4>(first_);
   const Eigen::Vector4d a = state.a.segment<4>(first_);

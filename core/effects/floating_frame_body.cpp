@@ -38,9 +38,9 @@ void FloatingFrameBody::declare_entries(EntryList& entries) const {
 
 void FloatingFrameBody::evaluate(const State& state) {
   const int m = frame_.size(), n = invariants_.size();
-  motion_ = frame_motion<double>(frame_, state.q.segment(frame_.offset, m),
-                                 state.v.segment(frame_.offset, m),
-                                 state.a.segment(frame_.offset, m));
+  motion_ =
+      frame_motion<double>(frame_, state.q.segment(frame_.offset, m),
+                           state.v.segment(frame_.offset, m), state.a.segment(frame_.offset, m));
   products_.q = state.q.segment(frame_.offset + m, n);
   products_.v = state.v.segment(frame_.offset + m, n);
   products_.a = state.a.segment(frame_.offset + m, n);
@@ -63,10 +63,9 @@ void FloatingFrameBody::add_design_derivative(const State& state, ConstraintLeve
   }
 }
 
-void FloatingFrameBody::write_tangent(const State& state, const Weights& weights, ConstraintLevel,
-                                      double* entries) {
-  evaluate(state);
-  evaluate_body(invariants_, motion_, gravity_, products_);
+void FloatingFrameBody::linearize(const State& state, const Weights& weights, ConstraintLevel level,
+                                  Eigen::VectorXd& residual, double* entries) {
+  add_residual(state, level, residual);
   set_rigid_columns(weights);
   set_elastic_columns(weights);
   const int m = frame_.size(), n = invariants_.size();
@@ -123,7 +122,7 @@ void FloatingFrameBody::set_rigid_columns(const Weights& weights) {
     }
     for (std::size_t i = 0; i < invariants_.pairs.size(); ++i) {
       const auto [r, c] = invariants_.pairs[i];
-      column += d_Y(r, c) * p.moment_v.col(static_cast<int>(i));
+      column += d_Y(r, c) * p.moment_v.row(static_cast<int>(i)).transpose();
     }
   }
 }
@@ -148,9 +147,9 @@ void FloatingFrameBody::set_elastic_columns(const Weights& weights) {
     Matrix3d L = invariants_.shape.col(i) * p.a0.transpose() + W.transpose() * p.X.transpose();
     for (std::size_t pair = 0; pair < invariants_.pairs.size(); ++pair) {
       const auto [r, c] = invariants_.pairs[pair];
-      const int column = static_cast<int>(pair);
-      L.row(r) += p.moment_v(i, column) * p.Y.col(c).transpose();
-      L(r, c) += p.moment_a(i, column);
+      const int row = static_cast<int>(pair);
+      L.row(r) += p.moment_v(row, i) * p.Y.col(c).transpose();
+      L(r, c) += p.moment_a(row, i);
     }
     const Vector3d d_moment = axial<double>(weights.q * L + W * Q.transpose());
     for (int r = 0; r < rotations; ++r) {

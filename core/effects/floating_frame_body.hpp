@@ -22,8 +22,8 @@ class FloatingFrameBody : public Term {
   std::string name() const override { return "inertia and elasticity of " + name_; }
   void declare_entries(EntryList& entries) const override;
   void add_residual(const State& state, ConstraintLevel level, Eigen::VectorXd& residual) override;
-  void write_tangent(const State& state, const Weights& weights, ConstraintLevel level,
-                     double* entries) override;
+  void linearize(const State& state, const Weights& weights, ConstraintLevel level,
+                 Eigen::VectorXd& residual, double* entries) override;
   void add_design_derivative(const State& state, ConstraintLevel level,
                              Eigen::MatrixXd& columns) override;
 

@@ -9,8 +9,8 @@
 ///
 /// With the local acceleration of a material point
 ///     a = a₀ + X p + Y ṗ + p̈,   a₀ = Aᵀ(r̈ − g),  X = α̃ + ω̃ω̃,  Y = 2ω̃,  p = p₀ + S q_f
-/// the virtual work of −ρ a gives, all in invariants (Shabana, Dynamics of Multibody Systems, ch. 5,
-/// written with second moments of the mass distribution):
+/// the virtual work of −ρ a gives, all in invariants (Shabana, Dynamics of Multibody Systems, ch.
+/// 5, written with second moments of the mass distribution):
 ///     force    f = ∫ρ a               = m a₀ + X c + Y S̄ q̇_f + S̄ q̈_f,        c = c₀ + S̄ q_f
 ///     moment   T = axial ∫ρ p aᵀ,  N = ∫ρ p aᵀ = c a₀ᵀ + M Xᵀ + B Yᵀ + D       (3 × 3)
 ///     elastic  F = ∫ρ Sᵀ a + K q_f + D q̇_f
@@ -24,15 +24,15 @@ struct BodyProducts {
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
-  Vector q, v, a;          ///< elastic coordinates and rates (n)
-  Matrix moment_q;         ///< S_kl q_f, column of the pair (n × pairs)
-  Matrix moment_v;         ///< S_kl q̇_f
-  Matrix moment_a;         ///< S_kl q̈_f
-  Vector forces;           ///< S_ff q̈_f + K q_f + D q̇_f
-  Matrix weighted;         ///< W_kl in row 3k + l (9 × n)
-  Vector3<Scalar> a0;      ///< [m/s²]
-  Vector3<Scalar> c;       ///< ∫ρ p
-  Vector3<Scalar> shape_v; ///< S̄ q̇_f
+  Vector q, v, a;           ///< elastic coordinates and rates (n)
+  Matrix moment_q;          ///< S_kl q_f, row of the pair (pairs × n)
+  Matrix moment_v;          ///< S_kl q̇_f
+  Matrix moment_a;          ///< S_kl q̈_f
+  Vector forces;            ///< S_ff q̈_f + K q_f + D q̇_f
+  Matrix weighted;          ///< W_kl in row 3k + l (9 × n)
+  Vector3<Scalar> a0;       ///< [m/s²]
+  Vector3<Scalar> c;        ///< ∫ρ p
+  Vector3<Scalar> shape_v;  ///< S̄ q̇_f
   Matrix3<Scalar> X, Y, M, B;
   Vector3<Scalar> force;   ///< f, body axes
   Vector3<Scalar> moment;  ///< T about the frame origin, body axes
@@ -44,32 +44,50 @@ Vector3<Scalar> axial(const Matrix3<Scalar>& n) {
   return {n(1, 2) - n(2, 1), n(2, 0) - n(0, 2), n(0, 1) - n(1, 0)};
 }
 
-/// S_kl and the elastic forces times the elastic coordinates and their rates.
-template <class Scalar>
+/// S_kl and the elastic forces times the elastic coordinates and their rates. `Pairs` is the number
+/// of pairs (k, l) where the compiler may know it.
+template <int Pairs, class Scalar>
 void multiply_elastic(const Invariants<double>& body, BodyProducts<Scalar>& out) {
   const int n = body.size();
   const auto pairs = static_cast<Eigen::Index>(body.pairs.size());
-  out.moment_q.setConstant(n, pairs, Scalar(0));
-  out.moment_v.setConstant(n, pairs, Scalar(0));
-  out.moment_a.setConstant(n, pairs, Scalar(0));
-  out.forces.setConstant(n, Scalar(0));
+  using Column = Eigen::Matrix<Scalar, Pairs, 1, 0, Pairs == Eigen::Dynamic ? 9 : Pairs, 1>;
+  using Moments = Eigen::Map<const Eigen::Matrix<double, Pairs, 1>>;
+  out.moment_q.resize(pairs, n);
+  out.moment_v.resize(pairs, n);
+  out.moment_a.resize(pairs, n);
+  out.forces.resize(n);
+  const double* moments = body.moments.data();
   for (int row = 0; row < n; ++row) {
+    Column sum_q = Column::Constant(pairs, Scalar(0)), sum_v = sum_q, sum_a = sum_q;
     Scalar force(0);
     for (int i = body.pattern.row_start[static_cast<std::size_t>(row)];
          i < body.pattern.row_start[static_cast<std::size_t>(row) + 1]; ++i) {
       const int col = body.pattern.column[static_cast<std::size_t>(i)];
-      const Scalar& q = out.q(col);
-      const Scalar& v = out.v(col);
-      const Scalar& a = out.a(col);
+      const Moments moment(moments + i * pairs, pairs);
+      const Scalar &q = out.q(col), &v = out.v(col), &a = out.a(col);
       for (Eigen::Index p = 0; p < pairs; ++p) {
-        const double moment = body.moments(i, p);
-        out.moment_q(row, p) += moment * q;
-        out.moment_v(row, p) += moment * v;
-        out.moment_a(row, p) += moment * a;
+        sum_q(p) += moment(p) * q;
+        sum_v(p) += moment(p) * v;
+        sum_a(p) += moment(p) * a;
       }
       force += body.mass_matrix(i) * a + body.stiffness(i) * q + body.damping(i) * v;
     }
+    out.moment_q.col(row) = sum_q;
+    out.moment_v.col(row) = sum_v;
+    out.moment_a.col(row) = sum_a;
     out.forces(row) = force;
+  }
+}
+
+template <class Scalar>
+void multiply_elastic(const Invariants<double>& body, BodyProducts<Scalar>& out) {
+  switch (body.pairs.size()) {
+    case 4:
+      return multiply_elastic<4>(body, out);  // planar motion
+    case 9:
+      return multiply_elastic<9>(body, out);  // spatial motion
+    default:
+      return multiply_elastic<Eigen::Dynamic>(body, out);
   }
 }
 
@@ -81,7 +99,7 @@ void evaluate_body(const Invariants<double>& body, const FrameMotion<Scalar>& fr
   out.weighted = body.mixed.template cast<Scalar>();
   for (std::size_t p = 0; p < body.pairs.size(); ++p) {
     const auto [k, l] = body.pairs[p];
-    out.weighted.row(3 * l + k) += out.moment_q.col(static_cast<int>(p)).transpose();
+    out.weighted.row(3 * l + k) += out.moment_q.row(static_cast<int>(p));
   }
   const Matrix3<Scalar> omega = skew<Scalar>(frame.omega);
   out.X = skew<Scalar>(frame.alpha) + omega * omega;
@@ -108,8 +126,8 @@ void evaluate_body(const Invariants<double>& body, const FrameMotion<Scalar>& fr
     }
   }
   out.force = body.mass * out.a0 + out.X * out.c + out.Y * out.shape_v + shape_a;
-  const Matrix3<Scalar> N = out.c * out.a0.transpose() + out.M * out.X.transpose() +
-                            out.B * out.Y.transpose() + D;
+  const Matrix3<Scalar> N =
+      out.c * out.a0.transpose() + out.M * out.X.transpose() + out.B * out.Y.transpose() + D;
   out.moment = axial<Scalar>(N);
 }
 
@@ -136,7 +154,7 @@ void add_body_forces(const Invariants<double>& body, const BodyFrame& frame,
     }
     for (std::size_t p = 0; p < body.pairs.size(); ++p) {
       const auto [r, c] = body.pairs[p];
-      force += products.Y(r, c) * products.moment_v(i, static_cast<int>(p));
+      force += products.Y(r, c) * products.moment_v(static_cast<int>(p), i);
     }
     residual(first + i) += force;
   }

@@ -35,29 +35,33 @@ void GeometricStiffening::evaluate(const StiffeningElement& element, const State
   strain_.gradient += element.elongation;
 }
 
+void GeometricStiffening::add_forces(const StiffeningElement& element,
+                                     Eigen::VectorXd& residual) const {
+  const double total = element.axial_stiffness * (strain_.total + damping_ * strain_.total_rate);
+  const double linear = element.axial_stiffness * (strain_.linear + damping_ * strain_.linear_rate);
+  for (std::size_t i = 0; i < element.coordinates.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    residual(element.coordinates[i]) +=
+        total * strain_.gradient(k) - linear * element.elongation(k);
+  }
+}
+
 void GeometricStiffening::add_residual(const State& state, ConstraintLevel,
                                        Eigen::VectorXd& residual) {
   for (const StiffeningElement& element : elements_) {
     evaluate(element, state);
-    const double total = element.axial_stiffness * (strain_.total + damping_ * strain_.total_rate);
-    const double linear =
-        element.axial_stiffness * (strain_.linear + damping_ * strain_.linear_rate);
-    for (std::size_t i = 0; i < element.coordinates.size(); ++i) {
-      const auto k = static_cast<Eigen::Index>(i);
-      residual(element.coordinates[i]) +=
-          total * strain_.gradient(k) - linear * element.elongation(k);
-    }
+    add_forces(element, residual);
   }
 }
 
-void GeometricStiffening::write_tangent(const State& state, const Weights& weights,
-                                        ConstraintLevel, double* entries) {
+void GeometricStiffening::linearize(const State& state, const Weights& weights, ConstraintLevel,
+                                    Eigen::VectorXd& residual, double* entries) {
   for (const StiffeningElement& element : elements_) {
     evaluate(element, state);
+    add_forces(element, residual);
     const double kappa = element.axial_stiffness;
     const double material = kappa * (weights.q + weights.v * damping_);
-    const double geometric =
-        weights.q * kappa * (strain_.total + damping_ * strain_.total_rate);
+    const double geometric = weights.q * kappa * (strain_.total + damping_ * strain_.total_rate);
     const double rate = weights.q * kappa * damping_;
     const auto size = static_cast<Eigen::Index>(element.coordinates.size());
     for (Eigen::Index i = 0; i < size; ++i) {
@@ -81,8 +85,7 @@ void GeometricStiffening::add_design_derivative(const State& state, ConstraintLe
       const ElementVector d_slope_q = change.slopes * strain_.q;
       const double total = strain_.total + damping_ * strain_.total_rate;
       const double linear = strain_.linear + damping_ * strain_.linear_rate;
-      const double d_total = 0.5 * strain_.q.dot(d_slope_q) +
-                             damping_ * strain_.v.dot(d_slope_q) +
+      const double d_total = 0.5 * strain_.q.dot(d_slope_q) + damping_ * strain_.v.dot(d_slope_q) +
                              change.damping * strain_.total_rate;
       for (std::size_t i = 0; i < element.coordinates.size(); ++i) {
         const auto k = static_cast<Eigen::Index>(i);

@@ -32,8 +32,8 @@ struct StiffeningDerivative {
 ///     g = Δu + ½ qᵀ Ĝ q,    V = ½ κ g²
 /// in place of the linear ½ κ Δu², with viscous stress β ġ (stiffness-proportional damping):
 ///     f = κ (g + β ġ)(b + Ĝ q) − κ (Δu + β Δu̇) b
-/// The linear part is in K and D; this term is what is missing there. Without it a rotating beam has
-/// centrifugal softening only and diverges (Simo & Vu-Quoc 1987; Wallrapp & Schwertassek 1991).
+/// The linear part is in K and D; this term is what is missing there. Without it a rotating beam
+/// has centrifugal softening only and diverges (Simo & Vu-Quoc 1987; Wallrapp & Schwertassek 1991).
 class GeometricStiffening : public Term {
  public:
   GeometricStiffening(std::string body, std::vector<StiffeningElement> elements, double damping,
@@ -42,8 +42,8 @@ class GeometricStiffening : public Term {
   std::string name() const override { return "geometric stiffening of " + body_; }
   void declare_entries(EntryList& entries) const override;
   void add_residual(const State& state, ConstraintLevel level, Eigen::VectorXd& residual) override;
-  void write_tangent(const State& state, const Weights& weights, ConstraintLevel level,
-                     double* entries) override;
+  void linearize(const State& state, const Weights& weights, ConstraintLevel level,
+                 Eigen::VectorXd& residual, double* entries) override;
   void add_design_derivative(const State& state, ConstraintLevel level,
                              Eigen::MatrixXd& columns) override;
 
@@ -54,6 +54,7 @@ class GeometricStiffening : public Term {
     double linear, linear_rate, total, total_rate;  ///< Δu, Δu̇, g, ġ
   };
   void evaluate(const StiffeningElement& element, const State& state);
+  void add_forces(const StiffeningElement& element, Eigen::VectorXd& residual) const;
 
   std::string body_;
   std::vector<StiffeningElement> elements_;

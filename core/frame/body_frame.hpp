@@ -38,15 +38,18 @@ struct BodyFrame {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> basis = Eigen::Matrix3d::Identity();
   RotationCoordinates rotation = RotationCoordinates::none;
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();             ///< of `angle`, global axes
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();          ///< of `angle`, global axes
   Eigen::Matrix3d reference = Eigen::Matrix3d::Identity();  ///< A_ref of `angle`
 
   int translations() const { return static_cast<int>(basis.cols()); }
   int rotations() const {
     switch (rotation) {
-      case RotationCoordinates::none: return 0;
-      case RotationCoordinates::angle: return 1;
-      default: return 4;
+      case RotationCoordinates::none:
+        return 0;
+      case RotationCoordinates::angle:
+        return 1;
+      default:
+        return 4;
     }
   }
   int size() const { return translations() + rotations(); }
@@ -66,8 +69,8 @@ Matrix3<Scalar> euler_bilinear(const Eigen::Matrix<Scalar, 4, 1>& a,
                                const Eigen::Matrix<Scalar, 4, 1>& b) {
   const Vector3<Scalar> av = a.template tail<3>(), bv = b.template tail<3>();
   const Scalar diagonal = a(0) * b(0) - av.dot(bv);
-  Matrix3<Scalar> matrix = av * bv.transpose() + bv * av.transpose() +
-                           a(0) * skew<Scalar>(bv) + b(0) * skew<Scalar>(av);
+  Matrix3<Scalar> matrix =
+      av * bv.transpose() + bv * av.transpose() + a(0) * skew<Scalar>(bv) + b(0) * skew<Scalar>(av);
   for (int i = 0; i < 3; ++i) matrix(i, i) += diagonal;
   return matrix;
 }
@@ -117,11 +120,11 @@ Eigen::Matrix<Scalar, 4, 1> euler_parameters(const Matrix3<Scalar>& rotation) {
 /// Position, velocity and acceleration of a frame, with the derivatives that forces need.
 template <class Scalar>
 struct FrameMotion {
-  Vector3<Scalar> r, r_dot, r_ddot;                 ///< global axes
-  Matrix3<Scalar> A, A_dot, A_ddot;                 ///< exact time derivatives of A(coordinates)
-  std::array<Matrix3<Scalar>, 4> A_p;               ///< ∂A/∂(rotation coordinate)
-  Vector3<Scalar> omega, alpha;                     ///< ω = G ṗ, α = G p̈, body axes
-  Eigen::Matrix<Scalar, 3, Eigen::Dynamic, 0, 3, 4> G;  ///< 3 × rotations
+  Vector3<Scalar> r, r_dot, r_ddot;    ///< global axes
+  Matrix3<Scalar> A, A_dot, A_ddot;    ///< exact time derivatives of A(coordinates)
+  std::array<Matrix3<Scalar>, 4> A_p;  ///< ∂A/∂(rotation coordinate)
+  Vector3<Scalar> omega, alpha;        ///< ω = G ṗ, α = G p̈, body axes
+  Eigen::Matrix<Scalar, 3, Eigen::Dynamic, 0, 3, 4> G;                 ///< 3 × rotations
   Eigen::Matrix<Scalar, 3, Eigen::Dynamic, 0, 3, 4> omega_p, alpha_p;  ///< ∂ω/∂p, ∂α/∂p
 };
 
@@ -141,8 +144,8 @@ void set_angle_motion(const BodyFrame& frame, const Scalar& angle, const Scalar&
   motion.A = (nn + c * in_plane + s * n) * reference;
   motion.A_p[0] = (c * n - s * in_plane) * reference;
   motion.A_dot = speed * motion.A_p[0];
-  motion.A_ddot = acceleration * motion.A_p[0] -
-                  (speed * speed) * ((c * in_plane + s * n) * reference);
+  motion.A_ddot =
+      acceleration * motion.A_p[0] - (speed * speed) * ((c * in_plane + s * n) * reference);
   motion.G = (frame.reference.transpose() * frame.axis).template cast<Scalar>();
   motion.omega = speed * motion.G;
   motion.alpha = acceleration * motion.G;
@@ -153,7 +156,8 @@ void set_angle_motion(const BodyFrame& frame, const Scalar& angle, const Scalar&
 template <class Scalar>
 void set_euler_motion(const Eigen::Matrix<Scalar, 4, 1>& theta,
                       const Eigen::Matrix<Scalar, 4, 1>& rate,
-                      const Eigen::Matrix<Scalar, 4, 1>& acceleration, FrameMotion<Scalar>& motion) {
+                      const Eigen::Matrix<Scalar, 4, 1>& acceleration,
+                      FrameMotion<Scalar>& motion) {
   using Vector4 = Eigen::Matrix<Scalar, 4, 1>;
   motion.A = euler_bilinear(theta, theta);
   motion.A_dot = 2.0 * euler_bilinear(theta, rate);

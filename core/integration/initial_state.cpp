@@ -44,7 +44,8 @@ void assemble_positions(Mechanism& mechanism, LinearSolver& solver, System::Matr
     }
   }
   throw SimulationError(
-      "the mechanism cannot be assembled: its joints cannot all be closed near the given positions; "
+      "the mechanism cannot be assembled: its joints cannot all be closed near the given "
+      "positions; "
       "check the points of the joints and the lengths of the bodies");
 }
 

@@ -12,8 +12,8 @@ struct InitialState {
   Eigen::VectorXd position_multipliers, velocity_multipliers;
 };
 
-/// Consistent initial values: positions by assembly (the closest to the guess with Φ = 0), velocities
-/// (the closest with Φ̇ = 0), accelerations and multipliers from R = 0 with Φ̈ = 0.
+/// Consistent initial values: positions by assembly (the closest to the guess with Φ = 0),
+/// velocities (the closest with Φ̇ = 0), accelerations and multipliers from R = 0 with Φ̈ = 0.
 /// @throws SimulationError if the mechanism cannot be assembled or is singular
 InitialState initial_state(Mechanism& mechanism);
 

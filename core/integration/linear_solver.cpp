@@ -76,8 +76,12 @@ void LinearSolver::solve_transposed(Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterS
              static_cast<int>(rhs.cols()), rhs.data(), &klu.common);
 }
 
-double LinearSolver::reciprocal_condition() const { return implementation_->common.rcond; }
+double LinearSolver::reciprocal_condition() const {
+  return implementation_->common.rcond;
+}
 
-int LinearSolver::factorizations() const { return implementation_->factorizations; }
+int LinearSolver::factorizations() const {
+  return implementation_->factorizations;
+}
 
 }  // namespace pleuel

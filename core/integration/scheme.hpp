@@ -12,9 +12,9 @@ namespace pleuel {
 /// Newton, direct differentiation and the adjoint are written once for all such schemes.
 struct Scheme {
   std::string name;
-  double step = 0.0;            ///< h [s]
-  Eigen::Matrix4d history;      ///< rows: new q, v, a, w; columns: old q, v, a, w
-  Eigen::Vector4d correction;   ///< (1, γ', β', …): weights of the tangent, too
+  double step = 0.0;           ///< h [s]
+  Eigen::Matrix4d history;     ///< rows: new q, v, a, w; columns: old q, v, a, w
+  Eigen::Vector4d correction;  ///< (1, γ', β', …): weights of the tangent, too
 
   /// Scale of the dynamic rows and of λ that keeps the step matrix well conditioned as h → 0.
   double dynamic_scale() const { return 1.0 / correction(2); }

@@ -1,6 +1,7 @@
 #include "core/integration/simulate.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -24,6 +25,14 @@ int step_count(const SimulationOptions& options) {
 }
 
 namespace {
+
+/// Factors are renewed where the corrections shrink by less than this.
+constexpr double slow_rate = 0.1;
+/// Scaled corrections below this that no longer shrink are round-off.
+constexpr double round_off = 1e-9;
+
+/// Every so many steps a second iteration is made to see how fast the method converges.
+constexpr int curvature_interval = 16;
 
 class TimeLoop {
  public:
@@ -96,27 +105,54 @@ class TimeLoop {
     w_ += scheme_.correction(3) * z;
   }
 
+  /// Newton's method that keeps the factors within the step while they serve.
   void correct(int step) {
     const int n = system_.coordinates(), m = system_.multipliers();
     const double s = scheme_.dynamic_scale();
-    const Weights weights{scheme_.correction(0), scheme_.correction(1), scheme_.correction(2)};
+    bool is_stale = true;
+    double previous = 0.0;
     for (int iteration = 1; iteration <= options_.max_newton_iterations; ++iteration) {
       ++trajectory_.newton_iterations;
-      system_.residual(state_, ConstraintLevel::position, residual_);
-      system_.tangent(state_, weights, ConstraintLevel::position, matrix_);
-      scale_dynamic_block(n, s, matrix_);
+      const bool is_fresh = is_stale;
+      if (is_stale) {
+        linearize(step, iteration);
+      } else {
+        system_.residual(state_, ConstraintLevel::position, residual_);
+      }
       correction_.head(n) = -s * residual_.head(n);
       correction_.tail(m) = -residual_.tail(m);
-      if (!solver_.factorize(matrix_)) fail(step, iteration, "the step matrix is singular");
       solver_.solve(correction_);
       apply(correction_.head(n));
       state_.lambda += correction_.tail(m) / s;
-      const double size =
-          correction_.head(n).cwiseQuotient(scale_).template lpNorm<Eigen::Infinity>();
+      const double size = correction_.head(n).cwiseQuotient(scale_).lpNorm<Eigen::Infinity>();
       if (!std::isfinite(size)) fail(step, iteration, "the solution is not finite");
-      if (size <= options_.newton_tolerance) return;
+      double error = std::min(size, curvature_ * size * size);
+      if (iteration > 1) {
+        error = size * std::min(1.0, size / previous);
+        if (iteration == 2) note_curvature(size / (previous * previous));
+      } else if (step % curvature_interval == 1) {
+        error = size;  // go on, to see the curvature
+      }
+      if (error <= options_.newton_tolerance) return;
+      const bool is_slow = iteration > 1 && size > slow_rate * previous;
+      if (is_slow && is_fresh && size < round_off) return;
+      is_stale = is_slow;
+      previous = size;
     }
     fail(step, options_.max_newton_iterations, "Newton's method does not converge");
+  }
+
+  /// c of  |δ₂| = c |δ₁|²: how Newton's method converges quadratically here. It may fall slowly
+  /// only.
+  void note_curvature(double seen) {
+    curvature_ = std::isfinite(curvature_) ? std::max(seen, 0.5 * curvature_) : seen;
+  }
+
+  void linearize(int step, int iteration) {
+    const Weights weights{scheme_.correction(0), scheme_.correction(1), scheme_.correction(2)};
+    system_.linearize(state_, weights, ConstraintLevel::position, residual_, matrix_);
+    scale_dynamic_block(system_.coordinates(), scheme_.dynamic_scale(), matrix_);
+    if (!solver_.factorize(matrix_)) fail(step, iteration, "the step matrix is singular");
   }
 
   [[noreturn]] void fail(int step, int iteration, const char* what) const {
@@ -138,6 +174,7 @@ class TimeLoop {
   System::Matrix matrix_;
   LinearSolver solver_;
   Eigen::VectorXd correction_, residual_;
+  double curvature_ = std::numeric_limits<double>::infinity();
   Eigen::VectorXd old_q_, old_v_, old_a_, old_w_;
   Trajectory trajectory_;
 };

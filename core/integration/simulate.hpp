@@ -6,12 +6,12 @@
 namespace pleuel {
 
 struct SimulationOptions {
-  double end_time = 0.0;          ///< [s]; the start is t = 0
-  double step = 0.0;              ///< [s]; shortened so that it divides the time
-  double spectral_radius = 0.8;   ///< ρ∞ of generalized-α
-  /// A Newton iteration is the last if no coordinate is corrected by more than this, relative to
-  /// its scale. Newton's method converges quadratically: the error left is about its square.
-  double newton_tolerance = 1e-9;
+  double end_time = 0.0;         ///< [s]; the start is t = 0
+  double step = 0.0;             ///< [s]; shortened so that it divides the time
+  double spectral_radius = 0.8;  ///< ρ∞ of generalized-α
+  /// Newton's method ends when the error left in any coordinate, relative to its scale, is
+  /// estimated to be below this. Gradients by differences need a tight one.
+  double newton_tolerance = 1e-10;
   int max_newton_iterations = 20;
 };
 
@@ -31,9 +31,11 @@ struct Trajectory {
 /// Number of steps of a simulation: the last time is end_time exactly.
 int step_count(const SimulationOptions& options);
 
-/// Integrates the index-3 equations [M a − Q + Φ_qᵀ λ; Φ] = 0 (Arnold & Brüls 2007). Each step solves
+/// Integrates the index-3 equations [M a − Q + Φ_qᵀ λ; Φ] = 0 (Arnold & Brüls 2007). Each step
+/// solves
 ///     [ s(β'M + γ'C + K)  Φ_qᵀ ; Φ_q  0 ] [Δq; s Δλ] = −[s R_dyn; Φ],   s = 1/β' ~ h²
-/// by Newton's method with the exact tangent. Nothing is allocated in the time loop.
+/// by Newton's method with the exact tangent of the beginning of the step (renewed where it
+/// converges slowly). Nothing is allocated in the time loop.
 /// @throws SimulationError saying time, step, iteration and what to try
 Trajectory simulate(Mechanism& mechanism, const SimulationOptions& options);
 

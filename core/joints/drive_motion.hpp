@@ -29,10 +29,10 @@ struct SpeedDrive {
       return {Scalar(speed * (time - ramp / 2.0)), speed, Scalar(0)};
     }
     const Scalar phase = 2.0 * pi * time / ramp;
-    return {Scalar(speed * (time * time / (2.0 * ramp) +
-                            ramp * (cos(phase) - 1.0) / (4.0 * pi * pi))),
-            Scalar(speed * (time / ramp - sin(phase) / (2.0 * pi))),
-            Scalar(speed / ramp * (1.0 - cos(phase)))};
+    return {
+        Scalar(speed * (time * time / (2.0 * ramp) + ramp * (cos(phase) - 1.0) / (4.0 * pi * pi))),
+        Scalar(speed * (time / ramp - sin(phase) / (2.0 * pi))),
+        Scalar(speed / ramp * (1.0 - cos(phase)))};
   }
 };
 

@@ -19,11 +19,11 @@ struct Marker {
 };
 
 enum class EquationKind {
-  coincident,    ///< e · (P₂ − P₁) = 0, e fixed in space
-  on_plane,      ///< d · (P₂ − P₁) = 0, d attached to the first marker
-  perpendicular, ///< d · d' = 0, d attached to the first, d' to the second marker
-  drive,         ///< d'·(cos f(t) d_b − sin f(t) d_a) = 0: d' has turned by f from d_a to d_b
-  planar_angle,  ///< φ₂ − φ₁ = offset (+ f(t) with a drive), about the normal of the plane
+  coincident,     ///< e · (P₂ − P₁) = 0, e fixed in space
+  on_plane,       ///< d · (P₂ − P₁) = 0, d attached to the first marker
+  perpendicular,  ///< d · d' = 0, d attached to the first, d' to the second marker
+  drive,          ///< d'·(cos f(t) d_b − sin f(t) d_a) = 0: d' has turned by f from d_a to d_b
+  planar_angle,   ///< φ₂ − φ₁ = offset (+ f(t) with a drive), about the normal of the plane
 };
 
 struct JointEquation {

@@ -6,7 +6,8 @@
 /// The equations of a joint in any scalar type: value, tangent and design derivative are one text.
 ///
 /// All equations are linear or bilinear in vectors attached to a marker,
-///     y = σ r + A (s + ψ × s + u)        points: σ = 1, s = p₀, ψ unused;  directions: σ = 0, u unused
+///     y = σ r + A (s + ψ × s + u)        points: σ = 1, s = p₀, ψ unused;  directions: σ = 0, u
+///     unused
 /// (u, ψ: elastic displacement and rotation), so that Φ̇ and Φ̈ follow by Leibniz' rule, and the
 /// generalized forces Φ_qᵀ λ by the transposed derivatives of y.
 namespace pleuel {
@@ -91,10 +92,10 @@ class JointEvaluation {
   /// s + ψ × s with its time derivatives, s moving in the undeformed marker.
   Motion<Scalar> local_direction(std::size_t m, const Motion<Scalar>& s) const {
     const auto& psi = markers_[m].psi;
-    return {Vector3<Scalar>(s[0] + psi[0].cross(s[0])),
-            Vector3<Scalar>(s[1] + psi[1].cross(s[0]) + psi[0].cross(s[1])),
-            Vector3<Scalar>(s[2] + psi[2].cross(s[0]) + 2.0 * psi[1].cross(s[1]) +
-                            psi[0].cross(s[2]))};
+    return {
+        Vector3<Scalar>(s[0] + psi[0].cross(s[0])),
+        Vector3<Scalar>(s[1] + psi[1].cross(s[0]) + psi[0].cross(s[1])),
+        Vector3<Scalar>(s[2] + psi[2].cross(s[0]) + 2.0 * psi[1].cross(s[1]) + psi[0].cross(s[2]))};
   }
 
   Motion<Scalar> fixed_direction(int index) const {
@@ -151,22 +152,28 @@ class JointEvaluation {
 
   static Scalar dot_at(ConstraintLevel level, const Motion<Scalar>& a, const Motion<Scalar>& b) {
     switch (level) {
-      case ConstraintLevel::position: return a[0].dot(b[0]);
-      case ConstraintLevel::velocity: return a[1].dot(b[0]) + a[0].dot(b[1]);
-      default: return a[2].dot(b[0]) + 2.0 * a[1].dot(b[1]) + a[0].dot(b[2]);
+      case ConstraintLevel::position:
+        return a[0].dot(b[0]);
+      case ConstraintLevel::velocity:
+        return a[1].dot(b[0]) + a[0].dot(b[1]);
+      default:
+        return a[2].dot(b[0]) + 2.0 * a[1].dot(b[1]) + a[0].dot(b[2]);
     }
   }
 
   Scalar evaluate_equation(const JointEquation& equation, ConstraintLevel level,
                            const Scalar& lambda) {
     switch (equation.kind) {
-      case EquationKind::coincident: return coincident(equation, level, lambda);
-      case EquationKind::on_plane: return on_plane(equation, level, lambda);
+      case EquationKind::coincident:
+        return coincident(equation, level, lambda);
+      case EquationKind::on_plane:
+        return on_plane(equation, level, lambda);
       case EquationKind::perpendicular:
         return directions(level, lambda, fixed_direction(equation.first), equation.second);
       case EquationKind::drive:
         return directions(level, lambda, driven_direction(equation), equation.second);
-      default: return planar_angle(level, lambda);
+      default:
+        return planar_angle(level, lambda);
     }
   }
 
@@ -215,9 +222,12 @@ class JointEvaluation {
       apply_to_elastic(m, 3, Vector3<Scalar>((sign * lambda) * normal));
     }
     switch (level) {
-      case ConstraintLevel::position: return difference - data_.offset - drive_.angle;
-      case ConstraintLevel::velocity: return difference - drive_.rate;
-      default: return difference - drive_.acceleration;
+      case ConstraintLevel::position:
+        return difference - data_.offset - drive_.angle;
+      case ConstraintLevel::velocity:
+        return difference - drive_.rate;
+      default:
+        return difference - drive_.acceleration;
     }
   }
 

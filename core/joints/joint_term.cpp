@@ -1,6 +1,9 @@
 #include "core/joints/joint_term.hpp"
 
+#include <algorithm>
 #include <cassert>
+
+#include "core/joints/joint_linearization.hpp"
 
 namespace pleuel {
 
@@ -40,7 +43,8 @@ JointData<Dual> seed_data(const JointData<double>& data, const JointData<double>
     seeded.points[i] = data.points[i].binaryExpr(derivative.points[i], &with_derivative);
   }
   for (std::size_t i = 0; i < data.directions.size(); ++i) {
-    seeded.directions[i] = data.directions[i].binaryExpr(derivative.directions[i], &with_derivative);
+    seeded.directions[i] =
+        data.directions[i].binaryExpr(derivative.directions[i], &with_derivative);
   }
   seeded.offset = with_derivative(data.offset, derivative.offset);
   seeded.drive.speed = with_derivative(data.drive.speed, derivative.drive.speed);
@@ -83,28 +87,14 @@ class JointTerm : public Term {
     }
   }
 
-  void write_tangent(const State& state, const Weights& weights, ConstraintLevel level,
-                     double* entries) override {
-    Local<WideDual> local = load<WideDual>(state);
-    for (int i = 0; i < local_size(); ++i) {
-      local.q[index(i)].derivatives()[i] = weights.q;
-      local.v[index(i)].derivatives()[i] = weights.v;
-      local.a[index(i)].derivatives()[i] = weights.a;
+  void linearize(const State& state, const Weights& weights, ConstraintLevel level,
+                 Eigen::VectorXd& residual, double* entries) override {
+    if (level == ConstraintLevel::position) {
+      linearize_position(state, weights, residual, entries);
+      return;
     }
-    for (int i = 0; i < equations(); ++i) {
-      local.lambda[index(i)].derivatives()[local_size() + i] = 1.0;
-    }
-    const Result<WideDual> result = evaluate(dual_data_, local, state.time, level);
-    for (int row = 0; row < local_size(); ++row) {
-      for (int col = 0; col < local_size() + equations(); ++col) {
-        *entries++ = result.forces[index(row)].derivatives()[col];
-      }
-    }
-    for (int row = 0; row < equations(); ++row) {
-      for (int col = 0; col < local_size(); ++col) {
-        *entries++ = result.equations[index(row)].derivatives()[col];
-      }
-    }
+    add_residual(state, level, residual);
+    write_dual_tangent(state, weights, level, entries);
   }
 
   void add_design_derivative(const State& state, ConstraintLevel level,
@@ -136,6 +126,56 @@ class JointTerm : public Term {
   int local_size() const { return static_cast<int>(coordinates_.size()); }
   int equations() const { return static_cast<int>(topology_.equations.size()); }
   int coordinate(int i) const { return coordinates_[index(i)]; }
+
+  /// The fast way, for the time loop.
+  void linearize_position(const State& state, const Weights& weights, Eigen::VectorXd& residual,
+                          double* entries) const {
+    const int size = local_size(), count = equations(), stride = size + count;
+    JointLinearization::Vector q(size);
+    for (int i = 0; i < size; ++i) q(i) = state.q(coordinate(i));
+    JointLinearization joint(topology_, data_, state.time, q.data(), size);
+    std::fill(entries, entries + size * stride + count * size, 0.0);
+    const auto first = topology_.multiplier - state.q.size();
+    for (int i = 0; i < count; ++i) {
+      joint.evaluate(topology_.equations[index(i)]);
+      const double lambda = state.lambda(first + i);
+      residual(topology_.multiplier + i) += joint.value();
+      for (int row = 0; row < size; ++row) {
+        const double gradient = joint.gradient()(row);
+        residual(coordinate(row)) += lambda * gradient;
+        for (int col = 0; col < size; ++col) {
+          entries[row * stride + col] += weights.q * lambda * joint.hessian()(row, col);
+        }
+        entries[row * stride + size + i] = gradient;
+        entries[size * stride + i * size + row] = weights.q * gradient;
+      }
+    }
+  }
+
+  /// At any level, by dual numbers.
+  void write_dual_tangent(const State& state, const Weights& weights, ConstraintLevel level,
+                          double* entries) const {
+    Local<WideDual> local = load<WideDual>(state);
+    for (int i = 0; i < local_size(); ++i) {
+      local.q[index(i)].derivatives()[i] = weights.q;
+      local.v[index(i)].derivatives()[i] = weights.v;
+      local.a[index(i)].derivatives()[i] = weights.a;
+    }
+    for (int i = 0; i < equations(); ++i) {
+      local.lambda[index(i)].derivatives()[local_size() + i] = 1.0;
+    }
+    const Result<WideDual> result = evaluate(dual_data_, local, state.time, level);
+    for (int row = 0; row < local_size(); ++row) {
+      for (int col = 0; col < local_size() + equations(); ++col) {
+        *entries++ = result.forces[index(row)].derivatives()[col];
+      }
+    }
+    for (int row = 0; row < equations(); ++row) {
+      for (int col = 0; col < local_size(); ++col) {
+        *entries++ = result.equations[index(row)].derivatives()[col];
+      }
+    }
+  }
 
   template <class Scalar>
   Local<Scalar> load(const State& state) const {

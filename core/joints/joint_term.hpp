@@ -7,10 +7,10 @@
 
 namespace pleuel {
 
-/// A joint as a term of the system; its tangent comes from dual numbers through joint_residual.hpp.
+/// A joint as a term of the system. The tangent at position level comes from
+/// joint_linearization.hpp, at the other levels from dual numbers through joint_residual.hpp.
 /// @param derivatives  of the joint's numbers with respect to the variables they depend on
-std::unique_ptr<Term> make_joint_term(
-    JointTopology topology, JointData<double> data,
-    std::vector<DesignDerivative<JointData<double>>> derivatives);
+std::unique_ptr<Term> make_joint_term(JointTopology topology, JointData<double> data,
+                                      std::vector<DesignDerivative<JointData<double>>> derivatives);
 
 }  // namespace pleuel

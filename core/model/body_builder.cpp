@@ -75,8 +75,8 @@ void set_beam(const BeamBody& beam, const Body& body, const BuildContext& contex
 }
 
 template <class Scalar>
-Invariants<Scalar> make_invariants(const Body& body, const BodyModel& model, const Beam<Scalar>& beam,
-                                   const Design<Scalar>& design) {
+Invariants<Scalar> make_invariants(const Body& body, const BodyModel& model,
+                                   const Beam<Scalar>& beam, const Design<Scalar>& design) {
   if (model.is_beam()) return beam_invariants(beam, *model.coordinates);
   const Vector3<Scalar> zero = Vector3<Scalar>::Constant(Scalar(0));
   Matrix3<Scalar> second = Matrix3<Scalar>::Constant(Scalar(0));
@@ -161,17 +161,15 @@ std::unique_ptr<Term> make_stiffening(const BodyModel& model) {
   for (const auto& [variable, beam] : model.beam_x) {
     std::vector<StiffeningDerivative> changes;
     for (std::size_t e = 0; e < locals.size(); ++e) {
-      StiffeningDerivative change =
-          differentiate_stiffening(locals[e], static_cast<int>(e), beam);
-      const bool is_zero = change.axial_stiffness == 0.0 && change.damping == 0.0 &&
-                           change.slopes.isZero(0.0);
+      StiffeningDerivative change = differentiate_stiffening(locals[e], static_cast<int>(e), beam);
+      const bool is_zero =
+          change.axial_stiffness == 0.0 && change.damping == 0.0 && change.slopes.isZero(0.0);
       if (!is_zero) changes.push_back(std::move(change));
     }
     if (!changes.empty()) derivatives.push_back({variable, std::move(changes)});
   }
-  return std::make_unique<GeometricStiffening>(model.name, std::move(elements),
-                                               model.beam.stiffness_damping,
-                                               std::move(derivatives));
+  return std::make_unique<GeometricStiffening>(
+      model.name, std::move(elements), model.beam.stiffness_damping, std::move(derivatives));
 }
 
 }  // namespace
@@ -192,8 +190,8 @@ std::vector<std::unique_ptr<Term>> make_body_terms(const Body& body, BodyModel& 
                                                    const BuildContext& context) {
   std::vector<DesignDerivative<Invariants<double>>> derivatives;
   for (int variable : variables_of(body, context.scene)) {
-    const Invariants<Dual> seeded = make_invariants(body, model, seeded_beam(model, variable),
-                                                    context.seeded(variable));
+    const Invariants<Dual> seeded =
+        make_invariants(body, model, seeded_beam(model, variable), context.seeded(variable));
     model.mass_x(variable) = derivative_of(seeded.mass);
     derivatives.push_back({variable, transform_invariants<double>(seeded, [](const Dual& number) {
                              return derivative_of(number);

@@ -26,6 +26,9 @@ const JointModel& Model::joint(const std::string& name) const {
 
 namespace {
 
+/// Elastic displacements are small against the mechanism, elastic rotations against one.
+constexpr double elastic_scale = 1e-3;
+
 /// The largest distance between bodies and joints [m]: the scale of lengths.
 double size_of(const Scene& scene, const Design<double>& start) {
   std::vector<Eigen::Vector3d> points;
@@ -47,8 +50,8 @@ class ModelBuilder {
  public:
   ModelBuilder(const Scene& scene, const EffectSettings& effects, const Design<double>& start,
                const Design<double>& design)
-      : context_{scene, effects, start, design, std::nullopt, resolve_point(scene.gravity, design)} {
-  }
+      : context_{scene,  effects,      start,
+                 design, std::nullopt, resolve_point(scene.gravity, design)} {}
 
   Model build() {
     decide_motion();
@@ -71,8 +74,12 @@ class ModelBuilder {
     const PlaneAnalysis analysis = find_motion_plane(context_.scene, context_.start);
     EffectRecord record{"spatial_motion", true, analysis.reason};
     switch (context_.effects.spatial_motion) {
-      case EffectChoice::automatic: context_.plane = analysis.plane; break;
-      case EffectChoice::on: record.reason = "asked for"; break;
+      case EffectChoice::automatic:
+        context_.plane = analysis.plane;
+        break;
+      case EffectChoice::on:
+        record.reason = "asked for";
+        break;
       case EffectChoice::off:
         if (!analysis.plane) {
           throw InputError("/effects/spatial_motion is \"off\", but " + analysis.reason);
@@ -100,10 +107,10 @@ class ModelBuilder {
       has_damping = has_damping || body.beam.stiffness_damping > 0 || body.beam.mass_damping > 0;
     }
     const bool is_forced = context_.effects.geometric_stiffening != EffectChoice::automatic;
-    model_.effects.push_back({"geometric_stiffening", has_stiffening,
-                              is_forced ? "asked for" : "built for every beam"});
-    model_.effects.push_back({"damping", has_damping,
-                              has_damping ? "given for a body" : "no body has any"});
+    model_.effects.push_back(
+        {"geometric_stiffening", has_stiffening, is_forced ? "asked for" : "built for every beam"});
+    model_.effects.push_back(
+        {"damping", has_damping, has_damping ? "given for a body" : "no body has any"});
     const bool has_gravity = !context_.gravity.isZero();
     model_.effects.push_back({"gravity", has_gravity, has_gravity ? "given" : "none is given"});
   }
@@ -133,8 +140,8 @@ class ModelBuilder {
       mechanism.guess.q.segment(frame.offset, frame.size()) =
           frame_coordinates(frame, body_pose(body, context_.design));
       for (int variable : variables_of(body, context_.scene)) {
-        mechanism.guess_q_x.col(variable).segment(frame.offset, frame.size()) = derivative_matrix(
-            frame_coordinates(frame, body_pose(body, context_.seeded(variable))));
+        mechanism.guess_q_x.col(variable).segment(frame.offset, frame.size()) =
+            derivative_matrix(frame_coordinates(frame, body_pose(body, context_.seeded(variable))));
       }
       mechanism.scale.segment(frame.offset, frame.translations()).setConstant(size);
       mechanism.assembly_weight.segment(frame.offset, frame.size()).setOnes();
@@ -146,10 +153,9 @@ class ModelBuilder {
   void set_elastic_scale(const BodyModel& body, double size) {
     if (!body.is_beam()) return;
     for (int node = 0; node < body.coordinates->node_count(); ++node) {
-      for (int i = 0; i < 3; ++i) {
-        if (body.coordinate(node, i) >= 0) {
-          model_.mechanism.scale(body.coordinate(node, i)) = size;
-        }
+      for (int i = 0; i < 6; ++i) {
+        if (body.coordinate(node, i) < 0) continue;
+        model_.mechanism.scale(body.coordinate(node, i)) = elastic_scale * (i < 3 ? size : 1.0);
       }
     }
   }

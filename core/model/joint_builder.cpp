@@ -8,9 +8,9 @@ namespace {
 
 /// One side of a joint.
 struct Side {
-  const Body* body = nullptr;        ///< null for the ground
+  const Body* body = nullptr;  ///< null for the ground
   const BodyModel* model = nullptr;
-  int node = 0;                      ///< of a beam
+  int node = 0;  ///< of a beam
 
   bool is_beam() const { return model != nullptr && model->is_beam(); }
   bool turns() const { return model == nullptr || model->frame.rotations() > 0; }
@@ -47,8 +47,8 @@ class JointBuilder {
     for (std::size_t m = 0; m < 2; ++m) find_side(joint.bodies[m], bodies, sides_[m]);
     for (Side& side : sides_) {
       if (side.is_beam()) {
-        side.node = nearest_node(*side.model, std::get<BeamBody>(side.body->shape), joint,
-                                 context.start);
+        side.node =
+            nearest_node(*side.model, std::get<BeamBody>(side.body->shape), joint, context.start);
       }
     }
   }
@@ -119,9 +119,7 @@ class JointBuilder {
     if (!sides_[0].turns() || !sides_[1].turns()) return;
     add({EquationKind::planar_angle});
   }
-  void note_drive() {
-    drive_equation_ = static_cast<int>(parts_.topology.equations.size()) - 1;
-  }
+  void note_drive() { drive_equation_ = static_cast<int>(parts_.topology.equations.size()) - 1; }
 
   void add_planar_equations(const MotionPlane& plane) {
     const Eigen::Vector3d axis = to_vector(joint_.axis).normalized();
@@ -132,7 +130,9 @@ class JointBuilder {
         add_coincident(plane.basis.col(1));
         break;
       case JointType::prismatic:
-      case JointType::point_on_line: add_on_plane(plane.normal.cross(axis)); break;
+      case JointType::point_on_line:
+        add_on_plane(plane.normal.cross(axis));
+        break;
     }
     const bool turns_freely =
         joint_.type == JointType::revolute || joint_.type == JointType::point_on_line;
@@ -166,8 +166,7 @@ class JointBuilder {
   Vector3<Scalar> local_point(const Side& side, const Design<Scalar>& design) const {
     if (side.body == nullptr) return resolve_point(joint_.at, design);
     if (side.is_beam()) {
-      const auto beam =
-          resolve_beam(std::get<BeamBody>(side.body->shape), context_.scene, design);
+      const auto beam = resolve_beam(std::get<BeamBody>(side.body->shape), context_.scene, design);
       return {beam.node_position(side.node), Scalar(0), Scalar(0)};
     }
     const Pose<Scalar> pose = body_pose(*side.body, design);

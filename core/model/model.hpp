@@ -15,7 +15,7 @@ namespace pleuel {
 /// A body of the model: what responses need to know of it.
 struct BodyModel {
   std::string name;
-  BodyFrame frame;  ///< its coordinates begin at frame.offset, the elastic ones follow
+  BodyFrame frame;         ///< its coordinates begin at frame.offset, the elastic ones follow
   double mass = 0.0;       ///< [kg]
   Eigen::VectorXd mass_x;  ///< derivatives with respect to all design variables
 

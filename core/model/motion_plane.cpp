@@ -50,8 +50,9 @@ class PlaneCheck {
     plane.basis << e1, normal_.cross(e1);
     plane.point = point_.value_or(Eigen::Vector3d::Zero());
     analysis.plane = plane;
-    analysis.reason = fmt::format("all of it is symmetric about the plane with normal ({:g}, {:g}, {:g})",
-                                  normal_.x(), normal_.y(), normal_.z());
+    analysis.reason =
+        fmt::format("all of it is symmetric about the plane with normal ({:g}, {:g}, {:g})",
+                    normal_.x(), normal_.y(), normal_.z());
     return analysis;
   }
 
@@ -104,7 +105,8 @@ class PlaneCheck {
     check_point(joint.at, what);
     const Eigen::Vector3d axis = to_vector(joint.axis);
     if (joint.type == JointType::revolute) require(are_parallel(axis, normal_), what);
-    const bool slides = joint.type == JointType::prismatic || joint.type == JointType::point_on_line;
+    const bool slides =
+        joint.type == JointType::prismatic || joint.type == JointType::point_on_line;
     if (slides) require(are_normal(axis, normal_), what);
   }
 
@@ -122,7 +124,8 @@ std::optional<Eigen::Vector3d> candidate_normal(const Scene& scene, const Design
     if (joint.type == JointType::revolute) return to_vector(joint.axis);
     if (joint.type != JointType::fixed) directions.push_back(to_vector(joint.axis));
   }
-  for (const Body& body : scene.bodies) directions.push_back(body_pose(body, start).rotation.col(0));
+  for (const Body& body : scene.bodies)
+    directions.push_back(body_pose(body, start).rotation.col(0));
   for (const auto& direction : directions) {
     const Eigen::Vector3d normal = directions.front().cross(direction);
     if (normal.norm() > tolerance * direction.norm()) return normal;

@@ -24,8 +24,8 @@ struct LocalPlace {
 };
 
 /// Base of signals that are formulas in LocalMotion. Derived provides
-///     template <class Scalar> Scalar evaluate(const Beam<Scalar>&, const LocalMotion<Scalar>&, int channel) const;
-///     LocalPlace place(int channel) const;
+///     template <class Scalar> Scalar evaluate(const Beam<Scalar>&, const LocalMotion<Scalar>&, int
+///     channel) const; LocalPlace place(int channel) const;
 /// The model must outlive the signal.
 template <class Derived>
 class BodySignal : public Signal {

@@ -70,9 +70,8 @@ Reduction reduce_peaks(const Eigen::VectorXd& time, const Eigen::MatrixXd& value
     reduction.samples = {{0, 0, 1.0}};
     return reduction;
   }
-  const auto best = std::max_element(peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) {
-    return a.height < b.height;
-  });
+  const auto best = std::max_element(
+      peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) { return a.height < b.height; });
   reduction.value = best->height;
   for (int i = 0; i < 3; ++i) {
     const double weight = best->sign * best->weights[static_cast<std::size_t>(i)];
@@ -130,18 +129,24 @@ Reduction reduce_rms(const Eigen::VectorXd& time, const Eigen::MatrixXd& values)
 Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::MatrixXd& values) {
   const Eigen::Index last = time.size() - 1;
   switch (kind) {
-    case OverTime::max: return reduce_peaks(time, values, {1.0});
-    case OverTime::max_abs: return reduce_peaks(time, values, {1.0, -1.0});
+    case OverTime::max:
+      return reduce_peaks(time, values, {1.0});
+    case OverTime::max_abs:
+      return reduce_peaks(time, values, {1.0, -1.0});
     case OverTime::min: {
       Reduction reduction = reduce_peaks(time, values, {-1.0});
       reduction.value = -reduction.value;
       for (Sample& sample : reduction.samples) sample.weight = -sample.weight;
       return reduction;
     }
-    case OverTime::rms: return reduce_rms(time, values);
-    case OverTime::mean: return reduce_linear(quadrature(time) / (time(last) - time(0)), values);
-    case OverTime::integral: return reduce_linear(quadrature(time), values);
-    case OverTime::final: break;
+    case OverTime::rms:
+      return reduce_rms(time, values);
+    case OverTime::mean:
+      return reduce_linear(quadrature(time) / (time(last) - time(0)), values);
+    case OverTime::integral:
+      return reduce_linear(quadrature(time), values);
+    case OverTime::final:
+      break;
   }
   return reduce_linear(Eigen::VectorXd::Unit(time.size(), last), values);
 }

@@ -22,7 +22,7 @@ struct Sample {
 struct PeakTie {
   double time, other_time;  ///< [s]
   int channel, other_channel;
-  double gap;               ///< relative difference of the heights
+  double gap;  ///< relative difference of the heights
 };
 
 /// A history reduced to one number, linearised in the observed numbers.

@@ -11,9 +11,9 @@ namespace {
 void set_mass(const ResponseSettings& settings, const Model& model, Response& response) {
   response.constant_x = Eigen::VectorXd::Zero(model.mechanism.system->variables());
   for (const BodyModel& body : model.bodies) {
-    const bool is_counted =
-        settings.bodies.empty() ||
-        std::find(settings.bodies.begin(), settings.bodies.end(), body.name) != settings.bodies.end();
+    const bool is_counted = settings.bodies.empty() ||
+                            std::find(settings.bodies.begin(), settings.bodies.end(), body.name) !=
+                                settings.bodies.end();
     if (!is_counted) continue;
     response.constant += body.mass;
     response.constant_x += body.mass_x;
@@ -32,7 +32,9 @@ std::vector<Response> make_responses(const std::vector<ResponseSettings>& settin
     response.over_time = setting.over_time;
     const auto body = [&]() -> const BodyModel& { return model.body(setting.bodies.front()); };
     switch (setting.type) {
-      case ResponseType::mass: set_mass(setting, model, response); break;
+      case ResponseType::mass:
+        set_mass(setting, model, response);
+        break;
       case ResponseType::stress:
         response.signal = make_stress_signal(body(), model.gravity, setting.segment);
         break;
@@ -75,10 +77,9 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   auto analysis = std::make_unique<Analysis>();
   analysis->model = build_model(problem.scene, problem.effects, start_values, design);
   const SimulationSettings& settings = problem.simulation;
-  analysis->trajectory =
-      simulate(analysis->model.mechanism,
-               {settings.end_time, settings.step, settings.spectral_radius,
-                settings.newton_tolerance, settings.max_newton_iterations});
+  analysis->trajectory = simulate(analysis->model.mechanism,
+                                  {settings.end_time, settings.step, settings.spectral_radius,
+                                   settings.newton_tolerance, settings.max_newton_iterations});
   analysis->responses = make_responses(problem.responses, analysis->model);
   for (Response& response : analysis->responses) {
     Reduction reduction;

@@ -14,11 +14,11 @@ namespace pleuel {
 /// A number that the user asks for: a signal reduced over time, or a constant of the design.
 struct Response {
   std::string name;
-  std::string unit;                  ///< SI
+  std::string unit;  ///< SI
   OverTime over_time = OverTime::max;
-  std::unique_ptr<Signal> signal;    ///< null: a constant
+  std::unique_ptr<Signal> signal;  ///< null: a constant
   double constant = 0.0;
-  Eigen::VectorXd constant_x;        ///< its derivatives, one a design variable
+  Eigen::VectorXd constant_x;  ///< its derivatives, one a design variable
 };
 
 /// Builds the responses of a model, which must outlive them.

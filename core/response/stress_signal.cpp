@@ -9,6 +9,9 @@ namespace pleuel {
 
 namespace {
 
+/// Keeps square roots differentiable at zero [Pa² and (N m)²].
+constexpr double tiny = 1e-300;
+
 /// Section forces in local axes: M_y, M_z such that σ = N/A − M_z y/I_z + M_y z/I_y.
 template <class Scalar>
 struct SectionForces {
@@ -24,14 +27,16 @@ struct Station {
 /// One stress point of a station; `sign` of a round section's axial stress.
 struct Channel {
   int station;
-  int point;         ///< index in the section's points, −1: resultant moment of a round section
+  int point;  ///< index in the section's points, −1: resultant moment of a round section
   double sign = 1.0;
 };
 
 std::vector<Station> find_stations(const BodyModel& body, std::optional<int> segment) {
   std::vector<Station> stations;
   const int elements = static_cast<int>(body.beam.elements.size());
-  const auto segment_of = [&](int e) { return body.segment_of_element[static_cast<std::size_t>(e)]; };
+  const auto segment_of = [&](int e) {
+    return body.segment_of_element[static_cast<std::size_t>(e)];
+  };
   for (int e = 0; e < elements; ++e) {
     if (segment && segment_of(e) != *segment) continue;
     const bool continues = e > 0 && segment_of(e - 1) == segment_of(e);
@@ -95,35 +100,70 @@ class StressSignal final : public BodySignal<StressSignal> {
     return {station.elements.front(), static_cast<int>(station.elements.size()) + 1};
   }
 
-  /// All channels of a station share its section forces.
+  /// All channels share one evaluation of the body.
   void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
-    BodySignal::observe(state, values);
+    const BodyModel& body = this->body();
+    const int first = body.frame.offset, size = body.frame.size();
+    const FrameMotion<double> frame =
+        frame_motion<double>(body.frame, state.q.segment(first, size), state.v.segment(first, size),
+                             state.a.segment(first, size));
+    const int nodes = body.beam.node_count();
+    nodal_q_.resize(6, nodes);
+    accelerations_.resize(3, nodes);
+    double x = 0.0;
+    for (int node = 0; node < nodes; ++node) {
+      std::array<Eigen::Vector3d, 3> motion;  // displacement, rate, acceleration
+      for (int i = 0; i < 6; ++i) {
+        const int index = body.coordinate(node, i);
+        nodal_q_(i, node) = index < 0 ? 0.0 : state.q(index);
+        if (i >= 3) continue;
+        motion[0](i) = nodal_q_(i, node);
+        motion[1](i) = index < 0 ? 0.0 : state.v(index);
+        motion[2](i) = index < 0 ? 0.0 : state.a(index);
+      }
+      accelerations_.col(node) = acceleration<double>(frame, x, motion[0], motion[1], motion[2]);
+      if (node + 1 < nodes) x += body.beam.elements[static_cast<std::size_t>(node)].length;
+    }
+    SectionForces<double> forces;
+    int station = -1;
+    for (int channel = 0; channel < channels(); ++channel) {
+      const Channel& c = channels_[static_cast<std::size_t>(channel)];
+      if (c.station != station) {
+        station = c.station;
+        forces = station_forces<double>(
+            body.beam, station, [&](int node, int i) { return nodal_q_(i, node); },
+            [&](int node) { return Eigen::Vector3d(accelerations_.col(node)); });
+      }
+      values(channel) = von_mises(section_of(body.beam, station), forces, c);
+    }
   }
 
   template <class Scalar>
   Scalar evaluate(const Beam<Scalar>& beam, const LocalMotion<Scalar>& motion, int channel) const {
-    using std::sqrt;
     const Channel& c = channels_[static_cast<std::size_t>(channel)];
-    const SectionForces<Scalar> forces = station_forces(beam, motion, c.station);
-    const SectionProperties<Scalar>& section = section_of(beam, c.station);
-    Scalar normal, shear;
-    if (c.point < 0) {
-      const Scalar moment = sqrt(forces.moment_y * forces.moment_y +
-                                 forces.moment_z * forces.moment_z + 1e-300);
-      normal = c.sign * forces.axial / section.area + moment * section.radius / section.inertia_z;
-      shear = forces.torque * section.radius / section.torsion;
-    } else {
-      const StressPoint<Scalar>& point = section.points[static_cast<std::size_t>(c.point)];
-      normal = forces.axial / section.area - forces.moment_z * point.y / section.inertia_z +
-               forces.moment_y * point.z / section.inertia_y;
-      shear = forces.torque * point.shear;
-    }
-    return sqrt(normal * normal + 3.0 * shear * shear + 1e-300);
+    const int first = station_of(channel).elements.front();
+    const FrameMotion<Scalar> frame = this->frame(motion);
+    const auto displacement = [&](int node, int i) {
+      return motion.q[static_cast<std::size_t>(nodal(node - first, i))];
+    };
+    const auto accelerated = [&](int node) {
+      std::array<Vector3<Scalar>, 3> local;
+      for (int i = 0; i < 3; ++i) {
+        const auto k = static_cast<std::size_t>(nodal(node - first, i));
+        local[0](i) = motion.q[k];
+        local[1](i) = motion.v[k];
+        local[2](i) = motion.a[k];
+      }
+      return acceleration<Scalar>(frame, beam.node_position(node), local[0], local[1], local[2]);
+    };
+    return von_mises(section_of(beam, c.station),
+                     station_forces<Scalar>(beam, c.station, displacement, accelerated), c);
   }
 
  private:
   const Station& station_of(int channel) const {
-    return stations_[static_cast<std::size_t>(channels_[static_cast<std::size_t>(channel)].station)];
+    return stations_[static_cast<std::size_t>(
+        channels_[static_cast<std::size_t>(channel)].station)];
   }
 
   template <class Scalar>
@@ -133,16 +173,40 @@ class StressSignal final : public BodySignal<StressSignal> {
   }
 
   template <class Scalar>
-  SectionForces<Scalar> station_forces(const Beam<Scalar>& beam, const LocalMotion<Scalar>& motion,
-                                       int s) const {
+  static Scalar von_mises(const SectionProperties<Scalar>& section,
+                          const SectionForces<Scalar>& forces, const Channel& channel) {
+    using std::sqrt;
+    Scalar normal, shear;
+    if (channel.point < 0) {
+      const Scalar moment =
+          sqrt(forces.moment_y * forces.moment_y + forces.moment_z * forces.moment_z + tiny);
+      normal =
+          channel.sign * forces.axial / section.area + moment * section.radius / section.inertia_z;
+      shear = forces.torque * section.radius / section.torsion;
+    } else {
+      const StressPoint<Scalar>& point = section.points[static_cast<std::size_t>(channel.point)];
+      normal = forces.axial / section.area - forces.moment_z * point.y / section.inertia_z +
+               forces.moment_y * point.z / section.inertia_y;
+      shear = forces.torque * point.shear;
+    }
+    return sqrt(normal * normal + 3.0 * shear * shear + tiny);
+  }
+
+  /// @param displacement  (node, 0 … 5) → nodal displacement
+  /// @param accelerated   node → acceleration, local axes
+  template <class Scalar, class Displacement, class Acceleration>
+  SectionForces<Scalar> station_forces(const Beam<Scalar>& beam, int s,
+                                       const Displacement& displacement,
+                                       const Acceleration& accelerated) const {
     const Station& station = stations_[static_cast<std::size_t>(s)];
-    const FrameMotion<Scalar> frame = this->frame(motion);
     SectionForces<Scalar> sum;
     const double share = 1.0 / static_cast<double>(station.elements.size());
-    for (std::size_t i = 0; i < station.elements.size(); ++i) {
-      const int element = station.elements[i];
-      const auto forces = element_forces(beam, motion, frame, element, static_cast<int>(i),
-                                         station.node == element ? 0 : 1);
+    for (int index : station.elements) {
+      Eigen::Matrix<Scalar, 12, 1> q;
+      for (int i = 0; i < 12; ++i) q(i) = displacement(index + i / 6, i % 6);
+      const auto forces = element_forces<Scalar>(beam.elements[static_cast<std::size_t>(index)], q,
+                                                 accelerated(index), accelerated(index + 1),
+                                                 station.node == index ? 0 : 1);
       sum.axial += share * forces.axial;
       sum.moment_y += share * forces.moment_y;
       sum.moment_z += share * forces.moment_z;
@@ -151,71 +215,58 @@ class StressSignal final : public BodySignal<StressSignal> {
     return sum;
   }
 
-  /// Inertia (and weight) per length at a node of the place: w = −ρA a, a = a₀ + X p + Y u̇ + ü.
+  /// a = a₀ + X p + Y u̇ + ü of a node, local axes; its inertia load is −ρA a per length.
   template <class Scalar>
-  Vector3<Scalar> load_at(const BeamElement<Scalar>& element, const Scalar& x,
-                          const LocalMotion<Scalar>& motion, const FrameMotion<Scalar>& frame,
-                          int node) const {
-    Vector3<Scalar> p(x, Scalar(0), Scalar(0)), rate, acceleration;
-    for (int i = 0; i < 3; ++i) {
-      const auto k = static_cast<std::size_t>(nodal(node, i));
-      p(i) += motion.q[k];
-      rate(i) = motion.v[k];
-      acceleration(i) = motion.a[k];
-    }
+  Vector3<Scalar> acceleration(const FrameMotion<Scalar>& frame, const Scalar& x,
+                               const Vector3<Scalar>& u, const Vector3<Scalar>& rate,
+                               const Vector3<Scalar>& local) const {
+    Vector3<Scalar> p = u;
+    p(0) += x;
     const Vector3<Scalar> spin = frame.omega.cross(p) + 2.0 * rate;
-    acceleration += frame.alpha.cross(p) + frame.omega.cross(spin);
-    acceleration += frame.A.transpose() * (frame.r_ddot - gravity_.template cast<Scalar>());
-    return (-element.density * element.section.area) * acceleration;
+    return local + frame.alpha.cross(p) + frame.omega.cross(spin) +
+           frame.A.transpose() * (frame.r_ddot - gravity_.template cast<Scalar>());
   }
 
   template <class Scalar>
-  Scalar axial_strain(const BeamElement<Scalar>& element, const ElementRow<Scalar>& q) const {
-    Scalar elongation = q(6) - q(0);
-    if (body().has_stiffening) {
-      for (const GaussPoint& point : gauss_points) {
-        const Scalar v = deflection_y_row(point.xi, element.length, 1).dot(q);
-        const Scalar w = deflection_z_row(point.xi, element.length, 1).dot(q);
-        elongation += 0.5 * point.weight * element.length * (v * v + w * w);
-      }
-    }
-    return elongation / element.length;
+  Scalar elongation(const BeamElement<Scalar>& element,
+                    const Eigen::Matrix<Scalar, 12, 1>& q) const {
+    const Scalar linear = q(6) - q(0);
+    if (!body().has_stiffening) return linear;
+    return linear + 0.5 * (slope_integral<Scalar>(q(7) - q(1), q(5), q(11), element.length) +
+                           slope_integral<Scalar>(q(8) - q(2), -q(4), -q(10), element.length));
   }
 
-  /// @param local  position of the element in the place (0 or 1);  @param end  0 or 1
+  /// @param first, second  accelerations of its nodes;  @param end  0 or 1
   template <class Scalar>
-  SectionForces<Scalar> element_forces(const Beam<Scalar>& beam, const LocalMotion<Scalar>& motion,
-                                       const FrameMotion<Scalar>& frame, int index, int local,
+  SectionForces<Scalar> element_forces(const BeamElement<Scalar>& element,
+                                       const Eigen::Matrix<Scalar, 12, 1>& q,
+                                       const Vector3<Scalar>& first, const Vector3<Scalar>& second,
                                        int end) const {
-    const BeamElement<Scalar>& element = beam.elements[static_cast<std::size_t>(index)];
     const Scalar& length = element.length;
-    ElementRow<Scalar> q;
-    for (int i = 0; i < 12; ++i) {
-      q(i) = motion.q[static_cast<std::size_t>(nodal(local + i / 6, i % 6))];
-    }
-    const Vector3<Scalar> first =
-        load_at(element, beam.node_position(index), motion, frame, local);
-    const Vector3<Scalar> second =
-        load_at(element, beam.node_position(index + 1), motion, frame, local + 1);
-    // Ends of a clamped element under a linear load: EI v″ = ℓ²(3w₁ + 2w₂)/60, EA u' = ±ℓ(2w₁ + w₂)/6
-    const Vector3<Scalar> near = end == 0 ? first : second, far = end == 0 ? second : first;
-    const Vector3<Scalar> clamped = (length * length / 60.0) * (3.0 * near + 2.0 * far);
-    const Scalar sign(end == 0 ? 1.0 : -1.0);
+    const SectionProperties<Scalar>& section = element.section;
+    // Ends of a clamped element under a linear load: EI v″ = ℓ²(3w₁ + 2w₂)/60, EA u' = ±ℓ(2w₁ +
+    // w₂)/6
+    const Scalar density = -element.density * section.area;
+    const Vector3<Scalar>&near = end == 0 ? first : second, &far = end == 0 ? second : first;
+    const Vector3<Scalar> clamped = (density * length * length / 60.0) * (3.0 * near + 2.0 * far);
+    const double sign = end == 0 ? 1.0 : -1.0;
+    const auto h = hermite(double(end), length, 2);
 
     SectionForces<Scalar> forces;
-    forces.axial = element.young * element.section.area * axial_strain(element, q) +
-                   sign * length / 6.0 * (2.0 * near(0) + far(0));
-    const Scalar curvature_y = deflection_y_row(double(end), length, 2).dot(q);
-    const Scalar curvature_z = deflection_z_row(double(end), length, 2).dot(q);
-    forces.moment_z = element.young * element.section.inertia_z * curvature_y + clamped(1);
-    forces.moment_y = -(element.young * element.section.inertia_y * curvature_z + clamped(2));
-    forces.torque = element.shear * element.section.torsion * (q(9) - q(3)) / length;
+    forces.axial = element.young * section.area * elongation(element, q) / length +
+                   sign * density * length / 6.0 * (2.0 * near(0) + far(0));
+    const Scalar curvature_y = h[0] * q(1) + h[1] * q(5) + h[2] * q(7) + h[3] * q(11);
+    const Scalar curvature_z = h[0] * q(2) - h[1] * q(4) + h[2] * q(8) - h[3] * q(10);
+    forces.moment_z = element.young * section.inertia_z * curvature_y + clamped(1);
+    forces.moment_y = -(element.young * section.inertia_y * curvature_z + clamped(2));
+    forces.torque = element.shear * section.torsion * (q(9) - q(3)) / length;
     return forces;
   }
 
   Eigen::Vector3d gravity_;
   std::vector<Station> stations_;
   std::vector<Channel> channels_;
+  Eigen::MatrixXd nodal_q_, accelerations_;  ///< scratch of observe()
 };
 
 }  // namespace

@@ -19,18 +19,19 @@ struct EffectSettings {
 };
 
 struct SimulationSettings {
-  double end_time = 0.0;        ///< [s]
-  double step = 0.0;            ///< [s]
+  double end_time = 0.0;         ///< [s]
+  double step = 0.0;             ///< [s]
   double spectral_radius = 0.8;  ///< ρ∞ of generalized-α, in [0, 1]
-  /// A Newton iteration is the last one when its scaled correction is below this.
-  double newton_tolerance = 1e-9;
+  /// Newton's method ends when the error left, relative to the scale of each coordinate, is
+  /// estimated to be below this.
+  double newton_tolerance = 1e-10;
   int max_newton_iterations = 20;
 };
 
 struct DesignVariable {
   std::string name;
   double start = 0.0, lower = 0.0, upper = 0.0;  ///< SI
-  std::string unit;                              ///< as the user wrote it, for display; may be empty
+  std::string unit;  ///< as the user wrote it, for display; may be empty
 };
 
 enum class ResponseType { mass, stress, deflection, position, drive_torque };
@@ -42,8 +43,8 @@ struct ResponseSettings {
   std::vector<std::string> bodies;  ///< mass: those counted (empty = all); else the one body
   std::optional<int> segment;       ///< stress: only this segment, from 0
   double at = 0.0;                  ///< deflection, position: place along the beam, 0 … 1
-  int direction = 1;                ///< deflection: 1 = local y, 2 = local z; position: 0 … 2 global
-  std::string joint;                ///< drive torque
+  int direction = 1;  ///< deflection: 1 = local y, 2 = local z; position: 0 … 2 global
+  std::string joint;  ///< drive torque
   OverTime over_time = OverTime::max;
 };
 
@@ -55,14 +56,14 @@ struct Objective {
 /// lower ≤ response ≤ upper, or lower ≤ Σ coefficient · variable ≤ upper; SI.
 struct ConstraintSettings {
   std::string name;
-  std::string response;                             ///< empty for a linear constraint
-  std::vector<std::pair<int, double>> linear;       ///< (variable, coefficient)
+  std::string response;                        ///< empty for a linear constraint
+  std::vector<std::pair<int, double>> linear;  ///< (variable, coefficient)
   std::optional<double> lower, upper;
 };
 
 struct OptimizerSettings {
   std::string backend = "nlopt-slsqp";
-  double tolerance = 1e-6;   ///< relative, on objective and scaled variables
+  double tolerance = 1e-6;  ///< relative, on objective and scaled variables
   int max_iterations = 200;
 };
 
@@ -75,9 +76,9 @@ struct ParetoSettings {
 
 /// Work–precision study: every step size with every number of elements, against a finer reference.
 struct AccuracySettings {
-  std::vector<double> steps;   ///< [s]
-  std::vector<int> elements;   ///< per segment
-  double error = 1e-3;         ///< relative error for which the cheapest setting is recommended
+  std::vector<double> steps;  ///< [s]
+  std::vector<int> elements;  ///< per segment
+  double error = 1e-3;        ///< relative error for which the cheapest setting is recommended
 };
 
 struct ProblemFile {

@@ -106,10 +106,10 @@ enum class JointType {
 struct Joint {
   std::string name;
   JointType type = JointType::revolute;
-  std::array<std::string, 2> bodies;      ///< names of bodies, or "ground"
-  Point at;                               ///< where the joint is at t = 0, global axes [m]
+  std::array<std::string, 2> bodies;       ///< names of bodies, or "ground"
+  Point at;                                ///< where the joint is at t = 0, global axes [m]
   std::array<double, 3> axis = {0, 0, 1};  ///< revolute: of rotation; others: of sliding
-  std::optional<Drive> drive;             ///< revolute only
+  std::optional<Drive> drive;              ///< revolute only
 };
 
 inline constexpr const char* ground_name = "ground";

@@ -21,7 +21,7 @@ struct StressPoint {
 
 template <class Scalar>
 struct SectionProperties {
-  Scalar area;     ///< A [m²]
+  Scalar area;       ///< A [m²]
   Scalar inertia_y;  ///< I_y = ∫z² dA [m⁴]
   Scalar inertia_z;  ///< I_z = ∫y² dA [m⁴]
   Scalar torsion;    ///< torsion constant J [m⁴]
@@ -32,7 +32,8 @@ struct SectionProperties {
 
 /// Solid circle, or tube with inner_diameter > 0. Exact.
 template <class Scalar>
-SectionProperties<Scalar> round_section(const Scalar& outer_diameter, const Scalar& inner_diameter) {
+SectionProperties<Scalar> round_section(const Scalar& outer_diameter,
+                                        const Scalar& inner_diameter) {
   const Scalar outer2 = outer_diameter * outer_diameter;
   const Scalar inner2 = inner_diameter * inner_diameter;
   SectionProperties<Scalar> section;
@@ -43,8 +44,10 @@ SectionProperties<Scalar> round_section(const Scalar& outer_diameter, const Scal
   section.radius = outer_diameter / 2.0;
   const Scalar shear = section.radius / section.torsion;
   const Scalar zero(0);
-  section.points = {{section.radius, zero, shear}, {-section.radius, zero, shear},
-                    {zero, section.radius, shear}, {zero, -section.radius, shear}};
+  section.points = {{section.radius, zero, shear},
+                    {-section.radius, zero, shear},
+                    {zero, section.radius, shear},
+                    {zero, -section.radius, shear}};
   return section;
 }
 
@@ -102,9 +105,9 @@ SectionProperties<Scalar> rectangle_section(const Scalar& width, const Scalar& h
   // The middle of the sides at ±y lies on the longer side if the rectangle is wide.
   const Scalar shear_at_y = is_tall ? torsion.shorter_shear : torsion.longer_shear;
   const Scalar shear_at_z = is_tall ? torsion.longer_shear : torsion.shorter_shear;
-  section.points = {{y, z, zero},  {y, -z, zero},  {-y, z, zero},           {-y, -z, zero},
-                    {y, zero, shear_at_y}, {-y, zero, shear_at_y}, {zero, z, shear_at_z},
-                    {zero, -z, shear_at_z}};
+  section.points = {{y, z, zero},          {y, -z, zero},         {-y, z, zero},
+                    {-y, -z, zero},        {y, zero, shear_at_y}, {-y, zero, shear_at_y},
+                    {zero, z, shear_at_z}, {zero, -z, shear_at_z}};
   return section;
 }
 

@@ -44,8 +44,14 @@ void System::residual(const State& state, ConstraintLevel level, Eigen::VectorXd
 
 void System::tangent(const State& state, const Weights& weights, ConstraintLevel level,
                      Matrix& matrix) {
+  linearize(state, weights, level, unused_, matrix);
+}
+
+void System::linearize(const State& state, const Weights& weights, ConstraintLevel level,
+                       Eigen::VectorXd& residual, Matrix& matrix) {
+  residual.setZero(size());
   for (std::size_t i = 0; i < terms_.size(); ++i) {
-    terms_[i]->write_tangent(state, weights, level, entries_.data() + first_entry_[i]);
+    terms_[i]->linearize(state, weights, level, residual, entries_.data() + first_entry_[i]);
   }
   double* values = matrix.valuePtr();
   std::fill(values, values + matrix.nonZeros(), 0.0);

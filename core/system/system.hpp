@@ -35,6 +35,10 @@ class System {
   /// [ w.q R_q + w.v R_v + w.a R_a,  R_λ ] into a matrix from make_matrix(); nothing is allocated.
   void tangent(const State& state, const Weights& weights, ConstraintLevel level, Matrix& matrix);
 
+  /// Both at once, for less than the cost of one after the other.
+  void linearize(const State& state, const Weights& weights, ConstraintLevel level,
+                 Eigen::VectorXd& residual, Matrix& matrix);
+
   /// ∂R/∂x at fixed state into an (n + m) × variables matrix.
   void design_derivative(const State& state, ConstraintLevel level, Eigen::MatrixXd& columns);
 
@@ -46,6 +50,7 @@ class System {
   Matrix pattern_;
   std::vector<int> slots_;       ///< value index of each declared entry, terms in order
   std::vector<double> entries_;  ///< scratch, same order
+  Eigen::VectorXd unused_;       ///< scratch, where only the tangent is asked for
   std::vector<std::size_t> first_entry_;
 };
 

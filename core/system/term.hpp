@@ -50,10 +50,18 @@ class Term {
   virtual void add_residual(const State& state, ConstraintLevel level,
                             Eigen::VectorXd& residual) = 0;
 
-  /// Writes the entries of  w.q R_q + w.v R_v + w.a R_a  in coordinate columns, and of R_λ in
-  /// multiplier columns, in the order of declare_entries().
-  virtual void write_tangent(const State& state, const Weights& weights, ConstraintLevel level,
-                             double* entries) = 0;
+  /// residual += R, and writes the entries of  w.q R_q + w.v R_v + w.a R_a  in coordinate columns
+  /// and of R_λ in multiplier columns, in the order of declare_entries(). Both share one
+  /// evaluation.
+  virtual void linearize(const State& state, const Weights& weights, ConstraintLevel level,
+                         Eigen::VectorXd& residual, double* entries) = 0;
+
+  /// The tangent alone.
+  void write_tangent(const State& state, const Weights& weights, ConstraintLevel level,
+                     double* entries) {
+    Eigen::VectorXd unused = Eigen::VectorXd::Zero(state.q.size() + state.lambda.size());
+    linearize(state, weights, level, unused, entries);
+  }
 
   /// columns.col(j) += ∂R/∂x_j at fixed state, (n + m) × variables.
   virtual void add_design_derivative(const State& state, ConstraintLevel level,

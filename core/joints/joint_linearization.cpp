@@ -1,0 +1,235 @@
+#include "core/joints/joint_linearization.hpp"
+
+namespace pleuel {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+JointLinearization::JointLinearization(const JointTopology& topology, const JointData<double>& data,
+                                       double time, const double* q, int size)
+    : topology_(topology), data_(data), gradient_(size), hessian_(size, size) {
+  if (topology.is_driven) drive_ = data.drive.at(time);
+  markers_[0].start = 0;
+  set_marker(0, q);
+  markers_[1].start = markers_[0].size;
+  set_marker(1, q + markers_[0].size);
+}
+
+void JointLinearization::set_marker(std::size_t m, const double* q) {
+  const Marker& marker = topology_.markers[m];
+  const BodyFrame& frame = marker.frame;
+  MarkerState& state = markers_[m];
+  state.frame = frame.size();
+  int next = state.frame;
+  state.r = frame.origin;
+  for (int i = 0; i < frame.translations(); ++i) state.r += q[i] * frame.basis.col(i);
+  const double* rotation = q + frame.translations();
+  switch (frame.rotation) {
+    case RotationCoordinates::none:
+      state.A.setIdentity();
+      break;
+    case RotationCoordinates::angle: {
+      state.angle = rotation[0];
+      const double c = std::cos(state.angle), s = std::sin(state.angle);
+      state.normal = frame.reference.transpose() * frame.axis;
+      // R v = c v + s n × v + (1 − c)(n·v) n, applied to the columns of A_ref.
+      const Matrix3d across = skew<double>(frame.axis) * frame.reference;
+      const Matrix3d along = frame.axis * state.normal.transpose();
+      const Matrix3d in_plane = frame.reference - along;
+      state.A = along + c * in_plane + s * across;
+      state.A_p[0] = c * across - s * in_plane;
+      break;
+    }
+    case RotationCoordinates::euler_parameters: {
+      const Eigen::Vector4d theta(rotation);
+      state.A = euler_bilinear(theta, theta);
+      for (int i = 0; i < 4; ++i) {
+        const Eigen::Vector4d unit = Eigen::Vector4d::Unit(i);
+        state.A_p[static_cast<std::size_t>(i)] = 2.0 * euler_bilinear(theta, unit);
+      }
+      break;
+    }
+  }
+  state.u = data_.points[m];
+  state.psi.setZero();
+  for (int i = 0; i < 6; ++i) {
+    if (marker.elastic[static_cast<std::size_t>(i)] < 0) continue;
+    (i < 3 ? state.u : state.psi)(i % 3) += q[next++];
+  }
+  state.size = next;
+}
+
+/// Columns A_p s of the rotations and A ∂s/∂e of the elastic coordinates.
+void JointLinearization::add_rotations(Attached& attached) const {
+  const MarkerState& state = markers_[attached.marker];
+  const BodyFrame& frame = topology_.markers[attached.marker].frame;
+  for (int i = 0; i < frame.rotations(); ++i) {
+    attached.jacobian.col(frame.translations() + i) =
+        state.A_p[static_cast<std::size_t>(i)] * attached.s;
+  }
+  for (int i = state.frame; i < state.size; ++i) {
+    attached.jacobian.col(i) = state.A * attached.elastic.col(i - state.frame);
+  }
+}
+
+JointLinearization::Attached JointLinearization::point(std::size_t m) const {
+  const MarkerState& state = markers_[m];
+  const Marker& marker = topology_.markers[m];
+  Attached attached{m, state.u, state.r + state.A * state.u, Jacobian(3, state.size),
+                    Jacobian::Zero(3, state.size - state.frame)};
+  int next = 0;
+  for (int i = 0; i < 6; ++i) {
+    if (marker.elastic[static_cast<std::size_t>(i)] < 0) continue;
+    if (i < 3) attached.elastic(i, next) = 1.0;
+    ++next;
+  }
+  for (int i = 0; i < marker.frame.translations(); ++i) {
+    attached.jacobian.col(i) = marker.frame.basis.col(i);
+  }
+  add_rotations(attached);
+  return attached;
+}
+
+JointLinearization::Attached JointLinearization::direction(std::size_t m,
+                                                           const Vector3d& local) const {
+  const MarkerState& state = markers_[m];
+  const Marker& marker = topology_.markers[m];
+  const Vector3d s = local + state.psi.cross(local);
+  Attached attached{m, s, state.A * s, Jacobian::Zero(3, state.size),
+                    Jacobian::Zero(3, state.size - state.frame)};
+  int next = 0;
+  for (int i = 0; i < 6; ++i) {
+    if (marker.elastic[static_cast<std::size_t>(i)] < 0) continue;
+    if (i >= 3) attached.elastic.col(next) = Vector3d::Unit(i - 3).cross(local);
+    ++next;
+  }
+  add_rotations(attached);
+  return attached;
+}
+
+/// gradient += Jᵀ g
+void JointLinearization::add_gradient(const Attached& a, const Vector3d& g) {
+  const MarkerState& state = markers_[a.marker];
+  gradient_.segment(state.start, state.size).noalias() += a.jacobian.transpose() * g;
+}
+
+/// hessian += H(g): second derivatives with respect to two rotations, or a rotation and an elastic
+/// coordinate.
+void JointLinearization::add_curvature(const Attached& a, const Vector3d& g) {
+  const MarkerState& state = markers_[a.marker];
+  const BodyFrame& frame = topology_.markers[a.marker].frame;
+  const int first = state.start + frame.translations();
+  for (int i = 0; i < frame.rotations(); ++i) {
+    const Vector3d turned = state.A_p[static_cast<std::size_t>(i)].transpose() * g;
+    for (int j = state.frame; j < state.size; ++j) {
+      const double entry = turned.dot(a.elastic.col(j - state.frame));
+      hessian_(first + i, state.start + j) += entry;
+      hessian_(state.start + j, first + i) += entry;
+    }
+  }
+  if (frame.rotation == RotationCoordinates::angle) {
+    // ∂²A/∂φ² turns the part of s in the plane by a half turn.
+    const Vector3d in_plane = a.s - state.normal.dot(a.s) * state.normal;
+    hessian_(first, first) -= g.dot(state.A * in_plane);
+  } else if (frame.rotation == RotationCoordinates::euler_parameters) {
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < 4; ++j) {
+        const Eigen::Vector4d left = Eigen::Vector4d::Unit(i), right = Eigen::Vector4d::Unit(j);
+        hessian_(first + i, first + j) += 2.0 * g.dot(euler_bilinear(left, right) * a.s);
+      }
+    }
+  }
+}
+
+/// hessian += sign (Jₐᵀ J_b + J_bᵀ Jₐ)
+void JointLinearization::add_product(const Attached& a, const Attached& b, double sign) {
+  const MarkerState& first = markers_[a.marker];
+  const MarkerState& second = markers_[b.marker];
+  hessian_.block(first.start, second.start, first.size, second.size).noalias() +=
+      sign * a.jacobian.transpose() * b.jacobian;
+  hessian_.block(second.start, first.start, second.size, first.size).noalias() +=
+      sign * b.jacobian.transpose() * a.jacobian;
+}
+
+void JointLinearization::evaluate(const JointEquation& equation) {
+  gradient_.setZero();
+  hessian_.setZero();
+  const auto local = [&](int index) { return data_.directions[static_cast<std::size_t>(index)]; };
+  switch (equation.kind) {
+    case EquationKind::coincident:
+      evaluate_coincident(equation.fixed);
+      break;
+    case EquationKind::on_plane:
+      evaluate_on_plane(equation);
+      break;
+    case EquationKind::perpendicular:
+      evaluate_directions(direction(0, local(equation.first)),
+                          direction(1, local(equation.second)));
+      break;
+    case EquationKind::drive:
+      evaluate_directions(direction(0, driven_direction(equation)),
+                          direction(1, local(equation.second)));
+      break;
+    case EquationKind::planar_angle:
+      evaluate_planar_angle();
+      break;
+  }
+}
+
+void JointLinearization::evaluate_coincident(const Vector3d& e) {
+  const Attached first = point(0), second = point(1);
+  value_ = e.dot(second.y - first.y);
+  add_gradient(first, -e);
+  add_gradient(second, e);
+  add_curvature(first, -e);
+  add_curvature(second, e);
+}
+
+void JointLinearization::evaluate_on_plane(const JointEquation& equation) {
+  const Attached d = direction(0, data_.directions[static_cast<std::size_t>(equation.first)]);
+  const Attached first = point(0), second = point(1);
+  const Vector3d difference = second.y - first.y;
+  value_ = d.y.dot(difference);
+  add_gradient(d, difference);
+  add_gradient(first, -d.y);
+  add_gradient(second, d.y);
+  add_curvature(d, difference);
+  add_curvature(first, -d.y);
+  add_curvature(second, d.y);
+  add_product(d, second, 1.0);
+  add_product(d, first, -1.0);
+}
+
+void JointLinearization::evaluate_directions(const Attached& first, const Attached& second) {
+  value_ = first.y.dot(second.y);
+  add_gradient(first, second.y);
+  add_gradient(second, first.y);
+  add_curvature(first, second.y);
+  add_curvature(second, first.y);
+  add_product(first, second, 1.0);
+}
+
+Vector3d JointLinearization::driven_direction(const JointEquation& equation) const {
+  return std::cos(drive_.angle) * data_.directions[static_cast<std::size_t>(equation.third)] -
+         std::sin(drive_.angle) * data_.directions[static_cast<std::size_t>(equation.first)];
+}
+
+void JointLinearization::evaluate_planar_angle() {
+  value_ = -data_.offset - drive_.angle;
+  for (std::size_t m = 0; m < 2; ++m) {
+    const MarkerState& state = markers_[m];
+    const Marker& marker = topology_.markers[m];
+    if (marker.frame.rotations() == 0) continue;
+    const double sign = m == 0 ? -1.0 : 1.0;
+    value_ += sign * (state.angle + state.normal.dot(state.psi));
+    gradient_(state.start + marker.frame.translations()) = sign;
+    int next = state.start + state.frame;
+    for (int i = 0; i < 6; ++i) {
+      if (marker.elastic[static_cast<std::size_t>(i)] < 0) continue;
+      if (i >= 3) gradient_(next) = sign * state.normal(i - 3);
+      ++next;
+    }
+  }
+}
+
+}  // namespace pleuel

@@ -1,0 +1,78 @@
+#pragma once
+
+#include "core/joints/joint.hpp"
+
+namespace pleuel {
+
+/// Value, gradient and Hessian of the equations of a joint at position level, by hand: the step
+/// matrix needs them in every Newton iteration, where dual numbers took a third of the time of a
+/// simulation. Tests tie it to joint_residual.hpp.
+///
+/// With vectors y = σ r + A s attached to a marker, J = ∂y/∂q and H(g) = ∂²(gᵀy)/∂q²,
+///     Φ = a · b  ⇒  Φ_q = Jₐᵀ b + J_bᵀ a,   Φ_qq = Hₐ(b) + H_b(a) + Jₐᵀ J_b + J_bᵀ Jₐ
+class JointLinearization {
+ public:
+  static constexpr int max_size = 26;  ///< local coordinates: twice frame (7) and marker (6)
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_size, 1>;
+  using Hessian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_size, max_size>;
+
+  /// @param q  local coordinates: first marker's, then second marker's
+  JointLinearization(const JointTopology& topology, const JointData<double>& data, double time,
+                     const double* q, int size);
+
+  /// Sets value(), gradient() and hessian() to those of one equation.
+  void evaluate(const JointEquation& equation);
+
+  double value() const { return value_; }
+  const Vector& gradient() const { return gradient_; }
+  const Hessian& hessian() const { return hessian_; }
+
+ private:
+  using Jacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, max_size>;
+
+  struct MarkerState {
+    int start = 0;  ///< of its local coordinates
+    int size = 0;
+    int frame = 0;  ///< number of frame coordinates
+    Eigen::Vector3d r;
+    Eigen::Matrix3d A;
+    std::array<Eigen::Matrix3d, 4> A_p;
+    Eigen::Vector3d u, psi;
+    double angle = 0.0;
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of planar motion, local axes
+  };
+
+  /// An attached vector: value and J; `elastic` are the columns ∂s/∂(elastic coordinate), local
+  /// axes.
+  struct Attached {
+    std::size_t marker;
+    Eigen::Vector3d s;
+    Eigen::Vector3d y;
+    Jacobian jacobian;  ///< columns of the marker's own coordinates
+    Jacobian elastic;
+  };
+
+  void set_marker(std::size_t m, const double* q);
+  Attached point(std::size_t m) const;
+  Attached direction(std::size_t m, const Eigen::Vector3d& local) const;
+  void add_rotations(Attached& attached) const;
+  Eigen::Vector3d driven_direction(const JointEquation& equation) const;
+
+  void add_gradient(const Attached& a, const Eigen::Vector3d& g);
+  void add_curvature(const Attached& a, const Eigen::Vector3d& g);
+  void add_product(const Attached& a, const Attached& b, double sign);
+  void evaluate_coincident(const Eigen::Vector3d& e);
+  void evaluate_on_plane(const JointEquation& equation);
+  void evaluate_directions(const Attached& first, const Attached& second);
+  void evaluate_planar_angle();
+
+  const JointTopology& topology_;
+  const JointData<double>& data_;
+  DriveMotion<double> drive_{0.0, 0.0, 0.0};
+  std::array<MarkerState, 2> markers_;
+  double value_ = 0.0;
+  Vector gradient_;
+  Hessian hessian_;
+};
+
+}  // namespace pleuel
