@@ -35,16 +35,16 @@ GradientMethod gradient_method(const std::string& name) {
 namespace {
 
 struct Use {
-  std::size_t response;
+  std::size_t value;
   int channel;
   double weight;
 };
 
-/// Which samples of which responses are needed at each step.
-std::map<int, std::vector<Use>> samples_by_step(const Analysis& analysis) {
+/// Which samples of which values are needed at each step.
+std::map<int, std::vector<Use>> samples_by_step(const std::vector<SampledValue>& values) {
   std::map<int, std::vector<Use>> steps;
-  for (std::size_t i = 0; i < analysis.reductions.size(); ++i) {
-    for (const Sample& sample : analysis.reductions[i].samples) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    for (const Sample& sample : values[i].samples) {
       steps[sample.step].push_back({i, sample.channel, sample.weight});
     }
   }
@@ -53,16 +53,11 @@ std::map<int, std::vector<Use>> samples_by_step(const Analysis& analysis) {
 
 }  // namespace
 
-Eigen::MatrixXd direct_gradients(Analysis& analysis) {
+Eigen::MatrixXd direct_gradients(Analysis& analysis, const std::vector<SampledValue>& values) {
   const System& system = *analysis.model.mechanism.system;
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(
-      static_cast<Eigen::Index>(analysis.responses.size()), system.variables());
-  for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
-    const Response& response = analysis.responses[i];
-    if (!response.signal)
-      result.row(static_cast<Eigen::Index>(i)) = response.constant_x.transpose();
-  }
-  const auto uses = samples_by_step(analysis);
+  Eigen::MatrixXd result =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(values.size()), system.variables());
+  const auto uses = samples_by_step(values);
   if (uses.empty() || system.variables() == 0) return result;
   SignalGradient gradient(system.coordinates(), system.multipliers(), system.variables());
   const SignalGradient zero = gradient;
@@ -72,14 +67,28 @@ Eigen::MatrixXd direct_gradients(Analysis& analysis) {
                   if (found == uses.end()) return;
                   for (const Use& use : found->second) {
                     gradient = zero;
-                    analysis.responses[use.response].signal->add_gradient(state, use.channel,
-                                                                          use.weight, gradient);
-                    result.row(static_cast<Eigen::Index>(use.response)) +=
+                    Signal& signal = *analysis.responses[values[use.value].response].signal;
+                    signal.add_gradient(state, use.channel, use.weight, gradient);
+                    result.row(static_cast<Eigen::Index>(use.value)) +=
                         gradient.q.transpose() * s.q + gradient.v.transpose() * s.v +
                         gradient.a.transpose() * s.a + gradient.lambda.transpose() * s.lambda +
                         gradient.design.transpose();
                   }
                 });
+  return result;
+}
+
+Eigen::MatrixXd direct_gradients(Analysis& analysis) {
+  std::vector<SampledValue> values;
+  for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
+    values.push_back({i, analysis.reductions[i].samples});
+  }
+  Eigen::MatrixXd result = direct_gradients(analysis, values);
+  for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
+    const Response& response = analysis.responses[i];
+    if (!response.signal)
+      result.row(static_cast<Eigen::Index>(i)) = response.constant_x.transpose();
+  }
   return result;
 }
 

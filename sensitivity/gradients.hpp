@@ -30,4 +30,13 @@ Eigen::MatrixXd gradients(const ProblemFile& problem, const Eigen::VectorXd& x, 
 /// By direct differentiation, from the analysis alone.
 Eigen::MatrixXd direct_gradients(Analysis& analysis);
 
+/// Something whose gradient is asked for: Σ weight · (channel at step) of a response's signal.
+struct SampledValue {
+  std::size_t response;
+  std::vector<Sample> samples;
+};
+
+/// Gradients of several sampled values by one run of direct differentiation, values × variables.
+Eigen::MatrixXd direct_gradients(Analysis& analysis, const std::vector<SampledValue>& values);
+
 }  // namespace pleuel

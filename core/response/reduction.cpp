@@ -10,6 +10,8 @@ namespace {
 
 /// Peaks within this relative distance of the highest are called tied.
 constexpr double tie_gap = 1e-3;
+/// So many ties are remembered.
+constexpr std::size_t max_ties = 8;
 
 struct Peak {
   double height, time;
@@ -57,6 +59,29 @@ void add_peaks(const Eigen::VectorXd& time, const Eigen::MatrixXd& values, doubl
   }
 }
 
+std::vector<Sample> samples_of(const Peak& peak) {
+  std::vector<Sample> samples;
+  for (int i = 0; i < 3; ++i) {
+    const double weight = peak.sign * peak.weights[static_cast<std::size_t>(i)];
+    if (weight != 0.0) samples.push_back({peak.step + i - 1, peak.channel, weight});
+  }
+  return samples;
+}
+
+void note_ties(const std::vector<Peak>& peaks, const Peak& best, Reduction& reduction) {
+  for (const Peak& peak : peaks) {
+    const bool is_other = peak.channel != best.channel || std::abs(peak.step - best.step) > 1;
+    const double gap = (best.height - peak.height) / std::abs(best.height);
+    if (!is_other || !(gap <= tie_gap)) continue;
+    reduction.ties.push_back(
+        {best.time, peak.time, best.channel, peak.channel, gap, samples_of(peak)});
+  }
+  std::sort(reduction.ties.begin(), reduction.ties.end(),
+            [](const PeakTie& a, const PeakTie& b) { return a.gap < b.gap; });
+  if (reduction.ties.size() > max_ties) reduction.ties.resize(max_ties);
+  if (!reduction.ties.empty()) reduction.tie = reduction.ties.front();
+}
+
 Reduction reduce_peaks(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
                        const std::vector<double>& signs) {
   double highest = -std::numeric_limits<double>::infinity();
@@ -73,18 +98,8 @@ Reduction reduce_peaks(const Eigen::VectorXd& time, const Eigen::MatrixXd& value
   const auto best = std::max_element(
       peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) { return a.height < b.height; });
   reduction.value = best->height;
-  for (int i = 0; i < 3; ++i) {
-    const double weight = best->sign * best->weights[static_cast<std::size_t>(i)];
-    if (weight != 0.0) reduction.samples.push_back({best->step + i - 1, best->channel, weight});
-  }
-  for (const Peak& peak : peaks) {
-    const bool is_other = peak.channel != best->channel || std::abs(peak.step - best->step) > 1;
-    const double gap = (best->height - peak.height) / std::abs(best->height);
-    if (!is_other || gap > tie_gap) continue;
-    if (!reduction.tie || gap < reduction.tie->gap) {
-      reduction.tie = PeakTie{best->time, peak.time, best->channel, peak.channel, gap};
-    }
-  }
+  reduction.samples = samples_of(*best);
+  note_ties(peaks, *best, reduction);
   return reduction;
 }
 
@@ -137,6 +152,9 @@ Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::Matrix
       Reduction reduction = reduce_peaks(time, values, {-1.0});
       reduction.value = -reduction.value;
       for (Sample& sample : reduction.samples) sample.weight = -sample.weight;
+      for (PeakTie& tie : reduction.ties) {
+        for (Sample& sample : tie.other_samples) sample.weight = -sample.weight;
+      }
       return reduction;
     }
     case OverTime::rms:

@@ -17,19 +17,21 @@ struct Sample {
   double weight;
 };
 
-/// Two peaks of nearly the same height: the maximum has a kink there, and its gradient is that of
-/// the higher peak only.
+/// Another peak of nearly the same height. In a periodic motion that is no harm: both move alike
+/// with the design. Where they do not, the maximum has a kink (see sensitivity/kinks.hpp).
 struct PeakTie {
-  double time, other_time;  ///< [s]
-  int channel, other_channel;
-  double gap;  ///< relative difference of the heights
+  double time = 0.0, other_time = 0.0;  ///< [s]
+  int channel = 0, other_channel = 0;
+  double gap = 0.0;                   ///< relative difference of the heights
+  std::vector<Sample> other_samples;  ///< what the other height depends on
 };
 
 /// A history reduced to one number, linearised in the observed numbers.
 struct Reduction {
   double value = 0.0;
   std::vector<Sample> samples;
-  std::optional<PeakTie> tie;
+  std::optional<PeakTie> tie;  ///< the closest one
+  std::vector<PeakTie> ties;   ///< the closest few
 };
 
 /// Reduces a history over time (and over channels: the largest for max, min, max-abs, rms; the only
