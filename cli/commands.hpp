@@ -6,10 +6,12 @@
 /// The commands of the program, one file each. All throw InputError and SimulationError.
 namespace pleuel {
 
+Outcome run_accuracy(const Arguments& arguments);
 Outcome run_backends(const Arguments& arguments);
 Outcome run_check(const Arguments& arguments);
 Outcome run_gradient(const Arguments& arguments);
 Outcome run_optimize(const Arguments& arguments);
+Outcome run_pareto(const Arguments& arguments);
 Outcome run_simulate(const Arguments& arguments);
 
 }  // namespace pleuel

@@ -14,8 +14,9 @@ namespace {
 
 Outcome run(const Arguments& arguments) {
   static const std::map<std::string, Outcome (*)(const Arguments&)> commands = {
-      {"backends", run_backends}, {"check", run_check},       {"gradient", run_gradient},
-      {"optimize", run_optimize}, {"simulate", run_simulate},
+      {"accuracy", run_accuracy}, {"backends", run_backends}, {"check", run_check},
+      {"gradient", run_gradient}, {"optimize", run_optimize}, {"pareto", run_pareto},
+      {"simulate", run_simulate},
   };
   return commands.at(arguments.command)(arguments);
 }

@@ -1,0 +1,187 @@
+#include <fmt/format.h>
+
+#include "cli/commands.hpp"
+#include "cli/csv_file.hpp"
+#include "cli/number_text.hpp"
+#include "cli/run_record.hpp"
+#include "cli/shown_unit.hpp"
+#include "cli/solve_settings.hpp"
+#include "cli/table.hpp"
+#include "core/base/error.hpp"
+#include "studies/pareto.hpp"
+
+namespace pleuel {
+
+namespace {
+
+const ConstraintSettings& varied_constraint(const ProblemFile& problem) {
+  for (const ConstraintSettings& constraint : problem.constraints) {
+    if (constraint.name == problem.pareto->constraint) return constraint;
+  }
+  throw InputError("/pareto/constraint names no constraint");
+}
+
+/// What the front trades against the objective: a response, or a sum of variables by its name.
+std::string limited_name(const ConstraintSettings& constraint) {
+  return constraint.response.empty() ? constraint.name : constraint.response;
+}
+
+/// pareto.csv: a line for each point as it is found [SI].
+class ParetoCsv {
+ public:
+  ParetoCsv(const std::filesystem::path& path, const ProblemFile& problem)
+      : csv_(path, header(problem)), variables_(problem.variables.size()) {}
+
+  void add(const ParetoPoint& point) {
+    csv_.add(to_string(point.result.status)).add(point.limit);
+    const std::vector<double> goals = {point.result.evaluation.objective, point.limited_value,
+                                       point.multiplier};
+    for (const double goal : goals) point.has_design() ? csv_.add(goal) : csv_.add(std::string());
+    for (std::size_t i = 0; i < variables_; ++i) {
+      csv_.add(point.result.x(static_cast<Eigen::Index>(i)));
+    }
+    csv_.add(point.result.kkt_residual).add(point.result.evaluations).add(point.result.seconds);
+    csv_.end_row();
+  }
+
+ private:
+  static std::vector<std::string> header(const ProblemFile& problem) {
+    std::vector<std::string> titles = {"status", "limit", "objective", "limited", "multiplier"};
+    for (const DesignVariable& variable : problem.variables) {
+      titles.push_back("variable:" + variable.name);
+    }
+    for (const char* title : {"kkt_residual", "evaluations", "seconds"}) titles.push_back(title);
+    return titles;
+  }
+
+  CsvFile csv_;
+  std::size_t variables_;
+};
+
+Json point_document(const ProblemFile& problem, const ParetoPoint& point) {
+  Json document = {{"status", to_string(point.result.status)},
+                   {"message", point.result.message},
+                   {"limit", point.limit},
+                   {"dominated", point.is_dominated},
+                   {"objectives", Json::object()},
+                   {"variables", Json::object()}};
+  if (point.has_design()) {
+    document["objectives"] = {{problem.objective->response, point.result.evaluation.objective},
+                              {limited_name(varied_constraint(problem)), point.limited_value}};
+    document["multiplier"] = point.multiplier;
+  }
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    document["variables"][problem.variables[i].name] = point.result.x(static_cast<Eigen::Index>(i));
+  }
+  document["kkt_residual"] = point.result.kkt_residual;
+  document["evaluations"] = point.result.evaluations;
+  document["seconds"] = point.result.seconds;
+  return document;
+}
+
+Json make_document(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
+  const ConstraintSettings& constraint = varied_constraint(problem);
+  Json document = {{"constraint", constraint.name},
+                   {"units",
+                    {{problem.objective->response,
+                      unit_of(find_response(problem, problem.objective->response)).si},
+                     {limited_name(constraint), unit_of(problem, constraint).si}}},
+                   {"points", Json::array()}};
+  for (const ParetoPoint& point : points) {
+    document["points"].push_back(point_document(problem, point));
+  }
+  return document;
+}
+
+std::vector<Table::Column> columns(const ProblemFile& problem) {
+  const ConstraintSettings& constraint = varied_constraint(problem);
+  const std::string& objective = problem.objective->response;
+  const ShownUnit limited = unit_of(problem, constraint);
+  const ShownUnit goal = unit_of(find_response(problem, objective));
+  std::vector<Table::Column> columns = {
+      {fmt::format("limit [{}]", limited.name)},
+      {fmt::format("{} [{}]", limited_name(constraint), limited.name)},
+      {fmt::format("{} [{}]", objective, goal.name)},
+      {fmt::format("multiplier [{}/{}]", goal.name, limited.name)}};
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    columns.push_back(
+        {fmt::format("{} [{}]", problem.variables[i].name, unit_of(problem, i).name)});
+  }
+  columns.push_back({"status", Table::Align::left});
+  return columns;
+}
+
+std::string points_text(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
+  const ShownUnit limited = unit_of(problem, varied_constraint(problem));
+  const ShownUnit goal = unit_of(find_response(problem, problem.objective->response));
+  Table table(columns(problem));
+  for (const ParetoPoint& point : points) {
+    std::vector<std::string> cells = {significant(limited.shown(point.limit)), "–", "–", "–"};
+    if (point.has_design()) {
+      cells[1] = significant(limited.shown(point.limited_value));
+      cells[2] = significant(goal.shown(point.result.evaluation.objective));
+      cells[3] = significant(goal.shown(point.multiplier) * limited.factor, 3);
+    }
+    for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+      cells.push_back(
+          significant(unit_of(problem, i).shown(point.result.x(static_cast<Eigen::Index>(i)))));
+    }
+    cells.push_back(to_string(point.result.status) + (point.is_dominated ? ", dominated" : ""));
+    table.add_row(std::move(cells));
+  }
+  return table.text();
+}
+
+std::size_t verified_points(const std::vector<ParetoPoint>& points) {
+  return static_cast<std::size_t>(std::count_if(
+      points.begin(), points.end(),
+      [](const ParetoPoint& point) { return point.result.status == Status::verified; }));
+}
+
+/// Why the others are not verified; one sentence each.
+std::string doubts_text(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
+  const ShownUnit unit = unit_of(problem, varied_constraint(problem));
+  std::string text;
+  for (const ParetoPoint& point : points) {
+    if (point.result.status == Status::verified) continue;
+    text += fmt::format("  limit {} {}: {}: {}\n", significant(unit.shown(point.limit)), unit.name,
+                        to_string(point.result.status), point.result.message);
+  }
+  return text.empty() ? "" : "\nNOT VERIFIED:\n" + text;
+}
+
+void show_progress(std::FILE* out, const ProblemFile& problem, const ParetoPoint& point) {
+  const ShownUnit unit = unit_of(problem, varied_constraint(problem));
+  fmt::print(out, "  limit {} {}: {} after {} evaluations, {}\n",
+             significant(unit.shown(point.limit)), unit.name, to_string(point.result.status),
+             point.result.evaluations, duration(point.result.seconds));
+  std::fflush(out);
+}
+
+}  // namespace
+
+Outcome run_pareto(const Arguments& arguments) {
+  const ProblemInput input = read_input(arguments);
+  const ProblemFile& problem = input.problem;
+  if (!problem.pareto) throw InputError("/pareto is missing: it says which limit to vary");
+  const SolveOptions options = solve_options(problem, arguments);
+  RunRecord record(arguments, input, options_document(options));
+  record.begin_phase("pareto");
+  ParetoCsv csv(record.folder() / "pareto.csv", problem);
+  const auto points = pareto_front(problem, options, [&](const ParetoPoint& point) {
+    csv.add(point);
+    show_progress(stderr, problem, point);
+  });
+  const bool is_verified = verified_points(points) == points.size();
+  const Outcome outcome{
+      is_verified ? ExitCode::done : ExitCode::not_verified, make_document(problem, points),
+      fmt::format("{}: {} against the limit of {}; {} of {} points verified\n\n{}{}\n"
+                  "Written to {}: pareto.csv, result.json, run_card.json\n",
+                  problem.name, problem.objective->response, problem.pareto->constraint,
+                  verified_points(points), points.size(), points_text(problem, points),
+                  doubts_text(problem, points), record.folder().string())};
+  record.finish(outcome);
+  return outcome;
+}
+
+}  // namespace pleuel

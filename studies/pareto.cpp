@@ -1,0 +1,97 @@
+#include "studies/pareto.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "optimization/design_problem.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Optima agree to about this, relative: what differs by less is the same.
+constexpr double resolution = 1e-4;
+
+Eigen::Index varied_row(const ProblemFile& problem) {
+  const auto found = std::find_if(problem.constraints.begin(), problem.constraints.end(),
+                                  [&](const ConstraintSettings& constraint) {
+                                    return constraint.name == problem.pareto->constraint;
+                                  });
+  if (found == problem.constraints.end()) {
+    throw InputError("/pareto/constraint names no constraint");
+  }
+  return found - problem.constraints.begin();
+}
+
+void set_limit(ConstraintSettings& constraint, double limit) {
+  (constraint.upper ? constraint.upper : constraint.lower) = limit;
+}
+
+/// Bounds are kept exactly: an optimum may miss them by rounding.
+void start_from(const Eigen::VectorXd& x, std::vector<DesignVariable>& variables) {
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    variables[i].start =
+        std::clamp(x(static_cast<Eigen::Index>(i)), variables[i].lower, variables[i].upper);
+  }
+}
+
+ParetoPoint find_point(const ProblemFile& problem, Eigen::Index row, double limit,
+                       const SolveOptions& options) {
+  DesignProblem design_problem(problem);
+  ParetoPoint point;
+  point.limit = limit;
+  point.result = solve(design_problem, options);
+  if (point.has_design()) {
+    point.limited_value = point.result.evaluation.constraints(row);
+    point.multiplier = point.result.constraint_multipliers(row);
+  }
+  return point;
+}
+
+bool is_within_limits(const ParetoPoint& point) {
+  return point.result.status == Status::verified || point.result.status == Status::stalled;
+}
+
+/// @param sign  1 if a small limited value is good (upper limit), −1 if a large one is
+bool dominates(const ParetoPoint& one, const ParetoPoint& other, double sign) {
+  const double gain = other.result.evaluation.objective - one.result.evaluation.objective;
+  const double limited_gain = sign * (other.limited_value - one.limited_value);
+  const double least = resolution * std::abs(one.result.evaluation.objective);
+  const double least_limited = resolution * std::abs(one.limited_value);
+  return gain >= -least && limited_gain >= -least_limited &&
+         (gain > least || limited_gain > least_limited);
+}
+
+void mark_dominated(std::vector<ParetoPoint>& points, double sign) {
+  for (ParetoPoint& point : points) {
+    if (!is_within_limits(point)) continue;
+    point.is_dominated = std::any_of(points.begin(), points.end(), [&](const ParetoPoint& other) {
+      return is_within_limits(other) && dominates(other, point, sign);
+    });
+  }
+}
+
+}  // namespace
+
+std::vector<ParetoPoint> pareto_front(const ProblemFile& problem, const SolveOptions& options,
+                                      const ParetoObserver& observer) {
+  if (!problem.pareto) throw InputError("/pareto is missing: it says which limit to vary");
+  const ParetoSettings& settings = *problem.pareto;
+  const Eigen::Index row = varied_row(problem);
+  ProblemFile varied = problem;
+  ConstraintSettings& constraint = varied.constraints[static_cast<std::size_t>(row)];
+  std::vector<ParetoPoint> points;
+  for (int i = 0; i < settings.points; ++i) {
+    const double limit = std::lerp(settings.from, settings.to,
+                                   static_cast<double>(i) / std::max(settings.points - 1, 1));
+    set_limit(constraint, limit);
+    points.push_back(find_point(varied, row, limit, options));
+    if (is_within_limits(points.back())) start_from(points.back().result.x, varied.variables);
+    if (observer) observer(points.back());
+  }
+  mark_dominated(points, constraint.upper ? 1.0 : -1.0);
+  return points;
+}
+
+}  // namespace pleuel
