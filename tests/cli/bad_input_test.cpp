@@ -1,0 +1,99 @@
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "tests/cli/program.hpp"
+
+namespace pleuel::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Eq;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+/// Exit code 2, one line that begins with the program's name, nothing on standard output.
+void expect_complaint(const std::vector<std::string>& words, const std::string& part) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(folder.path(), words);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, AllOf(StartsWith("pleuel: "), HasSubstr(part)));
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1);
+  EXPECT_THAT(run.out, Eq(""));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << "bad input must leave no run folder";
+}
+
+TEST(BadInput, MissingFileIsNamed) {
+  expect_complaint({"simulate", "nothing.json"}, "nothing.json: there is no such file");
+}
+
+TEST(BadInput, WrongValueIsNamedByItsPointer) {
+  expect_complaint({"simulate", problem("slider_crank_round"), "--set", "/simulation/step=-1"},
+                   "/simulation/step");
+}
+
+TEST(BadInput, OverrideOfNothingIsRefused) {
+  expect_complaint({"check", problem("slider_crank_round"), "--set", "/simulation/stp/x=1"}, "stp");
+}
+
+TEST(BadInput, UnknownBackendListsThoseThereAre) {
+  expect_complaint({"optimize", problem("slider_crank_round"), "--backend", "magic"},
+                   "nlopt-mma, nlopt-ccsaq, nlopt-slsqp, ipopt");
+}
+
+TEST(BadInput, UnknownMethodListsThoseThereAre) {
+  expect_complaint({"gradient", problem("slider_crank_round"), "--method", "guess"},
+                   "direct, forward-difference, central-difference");
+}
+
+TEST(BadInput, UnknownCommandListsThoseThereAre) {
+  expect_complaint({"optimise", problem("slider_crank_round")}, "optimize");
+}
+
+TEST(BadInput, UnknownOptionIsNamed) {
+  expect_complaint({"simulate", problem("slider_crank_round"), "--fast"}, "--fast");
+}
+
+TEST(BadInput, NoCommandAtAllIsBadInput) {
+  expect_complaint({}, "see pleuel --help");
+}
+
+TEST(BadInput, OptimizingWithoutVariablesNamesFileAndPointer) {
+  expect_complaint({"optimize", problem("slider_crank_exudyn")},
+                   "slider_crank_exudyn.json: /variables is missing");
+}
+
+TEST(BadInput, StudyWithoutSettingsNamesFileAndPointer) {
+  expect_complaint({"accuracy", problem("slider_crank_exudyn")},
+                   "slider_crank_exudyn.json: /accuracy is missing");
+}
+
+TEST(BadInput, WithJsonTheErrorIsADocument) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(folder.path(), {"check", "nothing.json", "--json"});
+  EXPECT_EQ(run.exit_code, 2);
+  const nlohmann::json error = run.document().at("error");
+  EXPECT_EQ(error.at("exit_code"), 2);
+  EXPECT_THAT(error.at("message").get<std::string>(), HasSubstr("nothing.json"));
+}
+
+TEST(SimulationFailure, HasItsOwnExitCodeAndSaysWhen) {
+  const TemporaryFolder folder;
+  // One Newton iteration is too few for any step of a mechanism that moves.
+  const ProgramRun run =
+      run_program(folder.path(), joined({"simulate", problem("slider_crank_round"), "--set",
+                                         "/simulation/max_newton_iterations=1"},
+                                        quick()));
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.err, AllOf(StartsWith("pleuel: "), HasSubstr("t = ")));
+}
+
+TEST(Help, IsNoError) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(folder.path(), {"--help"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.out, HasSubstr("optimize"));
+}
+
+}  // namespace
+}  // namespace pleuel::testing

@@ -1,0 +1,40 @@
+#include <gmock/gmock.h>
+
+#include "tests/cli/program.hpp"
+
+namespace pleuel::testing {
+namespace {
+
+TEST(Check, FindsTheDerivativesOfEveryResponseRight) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(
+      folder.path(), joined({"check", problem("slider_crank_round"), "--json"}, quick()));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json document = run.document();
+  ASSERT_EQ(document.at("responses").size(), 8u);  // those of the file
+  for (const auto& [name, response] : document.at("responses").items()) {
+    EXPECT_EQ(response.at("derivatives").at("verdict"), "agrees") << name;
+  }
+}
+
+TEST(Check, GivesAReasonForEveryEffect) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(
+      folder.path(), joined({"check", problem("slider_crank_round"), "--json"}, quick()));
+  const nlohmann::json document = run.document();
+  ASSERT_FALSE(document.at("effects").empty());
+  for (const auto& effect : document.at("effects")) {
+    EXPECT_FALSE(effect.at("reason").get<std::string>().empty()) << effect;
+  }
+}
+
+TEST(Check, NeedsNoVariables) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(folder.path(), {"check", problem("slider_crank_exudyn"),
+                                                     "--set", "/simulation/end_time=10 ms"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, ::testing::HasSubstr("a valid problem"));
+}
+
+}  // namespace
+}  // namespace pleuel::testing

@@ -1,0 +1,49 @@
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include "tests/cli/program.hpp"
+
+namespace pleuel::testing {
+namespace {
+
+TEST(Gradient, MethodsStandSideBySideAndAgree) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(
+      folder.path(), joined({"gradient", problem("slider_crank_round"), "--method", "direct",
+                             "--method", "central-difference", "--step", "1e-5", "--json"},
+                            quick()));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json document = run.document();
+  const auto& mass = document.at("responses").at("crank_and_rod");
+  EXPECT_EQ(mass.at("unit"), "kg");
+  const auto& gradients = mass.at("gradients");
+  for (const char* variable : {"crank_diameter", "rod_diameter"}) {
+    const double direct = gradients.at("direct").at(variable);
+    const double difference = gradients.at("central-difference").at(variable);
+    EXPECT_NEAR(difference / direct, 1.0, 1e-9) << variable;  // a square: only round-off is left
+  }
+  EXPECT_TRUE(document.at("seconds").contains("simulate"));
+  EXPECT_TRUE(document.at("seconds").contains("direct"));
+}
+
+TEST(Gradient, OfTheMassIsThatOfTwoCylinders) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(
+      folder.path(), joined({"gradient", problem("slider_crank_round"), "--json"}, quick()));
+  const auto gradients =
+      run.document().at("responses").at("crank_and_rod").at("gradients").at("direct");
+  // m = ρ L π d² / 4, so dm/dd = ρ L π d / 2 with ρ = 7850, d = 0.03, L = 0.12 and 0.18.
+  EXPECT_NEAR(gradients.at("crank_diameter"), 7850 * 0.12 * M_PI * 0.03 / 2, 1e-10);
+  EXPECT_NEAR(gradients.at("rod_diameter"), 7850 * 0.18 * M_PI * 0.03 / 2, 1e-10);
+}
+
+TEST(Backends, AreListed) {
+  const TemporaryFolder folder;
+  const auto backends =
+      run_program(folder.path(), {"backends", "--json"}).document().at("backends");
+  EXPECT_THAT(backends.get<std::vector<std::string>>(), ::testing::Contains("ipopt"));
+}
+
+}  // namespace
+}  // namespace pleuel::testing

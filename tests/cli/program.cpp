@@ -1,0 +1,84 @@
+#include "tests/cli/program.hpp"
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+namespace pleuel::testing {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// For the shell; no word of these tests has a single quote.
+std::string quoted(const std::string& word) {
+  return "'" + word + "'";
+}
+
+}  // namespace
+
+nlohmann::json ProgramRun::document() const {
+  const auto document = nlohmann::json::parse(out, nullptr, /*allow_exceptions=*/false);
+  EXPECT_FALSE(document.is_discarded()) << "not one JSON document: " << out << err;
+  return document;
+}
+
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (fs::temp_directory_path() / "pleuel-test-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code error;
+  fs::remove_all(path_, error);
+}
+
+ProgramRun run_program(const fs::path& folder, const std::vector<std::string>& words) {
+  const TemporaryFolder streams;
+  const fs::path out = streams.path() / "out", err = streams.path() / "err";
+  std::string command = fmt::format("cd {} && {}", quoted(folder.string()), quoted(PLEUEL_PROGRAM));
+  for (const std::string& word : words) command += " " + quoted(word);
+  command += fmt::format(" >{} 2>{}", quoted(out.string()), quoted(err.string()));
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
+}
+
+std::string problem(const std::string& name) {
+  return std::string(PLEUEL_SOURCE_DIR) + "/problems/" + name + ".json";
+}
+
+std::vector<std::string> quick() {
+  return {"--set", "/simulation/step=0.2 ms",
+          "--set", "/simulation/end_time=20 ms",
+          "--set", "/scene/joints/bearing/drive/ramp=20 ms"};
+}
+
+std::vector<std::string> joined(std::vector<std::string> words,
+                                const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+std::string read_file(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+std::vector<std::vector<std::string>> read_csv(const fs::path& path) {
+  std::ifstream stream(path);
+  std::vector<std::vector<std::string>> rows;
+  for (std::string line; std::getline(stream, line);) {
+    std::istringstream cells(line);
+    rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+  }
+  return rows;
+}
+
+}  // namespace pleuel::testing

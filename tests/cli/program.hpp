@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+/// The built program as a subprocess, in a folder of its own.
+namespace pleuel::testing {
+
+/// What a run of the program left.
+struct ProgramRun {
+  int exit_code = -1;
+  std::string out, err;
+
+  /// Standard output as one JSON document; a test failure otherwise.
+  nlohmann::json document() const;
+};
+
+/// An empty folder that goes with the object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Runs `pleuel words…` with this folder as the current one.
+ProgramRun run_program(const std::filesystem::path& folder, const std::vector<std::string>& words);
+
+/// A problem file of the repository.
+std::string problem(const std::string& name);
+
+/// Overrides that make a simulation of the slider-crank problems take some milliseconds: coarse
+/// steps, and the ramp only.
+std::vector<std::string> quick();
+
+std::vector<std::string> joined(std::vector<std::string> words,
+                                const std::vector<std::string>& more);
+
+std::string read_file(const std::filesystem::path& path);
+
+/// The lines of a file, split at commas; good for files without quotes.
+std::vector<std::vector<std::string>> read_csv(const std::filesystem::path& path);
+
+}  // namespace pleuel::testing

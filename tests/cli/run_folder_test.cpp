@@ -1,0 +1,95 @@
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "tests/cli/program.hpp"
+
+namespace pleuel::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+std::vector<std::string> files(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    names.push_back(entry.path().filename().string());
+  }
+  return names;
+}
+
+ProgramRun simulate_into(const TemporaryFolder& folder, const std::string& name) {
+  return run_program(folder.path(),
+                     joined({"simulate", problem("slider_crank_round"), "-o", name}, quick()));
+}
+
+TEST(RunFolder, OfAnOptimizationHoldsItsEvidence) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(
+      folder.path(), joined({"optimize", problem("slider_crank_round"), "--json"}, quick()));
+  const fs::path run_folder = folder.path() / "runs/slider_crank_round-optimize";
+  ASSERT_TRUE(fs::exists(run_folder)) << run.err;
+  EXPECT_THAT(files(run_folder),
+              ::testing::UnorderedElementsAre("history.csv", "result.json", "run_card.json",
+                                              "trajectory-start.csv", "trajectory-optimum.csv"));
+  EXPECT_EQ(read_file(run_folder / "result.json"), run.out);
+  const auto history = read_csv(run_folder / "history.csv");
+  EXPECT_EQ(history.size(), 1 + run.document().at("evaluations").get<std::size_t>());
+}
+
+TEST(RunFolder, CardTellsInputAndVersions) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(simulate_into(folder, "one").exit_code, 0);
+  const auto card = nlohmann::json::parse(read_file(folder.path() / "one/run_card.json"));
+  EXPECT_EQ(card.at("finished"), true);
+  EXPECT_EQ(card.at("problem").at("simulation").at("step"), "0.2 ms");  // the override
+  EXPECT_FALSE(card.at("versions").at("eigen").get<std::string>().empty());
+  EXPECT_GT(card.at("seconds").at("total"), 0.0);
+}
+
+TEST(RunFolder, HashTellsInputsApart) {
+  const TemporaryFolder folder;
+  simulate_into(folder, "one");
+  simulate_into(folder, "same");
+  run_program(folder.path(), joined({"simulate", problem("slider_crank_round"), "-o", "other",
+                                     "--set", "/simulation/spectral_radius=0.7"},
+                                    quick()));
+  const auto hash = [&](const std::string& name) {
+    return nlohmann::json::parse(read_file(folder.path() / name / "run_card.json"))
+        .at("input")
+        .at("hash");
+  };
+  EXPECT_EQ(hash("one"), hash("same"));
+  EXPECT_NE(hash("one"), hash("other"));
+}
+
+TEST(RunFolder, TrajectoryHasALineAnInstantAndAColumnAResponse) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(simulate_into(folder, "one").exit_code, 0);
+  const auto rows = read_csv(folder.path() / "one/trajectory.csv");
+  ASSERT_EQ(rows.size(), 1u + 101u);  // 20 ms in steps of 0.2 ms, and the start
+  EXPECT_EQ(rows.front().front(), "time");
+  EXPECT_EQ(rows.front().size(), 1u + 7u);  // all responses of the file but the mass
+  EXPECT_NEAR(std::stod(rows.back().front()), 0.02, 1e-15);
+}
+
+TEST(RunFolder, OfAnOlderRunIsReplaced) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(simulate_into(folder, "one").exit_code, 0);
+  std::ofstream(folder.path() / "one/history.csv") << "old\n";
+  ASSERT_EQ(simulate_into(folder, "one").exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder.path() / "one/history.csv"));
+}
+
+TEST(RunFolder, WithOtherPeoplesFilesIsNotTouched) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path() / "thesis");
+  std::ofstream(folder.path() / "thesis/result.json") << "precious\n";
+  const ProgramRun run = simulate_into(folder, "thesis");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("thesis"));
+  EXPECT_EQ(read_file(folder.path() / "thesis/result.json"), "precious\n");
+}
+
+}  // namespace
+}  // namespace pleuel::testing

@@ -1,0 +1,49 @@
+#include <gmock/gmock.h>
+
+#include "tests/cli/program.hpp"
+
+namespace pleuel::testing {
+namespace {
+
+TEST(ParetoCommand, ReportsEveryPointAndWritesThem) {
+  const TemporaryFolder folder;
+  const ProgramRun run =
+      run_program(folder.path(), joined({"pareto", problem("slider_crank_round"), "--json", "-o",
+                                         "front", "--set", "/pareto/points=3"},
+                                        quick()));
+  const nlohmann::json points = run.document().at("points");
+  ASSERT_EQ(points.size(), 3u) << run.err;
+  for (const auto& point : points) {
+    EXPECT_EQ(point.at("status"), "verified") << point;
+    EXPECT_TRUE(point.at("objectives").contains("crank_and_rod"));
+    EXPECT_TRUE(point.at("objectives").contains("rod_bow"));
+    EXPECT_EQ(point.at("variables").size(), 2u);
+  }
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(read_csv(folder.path() / "front/pareto.csv").size(), 1u + 3u);
+}
+
+TEST(AccuracyCommand, MeasuresEveryCombination) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(
+      folder.path(),
+      joined({"accuracy", problem("slider_crank_round"), "--json", "-o", "study", "--set",
+              "/accuracy/steps=[4e-4, 2e-4, 1e-4]", "--set", "/accuracy/elements=[2, 4]"},
+             quick()));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json document = run.document();
+  ASSERT_EQ(document.at("runs").size(), 6u);
+  for (const auto& study_run : document.at("runs")) {
+    EXPECT_EQ(study_run.at("errors").size(), 8u);
+    EXPECT_EQ(study_run.at("gradient_errors").size(), 8u);
+    EXPECT_GT(study_run.at("seconds"), 0.0);
+    EXPECT_GT(study_run.at("work").at("factorizations"), 0);
+  }
+  EXPECT_EQ(document.at("reference").at("step"), 0.5e-4);
+  EXPECT_EQ(document.at("reference").at("elements"), 8);
+  EXPECT_TRUE(document.contains("recommended"));
+  EXPECT_EQ(read_csv(folder.path() / "study/accuracy.csv").size(), 1u + 7u);  // and the reference
+}
+
+}  // namespace
+}  // namespace pleuel::testing
