@@ -18,9 +18,8 @@ class DirectDifferentiation {
         sensitivity_(initial_sensitivity(mechanism, initial_state(mechanism))),
         old_(sensitivity_),
         state_(system_.coordinates(), system_.multipliers()),
-        step_matrix_(system_.make_matrix()),
-        rate_matrix_(system_.make_matrix()),
-        solver_(step_matrix_) {}
+        matrices_(3, system_.make_matrix()),
+        solver_(matrices_[0]) {}
 
   void run(const SensitivityObserver& observer) {
     trajectory_.load(0, state_);
@@ -52,13 +51,16 @@ class DirectDifferentiation {
     sensitivity_.w -= b(3) / b(0) * sensitivity_.q;
   }
 
+  /// One evaluation gives the step matrix, C and M.
   void form_right_hand_side() {
     const int n = system_.coordinates();
+    const Eigen::Vector4d& b = trajectory_.scheme.correction;
+    const std::array<Weights, 3> weights{
+        {{b(0), b(1), b(2)}, {.q = 0.0, .v = 1.0, .a = 0.0}, {.q = 0.0, .v = 0.0, .a = 1.0}}};
+    system_.linearize(state_, weights, ConstraintLevel::position, residual_, matrices_);
     system_.design_derivative(state_, ConstraintLevel::position, rhs_);
-    system_.tangent(state_, {.v = 1.0}, ConstraintLevel::position, rate_matrix_);
-    rhs_.noalias() += rate_matrix_.leftCols(n) * sensitivity_.v;
-    system_.tangent(state_, {.a = 1.0}, ConstraintLevel::position, rate_matrix_);
-    rhs_.noalias() += rate_matrix_.leftCols(n) * sensitivity_.a;
+    rhs_.noalias() += matrices_[1].leftCols(n) * sensitivity_.v;
+    rhs_.noalias() += matrices_[2].leftCols(n) * sensitivity_.a;
     rhs_.topRows(n) *= trajectory_.scheme.dynamic_scale();
     rhs_ *= -1.0;
   }
@@ -67,9 +69,8 @@ class DirectDifferentiation {
     const int n = system_.coordinates();
     const Eigen::Vector4d& b = trajectory_.scheme.correction;
     const double scale = trajectory_.scheme.dynamic_scale();
-    system_.tangent(state_, {b(0), b(1), b(2)}, ConstraintLevel::position, step_matrix_);
-    scale_dynamic_block(n, scale, step_matrix_);
-    if (!solver_.factorize(step_matrix_)) {
+    scale_dynamic_block(n, scale, matrices_[0]);
+    if (!solver_.factorize(matrices_[0])) {
       throw SimulationError(fmt::format("the sensitivities are singular at t = {:.6g} s (step {})",
                                         state_.time, step));
     }
@@ -85,7 +86,8 @@ class DirectDifferentiation {
   const Trajectory& trajectory_;
   StateSensitivity sensitivity_, old_;
   State state_;
-  System::Matrix step_matrix_, rate_matrix_;
+  std::vector<System::Matrix> matrices_;  ///< of the step, C, M
+  Eigen::VectorXd residual_;
   LinearSolver solver_;
   Eigen::MatrixXd rhs_;
 };

@@ -30,23 +30,25 @@ void EulerParameterNorm::add_residual(const State& state, ConstraintLevel level,
   }
 }
 
-void EulerParameterNorm::linearize(const State& state, const Weights& weights,
+void EulerParameterNorm::linearize(const State& state, const WeightList& weights,
                                    ConstraintLevel level, Eigen::VectorXd& residual,
-                                   double* entries) {
+                                   const EntryBlocks& entries) {
   add_residual(state, level, residual);
   const Eigen::Vector4d q = state.q.segment<4>(first_);
   const Eigen::Vector4d v = state.v.segment<4>(first_);
   const Eigen::Vector4d a = state.a.segment<4>(first_);
   const double lambda = state.lambda(multiplier_ - state.q.size());
-  Eigen::Vector4d row = weights.q * q;
-  if (level == ConstraintLevel::velocity) row = weights.q * v + weights.v * q;
-  if (level == ConstraintLevel::acceleration) {
-    row = weights.q * a + 2.0 * weights.v * v + weights.a * q;
-  }
-  for (int i = 0; i < 4; ++i) {
-    *entries++ = weights.q * lambda;
-    *entries++ = q(i);
-    *entries++ = row(i);
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    const Weights& w = weights[k];
+    Eigen::Vector4d row = w.q * q;
+    if (level == ConstraintLevel::velocity) row = w.q * v + w.v * q;
+    if (level == ConstraintLevel::acceleration) row = w.q * a + 2.0 * w.v * v + w.a * q;
+    double* entry = entries.block(k);
+    for (int i = 0; i < 4; ++i) {
+      *entry++ = w.q * lambda;
+      *entry++ = q(i);
+      *entry++ = row(i);
+    }
   }
 }
 

@@ -16,8 +16,8 @@ class EulerParameterNorm : public Term {
   std::string name() const override { return "norm of the Euler parameters of " + body_; }
   void declare_entries(EntryList& entries) const override;
   void add_residual(const State& state, ConstraintLevel level, Eigen::VectorXd& residual) override;
-  void linearize(const State& state, const Weights& weights, ConstraintLevel level,
-                 Eigen::VectorXd& residual, double* entries) override;
+  void linearize(const State& state, const WeightList& weights, ConstraintLevel level,
+                 Eigen::VectorXd& residual, const EntryBlocks& entries) override;
   void add_design_derivative(const State&, ConstraintLevel, Eigen::MatrixXd&) override {}
 
  private:

@@ -63,9 +63,15 @@ void FloatingFrameBody::add_design_derivative(const State& state, ConstraintLeve
   }
 }
 
-void FloatingFrameBody::linearize(const State& state, const Weights& weights, ConstraintLevel level,
-                                  Eigen::VectorXd& residual, double* entries) {
+void FloatingFrameBody::linearize(const State& state, const WeightList& weights,
+                                  ConstraintLevel level, Eigen::VectorXd& residual,
+                                  const EntryBlocks& entries) {
   add_residual(state, level, residual);
+  for (std::size_t i = 0; i < weights.size(); ++i) write_tangent_of(weights[i], entries.block(i));
+}
+
+/// From the products of the last evaluation.
+void FloatingFrameBody::write_tangent_of(const Weights& weights, double* entries) {
   set_rigid_columns(weights);
   set_elastic_columns(weights);
   const int m = frame_.size(), n = invariants_.size();

@@ -22,8 +22,8 @@ class FloatingFrameBody : public Term {
   std::string name() const override { return "inertia and elasticity of " + name_; }
   void declare_entries(EntryList& entries) const override;
   void add_residual(const State& state, ConstraintLevel level, Eigen::VectorXd& residual) override;
-  void linearize(const State& state, const Weights& weights, ConstraintLevel level,
-                 Eigen::VectorXd& residual, double* entries) override;
+  void linearize(const State& state, const WeightList& weights, ConstraintLevel level,
+                 Eigen::VectorXd& residual, const EntryBlocks& entries) override;
   void add_design_derivative(const State& state, ConstraintLevel level,
                              Eigen::MatrixXd& columns) override;
 
@@ -32,6 +32,7 @@ class FloatingFrameBody : public Term {
 
  private:
   void evaluate(const State& state);
+  void write_tangent_of(const Weights& weights, double* entries);
   void set_rigid_columns(const Weights& weights);
   void set_elastic_columns(const Weights& weights);
   void write_elastic_block(const Weights& weights, double*& entries) const;

@@ -54,23 +54,32 @@ void GeometricStiffening::add_residual(const State& state, ConstraintLevel,
   }
 }
 
-void GeometricStiffening::linearize(const State& state, const Weights& weights, ConstraintLevel,
-                                    Eigen::VectorXd& residual, double* entries) {
+void GeometricStiffening::linearize(const State& state, const WeightList& weights, ConstraintLevel,
+                                    Eigen::VectorXd& residual, const EntryBlocks& entries) {
+  std::ptrdiff_t first = 0;
   for (const StiffeningElement& element : elements_) {
     evaluate(element, state);
     add_forces(element, residual);
-    const double kappa = element.axial_stiffness;
-    const double material = kappa * (weights.q + weights.v * damping_);
-    const double geometric = weights.q * kappa * (strain_.total + damping_ * strain_.total_rate);
-    const double rate = weights.q * kappa * damping_;
-    const auto size = static_cast<Eigen::Index>(element.coordinates.size());
-    for (Eigen::Index i = 0; i < size; ++i) {
-      for (Eigen::Index j = 0; j < size; ++j) {
-        *entries++ = material * (strain_.gradient(i) * strain_.gradient(j) -
-                                 element.elongation(i) * element.elongation(j)) +
-                     rate * strain_.gradient(i) * strain_.slope_v(j) +
-                     geometric * element.slopes(i, j);
-      }
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      write_element(element, weights[i], entries.block(i) + first);
+    }
+    first += element.slopes.size();
+  }
+}
+
+void GeometricStiffening::write_element(const StiffeningElement& element, const Weights& weights,
+                                        double* entries) const {
+  const double kappa = element.axial_stiffness;
+  const double material = kappa * (weights.q + weights.v * damping_);
+  const double geometric = weights.q * kappa * (strain_.total + damping_ * strain_.total_rate);
+  const double rate = weights.q * kappa * damping_;
+  const auto size = static_cast<Eigen::Index>(element.coordinates.size());
+  for (Eigen::Index i = 0; i < size; ++i) {
+    for (Eigen::Index j = 0; j < size; ++j) {
+      *entries++ = material * (strain_.gradient(i) * strain_.gradient(j) -
+                               element.elongation(i) * element.elongation(j)) +
+                   rate * strain_.gradient(i) * strain_.slope_v(j) +
+                   geometric * element.slopes(i, j);
     }
   }
 }

@@ -42,8 +42,8 @@ class GeometricStiffening : public Term {
   std::string name() const override { return "geometric stiffening of " + body_; }
   void declare_entries(EntryList& entries) const override;
   void add_residual(const State& state, ConstraintLevel level, Eigen::VectorXd& residual) override;
-  void linearize(const State& state, const Weights& weights, ConstraintLevel level,
-                 Eigen::VectorXd& residual, double* entries) override;
+  void linearize(const State& state, const WeightList& weights, ConstraintLevel level,
+                 Eigen::VectorXd& residual, const EntryBlocks& entries) override;
   void add_design_derivative(const State& state, ConstraintLevel level,
                              Eigen::MatrixXd& columns) override;
 
@@ -54,6 +54,9 @@ class GeometricStiffening : public Term {
     double linear, linear_rate, total, total_rate;  ///< Δu, Δu̇, g, ġ
   };
   void evaluate(const StiffeningElement& element, const State& state);
+  /// From the strain of the last evaluation.
+  void write_element(const StiffeningElement& element, const Weights& weights,
+                     double* entries) const;
   void add_forces(const StiffeningElement& element, Eigen::VectorXd& residual) const;
 
   std::string body_;

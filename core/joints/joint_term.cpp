@@ -1,7 +1,6 @@
 #include "core/joints/joint_term.hpp"
 
 #include <algorithm>
-#include <cassert>
 
 #include "core/joints/joint_linearization.hpp"
 
@@ -52,8 +51,6 @@ JointData<Dual> seed_data(const JointData<double>& data, const JointData<double>
   return seeded;
 }
 
-/// `Slots` bounds the number of local coordinates and equations together.
-template <int Slots>
 class JointTerm : public Term {
  public:
   JointTerm(JointTopology topology, JointData<double> data,
@@ -87,14 +84,16 @@ class JointTerm : public Term {
     }
   }
 
-  void linearize(const State& state, const Weights& weights, ConstraintLevel level,
-                 Eigen::VectorXd& residual, double* entries) override {
+  void linearize(const State& state, const WeightList& weights, ConstraintLevel level,
+                 Eigen::VectorXd& residual, const EntryBlocks& entries) override {
     if (level == ConstraintLevel::position) {
       linearize_position(state, weights, residual, entries);
       return;
     }
     add_residual(state, level, residual);
-    write_dual_tangent(state, weights, level, entries);
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      write_dual_tangent(state, weights[i], level, entries.block(i));
+    }
   }
 
   void add_design_derivative(const State& state, ConstraintLevel level,
@@ -111,15 +110,17 @@ class JointTerm : public Term {
   }
 
  private:
-  using WideDual = DualOf<Slots>;
+  /// Bounds the number of local coordinates and equations together.
+  static constexpr int max_slots = JointLinearization::max_size + 6;
+  using WideDual = DualOf<max_slots>;
 
   template <class Scalar>
   struct Local {
-    std::array<Scalar, Slots> q, v, a, lambda;
+    std::array<Scalar, max_slots> q, v, a, lambda;
   };
   template <class Scalar>
   struct Result {
-    std::array<Scalar, Slots> forces, equations;
+    std::array<Scalar, max_slots> forces, equations;
   };
 
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
@@ -128,26 +129,39 @@ class JointTerm : public Term {
   int coordinate(int i) const { return coordinates_[index(i)]; }
 
   /// The fast way, for the time loop.
-  void linearize_position(const State& state, const Weights& weights, Eigen::VectorXd& residual,
-                          double* entries) const {
-    const int size = local_size(), count = equations(), stride = size + count;
+  void linearize_position(const State& state, const WeightList& weights, Eigen::VectorXd& residual,
+                          const EntryBlocks& entries) const {
+    const int size = local_size(), count = equations();
     JointLinearization::Vector q(size);
     for (int i = 0; i < size; ++i) q(i) = state.q(coordinate(i));
     JointLinearization joint(topology_, data_, state.time, q.data(), size);
-    std::fill(entries, entries + size * stride + count * size, 0.0);
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      std::fill_n(entries.block(k), size * (size + count) + count * size, 0.0);
+    }
     const auto first = topology_.multiplier - state.q.size();
     for (int i = 0; i < count; ++i) {
       joint.evaluate(topology_.equations[index(i)]);
       const double lambda = state.lambda(first + i);
       residual(topology_.multiplier + i) += joint.value();
       for (int row = 0; row < size; ++row) {
-        const double gradient = joint.gradient()(row);
-        residual(coordinate(row)) += lambda * gradient;
-        for (int col = 0; col < size; ++col) {
-          entries[row * stride + col] += weights.q * lambda * joint.hessian()(row, col);
-        }
-        entries[row * stride + size + i] = gradient;
-        entries[size * stride + i * size + row] = weights.q * gradient;
+        residual(coordinate(row)) += lambda * joint.gradient()(row);
+      }
+      for (std::size_t k = 0; k < weights.size(); ++k) {
+        add_equation(joint, i, weights[k].q, lambda, entries.block(k));
+      }
+    }
+  }
+
+  void add_equation(const JointLinearization& joint, int equation, double weight, double lambda,
+                    double* entries) const {
+    const int size = local_size(), stride = size + equations();
+    for (int row = 0; row < size; ++row) {
+      const double gradient = joint.gradient()(row);
+      entries[row * stride + size + equation] = gradient;
+      entries[size * stride + equation * size + row] = weight * gradient;
+      if (weight == 0.0) continue;
+      for (int col = 0; col < size; ++col) {
+        entries[row * stride + col] += weight * lambda * joint.hessian()(row, col);
       }
     }
   }
@@ -213,13 +227,7 @@ class JointTerm : public Term {
 std::unique_ptr<Term> make_joint_term(
     JointTopology topology, JointData<double> data,
     std::vector<DesignDerivative<JointData<double>>> derivatives) {
-  const std::size_t needed = local_coordinates(topology).size() + topology.equations.size();
-  assert(needed <= 32);
-  // Joints of planar mechanisms stay below 16 slots and run on the narrower numbers.
-  if (needed <= 16) {
-    return std::make_unique<JointTerm<16>>(std::move(topology), std::move(data), derivatives);
-  }
-  return std::make_unique<JointTerm<32>>(std::move(topology), std::move(data), derivatives);
+  return std::make_unique<JointTerm>(std::move(topology), std::move(data), derivatives);
 }
 
 }  // namespace pleuel

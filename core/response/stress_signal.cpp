@@ -103,10 +103,10 @@ class StressSignal final : public BodySignal<StressSignal> {
   /// All channels share one evaluation of the body.
   void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
     const BodyModel& body = this->body();
-    const int first = body.frame.offset, size = body.frame.size();
+    const int first = body.frame.offset, m = body.frame.size();
     const FrameMotion<double> frame =
-        frame_motion<double>(body.frame, state.q.segment(first, size), state.v.segment(first, size),
-                             state.a.segment(first, size));
+        frame_motion<double>(body.frame, state.q.segment(first, m), state.v.segment(first, m),
+                             state.a.segment(first, m));
     const int nodes = body.beam.node_count();
     nodal_q_.resize(6, nodes);
     accelerations_.resize(3, nodes);

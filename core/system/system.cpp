@@ -34,7 +34,6 @@ void System::build_pattern() {
     assert(found != end && *found == row);
     slots_.push_back(static_cast<int>(found - pattern_.innerIndexPtr()));
   }
-  entries_.resize(entries.size());
 }
 
 void System::residual(const State& state, ConstraintLevel level, Eigen::VectorXd& residual) {
@@ -49,13 +48,24 @@ void System::tangent(const State& state, const Weights& weights, ConstraintLevel
 
 void System::linearize(const State& state, const Weights& weights, ConstraintLevel level,
                        Eigen::VectorXd& residual, Matrix& matrix) {
+  linearize(state, WeightList{&weights, 1}, level, residual, std::span<Matrix>{&matrix, 1});
+}
+
+void System::linearize(const State& state, const WeightList& weights, ConstraintLevel level,
+                       Eigen::VectorXd& residual, std::span<Matrix> matrices) {
   residual.setZero(size());
+  const std::size_t count = slots_.size();
+  if (entries_.size() < count * weights.size()) entries_.resize(count * weights.size());
   for (std::size_t i = 0; i < terms_.size(); ++i) {
-    terms_[i]->linearize(state, weights, level, residual, entries_.data() + first_entry_[i]);
+    terms_[i]->linearize(state, weights, level, residual,
+                         {entries_.data() + first_entry_[i], static_cast<std::ptrdiff_t>(count)});
   }
-  double* values = matrix.valuePtr();
-  std::fill(values, values + matrix.nonZeros(), 0.0);
-  for (std::size_t i = 0; i < slots_.size(); ++i) values[slots_[i]] += entries_[i];
+  for (std::size_t k = 0; k < matrices.size(); ++k) {
+    double* values = matrices[k].valuePtr();
+    const double* entries = entries_.data() + k * count;
+    std::fill(values, values + matrices[k].nonZeros(), 0.0);
+    for (std::size_t i = 0; i < count; ++i) values[slots_[i]] += entries[i];
+  }
 }
 
 void System::design_derivative(const State& state, ConstraintLevel level,

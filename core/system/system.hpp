@@ -39,6 +39,10 @@ class System {
   void linearize(const State& state, const Weights& weights, ConstraintLevel level,
                  Eigen::VectorXd& residual, Matrix& matrix);
 
+  /// Tangents for several weights from one evaluation, matrices[i] for weights[i].
+  void linearize(const State& state, const WeightList& weights, ConstraintLevel level,
+                 Eigen::VectorXd& residual, std::span<Matrix> matrices);
+
   /// ∂R/∂x at fixed state into an (n + m) × variables matrix.
   void design_derivative(const State& state, ConstraintLevel level, Eigen::MatrixXd& columns);
 
@@ -49,7 +53,7 @@ class System {
   std::vector<std::unique_ptr<Term>> terms_;
   Matrix pattern_;
   std::vector<int> slots_;       ///< value index of each declared entry, terms in order
-  std::vector<double> entries_;  ///< scratch, same order
+  std::vector<double> entries_;  ///< scratch, same order, a block for each of the weights
   Eigen::VectorXd unused_;       ///< scratch, where only the tangent is asked for
   std::vector<std::size_t> first_entry_;
 };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +29,16 @@ struct Weights {
   double q = 0.0, v = 0.0, a = 0.0;
 };
 
+using WeightList = std::span<const Weights>;
+
+/// Where tangents are written: one block of entries for each of the weights.
+struct EntryBlocks {
+  double* first = nullptr;
+  std::ptrdiff_t stride = 0;  ///< from one block to the next
+
+  double* block(std::size_t i) const { return first + static_cast<std::ptrdiff_t>(i) * stride; }
+};
+
 /// In which form a constraint Φ(q, t) = 0 stands in the residual: Φ, dΦ/dt or d²Φ/dt².
 enum class ConstraintLevel { position, velocity, acceleration };
 
@@ -50,17 +62,17 @@ class Term {
   virtual void add_residual(const State& state, ConstraintLevel level,
                             Eigen::VectorXd& residual) = 0;
 
-  /// residual += R, and writes the entries of  w.q R_q + w.v R_v + w.a R_a  in coordinate columns
-  /// and of R_λ in multiplier columns, in the order of declare_entries(). Both share one
-  /// evaluation.
-  virtual void linearize(const State& state, const Weights& weights, ConstraintLevel level,
-                         Eigen::VectorXd& residual, double* entries) = 0;
+  /// residual += R, and writes for each of the weights the entries of  w.q R_q + w.v R_v + w.a R_a
+  /// in coordinate columns and of R_λ in multiplier columns, in the order of declare_entries(). All
+  /// share one evaluation.
+  virtual void linearize(const State& state, const WeightList& weights, ConstraintLevel level,
+                         Eigen::VectorXd& residual, const EntryBlocks& entries) = 0;
 
   /// The tangent alone.
   void write_tangent(const State& state, const Weights& weights, ConstraintLevel level,
                      double* entries) {
     Eigen::VectorXd unused = Eigen::VectorXd::Zero(state.q.size() + state.lambda.size());
-    linearize(state, weights, level, unused, entries);
+    linearize(state, {&weights, 1}, level, unused, {entries, 0});
   }
 
   /// columns.col(j) += ∂R/∂x_j at fixed state, (n + m) × variables.
