@@ -62,8 +62,7 @@ void add_gradient(CLI::App& app, Arguments& arguments) {
   gradient
       ->add_option("--step", arguments.difference_step,
                    "relative step of the differences (default 1e-5)")
-      ->type_name("NUMBER")
-      ->check(CLI::PositiveNumber);
+      ->type_name("NUMBER");
 }
 
 void add_commands(CLI::App& app, Arguments& arguments) {
@@ -113,6 +112,10 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
     throw InputError(std::string(error.what()) + "; see pleuel --help");
+  }
+  const double step = arguments.difference_step;
+  if (!(step > 0.0 && step < 1.0)) {
+    throw InputError(fmt::format("--step must be greater than 0 and less than 1, got {:g}", step));
   }
   arguments.command = app.get_subcommands().front()->get_name();
   return arguments;

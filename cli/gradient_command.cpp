@@ -89,12 +89,13 @@ double spread(const std::vector<MethodResult>& results, Eigen::Index i, Eigen::I
 }
 
 std::string gradients_text(const ProblemFile& problem, const std::vector<MethodResult>& results) {
+  const std::vector<ShownUnit> variable_unit = variable_units(problem);
   Table table(columns(results));
   for (std::size_t i = 0; i < problem.responses.size(); ++i) {
     const ShownUnit value_unit = unit_of(problem.responses[i]);
     for (std::size_t j = 0; j < problem.variables.size(); ++j) {
       const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
-      const ShownUnit unit = unit_of(problem, j);
+      const ShownUnit& unit = variable_unit[j];
       std::vector<std::string> cells = {j == 0 ? problem.responses[i].name : "",
                                         problem.variables[j].name};
       for (const MethodResult& result : results) {

@@ -16,11 +16,12 @@ Json objective_document(const Optimum& optimum) {
 }
 
 Json variables_document(const Optimum& optimum) {
+  const std::vector<ShownUnit> units = variable_units(optimum.problem);
   Json document = Json::object();
   for (std::size_t i = 0; i < optimum.problem.variables.size(); ++i) {
     const DesignVariable& variable = optimum.problem.variables[i];
     document[variable.name] = {{"value", optimum.result.x(static_cast<Eigen::Index>(i))},
-                               {"unit", unit_of(optimum.problem, i).si},
+                               {"unit", units[i].si},
                                {"lower", variable.lower},
                                {"upper", variable.upper},
                                {"start", variable.start}};

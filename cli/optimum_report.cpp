@@ -40,6 +40,7 @@ std::string bound_mark(const DesignVariable& variable, double value) {
 }
 
 std::string variables_text(const Optimum& optimum) {
+  const std::vector<ShownUnit> units = variable_units(optimum.problem);
   Table table({{"variable", Table::Align::left},
                {"start"},
                {optimum.result.status == Status::verified ? "optimum" : "end"},
@@ -49,7 +50,7 @@ std::string variables_text(const Optimum& optimum) {
                {"", Table::Align::left}});
   for (std::size_t i = 0; i < optimum.problem.variables.size(); ++i) {
     const DesignVariable& variable = optimum.problem.variables[i];
-    const ShownUnit unit = unit_of(optimum.problem, i);
+    const ShownUnit& unit = units[i];
     const double value = optimum.result.x(static_cast<Eigen::Index>(i));
     table.add_row({variable.name, significant(unit.shown(variable.start)),
                    significant(unit.shown(value)), significant(unit.shown(variable.lower)),
@@ -94,7 +95,7 @@ std::string constraints_text(const Optimum& optimum) {
                {"unit", Table::Align::left},
                {"used"},
                {fmt::format("multiplier [{}/unit]", objective_unit.name)},
-               {"1 % more limit"}});
+               {"objective at +1 % limit"}});
   for (std::size_t i = 0; i < optimum.problem.constraints.size(); ++i) {
     table.add_row(constraint_row(optimum, i));
   }

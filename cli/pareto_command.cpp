@@ -96,6 +96,7 @@ Json make_document(const ProblemFile& problem, const std::vector<ParetoPoint>& p
 std::vector<Table::Column> columns(const ProblemFile& problem) {
   const ConstraintSettings& constraint = varied_constraint(problem);
   const std::string& objective = problem.objective->response;
+  const std::vector<ShownUnit> units = variable_units(problem);
   const ShownUnit limited = unit_of(problem, constraint);
   const ShownUnit goal = unit_of(find_response(problem, objective));
   std::vector<Table::Column> columns = {
@@ -104,8 +105,7 @@ std::vector<Table::Column> columns(const ProblemFile& problem) {
       {fmt::format("{} [{}]", objective, goal.name)},
       {fmt::format("multiplier [{}/{}]", goal.name, limited.name)}};
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    columns.push_back(
-        {fmt::format("{} [{}]", problem.variables[i].name, unit_of(problem, i).name)});
+    columns.push_back({fmt::format("{} [{}]", problem.variables[i].name, units[i].name)});
   }
   columns.push_back({"status", Table::Align::left});
   return columns;
@@ -114,6 +114,7 @@ std::vector<Table::Column> columns(const ProblemFile& problem) {
 std::string points_text(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
   const ShownUnit limited = unit_of(problem, varied_constraint(problem));
   const ShownUnit goal = unit_of(find_response(problem, problem.objective->response));
+  const std::vector<ShownUnit> units = variable_units(problem);
   Table table(columns(problem));
   for (const ParetoPoint& point : points) {
     std::vector<std::string> cells = {significant(limited.shown(point.limit)), "–", "–", "–"};
@@ -123,8 +124,7 @@ std::string points_text(const ProblemFile& problem, const std::vector<ParetoPoin
       cells[3] = significant(goal.shown(point.multiplier) * limited.factor, 3);
     }
     for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-      cells.push_back(
-          significant(unit_of(problem, i).shown(point.result.x(static_cast<Eigen::Index>(i)))));
+      cells.push_back(significant(units[i].shown(point.result.x(static_cast<Eigen::Index>(i)))));
     }
     cells.push_back(to_string(point.result.status) + (point.is_dominated ? ", dominated" : ""));
     table.add_row(std::move(cells));

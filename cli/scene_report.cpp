@@ -43,18 +43,20 @@ std::string bodies_text(const Model& model) {
 }
 
 Json variables_document(const ProblemFile& problem) {
+  const std::vector<ShownUnit> units = variable_units(problem);
   Json document = Json::object();
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     const DesignVariable& variable = problem.variables[i];
     document[variable.name] = {{"start", variable.start},
                                {"lower", variable.lower},
                                {"upper", variable.upper},
-                               {"unit", unit_of(problem, i).si}};
+                               {"unit", units[i].si}};
   }
   return document;
 }
 
 std::string variables_text(const ProblemFile& problem) {
+  const std::vector<ShownUnit> units = variable_units(problem);
   Table table({{"variable", Table::Align::left},
                {"start"},
                {"lower"},
@@ -62,7 +64,7 @@ std::string variables_text(const ProblemFile& problem) {
                {"unit", Table::Align::left}});
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     const DesignVariable& variable = problem.variables[i];
-    const ShownUnit unit = unit_of(problem, i);
+    const ShownUnit& unit = units[i];
     table.add_row({variable.name, significant(unit.shown(variable.start)),
                    significant(unit.shown(variable.lower)), significant(unit.shown(variable.upper)),
                    unit.name});

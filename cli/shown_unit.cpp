@@ -23,11 +23,17 @@ ShownUnit engineering_unit(std::string_view si) {
   return {std::string(si), std::string(si), 1.0};
 }
 
-ShownUnit unit_of(const ProblemFile& problem, std::size_t variable) {
-  const Quantity quantity = variable_quantity(problem, static_cast<int>(variable));
-  const std::string& written = problem.variables[variable].unit;
-  if (written.empty()) return engineering_unit(quantity.unit);
-  return {std::string(quantity.unit), written, UnitSystem().scale(written, quantity)};
+std::vector<ShownUnit> variable_units(const ProblemFile& problem) {
+  const UnitSystem system;
+  std::vector<ShownUnit> units;
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    const Quantity quantity = variable_quantity(problem, static_cast<int>(i));
+    const std::string& written = problem.variables[i].unit;
+    units.push_back(written.empty() ? engineering_unit(quantity.unit)
+                                    : ShownUnit{std::string(quantity.unit), written,
+                                                system.scale(written, quantity)});
+  }
+  return units;
 }
 
 ShownUnit unit_of(const ResponseSettings& response) {
@@ -36,7 +42,7 @@ ShownUnit unit_of(const ResponseSettings& response) {
 
 ShownUnit unit_of(const ProblemFile& problem, const ConstraintSettings& constraint) {
   if (constraint.linear.empty()) return unit_of(find_response(problem, constraint.response));
-  return unit_of(problem, static_cast<std::size_t>(constraint.linear.front().first));
+  return variable_units(problem)[static_cast<std::size_t>(constraint.linear.front().first)];
 }
 
 const ResponseSettings& find_response(const ProblemFile& problem, const std::string& name) {

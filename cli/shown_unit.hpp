@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/scene/problem_file.hpp"
 
@@ -19,9 +20,12 @@ struct ShownUnit {
 /// The unit that mechanical engineers use: mm, MPa, else SI.
 ShownUnit engineering_unit(std::string_view si);
 
-/// The unit that the user wrote, else the engineering unit.
-ShownUnit unit_of(const ProblemFile& problem, std::size_t variable);
+/// Of all design variables: the unit that the user wrote, else the engineering unit. Reads the
+/// database of units: ask once, not in a loop.
+std::vector<ShownUnit> variable_units(const ProblemFile& problem);
+
 ShownUnit unit_of(const ResponseSettings& response);
+/// Of a response, or of the first variable of a linear constraint.
 ShownUnit unit_of(const ProblemFile& problem, const ConstraintSettings& constraint);
 
 const ResponseSettings& find_response(const ProblemFile& problem, const std::string& name);

@@ -46,6 +46,10 @@ TEST(BadInput, UnknownMethodListsThoseThereAre) {
                    "direct, forward-difference, central-difference");
 }
 
+TEST(BadInput, DifferenceStepOutOfRangeIsRefused) {
+  expect_complaint({"gradient", problem("slider_crank_round"), "--step", "-1"}, "--step must be");
+}
+
 TEST(BadInput, UnknownCommandListsThoseThereAre) {
   expect_complaint({"optimise", problem("slider_crank_round")}, "optimize");
 }
