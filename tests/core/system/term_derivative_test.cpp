@@ -1,3 +1,4 @@
+#include <array>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@ namespace {
 using namespace pleuel;
 
 /// A state somewhere near the start, with all rates and multipliers: no law of a term needs a
-/// consistent one.
+/// consistent one. Lengths are some 0.1 m, strains far beyond what is sensible.
 State random_state(const Model& model) {
   const System& system = *model.mechanism.system;
   std::mt19937 random(7);
@@ -19,12 +20,16 @@ State random_state(const Model& model) {
   State state(system.coordinates(), system.multipliers());
   state.time = 0.013;
   state.q = model.mechanism.guess.q;
-  for (Eigen::Index i = 0; i < state.q.size(); ++i) {
-    const bool is_elastic =
-        model.mechanism.assembly_weight(i) * std::pow(model.mechanism.scale(i), 2) > 2;
-    state.q(i) += (is_elastic ? 1e-2 : 0.3) * model.mechanism.scale(i) * uniform(random);
-    state.v(i) = 5.0 * (is_elastic ? 1e-1 : 1.0) * model.mechanism.scale(i) * uniform(random);
-    state.a(i) = 50.0 * (is_elastic ? 1e-1 : 1.0) * model.mechanism.scale(i) * uniform(random);
+  const auto disturb = [&](Eigen::Index first, Eigen::Index size, double q, double v, double a) {
+    for (Eigen::Index i = first; i < first + size; ++i) {
+      state.q(i) += q * uniform(random);
+      state.v(i) += v * uniform(random);
+      state.a(i) += a * uniform(random);
+    }
+  };
+  for (const BodyModel& body : model.bodies) {
+    disturb(body.frame.offset, body.frame.size(), 0.2, 3.0, 30.0);
+    if (body.is_beam()) disturb(body.elastic_offset(), body.coordinates->size(), 5e-3, 0.3, 3.0);
   }
   for (double& lambda : state.lambda) lambda = 10.0 * uniform(random);
   return state;
@@ -68,7 +73,7 @@ TEST_P(EveryTerm, HasTheTangentOfItsResidualInThePositions) {
   for (const auto& term : model_.mechanism.system->terms()) {
     const auto tangent = tangent_of(*term, state_, {.q = 1.0}, GetParam().level).leftCols(n).eval();
     expect_derivative(
-        *term, tangent, n, 1e-3 * model_.mechanism.scale,
+        *term, tangent, n, Eigen::VectorXd::Constant(n, 1e-3),
         [](State& at, Eigen::Index j, double s) { at.q(j) += s; }, "q");
   }
 }
@@ -78,7 +83,7 @@ TEST_P(EveryTerm, HasTheTangentOfItsResidualInTheVelocities) {
   for (const auto& term : model_.mechanism.system->terms()) {
     const auto tangent = tangent_of(*term, state_, {.v = 1.0}, GetParam().level).leftCols(n).eval();
     expect_derivative(
-        *term, tangent, n, 1.0 * model_.mechanism.scale,
+        *term, tangent, n, Eigen::VectorXd::Constant(n, 1.0),
         [](State& at, Eigen::Index j, double s) { at.v(j) += s; }, "v");
   }
 }
@@ -88,7 +93,7 @@ TEST_P(EveryTerm, HasTheTangentOfItsResidualInTheAccelerations) {
   for (const auto& term : model_.mechanism.system->terms()) {
     const auto tangent = tangent_of(*term, state_, {.a = 1.0}, GetParam().level).leftCols(n).eval();
     expect_derivative(
-        *term, tangent, n, 10.0 * model_.mechanism.scale,
+        *term, tangent, n, Eigen::VectorXd::Constant(n, 10.0),
         [](State& at, Eigen::Index j, double s) { at.a(j) += s; }, "a");
   }
 }
@@ -113,6 +118,30 @@ TEST_P(EveryTerm, HasTheWeightedSumOfItsTangents) {
     const Eigen::MatrixXd sum =
         0.7 * part({.q = 1.0}) - 1.3 * part({.v = 1.0}) + 2.1 * part({.a = 1.0});
     EXPECT_LE(relative_difference(part(weights), sum), 1e-14) << term->name();
+  }
+}
+
+/// What residual and several tangents share may not change any of them.
+TEST_P(EveryTerm, HasOneResidualAndOneTangentHoweverTheyAreAskedFor) {
+  const std::array<Weights, 2> weights = {Weights{0.7, -1.3, 2.1}, Weights{.v = 1.0}};
+  for (const auto& term : model_.mechanism.system->terms()) {
+    EntryList entries;
+    term->declare_entries(entries);
+    const auto size = entries.size();
+    std::vector<double> values(2 * size + 3);
+    Eigen::VectorXd found = Eigen::VectorXd::Zero(model_.mechanism.system->size());
+    term->linearize(state_, weights, GetParam().level, found,
+                    {values.data(), static_cast<std::ptrdiff_t>(size) + 3});
+    EXPECT_LE(relative_difference(found, residual_of(*term, state_, GetParam().level)), 1e-13)
+        << term->name();
+    for (std::size_t block = 0; block < 2; ++block) {
+      Eigen::MatrixXd tangent = Eigen::MatrixXd::Zero(found.size(), found.size());
+      for (std::size_t i = 0; i < size; ++i) {
+        tangent(entries[i].first, entries[i].second) += values[block * (size + 3) + i];
+      }
+      const auto alone = tangent_of(*term, state_, weights[block], GetParam().level);
+      EXPECT_LE(relative_difference(tangent, alone), 1e-14) << term->name();
+    }
   }
 }
 
@@ -169,7 +198,7 @@ TEST_P(EverySample, PushesAlongTheGradientsOfItsConstraints) {
             moved.q(j) += s;
             return residual_of(*term, moved, ConstraintLevel::position).tail(m).dot(state_.lambda);
           },
-          1e-3 * model_.mechanism.scale(j));
+          1e-3);
     }
     State free = state_;
     free.lambda.setZero();

@@ -1,0 +1,152 @@
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+
+struct Include {
+  std::string file, folder, header;  ///< relative to the root of the repository
+};
+
+/// All includes of the sources outside tests/.
+std::vector<Include> read_includes() {
+  std::vector<Include> includes;
+  const fs::path root = PLEUEL_SOURCE_DIR;
+  for (const char* top : {"core", "sensitivity", "optimization", "studies", "cli"}) {
+    if (!fs::exists(root / top)) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
+      if (entry.path().extension() != ".hpp" && entry.path().extension() != ".cpp") continue;
+      std::ifstream stream(entry.path());
+      const std::string file = fs::relative(entry.path(), root).generic_string();
+      for (std::string line; std::getline(stream, line);) {
+        if (!line.starts_with("#include")) continue;
+        const auto begin = line.find_first_of("<\"") + 1, end = line.find_first_of(">\"", begin);
+        includes.push_back(
+            {file, fs::path(file).parent_path().generic_string(), line.substr(begin, end - begin)});
+      }
+    }
+  }
+  return includes;
+}
+
+/// The floor that a file or header belongs to: "core/beam", "sensitivity", …; empty if foreign.
+std::string floor_of(const std::string& path) {
+  for (const std::string top : {"sensitivity", "optimization", "studies", "cli"}) {
+    if (path.starts_with(top + "/")) return top;
+  }
+  if (!path.starts_with("core/")) return "";
+  return path.substr(0, path.find('/', 5));
+}
+
+/// Who may include whom (DESIGN §2), with everything that lies below.
+const std::map<std::string, Names>& permitted() {
+  static const std::map<std::string, Names> floors = [] {
+    std::map<std::string, Names> below = {
+        {"core/base", {}},
+        {"core/scene", {"core/base"}},
+        {"core/section", {"core/base"}},
+        {"core/beam", {"core/section"}},
+        {"core/frame", {"core/base"}},
+        {"core/system", {"core/base"}},
+        {"core/effects", {"core/beam", "core/frame", "core/system"}},
+        {"core/joints", {"core/frame", "core/system"}},
+        {"core/integration", {"core/system"}},
+        {"core/model",
+         {"core/scene", "core/beam", "core/frame", "core/integration", "core/effects",
+          "core/joints"}},
+        {"core/response", {"core/model", "core/scene", "core/beam", "core/integration"}},
+        {"sensitivity", {"core/response"}},
+        {"optimization", {"core/base"}},
+        {"studies", {"optimization", "sensitivity"}},
+        {"cli", {"studies"}}};
+    for (int i = 0; i < 12; ++i) {  // what lies below what lies below …
+      for (auto& [floor, names] : below) {
+        for (const std::string& name : Names(names))
+          names.insert(below[name].begin(), below[name].end());
+      }
+    }
+    return below;
+  }();
+  return floors;
+}
+
+/// The storey of optimization that knows mechanics: the target pleuel_design_problem.
+bool is_of_design_problem(const std::string& path) {
+  for (const char* name : {"design_problem.", "design_solve.", "peak_problem."}) {
+    if (path.starts_with(std::string("optimization/") + name)) return true;
+  }
+  return false;
+}
+
+TEST(Floors, StandOnlyOnThoseBelow) {
+  for (const auto& [file, folder, header] : read_includes()) {
+    const std::string from = floor_of(file), to = floor_of(header);
+    if (to.empty() || from == to) continue;
+    if (is_of_design_problem(file)) continue;  // its own law, below
+    ASSERT_TRUE(permitted().contains(from)) << file;
+    EXPECT_TRUE(permitted().at(from).contains(to)) << file << " includes " << header;
+  }
+}
+
+/// The generic optimizer can be taken out and used for anything.
+TEST(Floors, OnlyTheDesignProblemJoinsOptimizationAndMechanics) {
+  for (const auto& [file, folder, header] : read_includes()) {
+    if (folder != "optimization" || is_of_design_problem(file)) continue;
+    EXPECT_FALSE(header.starts_with("sensitivity/")) << file << " includes " << header;
+    EXPECT_TRUE(!header.starts_with("core/") || header.starts_with("core/base/"))
+        << file << " includes " << header;
+    EXPECT_FALSE(is_of_design_problem(header)) << file << " includes " << header;
+  }
+}
+
+/// One place knows both what the user asked for and how it moves.
+TEST(Floors, OnlyTheModelKnowsSceneEffectsAndJoints) {
+  std::map<std::string, Names> floors_of_folder;
+  for (const auto& [file, folder, header] : read_includes()) {
+    floors_of_folder[floor_of(file)].insert(floor_of(header));
+  }
+  for (const auto& [floor, included] : floors_of_folder) {
+    const bool knows_all = included.contains("core/scene") &&
+                           (included.contains("core/effects") || included.contains("core/joints"));
+    EXPECT_EQ(knows_all, floor == "core/model") << floor;
+  }
+}
+
+TEST(Floors, KeepForeignLibrariesBehindTheirDoors) {
+  struct Door {
+    const char *header, *file;
+  };
+  // A prefix of the header, a prefix of the only files that may include it.
+  for (const auto& [header, door] : {Door{"klu.h", "core/integration/linear_solver.cpp"},
+                                     {"umfpack", "core/integration/"},
+                                     {"nlopt.h", "optimization/nlopt_optimizer.cpp"},
+                                     {"Ip", "optimization/ipopt_optimizer.cpp"},
+                                     {"coin", "optimization/ipopt_optimizer.cpp"},
+                                     {"udunits2.h", "core/scene/units.cpp"}}) {
+    for (const auto& include : read_includes()) {
+      if (!include.header.starts_with(header)) continue;
+      EXPECT_TRUE(include.file.starts_with(door)) << include.file << " includes " << include.header;
+    }
+  }
+}
+
+/// JSON is for the scene's reader, and for what the command and the studies write.
+TEST(Floors, KeepJsonOutOfTheMechanics) {
+  for (const auto& [file, folder, header] : read_includes()) {
+    if (!header.starts_with("nlohmann/")) continue;
+    const std::string floor = floor_of(file);
+    EXPECT_TRUE(floor == "core/scene" || floor == "cli" || floor == "studies") << file;
+  }
+}
+
+TEST(Floors, AreReadAtAll) {
+  EXPECT_GT(read_includes().size(), 200U);
+}
+
+}  // namespace

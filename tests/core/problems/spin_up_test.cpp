@@ -1,0 +1,59 @@
+#include <gtest/gtest.h>
+
+#include "core/integration/simulate.hpp"
+#include "tests/support/sample_scenes.hpp"
+
+namespace {
+
+using namespace pleuel;
+
+/// The spin-up manoeuvre of Simo & Vu-Quoc 1987, data and numbers in BENCHMARKS §3 (chordwise
+/// linear model with centrifugal stiffening; about 1 % from the geometrically exact beam).
+struct SpinUp {
+  static constexpr double length = 10.0, ramp = 15.0, speed = 6.0;
+  Trajectory trajectory;
+  Eigen::VectorXd tip, stretch;
+
+  SpinUp(EffectChoice stiffening, double end_time) {
+    // EA = 2.8e7, EI = 1.4e4, ρA = 1.2: a square would be too stout; depth² = 12 EI/EA.
+    const double depth = std::sqrt(12 * 1.4e4 / 2.8e7);
+    Scene scene = swinging_beam(length, RectangleSection{1.0, depth}, 8);
+    scene.gravity = {0.0, 0.0, 0.0};
+    scene.materials[0] = {"steel", 2.8e7 / depth, 0.3, 1.2 / depth};
+    scene.joints[0].drive = RampToSpeedDrive{speed, ramp};
+    Model model = build_model(scene, {.geometric_stiffening = stiffening}, {}, {});
+    trajectory = simulate(model.mechanism, {end_time, 5e-3, 0.8});
+    tip = trajectory.q.row(model.bodies[0].coordinate(8, 1));
+    stretch = trajectory.q.row(model.bodies[0].coordinate(8, 0));
+  }
+  double tip_at(double time) const { return tip(static_cast<int>(std::round(time / 5e-3))); }
+};
+
+TEST(SpinUpBeam, BendsBackAndRecovers) {
+  const SpinUp run(EffectChoice::on, 20.0);
+  Eigen::Index peak = 0;
+  const double lowest = run.tip.minCoeff(&peak);
+  // The mean strain of an element is not the force of the linear model: 1 % of the peak.
+  EXPECT_NEAR(lowest, -0.574373, 0.0058);
+  EXPECT_NEAR(run.trajectory.time(peak), 6.762, 0.1);
+  EXPECT_NEAR(run.tip_at(3.0), -0.217286, 0.0058);
+  EXPECT_NEAR(run.tip_at(6.0), -0.544065, 0.0058);
+  EXPECT_NEAR(run.tip_at(7.5), -0.559522, 0.0058);
+  EXPECT_NEAR(run.tip_at(12.0), -0.150840, 0.0058);
+}
+
+/// Steady axial extension 5.142857e-4 = ρAΩ²L³/3EA (BENCHMARKS §3), averaged over the vibration.
+TEST(SpinUpBeam, IsStretchedByItsSteadySpeed) {
+  const SpinUp run(EffectChoice::on, 20.0);
+  const double mean = run.stretch.tail(900).mean();
+  EXPECT_NEAR(mean / 5.142857e-4, 1.0, 0.02);
+}
+
+/// −0.727 at 6 s, −71.9 at 10 s.
+TEST(SpinUpBeam, DivergesWithoutStiffening) {
+  const SpinUp run(EffectChoice::off, 10.0);
+  EXPECT_NEAR(run.tip_at(6.0) / -0.727, 1.0, 0.02);
+  EXPECT_NEAR(run.tip_at(10.0) / -71.9, 1.0, 0.05);
+}
+
+}  // namespace

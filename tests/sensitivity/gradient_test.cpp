@@ -1,0 +1,81 @@
+#include <gtest/gtest.h>
+
+#include "sensitivity/finite_difference.hpp"
+#include "sensitivity/gradients.hpp"
+#include "tests/support/problem_runs.hpp"
+
+namespace {
+
+using namespace pleuel;
+
+struct Case {
+  std::string problem;
+  std::vector<std::string> overrides;
+};
+
+class GradientsOfAProblem : public testing::TestWithParam<Case> {
+ protected:
+  GradientsOfAProblem() {
+    std::vector<std::string> overrides = {"/simulation/end_time=0.072 s",
+                                          "/simulation/step=1e-4 s"};
+    overrides.insert(overrides.end(), GetParam().overrides.begin(), GetParam().overrides.end());
+    problem_ = sample_problem(GetParam().problem, overrides);
+    problem_.simulation.newton_tolerance = 1e-12;
+    x_ = start_design(problem_);
+    // Away from the start, where the peaks of the rod's bow nearly tie.
+    for (Eigen::Index i = 0; i < x_.size(); ++i) x_(i) *= 0.75 - 0.03 * double(i % 3);
+  }
+  ProblemFile problem_;
+  Eigen::VectorXd x_;
+};
+
+/// V-curve of central differences and of their extrapolation: at the best step the error is ≤ 1e-7
+/// of the largest entry (per relative change of a variable) for peaks and ends, ≤ 1e-9 for mass and
+/// rms.
+TEST_P(GradientsOfAProblem, AreThoseOfCentralDifferencesAtTheBestStep) {
+  const auto analysis = analyze(problem_, x_);
+  const Eigen::MatrixXd direct = direct_gradients(*analysis) * x_.asDiagonal();
+  Eigen::VectorXd best = Eigen::VectorXd::Ones(direct.rows());
+  // Positions hardly depend on the sections: what counts there is the round-off of the mechanism's
+  // size (0.3 m) over the narrowest step.
+  const double round_off = 1e-16 * 0.3 / 2.5e-5;
+  const auto compare = [&](const Eigen::MatrixXd& differences) {
+    for (Eigen::Index i = 0; i < direct.rows(); ++i) {
+      const bool is_position =
+          problem_.responses[static_cast<std::size_t>(i)].type == ResponseType::position;
+      const double error = (differences.row(i) - direct.row(i)).lpNorm<Eigen::Infinity>() -
+                           (is_position ? round_off : 0.0);
+      best(i) = std::min(best(i), std::max(error, 0.0) / direct.row(i).lpNorm<Eigen::Infinity>());
+    }
+  };
+  for (double step : {1e-3, 5e-5}) {
+    const Eigen::MatrixXd wide = central_differences(problem_, x_, step) * x_.asDiagonal();
+    const Eigen::MatrixXd narrow = central_differences(problem_, x_, step / 2) * x_.asDiagonal();
+    compare(wide);
+    compare(narrow);
+    compare((4 * narrow - wide) / 3);
+  }
+  for (Eigen::Index i = 0; i < direct.rows(); ++i) {
+    const auto& response = problem_.responses[static_cast<std::size_t>(i)];
+    const auto& tie = analysis->reductions[static_cast<std::size_t>(i)].tie;
+    EXPECT_FALSE(tie.has_value()) << response.name << ": no kink may be here";
+    const bool is_smooth =
+        response.type == ResponseType::mass || response.over_time == OverTime::rms;
+    EXPECT_LE(best(i), is_smooth ? 1e-9 : 1e-7) << response.name;
+  }
+}
+
+std::string case_name(const testing::TestParamInfo<Case>& info) {
+  return info.param.problem;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Problems, GradientsOfAProblem,
+    testing::Values(Case{"slider_crank",
+                         {"/scene/bodies/crank/elements=3", "/scene/bodies/rod/elements=4"}},
+                    Case{"slider_crank_round",
+                         {"/scene/bodies/crank/elements=3", "/scene/bodies/rod/elements=4"}},
+                    Case{"slider_crank_tapered", {"/simulation/end_time=0.06 s"}}),
+    case_name);
+
+}  // namespace

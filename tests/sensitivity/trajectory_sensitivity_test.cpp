@@ -1,0 +1,104 @@
+#include <array>
+
+#include <gtest/gtest.h>
+
+#include "sensitivity/direct.hpp"
+#include "tests/support/differences.hpp"
+#include "tests/support/sample_scenes.hpp"
+
+namespace {
+
+using namespace pleuel;
+
+/// Large steps: the gradient is that of the scheme at any step, and differences of accelerations,
+/// which are Δq/h²β, have the less round-off.
+SimulationOptions short_run() {
+  SimulationOptions options{0.02, 2e-3, 0.8};
+  options.newton_tolerance = 1e-12;
+  return options;
+}
+
+/// q, v, a, λ of the last step.
+std::array<Eigen::VectorXd, 4> end_of(const Trajectory& trajectory) {
+  const int last = trajectory.steps();
+  return {trajectory.q.col(last), trajectory.v.col(last), trajectory.a.col(last),
+          trajectory.lambda.col(last)};
+}
+
+class DirectDifferentiation : public testing::TestWithParam<int> {
+ protected:
+  SampleScene sample_ = all_samples()[static_cast<std::size_t>(GetParam())];
+};
+
+/// The whole state after ten steps, every variable, against simulating anew: central differences at
+/// the best step of a V-curve. Fast modes change their phase quickly with a design, and
+/// accelerations have the round-off of positions over h². Measured at worst 1e-9, 3e-7, 1e-6, 2e-6;
+/// times ten.
+TEST_P(DirectDifferentiation, IsTheDifferenceOfNeighbouringTrajectories) {
+  Model model = sample_.build();
+  const Trajectory trajectory = simulate(model.mechanism, short_run());
+  StateSensitivity s;
+  differentiate(model.mechanism, trajectory,
+                [&](int step, const State&, const StateSensitivity& now) {
+                  if (step == trajectory.steps()) s = now;
+                });
+  const auto at = end_of(trajectory);
+  const std::array<double, 4> tolerance = {1e-8, 3e-6, 1e-5, 2e-5};
+  for (int j = 0; j < model.mechanism.system->variables(); ++j) {
+    const auto index = static_cast<std::size_t>(j);
+    const double x = sample_.design[index];
+    const std::array<Eigen::VectorXd, 4> found = {s.q.col(j), s.v.col(j), s.a.col(j),
+                                                  s.lambda.col(j)};
+    std::array<double, 4> best = {1.0, 1.0, 1.0, 1.0};
+    for (double relative : {1e-3, 1e-4, 1e-5}) {
+      const auto end_at = [&](double change) {
+        auto design = sample_.design;
+        design[index] += change;
+        Model neighbour = sample_.build_at(design);
+        return end_of(simulate(neighbour.mechanism, short_run()));
+      };
+      const double h = relative * std::abs(x);
+      const auto up = end_at(h), down = end_at(-h);
+      for (std::size_t i = 0; i < 4; ++i) {
+        const Eigen::VectorXd expected = (up[i] - down[i]) / (2 * h);
+        const double scale = std::max(expected.lpNorm<Eigen::Infinity>(),
+                                      at[i].lpNorm<Eigen::Infinity>() / std::abs(x));
+        const double error = (found[i] - expected).lpNorm<Eigen::Infinity>() / scale;
+        best[i] = std::min(best[i], error);
+      }
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_LE(best[i], tolerance[i])
+          << std::array{"q", "v", "a", "lambda"}[i] << ", variable " << sample_.variables[index];
+    }
+  }
+}
+
+/// The sensitivities stay on the differentiated constraints.
+TEST_P(DirectDifferentiation, KeepsTheDerivativeOfTheConstraintsZero) {
+  Model model = sample_.build();
+  System& system = *model.mechanism.system;
+  const Trajectory trajectory = simulate(model.mechanism, short_run());
+  System::Matrix matrix = system.make_matrix();
+  Eigen::MatrixXd columns;
+  differentiate(
+      model.mechanism, trajectory, [&](int, const State& state, const StateSensitivity& s) {
+        system.tangent(state, {.q = 1.0}, ConstraintLevel::position, matrix);
+        system.design_derivative(state, ConstraintLevel::position, columns);
+        const Eigen::MatrixXd phi_x = columns.bottomRows(system.multipliers());
+        const Eigen::MatrixXd total =
+            (matrix.leftCols(system.coordinates()) * s.q).bottomRows(system.multipliers()) + phi_x;
+        const Eigen::RowVectorXd scale =
+            phi_x.cwiseAbs().colwise().maxCoeff() + s.q.cwiseAbs().colwise().maxCoeff();
+        for (Eigen::Index j = 0; j < total.cols(); ++j) {
+          ASSERT_LE(total.col(j).lpNorm<Eigen::Infinity>(), 1e-12 * (scale(j) + 1e-12));
+        }
+      });
+}
+
+std::string sample_name(const testing::TestParamInfo<int>& info) {
+  return all_samples()[static_cast<std::size_t>(info.param)].name;
+}
+INSTANTIATE_TEST_SUITE_P(Samples, DirectDifferentiation, testing::Values(0, 1, 2), sample_name);
+
+}  // namespace

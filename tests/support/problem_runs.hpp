@@ -1,0 +1,26 @@
+#pragma once
+
+#include "core/response/response.hpp"
+#include "core/scene/problem_reader.hpp"
+
+/// A problem file of the repository, with overrides.
+inline pleuel::ProblemFile sample_problem(const std::string& name,
+                                          const std::vector<std::string>& overrides = {}) {
+  return pleuel::read_problem(std::string(PLEUEL_SOURCE_DIR "/problems/") + name + ".json",
+                              overrides);
+}
+
+inline Eigen::VectorXd values_of(const pleuel::Analysis& analysis) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(analysis.reductions.size()));
+  for (std::size_t i = 0; i < analysis.reductions.size(); ++i) {
+    values(static_cast<Eigen::Index>(i)) = analysis.reductions[i].value;
+  }
+  return values;
+}
+
+inline Eigen::Index response_index(const pleuel::ProblemFile& problem, const std::string& name) {
+  for (std::size_t i = 0; i < problem.responses.size(); ++i) {
+    if (problem.responses[i].name == name) return static_cast<Eigen::Index>(i);
+  }
+  throw std::runtime_error("no response " + name);
+}
