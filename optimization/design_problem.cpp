@@ -19,9 +19,9 @@ DesignProblem::DesignProblem(ProblemFile file) : file_(std::move(file)) {
   }
 }
 
-Eigen::Index DesignProblem::response_index(const std::string& name) const {
+std::size_t DesignProblem::response_index(const std::string& name) const {
   for (std::size_t i = 0; i < file_.responses.size(); ++i) {
-    if (file_.responses[i].name == name) return static_cast<Eigen::Index>(i);
+    if (file_.responses[i].name == name) return i;
   }
   throw InputError(fmt::format("there is no response \"{}\"", name));
 }
@@ -36,34 +36,55 @@ Analysis& DesignProblem::analysis_at(const Eigen::VectorXd& x) {
 }
 
 Evaluation DesignProblem::evaluate(const Eigen::VectorXd& x, Request request) {
-  Analysis& analysis = analysis_at(x);
-  const bool wants_gradients = request == Request::values_and_gradients;
-  Eigen::MatrixXd gradients;
-  if (wants_gradients) gradients = direct_gradients(analysis);
-  const auto value = [&](Eigen::Index i) {
-    return analysis.reductions[static_cast<std::size_t>(i)].value;
-  };
-  const auto rows = static_cast<Eigen::Index>(constraints_.size());
-  const Eigen::Index objective = response_index(file_.objective->response);
-  Evaluation evaluation;
-  evaluation.objective = value(objective);
-  evaluation.constraints.resize(rows);
-  if (wants_gradients) {
-    evaluation.objective_gradient = gradients.row(objective);
-    evaluation.constraint_jacobian = Eigen::MatrixXd::Zero(rows, x.size());
+  std::vector<ConstraintRow> rows;
+  for (std::size_t i = 0; i < constraints_.size(); ++i) rows.push_back({i, std::nullopt});
+  return evaluate_rows(x, request, rows);
+}
+
+double DesignProblem::row_value(const Analysis& analysis, const ConstraintRow& row) const {
+  if (row.peak) return row.peak->value;
+  const ConstraintSettings& constraint = file_.constraints[row.constraint];
+  if (!constraint.response.empty()) {
+    return analysis.reductions[response_index(constraint.response)].value;
   }
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    const ConstraintSettings& constraint = file_.constraints[static_cast<std::size_t>(i)];
+  double sum = 0.0;
+  for (const auto& [variable, factor] : constraint.linear) sum += factor * x_(variable);
+  return sum;
+}
+
+Evaluation DesignProblem::evaluate_rows(const Eigen::VectorXd& x, Request request,
+                                        const std::vector<ConstraintRow>& rows) {
+  Analysis& analysis = analysis_at(x);
+  const std::size_t objective = response_index(file_.objective->response);
+  const auto count = static_cast<Eigen::Index>(rows.size());
+  Evaluation evaluation;
+  evaluation.objective = analysis.reductions[objective].value;
+  evaluation.constraints.resize(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    evaluation.constraints(i) = row_value(analysis, rows[static_cast<std::size_t>(i)]);
+  }
+  if (request == Request::values) return evaluation;
+
+  std::vector<SampledValue> values{{objective, analysis.reductions[objective].samples}};
+  for (const ConstraintRow& row : rows) {
+    const std::string& name = file_.constraints[row.constraint].response;
+    if (name.empty()) continue;
+    const std::size_t response = response_index(name);
+    values.push_back(
+        {response, row.peak ? row.peak->samples : analysis.reductions[response].samples});
+  }
+  const Eigen::MatrixXd gradients = direct_gradients(analysis, values);
+  evaluation.objective_gradient = gradients.row(0);
+  evaluation.constraint_jacobian = Eigen::MatrixXd::Zero(count, x.size());
+  Eigen::Index next = 1;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto& constraint = file_.constraints[rows[static_cast<std::size_t>(i)].constraint];
     if (!constraint.response.empty()) {
-      const Eigen::Index response = response_index(constraint.response);
-      evaluation.constraints(i) = value(response);
-      if (wants_gradients) evaluation.constraint_jacobian.row(i) = gradients.row(response);
-      continue;
+      evaluation.constraint_jacobian.row(i) = gradients.row(next++);
     }
-    Eigen::VectorXd coefficients = Eigen::VectorXd::Zero(x.size());
-    for (const auto& [variable, factor] : constraint.linear) coefficients(variable) += factor;
-    evaluation.constraints(i) = coefficients.dot(x);
-    if (wants_gradients) evaluation.constraint_jacobian.row(i) = coefficients;
+    for (const auto& [variable, factor] : constraint.linear) {
+      evaluation.constraint_jacobian(i, variable) += factor;
+    }
   }
   return evaluation;
 }

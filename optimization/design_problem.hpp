@@ -5,6 +5,12 @@
 
 namespace pleuel {
 
+/// A constraint of the file, or one peak of the response that it limits.
+struct ConstraintRow {
+  std::size_t constraint;
+  std::optional<Reduction> peak;
+};
+
 /// The optimization problem that a problem file describes: responses of the simulated mechanism as
 /// objective and constraints, gradients by direct differentiation.
 class DesignProblem : public Problem {
@@ -19,11 +25,22 @@ class DesignProblem : public Problem {
   /// The simulation of the design seen last is kept, so that its gradients cost no second one.
   Evaluation evaluate(const Eigen::VectorXd& x, Request request) override;
 
+  /// The same with other rows in place of the constraints; one run of direct differentiation for
+  /// all.
+  Evaluation evaluate_rows(const Eigen::VectorXd& x, Request request,
+                           const std::vector<ConstraintRow>& rows);
+
   const ProblemFile& file() const { return file_; }
 
- private:
+  /// The simulation of a design; kept until another one is asked for.
+  /// @throws SimulationError
   Analysis& analysis_at(const Eigen::VectorXd& x);
-  Eigen::Index response_index(const std::string& name) const;
+
+  /// Index of a response of the file. @throws InputError if there is none of this name
+  std::size_t response_index(const std::string& name) const;
+
+ private:
+  double row_value(const Analysis& analysis, const ConstraintRow& row) const;
 
   ProblemFile file_;
   std::vector<Variable> variables_;

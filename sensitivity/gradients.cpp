@@ -57,6 +57,11 @@ Eigen::MatrixXd direct_gradients(Analysis& analysis, const std::vector<SampledVa
   const System& system = *analysis.model.mechanism.system;
   Eigen::MatrixXd result =
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(values.size()), system.variables());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Response& response = analysis.responses[values[i].response];
+    if (!response.signal)
+      result.row(static_cast<Eigen::Index>(i)) = response.constant_x.transpose();
+  }
   const auto uses = samples_by_step(values);
   if (uses.empty() || system.variables() == 0) return result;
   SignalGradient gradient(system.coordinates(), system.multipliers(), system.variables());
@@ -83,13 +88,7 @@ Eigen::MatrixXd direct_gradients(Analysis& analysis) {
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     values.push_back({i, analysis.reductions[i].samples});
   }
-  Eigen::MatrixXd result = direct_gradients(analysis, values);
-  for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
-    const Response& response = analysis.responses[i];
-    if (!response.signal)
-      result.row(static_cast<Eigen::Index>(i)) = response.constant_x.transpose();
-  }
-  return result;
+  return direct_gradients(analysis, values);
 }
 
 Eigen::MatrixXd gradients(const ProblemFile& problem, const Eigen::VectorXd& x, Analysis& analysis,

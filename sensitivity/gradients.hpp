@@ -30,7 +30,8 @@ Eigen::MatrixXd gradients(const ProblemFile& problem, const Eigen::VectorXd& x, 
 /// By direct differentiation, from the analysis alone.
 Eigen::MatrixXd direct_gradients(Analysis& analysis);
 
-/// Something whose gradient is asked for: Σ weight · (channel at step) of a response's signal.
+/// Something whose gradient is asked for: Σ weight · (channel at step) of a response's signal, or a
+/// response that is constant in time (no samples).
 struct SampledValue {
   std::size_t response;
   std::vector<Sample> samples;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 namespace pleuel {
 
@@ -32,12 +34,17 @@ Peak interpolate(double a, double b, double c) {
   return peak;
 }
 
-/// All local maxima of sign · y that can reach the highest sample.
-void add_peaks(const Eigen::VectorXd& time, const Eigen::MatrixXd& values, double sign,
-               double threshold, std::vector<Peak>& peaks) {
+/// Steps first … last of a history.
+struct Range {
+  int first, last;
+};
+
+/// All local maxima of sign · y in a range that can reach the highest sample.
+void add_peaks(const Eigen::VectorXd& time, const Eigen::MatrixXd& values, const Range& range,
+               double sign, double threshold, std::vector<Peak>& peaks) {
   const auto last = static_cast<int>(values.cols()) - 1;
   const double h = last > 0 ? time(1) - time(0) : 0.0;
-  for (int step = 0; step <= last; ++step) {
+  for (int step = range.first; step <= range.last; ++step) {
     for (int channel = 0; channel < values.rows(); ++channel) {
       const double b = sign * values(channel, step);
       if (b < threshold) continue;
@@ -82,24 +89,53 @@ void note_ties(const std::vector<Peak>& peaks, const Peak& best, Reduction& redu
   if (!reduction.ties.empty()) reduction.tie = reduction.ties.front();
 }
 
-Reduction reduce_peaks(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
-                       const std::vector<double>& signs) {
-  double highest = -std::numeric_limits<double>::infinity();
-  for (double sign : signs) highest = std::max(highest, (sign * values).maxCoeff());
-  const double threshold = highest - 0.05 * std::abs(highest);
-  std::vector<Peak> peaks;
-  for (double sign : signs) add_peaks(time, values, sign, threshold, peaks);
+/// The highest sample of a range, where no local maximum lies in it.
+Reduction highest_sample(const Eigen::MatrixXd& values, const Range& range,
+                         const std::vector<double>& signs) {
   Reduction reduction;
-  if (peaks.empty()) {  // a constant history
-    reduction.value = values(0, 0);
-    reduction.samples = {{0, 0, 1.0}};
-    return reduction;
+  reduction.value = -std::numeric_limits<double>::infinity();
+  for (double sign : signs) {
+    for (int step = range.first; step <= range.last; ++step) {
+      for (int channel = 0; channel < values.rows(); ++channel) {
+        const double height = sign * values(channel, step);
+        if (height <= reduction.value) continue;
+        reduction.value = height;
+        reduction.samples = {{step, channel, sign}};
+      }
+    }
   }
+  return reduction;
+}
+
+Reduction reduce_peaks(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
+                       const Range& range, const std::vector<double>& signs) {
+  Reduction reduction = highest_sample(values, range, signs);
+  const double threshold = reduction.value - 0.05 * std::abs(reduction.value);
+  std::vector<Peak> peaks;
+  for (double sign : signs) add_peaks(time, values, range, sign, threshold, peaks);
   const auto best = std::max_element(
       peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) { return a.height < b.height; });
+  // At the edge of a window the highest sample may not be a peak.
+  if (best == peaks.end() || best->height < reduction.value) return reduction;
   reduction.value = best->height;
   reduction.samples = samples_of(*best);
   note_ties(peaks, *best, reduction);
+  return reduction;
+}
+
+/// The peak in a range: max, min or max-abs.
+Reduction reduce_range(OverTime kind, const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
+                       const Range& range) {
+  if (kind == OverTime::max) return reduce_peaks(time, values, range, {1.0});
+  if (kind == OverTime::max_abs) return reduce_peaks(time, values, range, {1.0, -1.0});
+  Reduction reduction = reduce_peaks(time, values, range, {-1.0});
+  reduction.value = -reduction.value;
+  const auto negate = [](std::vector<Sample>& samples) {
+    for (Sample& sample : samples) sample.weight = -sample.weight;
+  };
+  negate(reduction.samples);
+  for (PeakTie& tie : reduction.ties) negate(tie.other_samples);
+  if (reduction.tie) negate(reduction.tie->other_samples);
   return reduction;
 }
 
@@ -141,32 +177,37 @@ Reduction reduce_rms(const Eigen::VectorXd& time, const Eigen::MatrixXd& values)
 
 }  // namespace
 
+bool is_peak(OverTime kind) {
+  return kind == OverTime::max || kind == OverTime::min || kind == OverTime::max_abs;
+}
+
 Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::MatrixXd& values) {
   const Eigen::Index last = time.size() - 1;
+  if (is_peak(kind)) return reduce_range(kind, time, values, {0, static_cast<int>(last)});
   switch (kind) {
-    case OverTime::max:
-      return reduce_peaks(time, values, {1.0});
-    case OverTime::max_abs:
-      return reduce_peaks(time, values, {1.0, -1.0});
-    case OverTime::min: {
-      Reduction reduction = reduce_peaks(time, values, {-1.0});
-      reduction.value = -reduction.value;
-      for (Sample& sample : reduction.samples) sample.weight = -sample.weight;
-      for (PeakTie& tie : reduction.ties) {
-        for (Sample& sample : tie.other_samples) sample.weight = -sample.weight;
-      }
-      return reduction;
-    }
     case OverTime::rms:
       return reduce_rms(time, values);
     case OverTime::mean:
       return reduce_linear(quadrature(time) / (time(last) - time(0)), values);
     case OverTime::integral:
       return reduce_linear(quadrature(time), values);
-    case OverTime::final:
-      break;
+    default:
+      return reduce_linear(Eigen::VectorXd::Unit(time.size(), last), values);
   }
-  return reduce_linear(Eigen::VectorXd::Unit(time.size(), last), values);
+}
+
+std::vector<Reduction> reduce_windows(OverTime kind, const Eigen::VectorXd& time,
+                                      const Eigen::MatrixXd& values, int windows) {
+  assert(is_peak(kind));
+  const auto steps = static_cast<int>(time.size());
+  const int count = std::min(windows, steps);
+  std::vector<Reduction> reductions;
+  for (int i = 0; i < count; ++i) {
+    const int first = static_cast<int>(std::int64_t{steps} * i / count);
+    const int last = static_cast<int>(std::int64_t{steps} * (i + 1) / count) - 1;
+    reductions.push_back(reduce_range(kind, time, values, {first, last}));
+  }
+  return reductions;
 }
 
 }  // namespace pleuel

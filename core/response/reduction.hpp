@@ -41,4 +41,14 @@ struct Reduction {
 /// @param values  channels × (steps + 1)
 Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::MatrixXd& values);
 
+/// Whether it is the height of a peak: max, min, max-abs.
+bool is_peak(OverTime kind);
+
+/// The peak of each of `windows` equal stretches of time. The reduction of the whole time is the
+/// highest of them (the lowest for min); where two of them tie it has a kink, while each for itself
+/// is smooth.
+/// @param kind  for which is_peak() holds
+std::vector<Reduction> reduce_windows(OverTime kind, const Eigen::VectorXd& time,
+                                      const Eigen::MatrixXd& values, int windows);
+
 }  // namespace pleuel
