@@ -22,6 +22,7 @@ constexpr double agreement = 1e-6;
 struct Findings {
   std::unique_ptr<Analysis> analysis;
   double simulation_seconds = 0.0, gradient_seconds = 0.0;
+  Ties ties;
   std::vector<DerivativeCheck> derivatives;  ///< empty without variables
 };
 
@@ -31,6 +32,7 @@ Findings examine(const ProblemFile& problem) {
   const Stopwatch simulation;
   findings.analysis = analyze(problem, x);
   findings.simulation_seconds = simulation.seconds();
+  findings.ties = find_ties(*findings.analysis);
   if (problem.variables.empty() || problem.responses.empty()) return findings;
   const Stopwatch gradient;
   direct_gradients(*findings.analysis);
@@ -41,10 +43,11 @@ Findings examine(const ProblemFile& problem) {
   return findings;
 }
 
-/// "agrees", "kink" where two peaks tie, or "differs"
+/// "agrees", "kink" where two unlike peaks tie, or "differs"
 std::string verdict(const Findings& findings, std::size_t response) {
   if (findings.derivatives[response].error <= agreement) return "agrees";
-  return findings.analysis->reductions[response].tie ? "kink" : "differs";
+  const std::optional<Tie>& tie = findings.ties[response];
+  return tie && tie->is_kink() ? "kink" : "differs";
 }
 
 Json responses_with_verdicts(const Findings& findings) {
@@ -55,9 +58,10 @@ Json responses_with_verdicts(const Findings& findings) {
                                {"error", findings.derivatives[i].error},
                                {"difference_step", findings.derivatives[i].step}};
   }
-  for (std::size_t i = 0; i < findings.analysis->responses.size(); ++i) {
-    if (!findings.analysis->reductions[i].tie) continue;
-    document[findings.analysis->responses[i].name]["tie"] = tie_document(*findings.analysis, i);
+  for (std::size_t i = 0; i < findings.ties.size(); ++i) {
+    if (!findings.ties[i]) continue;
+    const Response& response = findings.analysis->responses[i];
+    document[response.name]["tie"] = tie_document(*findings.ties[i], response);
   }
   return document;
 }
@@ -88,11 +92,10 @@ std::string derivatives_text(const ProblemFile& problem, const Findings& finding
     const double error = findings.derivatives[i].error;
     table.add_row({problem.responses[i].name,
                    significant(unit.shown(findings.analysis->reductions[i].value)), unit.name,
-                   error == 0.0
-                       ? "agrees exactly"
-                       : fmt::format("{} {} {}{}", word == "agrees" ? "agrees" : "DIFFERS",
-                                     word == "agrees" ? "to" : "by", magnitude(error),
-                                     word == "kink" ? ": a kink, see the tie below" : "")});
+                   error == 0.0 ? "agrees exactly"
+                                : fmt::format("{} {} {}{}", word == "agrees" ? "agrees" : "DIFFERS",
+                                              word == "agrees" ? "to" : "by", magnitude(error),
+                                              word == "kink" ? ": a kink, see below" : "")});
   }
   return "Responses at the start; direct differentiation against central differences (relative)\n" +
          table.text();
@@ -118,7 +121,7 @@ std::string make_text(const ProblemFile& problem, const Findings& findings) {
   if (!problem.variables.empty()) text += "\n" + variables_text(problem);
   text += "\n" + (findings.derivatives.empty() ? responses_text(problem, analysis)
                                                : derivatives_text(problem, findings));
-  return text + ties_text(analysis) + time_text(problem, findings);
+  return text + ties_text(findings.ties, analysis) + time_text(problem, findings);
 }
 
 }  // namespace

@@ -54,16 +54,24 @@ Json gradients_document(const ProblemFile& problem, const std::vector<MethodResu
   return document;
 }
 
-Json make_document(const ProblemFile& problem, const Analysis& analysis,
-                   const std::vector<MethodResult>& results, double simulation_seconds) {
+struct Findings {
+  std::unique_ptr<Analysis> analysis;
+  double simulation_seconds = 0.0;
+  std::vector<MethodResult> results;
+  Ties ties;
+};
+
+Json make_document(const ProblemFile& problem, const Findings& findings) {
+  const Analysis& analysis = *findings.analysis;
   Json document = {{"responses", responses_document(analysis)},
-                   {"seconds", {{"simulate", simulation_seconds}}}};
+                   {"seconds", {{"simulate", findings.simulation_seconds}}}};
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     Json& response = document["responses"][analysis.responses[i].name];
-    response["gradients"] = gradients_document(problem, results, static_cast<Eigen::Index>(i));
-    if (analysis.reductions[i].tie) response["tie"] = tie_document(analysis, i);
+    response["gradients"] =
+        gradients_document(problem, findings.results, static_cast<Eigen::Index>(i));
+    if (findings.ties[i]) response["tie"] = tie_document(*findings.ties[i], analysis.responses[i]);
   }
-  for (const MethodResult& result : results) {
+  for (const MethodResult& result : findings.results) {
     document["seconds"][to_string(result.method)] = result.seconds;
   }
   return document;
@@ -126,15 +134,17 @@ Outcome run_gradient(const Arguments& arguments) {
   if (problem.variables.empty()) {
     throw InputError("/variables is missing: there is nothing to differentiate for");
   }
+  Findings findings;
   const Stopwatch stopwatch;
-  const auto analysis = analyze(problem, start_design(problem));
-  const double simulation_seconds = stopwatch.seconds();
-  const std::vector<MethodResult> results =
-      compute(problem, *analysis, methods, {arguments.difference_step});
-  return {ExitCode::done, make_document(problem, *analysis, results, simulation_seconds),
+  findings.analysis = analyze(problem, start_design(problem));
+  findings.simulation_seconds = stopwatch.seconds();
+  findings.results = compute(problem, *findings.analysis, methods, {arguments.difference_step});
+  findings.ties = find_ties(*findings.analysis);
+  return {ExitCode::done, make_document(problem, findings),
           fmt::format("Gradients at the start of {}\n\n{}{}{}", problem.name,
-                      gradients_text(problem, results), ties_text(*analysis),
-                      seconds_text(results, simulation_seconds))};
+                      gradients_text(problem, findings.results),
+                      ties_text(findings.ties, *findings.analysis),
+                      seconds_text(findings.results, findings.simulation_seconds))};
 }
 
 }  // namespace pleuel

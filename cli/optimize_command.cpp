@@ -9,6 +9,7 @@
 #include "cli/solve_settings.hpp"
 #include "cli/trajectory_csv.hpp"
 #include "optimization/design_problem.hpp"
+#include "optimization/design_solve.hpp"
 
 namespace pleuel {
 
@@ -38,7 +39,7 @@ Result solve_visibly(DesignProblem& problem, const SolveOptions& options,
              problem.constraints().size(), options.backend);
   HistoryCsv history(folder / "history.csv", problem);
   IterationLines lines(out, problem.file());
-  return solve(problem, options, [&](const EvaluationRecord& record) {
+  return solve_design(problem, options, [&](const EvaluationRecord& record) {
     history.add(record);
     lines.see(record);
   });

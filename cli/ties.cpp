@@ -2,33 +2,66 @@
 
 #include <fmt/format.h>
 
+#include "sensitivity/kinks.hpp"
+
 namespace pleuel {
 
-std::string describe_tie(const Analysis& analysis, std::size_t response) {
-  const PeakTie& tie = *analysis.reductions[response].tie;
-  const Signal& signal = *analysis.responses[response].signal;
-  return fmt::format("peaks within {:.2g} %: at {:.5g} s ({}) and at {:.5g} s ({})", 100 * tie.gap,
-                     tie.time, signal.describe(tie.channel), tie.other_time,
-                     signal.describe(tie.other_channel));
+namespace {
+
+std::string describe(const Tie& tie, const Response& response) {
+  const PeakTie& peaks = tie.peaks;
+  return fmt::format(
+      "{}: peaks within {:.2g} %, at {:.5g} s ({}) and at {:.5g} s ({}); gradients differ by "
+      "{:.2g} %",
+      response.name, 100 * peaks.gap, peaks.time, response.signal->describe(peaks.channel),
+      peaks.other_time, response.signal->describe(peaks.other_channel), 100 * *tie.kink);
 }
 
-Json tie_document(const Analysis& analysis, std::size_t response) {
-  const PeakTie& tie = *analysis.reductions[response].tie;
-  const Signal& signal = *analysis.responses[response].signal;
-  return {{"times", {tie.time, tie.other_time}},
-          {"places", {signal.describe(tie.channel), signal.describe(tie.other_channel)}},
-          {"gap", tie.gap}};
-}
+}  // namespace
 
-std::string ties_text(const Analysis& analysis) {
-  std::string text;
-  for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
-    if (!analysis.reductions[i].tie) continue;
-    text += fmt::format("  {}: {}\n", analysis.responses[i].name, describe_tie(analysis, i));
+Ties find_ties(Analysis& analysis) {
+  Ties ties(analysis.responses.size());
+  for (std::size_t i = 0; i < ties.size(); ++i) {
+    const auto& tie = analysis.reductions[i].tie;
+    if (tie) ties[i] = Tie{*tie, std::nullopt};
   }
-  if (text.empty()) return text;
-  return "\nTies: two peaks of nearly the same height; the gradient is that of the higher one\n" +
-         text;
+  for (const Kink& kink : find_kinks(analysis)) {
+    std::optional<Tie>& tie = ties[kink.response];
+    if (!tie || !tie->is_kink()) tie = Tie{kink.tie, kink.difference};
+  }
+  return ties;
+}
+
+Json tie_document(const Tie& tie, const Response& response) {
+  const Signal& signal = *response.signal;
+  return {
+      {"times", {tie.peaks.time, tie.peaks.other_time}},
+      {"places", {signal.describe(tie.peaks.channel), signal.describe(tie.peaks.other_channel)}},
+      {"gap", tie.peaks.gap},
+      {"is_kink", tie.is_kink()}};
+}
+
+std::string ties_text(const Ties& ties, const Analysis& analysis) {
+  std::string kinks;
+  std::vector<std::string> harmless;
+  for (std::size_t i = 0; i < ties.size(); ++i) {
+    if (!ties[i]) continue;
+    const Response& response = analysis.responses[i];
+    if (ties[i]->is_kink()) {
+      kinks += fmt::format("  {}\n", describe(*ties[i], response));
+    } else {
+      harmless.push_back(response.name);
+    }
+  }
+  std::string text;
+  if (!kinks.empty()) {
+    text += "\nKinks: two peaks tie, and the gradient is that of the higher one only\n" + kinks;
+  }
+  if (!harmless.empty()) {
+    text += fmt::format("\nHarmless ties (equal peaks that move alike with the design): {}\n",
+                        fmt::join(harmless, ", "));
+  }
+  return text;
 }
 
 }  // namespace pleuel

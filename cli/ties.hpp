@@ -1,21 +1,33 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/json.hpp"
 #include "core/response/response.hpp"
 
-/// Maxima that two peaks share: there the response has a kink, and gradients follow one peak only.
+/// Maxima that two peaks share. If the peaks move alike with the design that is no harm; if not,
+/// the response has a kink there, and its gradient is that of the higher peak only.
 namespace pleuel {
 
-/// "two peaks within 0.02 %: at 0.0848 s (element 1) and at 0.0534 s (element 1)"
-/// @param response  one whose reduction has a tie
-std::string describe_tie(const Analysis& analysis, std::size_t response);
+struct Tie {
+  PeakTie peaks;
+  std::optional<double> kink;  ///< relative difference of the two gradients, if they differ
 
-/// {"times": [s, s], "places": ["…", "…"], "gap": relative}
-Json tie_document(const Analysis& analysis, std::size_t response);
+  bool is_kink() const { return kink.has_value(); }
+};
 
-/// A line for each tie, or nothing.
-std::string ties_text(const Analysis& analysis);
+/// The tie of each response, if it has one; a kink before a harmless one.
+using Ties = std::vector<std::optional<Tie>>;
+
+/// Costs one run of direct differentiation if there is any tie.
+Ties find_ties(Analysis& analysis);
+
+/// {"times": [s, s], "places": ["…", "…"], "gap", "is_kink"}
+Json tie_document(const Tie& tie, const Response& response);
+
+/// A line for each kink, and one for all harmless ties; or nothing.
+std::string ties_text(const Ties& ties, const Analysis& analysis);
 
 }  // namespace pleuel
