@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "optimization/design_problem.hpp"
+#include "optimization/design_solve.hpp"
 
 namespace pleuel {
 
@@ -41,7 +42,7 @@ ParetoPoint find_point(const ProblemFile& problem, Eigen::Index row, double limi
   DesignProblem design_problem(problem);
   ParetoPoint point;
   point.limit = limit;
-  point.result = solve(design_problem, options);
+  point.result = solve_design(design_problem, options);
   if (point.has_design()) {
     point.limited_value = point.result.evaluation.constraints(row);
     point.multiplier = point.result.constraint_multipliers(row);
