@@ -56,7 +56,8 @@ std::string problem(const std::string& name) {
 std::vector<std::string> quick() {
   return {"--set", "/simulation/step=0.2 ms",
           "--set", "/simulation/end_time=20 ms",
-          "--set", "/scene/joints/bearing/drive/ramp=20 ms"};
+          "--set", "/scene/joints/bearing/drive/ramp=20 ms",
+          "--set", "/optimizer/backend=nlopt-mma"};
 }
 
 std::vector<std::string> joined(std::vector<std::string> words,

@@ -38,7 +38,7 @@ ProgramRun run_program(const std::filesystem::path& folder, const std::vector<st
 std::string problem(const std::string& name);
 
 /// Overrides that make a simulation of the slider-crank problems take some milliseconds: coarse
-/// steps, and the ramp only.
+/// steps, and the ramp only; with the most robust of the backends.
 std::vector<std::string> quick();
 
 std::vector<std::string> joined(std::vector<std::string> words,

@@ -4,6 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "optimization/design_problem.hpp"
+#include "optimization/design_solve.hpp"
 #include "tests/studies/quick_problem.hpp"
 
 namespace pleuel {
@@ -40,7 +41,7 @@ TEST(Pareto, FirstPointIsTheOptimumOfTheProblemWithThatLimit) {
   DesignProblem design_problem(limited);
   SolveOptions options;
   options.backend = problem.optimizer.backend;
-  const Result alone = solve(design_problem, options);
+  const Result alone = solve_design(design_problem, options);
   EXPECT_DOUBLE_EQ(front(problem).front().result.evaluation.objective, alone.evaluation.objective);
 }
 

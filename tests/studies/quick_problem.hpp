@@ -7,10 +7,12 @@
 
 namespace pleuel::testing {
 
-/// The round slider-crank with coarse steps and only its ramp: a simulation takes milliseconds.
+/// The round slider-crank with coarse steps and only its ramp: a simulation takes milliseconds,
+/// and the most robust of the backends needs few of them.
 inline ProblemFile quick_problem(const std::vector<std::string>& more = {}) {
   std::vector<std::string> overrides = {"/simulation/step=0.2 ms", "/simulation/end_time=20 ms",
-                                        "/scene/joints/bearing/drive/ramp=20 ms"};
+                                        "/scene/joints/bearing/drive/ramp=20 ms",
+                                        "/optimizer/backend=nlopt-mma"};
   overrides.insert(overrides.end(), more.begin(), more.end());
   return read_problem(std::string(PLEUEL_SOURCE_DIR) + "/problems/slider_crank_round.json",
                       overrides);
