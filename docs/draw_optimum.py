@@ -61,11 +61,11 @@ def main():
     def heights(key):
         return [variables[f"{name}_height"][key] for name in ("crank", "rod")]
 
-    print('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1000 310">')
-    print('<rect width="1000" height="310" fill="#fff"/>')
+    print('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1110 310">')
+    print('<rect width="1110" height="310" fill="#fff"/>')
     objective = result["objective"]
     print(mechanism(heights("start"), objective["start"], "start", (70, 230)))
-    print(mechanism(heights("value"), objective["value"], "optimum", (570, 230)))
+    print(mechanism(heights("value"), objective["value"], "optimum", (640, 230)))
     print("</svg>")
 
 

@@ -119,7 +119,7 @@ void FloatingFrameBody::set_rigid_columns(const Weights& weights) {
           weights.q * 2.0 * euler_rate_matrix<double>(unit).transpose() * p.moment;
     }
     auto column = elastic_rigid_.col(j);
-    column = invariants_.shape.transpose() * d_a0;
+    column.noalias() = invariants_.shape.transpose() * d_a0;
     if (!turns) continue;
     for (int r = 0; r < 3; ++r) {
       for (int c = 0; c < 3; ++c) {

@@ -19,6 +19,17 @@ void factorize_or_throw(LinearSolver& solver, const System::Matrix& matrix, cons
       what));
 }
 
+/// Assembly moves bodies; if it must deform them by more than a hundredth, the joints do not fit.
+void check_strain(const Mechanism& mechanism, const Eigen::VectorXd& q) {
+  // The scale of elastic coordinates is a thousandth of the mechanism's size.
+  const double moved =
+      (q - mechanism.guess.q).cwiseQuotient(mechanism.scale).lpNorm<Eigen::Infinity>();
+  if (moved <= 10.0) return;
+  throw SimulationError(
+      "the mechanism cannot be assembled without straining its bodies; check the points of the "
+      "joints and the lengths of the bodies");
+}
+
 void assemble_positions(Mechanism& mechanism, LinearSolver& solver, System::Matrix& matrix,
                         InitialState& initial) {
   System& system = *mechanism.system;
@@ -38,6 +49,7 @@ void assemble_positions(Mechanism& mechanism, LinearSolver& solver, System::Matr
     if (!at.q.allFinite()) break;
     const double correction = step.head(n).cwiseQuotient(mechanism.scale).lpNorm<Eigen::Infinity>();
     if (violation < 1e-10 && correction < 1e-10) {
+      check_strain(mechanism, at.q);
       initial.state.q = at.q;
       initial.position_multipliers = step.tail(m);
       return;
@@ -45,8 +57,7 @@ void assemble_positions(Mechanism& mechanism, LinearSolver& solver, System::Matr
   }
   throw SimulationError(
       "the mechanism cannot be assembled: its joints cannot all be closed near the given "
-      "positions; "
-      "check the points of the joints and the lengths of the bodies");
+      "positions; check the points of the joints and the lengths of the bodies");
 }
 
 void project_velocities(Mechanism& mechanism, LinearSolver& solver, System::Matrix& matrix,

@@ -23,13 +23,14 @@ enum class EquationKind {
   on_plane,       ///< d · (P₂ − P₁) = 0, d attached to the first marker
   perpendicular,  ///< d · d' = 0, d attached to the first, d' to the second marker
   drive,          ///< d'·(cos f(t) d_b − sin f(t) d_a) = 0: d' has turned by f from d_a to d_b
-  planar_angle,   ///< φ₂ − φ₁ = offset (+ f(t) with a drive), about the normal of the plane
+  planar_angle,  ///< ±(φ₂ − φ₁ − offset) = f(t) (0 without a drive), about ± the plane's normal
 };
 
 struct JointEquation {
   EquationKind kind;
   Eigen::Vector3d fixed = Eigen::Vector3d::Zero();  ///< e
   int first = -1, second = -1, third = -1;          ///< directions d (or d_a), d', d_b
+  double sense = 1.0;  ///< of planar_angle: −1 if the joint's axis is opposite to the normal
 };
 
 /// The numbers of a joint, which may depend on the design.

@@ -171,7 +171,7 @@ void JointLinearization::evaluate(const JointEquation& equation) {
                           direction(1, local(equation.second)));
       break;
     case EquationKind::planar_angle:
-      evaluate_planar_angle();
+      evaluate_planar_angle(equation.sense);
       break;
   }
 }
@@ -214,13 +214,13 @@ Vector3d JointLinearization::driven_direction(const JointEquation& equation) con
          std::sin(drive_.angle) * data_.directions[static_cast<std::size_t>(equation.first)];
 }
 
-void JointLinearization::evaluate_planar_angle() {
-  value_ = -data_.offset - drive_.angle;
+void JointLinearization::evaluate_planar_angle(double sense) {
+  value_ = -sense * data_.offset - drive_.angle;
   for (std::size_t m = 0; m < 2; ++m) {
     const MarkerState& state = markers_[m];
     const Marker& marker = topology_.markers[m];
     if (marker.frame.rotations() == 0) continue;
-    const double sign = m == 0 ? -1.0 : 1.0;
+    const double sign = m == 0 ? -sense : sense;
     value_ += sign * (state.angle + state.normal.dot(state.psi));
     gradient_(state.start + marker.frame.translations()) = sign;
     int next = state.start + state.frame;

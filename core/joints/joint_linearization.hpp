@@ -64,7 +64,7 @@ class JointLinearization {
   void evaluate_coincident(const Eigen::Vector3d& e);
   void evaluate_on_plane(const JointEquation& equation);
   void evaluate_directions(const Attached& first, const Attached& second);
-  void evaluate_planar_angle();
+  void evaluate_planar_angle(double sense);
 
   const JointTopology& topology_;
   const JointData<double>& data_;

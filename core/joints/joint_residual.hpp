@@ -173,7 +173,7 @@ class JointEvaluation {
       case EquationKind::drive:
         return directions(level, lambda, driven_direction(equation), equation.second);
       default:
-        return planar_angle(level, lambda);
+        return planar_angle(equation, level, lambda);
     }
   }
 
@@ -208,12 +208,12 @@ class JointEvaluation {
   }
 
   /// φ + nᵀψ of a body that moves in a plane; zero for the ground. n is the normal in local axes.
-  Scalar planar_angle(ConstraintLevel level, const Scalar& lambda) {
+  Scalar planar_angle(const JointEquation& equation, ConstraintLevel level, const Scalar& lambda) {
     Scalar difference(0);
     for (std::size_t m = 0; m < 2; ++m) {
       const BodyFrame& frame = topology_.markers[m].frame;
       if (frame.rotations() == 0) continue;
-      const double sign = m == 0 ? -1.0 : 1.0;
+      const double sign = m == 0 ? -equation.sense : equation.sense;
       const auto order = static_cast<std::size_t>(level);
       const Vector3<Scalar> normal = markers_[m].frame.G.col(0);
       const Scalar elastic = normal.dot(markers_[m].psi[order]);
@@ -223,7 +223,7 @@ class JointEvaluation {
     }
     switch (level) {
       case ConstraintLevel::position:
-        return difference - data_.offset - drive_.angle;
+        return difference - equation.sense * data_.offset - drive_.angle;
       case ConstraintLevel::velocity:
         return difference - drive_.rate;
       default:

@@ -54,9 +54,6 @@ class ModelBuilder {
                  design, std::nullopt, resolve_point(scene.gravity, design)} {}
 
   Model build() {
-    for (const Number& number : context_.scene.gravity) {
-      if (number.is_bound()) throw InputError("/scene/gravity cannot be bound to a variable");
-    }
     decide_motion();
     for (const Body& body : context_.scene.bodies) {
       model_.bodies.push_back(make_body_model(body, context_, coordinates_));

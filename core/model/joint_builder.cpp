@@ -115,9 +115,12 @@ class JointBuilder {
     equation.second = add_direction(1, second);
     add(equation);
   }
-  void add_planar_angle() {
+  /// @param axis  about which the angle counts, parallel to the normal
+  void add_planar_angle(const Eigen::Vector3d& axis, const Eigen::Vector3d& normal) {
     if (!sides_[0].turns() || !sides_[1].turns()) return;
-    add({EquationKind::planar_angle});
+    JointEquation equation{EquationKind::planar_angle};
+    equation.sense = axis.dot(normal) < 0.0 ? -1.0 : 1.0;
+    add(equation);
   }
   void note_drive() { drive_equation_ = static_cast<int>(parts_.topology.equations.size()) - 1; }
 
@@ -136,7 +139,7 @@ class JointBuilder {
     }
     const bool turns_freely =
         joint_.type == JointType::revolute || joint_.type == JointType::point_on_line;
-    if (!turns_freely || joint_.drive) add_planar_angle();
+    if (!turns_freely || joint_.drive) add_planar_angle(axis, plane.normal);
     if (joint_.drive) note_drive();
   }
 

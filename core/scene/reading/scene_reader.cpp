@@ -38,6 +38,9 @@ Scene read_scene(const JsonNode& node, NumberReader& numbers) {
   Scene scene;
   if (const auto gravity = node.find("gravity")) {
     scene.gravity = numbers.triple(*gravity, quantities::acceleration);
+    for (const Number& component : scene.gravity) {
+      if (component.is_bound()) gravity->fail("cannot be bound to a design variable");
+    }
   }
   if (const auto materials = node.find("materials")) {
     for (const auto& [name, material] : materials->members()) {

@@ -1,0 +1,75 @@
+#include <atomic>
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "core/integration/simulate.hpp"
+#include "tests/support/sample_scenes.hpp"
+
+// Counts every allocation of this executable: the allocator of the C library stands behind
+// operator new, Eigen and KLU alike. (Sanitizers bring their own.)
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+#define PLEUEL_COUNTS_ALLOCATIONS
+namespace {
+std::atomic<long> allocations{0};
+}  // namespace
+
+extern "C" {
+void* __libc_malloc(std::size_t size);  // NOLINT: names of the C library
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* pointer, std::size_t size);
+
+void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  ++allocations;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* pointer, std::size_t size) {
+  ++allocations;
+  return __libc_realloc(pointer, size);
+}
+}
+#endif
+
+namespace {
+
+using namespace pleuel;
+
+#ifdef PLEUEL_COUNTS_ALLOCATIONS
+
+long allocations_of(SampleScene sample, int steps) {
+  Model model = sample.build();
+  const SimulationOptions options{steps * 2e-5, 2e-5, 0.8};
+  const long before = allocations;
+  const Trajectory trajectory = simulate(model.mechanism, options);
+  EXPECT_EQ(trajectory.steps(), steps);
+  return allocations - before;
+}
+
+class TimeLoop : public testing::TestWithParam<int> {};
+
+/// The storage of the trajectory is one block whatever its length. KLU may choose pivots anew,
+/// which allocates a handful of blocks, but not in these few steps.
+TEST_P(TimeLoop, AllocatesNothing) {
+  const SampleScene sample = all_samples()[static_cast<std::size_t>(GetParam())];
+  EXPECT_EQ(allocations_of(sample, 100), allocations_of(sample, 50));
+}
+
+TEST(TimeLoop, IsWatchedByACounterThatCounts) {
+  const long before = allocations;
+  std::vector<double> block(1000);
+  block[0] = 1.0;
+  EXPECT_GT(allocations, before);
+}
+
+std::string sample_name(const testing::TestParamInfo<int>& info) {
+  return all_samples()[static_cast<std::size_t>(info.param)].name;
+}
+INSTANTIATE_TEST_SUITE_P(Samples, TimeLoop, testing::Values(0, 1, 2), sample_name);
+
+#endif
+
+}  // namespace
