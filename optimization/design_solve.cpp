@@ -1,5 +1,7 @@
 #include "optimization/design_solve.hpp"
 
+#include <algorithm>
+
 #include "optimization/peak_problem.hpp"
 
 namespace pleuel {
@@ -8,14 +10,36 @@ namespace {
 
 /// Windows of time for each limit on a peak: short enough to part the peaks of one motion.
 constexpr int peak_windows = 16;
+/// Iterations after which a run on the constraints of the file is taken for one that does not end:
+/// on a smooth optimum all backends need fewer.
+constexpr int plain_iterations = 40;
 
-}  // namespace
+/// Counts on from an earlier run.
+EvaluationRecord continued(EvaluationRecord record, const Result& before) {
+  record.evaluation += before.evaluations;
+  record.iteration += before.iterations;
+  record.seconds += before.seconds;
+  return record;
+}
 
-Result solve_design(DesignProblem& problem, const SolveOptions& options, const Observer& observer) {
+void continue_from(const Result& before, Result& result) {
+  result.evaluations += before.evaluations;
+  result.gradient_evaluations += before.gradient_evaluations;
+  result.iterations += before.iterations;
+  result.restarts += before.restarts + 1;
+  result.seconds += before.seconds;
+  result.history.insert(result.history.begin(), before.history.begin(), before.history.end());
+}
+
+/// On the peaks of windows, beginning where the run on whole constraints ended (if that is within
+/// the limits).
+Result solve_peaks(DesignProblem& problem, const SolveOptions& options, const Result& before,
+                   const Observer& observer) {
   PeakProblem peaks(problem, peak_windows);
+  if (before.status == Status::stalled) peaks.start_from(before.x);
   const auto fold = [&](EvaluationRecord record) {
     if (record.constraints.size() > 0) record.constraints = peaks.fold_values(record.constraints);
-    return record;
+    return continued(std::move(record), before);
   };
   Observer folding;
   if (observer) folding = [&](const EvaluationRecord& record) { observer(fold(record)); };
@@ -24,11 +48,26 @@ Result solve_design(DesignProblem& problem, const SolveOptions& options, const O
   if (result.constraint_multipliers.size() > 0) {
     result.constraint_multipliers = peaks.fold_multipliers(result.constraint_multipliers);
   }
-  // The last design on the constraints of the file.
   if (result.evaluation.has_gradients()) {
     result.evaluation = problem.evaluate(result.x, Request::values_and_gradients);
   }
   return result;
+}
+
+}  // namespace
+
+Result solve_design(DesignProblem& problem, const SolveOptions& options, const Observer& observer) {
+  SolveOptions plain = options;
+  plain.max_iterations = std::min(options.max_iterations, plain_iterations);
+  plain.max_restarts = std::min(options.max_restarts, 1);
+  Result result = solve(problem, plain, observer);
+  SolveOptions rest = options;
+  rest.max_iterations = options.max_iterations - result.iterations;
+  const bool is_final = result.status == Status::verified || result.status == Status::failed;
+  if (is_final || rest.max_iterations < 1) return result;
+  Result on_peaks = solve_peaks(problem, rest, result, observer);
+  continue_from(result, on_peaks);
+  return on_peaks;
 }
 
 }  // namespace pleuel

@@ -1,5 +1,7 @@
 #include "optimization/peak_problem.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace pleuel {
@@ -14,7 +16,7 @@ double excess(const Constraint& constraint, double value) {
 }  // namespace
 
 PeakProblem::PeakProblem(DesignProblem& problem, int windows)
-    : problem_(problem), windows_(windows) {
+    : problem_(problem), windows_(windows), variables_(problem.variables()) {
   const ProblemFile& file = problem.file();
   const SimulationSettings& settings = file.simulation;
   const int samples = step_count({.end_time = settings.end_time, .step = settings.step}) + 1;
@@ -28,9 +30,20 @@ PeakProblem::PeakProblem(DesignProblem& problem, int windows)
     is_split_.push_back(is_split);
     for (int window = 0; window < (is_split ? windows_ : 1); ++window) {
       rows_.push_back(constraint);
-      if (is_split) rows_.back().name += fmt::format(" [{}]", window + 1);
+      if (is_split) {
+        rows_.back().name +=
+            fmt::format(" between {:.4g} and {:.4g} s", settings.end_time * window / windows_,
+                        settings.end_time * (window + 1) / windows_);
+      }
       constraint_of_row_.push_back(i);
     }
+  }
+}
+
+void PeakProblem::start_from(const Eigen::VectorXd& x) {
+  for (std::size_t i = 0; i < variables_.size(); ++i) {
+    Variable& variable = variables_[i];
+    variable.start = std::clamp(x(static_cast<Eigen::Index>(i)), variable.lower, variable.upper);
   }
 }
 

@@ -13,7 +13,10 @@ class PeakProblem : public Problem {
   /// @param windows  of equal length, at least 1
   PeakProblem(DesignProblem& problem, int windows);
 
-  const std::vector<Variable>& variables() const override { return problem_.variables(); }
+  /// Begins at another design, moved into the bounds.
+  void start_from(const Eigen::VectorXd& x);
+
+  const std::vector<Variable>& variables() const override { return variables_; }
   const std::vector<Constraint>& constraints() const override { return rows_; }
   std::string objective_name() const override { return problem_.objective_name(); }
   Evaluation evaluate(const Eigen::VectorXd& x, Request request) override;
@@ -26,6 +29,7 @@ class PeakProblem : public Problem {
  private:
   DesignProblem& problem_;
   int windows_;
+  std::vector<Variable> variables_;
   std::vector<Constraint> rows_;
   std::vector<std::size_t> constraint_of_row_;
   std::vector<bool> is_split_;  ///< constraint by constraint
