@@ -46,6 +46,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadProblem{"/simulation", "remove", R"(the problem is missing the key "simulation")"},
         BadProblem{"/scene/bodies", "remove", R"(/scene is missing the key "bodies")"},
         BadProblem{"/scene/joints", "remove", R"(/scene is missing the key "joints")"},
+        BadProblem{"/scene/gravity", R"([0, {"variable": "width"}, 0])",
+                   R"(/scene/gravity cannot be bound to a design variable)"},
         BadProblem{"/scene/materials/steel/density", "remove",
                    R"(/scene/materials/steel is missing the key "density")"},
         BadProblem{"/scene/bodies/crank/section", "remove",

@@ -1,0 +1,67 @@
+#include "optimization/peak_problem.hpp"
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "core/scene/problem_reader.hpp"
+#include "optimization/design_solve.hpp"
+
+namespace {
+
+using namespace pleuel;
+
+/// A quick variant of a problem file: coarse, and over in 20 ms.
+ProblemFile quick_problem(const char* name) {
+  const auto path =
+      std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems" / (std::string(name) + ".json");
+  return read_problem(path, {"/simulation/step=0.2 ms", "/simulation/end_time=20 ms",
+                             "/scene/joints/bearing/drive/ramp=20 ms"});
+}
+
+TEST(PeakProblem, FoldsToTheConstraintsOfTheFile) {
+  DesignProblem problem(quick_problem("slider_crank"));
+  PeakProblem peaks(problem, 16);
+  const Eigen::VectorXd x = start_design(problem.file());
+  const Evaluation whole = problem.evaluate(x, Request::values);
+  const Evaluation rows = peaks.evaluate(x, Request::values);
+  EXPECT_GT(rows.constraints.size(), whole.constraints.size());
+  const Eigen::VectorXd folded = peaks.fold_values(rows.constraints);
+  for (Eigen::Index i = 0; i < folded.size(); ++i) {
+    EXPECT_EQ(folded(i), whole.constraints(i)) << problem.constraints()[std::size_t(i)].name;
+  }
+}
+
+/// The gradient of a whole maximum is that of its highest window.
+TEST(PeakProblem, HasTheGradientOfTheWholeInItsWorstRow) {
+  DesignProblem problem(quick_problem("slider_crank_round"));
+  PeakProblem peaks(problem, 16);
+  const Eigen::VectorXd x = 0.8 * start_design(problem.file());
+  const Evaluation whole = problem.evaluate(x, Request::values_and_gradients);
+  const Evaluation rows = peaks.evaluate(x, Request::values_and_gradients);
+  Eigen::Index first = 0;
+  for (Eigen::Index i = 0; i < whole.constraints.size(); ++i) {
+    Eigen::Index worst = 0;
+    rows.constraints.segment(first, 16).maxCoeff(&worst);
+    EXPECT_EQ(rows.constraint_jacobian.row(first + worst), whole.constraint_jacobian.row(i));
+    first += 16;
+  }
+  EXPECT_EQ(first, rows.constraints.size()) << "all four limits are on peaks";
+}
+
+TEST(PeakProblem, AddsTheMultipliersOfTheRowsOfAConstraint) {
+  DesignProblem problem(quick_problem("slider_crank_round"));
+  PeakProblem peaks(problem, 16);
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(Eigen::Index(peaks.constraints().size()));
+  EXPECT_EQ(peaks.fold_multipliers(ones), Eigen::Vector4d::Constant(16.0));
+}
+
+/// Sixteen rows for each limit from the beginning mislead SLSQP here into an infeasible design.
+TEST(SolveDesign, SplitsNoLimitsWhereTheOptimumIsSmooth) {
+  DesignProblem problem(quick_problem("slider_crank_round"));
+  const Result result = solve_design(problem, {.backend = "nlopt-slsqp"});
+  EXPECT_EQ(to_string(result.status), "verified") << result.message;
+  EXPECT_EQ(result.restarts, 0);
+}
+
+}  // namespace
