@@ -18,10 +18,11 @@ struct SectionForces {
   Scalar axial = Scalar(0), moment_y = Scalar(0), moment_z = Scalar(0), torque = Scalar(0);
 };
 
-/// A section at which stress is evaluated: a node, seen from one or two elements.
+/// A section at which stress is evaluated: a node, seen from one or two elements, or the middle of
+/// an element.
 struct Station {
   std::vector<int> elements;  ///< adjacent, ascending
-  int node;
+  double place;               ///< counted in elements: 2 is node 2, 2.5 half an element further
 };
 
 /// One stress point of a station; `sign` of a round section's axial stress.
@@ -43,9 +44,10 @@ std::vector<Station> find_stations(const BodyModel& body, std::optional<int> seg
     if (continues) {
       stations.back().elements.push_back(e);
     } else {
-      stations.push_back({{e}, e});
+      stations.push_back({{e}, double(e)});
     }
-    stations.push_back({{e}, e + 1});
+    for (double xi : {0.25, 0.5, 0.75}) stations.push_back({{e}, e + xi});
+    stations.push_back({{e}, e + 1.0});
   }
   return stations;
 }
@@ -89,10 +91,10 @@ class StressSignal final : public BodySignal<StressSignal> {
   std::string describe(int channel) const override {
     const Channel& c = channels_[static_cast<std::size_t>(channel)];
     const Station& station = stations_[static_cast<std::size_t>(c.station)];
-    if (c.point < 0) return fmt::format("node {}", station.node);
+    if (c.point < 0) return fmt::format("node {}", station.place);
     const auto& point =
         section_of(body().beam, c.station).points[static_cast<std::size_t>(c.point)];
-    return fmt::format("node {}, y = {:.4g} m, z = {:.4g} m", station.node, point.y, point.z);
+    return fmt::format("node {}, y = {:.4g} m, z = {:.4g} m", station.place, point.y, point.z);
   }
 
   LocalPlace place(int channel) const {
@@ -204,9 +206,9 @@ class StressSignal final : public BodySignal<StressSignal> {
     for (int index : station.elements) {
       Eigen::Matrix<Scalar, 12, 1> q;
       for (int i = 0; i < 12; ++i) q(i) = displacement(index + i / 6, i % 6);
-      const auto forces = element_forces<Scalar>(beam.elements[static_cast<std::size_t>(index)], q,
-                                                 accelerated(index), accelerated(index + 1),
-                                                 station.node == index ? 0 : 1);
+      const auto forces =
+          element_forces<Scalar>(beam.elements[static_cast<std::size_t>(index)], q,
+                                 accelerated(index), accelerated(index + 1), station.place - index);
       sum.axial += share * forces.axial;
       sum.moment_y += share * forces.moment_y;
       sum.moment_z += share * forces.moment_z;
@@ -236,25 +238,27 @@ class StressSignal final : public BodySignal<StressSignal> {
                            slope_integral<Scalar>(q(8) - q(2), -q(4), -q(10), element.length));
   }
 
-  /// @param first, second  accelerations of its nodes;  @param end  0 or 1
+  /// @param first, second  accelerations of its nodes;  @param xi  place in the element, 0 … 1
   template <class Scalar>
   SectionForces<Scalar> element_forces(const BeamElement<Scalar>& element,
                                        const Eigen::Matrix<Scalar, 12, 1>& q,
                                        const Vector3<Scalar>& first, const Vector3<Scalar>& second,
-                                       int end) const {
+                                       double xi) const {
     const Scalar& length = element.length;
     const SectionProperties<Scalar>& section = element.section;
-    // Ends of a clamped element under a linear load: EI v″ = ℓ²(3w₁ + 2w₂)/60, EA u' = ±ℓ(2w₁ +
-    // w₂)/6
+    // What the linear load w = w₁ + ξ Δ does in a clamped element: EI v″ and EA u' with M″ = w,
+    // N' = −w, and no displacement at the ends.
     const Scalar density = -element.density * section.area;
-    const Vector3<Scalar>&near = end == 0 ? first : second, &far = end == 0 ? second : first;
-    const Vector3<Scalar> clamped = (density * length * length / 60.0) * (3.0 * near + 2.0 * far);
-    const double sign = end == 0 ? 1.0 : -1.0;
-    const auto h = hermite(double(end), length, 2);
+    const Vector3<Scalar> start = density * first, change = density * (second - first);
+    const Vector3<Scalar> clamped =
+        (length * length) * ((xi * xi / 2 - xi / 2 + 1.0 / 12) * start +
+                             (xi * xi * xi / 6 - 3 * xi / 20 + 1.0 / 30) * change);
+    const Scalar clamped_axial =
+        length * ((0.5 - xi) * start(0) - (xi * xi / 2 - 1.0 / 6) * change(0));
+    const auto h = hermite(xi, length, 2);
 
     SectionForces<Scalar> forces;
-    forces.axial = element.young * section.area * elongation(element, q) / length +
-                   sign * density * length / 6.0 * (2.0 * near(0) + far(0));
+    forces.axial = element.young * section.area * elongation(element, q) / length + clamped_axial;
     const Scalar curvature_y = h[0] * q(1) + h[1] * q(5) + h[2] * q(7) + h[3] * q(11);
     const Scalar curvature_z = h[0] * q(2) - h[1] * q(4) + h[2] * q(8) - h[3] * q(10);
     forces.moment_z = element.young * section.inertia_z * curvature_y + clamped(1);
