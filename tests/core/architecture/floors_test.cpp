@@ -44,7 +44,7 @@ std::string floor_of(const std::string& path) {
   return path.substr(0, path.find('/', 5));
 }
 
-/// Who may include whom (DESIGN §2), with everything that lies below.
+/// Who may include whom (docs/architecture.md), with everything that lies below.
 const std::map<std::string, Names>& permitted() {
   static const std::map<std::string, Names> floors = [] {
     std::map<std::string, Names> below = {

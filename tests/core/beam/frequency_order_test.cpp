@@ -7,7 +7,7 @@ namespace {
 
 using namespace pleuel;
 
-/// Error of λ falls with ℓ⁴ for cubic elements (Strang & Fix 1973); roots in BENCHMARKS §1.
+/// Error of λ falls with ℓ⁴ for cubic elements (Strang & Fix 1973); exact roots.
 TEST(BeamFrequencyOrder, BendingErrorFallsWithTheFourthPowerOfTheElementLength) {
   std::vector<double> sizes, first, second;
   for (int elements : {4, 8, 16}) {

@@ -22,7 +22,7 @@ Eigen::VectorXd bending_numbers(const ElasticCoordinates& coordinates, double in
 const double inertia_z = width * height * height * height / 12;
 const double inertia_y = height * width * width * width / 12;
 
-/// Consistent-mass Euler–Bernoulli elements, BENCHMARKS §1, all digits.
+/// Consistent-mass Euler–Bernoulli elements; computed independently, all digits.
 TEST(BeamFrequencies, OfACantileverAreThoseOfConsistentMassElements) {
   struct Case {
     int elements;
@@ -40,7 +40,7 @@ TEST(BeamFrequencies, OfACantileverAreThoseOfConsistentMassElements) {
   }
 }
 
-/// The chord frame is a beam on two pins; BENCHMARKS §1.
+/// The chord frame is a beam on two pins; computed independently.
 TEST(BeamFrequencies, BetweenPinsAreThoseOfConsistentMassElements) {
   struct Case {
     int elements;
@@ -54,7 +54,8 @@ TEST(BeamFrequencies, BetweenPinsAreThoseOfConsistentMassElements) {
   }
 }
 
-/// Free–free roots, BENCHMARKS §1; the two rigid motions come first. Element error ~ (βℓ)⁴/720.
+/// Free–free roots of cos βL cosh βL = 1; the two rigid motions come first. Element error ~
+/// (βℓ)⁴/720.
 TEST(BeamFrequencies, OfAFreeBeamTendToTheClosedForm) {
   const auto numbers = bending_numbers(ElasticCoordinates(33, bending_y), inertia_z);
   EXPECT_NEAR(numbers(1), 0.0, 1e-3);
@@ -80,8 +81,8 @@ TEST(BeamFrequencies, AxialAndTorsionalFollowTheDispersionRelationOfLinearElemen
   }
 }
 
-/// dω/dh = ω/h (bending in h), dω/dL = −2ω/L, dω/dE = ω/2E, dω/dρ = −ω/2ρ, dω/db = 0: BENCHMARKS
-/// §1. Of one simple eigenvalue, by Nelson: dω = φᵀ(dK − ω² dM)φ / 2ω with φᵀMφ = 1.
+/// dω/dh = ω/h (bending in h), dω/dL = −2ω/L, dω/dE = ω/2E, dω/dρ = −ω/2ρ, dω/db = 0. Of one simple
+/// eigenvalue, by Nelson: dω = φᵀ(dK − ω² dM)φ / 2ω with φᵀMφ = 1.
 TEST(BeamFrequencies, DerivativesFollowTheScalingLaws) {
   const auto coordinates = tangent_coordinates(5, bending_y);
   const auto body = beam_invariants(beam(4), coordinates, RotaryInertia::neglected);

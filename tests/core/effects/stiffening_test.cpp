@@ -71,7 +71,7 @@ TEST(GeometricStiffening, IsTheGradientOfThePotentialOfTheMeanStrain) {
   EXPECT_LE(relative_difference(found, expected), 1e-10);
 }
 
-/// λ of flapping of a rotating cantilever without hub, η = Ω√(ρAL⁴/EI): BENCHMARKS §2 (Wright et
+/// λ of flapping of a rotating cantilever without hub, η = Ω√(ρAL⁴/EI) (Wright et
 /// al. 1982). EA is so large that only the force of the stretch counts.
 struct RotatingCantilever {
   static constexpr double length = 10.0, depth = 0.1;

@@ -28,7 +28,7 @@ Eigen::Vector2d pendulum_at(double time, double step, EffectChoice spatial) {
   return trajectory.q.col(trajectory.steps()).head<2>();
 }
 
-/// BENCHMARKS §4, exact. Richardson's step removes the h² of the error; measured 3e-10.
+/// IFToMM benchmark A01, exact. Richardson's step removes the h² of the error; measured 3e-10.
 TEST(Pendulum, IsWhereTheEllipticFunctionsPutIt) {
   for (auto spatial : {EffectChoice::off, EffectChoice::on}) {
     const double h = 1e-3;

@@ -51,7 +51,7 @@ Distance distance_to_exudyn(int rod_diameter, const std::string& stiffening) {
   return {distance(0, 4), distance(1, 2), distance(2, 6)};
 }
 
-/// BENCHMARKS §8 asks for 0.5 %. Measured with 8 elements, h = 5e-5 s: deflection 7e-4 and 2.4e-3,
+/// The limit is 0.5 %. Measured with 8 elements, h = 5e-5 s: deflection 7e-4 and 2.4e-3,
 /// torque 1.1e-3 and 1.4e-3, position 6e-7. EXUDYN's model has no rotary inertia (0.02 %).
 TEST(SliderCrankAgainstExudyn, IsWithinHalfAPercentOverTheWholeHistory) {
   for (int diameter : {10, 30}) {
@@ -62,7 +62,7 @@ TEST(SliderCrankAgainstExudyn, IsWithinHalfAPercentOverTheWholeHistory) {
   }
 }
 
-/// The slider pulls with 22 % of the Euler load at the extended position (BENCHMARKS §8).
+/// The slider pulls with 22 % of the Euler load at the extended position.
 TEST(SliderCrankAgainstExudyn, WithoutStiffeningTheThinRodIsEighteenPercentOff) {
   const Distance distance = distance_to_exudyn(10, "off");
   EXPECT_GE(distance.deflection, 0.15);

@@ -7,7 +7,7 @@ namespace {
 
 using namespace pleuel;
 
-/// The spin-up manoeuvre of Simo & Vu-Quoc 1987, data and numbers in BENCHMARKS §3 (chordwise
+/// The spin-up manoeuvre of Simo & Vu-Quoc 1987, numbers of an independent model (chordwise
 /// linear model with centrifugal stiffening; about 1 % from the geometrically exact beam).
 struct SpinUp {
   static constexpr double length = 10.0, ramp = 15.0, speed = 6.0;
@@ -42,7 +42,7 @@ TEST(SpinUpBeam, BendsBackAndRecovers) {
   EXPECT_NEAR(run.tip_at(12.0), -0.150840, 0.0058);
 }
 
-/// Steady axial extension 5.142857e-4 = ρAΩ²L³/3EA (BENCHMARKS §3), averaged over the vibration.
+/// Steady axial extension 5.142857e-4 = ρAΩ²L³/3EA, averaged over the vibration.
 TEST(SpinUpBeam, IsStretchedByItsSteadySpeed) {
   const SpinUp run(EffectChoice::on, 20.0);
   const double mean = run.stretch.tail(900).mean();
