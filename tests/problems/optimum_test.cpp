@@ -1,8 +1,8 @@
 /// Every backend, from every start, must find the same optimum of the problem files.
 ///
-/// The masses are pinned from runs of all three backends, which agree to 1e-6; that they are optima
-/// is not taken from those runs but from the audit (KKT conditions at the true limits, gradients
-/// against differences) that the status `verified` stands for.
+/// The masses are pinned from runs of all three backends, which agree to 1e-3 or better; that they
+/// are optima is not taken from those runs but from the audit (KKT conditions at the true limits,
+/// gradients against differences) that the status `verified` stands for.
 
 #include <filesystem>
 
@@ -88,5 +88,21 @@ TEST_P(OptimumOfProblem, IsFoundByEveryBackendFromEveryStart) {
 }
 
 INSTANTIATE_TEST_SUITE_P(SliderCranks, OptimumOfProblem, testing::ValuesIn(all_cases()), name_of);
+
+/// From here SLSQP steps onto the lower bounds first and loses its way (problems/README.md). It may
+/// fail to find the optimum, but must not call anything else one; the others find it.
+TEST(OptimumFromAHeavyStart, IsFoundOrNotCalledOne) {
+  for (const char* backend : {"nlopt-mma", "nlopt-slsqp", "ipopt"}) {
+    ProblemFile file = read_problem(std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems" /
+                                    "slider_crank_round.json");
+    file.variables[0].start = 0.045;
+    file.variables[1].start = 0.020;
+    DesignProblem problem(std::move(file));
+    const Result result = solve_design(problem, {.backend = backend});
+    const bool is_verified = result.status == Status::verified;
+    EXPECT_TRUE(is_verified || std::string(backend) == "nlopt-slsqp") << backend;
+    if (is_verified) EXPECT_NEAR(result.evaluation.objective, 0.530613, 1e-3 * 0.530613);
+  }
+}
 
 }  // namespace
