@@ -101,7 +101,9 @@ TEST(OptimumFromAHeavyStart, IsFoundOrNotCalledOne) {
     const Result result = solve_design(problem, {.backend = backend});
     const bool is_verified = result.status == Status::verified;
     EXPECT_TRUE(is_verified || std::string(backend) == "nlopt-slsqp") << backend;
-    if (is_verified) EXPECT_NEAR(result.evaluation.objective, 0.530613, 1e-3 * 0.530613);
+    if (is_verified) {
+      EXPECT_NEAR(result.evaluation.objective, 0.530613, 1e-3 * 0.530613);
+    }
   }
 }
 
