@@ -5,18 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "core/frame/body_frame.hpp"
-#include "core/joints/drive_motion.hpp"
+#include "core/base/time_law.hpp"
+#include "core/frame/marker.hpp"
 
 /// What a joint is: two markers and a list of scalar equations between vectors attached to them.
 namespace pleuel {
-
-/// A place on a body: the frame, and the elastic coordinates that displace and turn it.
-struct Marker {
-  BodyFrame frame;
-  /// Indices in q of the local displacements u v w and rotations θx θy θz; −1 where they are zero.
-  std::array<int, 6> elastic = {-1, -1, -1, -1, -1, -1};
-};
 
 enum class EquationKind {
   coincident,     ///< e · (P₂ − P₁) = 0, e fixed in space
@@ -39,7 +32,7 @@ struct JointData {
   std::array<Vector3<Scalar>, 2> points;    ///< undeformed, local axes of each body [m]
   std::vector<Vector3<Scalar>> directions;  ///< unit vectors, local axes of the body they belong to
   Scalar offset = Scalar(0);                ///< of planar_angle [rad]
-  SpeedDrive<Scalar> drive;
+  TimeLaw<Scalar> drive;
 };
 
 struct JointTopology {

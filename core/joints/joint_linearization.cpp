@@ -210,12 +210,12 @@ void JointLinearization::evaluate_directions(const Attached& first, const Attach
 }
 
 Vector3d JointLinearization::driven_direction(const JointEquation& equation) const {
-  return std::cos(drive_.angle) * data_.directions[static_cast<std::size_t>(equation.third)] -
-         std::sin(drive_.angle) * data_.directions[static_cast<std::size_t>(equation.first)];
+  return std::cos(drive_.value) * data_.directions[static_cast<std::size_t>(equation.third)] -
+         std::sin(drive_.value) * data_.directions[static_cast<std::size_t>(equation.first)];
 }
 
 void JointLinearization::evaluate_planar_angle(double sense) {
-  value_ = -sense * data_.offset - drive_.angle;
+  value_ = -sense * data_.offset - drive_.value;
   for (std::size_t m = 0; m < 2; ++m) {
     const MarkerState& state = markers_[m];
     const Marker& marker = topology_.markers[m];

@@ -68,7 +68,7 @@ class JointLinearization {
 
   const JointTopology& topology_;
   const JointData<double>& data_;
-  DriveMotion<double> drive_{0.0, 0.0, 0.0};
+  TimeValue<double> drive_{0.0, 0.0, 0.0};
   std::array<MarkerState, 2> markers_;
   double value_ = 0.0;
   Vector gradient_;

@@ -107,7 +107,7 @@ class JointEvaluation {
   Motion<Scalar> driven_direction(const JointEquation& equation) const {
     using std::cos;
     using std::sin;
-    const Scalar c = cos(drive_.angle), s = sin(drive_.angle);
+    const Scalar c = cos(drive_.value), s = sin(drive_.value);
     const Vector3<Scalar> a = data_.directions[static_cast<std::size_t>(equation.first)];
     const Vector3<Scalar> b = data_.directions[static_cast<std::size_t>(equation.third)];
     const Vector3<Scalar> normal = c * b - s * a, tangent = -(s * b) - c * a;
@@ -223,7 +223,7 @@ class JointEvaluation {
     }
     switch (level) {
       case ConstraintLevel::position:
-        return difference - equation.sense * data_.offset - drive_.angle;
+        return difference - equation.sense * data_.offset - drive_.value;
       case ConstraintLevel::velocity:
         return difference - drive_.rate;
       default:
@@ -233,7 +233,7 @@ class JointEvaluation {
 
   const JointTopology& topology_;
   const JointData<Scalar>& data_;
-  DriveMotion<Scalar> drive_{Scalar(0), Scalar(0), Scalar(0)};
+  TimeValue<Scalar> drive_{Scalar(0), Scalar(0), Scalar(0)};
   std::array<MarkerMotion<Scalar>, 2> markers_;
   std::array<std::array<Scalar, 3>, 2> angles_{};
   std::array<int, 2> start_{};

@@ -28,7 +28,7 @@ JointData<Scalar> cast_data(const JointData<double>& data) {
     cast.directions.push_back(direction.template cast<Scalar>());
   }
   cast.offset = Scalar(data.offset);
-  cast.drive = {Scalar(data.drive.speed), Scalar(data.drive.ramp)};
+  cast.drive = data.drive.transformed<Scalar>([](double parameter) { return Scalar(parameter); });
   return cast;
 }
 
@@ -46,8 +46,10 @@ JointData<Dual> seed_data(const JointData<double>& data, const JointData<double>
         data.directions[i].binaryExpr(derivative.directions[i], &with_derivative);
   }
   seeded.offset = with_derivative(data.offset, derivative.offset);
-  seeded.drive.speed = with_derivative(data.drive.speed, derivative.drive.speed);
-  seeded.drive.ramp = with_derivative(data.drive.ramp, derivative.drive.ramp);
+  for (std::size_t i = 0; i < data.drive.parameters.size(); ++i) {
+    seeded.drive.parameters[i] =
+        with_derivative(data.drive.parameters[i], derivative.drive.parameters[i]);
+  }
   return seeded;
 }
 

@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "core/scene/visit_numbers.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -199,11 +201,7 @@ class JointBuilder {
       data.offset = planar_angle(sides_[1], design) - planar_angle(sides_[0], design);
     }
     if (!joint_.drive) return data;
-    if (const auto* ramp = std::get_if<RampToSpeedDrive>(&*joint_.drive)) {
-      data.drive = {resolve(ramp->speed, design), resolve(ramp->ramp, design)};
-    } else {
-      data.drive.speed = resolve(std::get<ConstantSpeedDrive>(*joint_.drive).speed, design);
-    }
+    data.drive = resolve_time_law(joint_.drive->motion, design);
     return data;
   }
 
@@ -212,17 +210,9 @@ class JointBuilder {
     for (const Side& side : sides_) {
       if (side.body) all.merge(variables_of(*side.body, context_.scene));
     }
-    const auto add_number = [&](const Number& number) {
+    visit_numbers(joint_, [&](const Number& number, const Quantity&) {
       if (number.is_bound()) all.insert(number.variable);
-    };
-    for (const Number& number : joint_.at) add_number(number);
-    if (!joint_.drive) return all;
-    if (const auto* ramp = std::get_if<RampToSpeedDrive>(&*joint_.drive)) {
-      add_number(ramp->speed);
-      add_number(ramp->ramp);
-    } else {
-      add_number(std::get<ConstantSpeedDrive>(*joint_.drive).speed);
-    }
+    });
     return all;
   }
 
@@ -240,7 +230,7 @@ class JointBuilder {
         derivative.directions.emplace_back(direction.unaryExpr(part));
       }
       derivative.offset = part(seeded.offset);
-      derivative.drive = {part(seeded.drive.speed), part(seeded.drive.ramp)};
+      derivative.drive = seeded.drive.transformed<double>(part);
       if (!is_zero) parts_.derivatives.push_back({variable, std::move(derivative)});
     }
   }

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <set>
 
+#include "core/base/time_law.hpp"
 #include "core/beam/beam.hpp"
 #include "core/frame/body_frame.hpp"
 #include "core/scene/scene.hpp"
@@ -30,12 +31,49 @@ SectionProperties<Scalar> resolve_section(const Section& section, const Design<S
     SectionProperties<Scalar> operator()(const CircleSection& s) const {
       return round_section(resolve(s.diameter, design), Scalar(0));
     }
+    SectionProperties<Scalar> operator()(const GeneralSection&) const { return {}; }
+    SectionProperties<Scalar> operator()(const EllipseSection&) const { return {}; }
+    SectionProperties<Scalar> operator()(const BoxSection&) const { return {}; }
+    SectionProperties<Scalar> operator()(const ISection&) const { return {}; }
     SectionProperties<Scalar> operator()(const TubeSection& s) const {
       const Scalar outer = resolve(s.outer_diameter, design);
       return round_section(outer, Scalar(outer - 2.0 * resolve(s.thickness, design)));
     }
   };
   return std::visit(Visitor{design}, section);
+}
+
+template <class Scalar>
+TimeLaw<Scalar> resolve_time_law(const TimeFunction& function, const Design<Scalar>& design) {
+  using Law = TimeLaw<Scalar>;
+  struct Visitor {
+    const Design<Scalar>& design;
+    Scalar of(const Number& number) const { return resolve(number, design); }
+    Law operator()(const ConstantFunction& f) const {
+      return {Law::Kind::polynomial, {of(f.value)}, {}};
+    }
+    Law operator()(const ConstantSpeedDrive& f) const {
+      return {Law::Kind::polynomial, {Scalar(0), of(f.speed)}, {}};
+    }
+    Law operator()(const RampToSpeedDrive& f) const {
+      return {Law::Kind::ramp, {of(f.speed), of(f.ramp)}, {}};
+    }
+    Law operator()(const PolynomialFunction& f) const {
+      Law law;
+      for (const Number& number : f.coefficients) law.parameters.push_back(of(number));
+      return law;
+    }
+    Law operator()(const HarmonicFunction& f) const {
+      return {
+          Law::Kind::harmonic, {of(f.amplitude), of(f.frequency), of(f.phase), of(f.offset)}, {}};
+    }
+    Law operator()(const TableFunction& f) const {
+      std::vector<Scalar> values;
+      for (const Number& number : f.values) values.push_back(of(number));
+      return natural_spline(f.times, std::move(values));
+    }
+  };
+  return std::visit(Visitor{design}, function);
 }
 
 inline const Material& find_material(const Scene& scene, const std::string& name) {

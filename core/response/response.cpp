@@ -1,5 +1,8 @@
 #include "core/response/response.hpp"
 
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
 #include "core/response/motion_signals.hpp"
 #include "core/response/stress_signal.hpp"
 #include "core/scene/response_quantity.hpp"
@@ -47,6 +50,8 @@ std::vector<Response> make_responses(const std::vector<ResponseSettings>& settin
       case ResponseType::drive_torque:
         response.signal = make_drive_torque_signal(model.joint(setting.joint));
         break;
+      default:
+        throw InputError(fmt::format("the response \"{}\" cannot be computed", setting.name));
     }
     responses.push_back(std::move(response));
   }

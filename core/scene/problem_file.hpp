@@ -14,8 +14,16 @@ namespace pleuel {
 enum class EffectChoice { automatic, on, off };
 
 struct EffectSettings {
+  // Exact decisions:
   EffectChoice spatial_motion = EffectChoice::automatic;
+  // Approximate ones, by the tolerance; without one `automatic` builds them:
   EffectChoice geometric_stiffening = EffectChoice::automatic;
+  EffectChoice rotary_inertia = EffectChoice::automatic;
+  EffectChoice elasticity = EffectChoice::automatic;  ///< all of it
+  EffectChoice axial_elasticity = EffectChoice::automatic;
+  EffectChoice torsional_elasticity = EffectChoice::automatic;
+  /// Relative change of any response that dropping an effect may cause; 0: nothing is dropped.
+  double tolerance = 0.0;
 };
 
 struct SimulationSettings {
@@ -26,6 +34,8 @@ struct SimulationSettings {
   /// estimated to be below this.
   double newton_tolerance = 1e-10;
   int max_newton_iterations = 20;
+  /// Starts from elastic equilibrium under the initial accelerations, without vibration.
+  bool quasi_static_start = false;
 };
 
 struct DesignVariable {
@@ -34,18 +44,47 @@ struct DesignVariable {
   std::string unit;  ///< as the user wrote it, for display; may be empty
 };
 
-enum class ResponseType { mass, stress, deflection, position, drive_torque };
+enum class ResponseType {
+  mass,
+  stress,
+  deflection,
+  position,
+  velocity,
+  acceleration,
+  drive_torque,
+  drive_power,
+  reaction_force,
+  reaction_moment,
+  frequency,
+  buckling
+};
 enum class OverTime { max, min, max_abs, rms, mean, integral, final };
+
+/// What of the stress at a point is asked for.
+enum class StressPart {
+  von_mises,
+  normal,      ///< signed: axial and bending
+  axial,       ///< N/A
+  bending,     ///< without N/A
+  shear,       ///< of torsion
+  utilization  ///< von Mises stress over the strength of the material
+};
 
 struct ResponseSettings {
   std::string name;
   ResponseType type = ResponseType::mass;
   std::vector<std::string> bodies;  ///< mass: those counted (empty = all); else the one body
   std::optional<int> segment;       ///< stress: only this segment, from 0
-  double at = 0.0;                  ///< deflection, position: place along the beam, 0 … 1
-  int direction = 1;  ///< deflection: 1 = local y, 2 = local z; position: 0 … 2 global
-  std::string joint;  ///< drive torque
+  std::optional<double> station;    ///< stress: only at this place along the beam, 0 … 1
+  StressPart part = StressPart::von_mises;
+  double at = 0.0;  ///< deflection, position …: place along the beam, 0 … 1
+  /// deflection: 1 = local y, 2 = local z; position, velocity, acceleration, reaction: 0 … 2 global
+  /// axes, −1 = magnitude
+  int direction = 1;
+  std::string joint;  ///< drive torque and power, reactions
+  int mode = 0;       ///< frequency: from 0 for the lowest
   OverTime over_time = OverTime::max;
+  std::optional<double> from, to;  ///< window of time [s]
 };
 
 struct Objective {

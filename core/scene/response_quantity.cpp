@@ -2,20 +2,42 @@
 
 namespace pleuel {
 
-Quantity quantity_of(const ResponseSettings& response) {
-  const bool is_integral = response.over_time == OverTime::integral;
+namespace {
+
+Quantity instant_quantity(const ResponseSettings& response) {
   switch (response.type) {
-    case ResponseType::mass:
-      break;
     case ResponseType::stress:
-      return is_integral ? quantities::stress_time : quantities::stress;
+      return response.part == StressPart::utilization ? quantities::pure_number
+                                                      : quantities::stress;
     case ResponseType::deflection:
     case ResponseType::position:
-      return is_integral ? quantities::length_time : quantities::length;
+      return quantities::length;
+    case ResponseType::velocity:
+      return quantities::speed;
+    case ResponseType::acceleration:
+      return quantities::acceleration;
     case ResponseType::drive_torque:
-      return is_integral ? quantities::torque_time : quantities::torque;
+    case ResponseType::reaction_moment:
+      return quantities::torque;
+    case ResponseType::drive_power:
+      return quantities::power;
+    case ResponseType::reaction_force:
+      return quantities::force;
+    case ResponseType::frequency:
+      return quantities::angular_speed;
+    case ResponseType::buckling:
+      return quantities::pure_number;
+    case ResponseType::mass:
+      break;
   }
   return quantities::mass;
+}
+
+}  // namespace
+
+Quantity quantity_of(const ResponseSettings& response) {
+  const Quantity quantity = instant_quantity(response);
+  return response.over_time == OverTime::integral ? times_time(quantity) : quantity;
 }
 
 }  // namespace pleuel

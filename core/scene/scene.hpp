@@ -5,16 +5,17 @@
 #include <variant>
 #include <vector>
 
-#include "core/scene/number.hpp"
+#include "core/scene/time_function.hpp"
 
 /// What the user asked for: plain structs, no mathematics. Order is the order of the file.
 namespace pleuel {
 
 struct Material {
   std::string name;
-  Number young;    ///< E [Pa]
-  Number poisson;  ///< ν [–]
-  Number density;  ///< ρ [kg/m³]
+  Number young;                         ///< E [Pa]
+  Number poisson;                       ///< ν [–]
+  Number density;                       ///< ρ [kg/m³]
+  std::optional<Number> strength = {};  ///< that stress is compared with [Pa]
 };
 
 // Sections. Local x is the beam axis; `width` lies along local z, `height` along local y.
@@ -33,7 +34,39 @@ struct TubeSection {
   Number thickness;       ///< of the wall [m]
 };
 
-using Section = std::variant<RectangleSection, CircleSection, TubeSection>;
+struct EllipseSection {
+  Number width, height;  ///< full axes [m]
+};
+
+/// A rectangular tube.
+struct BoxSection {
+  Number width, height;  ///< outer [m]
+  Number thickness;      ///< of the walls [m]
+};
+
+/// Web along local y, flanges along local z.
+struct ISection {
+  Number width, height;     ///< outer [m]
+  Number flange_thickness;  ///< [m]
+  Number web_thickness;     ///< [m]
+};
+
+/// A place of a general section where stress is evaluated.
+struct GeneralStressPoint {
+  double y = 0.0, z = 0.0;  ///< [m]
+  double shear = 0.0;       ///< torsional shear stress per torque [1/m³]
+};
+
+/// Any section, by its properties about the principal axes y and z through the centroid.
+struct GeneralSection {
+  Number area;                             ///< [m²]
+  Number inertia_y, inertia_z;             ///< ∫z² dA, ∫y² dA [m⁴]
+  Number torsion;                          ///< torsion constant J [m⁴]
+  std::vector<GeneralStressPoint> points;  ///< at least one
+};
+
+using Section = std::variant<RectangleSection, CircleSection, TubeSection, EllipseSection,
+                             BoxSection, ISection, GeneralSection>;
 
 /// A stretch of a beam with one section. Segments share the length in proportion to their elements
 /// unless `fraction` says otherwise.
@@ -45,14 +78,25 @@ struct Segment {
 
 /// How the body frame is tied to the deformed beam.
 enum class ReferenceCondition {
-  tangent,  ///< the first node is clamped in the frame: cranks, cantilevers
-  chord     ///< frame through both end nodes: rods between joints
+  tangent,      ///< the first node is clamped in the frame: cranks, cantilevers
+  tangent_end,  ///< the last node is
+  chord,        ///< frame through both end nodes: rods between joints
+  mean_axis     ///< no momentum relative to the frame (Tisserand)
 };
 
-/// Rayleigh damping of a body: D = mass · S_ff + stiffness · K.
+/// Rayleigh damping of a body, D = mass · S_ff + stiffness · K, or modal damping of its elastic
+/// modes.
 struct Damping {
-  Number mass;       ///< [1/s]
-  Number stiffness;  ///< [s]
+  Number mass;        ///< [1/s]
+  Number stiffness;   ///< [s]
+  Number modal = {};  ///< damping ratio ζ of every mode [–]; reduced bodies only
+};
+
+/// Craig–Bampton reduction of bending and torsion: static modes of the nodes at joints and loads,
+/// and so many fixed-interface modes.
+struct CraigBampton {
+  std::optional<int> modes;         ///< number of fixed-interface modes
+  std::optional<double> frequency;  ///< or all below this one [rad/s]
 };
 
 struct BeamBody {
@@ -64,6 +108,8 @@ struct BeamBody {
   /// A global vector not parallel to the beam; local y = its part normal to the beam axis.
   /// By default local y lies in the global x–y plane (the global y axis for beams along z).
   std::optional<std::array<double, 3>> reference;
+  bool is_rigid = false;  ///< no elastic coordinates; inertia from the same integrals
+  std::optional<CraigBampton> reduction;
 };
 
 struct RigidBody {
@@ -80,27 +126,37 @@ struct PointMass {
 struct Body {
   std::string name;
   std::variant<BeamBody, RigidBody, PointMass> shape;
+  /// Of the body frame at t = 0, made consistent with joints and drives; global axes.
+  std::array<Number, 3> velocity = {0.0, 0.0, 0.0};          ///< [m/s]
+  std::array<Number, 3> angular_velocity = {0.0, 0.0, 0.0};  ///< [rad/s]
 };
 
-// Drives: the angle of the second body of a joint against the first, as a function of time.
-
-struct ConstantSpeedDrive {
-  Number speed;  ///< [rad/s]
+/// What a drive prescribes: a coordinate of the second body of a joint against the first.
+enum class DrivenCoordinate {
+  angle,        ///< about the axis [rad]: revolute, cylindrical, universal (first axis), planar
+  displacement  ///< along the axis [m]: prismatic, cylindrical, point-on-line; change of a distance
 };
 
-/// φ̈ = (Ω/T)(1 − cos 2πt/T) for t < T, then φ̇ = Ω.
-struct RampToSpeedDrive {
-  Number speed;  ///< Ω [rad/s]
-  Number ramp;   ///< T [s]
-};
+struct Drive {
+  TimeFunction motion;
+  DrivenCoordinate coordinate = DrivenCoordinate::angle;
 
-using Drive = std::variant<ConstantSpeedDrive, RampToSpeedDrive>;
+  template <class Function>
+  Drive(Function function,  // NOLINT: a function of time drives an angle
+        DrivenCoordinate driven = DrivenCoordinate::angle)
+      : motion(std::move(function)), coordinate(driven) {}
+};
 
 enum class JointType {
-  revolute,      ///< points coincide, one common axis
-  prismatic,     ///< the second body slides along the axis of the first, without turning
-  fixed,         ///< no relative motion
-  point_on_line  ///< the point of the second body stays on a line fixed in the first
+  revolute,       ///< points coincide, one common axis
+  prismatic,      ///< the second body slides along the axis of the first, without turning
+  fixed,          ///< no relative motion
+  point_on_line,  ///< the point of the second body stays on a line fixed in the first
+  cylindrical,    ///< slides along and turns about the axis
+  universal,      ///< points coincide; an axis of the first stays normal to one of the second
+  spherical,      ///< points coincide
+  planar,         ///< slides in the plane normal to the axis and turns about it
+  distance        ///< two points keep their distance: a massless rod
 };
 
 struct Joint {
@@ -108,8 +164,57 @@ struct Joint {
   JointType type = JointType::revolute;
   std::array<std::string, 2> bodies;       ///< names of bodies, or "ground"
   Point at;                                ///< where the joint is at t = 0, global axes [m]
-  std::array<double, 3> axis = {0, 0, 1};  ///< revolute: of rotation; others: of sliding
-  std::optional<Drive> drive;              ///< revolute only
+  std::array<double, 3> axis = {0, 0, 1};  ///< of rotation, of sliding, or the normal of a plane
+  /// Of a universal joint, fixed in the second body, normal to `axis`.
+  std::array<double, 3> second_axis = {1, 0, 0};
+  Point to;  ///< of a distance: the point of the second body at t = 0
+  std::optional<Drive> drive;
+};
+
+// Loads and force elements.
+
+/// A force on a point of a body: value(t) · direction.
+struct PointForce {
+  std::string body;
+  Point at;                         ///< at t = 0, global axes [m]
+  std::array<double, 3> direction;  ///< unit vector, global axes at t = 0
+  TimeFunction value;               ///< [N]
+  bool follows_body = false;        ///< whether the direction turns with the body
+};
+
+/// A torque on a body: value(t) · direction.
+struct PointTorque {
+  std::string body;
+  Point at;  ///< at t = 0: of a beam, the place whose rotation does the work
+  std::array<double, 3> direction;
+  TimeFunction value;  ///< [N m]
+  bool follows_body = false;
+};
+
+/// Between two points: force k (l − l₀) + c l̇ along their connection.
+struct SpringDamper {
+  std::array<std::string, 2> bodies;
+  std::array<Point, 2> at;            ///< at t = 0, global axes [m]
+  Number stiffness;                   ///< [N/m]
+  Number damping;                     ///< [N s/m]
+  std::optional<Number> free_length;  ///< [m]; by default the distance at t = 0
+};
+
+/// Spring, damper (viscous friction) and motor in a joint, acting on its free coordinate (the angle
+/// of a revolute, the displacement of a prismatic joint; `coordinate` chooses for a cylindrical):
+///     −k (s − s₀) − c ṡ + motor(t)   on the second body, the opposite on the first
+struct JointForce {
+  std::string joint;
+  DrivenCoordinate coordinate = DrivenCoordinate::angle;
+  Number stiffness;                   ///< [N m/rad] or [N/m]
+  Number damping;                     ///< [N m s/rad] or [N s/m]
+  Number rest;                        ///< s₀ [rad] or [m], against the position at t = 0
+  std::optional<TimeFunction> motor;  ///< [N m] or [N]
+};
+
+struct Load {
+  std::string name;
+  std::variant<PointForce, PointTorque, SpringDamper, JointForce> element;
 };
 
 inline constexpr const char* ground_name = "ground";
@@ -119,6 +224,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Body> bodies;
   std::vector<Joint> joints;
+  std::vector<Load> loads;
 };
 
 }  // namespace pleuel

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <udunits2.h>
@@ -161,6 +162,65 @@ WrittenQuantity split_quantity(const std::string& text) {
   }
   written.unit = trim(std::string_view(rest, static_cast<std::size_t>(end - rest)));
   return written;
+}
+
+namespace {
+
+/// Quantities hold views: the texts of derived ones live as long as the program.
+struct DerivedQuantity {
+  std::string base, name, unit;
+};
+
+const std::vector<DerivedQuantity>& time_derivatives() {
+  static const std::vector<DerivedQuantity> table = [] {
+    constexpr int most_derivatives = 10;
+    std::vector<DerivedQuantity> rows = {{"rad", "an angular speed", "rad/s"},
+                                         {"m", "a speed", "m/s"},
+                                         {"N", "a force per time", "N/s"},
+                                         {"N m", "a torque per time", "N m/s"}};
+    const std::size_t bases = rows.size();
+    for (int order = 2; order <= most_derivatives; ++order) {
+      for (std::size_t i = 0; i < bases; ++i) {
+        const std::string base = rows[i].base;
+        const std::string below = rows[rows.size() - bases].unit;
+        rows.push_back({below, fmt::format("a coefficient of t^{}", order),
+                        fmt::format("{}/s^{}", base, order)});
+      }
+    }
+    return rows;
+  }();
+  return table;
+}
+
+const std::vector<DerivedQuantity>& time_integrals() {
+  using namespace quantities;
+  static const std::vector<DerivedQuantity> table = [] {
+    std::vector<DerivedQuantity> rows = {{"1", "a time", "s"}, {"W", "an energy", "J"}};
+    for (const Quantity& quantity :
+         {length, speed, acceleration, mass, stress, force, torque, angle, angular_speed}) {
+      rows.push_back({std::string(quantity.unit), fmt::format("{} times a time", quantity.name),
+                      fmt::format("{} s", quantity.unit)});
+    }
+    return rows;
+  }();
+  return table;
+}
+
+Quantity find_derived(const std::vector<DerivedQuantity>& table, const Quantity& quantity) {
+  for (const DerivedQuantity& row : table) {
+    if (row.base == quantity.unit) return {row.name, row.unit};
+  }
+  throw std::logic_error(fmt::format("no quantity is derived from {}", quantity.name));
+}
+
+}  // namespace
+
+Quantity per_time(const Quantity& quantity) {
+  return find_derived(time_derivatives(), quantity);
+}
+
+Quantity times_time(const Quantity& quantity) {
+  return find_derived(time_integrals(), quantity);
 }
 
 std::string describe(const Quantity& quantity) {

@@ -26,15 +26,29 @@ inline constexpr Quantity stress{"a stress", "Pa"};
 inline constexpr Quantity torque{"a torque", "N m"};
 inline constexpr Quantity time{"a time", "s"};
 inline constexpr Quantity rate{"a rate", "1/s"};
+inline constexpr Quantity angle{"an angle", "rad"};
 inline constexpr Quantity angular_speed{"an angular speed", "rad/s"};
+inline constexpr Quantity speed{"a speed", "m/s"};
 inline constexpr Quantity acceleration{"an acceleration", "m/s^2"};
-inline constexpr Quantity stress_time{"a stress times a time", "Pa s"};
-inline constexpr Quantity length_time{"a length times a time", "m s"};
-inline constexpr Quantity torque_time{"a torque times a time", "N m s"};
+inline constexpr Quantity force{"a force", "N"};
+inline constexpr Quantity power{"a power", "W"};
+inline constexpr Quantity area{"an area", "m^2"};
+inline constexpr Quantity second_moment_of_area{"a second moment of area", "m^4"};
+inline constexpr Quantity torsional_shear{"a shear stress per torque", "1/m^3"};
+inline constexpr Quantity spring_stiffness{"a spring stiffness", "N/m"};
+inline constexpr Quantity damping_constant{"a damping constant", "N s/m"};
+inline constexpr Quantity torsional_stiffness{"a torsional stiffness", "N m/rad"};
+inline constexpr Quantity torsional_damping{"a torsional damping constant", "N m s/rad"};
 }  // namespace quantities
 
 /// "a length [m]"; "a number without unit".
 std::string describe(const Quantity& quantity);
+
+/// The quantity of d/dt, up to the tenth derivative of an angle, a length, a force or a torque.
+Quantity per_time(const Quantity& quantity);
+
+/// The quantity of an integral over time: "Pa s".
+Quantity times_time(const Quantity& quantity);
 
 /// Why a unit or a text with unit cannot be used, as the end of a sentence.
 class UnitError : public std::runtime_error {

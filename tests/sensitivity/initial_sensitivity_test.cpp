@@ -30,8 +30,8 @@ class StartSensitivity : public testing::TestWithParam<Case> {
   StartSensitivity() {
     // From speed at once: velocities, centripetal accelerations and forces depend on the lengths.
     for (Joint& joint : sample_.scene.joints) {
-      if (!joint.drive || !std::holds_alternative<RampToSpeedDrive>(*joint.drive)) continue;
-      joint.drive = ConstantSpeedDrive{std::get<RampToSpeedDrive>(*joint.drive).speed};
+      if (!joint.drive || !std::holds_alternative<RampToSpeedDrive>(joint.drive->motion)) continue;
+      joint.drive = ConstantSpeedDrive{std::get<RampToSpeedDrive>(joint.drive->motion).speed};
     }
   }
   Model build_at(const Design<double>& design) const {
