@@ -1,6 +1,8 @@
 #include "sensitivity/initial_sensitivity.hpp"
 
 #include "core/base/error.hpp"
+#include "core/base/rotation_vector.hpp"
+#include "core/integration/configuration.hpp"
 #include "core/integration/linear_solver.hpp"
 
 namespace pleuel {
@@ -64,9 +66,21 @@ class InitialDifferentiation {
     Eigen::MatrixXd rhs;
     system_.design_derivative(state, ConstraintLevel::position, rhs);
     rhs *= -1.0;
-    rhs.topRows(n_) =
-        mechanism_.assembly_weight.asDiagonal() * mechanism_.guess_q_x - curved.x.topRows(n_);
+    // The pull is W d, d = q ⊖ guess: δd = T(d)⁻¹ δq − T(d)⁻ᵀ δ(guess).
+    const Rotations& rotations = mechanism_.rotations;
+    const Eigen::VectorXd d = difference(rotations, state.q, mechanism_.guess.q);
+    Eigen::MatrixXd guess_x = mechanism_.guess_q_x;
+    pull_back(rotations, d, guess_x);
+    rhs.topRows(n_) = mechanism_.assembly_weight.asDiagonal() * guess_x - curved.x.topRows(n_);
     projection_matrix(mechanism_, state, matrix_);
+    for (int i : rotations) {
+      const Eigen::Matrix3d pull = inverse_tangent_operator(d.segment<3>(i));
+      for (int row = 0; row < 3; ++row) {
+        for (int col = 0; col < 3; ++col) {
+          matrix_.coeffRef(i + row, i + col) = mechanism_.assembly_weight(i + row) * pull(row, col);
+        }
+      }
+    }
     matrix_ += curved.q;
     solve(rhs);
     sensitivity_.q = rhs.topRows(n_);

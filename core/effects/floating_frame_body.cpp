@@ -14,8 +14,8 @@ FloatingFrameBody::FloatingFrameBody(std::string name, BodyFrame frame,
       invariants_(std::move(invariants)),
       derivatives_(std::move(derivatives)),
       gravity_(gravity) {
-  rigid_elastic_.resize(7, invariants_.size());
-  elastic_rigid_.resize(invariants_.size(), 7);
+  rigid_elastic_.resize(6, invariants_.size());
+  elastic_rigid_.resize(invariants_.size(), 6);
 }
 
 void FloatingFrameBody::declare_entries(EntryList& entries) const {
@@ -98,8 +98,8 @@ void FloatingFrameBody::set_rigid_columns(const Weights& weights) {
     if (turns) {
       d_A = weights.q * motion_.A_p[static_cast<std::size_t>(rotation)];
       d_a0 = d_A.transpose() * (motion_.r_ddot - gravity_);
-      d_omega = weights.q * motion_.omega_p.col(rotation) + weights.v * motion_.G.col(rotation);
-      d_alpha = weights.q * motion_.alpha_p.col(rotation) + weights.a * motion_.G.col(rotation);
+      d_omega = weights.v * motion_.G.col(rotation);
+      d_alpha = weights.a * motion_.G.col(rotation);
     } else {
       d_a0 = weights.a * (motion_.A.transpose() * frame_.basis.col(j));
     }
@@ -112,12 +112,6 @@ void FloatingFrameBody::set_rigid_columns(const Weights& weights) {
     const Vector3d d_moment = axial<double>(d_N);
     for (int i = 0; i < k; ++i) rigid_rigid_(i, j) = frame_.basis.col(i).dot(d_global);
     for (int i = 0; i < m - k; ++i) rigid_rigid_(k + i, j) = motion_.G.col(i).dot(d_moment);
-    if (turns && frame_.rotation == RotationCoordinates::euler_parameters) {
-      // Gᵀ T depends on θ through G, too; it is linear in it.
-      const Eigen::Vector4d unit = Eigen::Vector4d::Unit(rotation);
-      rigid_rigid_.block<4, 1>(k, j) +=
-          weights.q * 2.0 * euler_rate_matrix<double>(unit).transpose() * p.moment;
-    }
     auto column = elastic_rigid_.col(j);
     column.noalias() = invariants_.shape.transpose() * d_a0;
     if (!turns) continue;

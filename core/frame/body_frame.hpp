@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "core/base/dual.hpp"
+#include "core/base/rotation_vector.hpp"
 
 /// The floating frame of a body: which coordinates move it, and its kinematics.
 namespace pleuel {
@@ -26,9 +27,9 @@ Matrix3<Scalar> skew(const Vector3<Scalar>& w) {
 
 /// Coordinates of the rotation A (body to global axes).
 enum class RotationCoordinates {
-  none,             ///< a point mass has no orientation
-  angle,            ///< A = R(axis, φ) A_ref: motion in a plane
-  euler_parameters  ///< A(θ), θ = (e₀, e₁, e₂, e₃), |θ| = 1
+  none,            ///< a point mass has no orientation
+  angle,           ///< A = R(axis, φ) A_ref: motion in a plane
+  rotation_vector  ///< A = exp(ψ̃); rates are ω and α in body axes (rotation_vector.hpp)
 };
 
 /// Where the coordinates of a frame stand in q and what they mean: r = origin + basis · u.
@@ -49,7 +50,7 @@ struct BodyFrame {
       case RotationCoordinates::angle:
         return 1;
       default:
-        return 4;
+        return 3;
     }
   }
   int size() const { return translations() + rotations(); }
@@ -62,70 +63,14 @@ inline BodyFrame ground_frame() {
   return frame;
 }
 
-/// Polarised rotation matrix of Euler parameters: bilinear, with A(θ) = A(θ, θ),
-///     A(a, b) = (a₀b₀ − aᵀb) I + a bᵀ + b aᵀ + a₀ b̃ + b₀ ã       (vector parts a, b)
-template <class Scalar>
-Matrix3<Scalar> euler_bilinear(const Eigen::Matrix<Scalar, 4, 1>& a,
-                               const Eigen::Matrix<Scalar, 4, 1>& b) {
-  const Vector3<Scalar> av = a.template tail<3>(), bv = b.template tail<3>();
-  const Scalar diagonal = a(0) * b(0) - av.dot(bv);
-  Matrix3<Scalar> matrix =
-      av * bv.transpose() + bv * av.transpose() + a(0) * skew<Scalar>(bv) + b(0) * skew<Scalar>(av);
-  for (int i = 0; i < 3; ++i) matrix(i, i) += diagonal;
-  return matrix;
-}
-
-/// ω = 2 L(θ) θ̇ in body axes, L(θ) = [−e, e₀ I − ẽ]; L(θ) θ = 0, so that α = 2 L(θ) θ̈.
-template <class Scalar>
-Eigen::Matrix<Scalar, 3, 4> euler_rate_matrix(const Eigen::Matrix<Scalar, 4, 1>& theta) {
-  Eigen::Matrix<Scalar, 3, 4> matrix;
-  matrix << -theta(1), theta(0), theta(3), -theta(2),  //
-      -theta(2), -theta(3), theta(0), theta(1),        //
-      -theta(3), theta(2), -theta(1), theta(0);
-  return matrix;
-}
-
-/// Euler parameters of a rotation matrix (any, e₀ ≥ 0), in any scalar type.
-template <class Scalar>
-Eigen::Matrix<Scalar, 4, 1> euler_parameters(const Matrix3<Scalar>& rotation) {
-  using std::sqrt;
-  // Four candidates; the one with the largest divisor is taken (Shepperd 1978).
-  const Scalar trace = rotation(0, 0) + rotation(1, 1) + rotation(2, 2);
-  int best = -1;
-  double largest = value_of(trace);
-  for (int i = 0; i < 3; ++i) {
-    if (value_of(rotation(i, i)) > largest) {
-      largest = value_of(rotation(i, i));
-      best = i;
-    }
-  }
-  Eigen::Matrix<Scalar, 4, 1> theta;
-  if (best < 0) {
-    theta(0) = sqrt(1.0 + trace) / 2.0;
-    for (int i = 0; i < 3; ++i) {
-      const int j = (i + 1) % 3, k = (i + 2) % 3;
-      theta(1 + i) = (rotation(k, j) - rotation(j, k)) / (4.0 * theta(0));
-    }
-    return theta;
-  }
-  const int j = (best + 1) % 3, k = (best + 2) % 3;
-  const Scalar e = sqrt(1.0 + 2.0 * rotation(best, best) - trace) / 2.0;
-  theta(1 + best) = e;
-  theta(0) = (rotation(k, j) - rotation(j, k)) / (4.0 * e);
-  theta(1 + j) = (rotation(j, best) + rotation(best, j)) / (4.0 * e);
-  theta(1 + k) = (rotation(k, best) + rotation(best, k)) / (4.0 * e);
-  return theta;
-}
-
 /// Position, velocity and acceleration of a frame, with the derivatives that forces need.
 template <class Scalar>
 struct FrameMotion {
   Vector3<Scalar> r, r_dot, r_ddot;    ///< global axes
-  Matrix3<Scalar> A, A_dot, A_ddot;    ///< exact time derivatives of A(coordinates)
-  std::array<Matrix3<Scalar>, 4> A_p;  ///< ∂A/∂(rotation coordinate)
-  Vector3<Scalar> omega, alpha;        ///< ω = G ṗ, α = G p̈, body axes
-  Eigen::Matrix<Scalar, 3, Eigen::Dynamic, 0, 3, 4> G;                 ///< 3 × rotations
-  Eigen::Matrix<Scalar, 3, Eigen::Dynamic, 0, 3, 4> omega_p, alpha_p;  ///< ∂ω/∂p, ∂α/∂p
+  Matrix3<Scalar> A, A_dot, A_ddot;    ///< exact time derivatives of A
+  std::array<Matrix3<Scalar>, 3> A_p;  ///< ∂A/∂(rotation coordinate)
+  Vector3<Scalar> omega, alpha;        ///< body axes; ω = G × (rates of the rotation coordinates)
+  Eigen::Matrix<Scalar, 3, Eigen::Dynamic, 0, 3, 3> G;  ///< 3 × rotations
 };
 
 namespace frame_detail {
@@ -149,28 +94,29 @@ void set_angle_motion(const BodyFrame& frame, const Scalar& angle, const Scalar&
   motion.G = (frame.reference.transpose() * frame.axis).template cast<Scalar>();
   motion.omega = speed * motion.G;
   motion.alpha = acceleration * motion.G;
-  motion.omega_p.setConstant(3, 1, Scalar(0));
-  motion.alpha_p.setConstant(3, 1, Scalar(0));
 }
 
+/// Derivatives of A are those with respect to right perturbations: dual parts of ψ stand for δ.
 template <class Scalar>
-void set_euler_motion(const Eigen::Matrix<Scalar, 4, 1>& theta,
-                      const Eigen::Matrix<Scalar, 4, 1>& rate,
-                      const Eigen::Matrix<Scalar, 4, 1>& acceleration,
-                      FrameMotion<Scalar>& motion) {
-  using Vector4 = Eigen::Matrix<Scalar, 4, 1>;
-  motion.A = euler_bilinear(theta, theta);
-  motion.A_dot = 2.0 * euler_bilinear(theta, rate);
-  motion.A_ddot = 2.0 * euler_bilinear(rate, rate) + 2.0 * euler_bilinear(theta, acceleration);
-  for (int i = 0; i < 4; ++i) {
-    const Vector4 unit = Eigen::Vector4d::Unit(i).template cast<Scalar>();
-    motion.A_p[static_cast<std::size_t>(i)] = 2.0 * euler_bilinear(theta, unit);
+void set_spatial_motion(const Vector3<Scalar>& psi, const Vector3<Scalar>& omega,
+                        const Vector3<Scalar>& alpha, FrameMotion<Scalar>& motion) {
+  const Eigen::Vector3d fixed = value_matrix(psi);
+  motion.A = rotation_of(fixed).template cast<Scalar>();
+  if constexpr (!std::is_same_v<Scalar, double>) {
+    const Vector3<Scalar> perturbation = psi - fixed.template cast<Scalar>();
+    const Matrix3<Scalar> change = motion.A * skew<Scalar>(perturbation);
+    motion.A += change;
   }
-  motion.G = 2.0 * euler_rate_matrix(theta);
-  motion.omega = motion.G * rate;
-  motion.alpha = motion.G * acceleration;
-  motion.omega_p = -2.0 * euler_rate_matrix(rate);
-  motion.alpha_p = -2.0 * euler_rate_matrix(acceleration);
+  const Matrix3<Scalar> spin = skew<Scalar>(omega);
+  motion.A_dot = motion.A * spin;
+  motion.A_ddot = motion.A * skew<Scalar>(alpha) + motion.A_dot * spin;
+  for (int i = 0; i < 3; ++i) {
+    const Vector3<Scalar> unit = Eigen::Vector3d::Unit(i).template cast<Scalar>();
+    motion.A_p[static_cast<std::size_t>(i)] = motion.A * skew<Scalar>(unit);
+  }
+  motion.G = Matrix3<double>::Identity().template cast<Scalar>();
+  motion.omega = omega;
+  motion.alpha = alpha;
 }
 
 }  // namespace frame_detail
@@ -197,15 +143,13 @@ FrameMotion<Scalar> frame_motion(const BodyFrame& frame, const Q& q, const V& v,
       motion.omega.setConstant(Scalar(0));
       motion.alpha.setConstant(Scalar(0));
       motion.G.resize(3, 0);
-      motion.omega_p.resize(3, 0);
-      motion.alpha_p.resize(3, 0);
       break;
     case RotationCoordinates::angle:
       frame_detail::set_angle_motion<Scalar>(frame, q(k), v(k), a(k), motion);
       break;
-    case RotationCoordinates::euler_parameters:
-      frame_detail::set_euler_motion<Scalar>(q.template segment<4>(k), v.template segment<4>(k),
-                                             a.template segment<4>(k), motion);
+    case RotationCoordinates::rotation_vector:
+      frame_detail::set_spatial_motion<Scalar>(q.template segment<3>(k), v.template segment<3>(k),
+                                               a.template segment<3>(k), motion);
       break;
   }
   return motion;

@@ -1,8 +1,11 @@
 #include "core/integration/initial_state.hpp"
 
+#include <limits>
+
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/integration/configuration.hpp"
 
 namespace pleuel {
 
@@ -36,19 +39,25 @@ void assemble_positions(Mechanism& mechanism, LinearSolver& solver, System::Matr
   const int n = system.coordinates(), m = system.multipliers();
   Eigen::VectorXd residual;
   State at = initial.state;
+  double previous = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     system.residual(at, ConstraintLevel::position, residual);
     const double violation = m > 0 ? residual.tail(m).lpNorm<Eigen::Infinity>() : 0.0;
     projection_matrix(mechanism, at, matrix);
     factorize_or_throw(solver, matrix, "positions");
     Eigen::VectorXd step(n + m);
-    step.head(n) = mechanism.assembly_weight.cwiseProduct(mechanism.guess.q - at.q);
+    step.head(n) = -mechanism.assembly_weight.cwiseProduct(
+        difference(mechanism.rotations, at.q, mechanism.guess.q));
     step.tail(m) = -residual.tail(m);
     solver.solve(step);
-    at.q += step.head(n);
+    const Eigen::VectorXd before = at.q;
+    advance(mechanism.rotations, before, step.head(n), at.q);
     if (!at.q.allFinite()) break;
     const double correction = step.head(n).cwiseQuotient(mechanism.scale).lpNorm<Eigen::Infinity>();
-    if (violation < 1e-10 && correction < 1e-10) {
+    // The projection converges linearly where the guess is loose: on, down to round-off.
+    const bool is_at_rest = correction < 1e-15 || correction > 0.3 * previous;
+    previous = correction;
+    if (violation < 1e-10 && correction < 1e-10 && is_at_rest) {
       check_strain(mechanism, at.q);
       initial.state.q = at.q;
       initial.position_multipliers = step.tail(m);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "core/system/system.hpp"
 
@@ -11,6 +12,10 @@ struct Mechanism {
   std::unique_ptr<System> system;
   /// Positions and velocities to start from; made consistent with the constraints by assembly.
   State guess;
+  /// First coordinates of the rotation vectors in q (three each): their rates are angular
+  /// velocities in body axes, and their changes are right perturbations
+  /// (core/base/rotation_vector.hpp).
+  std::vector<int> rotations;
   /// Derivatives of guess.q and guess.v with respect to the design variables, n × variables.
   Eigen::MatrixXd guess_q_x, guess_v_x;
   /// Typical magnitude of each coordinate: lengths [m] or 1 [rad].

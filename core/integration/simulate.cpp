@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/integration/configuration.hpp"
 #include "core/integration/initial_state.hpp"
 #include "core/integration/linear_solver.hpp"
 
@@ -38,14 +39,15 @@ class TimeLoop {
  public:
   TimeLoop(Mechanism& mechanism, const SimulationOptions& options)
       : system_(*mechanism.system),
+        rotations_(mechanism.rotations),
         scale_(mechanism.scale),
         options_(options),
         steps_(step_count(options)),
         scheme_(generalized_alpha(options.end_time / steps_, options.spectral_radius)),
         state_(initial_state(mechanism).state),
         w_(state_.a),
-        matrix_(system_.make_matrix()),
-        solver_(matrix_),
+        matrices_(rotations_.empty() ? 1 : 2, system_.make_matrix()),
+        solver_(matrices_[0]),
         correction_(system_.size()) {}
 
   Trajectory run() {
@@ -69,7 +71,7 @@ class TimeLoop {
       matrix->resize(n, steps_ + 1);
     }
     trajectory_.lambda.resize(system_.multipliers(), steps_ + 1);
-    for (auto* vector : {&old_q_, &old_v_, &old_a_, &old_w_}) vector->resize(n);
+    for (auto* vector : {&old_q_, &old_v_, &old_a_, &old_w_, &increment_}) vector->resize(n);
     residual_.resize(system_.size());
   }
 
@@ -81,14 +83,14 @@ class TimeLoop {
     trajectory_.lambda.col(step) = state_.lambda;
   }
 
-  /// y⁺ = history · y, then the correction that keeps the acceleration.
+  /// y⁺ = history · y (for q as q ⊕ increment), then the correction that keeps the acceleration.
   void predict(int step) {
     const Eigen::Matrix4d& h = scheme_.history;
     old_q_ = state_.q;
     old_v_ = state_.v;
     old_a_ = state_.a;
     old_w_ = w_;
-    state_.q = h(0, 0) * old_q_ + h(0, 1) * old_v_ + h(0, 2) * old_a_ + h(0, 3) * old_w_;
+    increment_ = h(0, 1) * old_v_ + h(0, 2) * old_a_ + h(0, 3) * old_w_;
     state_.v = h(1, 0) * old_q_ + h(1, 1) * old_v_ + h(1, 2) * old_a_ + h(1, 3) * old_w_;
     state_.a = h(2, 0) * old_q_ + h(2, 1) * old_v_ + h(2, 2) * old_a_ + h(2, 3) * old_w_;
     w_ = h(3, 0) * old_q_ + h(3, 1) * old_v_ + h(3, 2) * old_a_ + h(3, 3) * old_w_;
@@ -99,7 +101,8 @@ class TimeLoop {
 
   template <class Vector>
   void apply(const Vector& z) {
-    state_.q += scheme_.correction(0) * z;
+    increment_ += scheme_.correction(0) * z;
+    advance(rotations_, old_q_, increment_, state_.q);
     state_.v += scheme_.correction(1) * z;
     state_.a += scheme_.correction(2) * z;
     w_ += scheme_.correction(3) * z;
@@ -150,9 +153,15 @@ class TimeLoop {
 
   void linearize(int step, int iteration) {
     const Weights weights{scheme_.correction(0), scheme_.correction(1), scheme_.correction(2)};
-    system_.linearize(state_, weights, ConstraintLevel::position, residual_, matrix_);
-    scale_dynamic_block(system_.coordinates(), scheme_.dynamic_scale(), matrix_);
-    if (!solver_.factorize(matrix_)) fail(step, iteration, "the step matrix is singular");
+    const std::array<Weights, 2> all{weights, {.q = 1.0}};
+    const WeightList used(all.data(), matrices_.size());
+    System::Matrix& matrix = matrices_[0];
+    system_.linearize(state_, used, ConstraintLevel::position, residual_, matrices_);
+    if (!rotations_.empty()) {
+      add_increment_tangent(rotations_, increment_, matrices_[1], weights.q, matrix);
+    }
+    scale_dynamic_block(system_.coordinates(), scheme_.dynamic_scale(), matrix);
+    if (!solver_.factorize(matrix)) fail(step, iteration, "the step matrix is singular");
   }
 
   [[noreturn]] void fail(int step, int iteration, const char* what) const {
@@ -165,17 +174,19 @@ class TimeLoop {
   }
 
   System& system_;
+  const Rotations& rotations_;
   const Eigen::VectorXd& scale_;
   SimulationOptions options_;
   int steps_;
   Scheme scheme_;
   State state_;
   Eigen::VectorXd w_;
-  System::Matrix matrix_;
+  std::vector<System::Matrix> matrices_;  ///< of the step and, where there are rotations, R_q
   LinearSolver solver_;
   Eigen::VectorXd correction_, residual_;
   double curvature_ = std::numeric_limits<double>::infinity();
   Eigen::VectorXd old_q_, old_v_, old_a_, old_w_;
+  Eigen::VectorXd increment_;  ///< q = old_q ⊕ increment
   Trajectory trajectory_;
 };
 

@@ -40,15 +40,12 @@ void JointLinearization::set_marker(std::size_t m, const double* q) {
       state.A_p[0] = c * across - s * in_plane;
       break;
     }
-    case RotationCoordinates::euler_parameters: {
-      const Eigen::Vector4d theta(rotation);
-      state.A = euler_bilinear(theta, theta);
-      for (int i = 0; i < 4; ++i) {
-        const Eigen::Vector4d unit = Eigen::Vector4d::Unit(i);
-        state.A_p[static_cast<std::size_t>(i)] = 2.0 * euler_bilinear(theta, unit);
+    case RotationCoordinates::rotation_vector:
+      state.A = rotation_of(Vector3d(rotation));
+      for (int i = 0; i < 3; ++i) {
+        state.A_p[static_cast<std::size_t>(i)] = state.A * skew<double>(Vector3d::Unit(i));
       }
       break;
-    }
   }
   state.u = data_.points[m];
   state.psi.setZero();
@@ -131,12 +128,12 @@ void JointLinearization::add_curvature(const Attached& a, const Vector3d& g) {
     // ∂²A/∂φ² turns the part of s in the plane by a half turn.
     const Vector3d in_plane = a.s - state.normal.dot(a.s) * state.normal;
     hessian_(first, first) -= g.dot(state.A * in_plane);
-  } else if (frame.rotation == RotationCoordinates::euler_parameters) {
-    for (int i = 0; i < 4; ++i) {
-      for (int j = 0; j < 4; ++j) {
-        const Eigen::Vector4d left = Eigen::Vector4d::Unit(i), right = Eigen::Vector4d::Unit(j);
-        hessian_(first + i, first + j) += 2.0 * g.dot(euler_bilinear(left, right) * a.s);
-      }
+  } else if (frame.rotation == RotationCoordinates::rotation_vector) {
+    // Row i, gᵀ A (eᵢ × s), changes with A → A (I + ẽⱼ) by g'ᵢ sⱼ − δᵢⱼ g'·s, g' = Aᵀ g.
+    const Vector3d local = state.A.transpose() * g;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) hessian_(first + i, first + j) += local(i) * a.s(j);
+      hessian_(first + i, first + i) -= local.dot(a.s);
     }
   }
 }

@@ -12,7 +12,7 @@ namespace pleuel {
 ///     Φ = a · b  ⇒  Φ_q = Jₐᵀ b + J_bᵀ a,   Φ_qq = Hₐ(b) + H_b(a) + Jₐᵀ J_b + J_bᵀ Jₐ
 class JointLinearization {
  public:
-  static constexpr int max_size = 26;  ///< local coordinates: twice frame (7) and marker (6)
+  static constexpr int max_size = 24;  ///< local coordinates: twice frame (6) and marker (6)
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_size, 1>;
   using Hessian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_size, max_size>;
 
@@ -36,7 +36,7 @@ class JointLinearization {
     int frame = 0;  ///< number of frame coordinates
     Eigen::Vector3d r;
     Eigen::Matrix3d A;
-    std::array<Eigen::Matrix3d, 4> A_p;
+    std::array<Eigen::Matrix3d, 3> A_p;
     Eigen::Vector3d u, psi;
     double angle = 0.0;
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of planar motion, local axes

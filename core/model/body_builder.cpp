@@ -19,7 +19,7 @@ BodyFrame make_frame(const Body& body, const BuildContext& context, int offset) 
   frame.offset = offset;
   const bool is_point = std::holds_alternative<PointMass>(body.shape);
   if (!context.plane) {
-    if (!is_point) frame.rotation = RotationCoordinates::euler_parameters;
+    if (!is_point) frame.rotation = RotationCoordinates::rotation_vector;
     return frame;
   }
   const MotionPlane& plane = *context.plane;
@@ -38,7 +38,7 @@ BodyFrame make_frame(const Body& body, const BuildContext& context, int offset) 
 
 /// In a plane: displacements along local axes in the plane, rotations about the one normal to it.
 NodalFlags active_displacements(const BodyFrame& frame) {
-  if (frame.rotation == RotationCoordinates::euler_parameters) {
+  if (frame.rotation == RotationCoordinates::rotation_vector) {
     return {true, true, true, true, true, true};
   }
   NodalFlags active{};

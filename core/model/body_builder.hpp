@@ -28,7 +28,7 @@ BodyModel make_body_model(const Body& body, const BuildContext& context, int off
 std::vector<std::unique_ptr<Term>> make_body_terms(const Body& body, BodyModel& model,
                                                    const BuildContext& context);
 
-/// Frame coordinates of a body at t = 0: translations, then angle or Euler parameters.
+/// Frame coordinates of a body at t = 0: translations, then angle or rotation vector.
 template <class Scalar>
 Eigen::Matrix<Scalar, Eigen::Dynamic, 1> frame_coordinates(const BodyFrame& frame,
                                                            const Pose<Scalar>& pose) {
@@ -47,8 +47,17 @@ Eigen::Matrix<Scalar, Eigen::Dynamic, 1> frame_coordinates(const BodyFrame& fram
     const Scalar c = turned.dot(Vector3<Scalar>(frame.basis.col(0).template cast<Scalar>()));
     const Scalar s = turned.dot(Vector3<Scalar>(normal.template cast<Scalar>()));
     q(k) = atan2(s, c);
-  } else if (frame.rotation == RotationCoordinates::euler_parameters) {
-    q.tail(4) = euler_parameters<Scalar>(pose.rotation);
+  } else if (frame.rotation == RotationCoordinates::rotation_vector) {
+    const Eigen::Matrix3d rotation = value_matrix(pose.rotation);
+    const Eigen::Vector3d psi = rotation_vector(rotation);
+    for (int i = 0; i < 3; ++i) q(k + i) = Scalar(psi(i));
+    if constexpr (std::is_same_v<Scalar, Dual>) {
+      // Dual parts of rotation vectors are right perturbations: Aᵀ dA = δ̃.
+      const Eigen::Matrix3d spin = rotation.transpose() * derivative_matrix(pose.rotation);
+      q(k).derivatives()[0] = spin(2, 1);
+      q(k + 1).derivatives()[0] = spin(0, 2);
+      q(k + 2).derivatives()[0] = spin(1, 0);
+    }
   }
   return q;
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
-#include "core/effects/euler_parameter_norm.hpp"
 #include "core/joints/joint_term.hpp"
 #include "core/model/joint_builder.hpp"
 #include "core/model/model.hpp"
@@ -98,10 +97,8 @@ class ModelBuilder {
       for (auto& term : make_body_terms(context_.scene.bodies[i], body, context_)) {
         terms_.push_back(std::move(term));
       }
-      if (body.frame.rotation == RotationCoordinates::euler_parameters) {
-        terms_.push_back(std::make_unique<EulerParameterNorm>(
-            body.name, body.frame.offset + body.frame.translations(), coordinates_ + multipliers_));
-        ++multipliers_;
+      if (body.frame.rotation == RotationCoordinates::rotation_vector) {
+        model_.mechanism.rotations.push_back(body.frame.offset + body.frame.translations());
       }
       has_stiffening = has_stiffening || body.has_stiffening;
       has_damping = has_damping || body.beam.stiffness_damping > 0 || body.beam.mass_damping > 0;

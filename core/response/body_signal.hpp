@@ -13,7 +13,7 @@ namespace pleuel {
 /// neighbouring nodes (six each; zero where there is no coordinate).
 template <class Scalar>
 struct LocalMotion {
-  static constexpr int max_size = 7 + 18;
+  static constexpr int max_size = 6 + 18;
   std::array<Scalar, max_size> q, v, a;
 };
 

@@ -68,7 +68,7 @@ TEST_P(SliderCrank, IsDrivenFromRestToSpeed) {
   const Joint& bearing = problem.scene.joints[0];
   EXPECT_EQ(bearing.name, "bearing");
   EXPECT_THAT(bearing.bodies, ElementsAre("ground", "crank"));
-  const auto& drive = std::get<RampToSpeedDrive>(*bearing.drive);
+  const auto& drive = std::get<RampToSpeedDrive>(bearing.drive->motion);
   EXPECT_EQ(drive.speed.constant, 200.0);
   EXPECT_EQ(drive.ramp.constant, 0.05);
 }

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/rotation_vector.hpp"
+#include "core/integration/configuration.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_scenes.hpp"
 
@@ -38,10 +40,18 @@ class StartSensitivity : public testing::TestWithParam<Case> {
     Model model = sample_.build_at(design);
     std::mt19937 random(4);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    Eigen::VectorXd disturbance(model.mechanism.guess.q.size());
     for (Eigen::Index i = 0; i < model.mechanism.guess.q.size(); ++i) {
       const double loose = GetParam().looseness * model.mechanism.scale(i);
-      model.mechanism.guess.q(i) += loose * uniform(random);
+      disturbance(i) = loose * uniform(random);
       model.mechanism.guess.v(i) += 10 * loose * uniform(random);
+    }
+    const Eigen::VectorXd start = model.mechanism.guess.q;
+    model.mechanism.guess.q += disturbance;
+    for (int i : model.mechanism.rotations) {
+      // Turned before the design turns it: its derivative, a right perturbation, stays what it is.
+      model.mechanism.guess.q.segment<3>(i) =
+          compose(disturbance.segment<3>(i), start.segment<3>(i));
     }
     return model;
   }
@@ -60,7 +70,9 @@ TEST_P(StartSensitivity, IsTheDifferenceOfStartsOfNeighbouringDesigns) {
           auto design = sample_.design;
           design[index] += step;
           Model moved = build_at(design);
-          return stacked(initial_state(moved.mechanism).state);
+          State state = initial_state(moved.mechanism).state;
+          state.q = difference(model.mechanism.rotations, state.q, initial.state.q);
+          return stacked(state);
         },
         1e-3 * std::abs(x));
     Eigen::VectorXd found(expected.size());

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/integration/configuration.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_scenes.hpp"
@@ -74,7 +75,11 @@ TEST_P(EveryTerm, HasTheTangentOfItsResidualInThePositions) {
     const auto tangent = tangent_of(*term, state_, {.q = 1.0}, GetParam().level).leftCols(n).eval();
     expect_derivative(
         *term, tangent, n, Eigen::VectorXd::Constant(n, 1e-3),
-        [](State& at, Eigen::Index j, double s) { at.q(j) += s; }, "q");
+        [&](State& at, Eigen::Index j, double s) {
+          const Eigen::VectorXd start = at.q;
+          advance(model_.mechanism.rotations, start, s * Eigen::VectorXd::Unit(n, j), at.q);
+        },
+        "q");
   }
 }
 
@@ -195,7 +200,7 @@ TEST_P(EverySample, PushesAlongTheGradientsOfItsConstraints) {
       expected(j) = derivative_at_zero(
           [&](double s) {
             State moved = state_;
-            moved.q(j) += s;
+            advance(model_.mechanism.rotations, state_.q, s * Eigen::VectorXd::Unit(n, j), moved.q);
             return residual_of(*term, moved, ConstraintLevel::position).tail(m).dot(state_.lambda);
           },
           1e-3);
@@ -219,7 +224,7 @@ TEST_P(EverySample, HasTheTimeDerivativesOfItsConstraints) {
     const auto position = [&](double t) -> Eigen::VectorXd {
       State moved = state_;
       moved.time += t;
-      moved.q += t * state_.v + 0.5 * t * t * state_.a;
+      advance(model_.mechanism.rotations, state_.q, t * state_.v + 0.5 * t * t * state_.a, moved.q);
       return residual_of(*term, moved, ConstraintLevel::position).tail(m);
     };
     const auto expect_rate = [&](ConstraintLevel level, const Eigen::VectorXd& expected) {
