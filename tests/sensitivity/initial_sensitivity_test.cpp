@@ -74,7 +74,7 @@ TEST_P(StartSensitivity, IsTheDifferenceOfStartsOfNeighbouringDesigns) {
           state.q = difference(model.mechanism.rotations, state.q, initial.state.q);
           return stacked(state);
         },
-        1e-3 * std::abs(x));
+        3e-3 * std::abs(x));  // 1e-2 and 3e-4 show truncation and round-off above 1e-7
     Eigen::VectorXd found(expected.size());
     found << s.q.col(j), s.v.col(j), s.a.col(j), s.lambda.col(j);
     const Eigen::VectorXd at = stacked(initial.state);
