@@ -1,0 +1,132 @@
+#pragma once
+
+#include <utility>
+
+#include "core/forces/force_data.hpp"
+#include "core/forces/marker_forces.hpp"
+#include "core/system/term.hpp"
+
+namespace pleuel {
+
+/// A force element as a term of the system: residual += −Q(q, v, t; x), Q written once by a law:
+///
+///     struct Law {
+///       static constexpr std::size_t marker_count;
+///       template <class Scalar> using Data;         // its numbers, see force_data.hpp
+///       std::string name;
+///       // Q
+///       template <class Scalar>
+///       void add_forces(const Data<Scalar>&, double time, MarkerForces<Scalar, …>&) const;
+///       // whether ∂Q(row)/∂(col) or its rate can differ from zero
+///       bool couples(const LocalCoordinate& row, const LocalCoordinate& col) const;
+///     };
+///
+/// The tangent comes from dual numbers that carry the weights of the scheme, one evaluation for
+/// positions and velocities together; the design derivative from dual data. Nothing is allocated
+/// after construction.
+template <class Law>
+class ForceTerm : public Term {
+ public:
+  static constexpr std::size_t marker_count = Law::marker_count;
+  template <class Scalar>
+  using Data = typename Law::template Data<Scalar>;
+  using Markers = std::array<Marker, marker_count>;
+
+  ForceTerm(Law law, Markers markers, Data<double> data,
+            const std::vector<DesignDerivative<Data<double>>>& derivatives)
+      : law_(std::move(law)),
+        markers_(std::move(markers)),
+        data_(std::move(data)),
+        wide_data_(cast_data<Wide>(data_)),
+        coordinates_(local_coordinates(markers_)) {
+    for (const auto& [variable, derivative] : derivatives) {
+      derivatives_.push_back({variable, seed_data(data_, derivative)});
+    }
+    for (std::size_t row = 0; row < coordinates_.size(); ++row) {
+      for (std::size_t col = 0; col < coordinates_.size(); ++col) {
+        if (law_.couples(coordinates_[row], coordinates_[col])) pattern_.emplace_back(row, col);
+      }
+    }
+  }
+
+  std::string name() const override { return law_.name; }
+
+  void declare_entries(EntryList& entries) const override {
+    for (const auto& [row, col] : pattern_) {
+      entries.emplace_back(coordinates_[row].index, coordinates_[col].index);
+    }
+  }
+
+  void add_residual(const State& state, ConstraintLevel, Eigen::VectorXd& residual) override {
+    Local<double> q, v;
+    load<double>(state, q, v);
+    const Local<double> forces = evaluate(data_, state.time, q, v);
+    for (std::size_t i = 0; i < coordinates_.size(); ++i) {
+      residual(coordinates_[i].index) -= forces[i];
+    }
+  }
+
+  void linearize(const State& state, const WeightList& weights, ConstraintLevel level,
+                 Eigen::VectorXd& residual, const EntryBlocks& entries) override {
+    add_residual(state, level, residual);
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      write_entries(state, weights[i], entries.block(i));
+    }
+  }
+
+  void add_design_derivative(const State& state, ConstraintLevel,
+                             Eigen::MatrixXd& columns) override {
+    Local<Dual> q, v;
+    load<Dual>(state, q, v);
+    for (const auto& [variable, data] : derivatives_) {
+      const Local<Dual> forces = evaluate(data, state.time, q, v);
+      for (std::size_t i = 0; i < coordinates_.size(); ++i) {
+        columns(coordinates_[i].index, variable) -= derivative_of(forces[i]);
+      }
+    }
+  }
+
+ private:
+  template <class Scalar>
+  using Local = typename MarkerForces<Scalar, marker_count>::Coordinates;
+  using Wide = DualOf<MarkerForces<double, marker_count>::max_size>;
+
+  template <class Scalar>
+  void load(const State& state, Local<Scalar>& q, Local<Scalar>& v) const {
+    for (std::size_t i = 0; i < coordinates_.size(); ++i) {
+      q[i] = Scalar(state.q(coordinates_[i].index));
+      v[i] = Scalar(state.v(coordinates_[i].index));
+    }
+  }
+
+  template <class Scalar>
+  Local<Scalar> evaluate(const Data<Scalar>& data, double time, const Local<Scalar>& q,
+                         const Local<Scalar>& v) const {
+    MarkerForces<Scalar, marker_count> markers(markers_, q, v);
+    law_.add_forces(data, time, markers);
+    return markers.forces();
+  }
+
+  void write_entries(const State& state, const Weights& weights, double* entries) const {
+    Local<Wide> q, v;
+    load<Wide>(state, q, v);
+    for (std::size_t i = 0; i < coordinates_.size(); ++i) {
+      q[i].derivatives()[static_cast<Eigen::Index>(i)] = weights.q;
+      v[i].derivatives()[static_cast<Eigen::Index>(i)] = weights.v;
+    }
+    const Local<Wide> forces = evaluate(wide_data_, state.time, q, v);
+    for (const auto& [row, col] : pattern_) {
+      *entries++ = -derivative_of(forces[row], static_cast<int>(col));
+    }
+  }
+
+  Law law_;
+  Markers markers_;
+  Data<double> data_;
+  Data<Wide> wide_data_;
+  std::vector<DesignDerivative<Data<Dual>>> derivatives_;
+  std::vector<LocalCoordinate> coordinates_;
+  std::vector<std::pair<std::size_t, std::size_t>> pattern_;  ///< local (row, column)
+};
+
+}  // namespace pleuel

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/base/time_law.hpp"
+#include "core/frame/marker.hpp"
+#include "core/system/term.hpp"
+
+namespace pleuel {
+
+/// The relative coordinate s of two markers that a joint force acts on.
+enum class RelativeCoordinate {
+  planar_angle,  ///< ±(φ₂ − φ₁ − offset), with elastic rotations: counts whole turns
+  angle,         ///< by which d' has turned from d_a to d_b, in (−π, π]
+  displacement   ///< d · (P₂ − P₁)
+};
+
+/// The numbers of a joint force, which may depend on the design.
+template <class Scalar>
+struct JointForceData {
+  static Vector3<Scalar> zero() { return Vector3<Scalar>::Constant(Scalar(0)); }
+
+  /// Of `displacement`: undeformed, local axes of each body [m].
+  std::array<Vector3<Scalar>, 2> points = {zero(), zero()};
+  /// Unit vectors, local axes of the body they belong to. `angle`: d_a and d_b on the first, d' on
+  /// the second marker; `displacement`: d on the first marker.
+  std::array<Vector3<Scalar>, 3> directions = {zero(), zero(), zero()};
+  Scalar offset = Scalar(0);     ///< of `planar_angle` [rad]
+  Scalar stiffness = Scalar(0);  ///< k [N m/rad] or [N/m]
+  Scalar damping = Scalar(0);    ///< c [N m s/rad] or [N s/m]
+  Scalar rest = Scalar(0);       ///< s₀ [rad] or [m]
+  TimeLaw<Scalar> motor;         ///< m [N m] or [N]; none without parameters
+
+  template <class Function, class... Data>
+  static void visit(Function&& function, Data&... data) {
+    for (std::size_t m = 0; m < 2; ++m) function(data.points[m]...);
+    for (std::size_t i = 0; i < 3; ++i) function(data.directions[i]...);
+    function(data.offset...);
+    function(data.stiffness...);
+    function(data.damping...);
+    function(data.rest...);
+    function(data.motor...);
+  }
+};
+
+struct JointForceTopology {
+  std::string name;
+  std::array<Marker, 2> markers;
+  RelativeCoordinate coordinate = RelativeCoordinate::planar_angle;
+  double sense = 1.0;  ///< of planar_angle: −1 if the joint's axis is opposite to the normal
+};
+
+/// Spring, viscous friction and motor in a joint: τ = −k (s − s₀) − c ṡ + m(t) on the second body,
+/// the opposite on the first.
+/// The term throws SimulationError, with name and time, where the angle has no value.
+/// @param derivatives  of the numbers with respect to the variables they depend on
+std::unique_ptr<Term> make_joint_force_term(
+    JointForceTopology topology, JointForceData<double> data,
+    std::vector<DesignDerivative<JointForceData<double>>> derivatives);
+
+}  // namespace pleuel

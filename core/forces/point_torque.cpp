@@ -1,0 +1,45 @@
+#include "core/forces/point_torque.hpp"
+
+#include "core/forces/force_term.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// T = m(t) Aᵀ d (fixed in space) or m(t) (s + ψ × s), body axes;   δW = T · (δπ + δψ)
+struct PointTorqueLaw {
+  static constexpr std::size_t marker_count = 1;
+  template <class Scalar>
+  using Data = PointTorqueData<Scalar>;
+
+  std::string name;
+  LoadDirection load_direction;
+
+  template <class Scalar>
+  void add_forces(const Data<Scalar>& data, double time, MarkerForces<Scalar, 1>& marker) const {
+    const Vector3<Scalar> local =
+        load_direction == LoadDirection::body
+            ? marker.local_direction(0, data.direction)
+            : Vector3<Scalar>(marker.frame(0).A.transpose() * data.direction);
+    const Scalar value = data.value.at(time).value;
+    marker.add_torque(0, value * local);
+  }
+
+  bool couples(const LocalCoordinate& row, const LocalCoordinate& col) const {
+    using enum CoordinatePart;
+    if (row.part != rotation && row.part != turn) return false;
+    return col.part == (load_direction == LoadDirection::body ? turn : rotation);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Term> make_point_torque_term(
+    PointTorqueTopology topology, PointTorqueData<double> data,
+    std::vector<DesignDerivative<PointTorqueData<double>>> derivatives) {
+  return std::make_unique<ForceTerm<PointTorqueLaw>>(
+      PointTorqueLaw{"point torque " + topology.name, topology.direction},
+      std::array{std::move(topology.marker)}, std::move(data), derivatives);
+}
+
+}  // namespace pleuel

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/base/time_law.hpp"
+#include "core/forces/load_direction.hpp"
+#include "core/frame/marker.hpp"
+#include "core/system/term.hpp"
+
+namespace pleuel {
+
+/// The numbers of a torque, which may depend on the design.
+template <class Scalar>
+struct PointTorqueData {
+  /// Unit vector: global axes for LoadDirection::space, local axes for LoadDirection::body.
+  Vector3<Scalar> direction = Vector3<Scalar>::Constant(Scalar(0));
+  TimeLaw<Scalar> value;  ///< [N m]
+
+  template <class Function, class... Data>
+  static void visit(Function&& function, Data&... data) {
+    function(data.direction...);
+    function(data.value...);
+  }
+};
+
+struct PointTorqueTopology {
+  std::string name;
+  Marker marker;
+  LoadDirection direction = LoadDirection::space;
+};
+
+/// A torque m(t) d on a marker: d fixed in space, or d = A (s + ψ × s). It does work on the
+/// rotation of the frame and on the elastic rotation of the marker; a point mass does not notice.
+/// Its virtual work T · (δπ + δψ) neglects ψ against 1 in the elastic part.
+/// @param derivatives  of the numbers with respect to the variables they depend on
+std::unique_ptr<Term> make_point_torque_term(
+    PointTorqueTopology topology, PointTorqueData<double> data,
+    std::vector<DesignDerivative<PointTorqueData<double>>> derivatives);
+
+}  // namespace pleuel

@@ -1,0 +1,61 @@
+#include "core/forces/spring_damper.hpp"
+
+#include <sstream>
+
+#include "core/base/error.hpp"
+#include "core/forces/force_term.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// With D = P₂ − P₁, l = |D|, e = D/l and l̇ = e · Ḋ:
+///     F = k (l − l₀) + c l̇,   δW = −F δl = F e · δP₁ − F e · δP₂
+/// (Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems, 1989, sec. 6.2).
+struct SpringDamperLaw {
+  static constexpr std::size_t marker_count = 2;
+  template <class Scalar>
+  using Data = SpringDamperData<Scalar>;
+
+  std::string name;
+
+  template <class Scalar>
+  void add_forces(const Data<Scalar>& data, double time, MarkerForces<Scalar, 2>& markers) const {
+    using std::sqrt;
+    const Vector3<Scalar> D =
+        markers.position(1, data.points[1]) - markers.position(0, data.points[0]);
+    const Scalar squared = D.dot(D);
+    if (value_of(squared) == 0.0) throw_coincident(time);
+    const Scalar length = sqrt(squared);
+    const Vector3<Scalar> e = D / length;
+    const Vector3<Scalar> D_dot =
+        markers.velocity(1, data.points[1]) - markers.velocity(0, data.points[0]);
+    const Scalar force = data.stiffness * (length - data.free_length) + data.damping * e.dot(D_dot);
+    const Vector3<Scalar> F = force * e;
+    markers.add_force(0, F, data.points[0]);
+    markers.add_force(1, -F, data.points[1]);
+  }
+
+  bool couples(const LocalCoordinate& row, const LocalCoordinate& col) const {
+    return row.part != CoordinatePart::turn && col.part != CoordinatePart::turn;
+  }
+
+  [[noreturn]] void throw_coincident(double time) const {
+    std::ostringstream message;
+    message << name << ": its ends coincide at t = " << time
+            << " s, where its force has no direction; attach it so that its length stays positive";
+    throw SimulationError(message.str());
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Term> make_spring_damper_term(
+    SpringDamperTopology topology, SpringDamperData<double> data,
+    std::vector<DesignDerivative<SpringDamperData<double>>> derivatives) {
+  return std::make_unique<ForceTerm<SpringDamperLaw>>(
+      SpringDamperLaw{"spring-damper " + topology.name}, std::move(topology.markers),
+      std::move(data), derivatives);
+}
+
+}  // namespace pleuel

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/frame/marker.hpp"
+#include "core/system/term.hpp"
+
+namespace pleuel {
+
+/// The numbers of a spring-damper, which may depend on the design.
+template <class Scalar>
+struct SpringDamperData {
+  /// Undeformed, local axes of each body [m].
+  std::array<Vector3<Scalar>, 2> points = {Vector3<Scalar>::Constant(Scalar(0)),
+                                           Vector3<Scalar>::Constant(Scalar(0))};
+  Scalar stiffness = Scalar(0);    ///< k [N/m]
+  Scalar damping = Scalar(0);      ///< c [N s/m]
+  Scalar free_length = Scalar(0);  ///< l₀ [m]
+
+  template <class Function, class... Data>
+  static void visit(Function&& function, Data&... data) {
+    for (std::size_t m = 0; m < 2; ++m) function(data.points[m]...);
+    function(data.stiffness...);
+    function(data.damping...);
+    function(data.free_length...);
+  }
+};
+
+struct SpringDamperTopology {
+  std::string name;
+  std::array<Marker, 2> markers;
+};
+
+/// Pulls its two points together with k (l − l₀) + c l̇.
+/// The term throws SimulationError, with name and time, where the two points coincide.
+/// @param derivatives  of the numbers with respect to the variables they depend on
+std::unique_ptr<Term> make_spring_damper_term(
+    SpringDamperTopology topology, SpringDamperData<double> data,
+    std::vector<DesignDerivative<SpringDamperData<double>>> derivatives);
+
+}  // namespace pleuel
