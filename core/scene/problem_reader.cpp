@@ -53,7 +53,6 @@ void read_heading(const JsonNode& root, ProblemFile& problem) {
 
 void read_settings(const JsonNode& root, const NumberReader& numbers, ProblemFile& problem) {
   if (const auto effects = root.find("effects")) problem.effects = read_effects(*effects);
-  problem.simulation = read_simulation(root.at("simulation"), numbers);
   if (const auto optimizer = root.find("optimizer")) problem.optimizer = read_optimizer(*optimizer);
   if (const auto pareto = root.find("pareto")) {
     problem.pareto = read_pareto(*pareto, problem, numbers);
@@ -70,8 +69,9 @@ ProblemFile read_document(const JsonNode& root) {
   const UnitSystem units;
   NumberReader numbers(units, variable_names(root));
   problem.scene = read_scene(root.at("scene"), numbers);
+  problem.simulation = read_simulation(root.at("simulation"), numbers);
   if (const auto responses = root.find("responses")) {
-    problem.responses = read_responses(*responses, problem.scene);
+    problem.responses = read_responses(*responses, {problem.scene, problem.simulation, numbers});
   }
   if (const auto objective = root.find("objective")) {
     problem.objective = read_objective(*objective, problem.responses, numbers);

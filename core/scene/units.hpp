@@ -26,6 +26,7 @@ inline constexpr Quantity stress{"a stress", "Pa"};
 inline constexpr Quantity torque{"a torque", "N m"};
 inline constexpr Quantity time{"a time", "s"};
 inline constexpr Quantity rate{"a rate", "1/s"};
+inline constexpr Quantity frequency{"a frequency", "Hz"};  ///< cycles per second
 inline constexpr Quantity angle{"an angle", "rad"};
 inline constexpr Quantity angular_speed{"an angular speed", "rad/s"};
 inline constexpr Quantity speed{"a speed", "m/s"};

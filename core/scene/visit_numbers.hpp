@@ -63,10 +63,11 @@ void visit_numbers(const TimeFunction& function, const Quantity& value, Visit&& 
     visit(ramp->speed, per_time(value));
     visit(ramp->ramp, quantities::time);
   } else if (const auto* polynomial = std::get_if<PolynomialFunction>(&function)) {
+    const std::vector<Number>& coefficients = polynomial->coefficients;
     Quantity quantity = value;
-    for (const Number& coefficient : polynomial->coefficients) {
-      visit(coefficient, quantity);
-      quantity = per_time(quantity);
+    for (std::size_t i = 0; i < coefficients.size(); ++i) {
+      if (i > 0) quantity = per_time(quantity);
+      visit(coefficients[i], quantity);
     }
   } else if (const auto* harmonic = std::get_if<HarmonicFunction>(&function)) {
     visit(harmonic->amplitude, value);

@@ -168,7 +168,7 @@ TEST(ExudynSliderCrank, HasTheDataOfTheReference) {
   EXPECT_EQ(beam(problem, 0).segments[0].elements, 8);
   EXPECT_EQ(beam(problem, 1).damping.stiffness.constant, 0.0);
   EXPECT_EQ(std::get<PointMass>(problem.scene.bodies[2].shape).mass.constant, 0.5);
-  const auto& drive = std::get<RampToSpeedDrive>(*problem.scene.joints[0].drive);
+  const auto& drive = std::get<RampToSpeedDrive>(problem.scene.joints[0].drive->motion);
   EXPECT_EQ(drive.speed.constant, 150.0);
   EXPECT_EQ(problem.simulation.end_time, 0.15);
   EXPECT_EQ(problem.simulation.step, 5e-5);
@@ -198,7 +198,7 @@ TEST(GoodProblem, KeepsWhatItSaysInTheOrderOfTheFile) {
   EXPECT_EQ(problem.scene.joints[1].type, JointType::fixed);
   EXPECT_EQ(problem.scene.joints[4].type, JointType::point_on_line);
   EXPECT_THAT(problem.scene.joints[4].axis, ElementsAre(1.0, 0.0, 0.0));
-  const auto& drive = std::get<RampToSpeedDrive>(*problem.scene.joints[0].drive);
+  const auto& drive = std::get<RampToSpeedDrive>(problem.scene.joints[0].drive->motion);
   EXPECT_NEAR(drive.speed.constant, 157.07963267948966, 1e-12);  // 1500 · 2π/60
   EXPECT_EQ(problem.simulation.newton_tolerance, 1e-10);
   EXPECT_EQ(problem.simulation.max_newton_iterations, 12);

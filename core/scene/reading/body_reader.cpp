@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -8,6 +9,7 @@ namespace pleuel {
 namespace {
 
 constexpr int most_elements = 10000;
+constexpr int most_modes = 1000;
 
 enum class BodyType { beam, rigid, point_mass };
 
@@ -60,8 +62,14 @@ std::vector<Segment> read_segments(const JsonNode& node, NumberReader& numbers) 
 }
 
 Damping read_damping(const JsonNode& node, NumberReader& numbers) {
-  node.allow_keys({"mass", "stiffness"});
+  node.allow_keys({"mass", "stiffness", "modal"});
   Damping damping;
+  if (const auto modal = node.find("modal")) {
+    for (const char* key : {"mass", "stiffness"}) {
+      if (node.find(key)) node.fail(fmt::format("has both \"modal\" and \"{}\"", key));
+    }
+    damping.modal = numbers.designable(*modal, quantities::pure_number, Range::below_one);
+  }
   if (const auto mass = node.find("mass")) {
     damping.mass = numbers.designable(*mass, quantities::rate, Range::not_negative);
   }
@@ -71,20 +79,51 @@ Damping read_damping(const JsonNode& node, NumberReader& numbers) {
   return damping;
 }
 
+CraigBampton read_reduction(const JsonNode& node, const NumberReader& numbers) {
+  node.allow_keys({"modes", "frequency"});
+  const std::optional<JsonNode> modes = node.find("modes"), frequency = node.find("frequency");
+  if (modes && frequency) node.fail("has both \"modes\" and \"frequency\"");
+  CraigBampton reduction;
+  if (frequency) {
+    const double cycles = numbers.fixed(*frequency, quantities::frequency, Range::positive);
+    reduction.frequency = 2.0 * std::numbers::pi * cycles;
+  } else {
+    if (!modes) node.fail("needs \"modes\" or \"frequency\"");
+    reduction.modes = modes->whole_number(0, most_modes);
+  }
+  return reduction;
+}
+
+/// How the beam deforms: not at all, in all coordinates, or in few.
+void read_elasticity(const JsonNode& node, BeamBody& beam, NumberReader& numbers) {
+  const auto damping = node.find("damping"), reduction = node.find("reduction");
+  if (const auto rigid = node.find("rigid")) beam.is_rigid = rigid->truth();
+  if (beam.is_rigid && damping) damping->fail("is not for a rigid beam");
+  if (beam.is_rigid && reduction) reduction->fail("is not for a rigid beam");
+  if (damping) beam.damping = read_damping(*damping, numbers);
+  if (reduction) beam.reduction = read_reduction(*reduction, numbers);
+  if (damping && damping->find("modal") && !reduction) {
+    damping->at("modal").fail("is for beams with a \"reduction\" only");
+  }
+}
+
 BeamBody read_beam(const JsonNode& node, const std::vector<std::string>& materials,
                    NumberReader& numbers) {
   node.allow_keys({"type", "from", "to", "material", "section", "elements", "segments", "frame",
-                   "damping", "reference"});
+                   "damping", "reference", "rigid", "reduction", "velocity", "angular_velocity"});
   BeamBody beam;
   beam.from = numbers.triple(node.at("from"), quantities::length);
   beam.to = numbers.triple(node.at("to"), quantities::length);
   beam.material = read_known_name(node.at("material"), "material", materials);
   beam.segments = read_segments(node, numbers);
   if (const auto frame = node.find("frame")) {
-    beam.frame = read_choice<ReferenceCondition>(
-        *frame, {{"tangent", ReferenceCondition::tangent}, {"chord", ReferenceCondition::chord}});
+    beam.frame =
+        read_choice<ReferenceCondition>(*frame, {{"tangent", ReferenceCondition::tangent},
+                                                 {"tangent-end", ReferenceCondition::tangent_end},
+                                                 {"chord", ReferenceCondition::chord},
+                                                 {"mean-axis", ReferenceCondition::mean_axis}});
   }
-  if (const auto damping = node.find("damping")) beam.damping = read_damping(*damping, numbers);
+  read_elasticity(node, beam, numbers);
   if (const auto reference = node.find("reference")) {
     beam.reference = numbers.direction(*reference);
   }
@@ -92,7 +131,7 @@ BeamBody read_beam(const JsonNode& node, const std::vector<std::string>& materia
 }
 
 RigidBody read_rigid(const JsonNode& node, NumberReader& numbers) {
-  node.allow_keys({"type", "at", "mass", "inertia"});
+  node.allow_keys({"type", "at", "mass", "inertia", "velocity", "angular_velocity"});
   RigidBody body;
   body.at = numbers.triple(node.at("at"), quantities::length);
   body.mass = numbers.designable(node.at("mass"), quantities::mass, Range::positive);
@@ -105,11 +144,23 @@ RigidBody read_rigid(const JsonNode& node, NumberReader& numbers) {
 }
 
 PointMass read_point_mass(const JsonNode& node, NumberReader& numbers) {
-  node.allow_keys({"type", "at", "mass"});
+  if (const auto turning = node.find("angular_velocity")) {
+    turning->fail("is not for a point mass, which does not turn");
+  }
+  node.allow_keys({"type", "at", "mass", "velocity"});
   PointMass point;
   point.at = numbers.triple(node.at("at"), quantities::length);
   point.mass = numbers.designable(node.at("mass"), quantities::mass, Range::positive);
   return point;
+}
+
+void read_velocities(const JsonNode& node, Body& body, NumberReader& numbers) {
+  if (const auto velocity = node.find("velocity")) {
+    body.velocity = numbers.triple(*velocity, quantities::speed);
+  }
+  if (const auto velocity = node.find("angular_velocity")) {
+    body.angular_velocity = numbers.triple(*velocity, quantities::angular_speed);
+  }
 }
 
 }  // namespace
@@ -119,9 +170,17 @@ Body read_body(const std::string& name, const JsonNode& node,
   const auto type = read_choice<BodyType>(
       node.at("type"),
       {{"beam", BodyType::beam}, {"rigid", BodyType::rigid}, {"point-mass", BodyType::point_mass}});
-  if (type == BodyType::beam) return {name, read_beam(node, materials, numbers)};
-  if (type == BodyType::rigid) return {name, read_rigid(node, numbers)};
-  return {name, read_point_mass(node, numbers)};
+  Body body;
+  body.name = name;
+  if (type == BodyType::beam) {
+    body.shape = read_beam(node, materials, numbers);
+  } else if (type == BodyType::rigid) {
+    body.shape = read_rigid(node, numbers);
+  } else {
+    body.shape = read_point_mass(node, numbers);
+  }
+  read_velocities(node, body, numbers);
+  return body;
 }
 
 }  // namespace pleuel

@@ -1,7 +1,6 @@
 #include "core/scene/reading/geometry.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -9,31 +8,6 @@
 
 namespace pleuel {
 namespace {
-
-/// Share of the beam's length that each segment takes.
-std::vector<double> segment_shares(const BeamBody& beam) {
-  double elements = 0.0;
-  for (const Segment& segment : beam.segments) elements += segment.elements;
-  std::vector<double> shares;
-  for (const Segment& segment : beam.segments) {
-    shares.push_back(segment.fraction.value_or(segment.elements / elements));
-  }
-  return shares;
-}
-
-/// The node nearest to a place along the beam, 0 … 1; nodes are equally spaced inside a segment.
-double nearest_fraction(const BeamBody& beam, double place) {
-  const std::vector<double> shares = segment_shares(beam);
-  double nearest = 0.0, start = 0.0;
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    const double elements = beam.segments[i].elements;
-    const double steps = std::clamp((place - start) / shares[i] * elements, 0.0, elements);
-    const double node = start + shares[i] * std::round(steps) / elements;
-    if (std::abs(node - place) < std::abs(nearest - place)) nearest = node;
-    start += shares[i];
-  }
-  return nearest;
-}
 
 std::vector<Eigen::Vector3d> all_places(const Scene& scene, const Design<double>& design) {
   std::vector<Eigen::Vector3d> places;
@@ -47,7 +21,10 @@ std::vector<Eigen::Vector3d> all_places(const Scene& scene, const Design<double>
       places.push_back(position(point->at, design));
     }
   }
-  for (const Joint& joint : scene.joints) places.push_back(position(joint.at, design));
+  for (const Joint& joint : scene.joints) {
+    places.push_back(position(joint.at, design));
+    if (joint.type == JointType::distance) places.push_back(position(joint.to, design));
+  }
   return places;
 }
 
@@ -62,13 +39,16 @@ Eigen::Vector3d position(const Point& point, const Design<double>& design) {
   return {resolve(point[0], design), resolve(point[1], design), resolve(point[2], design)};
 }
 
-Eigen::Vector3d nearest_node(const BeamBody& beam, const Eigen::Vector3d& place,
-                             const Design<double>& design) {
+Eigen::Vector3d point_at(const BeamBody& beam, double share, const Design<double>& design) {
+  return (1.0 - share) * position(beam.from, design) + share * position(beam.to, design);
+}
+
+double nearest_share(const BeamBody& beam, const Eigen::Vector3d& place,
+                     const Design<double>& design) {
   const Eigen::Vector3d from = position(beam.from, design);
   const Eigen::Vector3d axis = position(beam.to, design) - from;
   const double length = axis.stableNorm();
-  const double along = (place - from).dot(axis / length) / length;
-  return from + axis * nearest_fraction(beam, along);
+  return std::clamp((place - from).dot(axis / length) / length, 0.0, 1.0);
 }
 
 double extent(const Scene& scene, const Design<double>& design) {

@@ -12,9 +12,12 @@ namespace pleuel {
 /// [m]
 Eigen::Vector3d position(const Point& point, const Design<double>& design);
 
-/// The node of the beam that is nearest to a place [m].
-Eigen::Vector3d nearest_node(const BeamBody& beam, const Eigen::Vector3d& place,
-                             const Design<double>& design);
+/// The point of the axis of a beam at a share of its length, 0 … 1 [m].
+Eigen::Vector3d point_at(const BeamBody& beam, double share, const Design<double>& design);
+
+/// The share of the length, 0 … 1, where the axis of the beam is nearest to a place.
+double nearest_share(const BeamBody& beam, const Eigen::Vector3d& place,
+                     const Design<double>& design);
 
 /// The diagonal of the box around all bodies and joints [m].
 double extent(const Scene& scene, const Design<double>& design);

@@ -1,26 +1,64 @@
+#include <cmath>
+
 #include <fmt/format.h>
 
+#include "core/scene/reading/joint_type.hpp"
 #include "core/scene/reading/scene_reader.hpp"
+#include "core/scene/reading/time_function_reader.hpp"
+#include "core/scene/visit_numbers.hpp"
 
 namespace pleuel {
 namespace {
 
-enum class DriveType { constant_speed, ramp_to_speed };
+/// Cosine of the angle between axes that are meant to be normal to each other: rounding.
+constexpr double normal_tolerance = 1e-9;
 
-Drive read_drive(const JsonNode& node, NumberReader& numbers) {
-  const auto type = read_choice<DriveType>(
-      node.at("type"),
-      {{"constant-speed", DriveType::constant_speed}, {"ramp-to-speed", DriveType::ramp_to_speed}});
-  if (type == DriveType::constant_speed) {
-    node.allow_keys({"type", "speed"});
-    return ConstantSpeedDrive{numbers.designable(node.at("speed"), quantities::angular_speed)};
-  }
-  node.allow_keys({"type", "speed", "ramp"});
-  RampToSpeedDrive drive;
-  drive.speed = numbers.designable(node.at("speed"), quantities::angular_speed);
-  drive.ramp = numbers.designable(node.at("ramp"), quantities::time, Range::positive);
-  return drive;
+bool has_axis(JointType type) {
+  return type != JointType::fixed && type != JointType::spherical && type != JointType::distance;
 }
+
+/// A direction of sliding has no sensible default; the axis of rotation of a planar mechanism has.
+void read_axis(const JsonNode& node, Joint& joint, const NumberReader& numbers) {
+  const std::optional<JsonNode> axis = node.find("axis");
+  if (!has_axis(joint.type)) {
+    if (axis) {
+      axis->fail(fmt::format("is not for a {} joint, which has no axis", name_of(joint.type)));
+    }
+    return;
+  }
+  if (!axis && joint.type == JointType::revolute) return;
+  joint.axis = numbers.direction(node.at("axis"));
+}
+
+void read_second_axis(const JsonNode& node, Joint& joint, const NumberReader& numbers) {
+  if (joint.type != JointType::universal) {
+    if (const auto axis = node.find("second_axis")) axis->fail("is for universal joints only");
+    return;
+  }
+  const JsonNode second = node.at("second_axis");
+  joint.second_axis = numbers.direction(second);
+  const std::array<double, 3> a = numbers.unit_vector(node.at("axis"));
+  const std::array<double, 3> b = numbers.unit_vector(second);
+  if (std::abs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) > normal_tolerance) {
+    second.fail_with_value("must be normal to \"axis\"");
+  }
+}
+
+void read_second_point(const JsonNode& node, Joint& joint, NumberReader& numbers) {
+  if (joint.type == JointType::distance) {
+    joint.to = numbers.triple(node.at("to"), quantities::length);
+  } else if (const auto to = node.find("to")) {
+    to->fail("is for distance joints only");
+  }
+}
+
+Drive read_drive(const JsonNode& node, const Joint& joint, NumberReader& numbers) {
+  if (drivable_coordinates(joint.type).empty()) fail_joint_type(node, joint, drivable_types());
+  const DrivenCoordinate coordinate = read_coordinate(node, joint);
+  return {read_drive_function(node, driven_quantity(coordinate), numbers), coordinate};
+}
+
+}  // namespace
 
 std::array<std::string, 2> read_pair(const JsonNode& node, const std::vector<std::string>& bodies) {
   const std::vector<JsonNode> items = node.items(2);
@@ -30,39 +68,18 @@ std::array<std::string, 2> read_pair(const JsonNode& node, const std::vector<std
   return {first, second};
 }
 
-/// A direction of sliding has no sensible default; the axis of rotation of a planar mechanism has.
-void read_axis(const JsonNode& node, Joint& joint, const NumberReader& numbers) {
-  const std::optional<JsonNode> axis = node.find("axis");
-  if (joint.type == JointType::fixed) {
-    if (axis) axis->fail("is not for a fixed joint, which has no axis");
-    return;
-  }
-  if (!axis && joint.type == JointType::revolute) return;
-  joint.axis = numbers.direction(node.at("axis"));
-}
-
-}  // namespace
-
 Joint read_joint(const std::string& name, const JsonNode& node,
                  const std::vector<std::string>& bodies, NumberReader& numbers) {
-  node.allow_keys({"type", "bodies", "at", "axis", "drive"});
+  node.allow_keys({"type", "bodies", "at", "to", "axis", "second_axis", "drive"});
   Joint joint;
   joint.name = name;
-  joint.type =
-      read_choice<JointType>(node.at("type"), {{"revolute", JointType::revolute},
-                                               {"prismatic", JointType::prismatic},
-                                               {"fixed", JointType::fixed},
-                                               {"point-on-line", JointType::point_on_line}});
+  joint.type = read_joint_type(node.at("type"));
   joint.bodies = read_pair(node.at("bodies"), bodies);
   joint.at = numbers.triple(node.at("at"), quantities::length);
+  read_second_point(node, joint, numbers);
   read_axis(node, joint, numbers);
-  if (const auto drive = node.find("drive")) {
-    if (joint.type != JointType::revolute) {
-      drive->fail(fmt::format("needs a revolute joint, but \"{}\" is of the type {}", name,
-                              node.at("type").value().dump()));
-    }
-    joint.drive = read_drive(*drive, numbers);
-  }
+  read_second_axis(node, joint, numbers);
+  if (const auto drive = node.find("drive")) joint.drive = read_drive(*drive, joint, numbers);
   return joint;
 }
 

@@ -41,7 +41,7 @@ void JsonNode::expect_object() const {
   if (!value_->is_object()) fail_with_value("must be an object {…}");
 }
 
-void JsonNode::allow_keys(std::initializer_list<std::string_view> known) const {
+void JsonNode::allow_keys(const std::vector<std::string_view>& known) const {
   expect_object();
   for (const auto& [key, member] : value_->items()) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
@@ -108,6 +108,11 @@ std::string JsonNode::text() const {
   const bool is_text = value_->is_string() && !value_->get_ref<const std::string&>().empty();
   if (!is_text) fail_with_value("must be a text in quotes, not empty");
   return value_->get<std::string>();
+}
+
+bool JsonNode::truth() const {
+  if (!value_->is_boolean()) fail_with_value("must be true or false");
+  return value_->get<bool>();
 }
 
 void fail_choice(const JsonNode& node, const std::vector<std::string>& words) {

@@ -31,7 +31,7 @@ class JsonNode {
   [[noreturn]] void fail_with_value(const std::string& rule, const std::string& more = "") const;
 
   /// Must be an object whose keys are all among these.
-  void allow_keys(std::initializer_list<std::string_view> known) const;
+  void allow_keys(const std::vector<std::string_view>& known) const;
   JsonNode at(const std::string& key) const;  ///< must be there
   std::optional<JsonNode> find(const std::string& key) const;
   JsonMembers members() const;                          ///< of an object with free, non-empty names
@@ -41,6 +41,7 @@ class JsonNode {
   double number() const;
   int whole_number(int least, int most) const;
   std::string text() const;  ///< not empty
+  bool truth() const;        ///< true or false
 
  private:
   void expect_object() const;

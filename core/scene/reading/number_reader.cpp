@@ -28,6 +28,8 @@ bool is_within(Range range, double value) {
       return value > -1.0 && value < 0.5;
     case Range::fraction:
       return value >= 0.0 && value <= 1.0;
+    case Range::below_one:
+      return value >= 0.0 && value < 1.0;
   }
   return false;
 }
@@ -44,6 +46,8 @@ std::string rule_of(Range range, const Quantity& quantity) {
       return "must be greater than -1 and less than 0.5";
     case Range::fraction:
       return "must be from 0 to 1";
+    case Range::below_one:
+      return "must be at least 0 and less than 1";
   }
   return "must be " + describe(quantity);
 }
@@ -98,6 +102,15 @@ std::array<double, 3> NumberReader::direction(const JsonNode& node) const {
   const std::array<double, 3> direction = {items[0].number(), items[1].number(), items[2].number()};
   if (direction == std::array<double, 3>{0.0, 0.0, 0.0}) node.fail_with_value("must not be zero");
   return direction;
+}
+
+std::array<double, 3> NumberReader::unit_vector(const JsonNode& node) const {
+  std::array<double, 3> vector = direction(node);
+  const double largest = std::max({std::abs(vector[0]), std::abs(vector[1]), std::abs(vector[2])});
+  for (double& component : vector) component /= largest;  // squares stay in range
+  const double length = std::hypot(vector[0], vector[1], vector[2]);
+  for (double& component : vector) component /= length;
+  return vector;
 }
 
 int NumberReader::variable(const JsonNode& node, const std::string& name) const {

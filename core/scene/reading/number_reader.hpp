@@ -12,7 +12,14 @@
 namespace pleuel {
 
 /// What a number must be beyond its physical quantity.
-enum class Range { any, positive, not_negative, poisson, fraction };
+enum class Range {
+  any,
+  positive,
+  not_negative,
+  poisson,
+  fraction,  ///< from 0 to 1
+  below_one  ///< from 0 to less than 1
+};
 
 /// Whether the value is finite and keeps to the range.
 bool is_within(Range range, double value);
@@ -47,6 +54,9 @@ class NumberReader {
 
   /// Three plain numbers, not all zero.
   std::array<double, 3> direction(const JsonNode& node) const;
+
+  /// The same, made a unit vector.
+  std::array<double, 3> unit_vector(const JsonNode& node) const;
 
   /// Index of the variable with this name, which the document has at `node`.
   int variable(const JsonNode& node, const std::string& name) const;

@@ -4,24 +4,45 @@
 
 #include <fmt/format.h>
 
-#include "core/scene/reading/number_reader.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 
 namespace pleuel {
 namespace {
 
+constexpr int most_modes = 1000;
+constexpr int magnitude = -1;  // ResponseSettings::direction
+
 const Body& read_body_name(const JsonNode& node, const Scene& scene) {
-  const std::string name = read_known_name(node, "body", names_of(scene.bodies));
-  return *std::find_if(scene.bodies.begin(), scene.bodies.end(),
-                       [&name](const Body& body) { return body.name == name; });
+  return *find_named(scene.bodies, read_known_name(node, "body", names_of(scene.bodies)));
 }
 
-const BeamBody& read_beam_name(const JsonNode& node, const Scene& scene) {
-  const Body& body = read_body_name(node, scene);
-  if (!std::holds_alternative<BeamBody>(body.shape)) {
-    node.fail(fmt::format("must name a beam, but \"{}\" is none", body.name));
+/// The beam that the key "body" names, as the one body of the response.
+const BeamBody& read_elastic_beam(const JsonNode& node, const Scene& scene,
+                                  ResponseSettings& response) {
+  const JsonNode name = node.at("body");
+  const Body& body = read_body_name(name, scene);
+  const auto* beam = std::get_if<BeamBody>(&body.shape);
+  if (beam == nullptr) name.fail(fmt::format("must name a beam, but \"{}\" is none", body.name));
+  if (beam->is_rigid) {
+    name.fail(fmt::format("must name an elastic beam, but \"{}\" is rigid", body.name));
   }
-  return std::get<BeamBody>(body.shape);
+  response.bodies = {body.name};
+  return *beam;
+}
+
+double read_place(const JsonNode& node) {
+  if (!is_within(Range::fraction, node.number())) {
+    node.fail_with_value("must be a place along the beam from 0 to 1");
+  }
+  return node.number();
+}
+
+// Responses with a history.
+
+void allow_history_keys(const JsonNode& node, std::vector<std::string_view> keys) {
+  keys.insert(keys.begin(), "type");
+  keys.insert(keys.end(), {"over_time", "from", "to"});
+  node.allow_keys(keys);
 }
 
 OverTime read_over_time(const JsonNode& node) {
@@ -34,12 +55,121 @@ OverTime read_over_time(const JsonNode& node) {
                                       {"final", OverTime::final}});
 }
 
-double read_place(const JsonNode& node) {
-  if (!is_within(Range::fraction, node.number())) {
-    node.fail_with_value("must be a place along the beam from 0 to 1");
+void read_window(const JsonNode& node, const ResponseContext& context, ResponseSettings& response) {
+  const std::optional<JsonNode> from = node.find("from"), to = node.find("to");
+  const double end = context.simulation.end_time;
+  if (from) {
+    response.from = context.numbers.fixed(*from, quantities::time, Range::not_negative);
+    if (*response.from >= end) {
+      from->fail_with_value(fmt::format("must be before the end of the simulation, {:g} [s]", end));
+    }
   }
-  return node.number();
+  if (!to) return;
+  response.to = context.numbers.fixed(*to, quantities::time, Range::positive);
+  if (*response.to > end) {
+    to->fail_with_value(fmt::format("must not be after the end of the simulation, {:g} [s]", end));
+  }
+  if (from && *response.from >= *response.to) to->fail_with_value("must be later than \"from\"");
 }
+
+void read_history(const JsonNode& node, const ResponseContext& context,
+                  ResponseSettings& response) {
+  response.over_time = read_over_time(node.at("over_time"));
+  read_window(node, context, response);
+}
+
+void read_stress(const JsonNode& node, const ResponseContext& context, ResponseSettings& response) {
+  allow_history_keys(node, {"body", "part", "segment", "at"});
+  const BeamBody& beam = read_elastic_beam(node, context.scene, response);
+  const std::optional<JsonNode> segment = node.find("segment"), place = node.find("at");
+  if (segment && place) node.fail("has both \"segment\" and \"at\"");
+  if (segment) {
+    response.segment = segment->whole_number(0, static_cast<int>(beam.segments.size()) - 1);
+  }
+  if (place) response.station = read_place(*place);
+  if (const auto part = node.find("part")) {
+    response.part = read_choice<StressPart>(*part, {{"von-mises", StressPart::von_mises},
+                                                    {"normal", StressPart::normal},
+                                                    {"axial", StressPart::axial},
+                                                    {"bending", StressPart::bending},
+                                                    {"shear", StressPart::shear},
+                                                    {"utilization", StressPart::utilization}});
+    const Material* material = find_named(context.scene.materials, beam.material);
+    const bool has_strength = material != nullptr && material->strength.has_value();
+    if (response.part == StressPart::utilization && !has_strength) {
+      part->fail(
+          fmt::format("needs the strength of the material \"{}\", which has none", beam.material));
+    }
+  }
+  read_history(node, context, response);
+}
+
+void read_deflection(const JsonNode& node, const ResponseContext& context,
+                     ResponseSettings& response) {
+  allow_history_keys(node, {"body", "at", "direction"});
+  read_elastic_beam(node, context.scene, response);
+  response.at = read_place(node.at("at"));
+  if (const auto direction = node.find("direction")) {
+    response.direction = read_choice<int>(*direction, {{"y", 1}, {"z", 2}});
+  }
+  read_history(node, context, response);
+}
+
+void read_buckling(const JsonNode& node, const ResponseContext& context,
+                   ResponseSettings& response) {
+  allow_history_keys(node, {"body"});
+  read_elastic_beam(node, context.scene, response);
+  read_history(node, context, response);
+}
+
+int read_direction_or_magnitude(const JsonNode& node) {
+  return read_choice<int>(node, {{"x", 0}, {"y", 1}, {"z", 2}, {"magnitude", magnitude}});
+}
+
+/// Position, velocity or acceleration. The magnitude of a position would depend on the origin.
+void read_motion(const JsonNode& node, const ResponseContext& context, ResponseSettings& response) {
+  allow_history_keys(node, {"body", "at", "direction"});
+  const Body& body = read_body_name(node.at("body"), context.scene);
+  response.bodies = {body.name};
+  const bool is_beam = std::holds_alternative<BeamBody>(body.shape);
+  const std::optional<JsonNode> place = node.find("at");
+  if (place && !is_beam) {
+    place->fail(fmt::format("is for beams only, but \"{}\" is none", body.name));
+  }
+  if (is_beam) response.at = read_place(node.at("at"));
+  const JsonNode direction = node.at("direction");
+  response.direction = response.type == ResponseType::position
+                           ? read_choice<int>(direction, {{"x", 0}, {"y", 1}, {"z", 2}})
+                           : read_direction_or_magnitude(direction);
+  read_history(node, context, response);
+}
+
+const Joint& read_joint_name(const JsonNode& node, const Scene& scene) {
+  return *find_named(scene.joints, read_known_name(node, "joint", names_of(scene.joints)));
+}
+
+/// Torque or power.
+void read_drive_effort(const JsonNode& node, const ResponseContext& context,
+                       ResponseSettings& response) {
+  allow_history_keys(node, {"joint"});
+  const JsonNode name = node.at("joint");
+  const Joint& joint = read_joint_name(name, context.scene);
+  if (!joint.drive) {
+    name.fail(fmt::format("names the joint \"{}\", which has no drive", joint.name));
+  }
+  response.joint = joint.name;
+  read_history(node, context, response);
+}
+
+void read_reaction(const JsonNode& node, const ResponseContext& context,
+                   ResponseSettings& response) {
+  allow_history_keys(node, {"joint", "direction"});
+  response.joint = read_joint_name(node.at("joint"), context.scene).name;
+  response.direction = read_direction_or_magnitude(node.at("direction"));
+  read_history(node, context, response);
+}
+
+// Responses without.
 
 void read_mass(const JsonNode& node, const Scene& scene, ResponseSettings& response) {
   node.allow_keys({"type", "body", "bodies", "over_time"});
@@ -60,78 +190,63 @@ void read_mass(const JsonNode& node, const Scene& scene, ResponseSettings& respo
   if (response.bodies.empty()) many->fail("must name at least one body");
 }
 
-void read_stress(const JsonNode& node, const Scene& scene, ResponseSettings& response) {
-  node.allow_keys({"type", "body", "segment", "over_time"});
-  const BeamBody& beam = read_beam_name(node.at("body"), scene);
-  response.bodies = {node.at("body").text()};
-  if (const auto segment = node.find("segment")) {
-    response.segment = segment->whole_number(0, static_cast<int>(beam.segments.size()) - 1);
+void read_frequency(const JsonNode& node, const Scene& scene, ResponseSettings& response) {
+  node.allow_keys({"type", "body", "mode", "over_time"});
+  if (const auto over_time = node.find("over_time")) {
+    over_time->fail("is not for a frequency, which does not change in time");
   }
-  response.over_time = read_over_time(node.at("over_time"));
+  if (node.find("body")) read_elastic_beam(node, scene, response);
+  if (const auto mode = node.find("mode")) response.mode = mode->whole_number(1, most_modes) - 1;
 }
 
-void read_deflection(const JsonNode& node, const Scene& scene, ResponseSettings& response) {
-  node.allow_keys({"type", "body", "at", "direction", "over_time"});
-  read_beam_name(node.at("body"), scene);
-  response.bodies = {node.at("body").text()};
-  response.at = read_place(node.at("at"));
-  if (const auto direction = node.find("direction")) {
-    response.direction = read_choice<int>(*direction, {{"y", 1}, {"z", 2}});
-  }
-  response.over_time = read_over_time(node.at("over_time"));
+ResponseType read_response_type(const JsonNode& node) {
+  return read_choice<ResponseType>(node, {{"mass", ResponseType::mass},
+                                          {"stress", ResponseType::stress},
+                                          {"deflection", ResponseType::deflection},
+                                          {"position", ResponseType::position},
+                                          {"velocity", ResponseType::velocity},
+                                          {"acceleration", ResponseType::acceleration},
+                                          {"drive-torque", ResponseType::drive_torque},
+                                          {"drive-power", ResponseType::drive_power},
+                                          {"reaction-force", ResponseType::reaction_force},
+                                          {"reaction-moment", ResponseType::reaction_moment},
+                                          {"frequency", ResponseType::frequency},
+                                          {"buckling", ResponseType::buckling}});
 }
 
-void read_position(const JsonNode& node, const Scene& scene, ResponseSettings& response) {
-  node.allow_keys({"type", "body", "at", "direction", "over_time"});
-  const Body& body = read_body_name(node.at("body"), scene);
-  response.bodies = {body.name};
-  const bool is_beam = std::holds_alternative<BeamBody>(body.shape);
-  const std::optional<JsonNode> place = node.find("at");
-  if (place && !is_beam) {
-    place->fail(fmt::format("is for beams only, but \"{}\" is none", body.name));
-  }
-  if (is_beam) response.at = read_place(node.at("at"));
-  response.direction = read_choice<int>(node.at("direction"), {{"x", 0}, {"y", 1}, {"z", 2}});
-  response.over_time = read_over_time(node.at("over_time"));
-}
-
-void read_drive_torque(const JsonNode& node, const Scene& scene, ResponseSettings& response) {
-  node.allow_keys({"type", "joint", "over_time"});
-  const JsonNode name = node.at("joint");
-  response.joint = read_known_name(name, "joint", names_of(scene.joints));
-  const bool is_driven =
-      std::any_of(scene.joints.begin(), scene.joints.end(), [&response](const Joint& joint) {
-        return joint.name == response.joint && joint.drive.has_value();
-      });
-  if (!is_driven)
-    name.fail(fmt::format("names the joint \"{}\", which has no drive", response.joint));
-  response.over_time = read_over_time(node.at("over_time"));
-}
-
-ResponseSettings read_response(const std::string& name, const JsonNode& node, const Scene& scene) {
+ResponseSettings read_response(const std::string& name, const JsonNode& node,
+                               const ResponseContext& context) {
   ResponseSettings response;
   response.name = name;
-  response.type =
-      read_choice<ResponseType>(node.at("type"), {{"mass", ResponseType::mass},
-                                                  {"stress", ResponseType::stress},
-                                                  {"deflection", ResponseType::deflection},
-                                                  {"position", ResponseType::position},
-                                                  {"drive-torque", ResponseType::drive_torque}});
+  response.type = read_response_type(node.at("type"));
   switch (response.type) {
     case ResponseType::mass:
-      read_mass(node, scene, response);
+      read_mass(node, context.scene, response);
+      break;
+    case ResponseType::frequency:
+      read_frequency(node, context.scene, response);
       break;
     case ResponseType::stress:
-      read_stress(node, scene, response);
+      read_stress(node, context, response);
       break;
     case ResponseType::deflection:
-      read_deflection(node, scene, response);
+      read_deflection(node, context, response);
+      break;
+    case ResponseType::buckling:
+      read_buckling(node, context, response);
       break;
     case ResponseType::position:
-      read_position(node, scene, response);
+    case ResponseType::velocity:
+    case ResponseType::acceleration:
+      read_motion(node, context, response);
       break;
     case ResponseType::drive_torque:
-      read_drive_torque(node, scene, response);
+    case ResponseType::drive_power:
+      read_drive_effort(node, context, response);
+      break;
+    case ResponseType::reaction_force:
+    case ResponseType::reaction_moment:
+      read_reaction(node, context, response);
       break;
   }
   return response;
@@ -139,10 +254,10 @@ ResponseSettings read_response(const std::string& name, const JsonNode& node, co
 
 }  // namespace
 
-std::vector<ResponseSettings> read_responses(const JsonNode& node, const Scene& scene) {
+std::vector<ResponseSettings> read_responses(const JsonNode& node, const ResponseContext& context) {
   std::vector<ResponseSettings> responses;
   for (const auto& [name, response] : node.members()) {
-    responses.push_back(read_response(name, response, scene));
+    responses.push_back(read_response(name, response, context));
   }
   return responses;
 }

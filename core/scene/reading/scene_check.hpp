@@ -5,9 +5,9 @@
 
 namespace pleuel {
 
-/// What only the scene as a whole can tell: beams have a length, walls of tubes fit, joints sit on
-/// nodes, every body is held by a joint. Where a design variable moves something, this must hold at
-/// the start design and with each variable at either bound (tubes: at the start).
+/// What only the scene as a whole can tell: the mechanism makes sense, beams have a length, walls
+/// of tubes fit, joints and loads sit on their bodies. Where a design variable moves something,
+/// this must hold at the start design and with each variable at either bound (tubes: at the start).
 /// @param node  the scene in the document, to say where it is wrong.
 /// @throws InputError
 void check_scene(const JsonNode& node, const ProblemFile& problem);

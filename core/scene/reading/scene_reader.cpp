@@ -34,7 +34,7 @@ void read_joints(const JsonNode& node, Scene& scene, NumberReader& numbers) {
 }  // namespace
 
 Scene read_scene(const JsonNode& node, NumberReader& numbers) {
-  node.allow_keys({"gravity", "materials", "bodies", "joints"});
+  node.allow_keys({"gravity", "materials", "bodies", "joints", "loads"});
   Scene scene;
   if (const auto gravity = node.find("gravity")) {
     scene.gravity = numbers.triple(*gravity, quantities::acceleration);
@@ -48,7 +48,12 @@ Scene read_scene(const JsonNode& node, NumberReader& numbers) {
     }
   }
   read_bodies(node.at("bodies"), scene, numbers);
-  read_joints(node.at("joints"), scene, numbers);
+  if (const auto joints = node.find("joints")) read_joints(*joints, scene, numbers);
+  if (const auto loads = node.find("loads")) {
+    for (const auto& [name, load] : loads->members()) {
+      scene.loads.push_back(read_load(name, load, scene, numbers));
+    }
+  }
   return scene;
 }
 

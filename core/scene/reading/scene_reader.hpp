@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,7 @@
 
 namespace pleuel {
 
-/// Gravity, materials, bodies and joints, with every name in them known. @throws InputError
+/// Gravity, materials, bodies, joints and loads, with every name in them known. @throws InputError
 Scene read_scene(const JsonNode& node, NumberReader& numbers);
 
 /// `materials` are the names there are. @throws InputError
@@ -20,6 +21,13 @@ Body read_body(const std::string& name, const JsonNode& node,
 Joint read_joint(const std::string& name, const JsonNode& node,
                  const std::vector<std::string>& bodies, NumberReader& numbers);
 
+/// The names of two different bodies, "ground" among them. @throws InputError
+std::array<std::string, 2> read_pair(const JsonNode& node, const std::vector<std::string>& bodies);
+
+/// `scene` has its bodies and joints. @throws InputError
+Load read_load(const std::string& name, const JsonNode& node, const Scene& scene,
+               NumberReader& numbers);
+
 /// @throws InputError
 Section read_section(const JsonNode& node, NumberReader& numbers);
 
@@ -29,6 +37,14 @@ std::vector<std::string> names_of(const std::vector<Named>& things) {
   std::vector<std::string> names;
   for (const Named& thing : things) names.push_back(thing.name);
   return names;
+}
+
+/// The thing of this name, or null.
+template <class Named>
+const Named* find_named(const std::vector<Named>& things, const std::string& name) {
+  const auto found = std::find_if(things.begin(), things.end(),
+                                  [&name](const Named& thing) { return thing.name == name; });
+  return found == things.end() ? nullptr : &*found;
 }
 
 }  // namespace pleuel

@@ -38,19 +38,30 @@ void read_times(const JsonNode& node, const NumberReader& numbers, SimulationSet
 }  // namespace
 
 EffectSettings read_effects(const JsonNode& node) {
-  node.allow_keys({"spatial_motion", "geometric_stiffening"});
+  node.allow_keys({"spatial_motion", "geometric_stiffening", "rotary_inertia", "elasticity",
+                   "axial_elasticity", "torsional_elasticity", "tolerance"});
   EffectSettings effects;
-  if (const auto choice = node.find("spatial_motion"))
-    effects.spatial_motion = read_effect(*choice);
-  if (const auto choice = node.find("geometric_stiffening")) {
-    effects.geometric_stiffening = read_effect(*choice);
+  for (const auto& [key, effect] :
+       {std::pair("spatial_motion", &effects.spatial_motion),
+        std::pair("geometric_stiffening", &effects.geometric_stiffening),
+        std::pair("rotary_inertia", &effects.rotary_inertia),
+        std::pair("elasticity", &effects.elasticity),
+        std::pair("axial_elasticity", &effects.axial_elasticity),
+        std::pair("torsional_elasticity", &effects.torsional_elasticity)}) {
+    if (const auto choice = node.find(key)) *effect = read_effect(*choice);
+  }
+  if (const auto tolerance = node.find("tolerance")) {
+    effects.tolerance = tolerance->number();
+    if (!is_within(Range::below_one, effects.tolerance)) {
+      tolerance->fail_with_value(rule_of(Range::below_one, quantities::pure_number));
+    }
   }
   return effects;
 }
 
 SimulationSettings read_simulation(const JsonNode& node, const NumberReader& numbers) {
   node.allow_keys({"end_time", "step", "scheme", "spectral_radius", "formulation",
-                   "newton_tolerance", "max_newton_iterations"});
+                   "newton_tolerance", "max_newton_iterations", "initial_state"});
   SimulationSettings settings;
   read_times(node, numbers, settings);
   if (const auto scheme = node.find("scheme"))
@@ -66,6 +77,10 @@ SimulationSettings read_simulation(const JsonNode& node, const NumberReader& num
   }
   if (const auto most = node.find("max_newton_iterations")) {
     settings.max_newton_iterations = most->whole_number(1, most_iterations);
+  }
+  if (const auto state = node.find("initial_state")) {
+    settings.quasi_static_start =
+        read_choice<bool>(*state, {{"consistent", false}, {"quasi-static", true}});
   }
   return settings;
 }

@@ -1,0 +1,106 @@
+#include "core/scene/reading/mechanism_check.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "core/scene/reading/scene_reader.hpp"
+
+namespace pleuel {
+namespace {
+
+constexpr double parallel_tolerance = 1e-9;  // sine of the angle between axes: rounding
+
+/// Bodies that a joint or load names.
+struct TouchedBodies {
+  std::set<std::string>& names;
+
+  void operator()(const PointForce& force) const { names.insert(force.body); }
+  void operator()(const PointTorque& torque) const { names.insert(torque.body); }
+  void operator()(const SpringDamper& spring) const {
+    names.insert(spring.bodies.begin(), spring.bodies.end());
+  }
+  void operator()(const JointForce&) const {}  // its joint does
+};
+
+void check_that_something_acts_on_every_body(const JsonNode& node, const Scene& scene) {
+  std::set<std::string> touched;
+  for (const Joint& joint : scene.joints) touched.insert(joint.bodies.begin(), joint.bodies.end());
+  for (const Load& load : scene.loads) std::visit(TouchedBodies{touched}, load.element);
+  for (const Body& body : scene.bodies) {
+    if (touched.count(body.name) > 0) continue;
+    node.at("bodies").at(body.name).fail("is not connected to anything by a joint or a load");
+  }
+}
+
+void check_that_bodies_can_turn(const JsonNode& node, const Scene& scene, const Joint& joint) {
+  for (const std::string& name : joint.bodies) {
+    const Body* body = find_named(scene.bodies, name);
+    if (body == nullptr || !std::holds_alternative<PointMass>(body->shape)) continue;
+    node.fail(fmt::format("needs two bodies that can turn, but \"{}\" is a point mass", name));
+  }
+}
+
+void check_turning(const JsonNode& node, const Scene& scene) {
+  for (const Joint& joint : scene.joints) {
+    if (!joint.drive || joint.drive->coordinate != DrivenCoordinate::angle) continue;
+    check_that_bodies_can_turn(node.at("joints").at(joint.name).at("drive"), scene, joint);
+  }
+  for (const Load& load : scene.loads) {
+    const auto* force = std::get_if<JointForce>(&load.element);
+    if (force == nullptr || force->coordinate != DrivenCoordinate::angle) continue;
+    check_that_bodies_can_turn(node.at("loads").at(load.name), scene,
+                               *find_named(scene.joints, force->joint));
+  }
+}
+
+bool have_same_bodies(const Joint& a, const Joint& b) {
+  return a.bodies == b.bodies || (a.bodies[0] == b.bodies[1] && a.bodies[1] == b.bodies[0]);
+}
+
+bool have_parallel_axes(const Joint& a, const Joint& b) {
+  const Eigen::Vector3d first(a.axis[0], a.axis[1], a.axis[2]);
+  const Eigen::Vector3d second(b.axis[0], b.axis[1], b.axis[2]);
+  return first.stableNormalized().cross(second.stableNormalized()).norm() <= parallel_tolerance;
+}
+
+/// Whether all points of the second body are displaced alike along the axis.
+bool keeps_direction_of_axis(JointType type) {
+  return type == JointType::prismatic || type == JointType::cylindrical;
+}
+
+/// Drives of distances, and of points on lines, may act side by side, as in a hexapod.
+bool drive_the_same(const Joint& a, const Joint& b) {
+  if (a.drive->coordinate != b.drive->coordinate) return false;
+  if (!have_same_bodies(a, b) || !have_parallel_axes(a, b)) return false;
+  return a.drive->coordinate == DrivenCoordinate::angle ||
+         (keeps_direction_of_axis(a.type) && keeps_direction_of_axis(b.type));
+}
+
+void check_that_no_motion_is_driven_twice(const JsonNode& node, const Scene& scene) {
+  for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+    const Joint& joint = scene.joints[i];
+    if (!joint.drive) continue;
+    for (std::size_t k = 0; k < i; ++k) {
+      const Joint& other = scene.joints[k];
+      if (!other.drive || !drive_the_same(joint, other)) continue;
+      node.at("joints")
+          .at(joint.name)
+          .at("drive")
+          .fail(fmt::format("prescribes the same motion as the drive of the joint \"{}\"",
+                            other.name));
+    }
+  }
+}
+
+}  // namespace
+
+void check_mechanism(const JsonNode& node, const Scene& scene) {
+  check_that_something_acts_on_every_body(node, scene);
+  check_turning(node, scene);
+  check_that_no_motion_is_driven_twice(node, scene);
+}
+
+}  // namespace pleuel

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scene/problem_file.hpp"
+
+namespace pleuel {
+
+/// A design for which the scene must make sense.
+struct Sample {
+  Design<double> design;
+  std::string where;  ///< end of a message: empty for the start design
+};
+
+/// The start design, then with each variable at either bound.
+std::vector<Sample> make_samples(const std::vector<DesignVariable>& variables);
+
+}  // namespace pleuel
