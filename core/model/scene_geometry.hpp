@@ -8,6 +8,11 @@
 #include "core/beam/beam.hpp"
 #include "core/frame/body_frame.hpp"
 #include "core/scene/scene.hpp"
+#include "core/section/box_section.hpp"
+#include "core/section/ellipse_section.hpp"
+#include "core/section/i_section.hpp"
+#include "core/section/rectangle_section.hpp"
+#include "core/section/round_section.hpp"
 
 /// From the plain structs of a scene to vectors, sections and beams, for any scalar type.
 namespace pleuel {
@@ -31,13 +36,31 @@ SectionProperties<Scalar> resolve_section(const Section& section, const Design<S
     SectionProperties<Scalar> operator()(const CircleSection& s) const {
       return round_section(resolve(s.diameter, design), Scalar(0));
     }
-    SectionProperties<Scalar> operator()(const GeneralSection&) const { return {}; }
-    SectionProperties<Scalar> operator()(const EllipseSection&) const { return {}; }
-    SectionProperties<Scalar> operator()(const BoxSection&) const { return {}; }
-    SectionProperties<Scalar> operator()(const ISection&) const { return {}; }
     SectionProperties<Scalar> operator()(const TubeSection& s) const {
       const Scalar outer = resolve(s.outer_diameter, design);
       return round_section(outer, Scalar(outer - 2.0 * resolve(s.thickness, design)));
+    }
+    SectionProperties<Scalar> operator()(const EllipseSection& s) const {
+      return ellipse_section(resolve(s.width, design), resolve(s.height, design));
+    }
+    SectionProperties<Scalar> operator()(const BoxSection& s) const {
+      return box_section(resolve(s.width, design), resolve(s.height, design),
+                         resolve(s.thickness, design));
+    }
+    SectionProperties<Scalar> operator()(const ISection& s) const {
+      return i_section(resolve(s.width, design), resolve(s.height, design),
+                       resolve(s.flange_thickness, design), resolve(s.web_thickness, design));
+    }
+    SectionProperties<Scalar> operator()(const GeneralSection& s) const {
+      SectionProperties<Scalar> section;
+      section.area = resolve(s.area, design);
+      section.inertia_y = resolve(s.inertia_y, design);
+      section.inertia_z = resolve(s.inertia_z, design);
+      section.torsion = resolve(s.torsion, design);
+      for (const GeneralStressPoint& point : s.points) {
+        section.points.push_back({Scalar(point.y), Scalar(point.z), Scalar(point.shear)});
+      }
+      return section;
     }
   };
   return std::visit(Visitor{design}, section);

@@ -134,7 +134,8 @@ Beam<To> cast_beam(const Beam<double>& beam) {
     element.section.inertia_y = To(section.inertia_y);
     element.section.inertia_z = To(section.inertia_z);
     element.section.torsion = To(section.torsion);
-    element.section.radius = To(section.radius);
+    element.section.radius_y = To(section.radius_y);
+    element.section.radius_z = To(section.radius_z);
     for (const StressPoint<double>& point : section.points) {
       element.section.points.push_back({To(point.y), To(point.z), To(point.shear)});
     }

@@ -4,19 +4,11 @@
 
 #include "core/beam/beam_shape.hpp"
 #include "core/response/body_signal.hpp"
+#include "core/section/section_stress.hpp"
 
 namespace pleuel {
 
 namespace {
-
-/// Keeps square roots differentiable at zero [Pa² and (N m)²].
-constexpr double tiny = 1e-300;
-
-/// Section forces in local axes: M_y, M_z such that σ = N/A − M_z y/I_z + M_y z/I_y.
-template <class Scalar>
-struct SectionForces {
-  Scalar axial = Scalar(0), moment_y = Scalar(0), moment_z = Scalar(0), torque = Scalar(0);
-};
 
 /// A section at which stress is evaluated: a node, seen from one or two elements, or the middle of
 /// an element.
@@ -25,11 +17,11 @@ struct Station {
   double place;               ///< counted in elements: 2 is node 2, 2.5 half an element further
 };
 
-/// One stress point of a station; `sign` of a round section's axial stress.
+/// One stress point of a station.
 struct Channel {
   int station;
-  int point;  ///< index in the section's points, −1: resultant moment of a round section
-  double sign = 1.0;
+  int point;  ///< index in the section's points, or `pulled`, `pressed`: halves of a round outline
+  static constexpr int pulled = -1, pressed = -2;
 };
 
 std::vector<Station> find_stations(const BodyModel& body, std::optional<int> segment) {
@@ -52,18 +44,25 @@ std::vector<Station> find_stations(const BodyModel& body, std::optional<int> seg
   return stations;
 }
 
-/// In planar motion, points that differ only across the plane see the same stress.
+/// In planar motion, points that differ only across the plane see the same stress, and those in the
+/// middle of others see less than them.
 std::vector<int> distinct_points(const BodyModel& body, const SectionProperties<double>& section) {
   const bool is_planar = body.frame.rotation == RotationCoordinates::angle;
   const Eigen::Vector3d normal = body.frame.reference.transpose() * body.frame.axis;
   const bool bends_along_y = std::abs(normal.z()) > 0.5;
+  const int points = static_cast<int>(section.points.size());
+  const auto lever = [&](int k) {
+    const StressPoint<double>& point = section.points[static_cast<std::size_t>(k)];
+    return bends_along_y ? point.y : point.z;
+  };
+  bool has_upper = false, has_lower = false;
+  for (int i = 0; i < points; ++i) {
+    has_upper = has_upper || lever(i) > 0.0;
+    has_lower = has_lower || lever(i) < 0.0;
+  }
   std::vector<int> distinct;
-  for (int i = 0; i < static_cast<int>(section.points.size()); ++i) {
-    const auto lever = [&](int k) {
-      const StressPoint<double>& point = section.points[static_cast<std::size_t>(k)];
-      return bends_along_y ? point.y : point.z;
-    };
-    bool is_new = !is_planar || lever(i) != 0.0;
+  for (int i = 0; i < points; ++i) {
+    bool is_new = !is_planar || lever(i) != 0.0 || !(has_upper && has_lower);
     for (int other : distinct) is_new = is_new && !(is_planar && lever(other) == lever(i));
     if (is_new) distinct.push_back(i);
   }
@@ -77,9 +76,9 @@ class StressSignal final : public BodySignal<StressSignal> {
     const bool is_planar = body.frame.rotation == RotationCoordinates::angle;
     for (int s = 0; s < static_cast<int>(stations_.size()); ++s) {
       const auto& section = section_of(body.beam, s);
-      if (section.radius > 0.0 && !is_planar) {
-        channels_.push_back({s, -1, 1.0});
-        channels_.push_back({s, -1, -1.0});
+      if (section.is_round() && !is_planar) {
+        channels_.push_back({s, Channel::pulled});
+        channels_.push_back({s, Channel::pressed});
         continue;
       }
       for (int point : distinct_points(body, section)) channels_.push_back({s, point});
@@ -177,21 +176,12 @@ class StressSignal final : public BodySignal<StressSignal> {
   template <class Scalar>
   static Scalar von_mises(const SectionProperties<Scalar>& section,
                           const SectionForces<Scalar>& forces, const Channel& channel) {
-    using std::sqrt;
-    Scalar normal, shear;
-    if (channel.point < 0) {
-      const Scalar moment =
-          sqrt(forces.moment_y * forces.moment_y + forces.moment_z * forces.moment_z + tiny);
-      normal =
-          channel.sign * forces.axial / section.area + moment * section.radius / section.inertia_z;
-      shear = forces.torque * section.radius / section.torsion;
-    } else {
-      const StressPoint<Scalar>& point = section.points[static_cast<std::size_t>(channel.point)];
-      normal = forces.axial / section.area - forces.moment_z * point.y / section.inertia_z +
-               forces.moment_y * point.z / section.inertia_y;
-      shear = forces.torque * point.shear;
+    if (channel.point >= 0) {
+      return von_mises_stress(section, forces,
+                              section.points[static_cast<std::size_t>(channel.point)]);
     }
-    return sqrt(normal * normal + 3.0 * shear * shear + tiny);
+    return von_mises_stress(section, forces,
+                            most_stressed_point(section, forces, channel.point == Channel::pulled));
   }
 
   /// @param displacement  (node, 0 … 5) → nodal displacement

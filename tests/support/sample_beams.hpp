@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 
 #include "core/beam/beam_invariants.hpp"
+#include "core/section/rectangle_section.hpp"
+#include "core/section/round_section.hpp"
 #include "tests/support/dense.hpp"
 
 /// A uniform beam with a rectangular section, in any scalar type.

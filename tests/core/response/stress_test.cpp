@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/response/stress_signal.hpp"
+#include "core/section/rectangle_section.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/sample_scenes.hpp"
 

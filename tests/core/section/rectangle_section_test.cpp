@@ -1,10 +1,11 @@
+#include "core/section/rectangle_section.hpp"
+
 #include <algorithm>
-#include <complex>
 #include <functional>
 
 #include <gtest/gtest.h>
 
-#include "core/section/section_properties.hpp"
+#include "tests/core/section/section_derivative.hpp"
 
 namespace {
 
@@ -129,22 +130,8 @@ TEST(RectangleSection, SecondMomentsAreTheIntegralsOverItsArea) {
 }
 
 TEST(RectangleSection, DerivativesAreThoseOfTheComplexStep) {
-  using Complex = std::complex<double>;
-  const double width = 0.011, height = 0.023, tiny = 1e-40;
-  const auto step = rectangle_section(Complex(width, tiny), Complex(height, 0));
-  const auto dual = rectangle_section(Dual(width, Dual::DerType::Ones()), Dual(height));
-  const auto expect_same = [&](const Dual& d, const Complex& c) {
-    EXPECT_NEAR(derivative_of(d), c.imag() / tiny, 1e-13 * std::abs(c.imag() / tiny) + 1e-300);
-  };
-  expect_same(dual.area, step.area);
-  expect_same(dual.inertia_y, step.inertia_y);
-  expect_same(dual.inertia_z, step.inertia_z);
-  expect_same(dual.torsion, step.torsion);
-  for (std::size_t i = 0; i < dual.points.size(); ++i) {
-    expect_same(dual.points[i].y, step.points[i].y);
-    expect_same(dual.points[i].z, step.points[i].z);
-    expect_same(dual.points[i].shear, step.points[i].shear);
-  }
+  test::expect_derivatives_of_the_complex_step(
+      [](const auto& size) { return rectangle_section(size[0], size[1]); }, {0.011, 0.023});
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
-#include <complex>
+#include "core/section/round_section.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/section/section_properties.hpp"
+#include "tests/core/section/section_derivative.hpp"
 
 namespace {
 
@@ -50,22 +50,8 @@ TEST(RoundSection, ShearOfAShaftIsThatOfTheTextbook) {
 }
 
 TEST(RoundSection, DerivativesAreThoseOfTheComplexStep) {
-  using Complex = std::complex<double>;
-  const double tiny = 1e-40;
-  for (int variable : {0, 1}) {
-    const auto step = round_section(Complex(0.03, variable == 0 ? tiny : 0.0),
-                                    Complex(0.02, variable == 1 ? tiny : 0.0));
-    Dual outer(0.03), inner(0.02);
-    (variable == 0 ? outer : inner).derivatives()[0] = 1.0;
-    const auto dual = round_section(outer, inner);
-    const auto expect_same = [&](const Dual& d, const Complex& c) {
-      EXPECT_NEAR(derivative_of(d), c.imag() / tiny, 1e-13 * std::abs(c.imag() / tiny));
-    };
-    expect_same(dual.area, step.area);
-    expect_same(dual.inertia_z, step.inertia_z);
-    expect_same(dual.torsion, step.torsion);
-    expect_same(dual.points[0].shear, step.points[0].shear);
-  }
+  test::expect_derivatives_of_the_complex_step(
+      [](const auto& size) { return round_section(size[0], size[1]); }, {0.03, 0.02});
 }
 
 }  // namespace
