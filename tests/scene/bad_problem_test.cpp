@@ -41,11 +41,10 @@ INSTANTIATE_TEST_SUITE_P(
             R"(/scene/bodies/crank/section has the unknown key "heigth"; did you mean "height"?)"},
         BadProblem{
             "/scene/bodies/slider/elements", "1",
-            R"(/scene/bodies/slider has the unknown key "elements"; known are "type", "at" and "mass")"},
+            R"(/scene/bodies/slider has the unknown key "elements"; known are "type", "at", "mass" and "velocity")"},
         BadProblem{"/scene", "remove", R"(the problem is missing the key "scene")"},
         BadProblem{"/simulation", "remove", R"(the problem is missing the key "simulation")"},
         BadProblem{"/scene/bodies", "remove", R"(/scene is missing the key "bodies")"},
-        BadProblem{"/scene/joints", "remove", R"(/scene is missing the key "joints")"},
         BadProblem{"/scene/gravity", R"([0, {"variable": "width"}, 0])",
                    R"(/scene/gravity cannot be bound to a design variable)"},
         BadProblem{"/scene/materials/steel/density", "remove",
@@ -59,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(
             R"(/scene/bodies/crank/section has the unknown key "diamter"; did you mean "diameter"?)"},
         BadProblem{
             "/effects/torsion", R"("on")",
-            R"(/effects has the unknown key "torsion"; known are "spatial_motion" and "geometric_stiffening")"},
+            R"(/effects has the unknown key "torsion"; known are "spatial_motion", "geometric_stiffening", "rotary_inertia", "elasticity", "axial_elasticity", "torsional_elasticity" and "tolerance")"},
         BadProblem{
             "/uncertainty", "{}",
             R"(the problem has the unknown key "uncertainty"; known are "$schema", "name", "description", "scene", "effects", "simulation", "variables", "responses", "objective", "constraints", "optimizer", "pareto" and "accuracy")"},
@@ -116,10 +115,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadProblem{"/accuracy/elements", "[]", "/accuracy/elements must have at least one number"},
         BadProblem{
             "/scene/joints/bearing/type", R"("revolut")",
-            R"(/scene/joints/bearing/type must be "revolute", "prismatic", "fixed" or "point-on-line", got "revolut"; did you mean "revolute"?)"},
+            R"(/scene/joints/bearing/type must be "revolute", "prismatic", "fixed", "point-on-line", "cylindrical", "universal", "spherical", "planar" or "distance", got "revolut"; did you mean "revolute"?)"},
         BadProblem{
             "/scene/bodies/rod/frame", R"("cord")",
-            R"(/scene/bodies/rod/frame must be "tangent" or "chord", got "cord"; did you mean "chord"?)"}));
+            R"(/scene/bodies/rod/frame must be "tangent", "tangent-end", "chord" or "mean-axis", got "cord"; did you mean "chord"?)"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Units, BadProblemFile,
@@ -381,25 +380,25 @@ INSTANTIATE_TEST_SUITE_P(
         BadProblem{"/scene/bodies/wheel/inertia/0", "-1",
                    "/scene/bodies/wheel/inertia/0 must not be negative [kg m^2], got -1"},
         BadProblem{
-            "/scene/joints/guide/drive", R"({"type": "constant-speed", "speed": 1})",
-            R"(/scene/joints/guide/drive needs a revolute joint, but "guide" is of the type "point-on-line")"},
+            "/scene/joints/hub/drive", R"({"type": "constant-speed", "speed": 1})",
+            R"(/scene/joints/hub/drive needs a joint of the type "revolute", "prismatic", "point-on-line", "cylindrical", "universal", "planar" or "distance", but "hub" is of the type "fixed")"},
         BadProblem{
             "/scene/joints/end/drive", R"({"type": "constant-speed", "speed": 1})",
             R"(/scene/joints/end/drive needs two bodies that can turn, but "slider" is a point mass)"},
         BadProblem{"/scene/joints/hub", "remove",
-                   "/scene/bodies/wheel is not connected to anything by a joint"},
+                   "/scene/bodies/wheel is not connected to anything by a joint or a load"},
         BadProblem{
             "/scene/joints/pin/at/0", R"("121 mm")",
-            R"(/scene/joints/pin/at must be at a node of the beam "crank", the nearest is (0.12, 0, 0) [m], got (0.121, 0, 0))"},
+            R"(/scene/joints/pin/at must be on the axis of the beam "crank", the nearest point is (0.12, 0, 0) [m], got (0.121, 0, 0))"},
         BadProblem{
             "/scene/joints/pin/at/1", R"("1 mm")",
-            R"(/scene/joints/pin/at must be at a node of the beam "crank", the nearest is (0.12, 0, 0) [m], got (0.12, 0.001, 0))"},
+            R"(/scene/joints/pin/at must be on the axis of the beam "crank", the nearest point is (0.12, 0, 0) [m], got (0.12, 0.001, 0))"},
         BadProblem{
             "/scene/joints/guide/at/0", "0.31",
             R"(/scene/joints/guide/at must be where the point mass "slider" is, (0.3, 0, 0) [m], got (0.31, 0, 0))"},
         BadProblem{
             "/scene/bodies/crank/to/0", R"({"variable": "diameter", "factor": 4})",
-            R"(/scene/joints/pin/at must be at a node of the beam "crank", the nearest is (0.04, 0, 0) [m], got (0.12, 0, 0), with the variable "diameter" at its lower bound)"},
+            R"(/scene/joints/pin/at must stay at the share 1 of the length of the beam "crank", which is (0.04, 0, 0) [m], got (0.12, 0, 0), with the variable "diameter" at its lower bound)"},
         BadProblem{
             "/variables/width/upper", "1e308",
             R"(/scene/bodies/crank/section/height must be positive [m], got inf with the variable "width" at its upper bound)"}));

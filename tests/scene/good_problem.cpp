@@ -99,7 +99,10 @@ std::string complaint_about_text(const std::string& text) {
 }
 
 Json edited(const std::string& pointer, const std::string& value) {
-  Json document = good_json();
+  return edited(good_json(), pointer, value);
+}
+
+Json edited(Json document, const std::string& pointer, const std::string& value) {
   const Json::json_pointer place(pointer);
   if (value == "remove") {
     document.at(place.parent_pointer()).erase(place.back());

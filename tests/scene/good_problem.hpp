@@ -15,6 +15,9 @@ using Json = nlohmann::ordered_json;
 std::string good_text();
 Json good_json();
 
+/// A mechanism with every other kind of joint, function of time, load, response and effect.
+Json good_mechanism();
+
 /// Reads a document under the name "bad.json".
 ProblemFile read(const Json& document);
 
@@ -24,5 +27,6 @@ std::string complaint_about_text(const std::string& text);
 
 /// The good document with the value at the pointer replaced or added; a value "remove" removes it.
 Json edited(const std::string& pointer, const std::string& value);
+Json edited(Json document, const std::string& pointer, const std::string& value);
 
 }  // namespace pleuel::test

@@ -81,7 +81,7 @@ TEST_F(ProblemSchema, RefusesWhatTheReaderRefuses) {
       {"/scene/bodies/wheel/inertia", "[1, 1, 1]"},
       {"/scene/joints/bearing/drive/type", "\"motor\""},
       {"/scene/joints/guide/axis", "remove"},
-      {"/scene/joints/guide/drive", R"({"type": "constant-speed", "speed": 1})"},
+      {"/scene/joints/hub/drive", R"({"type": "constant-speed", "speed": 1})"},
       {"/scene/joints/hub/axis", "[0, 0, 1]"},
       {"/effects/torsion", "\"on\""},
       {"/effects/spatial_motion", "true"},

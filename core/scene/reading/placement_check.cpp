@@ -94,8 +94,8 @@ void check_on_beam(const PlacedPoint& place, const BeamBody& beam,
     const Eigen::Vector3d at = position(*place.point, sample.design);
     if (is_on_beam(beam, share, at, sample.design)) continue;
     place.node.fail(fmt::format(
-        "must stay at {:.6g} of the length of the beam \"{}\", which is {} [m], got {}{}", share,
-        name, describe(point_at(beam, share, sample.design)), describe(at), sample.where));
+        "must stay at the share {:.6g} of the length of the beam \"{}\", which is {} [m], got {}{}",
+        share, name, describe(point_at(beam, share, sample.design)), describe(at), sample.where));
   }
 }
 

@@ -1,0 +1,282 @@
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/scene/response_quantity.hpp"
+#include "core/scene/visit_numbers.hpp"
+#include "tests/scene/good_problem.hpp"
+
+namespace pleuel::test {
+namespace {
+
+using std::numbers::pi;
+using testing::DoubleEq;
+using testing::DoubleNear;
+using testing::ElementsAre;
+
+constexpr double rounding = 1e-14;  // relative, of one or two conversions of units
+
+class Mechanism : public testing::Test {
+ protected:
+  template <class Named>
+  static const Named& named(const std::vector<Named>& things, const std::string& name) {
+    for (const Named& thing : things) {
+      if (thing.name == name) return thing;
+    }
+    throw std::out_of_range(name);
+  }
+  const Body& body(const std::string& name) const { return named(problem_.scene.bodies, name); }
+  const BeamBody& beam(const std::string& name) const {
+    return std::get<BeamBody>(body(name).shape);
+  }
+  const Joint& joint(const std::string& name) const { return named(problem_.scene.joints, name); }
+  template <class Element>
+  const Element& load(const std::string& name) const {
+    return std::get<Element>(named(problem_.scene.loads, name).element);
+  }
+  const ResponseSettings& response(const std::string& name) const {
+    return named(problem_.responses, name);
+  }
+
+  ProblemFile problem_ = read(good_mechanism());
+};
+
+TEST_F(Mechanism, HasBeamsInEveryFrame) {
+  EXPECT_EQ(beam("arm").frame, ReferenceCondition::tangent);
+  EXPECT_EQ(beam("rod").frame, ReferenceCondition::mean_axis);
+  EXPECT_EQ(beam("tail").frame, ReferenceCondition::tangent_end);
+}
+
+TEST_F(Mechanism, HasReducedDampedAndRigidBeams) {
+  EXPECT_EQ(beam("arm").reduction->modes, 4);
+  EXPECT_FALSE(beam("arm").reduction->frequency.has_value());
+  EXPECT_DOUBLE_EQ(beam("arm").damping.modal.constant, 0.02);
+  EXPECT_DOUBLE_EQ(*beam("rod").reduction->frequency, 4000.0 * pi);  // 2 kHz in rad/s
+  EXPECT_FALSE(beam("rod").reduction->modes.has_value());
+  EXPECT_FALSE(beam("tail").reduction.has_value());
+  EXPECT_TRUE(beam("strut").is_rigid);
+  EXPECT_FALSE(beam("arm").is_rigid);
+}
+
+TEST_F(Mechanism, TakesAPlainFrequencyOfAReductionInHertz) {
+  const Json plain = edited(good_mechanism(), "/scene/bodies/rod/reduction/frequency", "2000");
+  const auto& rod = std::get<BeamBody>(named(read(plain).scene.bodies, "rod").shape);
+  EXPECT_DOUBLE_EQ(*rod.reduction->frequency, 4000.0 * pi);
+}
+
+TEST_F(Mechanism, HasInitialVelocities) {
+  EXPECT_EQ(body("rod").velocity[0].constant, 1.0);
+  EXPECT_DOUBLE_EQ(body("rod").angular_velocity[2].constant, pi);  // 30 rpm
+  EXPECT_EQ(body("block").velocity[1].constant, -2.0);
+  EXPECT_DOUBLE_EQ(body("block").angular_velocity[0].constant, 0.5 * pi);
+  EXPECT_EQ(body("ball").velocity[0].variable, 0);
+  EXPECT_EQ(body("arm").velocity[0].constant, 0.0);
+}
+
+TEST_F(Mechanism, HasEveryOtherJoint) {
+  EXPECT_EQ(joint("shoulder").type, JointType::cylindrical);
+  EXPECT_EQ(joint("elbow").type, JointType::universal);
+  EXPECT_THAT(joint("elbow").axis, ElementsAre(0.0, 0.0, 1.0));
+  EXPECT_THAT(joint("elbow").second_axis, ElementsAre(0.0, 5.0, 0.0));
+  EXPECT_EQ(joint("wrist").type, JointType::spherical);
+  EXPECT_EQ(joint("floor").type, JointType::planar);
+  EXPECT_EQ(joint("tie").type, JointType::distance);
+  EXPECT_EQ(joint("tie").at[0].constant, 1.25);
+  EXPECT_EQ(joint("tie").to[1].constant, 1.0);
+  EXPECT_EQ(joint("rail").type, JointType::prismatic);
+}
+
+TEST_F(Mechanism, HasDrivesThatAreFunctionsOfTime) {
+  const auto& polynomial = std::get<PolynomialFunction>(joint("shoulder").drive->motion);
+  ASSERT_EQ(polynomial.coefficients.size(), 3U);
+  EXPECT_DOUBLE_EQ(polynomial.coefficients[1].constant, 2.0 * pi);
+  EXPECT_DOUBLE_EQ(polynomial.coefficients[2].constant, pi);
+  const auto& harmonic = std::get<HarmonicFunction>(joint("elbow").drive->motion);
+  EXPECT_DOUBLE_EQ(harmonic.amplitude.constant, pi / 18.0);
+  EXPECT_DOUBLE_EQ(harmonic.frequency.constant, 20.0 * pi);
+  EXPECT_DOUBLE_EQ(harmonic.phase.constant, 0.5 * pi);
+  EXPECT_EQ(harmonic.offset.variable, 1);
+  const auto& table = std::get<TableFunction>(joint("tie").drive->motion);
+  EXPECT_THAT(table.times, ElementsAre(0.0, DoubleEq(0.05), 0.1));
+  EXPECT_DOUBLE_EQ(table.values[1].constant, 1e-3);
+  const auto& ramp = std::get<RampToSpeedDrive>(joint("line").drive->motion);
+  EXPECT_DOUBLE_EQ(ramp.speed.constant, 0.02);
+  EXPECT_EQ(std::get<ConstantFunction>(joint("floor").drive->motion).value.constant, 0.0);
+}
+
+TEST_F(Mechanism, HasDrivesOfTheCoordinateThatTheJointHas) {
+  EXPECT_EQ(joint("shoulder").drive->coordinate, DrivenCoordinate::angle);
+  EXPECT_EQ(joint("elbow").drive->coordinate, DrivenCoordinate::angle);
+  EXPECT_EQ(joint("floor").drive->coordinate, DrivenCoordinate::angle);
+  EXPECT_EQ(joint("tie").drive->coordinate, DrivenCoordinate::displacement);
+  EXPECT_EQ(joint("line").drive->coordinate, DrivenCoordinate::displacement);
+}
+
+TEST_F(Mechanism, HasForcesAndTorques) {
+  const auto& push = load<PointForce>("push");
+  EXPECT_EQ(push.body, "arm");
+  EXPECT_EQ(push.at[0].constant, 0.37);
+  EXPECT_THAT(push.direction,
+              ElementsAre(0.0, DoubleNear(0.6, rounding), DoubleNear(0.8, rounding)));
+  EXPECT_EQ(std::get<ConstantFunction>(push.value).value.constant, 2000.0);
+  EXPECT_TRUE(push.follows_body);
+  const auto& pull = std::get<ConstantFunction>(load<PointForce>("pull").value);
+  EXPECT_EQ(pull.value.variable, 2);
+  EXPECT_EQ(pull.value.factor, 2.0);
+  const auto& gust = load<PointForce>("gust");
+  EXPECT_FALSE(gust.follows_body);
+  EXPECT_EQ(std::get<PolynomialFunction>(gust.value).coefficients[1].constant, 2.0);
+  const auto& twist = load<PointTorque>("twist");
+  EXPECT_THAT(twist.direction, ElementsAre(-1.0, 0.0, 0.0));
+  EXPECT_EQ(std::get<HarmonicFunction>(twist.value).amplitude.constant, 3.0);
+  EXPECT_EQ(std::get<HarmonicFunction>(twist.value).phase.constant, 0.0);
+}
+
+TEST_F(Mechanism, HasSprings) {
+  const auto& strap = load<SpringDamper>("strap");
+  EXPECT_THAT(strap.bodies, ElementsAre("ground", "ball"));
+  EXPECT_EQ(strap.at[0][0].constant, 5.0);
+  EXPECT_EQ(strap.at[1][0].constant, 4.0);
+  EXPECT_DOUBLE_EQ(strap.stiffness.constant, 2000.0);
+  EXPECT_EQ(strap.damping.constant, 3.0);
+  EXPECT_DOUBLE_EQ(strap.free_length->constant, 0.9);
+  EXPECT_FALSE(load<SpringDamper>("cord").free_length.has_value());
+}
+
+TEST_F(Mechanism, HasForcesInJoints) {
+  const auto& stopper = load<JointForce>("stopper");
+  EXPECT_EQ(stopper.joint, "shoulder");
+  EXPECT_EQ(stopper.coordinate, DrivenCoordinate::displacement);
+  EXPECT_DOUBLE_EQ(stopper.stiffness.constant, 2000.0);
+  EXPECT_EQ(stopper.damping.constant, 4.0);
+  EXPECT_DOUBLE_EQ(stopper.rest.constant, 0.005);
+  EXPECT_EQ(std::get<TableFunction>(*stopper.motor).values[1].constant, 2.0);
+  const auto& hinge = load<JointForce>("hinge");
+  EXPECT_EQ(hinge.coordinate, DrivenCoordinate::angle);
+  EXPECT_DOUBLE_EQ(hinge.damping.constant, 0.1);
+  EXPECT_FALSE(hinge.motor.has_value());
+  const auto& bush = load<JointForce>("bush");
+  EXPECT_EQ(bush.coordinate, DrivenCoordinate::displacement);
+  EXPECT_EQ(std::get<ConstantFunction>(*bush.motor).value.constant, 7.0);
+}
+
+TEST_F(Mechanism, HasResponsesOfMotion) {
+  EXPECT_EQ(response("speed").type, ResponseType::velocity);
+  EXPECT_EQ(response("speed").direction, -1);
+  EXPECT_EQ(response("speed").at, 0.5);
+  EXPECT_EQ(response("jolt").type, ResponseType::acceleration);
+  EXPECT_EQ(response("jolt").direction, 1);
+  EXPECT_EQ(response("tone").mode, 1);  // counted from 0 here, from 1 in a file
+  EXPECT_THAT(response("tone").bodies, ElementsAre("arm"));
+  EXPECT_EQ(response("mechanism_tone").mode, 0);
+  EXPECT_TRUE(response("mechanism_tone").bodies.empty());
+}
+
+TEST_F(Mechanism, HasResponsesOfForcesAndStress) {
+  EXPECT_EQ(response("energy").type, ResponseType::drive_power);
+  EXPECT_EQ(response("energy").joint, "shoulder");
+  EXPECT_EQ(response("bearing").type, ResponseType::reaction_force);
+  EXPECT_EQ(response("bearing").direction, -1);
+  EXPECT_EQ(response("clamp").type, ResponseType::reaction_moment);
+  EXPECT_EQ(response("clamp").direction, 2);
+  EXPECT_EQ(response("stability").type, ResponseType::buckling);
+  EXPECT_EQ(response("normal").part, StressPart::normal);
+  EXPECT_EQ(response("normal").station, 0.25);
+  EXPECT_EQ(response("axial").part, StressPart::axial);
+  EXPECT_EQ(response("bending").part, StressPart::bending);
+  EXPECT_EQ(response("shear").part, StressPart::shear);
+  EXPECT_EQ(response("shear").segment, 1);
+  EXPECT_EQ(response("use").part, StressPart::utilization);
+  EXPECT_EQ(response("strain").part, StressPart::von_mises);
+}
+
+TEST_F(Mechanism, HasResponsesInWindowsOfTime) {
+  EXPECT_DOUBLE_EQ(*response("jolt").from, 0.02);
+  EXPECT_EQ(response("jolt").to, 0.1);
+  EXPECT_FALSE(response("effort").from.has_value());
+  EXPECT_EQ(response("effort").to, 0.05);
+  EXPECT_EQ(response("bearing").from, 0.05);
+  EXPECT_FALSE(response("speed").to.has_value());
+}
+
+TEST_F(Mechanism, HasLimitsInTheUnitsOfItsResponses) {
+  EXPECT_EQ(quantity_of(response("energy")).unit, "J");
+  EXPECT_EQ(problem_.objective->scale, 2.0);
+  EXPECT_DOUBLE_EQ(*problem_.constraints[0].lower, 20.0 * pi);
+  EXPECT_DOUBLE_EQ(*problem_.constraints[1].upper, 0.8);
+  EXPECT_EQ(quantity_of(response("jolt")).unit, "m/s^2");
+  EXPECT_EQ(quantity_of(response("clamp")).unit, "N m");
+}
+
+TEST_F(Mechanism, HasEffectsAndInitialState) {
+  const EffectSettings& effects = problem_.effects;
+  EXPECT_EQ(effects.spatial_motion, EffectChoice::on);
+  EXPECT_EQ(effects.geometric_stiffening, EffectChoice::off);
+  EXPECT_EQ(effects.rotary_inertia, EffectChoice::off);
+  EXPECT_EQ(effects.elasticity, EffectChoice::on);
+  EXPECT_EQ(effects.axial_elasticity, EffectChoice::off);
+  EXPECT_EQ(effects.torsional_elasticity, EffectChoice::on);
+  EXPECT_EQ(effects.tolerance, 1e-3);
+  EXPECT_TRUE(problem_.simulation.quasi_static_start);
+  EXPECT_FALSE(read(good_json()).simulation.quasi_static_start);
+}
+
+TEST_F(Mechanism, HasEveryBoundNumberVisited) {
+  std::set<int> variables;
+  visit_numbers(problem_.scene, [&variables](const Number& number, const Quantity&) {
+    if (number.is_bound()) variables.insert(number.variable);
+  });
+  EXPECT_THAT(variables, ElementsAre(0, 1, 2));
+}
+
+TEST_F(Mechanism, MayHaveTheLongestPolynomial) {
+  const Json longest = edited(good_mechanism(), "/scene/joints/shoulder/drive/coefficients",
+                              R"([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, "10 rad/s^10"])");
+  const Scene scene = read(longest).scene;
+  int numbers = 0;
+  visit_numbers(scene.joints[0], [&numbers](const Number&, const Quantity&) { ++numbers; });
+  EXPECT_EQ(numbers, 6 + 11);  // two points and the coefficients
+}
+
+TEST_F(Mechanism, MayHaveNoJoints) {  // a thrown body under a force
+  const Json thrown = Json::parse(R"({
+    "scene": {"bodies": {"ball": {"type": "point-mass", "at": [0, 0, 0], "mass": 1}},
+              "loads": {"wind": {"type": "force", "body": "ball", "at": [0, 0, 0],
+                                 "direction": [1, 0, 0], "value": 1}}},
+    "simulation": {"end_time": 1, "step": 0.1}})");
+  EXPECT_EQ(complaint(thrown), "");
+}
+
+TEST_F(Mechanism, MayMoveALoadWithItsBeam) {
+  Json document =
+      edited(good_mechanism(), "/variables/place", R"({"start": 0.5, "lower": 0.4, "upper": 0.6})");
+  // Half way along the arm, whose end moves twice as far.
+  document["scene"]["loads"]["push"]["at"][0] = Json::parse(R"({"variable": "place"})");
+  const Json end = Json::parse(R"({"variable": "place", "factor": 2})");
+  document["scene"]["bodies"]["arm"]["to"][0] = end;
+  document["scene"]["bodies"]["rod"]["from"][0] = end;
+  document["scene"]["joints"]["elbow"]["at"][0] = end;
+  document["scene"]["joints"].erase("wrist");
+  document["scene"]["joints"].erase("tie");
+  document["scene"]["loads"].erase("cord");
+  EXPECT_EQ(complaint(document), "");
+  document["scene"]["loads"]["push"]["at"][0] = 0.5;
+  EXPECT_EQ(complaint(document),
+            "bad.json: /scene/loads/push/at must stay at the share 0.5 of the length of the beam "
+            "\"arm\", which is (0.4, 0, 0) [m], got (0.5, 0, 0), with the variable \"place\" at "
+            "its lower bound");
+}
+
+TEST_F(Mechanism, MayHaveLegsDrivenSideBySide) {  // as in a hexapod
+  Json document = good_mechanism();
+  Json leg = document["scene"]["joints"]["tie"];
+  leg["at"][0] = 1.75;
+  document["scene"]["joints"]["second_tie"] = leg;
+  EXPECT_EQ(complaint(document), "");
+}
+
+}  // namespace
+}  // namespace pleuel::test
