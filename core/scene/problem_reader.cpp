@@ -1,11 +1,6 @@
 #include "core/scene/problem_reader.hpp"
 
-#include <fstream>
-#include <iterator>
-
-#include <fmt/format.h>
-
-#include "core/base/error.hpp"
+#include "core/scene/reading/catalogue.hpp"
 #include "core/scene/reading/goal_reader.hpp"
 #include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/number_reader.hpp"
@@ -14,26 +9,12 @@
 #include "core/scene/reading/scene_check.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/settings_reader.hpp"
+#include "core/scene/reading/text_file.hpp"
 #include "core/scene/reading/variable_reader.hpp"
 #include "core/scene/units.hpp"
 
 namespace pleuel {
 namespace {
-
-std::string read_text(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) {
-    throw InputError(fmt::format("{}: there is no such file", path.string()));
-  }
-  if (std::filesystem::is_directory(status)) {
-    throw InputError(fmt::format("{}: is a directory, not a problem file", path.string()));
-  }
-  std::ifstream stream(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream) throw InputError(fmt::format("{}: cannot be read", path.string()));
-  return text;
-}
 
 std::vector<std::string> variable_names(const JsonNode& root) {
   std::vector<std::string> names;
@@ -63,10 +44,9 @@ void read_settings(const JsonNode& root, const NumberReader& numbers, ProblemFil
 }
 
 /// The variables come late: where they are used tells what they measure.
-ProblemFile read_document(const JsonNode& root) {
+ProblemFile read_document(const JsonNode& root, const UnitSystem& units) {
   ProblemFile problem;
   read_heading(root, problem);
-  const UnitSystem units;
   NumberReader numbers(units, variable_names(root));
   problem.scene = read_scene(root.at("scene"), numbers);
   problem.simulation = read_simulation(root.at("simulation"), numbers);
@@ -91,7 +71,7 @@ ProblemFile read_document(const JsonNode& root) {
 
 ProblemFile read_problem(const std::filesystem::path& path,
                          const std::vector<std::string>& overrides) {
-  ProblemFile problem = read_problem_text(read_text(path), path.string(), overrides);
+  ProblemFile problem = read_problem_text(read_text_file(path), path.string(), overrides);
   if (problem.name.empty()) problem.name = path.stem().string();
   return problem;
 }
@@ -100,7 +80,9 @@ ProblemFile read_problem_text(const std::string& text, const std::string& file,
                               const std::vector<std::string>& overrides) {
   Json document = parse_json(text, file);
   for (const std::string& assignment : overrides) apply_override(document, assignment, file);
-  return read_document(JsonNode(document, file));
+  const UnitSystem units;
+  expand_catalogue(document, file, units);
+  return read_document(JsonNode(document, file), units);
 }
 
 }  // namespace pleuel

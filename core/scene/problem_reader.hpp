@@ -17,7 +17,8 @@ ProblemFile read_problem(const std::filesystem::path& path,
                          const std::vector<std::string>& overrides = {});
 
 /// The same for a text.
-/// @param file  how messages name it.
+/// @param file  how messages name it; a catalogue of sections is looked for in its folder (the
+///              current one if the name has none).
 ProblemFile read_problem_text(const std::string& text, const std::string& file,
                               const std::vector<std::string>& overrides = {});
 

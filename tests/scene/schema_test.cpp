@@ -53,7 +53,8 @@ TEST_F(ProblemSchema, AcceptsEveryProblemFile) {
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(problems)) {
     const std::string name = entry.path().filename().string();
-    if (entry.path().extension() != ".json" || name == "problem.schema.json") continue;
+    const bool is_problem = name != "problem.schema.json" && name != "catalogue.json";
+    if (entry.path().extension() != ".json" || !is_problem) continue;
     EXPECT_EQ(complaints(load(entry.path())), "") << name;
     ++files;
   }
@@ -62,6 +63,29 @@ TEST_F(ProblemSchema, AcceptsEveryProblemFile) {
 
 TEST_F(ProblemSchema, AcceptsTheGoodProblem) {
   EXPECT_EQ(complaints(nlohmann::json::parse(good_text())), "");
+}
+
+TEST_F(ProblemSchema, AcceptsEverySectionOfTheCatalogue) {
+  const nlohmann::json catalogue = load(problems / "catalogue.json");
+  for (const auto& [name, section] : catalogue.at("sections").items()) {
+    EXPECT_EQ(complaints_about_edit("/scene/bodies/crank/section", section.dump()), "") << name;
+  }
+  EXPECT_EQ(complaints_about_edit("/scene/bodies/crank/section", R"({"catalogue": "IPE 80"})"), "");
+  EXPECT_EQ(complaints_about_edit("/scene/catalogue", R"("catalogue.json")"), "");
+}
+
+TEST_F(ProblemSchema, AcceptsEverySection) {
+  for (const char* section :
+       {R"({"type": "ellipse", "width": {"variable": "width"}, "height": "2 cm"})",
+        R"({"type": "box", "width": {"variable": "width"}, "height": 0.02, "thickness": "1 mm"})",
+        R"({"type": "i", "width": 0.02, "height": 0.04, "flange_thickness": 1e-3,
+            "web_thickness": "1 mm"})",
+        R"({"type": "general", "area": "2 cm^2", "inertia_y": 1e-8, "inertia_z": 1e-8,
+            "torsion": 1e-8, "points": [{"y": 0.01, "z": 0, "shear": "1 1/cm^3"}]})"}) {
+    EXPECT_EQ(complaints_about_edit("/scene/bodies/crank/section", section), "") << section;
+    EXPECT_EQ(complaint(edited("/scene/bodies/crank/section", section)), "") << section;
+  }
+  EXPECT_EQ(complaints_about_edit("/scene/materials/steel/strength", R"("355 MPa")"), "");
 }
 
 TEST_F(ProblemSchema, RefusesWhatTheReaderRefuses) {
@@ -73,6 +97,20 @@ TEST_F(ProblemSchema, RefusesWhatTheReaderRefuses) {
       {"/scene/bodies/crank/section/diamter", "1"},
       {"/scene/bodies/crank/section/type", "\"hexagon\""},
       {"/scene/bodies/crank/section/width", "true"},
+      {"/scene/bodies/crank/section", R"({"type": "ellipse", "width": 0.01})"},
+      {"/scene/bodies/crank/section", R"({"type": "box", "width": 0.01, "height": 0.01})"},
+      {"/scene/bodies/crank/section", R"({"catalogue": "IPE 80", "width": 0.01})"},
+      {"/scene/bodies/crank/section", R"({"catalogue": 80})"},
+      {"/scene/bodies/crank/section",
+       R"({"type": "i", "width": 0.02, "height": 0.04, "flange_thickness": 1e-3})"},
+      {"/scene/bodies/crank/section",
+       R"({"type": "general", "area": 1e-4, "inertia_y": 1e-8, "inertia_z": 1e-8,
+           "torsion": 1e-8, "points": []})"},
+      {"/scene/bodies/crank/section",
+       R"({"type": "general", "area": 1e-4, "inertia_y": 1e-8, "inertia_z": 1e-8,
+           "torsion": 1e-8, "points": [{"y": 0, "z": 0}]})"},
+      {"/scene/catalogue", "7"},
+      {"/scene/materials/steel/strength", "true"},
       {"/scene/bodies/crank/section/width", R"({"variable": "width", "factor": 0})"},
       {"/scene/bodies/crank/segments", "[]"},
       {"/scene/bodies/crank/elements", "0"},

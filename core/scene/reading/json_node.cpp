@@ -23,11 +23,12 @@ std::string shown(const Json& value) {
 
 }  // namespace
 
-JsonNode::JsonNode(const Json& value, const std::string& file, std::string pointer)
+JsonNode::JsonNode(const Json& value, const std::string& file, std::string pointer,
+                   const std::string& whole)
     : value_(&value),
       file_(&file),
       pointer_(std::move(pointer)),
-      place_(pointer_.empty() ? "the problem" : pointer_) {}
+      place_(pointer_.empty() ? whole : pointer_) {}
 
 void JsonNode::fail(const std::string& rule) const {
   throw InputError(fmt::format("{}: {} {}", *file_, place_, rule));

@@ -18,11 +18,13 @@ using JsonMembers = std::vector<std::pair<std::string, JsonNode>>;
 /// the document and the name of the file: both must outlive it. Everything throws InputError.
 class JsonNode {
  public:
-  JsonNode(const Json& value, const std::string& file, std::string pointer = "");
+  /// @param whole  how messages name the whole document.
+  JsonNode(const Json& value, const std::string& file, std::string pointer = "",
+           const std::string& whole = "the problem");
 
   const Json& value() const { return *value_; }
 
-  /// Where it is, for a message: the JSON pointer, or "the problem" for the whole document.
+  /// Where it is, for a message: the JSON pointer, or what the whole document is called.
   const std::string& place() const { return place_; }
 
   /// Ends the reading with "file: pointer rule".

@@ -9,6 +9,7 @@
 #include "core/scene/reading/mechanism_check.hpp"
 #include "core/scene/reading/placement_check.hpp"
 #include "core/scene/reading/sample.hpp"
+#include "core/scene/reading/section_check.hpp"
 
 namespace pleuel {
 namespace {
@@ -31,21 +32,11 @@ void check_beam(const JsonNode& node, const BeamBody& beam, const Sample& sample
   }
 }
 
-/// Only at the start: bounds that let walls and diameters cross may have a linear constraint
-/// between them.
-void check_tubes(const JsonNode& node, const BeamBody& beam, const Design<double>& start) {
+void check_sections(const JsonNode& node, const BeamBody& beam, const Design<double>& start) {
+  const std::optional<JsonNode> list = node.find("segments");
   for (std::size_t i = 0; i < beam.segments.size(); ++i) {
-    const auto* tube = std::get_if<TubeSection>(&beam.segments[i].section);
-    if (tube == nullptr) continue;
-    const double thickness = resolve(tube->thickness, start);
-    const double radius = 0.5 * resolve(tube->outer_diameter, start);
-    if (thickness <= radius * (1.0 + rounding_tolerance)) continue;
-    const std::optional<JsonNode> list = node.find("segments");
     const JsonNode segment = list ? list->items()[i] : node;
-    segment.at("section")
-        .at("thickness")
-        .fail(fmt::format("must not exceed the radius {:g} [m] of the tube, got {:g}", radius,
-                          thickness));
+    check_section(segment.at("section"), beam.segments[i].section, start);
   }
 }
 
@@ -68,7 +59,7 @@ void check_bodies(const JsonNode& node, const Scene& scene, const std::vector<Sa
     const JsonNode place = node.at(body.name);
     if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
       for (const Sample& sample : samples) check_beam(place, *beam, sample);
-      check_tubes(place, *beam, samples.front().design);
+      check_sections(place, *beam, samples.front().design);
     } else if (const auto* rigid = std::get_if<RigidBody>(&body.shape)) {
       check_inertia(place, *rigid, samples.front().design);
     }

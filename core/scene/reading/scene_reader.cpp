@@ -1,26 +1,60 @@
 #include "core/scene/reading/scene_reader.hpp"
 
+#include <algorithm>
+
+#include "core/scene/material_library.hpp"
+
 namespace pleuel {
 namespace {
 
 Material read_material(const std::string& name, const JsonNode& node, NumberReader& numbers) {
-  node.allow_keys({"young", "poisson", "density"});
+  node.allow_keys({"young", "poisson", "density", "strength"});
   Material material;
   material.name = name;
   material.young = numbers.designable(node.at("young"), quantities::stress, Range::positive);
   material.poisson =
       numbers.designable(node.at("poisson"), quantities::pure_number, Range::poisson);
   material.density = numbers.designable(node.at("density"), quantities::density, Range::positive);
+  if (const auto strength = node.find("strength")) {
+    material.strength = numbers.designable(*strength, quantities::stress, Range::positive);
+  }
   return material;
 }
 
+bool has_material(const Scene& scene, const std::string& name) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [&name](const Material& material) { return material.name == name; });
+}
+
+/// Those of the scene and those of the library that it does not replace.
+std::vector<std::string> material_names(const Scene& scene) {
+  std::vector<std::string> names = names_of(scene.materials);
+  for (const Material& material : material_library()) {
+    if (!has_material(scene, material.name)) names.push_back(material.name);
+  }
+  return names;
+}
+
+/// Of the library, what the bodies are made of.
+void add_library_materials(Scene& scene) {
+  for (const Material& material : material_library()) {
+    const bool is_used =
+        std::any_of(scene.bodies.begin(), scene.bodies.end(), [&material](const Body& body) {
+          const auto* beam = std::get_if<BeamBody>(&body.shape);
+          return beam != nullptr && beam->material == material.name;
+        });
+    if (is_used && !has_material(scene, material.name)) scene.materials.push_back(material);
+  }
+}
+
 void read_bodies(const JsonNode& node, Scene& scene, NumberReader& numbers) {
-  const std::vector<std::string> materials = names_of(scene.materials);
+  const std::vector<std::string> materials = material_names(scene);
   for (const auto& [name, body] : node.members()) {
     if (name == ground_name) body.fail("has the name that is kept for the ground");
     scene.bodies.push_back(read_body(name, body, materials, numbers));
   }
   if (scene.bodies.empty()) node.fail("has no body");
+  add_library_materials(scene);
 }
 
 void read_joints(const JsonNode& node, Scene& scene, NumberReader& numbers) {
@@ -34,7 +68,7 @@ void read_joints(const JsonNode& node, Scene& scene, NumberReader& numbers) {
 }  // namespace
 
 Scene read_scene(const JsonNode& node, NumberReader& numbers) {
-  node.allow_keys({"gravity", "materials", "bodies", "joints", "loads"});
+  node.allow_keys({"gravity", "catalogue", "materials", "bodies", "joints", "loads"});
   Scene scene;
   if (const auto gravity = node.find("gravity")) {
     scene.gravity = numbers.triple(*gravity, quantities::acceleration);

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "core/scene/reading/json_text.hpp"
+#include "core/scene/units.hpp"
+
+namespace pleuel {
+
+/// Puts the section of the catalogue in the place of its name, wherever a beam of the document has
+///     "section": {"catalogue": "IPE 80"}
+/// The scene names the file, relative to the folder of the problem file: "catalogue": "my.json".
+///     {"description": "…", "sections": {"IPE 80": {"type": "general", …}, …}}
+/// Its sections are written as in a problem file, but nothing in them can be bound to a variable.
+/// All of them are checked, used or not.
+/// @param file  how messages name the document; its folder is that of the problem.
+/// @throws InputError  that names the file and the pointer in which the fault is.
+void expand_catalogue(Json& document, const std::string& file, const UnitSystem& units);
+
+}  // namespace pleuel
