@@ -51,7 +51,8 @@ enum class ResponseType {
   position,
   velocity,
   acceleration,
-  drive_torque,
+  drive_torque,  ///< of a drive of an angle
+  drive_force,   ///< of a drive of a displacement
   drive_power,
   reaction_force,
   reaction_moment,

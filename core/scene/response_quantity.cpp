@@ -21,6 +21,7 @@ Quantity instant_quantity(const ResponseSettings& response) {
       return quantities::torque;
     case ResponseType::drive_power:
       return quantities::power;
+    case ResponseType::drive_force:
     case ResponseType::reaction_force:
       return quantities::force;
     case ResponseType::frequency:

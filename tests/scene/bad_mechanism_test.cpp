@@ -328,7 +328,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadMechanism{
             "/responses/speed/type", R"("velocty")",
-            R"(/responses/speed/type must be "mass", "stress", "deflection", "position", "velocity", "acceleration", "drive-torque", "drive-power", "reaction-force", "reaction-moment", "frequency" or "buckling", got "velocty"; did you mean "velocity"?)"},
+            R"(/responses/speed/type must be "mass", "stress", "deflection", "position", "velocity", "acceleration", "drive-torque", "drive-force", "drive-power", "reaction-force", "reaction-moment", "frequency" or "buckling", got "velocty"; did you mean "velocity"?)"},
         BadMechanism{"/responses/speed/at", "remove",
                      R"(/responses/speed is missing the key "at")"},
         BadMechanism{
@@ -340,6 +340,12 @@ INSTANTIATE_TEST_SUITE_P(
                      R"(/responses/jolt/at is for beams only, but "block" is none)"},
         BadMechanism{"/responses/energy/joint", R"("wrist")",
                      R"(/responses/energy/joint names the joint "wrist", which has no drive)"},
+        BadMechanism{
+            "/responses/effort/joint", R"("tie")",
+            R"(/responses/effort/joint names the joint "tie", whose drive has a drive-force)"},
+        BadMechanism{
+            "/responses/thrust/joint", R"("elbow")",
+            R"(/responses/thrust/joint names the joint "elbow", whose drive has a drive-torque)"},
         BadMechanism{
             "/responses/bearing/joint", R"("pivt")",
             R"(/responses/bearing/joint names the unknown joint "pivt"; did you mean "pivot"?)"},

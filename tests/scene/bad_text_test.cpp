@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -87,6 +88,57 @@ TEST(BadText, LongValuesAreShortenedBetweenCharacters) {
   EXPECT_NO_THROW(Json(message).dump());  // would complain about half a character
 }
 
+TEST(BadText, WithManyMembersIsRefusedInTimeProportionalToItsSize) {
+  std::string text = "{\"scene\": {";
+  for (int i = 0; i < 200000; ++i) text += "\"" + std::to_string(i) + "\": 0, ";
+  EXPECT_THAT(complaint_about_text(text + "\"end\": 0}}"),  // takes minutes if it is quadratic
+              StartsWith("bad.json: /scene has the unknown key \"0\""));
+}
+
+TEST(BadText, OfAMechanismTruncatedAnywhereIsRefusedByAMessage) {
+  const std::string text = good_mechanism().dump();
+  for (std::size_t size = 0; size < text.size(); size += 7) {
+    EXPECT_THAT(complaint_about_text(text.substr(0, size)), StartsWith("bad.json: "))
+        << "after " << size << " bytes";
+  }
+}
+
+/// Calls back with every value below, and the pointer to it.
+void for_each_place(const Json& value, const std::string& pointer,
+                    const std::function<void(const std::string&)>& visit) {
+  if (!pointer.empty()) visit(pointer);
+  if (value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      for_each_place(value[i], pointer + "/" + std::to_string(i), visit);
+    }
+  } else if (value.is_object()) {
+    for (const auto& [key, member] : value.items()) {
+      for_each_place(member, pointer + "/" + key, visit);
+    }
+  }
+}
+
+// Every reading takes some ms for the units: one value at every third place.
+
+TEST(BadValue, AnywhereInAMechanismIsReadOrRefusedByAMessage) {
+  const Json good = good_mechanism();
+  const std::vector<std::string> values = {"[]",     "{}",   "\"\"",      "0",
+                                           "-1e308", "true", "\"nan m\"", "remove"};
+  std::size_t places = 0;
+  for_each_place(good, "", [&](const std::string& pointer) {
+    if (places++ % 3 != 0) return;
+    const std::string& value = values[places % values.size()];
+    EXPECT_NO_THROW(complaint(edited(good, pointer, value))) << pointer << " = " << value;
+  });
+}
+
+TEST(BadValue, OfNoKindIsRefusedEverywhereInAMechanism) {
+  const Json good = good_mechanism();
+  for_each_place(good, "", [&good](const std::string& pointer) {
+    EXPECT_NE(complaint(edited(good, pointer, "null")), "") << pointer;
+  });
+}
+
 std::string complaint_about_file(const std::filesystem::path& path) {
   try {
     read_problem(path);
@@ -104,6 +156,13 @@ TEST(BadFile, MissingIsCalledMissing) {
 TEST(BadFile, DirectoryIsCalledDirectory) {
   const std::string directory = testing::TempDir();
   EXPECT_EQ(complaint_about_file(directory), directory + ": is a directory, not a problem file");
+}
+
+TEST(BadFile, WithoutEndIsRefused) {
+  const std::filesystem::path endless = "/dev/zero";
+  if (!std::filesystem::exists(endless)) GTEST_SKIP();
+  EXPECT_EQ(complaint_about_file(endless),
+            "/dev/zero: is larger than 32 MiB, which no problem file is");
 }
 
 TEST(File, IsReadLikeItsTextAndGivesItsNameToAProblemWithout) {

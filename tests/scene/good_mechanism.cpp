@@ -99,6 +99,7 @@ Json good_mechanism() {
              "from": "20 ms", "to": 0.1},
     "energy": {"type": "drive-power", "joint": "shoulder", "over_time": "integral"},
     "effort": {"type": "drive-torque", "joint": "elbow", "over_time": "max-abs", "to": 0.05},
+    "thrust": {"type": "drive-force", "joint": "tie", "over_time": "mean"},
     "bearing": {"type": "reaction-force", "joint": "pivot", "direction": "magnitude",
                 "over_time": "max", "from": 0.05},
     "clamp": {"type": "reaction-moment", "joint": "rail", "direction": "z", "over_time": "min"},

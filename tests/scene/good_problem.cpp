@@ -105,7 +105,12 @@ Json edited(const std::string& pointer, const std::string& value) {
 Json edited(Json document, const std::string& pointer, const std::string& value) {
   const Json::json_pointer place(pointer);
   if (value == "remove") {
-    document.at(place.parent_pointer()).erase(place.back());
+    Json& parent = document.at(place.parent_pointer());
+    if (parent.is_array()) {
+      parent.erase(std::stoul(place.back()));
+    } else {
+      parent.erase(place.back());
+    }
   } else {
     document[place] = Json::parse(value);
   }

@@ -207,6 +207,7 @@ TEST_F(Mechanism, HasLimitsInTheUnitsOfItsResponses) {
   EXPECT_EQ(problem_.objective->scale, 2.0);
   EXPECT_DOUBLE_EQ(*problem_.constraints[0].lower, 20.0 * pi);
   EXPECT_DOUBLE_EQ(*problem_.constraints[1].upper, 0.8);
+  EXPECT_EQ(quantity_of(response("thrust")).unit, "N");
   EXPECT_EQ(quantity_of(response("jolt")).unit, "m/s^2");
   EXPECT_EQ(quantity_of(response("clamp")).unit, "N m");
 }
@@ -261,6 +262,7 @@ TEST_F(Mechanism, MayMoveALoadWithItsBeam) {
   document["scene"]["joints"]["elbow"]["at"][0] = end;
   document["scene"]["joints"].erase("wrist");
   document["scene"]["joints"].erase("tie");
+  document["responses"].erase("thrust");
   document["scene"]["loads"].erase("cord");
   EXPECT_EQ(complaint(document), "");
   document["scene"]["loads"]["push"]["at"][0] = 0.5;

@@ -88,6 +88,61 @@ TEST_F(ProblemSchema, AcceptsEverySection) {
   EXPECT_EQ(complaints_about_edit("/scene/materials/steel/strength", R"("355 MPa")"), "");
 }
 
+TEST_F(ProblemSchema, AcceptsTheGoodMechanism) {
+  EXPECT_EQ(complaints(nlohmann::json::parse(good_mechanism().dump())), "");
+}
+
+TEST_F(ProblemSchema, RefusesMechanismsThatTheReaderRefuses) {
+  const std::string speed = R"({"type": "constant-speed", "speed": 1})";
+  const std::vector<std::pair<std::string, std::string>> edits = {
+      {"/scene/bodies/arm/frame", "\"mean\""},
+      {"/scene/bodies/arm/reduction", "{}"},
+      {"/scene/bodies/arm/reduction", "remove"},
+      {"/scene/bodies/arm/reduction/frequency", "100"},
+      {"/scene/bodies/arm/reduction/modes", "-1"},
+      {"/scene/bodies/arm/damping/mass", "1"},
+      {"/scene/bodies/strut/rigid", "1"},
+      {"/scene/bodies/strut/damping", "{}"},
+      {"/scene/bodies/ball/angular_velocity", "[0, 0, 1]"},
+      {"/scene/bodies/block/velocity", "[0, 0]"},
+      {"/scene/joints/shoulder/axis", "remove"},
+      {"/scene/joints/shoulder/drive/coordinate", "remove"},
+      {"/scene/joints/elbow/second_axis", "remove"},
+      {"/scene/joints/floor/second_axis", "[1, 0, 0]"},
+      {"/scene/joints/wrist/axis", "[1, 0, 0]"},
+      {"/scene/joints/wrist/drive", speed},
+      {"/scene/joints/wrist/to", "[1, 0, 0]"},
+      {"/scene/joints/tie/to", "remove"},
+      {"/scene/joints/tie/drive/times", "[0]"},
+      {"/scene/joints/line/drive/sped", "1"},
+      {"/scene/joints/shoulder/drive/coefficients", "[]"},
+      {"/scene/joints/elbow/drive/frequency", "remove"},
+      {"/scene/loads/push/type", "\"weight\""},
+      {"/scene/loads/push/value", speed},
+      {"/scene/loads/push/value", R"({"type": "constant", "value": 1, "coordinate": "angle"})"},
+      {"/scene/loads/push/follows", "1"},
+      {"/scene/loads/strap/at", "[[4, 0, 0]]"},
+      {"/scene/loads/strap/stiffness", "remove"},
+      {"/scene/loads/strap/bodies", R"(["ground", "ground"])"},
+      {"/scene/loads/hinge/damping", "remove"},
+      {"/scene/loads/hinge/rest", "0.1"},
+      {"/effects/tolerance", "1"},
+      {"/effects/elasticity", "true"},
+      {"/simulation/initial_state", "\"static\""},
+      {"/responses/speed/direction", "\"norm\""},
+      {"/responses/speed/type", "\"position\""},
+      {"/responses/tone/mode", "0"},
+      {"/responses/tone/over_time", "\"max\""},
+      {"/responses/shear/at", "0.5"},
+      {"/responses/axial/part", "\"tension\""},
+      {"/responses/bearing/direction", "remove"}};
+  for (const auto& [pointer, value] : edits) {
+    const Json document = edited(good_mechanism(), pointer, value);
+    EXPECT_NE(complaints(nlohmann::json::parse(document.dump())), "") << pointer << " = " << value;
+    EXPECT_NE(complaint(document), "") << pointer << " = " << value;
+  }
+}
+
 TEST_F(ProblemSchema, RefusesWhatTheReaderRefuses) {
   const std::vector<std::pair<std::string, std::string>> edits = {
       {"/scene", "remove"},

@@ -1,6 +1,7 @@
 #include "core/scene/reading/json_text.hpp"
 
 #include <algorithm>
+#include <unordered_set>
 #include <vector>
 
 #include <fmt/format.h>
@@ -47,7 +48,7 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   bool end_array() override { return close(); }
 
   bool key(string_t& key) override {
-    if (open_.back().value->contains(key)) {
+    if (!open_.back().keys.insert(key).second) {
       throw InputError(
           fmt::format("{}: {} is there twice", file_, child_pointer(open_.back().pointer, key)));
     }
@@ -65,6 +66,7 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   struct Open {
     Json* value;
     std::string pointer;
+    std::unordered_set<std::string> keys = {};  ///< of an object: a look-up in it would be linear
   };
 
   std::string pointer_of_next() const {
@@ -77,7 +79,11 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   Json* place(Json&& value) {
     if (open_.empty()) return &(document_ = std::move(value));
     Json& parent = *open_.back().value;
-    if (parent.is_object()) return &(parent[key_] = std::move(value));
+    if (parent.is_object()) {
+      auto& members = parent.get_ref<Json::object_t&>();
+      return &members.std::vector<Json::object_t::value_type>::emplace_back(key_, std::move(value))
+                  .second;
+    }
     parent.push_back(std::move(value));
     return &parent.back();
   }

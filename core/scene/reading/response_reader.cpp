@@ -148,7 +148,17 @@ const Joint& read_joint_name(const JsonNode& node, const Scene& scene) {
   return *find_named(scene.joints, read_known_name(node, "joint", names_of(scene.joints)));
 }
 
-/// Torque or power.
+/// A drive of an angle has a torque, one of a displacement a force.
+void check_effort(const JsonNode& name, const Joint& joint, ResponseType type) {
+  const bool is_angle = joint.drive->coordinate == DrivenCoordinate::angle;
+  if (type == ResponseType::drive_torque && !is_angle) {
+    name.fail(fmt::format("names the joint \"{}\", whose drive has a drive-force", joint.name));
+  }
+  if (type == ResponseType::drive_force && is_angle) {
+    name.fail(fmt::format("names the joint \"{}\", whose drive has a drive-torque", joint.name));
+  }
+}
+
 void read_drive_effort(const JsonNode& node, const ResponseContext& context,
                        ResponseSettings& response) {
   allow_history_keys(node, {"joint"});
@@ -157,6 +167,7 @@ void read_drive_effort(const JsonNode& node, const ResponseContext& context,
   if (!joint.drive) {
     name.fail(fmt::format("names the joint \"{}\", which has no drive", joint.name));
   }
+  check_effort(name, joint, response.type);
   response.joint = joint.name;
   read_history(node, context, response);
 }
@@ -207,6 +218,7 @@ ResponseType read_response_type(const JsonNode& node) {
                                           {"velocity", ResponseType::velocity},
                                           {"acceleration", ResponseType::acceleration},
                                           {"drive-torque", ResponseType::drive_torque},
+                                          {"drive-force", ResponseType::drive_force},
                                           {"drive-power", ResponseType::drive_power},
                                           {"reaction-force", ResponseType::reaction_force},
                                           {"reaction-moment", ResponseType::reaction_moment},
@@ -241,6 +253,7 @@ ResponseSettings read_response(const std::string& name, const JsonNode& node,
       read_motion(node, context, response);
       break;
     case ResponseType::drive_torque:
+    case ResponseType::drive_force:
     case ResponseType::drive_power:
       read_drive_effort(node, context, response);
       break;
