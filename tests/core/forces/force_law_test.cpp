@@ -1,0 +1,250 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/error.hpp"
+#include "core/base/rotation_vector.hpp"
+#include "core/forces/joint_force.hpp"
+#include "core/forces/point_force.hpp"
+#include "core/forces/point_torque.hpp"
+#include "core/forces/spring_damper.hpp"
+#include "tests/core/forces/force_samples.hpp"
+#include "tests/support/dense.hpp"
+#include "tests/support/differences.hpp"
+
+namespace {
+
+using namespace pleuel;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr auto level = ConstraintLevel::position;
+
+TimeLaw<double> constant(double value) {
+  return {TimeLaw<double>::Kind::polynomial, {value}, {}};
+}
+
+class EveryInternalForce : public testing::TestWithParam<ForceSample> {
+ protected:
+  ForceSample sample_ = GetParam();
+  State state_ = sample_.random_state();
+
+  /// ds/dε along q ⊕ ε · direction. Differences as in the derivative test: 1e-10.
+  double slope(const VectorXd& direction) const {
+    return derivative_at_zero(
+        [&](double s) { return sample_.coordinate(sample_.advanced(state_.q, s * direction)); },
+        1e-3);
+  }
+};
+
+/// R = ∂(½ k (s − s₀)²)/∂q.
+TEST_P(EveryInternalForce, HasASpringWithAPotential) {
+  const double stretch = sample_.coordinate(state_.q) - sample_.rest;
+  const VectorXd found = residual_of(*sample_.make_spring(), state_, level);
+  for (Eigen::Index i = 0; i < state_.q.size(); ++i) {
+    const double expected = sample_.stiffness * stretch * slope(VectorXd::Unit(state_.q.size(), i));
+    EXPECT_NEAR(found(i), expected, 1e-9 * std::max(found.lpNorm<Eigen::Infinity>(), 1.0)) << i;
+  }
+}
+
+/// R · v = c ṡ²; ω is the rate of right perturbations.
+TEST_P(EveryInternalForce, HasADamperThatTakesEnergyByTheSquareOfTheRate) {
+  const double rate = slope(state_.v);
+  const VectorXd found = residual_of(*sample_.make_damper(), state_, level);
+  const double expected = sample_.damping * rate * rate;
+  EXPECT_NEAR(found.dot(state_.v), expected, 1e-9 * std::max(expected, 1.0));
+}
+
+class EveryInternalForceInSpace : public EveryInternalForce {};
+
+/// Sums over the frames: forces are the translation rows, moments about the origin of space
+/// r × F + A T with the rotation rows T (body axes).
+TEST_P(EveryInternalForceInSpace, HasNeitherTotalForceNorTotalMoment) {
+  const VectorXd residual = residual_of(*sample_.make(), state_, level);
+  Vector3d force = Vector3d::Zero(), moment = Vector3d::Zero();
+  for (const Marker& marker : sample_.mount.markers) {
+    const int first = marker.frame.offset;
+    const Vector3d r = state_.q.segment<3>(first), F = residual.segment<3>(first);
+    force += F;
+    moment += r.cross(F) + rotation_of(state_.q.segment<3>(first + 3)) *
+                               Vector3d(residual.segment<3>(first + 3));
+  }
+  EXPECT_GT(residual.norm(), 0.1);
+  EXPECT_LE(force.norm(), 1e-14 * residual.norm());  // round-off
+  EXPECT_LE(moment.norm(), 1e-14 * residual.norm());
+}
+
+/// Turning everything turns forces, and leaves moments and elastic forces, which are in body axes.
+TEST_P(EveryInternalForceInSpace, IsTheSameInATurnedSpace) {
+  const auto term = sample_.make();
+  const VectorXd before = residual_of(*term, state_, level);
+  const Eigen::Matrix3d turn = rotation_of(Vector3d(0.4, -1.1, 0.7));
+  State turned = state_;
+  VectorXd expected = before;
+  for (const Marker& marker : sample_.mount.markers) {
+    const int first = marker.frame.offset;
+    turned.q.segment<3>(first) = turn * state_.q.segment<3>(first);
+    turned.v.segment<3>(first) = turn * state_.v.segment<3>(first);
+    turned.q.segment<3>(first + 3) =
+        rotation_vector(turn * rotation_of(state_.q.segment<3>(first + 3)));
+    expected.segment<3>(first) = turn * before.segment<3>(first);
+  }
+  EXPECT_LE(relative_difference(residual_of(*term, turned, level), expected), 1e-13);
+}
+
+const auto name_of = [](const auto& test) { return test.param.name; };
+INSTANTIATE_TEST_SUITE_P(Forces, EveryInternalForce,
+                         testing::ValuesIn(force_samples(Choice::internal)), name_of);
+INSTANTIATE_TEST_SUITE_P(Forces, EveryInternalForceInSpace,
+                         testing::ValuesIn(force_samples(Choice::internal_spatial)), name_of);
+
+/// A body in space with all elastic coordinates of a marker.
+class PointLoad : public testing::Test {
+ protected:
+  Mount mount_ = all_mounts()[2];
+  Marker marker_ = mount_.markers[1];
+  ForceSample moving_{"", mount_};
+  State state_ = moving_.random_state();
+  Eigen::Matrix3d A_ = rotation_of(state_.q.segment<3>(3));
+  Vector3d u_ = state_.q.segment<3>(6), psi_ = state_.q.segment<3>(9);
+  const Vector3d point_{0.3, -0.2, 0.5}, direction_{0.6, 0.48, 0.64};
+};
+
+/// R = −∂(F · P)/∂q with P = r + A (p + u): a weight has a potential.
+TEST_F(PointLoad, InSpaceIsTheGradientOfForceTimesPosition) {
+  const auto term = make_point_force_term({"f", marker_}, {point_, direction_, constant(7.0)}, {});
+  const VectorXd found = residual_of(*term, state_, level);
+  for (Eigen::Index i = 0; i < state_.q.size(); ++i) {
+    const auto potential = [&](double s) {
+      const VectorXd q = moving_.advanced(state_.q, s * VectorXd::Unit(state_.q.size(), i));
+      const Vector3d local = point_ + q.segment<3>(6);
+      return -7.0 * direction_.dot(q.head<3>() + rotation_of(q.segment<3>(3)) * local);
+    };
+    EXPECT_NEAR(found(i), derivative_at_zero(potential, 1e-3), 1e-10) << i;
+  }
+}
+
+/// In body axes: force f (s + ψ × s), moment (p + u) × force, nothing on elastic rotations.
+TEST_F(PointLoad, OnTheBodyTurnsWithIt) {
+  const auto term = make_point_force_term({"f", marker_, LoadDirection::body},
+                                          {point_, direction_, constant(7.0)}, {});
+  const VectorXd Q = -residual_of(*term, state_, level);
+  const Vector3d local = 7.0 * (direction_ + psi_.cross(direction_));
+  EXPECT_LE((Q.head<3>() - A_ * local).norm(), 1e-14);
+  EXPECT_LE((Q.segment<3>(3) - (point_ + u_).cross(local)).norm(), 1e-14);
+  EXPECT_LE((Q.segment<3>(6) - local).norm(), 1e-14);
+  EXPECT_EQ(Q.segment<3>(9), Vector3d::Zero());
+}
+
+/// Both are one while nothing has turned.
+TEST_F(PointLoad, InSpaceAndOnTheBodyAgreeBeforeAnyRotation) {
+  state_.q.setZero();
+  VectorXd forces[2];
+  for (LoadDirection direction : {LoadDirection::space, LoadDirection::body}) {
+    const auto term =
+        make_point_force_term({"f", marker_, direction}, {point_, direction_, constant(7.0)}, {});
+    forces[static_cast<int>(direction)] = residual_of(*term, state_, level);
+  }
+  EXPECT_LE((forces[0] - forces[1]).norm(), 1e-14);
+}
+
+/// Body axes: Aᵀ T on the rotation of the frame and on that of the marker.
+TEST_F(PointLoad, OfATorqueActsOnFrameAndElasticRotation) {
+  const auto in_space = make_point_torque_term({"m", marker_}, {direction_, constant(7.0)}, {});
+  const auto on_body =
+      make_point_torque_term({"m", marker_, LoadDirection::body}, {direction_, constant(7.0)}, {});
+  const Vector3d fixed = 7.0 * (A_.transpose() * direction_);
+  const Vector3d following = 7.0 * (direction_ + psi_.cross(direction_));
+  for (const auto& [term, torque] :
+       {std::pair{in_space.get(), fixed}, {on_body.get(), following}}) {
+    const VectorXd Q = -residual_of(*term, state_, level);
+    EXPECT_EQ(Q.head<3>(), Vector3d::Zero());
+    EXPECT_LE((Q.segment<3>(3) - torque).norm(), 1e-14);
+    EXPECT_EQ(Q.segment<3>(6), Vector3d::Zero());
+    EXPECT_LE((Q.segment<3>(9) - torque).norm(), 1e-14);
+  }
+}
+
+/// f(t) = 2 + 3 t at t = 0.13.
+TEST_F(PointLoad, HasTheValueOfItsTimeLaw) {
+  const TimeLaw<double> law{TimeLaw<double>::Kind::polynomial, {2.0, 3.0}, {}};
+  const auto term = make_point_force_term({"f", marker_}, {point_, direction_, law}, {});
+  const VectorXd Q = -residual_of(*term, state_, level);
+  EXPECT_LE((Q.head<3>() - 2.39 * direction_).norm(), 1e-14);
+}
+
+/// Two rigid bodies that turn about their common z axis by 0.3 and 1.0 rad, with 2 and 5 rad/s:
+/// s = 0.7, ṡ = 3, so that τ = 4 − 6 (0.7 − 0.2) − 0.5 · 3 = −0.5 about the axis.
+TEST(JointForce, TurnsTheSecondBodyAboutTheAxisAndTheFirstBack) {
+  Marker first, second;
+  first.frame.rotation = second.frame.rotation = RotationCoordinates::rotation_vector;
+  second.frame.offset = 6;
+  JointForceData<double> data;
+  data.directions = {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitX()};
+  data.stiffness = 6.0;
+  data.rest = 0.2;
+  data.damping = 0.5;
+  data.motor = constant(4.0);
+  const auto term =
+      make_joint_force_term({"j", {first, second}, RelativeCoordinate::angle}, data, {});
+  State state(12, 0);
+  state.q(5) = 0.3;
+  state.q(11) = 1.0;
+  state.v(5) = 2.0;
+  state.v(11) = 5.0;
+  VectorXd expected = VectorXd::Zero(12);
+  expected(5) = 0.5;
+  expected(11) = -0.5;
+  EXPECT_LE((-residual_of(*term, state, level) - expected).norm(), 1e-14);
+}
+
+/// 6 (s − 0.2) with s = 7 rad, more than a turn.
+TEST(JointForce, CountsWholeTurnsInThePlane) {
+  Marker ground, wheel;
+  ground.frame = ground_frame();
+  wheel.frame.rotation = RotationCoordinates::angle;
+  wheel.frame.basis.resize(3, 0);
+  JointForceData<double> data;
+  data.stiffness = 6.0;
+  data.rest = 0.2;
+  const auto term = make_joint_force_term({"j", {ground, wheel}}, data, {});
+  State state(1, 0);
+  state.q(0) = 7.0;
+  EXPECT_NEAR(residual_of(*term, state, level)(0), 40.8, 1e-13);
+}
+
+template <class Function>
+std::string message_of(const Function& function) {
+  try {
+    function();
+  } catch (const SimulationError& error) {
+    return error.what();
+  }
+  return "no SimulationError";
+}
+
+TEST(SpringDamper, SaysWhereItsEndsCoincide) {
+  Marker ground, mass;
+  ground.frame = ground_frame();
+  const auto term =
+      make_spring_damper_term({"buffer", {ground, mass}}, {.stiffness = 1.0, .damping = 1.0}, {});
+  State state(3, 0);
+  state.time = 0.25;
+  const std::string from_residual = message_of([&] { residual_of(*term, state, level); });
+  EXPECT_THAT(from_residual, testing::HasSubstr("buffer"));
+  EXPECT_THAT(from_residual, testing::HasSubstr("t = 0.25 s"));
+  EXPECT_EQ(message_of([&] { tangent_of(*term, state, {.q = 1.0}, level); }), from_residual);
+}
+
+TEST(JointForce, SaysWhereItsAngleHasNoValue) {
+  Marker ground, body;
+  ground.frame = ground_frame();
+  body.frame.rotation = RotationCoordinates::rotation_vector;
+  JointForceData<double> data;
+  data.directions = {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};  // along the axis
+  const auto term =
+      make_joint_force_term({"hinge", {ground, body}, RelativeCoordinate::angle}, data, {});
+  const State state(6, 0);
+  EXPECT_THAT(message_of([&] { residual_of(*term, state, level); }), testing::HasSubstr("hinge"));
+}
+
+}  // namespace
