@@ -38,6 +38,12 @@ ElasticCoordinates tangent_coordinates(int node_count, const NodalFlags& active)
   return coordinates;
 }
 
+ElasticCoordinates tangent_end_coordinates(int node_count, const NodalFlags& active) {
+  ElasticCoordinates coordinates(node_count, active);
+  for (int i = 0; i < 6; ++i) coordinates.clamp(node_count - 1, i);
+  return coordinates;
+}
+
 ElasticCoordinates chord_coordinates(int node_count, const NodalFlags& active) {
   ElasticCoordinates coordinates(node_count, active);
   for (int i = 0; i < 4; ++i) coordinates.clamp(0, i);

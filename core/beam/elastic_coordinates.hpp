@@ -39,6 +39,9 @@ class ElasticCoordinates {
 /// Tangent frame: the first node is clamped in the body frame.
 ElasticCoordinates tangent_coordinates(int node_count, const NodalFlags& active);
 
+/// Tangent frame at the other end: the last node is clamped.
+ElasticCoordinates tangent_end_coordinates(int node_count, const NodalFlags& active);
+
 /// Chord frame: u, v, w, θx of the first node and v, w of the last vanish.
 ElasticCoordinates chord_coordinates(int node_count, const NodalFlags& active);
 

@@ -16,6 +16,8 @@ enum class EquationKind {
   on_plane,       ///< d · (P₂ − P₁) = 0, d attached to the first marker
   perpendicular,  ///< d · d' = 0, d attached to the first, d' to the second marker
   drive,          ///< d'·(cos f(t) d_b − sin f(t) d_a) = 0: d' has turned by f from d_a to d_b
+  slide,          ///< d · (P₂ − P₁) = f(t), d attached to the first marker
+  distance,  ///< ½ (|P₂ − P₁|²/ℓ − ℓ) = 0, ℓ = length + f(t): to first order |P₂ − P₁| − ℓ
   planar_angle,  ///< ±(φ₂ − φ₁ − offset) = f(t) (0 without a drive), about ± the plane's normal
 };
 
@@ -23,7 +25,8 @@ struct JointEquation {
   EquationKind kind;
   Eigen::Vector3d fixed = Eigen::Vector3d::Zero();  ///< e
   int first = -1, second = -1, third = -1;          ///< directions d (or d_a), d', d_b
-  double sense = 1.0;  ///< of planar_angle: −1 if the joint's axis is opposite to the normal
+  double sense = 1.0;      ///< of planar_angle: −1 if the joint's axis is opposite to the normal
+  bool is_driven = false;  ///< of planar_angle: whether f is the drive's, or zero
 };
 
 /// The numbers of a joint, which may depend on the design.
@@ -32,6 +35,7 @@ struct JointData {
   std::array<Vector3<Scalar>, 2> points;    ///< undeformed, local axes of each body [m]
   std::vector<Vector3<Scalar>> directions;  ///< unit vectors, local axes of the body they belong to
   Scalar offset = Scalar(0);                ///< of planar_angle [rad]
+  Scalar length = Scalar(0);                ///< of distance [m]
   TimeLaw<Scalar> drive;
 };
 

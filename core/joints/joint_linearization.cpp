@@ -159,6 +159,13 @@ void JointLinearization::evaluate(const JointEquation& equation) {
     case EquationKind::on_plane:
       evaluate_on_plane(equation);
       break;
+    case EquationKind::slide:
+      evaluate_on_plane(equation);
+      value_ -= drive_.value;
+      break;
+    case EquationKind::distance:
+      evaluate_distance();
+      break;
     case EquationKind::perpendicular:
       evaluate_directions(direction(0, local(equation.first)),
                           direction(1, local(equation.second)));
@@ -168,7 +175,7 @@ void JointLinearization::evaluate(const JointEquation& equation) {
                           direction(1, local(equation.second)));
       break;
     case EquationKind::planar_angle:
-      evaluate_planar_angle(equation.sense);
+      evaluate_planar_angle(equation);
       break;
   }
 }
@@ -197,6 +204,22 @@ void JointLinearization::evaluate_on_plane(const JointEquation& equation) {
   add_product(d, first, -1.0);
 }
 
+/// Φ = ½ (Δ·Δ/ℓ − ℓ):  Φ_q = Jᵀ Δ/ℓ,  Φ_qq = H(Δ/ℓ) + Jᵀ J/ℓ  with J = J₂ − J₁
+void JointLinearization::evaluate_distance() {
+  const Attached first = point(0), second = point(1);
+  const Vector3d difference = second.y - first.y;
+  const double length = data_.length + drive_.value;
+  value_ = 0.5 * (difference.squaredNorm() / length - length);
+  const Vector3d g = difference / length;
+  add_gradient(first, -g);
+  add_gradient(second, g);
+  add_curvature(first, -g);
+  add_curvature(second, g);
+  add_product(first, second, -1.0 / length);
+  add_product(first, first, 0.5 / length);
+  add_product(second, second, 0.5 / length);
+}
+
 void JointLinearization::evaluate_directions(const Attached& first, const Attached& second) {
   value_ = first.y.dot(second.y);
   add_gradient(first, second.y);
@@ -211,8 +234,9 @@ Vector3d JointLinearization::driven_direction(const JointEquation& equation) con
          std::sin(drive_.value) * data_.directions[static_cast<std::size_t>(equation.first)];
 }
 
-void JointLinearization::evaluate_planar_angle(double sense) {
-  value_ = -sense * data_.offset - drive_.value;
+void JointLinearization::evaluate_planar_angle(const JointEquation& equation) {
+  const double sense = equation.sense;
+  value_ = -sense * data_.offset - (equation.is_driven ? drive_.value : 0.0);
   for (std::size_t m = 0; m < 2; ++m) {
     const MarkerState& state = markers_[m];
     const Marker& marker = topology_.markers[m];

@@ -63,8 +63,9 @@ class JointLinearization {
   void add_product(const Attached& a, const Attached& b, double sign);
   void evaluate_coincident(const Eigen::Vector3d& e);
   void evaluate_on_plane(const JointEquation& equation);
+  void evaluate_distance();
   void evaluate_directions(const Attached& first, const Attached& second);
-  void evaluate_planar_angle(double sense);
+  void evaluate_planar_angle(const JointEquation& equation);
 
   const JointTopology& topology_;
   const JointData<double>& data_;

@@ -168,6 +168,10 @@ class JointEvaluation {
         return coincident(equation, level, lambda);
       case EquationKind::on_plane:
         return on_plane(equation, level, lambda);
+      case EquationKind::slide:
+        return on_plane(equation, level, lambda) - drive_at(level);
+      case EquationKind::distance:
+        return distance(level, lambda);
       case EquationKind::perpendicular:
         return directions(level, lambda, fixed_direction(equation.first), equation.second);
       case EquationKind::drive:
@@ -197,6 +201,38 @@ class JointEvaluation {
     return dot_at(level, d, difference);
   }
 
+  /// Φ = ½ (Δ·Δ/ℓ − ℓ), with c = Δ·Δ and its time derivatives.
+  Scalar distance(ConstraintLevel level, const Scalar& lambda) {
+    Motion<Scalar> delta = point(1);
+    const Motion<Scalar> start = point(0);
+    for (std::size_t i = 0; i < 3; ++i) delta[i] -= start[i];
+    const Scalar l = data_.length + drive_.value;
+    const Vector3<Scalar> g = (lambda / l) * delta[0];
+    apply_to_point(0, Vector3<Scalar>(-g));
+    apply_to_point(1, g);
+    const Scalar c = delta[0].dot(delta[0]);
+    if (level == ConstraintLevel::position) return 0.5 * (c / l - l);
+    const Scalar c_dot = 2.0 * delta[0].dot(delta[1]), l_dot = drive_.rate;
+    if (level == ConstraintLevel::velocity) {
+      return 0.5 * (c_dot / l - c * l_dot / (l * l) - l_dot);
+    }
+    const Scalar c_ddot = 2.0 * (delta[1].dot(delta[1]) + delta[0].dot(delta[2]));
+    const Scalar l_ddot = drive_.acceleration;
+    return 0.5 * (c_ddot / l - 2.0 * c_dot * l_dot / (l * l) - c * l_ddot / (l * l) +
+                  2.0 * c * l_dot * l_dot / (l * l * l) - l_ddot);
+  }
+
+  const Scalar& drive_at(ConstraintLevel level) const {
+    switch (level) {
+      case ConstraintLevel::position:
+        return drive_.value;
+      case ConstraintLevel::velocity:
+        return drive_.rate;
+      default:
+        return drive_.acceleration;
+    }
+  }
+
   Scalar directions(ConstraintLevel level, const Scalar& lambda, const Motion<Scalar>& local_first,
                     int second) {
     const Motion<Scalar> local_second = fixed_direction(second);
@@ -221,14 +257,9 @@ class JointEvaluation {
       forces_[start_[m] + frame.translations()] += sign * lambda;
       apply_to_elastic(m, 3, Vector3<Scalar>((sign * lambda) * normal));
     }
-    switch (level) {
-      case ConstraintLevel::position:
-        return difference - equation.sense * data_.offset - drive_.value;
-      case ConstraintLevel::velocity:
-        return difference - drive_.rate;
-      default:
-        return difference - drive_.acceleration;
-    }
+    const Scalar prescribed = equation.is_driven ? drive_at(level) : Scalar(0);
+    if (level != ConstraintLevel::position) return difference - prescribed;
+    return difference - equation.sense * data_.offset - prescribed;
   }
 
   const JointTopology& topology_;

@@ -28,6 +28,7 @@ JointData<Scalar> cast_data(const JointData<double>& data) {
     cast.directions.push_back(direction.template cast<Scalar>());
   }
   cast.offset = Scalar(data.offset);
+  cast.length = Scalar(data.length);
   cast.drive = data.drive.transformed<Scalar>([](double parameter) { return Scalar(parameter); });
   return cast;
 }
@@ -46,6 +47,7 @@ JointData<Dual> seed_data(const JointData<double>& data, const JointData<double>
         data.directions[i].binaryExpr(derivative.directions[i], &with_derivative);
   }
   seeded.offset = with_derivative(data.offset, derivative.offset);
+  seeded.length = with_derivative(data.length, derivative.length);
   for (std::size_t i = 0; i < data.drive.parameters.size(); ++i) {
     seeded.drive.parameters[i] =
         with_derivative(data.drive.parameters[i], derivative.drive.parameters[i]);
@@ -113,7 +115,7 @@ class JointTerm : public Term {
 
  private:
   /// Bounds the number of local coordinates and equations together.
-  static constexpr int max_slots = JointLinearization::max_size + 6;
+  static constexpr int max_slots = JointLinearization::max_size + 7;
   using WideDual = DualOf<max_slots>;
 
   template <class Scalar>

@@ -1,11 +1,18 @@
 #pragma once
 
+#include <map>
 #include <memory>
 
 #include "core/model/model.hpp"
 #include "core/system/term.hpp"
 
 namespace pleuel {
+
+/// What is simulated of a beam.
+struct BeamEffects {
+  bool elasticity = true, axial_elasticity = true, torsional_elasticity = true;
+  bool geometric_stiffening = true, rotary_inertia = true;
+};
 
 /// What all bodies of a model are built with.
 struct BuildContext {
@@ -15,7 +22,9 @@ struct BuildContext {
   const Design<double>& design;
   std::optional<MotionPlane> plane;
   Eigen::Vector3d gravity;
+  std::map<std::string, BeamEffects> beam_effects;  ///< by body
 
+  const BeamEffects& effects_of(const std::string& beam) const { return beam_effects.at(beam); }
   int variables() const { return static_cast<int>(design.size()); }
   /// The design with one variable seeded.
   Design<Dual> seeded(int variable) const;
@@ -24,9 +33,13 @@ struct BuildContext {
 /// Frame and elastic coordinates of a body, beginning at `offset`.
 BodyModel make_body_model(const Body& body, const BuildContext& context, int offset);
 
-/// Inertia, elasticity and, for beams, geometric stiffening. Sets the derivatives of the mass.
-std::vector<std::unique_ptr<Term>> make_body_terms(const Body& body, BodyModel& model,
-                                                   const BuildContext& context);
+/// Inertia, elasticity and, for beams, geometric stiffening.
+/// @param coordinates  of the whole system
+std::vector<std::unique_ptr<Term>> make_body_terms(const BodyModel& model,
+                                                   const BuildContext& context, int coordinates);
+
+/// Entry by entry.
+Invariants<double> derivative_of(const Invariants<Dual>& invariants);
 
 /// Frame coordinates of a body at t = 0: translations, then angle or rotation vector.
 template <class Scalar>
@@ -60,6 +73,25 @@ Eigen::Matrix<Scalar, Eigen::Dynamic, 1> frame_coordinates(const BodyFrame& fram
     }
   }
   return q;
+}
+
+/// Rates of the frame coordinates at t = 0 that the scene asks for.
+template <class Scalar>
+Eigen::Matrix<Scalar, Eigen::Dynamic, 1> frame_rates(const BodyFrame& frame, const Body& body,
+                                                     const Design<Scalar>& design) {
+  const Vector3<Scalar> velocity = resolve_point(body.velocity, design);
+  const Vector3<Scalar> spin = resolve_point(body.angular_velocity, design);
+  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> v(frame.size());
+  const int k = frame.translations();
+  for (int i = 0; i < k; ++i) {
+    v(i) = Vector3<Scalar>(frame.basis.col(i).template cast<Scalar>()).dot(velocity);
+  }
+  if (frame.rotation == RotationCoordinates::angle) {
+    v(k) = Vector3<Scalar>(frame.axis.template cast<Scalar>()).dot(spin);
+  } else if (frame.rotation == RotationCoordinates::rotation_vector) {
+    v.tail(3) = body_pose(body, design).rotation.transpose() * spin;
+  }
+  return v;
 }
 
 }  // namespace pleuel

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
-#include "core/joints/joint_term.hpp"
 #include "core/model/joint_builder.hpp"
+#include "core/model/load_builder.hpp"
 #include "core/model/model.hpp"
 
 namespace pleuel {
@@ -54,13 +54,15 @@ class ModelBuilder {
 
   Model build() {
     decide_motion();
+    decide_beam_effects();
     for (const Body& body : context_.scene.bodies) {
       model_.bodies.push_back(make_body_model(body, context_, coordinates_));
       const BodyModel& added = model_.bodies.back();
-      coordinates_ += added.frame.size() + (added.is_beam() ? added.coordinates->size() : 0);
+      coordinates_ += added.frame.size() + added.elastic_size();
     }
     add_body_terms();
     add_joints();
+    add_loads();
     set_guess();
     model_.gravity = context_.gravity;
     model_.mechanism.system = std::make_unique<System>(coordinates_, multipliers_,
@@ -90,11 +92,27 @@ class ModelBuilder {
     model_.effects.push_back(record);
   }
 
+  void decide_beam_effects() {
+    const EffectSettings& settings = context_.effects;
+    const auto is_on = [](EffectChoice choice) { return choice != EffectChoice::off; };
+    for (const Body& body : context_.scene.bodies) {
+      const auto* beam = std::get_if<BeamBody>(&body.shape);
+      if (beam == nullptr) continue;
+      BeamEffects& effects = context_.beam_effects[body.name];
+      effects.elasticity = is_on(settings.elasticity) && !beam->is_rigid;
+      effects.axial_elasticity = is_on(settings.axial_elasticity);
+      effects.torsional_elasticity = is_on(settings.torsional_elasticity);
+      // Without axial elasticity there is no axial force to stiffen.
+      effects.geometric_stiffening =
+          is_on(settings.geometric_stiffening) && effects.axial_elasticity;
+      effects.rotary_inertia = is_on(settings.rotary_inertia);
+    }
+  }
+
   void add_body_terms() {
     bool has_stiffening = false, has_damping = false;
-    for (std::size_t i = 0; i < model_.bodies.size(); ++i) {
-      BodyModel& body = model_.bodies[i];
-      for (auto& term : make_body_terms(context_.scene.bodies[i], body, context_)) {
+    for (const BodyModel& body : model_.bodies) {
+      for (auto& term : make_body_terms(body, context_, coordinates_)) {
         terms_.push_back(std::move(term));
       }
       if (body.frame.rotation == RotationCoordinates::rotation_vector) {
@@ -114,11 +132,17 @@ class ModelBuilder {
 
   void add_joints() {
     for (const Joint& joint : context_.scene.joints) {
-      JointParts parts = make_joint(joint, model_.bodies, context_, coordinates_, multipliers_);
-      multipliers_ += static_cast<int>(parts.topology.equations.size());
-      model_.joints.push_back(parts.model);
-      terms_.push_back(make_joint_term(std::move(parts.topology), std::move(parts.data),
-                                       std::move(parts.derivatives)));
+      model_.joints.push_back(
+          make_joint(joint, model_.bodies, context_, coordinates_, multipliers_));
+      const JointModel& added = model_.joints.back();
+      multipliers_ += added.equations();
+      if (added.equations() > 0) terms_.push_back(make_joint_term(added, coordinates_));
+    }
+  }
+
+  void add_loads() {
+    for (const Load& load : context_.scene.loads) {
+      terms_.push_back(make_load_term(load, model_.bodies, context_, coordinates_));
     }
   }
 
@@ -140,6 +164,7 @@ class ModelBuilder {
         mechanism.guess_q_x.col(variable).segment(frame.offset, frame.size()) =
             derivative_matrix(frame_coordinates(frame, body_pose(body, context_.seeded(variable))));
       }
+      set_velocity(body, frame);
       mechanism.scale.segment(frame.offset, frame.translations()).setConstant(size);
       mechanism.assembly_weight.segment(frame.offset, frame.size()).setOnes();
       set_elastic_scale(built, size);
@@ -147,13 +172,43 @@ class ModelBuilder {
     mechanism.assembly_weight.array() /= mechanism.scale.array().square();
   }
 
+  void set_velocity(const Body& body, const BodyFrame& frame) {
+    Mechanism& mechanism = model_.mechanism;
+    mechanism.guess.v.segment(frame.offset, frame.size()) =
+        frame_rates<double>(frame, body, context_.design);
+    for (int variable : variables_of(body, context_.scene)) {
+      mechanism.guess_v_x.col(variable).segment(frame.offset, frame.size()) =
+          derivative_matrix(frame_rates<Dual>(frame, body, context_.seeded(variable)));
+    }
+  }
+
   void set_elastic_scale(const BodyModel& body, double size) {
     if (!body.is_beam()) return;
+    if (body.basis) {
+      set_basis_scale(body, size);
+      return;
+    }
     for (int node = 0; node < body.coordinates->node_count(); ++node) {
       for (int i = 0; i < 6; ++i) {
         if (body.coordinate(node, i) < 0) continue;
         model_.mechanism.scale(body.coordinate(node, i)) = elastic_scale * (i < 3 ? size : 1.0);
       }
+    }
+  }
+
+  /// The largest displacement of a unit of each coordinate of a basis counts.
+  void set_basis_scale(const BodyModel& body, double size) {
+    const BodyModel& nodal = *body.nodal;
+    for (Eigen::Index k = 0; k < body.basis->cols(); ++k) {
+      double largest = 0.0;
+      for (int node = 0; node < nodal.coordinates->node_count(); ++node) {
+        for (int i = 0; i < 6; ++i) {
+          const int row = nodal.coordinates->index(node, i);
+          if (row < 0) continue;
+          largest = std::max(largest, std::abs((*body.basis)(row, k)) / (i < 3 ? size : 1.0));
+        }
+      }
+      model_.mechanism.scale(body.elastic_offset() + k) = elastic_scale / largest;
     }
   }
 

@@ -1,38 +1,15 @@
 #include "core/model/joint_builder.hpp"
 
-#include <cassert>
-
+#include "core/joints/joint_term.hpp"
 #include "core/scene/visit_numbers.hpp"
+#include "core/system/projected_term.hpp"
 
 namespace pleuel {
 
 namespace {
 
-/// One side of a joint.
-struct Side {
-  const Body* body = nullptr;  ///< null for the ground
-  const BodyModel* model = nullptr;
-  int node = 0;  ///< of a beam
-
-  bool is_beam() const { return model != nullptr && model->is_beam(); }
-  bool turns() const { return model == nullptr || model->frame.rotations() > 0; }
-};
-
-int nearest_node(const BodyModel& model, const BeamBody& beam, const Joint& joint,
-                 const Design<double>& start) {
-  const Eigen::Vector3d from = resolve_point(beam.from, start), to = resolve_point(beam.to, start);
-  const double share =
-      (resolve_point(joint.at, start) - from).dot(to - from) / (to - from).squaredNorm();
-  const int last = model.beam.node_count() - 1;
-  const double length = model.beam.node_position(last);
-  int best = 0;
-  for (int node = 1; node <= last; ++node) {
-    const auto distance = [&](int n) {
-      return std::abs(model.beam.node_position(n) / length - share);
-    };
-    if (distance(node) < distance(best)) best = node;
-  }
-  return best;
+bool are_parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::abs(a.dot(b)) > 0.5;  // of unit vectors that are parallel or normal
 }
 
 /// A direction of the joint, given at t = 0 in global axes, to be attached to one marker.
@@ -45,52 +22,40 @@ class JointBuilder {
  public:
   JointBuilder(const Joint& joint, const std::vector<BodyModel>& bodies,
                const BuildContext& context)
-      : joint_(joint), context_(context) {
-    for (std::size_t m = 0; m < 2; ++m) find_side(joint.bodies[m], bodies, sides_[m]);
-    for (Side& side : sides_) {
-      if (side.is_beam()) {
-        side.node =
-            nearest_node(*side.model, std::get<BeamBody>(side.body->shape), joint, context.start);
-      }
-    }
-  }
+      : joint_(joint),
+        context_(context),
+        sides_{Attachment(joint.bodies[0], joint.at, bodies, context),
+               Attachment(joint.bodies[1], joint.type == JointType::distance ? joint.to : joint.at,
+                          bodies, context)} {}
 
-  JointParts build(int coordinates, int first_multiplier) {
-    parts_.topology.name = joint_.name;
-    parts_.topology.multiplier = coordinates + first_multiplier;
-    parts_.topology.is_driven = joint_.drive.has_value();
-    for (std::size_t m = 0; m < 2; ++m) parts_.topology.markers[m] = make_marker(sides_[m]);
+  JointModel build(int coordinates, int first_multiplier) {
+    model_.name = joint_.name;
+    model_.first_multiplier = first_multiplier;
+    JointTopology& topology = model_.topology;
+    topology.name = joint_.name;
+    topology.multiplier = coordinates + first_multiplier;
+    topology.is_driven = joint_.drive.has_value();
+    for (std::size_t m = 0; m < 2; ++m) topology.markers[m] = sides_[m].marker();
     if (context_.plane) {
       add_planar_equations(*context_.plane);
     } else {
       add_spatial_equations();
     }
-    parts_.model.name = joint_.name;
-    if (joint_.drive) parts_.model.drive_row = first_multiplier + drive_equation_;
-    parts_.data = resolve_data(context_.design);
+    if (joint_.drive) model_.drive_row = first_multiplier + drive_equation_;
+    model_.data = resolve_data(context_.design);
     differentiate();
-    return std::move(parts_);
+    if (!sides_[0].is_direct() || !sides_[1].is_direct()) localise();
+    return std::move(model_);
   }
 
  private:
-  void find_side(const std::string& name, const std::vector<BodyModel>& bodies, Side& side) {
-    if (name == ground_name) return;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      if (bodies[i].name != name) continue;
-      side.body = &context_.scene.bodies[i];
-      side.model = &bodies[i];
+  void localise() {
+    CoordinateMap map = make_local(sides_, model_.topology.markers);
+    model_.topology.multiplier = map.size();
+    for (int i = 0; i < model_.equations(); ++i) {
+      map.multipliers.push_back(model_.first_multiplier + i);
     }
-    assert(side.body != nullptr);
-  }
-
-  Marker make_marker(const Side& side) const {
-    Marker marker;
-    marker.frame = side.model ? side.model->frame : ground_frame();
-    if (!side.is_beam()) return marker;
-    for (int i = 0; i < 6; ++i) {
-      marker.elastic[static_cast<std::size_t>(i)] = side.model->coordinate(side.node, i);
-    }
-    return marker;
+    model_.map = std::move(map);
   }
 
   int add_direction(std::size_t marker, const Eigen::Vector3d& global) {
@@ -98,12 +63,15 @@ class JointBuilder {
     return static_cast<int>(directions_.size()) - 1;
   }
 
-  void add(const JointEquation& equation) { parts_.topology.equations.push_back(equation); }
+  void add(const JointEquation& equation) { model_.topology.equations.push_back(equation); }
 
   void add_coincident(const Eigen::Vector3d& direction) {
     JointEquation equation{EquationKind::coincident};
     equation.fixed = direction;
     add(equation);
+  }
+  void add_point() {
+    for (int i = 0; i < 3; ++i) add_coincident(Eigen::Vector3d::Unit(i));
   }
   void add_on_plane(const Eigen::Vector3d& normal) {
     JointEquation equation{EquationKind::on_plane};
@@ -117,6 +85,12 @@ class JointBuilder {
     equation.second = add_direction(1, second);
     add(equation);
   }
+  /// The axis of the second body stays parallel to the normal of a and b.
+  void add_parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    const Eigen::Vector3d n = a.cross(b);
+    add_perpendicular(a, n);
+    add_perpendicular(b, n);
+  }
   /// @param axis  about which the angle counts, parallel to the normal
   void add_planar_angle(const Eigen::Vector3d& axis, const Eigen::Vector3d& normal) {
     if (!sides_[0].turns() || !sides_[1].turns()) return;
@@ -124,92 +98,171 @@ class JointBuilder {
     equation.sense = axis.dot(normal) < 0.0 ? -1.0 : 1.0;
     add(equation);
   }
-  void note_drive() { drive_equation_ = static_cast<int>(parts_.topology.equations.size()) - 1; }
+  void add_distance() { add(JointEquation{EquationKind::distance}); }
 
+  bool drives(DrivenCoordinate coordinate) const {
+    return joint_.drive && joint_.drive->coordinate == coordinate;
+  }
+  /// The last equation is the drive's.
+  void note_drive() {
+    drive_equation_ = model_.equations() - 1;
+    model_.topology.equations.back().is_driven = true;
+  }
+  void add_driven_slide(const Eigen::Vector3d& axis) {
+    if (!drives(DrivenCoordinate::displacement)) return;
+    JointEquation equation{EquationKind::slide};
+    equation.first = add_direction(0, axis);
+    add(equation);
+    note_drive();
+  }
+  /// @param reference  turns about the axis with the second body
+  void add_driven_angle(const Eigen::Vector3d& axis, const Eigen::Vector3d& reference) {
+    if (!drives(DrivenCoordinate::angle)) return;
+    JointEquation equation{EquationKind::drive};
+    equation.first = add_direction(0, reference);
+    equation.second = add_direction(1, reference);
+    equation.third = add_direction(0, axis.cross(reference));
+    add(equation);
+    note_drive();
+  }
+
+  /// What is left of a joint in motion in a plane that it is symmetric about.
   void add_planar_equations(const MotionPlane& plane) {
     const Eigen::Vector3d axis = to_vector(joint_.axis).normalized();
+    const bool is_normal = are_parallel(axis, plane.normal);
     switch (joint_.type) {
       case JointType::revolute:
+      case JointType::spherical:
       case JointType::fixed:
-        add_coincident(plane.basis.col(0));
-        add_coincident(plane.basis.col(1));
+      case JointType::universal:
+        add_planar_point(plane);
         break;
+      case JointType::cylindrical:
+        if (is_normal) {
+          add_planar_point(plane);
+          break;
+        }
+        [[fallthrough]];
       case JointType::prismatic:
       case JointType::point_on_line:
         add_on_plane(plane.normal.cross(axis));
         break;
+      case JointType::planar:
+        if (!is_normal) add_on_plane(axis);
+        break;
+      case JointType::distance:
+        add_distance();
+        break;
     }
-    const bool turns_freely =
-        joint_.type == JointType::revolute || joint_.type == JointType::point_on_line;
-    if (!turns_freely || joint_.drive) add_planar_angle(axis, plane.normal);
-    if (joint_.drive) note_drive();
+    if (drives(DrivenCoordinate::angle)) {
+      add_planar_angle(axis, plane.normal);
+      note_drive();
+    } else if (holds_planar_angle(axis, plane)) {
+      add_planar_angle(plane.normal, plane.normal);
+    }
+    if (!drives(DrivenCoordinate::displacement)) return;
+    if (joint_.type == JointType::distance) {
+      note_drive();
+    } else {
+      add_driven_slide(axis);
+    }
+  }
+
+  void add_planar_point(const MotionPlane& plane) {
+    add_coincident(plane.basis.col(0));
+    add_coincident(plane.basis.col(1));
+  }
+
+  bool holds_planar_angle(const Eigen::Vector3d& axis, const MotionPlane& plane) const {
+    const bool is_normal = are_parallel(axis, plane.normal);
+    switch (joint_.type) {
+      case JointType::fixed:
+      case JointType::prismatic:
+        return true;
+      case JointType::cylindrical:
+      case JointType::planar:
+        return !is_normal;
+      case JointType::universal:
+        return !is_normal &&
+               !are_parallel(to_vector(joint_.second_axis).normalized(), plane.normal);
+      default:
+        return false;
+    }
   }
 
   void add_spatial_equations() {
     const Eigen::Vector3d n = to_vector(joint_.axis).normalized();
     const Eigen::Vector3d a = n.unitOrthogonal(), b = n.cross(a);
-    if (joint_.type == JointType::revolute || joint_.type == JointType::fixed) {
-      for (int i = 0; i < 3; ++i) add_coincident(Eigen::Vector3d::Unit(i));
-    } else {
-      add_on_plane(a);
-      add_on_plane(b);
+    switch (joint_.type) {
+      case JointType::revolute:
+        add_point();
+        add_parallel(a, b);
+        break;
+      case JointType::fixed:
+        add_point();
+        add_parallel(a, b);
+        add_perpendicular(a, b);
+        break;
+      case JointType::prismatic:
+        add_on_plane(a);
+        add_on_plane(b);
+        add_parallel(a, b);
+        add_perpendicular(a, b);
+        break;
+      case JointType::point_on_line:
+        add_on_plane(a);
+        add_on_plane(b);
+        break;
+      case JointType::cylindrical:
+        add_on_plane(a);
+        add_on_plane(b);
+        add_parallel(a, b);
+        break;
+      case JointType::universal: {
+        const Eigen::Vector3d second = to_vector(joint_.second_axis).normalized();
+        add_point();
+        add_perpendicular(n, second);
+        add_driven_angle(n, second);
+        return;
+      }
+      case JointType::spherical:
+        add_point();
+        break;
+      case JointType::planar:
+        add_on_plane(n);
+        add_parallel(a, b);
+        break;
+      case JointType::distance:
+        add_distance();
+        if (joint_.drive) note_drive();
+        return;
     }
-    if (joint_.type == JointType::point_on_line) return;
-    add_perpendicular(a, n);
-    add_perpendicular(b, n);
-    if (joint_.type != JointType::revolute) add_perpendicular(a, b);
-    if (!joint_.drive) return;
-    JointEquation equation{EquationKind::drive};
-    equation.first = add_direction(0, a);
-    equation.second = add_direction(1, a);
-    equation.third = add_direction(0, b);
-    add(equation);
-    note_drive();
-  }
-
-  template <class Scalar>
-  Vector3<Scalar> local_point(const Side& side, const Design<Scalar>& design) const {
-    if (side.body == nullptr) return resolve_point(joint_.at, design);
-    if (side.is_beam()) {
-      const auto beam = resolve_beam(std::get<BeamBody>(side.body->shape), context_.scene, design);
-      return {beam.node_position(side.node), Scalar(0), Scalar(0)};
-    }
-    const Pose<Scalar> pose = body_pose(*side.body, design);
-    return pose.rotation.transpose() * (resolve_point(joint_.at, design) - pose.origin);
-  }
-
-  template <class Scalar>
-  Scalar planar_angle(const Side& side, const Design<Scalar>& design) const {
-    if (side.body == nullptr) return Scalar(0);
-    const auto q = frame_coordinates(side.model->frame, body_pose(*side.body, design));
-    return q(q.size() - 1);
+    add_driven_angle(n, a);
+    add_driven_slide(n);
   }
 
   template <class Scalar>
   JointData<Scalar> resolve_data(const Design<Scalar>& design) const {
     JointData<Scalar> data;
-    for (std::size_t m = 0; m < 2; ++m) data.points[m] = local_point(sides_[m], design);
+    for (std::size_t m = 0; m < 2; ++m) data.points[m] = sides_[m].local_point(design);
     for (const AttachedDirection& direction : directions_) {
-      const Side& side = sides_[direction.marker];
-      const Vector3<Scalar> global = direction.global.template cast<Scalar>();
-      data.directions.push_back(
-          side.body ? Vector3<Scalar>(body_pose(*side.body, design).rotation.transpose() * global)
-                    : global);
+      data.directions.push_back(sides_[direction.marker].local_direction(direction.global, design));
     }
-    const bool both_turn = sides_[0].turns() && sides_[1].turns();
-    if (context_.plane && both_turn) {
-      data.offset = planar_angle(sides_[1], design) - planar_angle(sides_[0], design);
+    if (context_.plane && sides_[0].turns() && sides_[1].turns()) {
+      data.offset = sides_[1].start_angle(design) - sides_[0].start_angle(design);
     }
-    if (!joint_.drive) return data;
-    data.drive = resolve_time_law(joint_.drive->motion, design);
+    if (joint_.type == JointType::distance) {
+      data.length =
+          Vector3<Scalar>(resolve_point(joint_.to, design) - resolve_point(joint_.at, design))
+              .norm();
+    }
+    if (joint_.drive) data.drive = resolve_time_law(joint_.drive->motion, design);
     return data;
   }
 
   std::set<int> variables() const {
     std::set<int> all;
-    for (const Side& side : sides_) {
-      if (side.body) all.merge(variables_of(*side.body, context_.scene));
-    }
+    for (const Attachment& side : sides_) side.add_variables(all);
     visit_numbers(joint_, [&](const Number& number, const Quantity&) {
       if (number.is_bound()) all.insert(number.variable);
     });
@@ -230,24 +283,31 @@ class JointBuilder {
         derivative.directions.emplace_back(direction.unaryExpr(part));
       }
       derivative.offset = part(seeded.offset);
+      derivative.length = part(seeded.length);
       derivative.drive = seeded.drive.transformed<double>(part);
-      if (!is_zero) parts_.derivatives.push_back({variable, std::move(derivative)});
+      if (!is_zero) model_.derivatives.push_back({variable, std::move(derivative)});
     }
   }
 
   const Joint& joint_;
   const BuildContext& context_;
-  std::array<Side, 2> sides_;
+  std::array<Attachment, 2> sides_;
   std::vector<AttachedDirection> directions_;
-  JointParts parts_;
+  JointModel model_;
   int drive_equation_ = 0;
 };
 
 }  // namespace
 
-JointParts make_joint(const Joint& joint, const std::vector<BodyModel>& bodies,
+JointModel make_joint(const Joint& joint, const std::vector<BodyModel>& bodies,
                       const BuildContext& context, int coordinates, int first_multiplier) {
   return JointBuilder(joint, bodies, context).build(coordinates, first_multiplier);
+}
+
+std::unique_ptr<Term> make_joint_term(const JointModel& joint, int coordinates) {
+  auto term = make_joint_term(joint.topology, joint.data, joint.derivatives);
+  if (!joint.map) return term;
+  return std::make_unique<ProjectedTerm>(std::move(term), *joint.map, coordinates);
 }
 
 }  // namespace pleuel

@@ -1,20 +1,16 @@
 #pragma once
 
-#include "core/joints/joint.hpp"
-#include "core/model/body_builder.hpp"
+#include "core/model/attachment.hpp"
 
 namespace pleuel {
 
-/// A joint of the scene as equations between two markers.
-/// @param multiplier  row of its first equation (counted from the number of coordinates)
-struct JointParts {
-  JointTopology topology;
-  JointData<double> data;
-  std::vector<DesignDerivative<JointData<double>>> derivatives;
-  JointModel model;
-};
-
-JointParts make_joint(const Joint& joint, const std::vector<BodyModel>& bodies,
+/// Topology, numbers and derivatives of a joint of the scene.
+/// @param coordinates       of the whole system
+/// @param first_multiplier  index in λ of its first equation
+JointModel make_joint(const Joint& joint, const std::vector<BodyModel>& bodies,
                       const BuildContext& context, int coordinates, int first_multiplier);
+
+/// The joint as a term of the system.
+std::unique_ptr<Term> make_joint_term(const JointModel& joint, int coordinates);
 
 }  // namespace pleuel

@@ -7,8 +7,10 @@
 #include "core/beam/beam_invariants.hpp"
 #include "core/frame/body_frame.hpp"
 #include "core/integration/mechanism.hpp"
+#include "core/joints/joint.hpp"
 #include "core/model/motion_plane.hpp"
 #include "core/scene/problem_file.hpp"
+#include "core/system/coordinate_map.hpp"
 
 namespace pleuel {
 
@@ -19,25 +21,48 @@ struct BodyModel {
   double mass = 0.0;       ///< [kg]
   Eigen::VectorXd mass_x;  ///< derivatives with respect to all design variables
 
+  /// Inertia, stiffness and damping in the elastic coordinates of the body, and their derivatives.
+  Invariants<double> invariants;
+  std::vector<DesignDerivative<Invariants<double>>> invariants_x;
+
   // Beams only:
-  std::optional<ElasticCoordinates> coordinates;
+  std::optional<ElasticCoordinates> coordinates;  ///< nodal
   Beam<double> beam;
   std::vector<std::pair<int, Beam<Dual>>> beam_x;  ///< for each variable the beam depends on
   std::vector<int> segment_of_element;
   bool has_stiffening = false;
+  bool is_elastic = false;
+
+  // Beams with a basis (mean axis, modes): d = Z q_f. All that is written in nodal displacements
+  // sees `nodal`, the same body with local numbers: frame, then nodal coordinates; `map` leads
+  // there.
+  std::optional<Eigen::MatrixXd> basis;
+  std::vector<DesignDerivative<Eigen::MatrixXd>> basis_x;
+  std::unique_ptr<BodyModel> nodal;
+  CoordinateMap map;
 
   bool is_beam() const { return coordinates.has_value(); }
   int elastic_offset() const { return frame.offset + frame.size(); }
-  /// Index in q of a nodal displacement, or −1.
+  int elastic_size() const { return invariants.size(); }
+  /// Index in q of a nodal displacement of a body without basis, or −1.
   int coordinate(int node, int displacement) const {
     const int index = coordinates->index(node, displacement);
     return index < 0 ? -1 : elastic_offset() + index;
   }
 };
 
+/// A joint of the model: what responses need to know of it. Its numbers are local where `map` is
+/// set, and those of the system elsewhere.
 struct JointModel {
   std::string name;
-  int drive_row = -1;  ///< index in λ of the drive's equation; the drive's torque is −λ
+  int drive_row = -1;        ///< index in λ of the drive's equation; the drive's torque is −λ
+  int first_multiplier = 0;  ///< index in λ of its first equation
+  JointTopology topology;
+  JointData<double> data;
+  std::vector<DesignDerivative<JointData<double>>> derivatives;
+  std::optional<CoordinateMap> map;
+
+  int equations() const { return static_cast<int>(topology.equations.size()); }
 };
 
 /// One line of the table of effects.

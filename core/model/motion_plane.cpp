@@ -33,6 +33,7 @@ class PlaneCheck {
   PlaneAnalysis run() {
     for (const Body& body : scene_.bodies) check_body(body);
     for (const Joint& joint : scene_.joints) check_joint(joint);
+    for (const Load& load : scene_.loads) check_load(load);
     const Eigen::Vector3d gravity = resolve_point(scene_.gravity, start_);
     require(gravity.isZero() || are_normal(gravity, normal_), "gravity");
     if (is_bound_along(scene_.gravity, normal_)) refuse("gravity");
@@ -74,6 +75,7 @@ class PlaneCheck {
 
   void check_body(const Body& body) {
     const std::string what = "body " + body.name;
+    check_velocity(body);
     if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
       check_point(beam->from, what);
       check_point(beam->to, what);
@@ -104,10 +106,62 @@ class PlaneCheck {
     const std::string what = "joint " + joint.name;
     check_point(joint.at, what);
     const Eigen::Vector3d axis = to_vector(joint.axis);
-    if (joint.type == JointType::revolute) require(are_parallel(axis, normal_), what);
-    const bool slides =
-        joint.type == JointType::prismatic || joint.type == JointType::point_on_line;
-    if (slides) require(are_normal(axis, normal_), what);
+    const bool is_normal_axis = are_parallel(axis, normal_);
+    const bool is_axis_in_plane = are_normal(axis, normal_);
+    const bool turns = joint.drive && joint.drive->coordinate == DrivenCoordinate::angle;
+    switch (joint.type) {
+      case JointType::revolute:
+        require(is_normal_axis, what);
+        break;
+      case JointType::prismatic:
+      case JointType::point_on_line:
+        require(is_axis_in_plane, what);
+        break;
+      case JointType::cylindrical:
+      case JointType::planar:
+        require(is_normal_axis || is_axis_in_plane, what);
+        break;
+      case JointType::universal: {
+        const Eigen::Vector3d second = to_vector(joint.second_axis);
+        require(is_normal_axis || is_axis_in_plane, what);
+        require(are_parallel(second, normal_) || are_normal(second, normal_), what);
+        break;
+      }
+      case JointType::distance:
+        check_point(joint.to, what);
+        break;
+      case JointType::fixed:
+      case JointType::spherical:
+        break;
+    }
+    if (!joint.drive || joint.type == JointType::distance) return;
+    require(turns ? is_normal_axis : is_axis_in_plane, "the drive of " + what);
+  }
+
+  void check_load(const Load& load) {
+    const std::string what = "load " + load.name;
+    if (const auto* force = std::get_if<PointForce>(&load.element)) {
+      check_point(force->at, what);
+      require(are_normal(to_vector(force->direction), normal_), what);
+    } else if (const auto* torque = std::get_if<PointTorque>(&load.element)) {
+      check_point(torque->at, what);
+      require(are_parallel(to_vector(torque->direction), normal_), what);
+    } else if (const auto* spring = std::get_if<SpringDamper>(&load.element)) {
+      for (const Point& point : spring->at) check_point(point, what);
+    }
+  }
+
+  void check_velocity(const Body& body) {
+    const Eigen::Vector3d velocity = resolve_point(body.velocity, start_);
+    const Eigen::Vector3d spin = resolve_point(body.angular_velocity, start_);
+    require(are_normal(velocity, normal_) && !is_bound_along(body.velocity, normal_),
+            "the velocity of body " + body.name);
+    bool is_in_plane = spin.isZero() || are_parallel(spin, normal_);
+    for (int i = 0; i < 3; ++i) {
+      const bool is_bound = body.angular_velocity[static_cast<std::size_t>(i)].is_bound();
+      if (is_bound && std::abs(std::abs(normal_(i)) - 1.0) > tolerance) is_in_plane = false;
+    }
+    require(is_in_plane, "the angular velocity of body " + body.name);
   }
 
   const Scene& scene_;
@@ -117,28 +171,52 @@ class PlaneCheck {
   std::string reason_;
 };
 
-/// Axes of revolutes, or the cross product of two directions of the scene.
-std::optional<Eigen::Vector3d> candidate_normal(const Scene& scene, const Design<double>& start) {
-  std::vector<Eigen::Vector3d> directions;
+/// Directions that a plane of motion can be normal to: axes of joints that turn, and cross products
+/// of the directions and distances of the scene.
+std::vector<Eigen::Vector3d> candidate_normals(const Scene& scene, const Design<double>& start) {
+  std::vector<Eigen::Vector3d> normals, directions, points;
   for (const Joint& joint : scene.joints) {
-    if (joint.type == JointType::revolute) return to_vector(joint.axis);
-    if (joint.type != JointType::fixed) directions.push_back(to_vector(joint.axis));
+    const Eigen::Vector3d axis = to_vector(joint.axis);
+    if (joint.type == JointType::revolute) return {axis};
+    const bool has_axis = joint.type != JointType::fixed && joint.type != JointType::spherical &&
+                          joint.type != JointType::distance;
+    if (has_axis) directions.push_back(axis);
+    if (joint.type == JointType::universal) directions.push_back(to_vector(joint.second_axis));
+    points.push_back(resolve_point(joint.at, start));
+    if (joint.type == JointType::distance) points.push_back(resolve_point(joint.to, start));
   }
-  for (const Body& body : scene.bodies)
-    directions.push_back(body_pose(body, start).rotation.col(0));
+  for (const Body& body : scene.bodies) {
+    const Pose<double> pose = body_pose(body, start);
+    points.push_back(pose.origin);
+    if (std::holds_alternative<BeamBody>(body.shape)) directions.push_back(pose.rotation.col(0));
+  }
+  for (const auto& point : points) {
+    const Eigen::Vector3d distance = point - points.front();
+    if (!distance.isZero(tolerance)) directions.push_back(distance);
+  }
+  const Eigen::Vector3d gravity = resolve_point(scene.gravity, start);
+  if (!gravity.isZero()) directions.push_back(gravity);
+  normals = directions;  // an axis may itself be the normal
   for (const auto& direction : directions) {
     const Eigen::Vector3d normal = directions.front().cross(direction);
-    if (normal.norm() > tolerance * direction.norm()) return normal;
+    if (normal.norm() <= tolerance * directions.front().norm() * direction.norm()) continue;
+    normals.insert(normals.begin(), normal);
+    break;
   }
-  return std::nullopt;
+  return normals;
 }
 
 }  // namespace
 
 PlaneAnalysis find_motion_plane(const Scene& scene, const Design<double>& start) {
-  const auto normal = candidate_normal(scene, start);
-  if (!normal) return {std::nullopt, "no direction of the scene determines a plane"};
-  return PlaneCheck(scene, start, *normal).run();
+  std::optional<PlaneAnalysis> first;
+  for (const Eigen::Vector3d& normal : candidate_normals(scene, start)) {
+    PlaneAnalysis analysis = PlaneCheck(scene, start, normal).run();
+    if (analysis.plane) return analysis;
+    if (!first) first = std::move(analysis);
+  }
+  return first.value_or(
+      PlaneAnalysis{std::nullopt, "no direction of the scene determines a plane"});
 }
 
 }  // namespace pleuel

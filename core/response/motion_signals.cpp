@@ -2,30 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "core/beam/beam_shape.hpp"
+#include "core/beam/beam_place.hpp"
 #include "core/response/body_signal.hpp"
 
 namespace pleuel {
 
 namespace {
-
-/// A place along a beam: element and local coordinate.
-struct BeamPlace {
-  int element = 0;
-  double xi = 0.0;
-};
-
-/// Shares of the length do not depend on the design: all elements scale with the beam.
-BeamPlace find_place(const Beam<double>& beam, double at) {
-  const int elements = static_cast<int>(beam.elements.size());
-  const double x = at * beam.node_position(elements);
-  for (int e = 0; e < elements; ++e) {
-    const double start = beam.node_position(e);
-    const double length = beam.elements[static_cast<std::size_t>(e)].length;
-    if (x <= start + length || e + 1 == elements) return {e, (x - start) / length};
-  }
-  return {};
-}
 
 /// Displacement of the beam axis at a place, local axes.
 template <class Scalar, class Nodal>
@@ -78,8 +60,7 @@ class PositionSignal final : public BodySignal<PositionSignal> {
     Vector3<Scalar> p = displacement<Scalar>(beam, place_, [&](int node, int i) {
       return motion.q[static_cast<std::size_t>(nodal(node, i))];
     });
-    p(0) += beam.node_position(place_.element) +
-            place_.xi * beam.elements[static_cast<std::size_t>(place_.element)].length;
+    p(0) += position_of(beam, place_);
     return frame.r(direction_) + Vector3<Scalar>(frame.A * p)(direction_);
   }
 

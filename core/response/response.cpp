@@ -4,6 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/response/motion_signals.hpp"
+#include "core/response/projected_signal.hpp"
 #include "core/response/stress_signal.hpp"
 #include "core/scene/response_quantity.hpp"
 
@@ -33,19 +34,33 @@ std::vector<Response> make_responses(const std::vector<ResponseSettings>& settin
     response.name = setting.name;
     response.unit = quantity_of(setting).unit;
     response.over_time = setting.over_time;
-    const auto body = [&]() -> const BodyModel& { return model.body(setting.bodies.front()); };
+    const auto set_body_signal = [&](const auto& make) {
+      const BodyModel& body = model.body(setting.bodies.front());
+      if (!body.basis) {
+        response.signal = make(body);
+      } else {
+        response.signal = std::make_unique<ProjectedSignal>(make(*body.nodal), body.map,
+                                                            model.mechanism.system->variables());
+      }
+    };
     switch (setting.type) {
       case ResponseType::mass:
         set_mass(setting, model, response);
         break;
       case ResponseType::stress:
-        response.signal = make_stress_signal(body(), model.gravity, setting.segment);
+        set_body_signal([&](const BodyModel& body) {
+          return make_stress_signal(body, model.gravity, setting.segment);
+        });
         break;
       case ResponseType::deflection:
-        response.signal = make_deflection_signal(body(), setting.at, setting.direction);
+        set_body_signal([&](const BodyModel& body) {
+          return make_deflection_signal(body, setting.at, setting.direction);
+        });
         break;
       case ResponseType::position:
-        response.signal = make_position_signal(body(), setting.at, setting.direction);
+        set_body_signal([&](const BodyModel& body) {
+          return make_position_signal(body, setting.at, setting.direction);
+        });
         break;
       case ResponseType::drive_torque:
         response.signal = make_drive_torque_signal(model.joint(setting.joint));

@@ -1,0 +1,248 @@
+#include "core/beam/elastic_basis.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+namespace pleuel {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Relative distance below which two eigenvalues are one.
+constexpr double cluster_gap = 1e-6;
+
+std::vector<int> interior_of(Eigen::Index size, const std::vector<int>& boundary) {
+  std::vector<int> interior;
+  for (int i = 0; i < static_cast<int>(size); ++i) {
+    if (!std::binary_search(boundary.begin(), boundary.end(), i)) interior.push_back(i);
+  }
+  return interior;
+}
+
+/// All modes of the interior, mass-normalised, λ ascending.
+Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> interior_modes(
+    const NodalMatrices& matrices, const std::vector<int>& interior) {
+  return Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(
+      MatrixXd(matrices.stiffness(interior, interior)),
+      MatrixXd(matrices.mass(interior, interior)));
+}
+
+/// Change of the span of the first modes: only towards the modes that are left out,
+///     dφᵢ = Σ_{j left out} φⱼ φⱼᵀ (dK − λᵢ dM) φᵢ / (λᵢ − λⱼ)
+MatrixXd differentiate_modes(const MatrixXd& modes, const VectorXd& lambda, Eigen::Index kept,
+                             const MatrixXd& d_mass, const MatrixXd& d_stiffness) {
+  const Eigen::Index left_out = modes.cols() - kept;
+  const MatrixXd outer = modes.rightCols(left_out), inner = modes.leftCols(kept);
+  MatrixXd shares = outer.transpose() * d_stiffness * inner -
+                    outer.transpose() * d_mass * inner * lambda.head(kept).asDiagonal();
+  for (Eigen::Index i = 0; i < kept; ++i) {
+    for (Eigen::Index j = 0; j < left_out; ++j) shares(j, i) /= lambda(i) - lambda(kept + j);
+  }
+  return outer * shares;
+}
+
+}  // namespace
+
+BasisWithDerivatives craig_bampton_basis(const NodalMatrices& matrices,
+                                         const std::vector<NodalMatrices>& derivatives,
+                                         const KeptCoordinates& kept) {
+  const std::vector<int>& b = kept.boundary;
+  const std::vector<int> i = interior_of(matrices.mass.rows(), b);
+  const auto boundary = static_cast<Eigen::Index>(b.size());
+  const auto interior = static_cast<Eigen::Index>(i.size());
+  const Eigen::Index modes = std::min<Eigen::Index>(kept.modes, interior);
+  const Eigen::LLT<MatrixXd> factors(MatrixXd(matrices.stiffness(i, i)));
+  const MatrixXd constraint = -factors.solve(MatrixXd(matrices.stiffness(i, b)));
+  MatrixXd all_modes(interior, 0);
+  VectorXd lambda(0), scale(0);
+  if (modes > 0) {
+    const auto solved = interior_modes(matrices, i);
+    all_modes = solved.eigenvectors();
+    lambda = solved.eigenvalues();
+    scale = all_modes.leftCols(modes).cwiseAbs().colwise().maxCoeff().cwiseInverse();
+  }
+  BasisWithDerivatives result;
+  result.basis.setZero(matrices.mass.rows(), boundary + modes);
+  for (Eigen::Index k = 0; k < boundary; ++k) result.basis(b[static_cast<std::size_t>(k)], k) = 1.0;
+  result.basis(i, Eigen::seqN(0, boundary)) = constraint;
+  result.basis(i, Eigen::seqN(boundary, modes)) = all_modes.leftCols(modes) * scale.asDiagonal();
+  for (const NodalMatrices& d : derivatives) {
+    MatrixXd change = MatrixXd::Zero(result.basis.rows(), result.basis.cols());
+    change(i, Eigen::seqN(0, boundary)) = -factors.solve(
+        MatrixXd(MatrixXd(d.stiffness(i, b)) + MatrixXd(d.stiffness(i, i)) * constraint));
+    if (modes > 0) {
+      change(i, Eigen::seqN(boundary, modes)) =
+          differentiate_modes(all_modes, lambda, modes, MatrixXd(d.mass(i, i)),
+                              MatrixXd(d.stiffness(i, i))) *
+          scale.asDiagonal();
+    }
+    result.derivatives.push_back(std::move(change));
+  }
+  return result;
+}
+
+int complete_modes(const NodalMatrices& matrices, const std::vector<int>& boundary, int modes) {
+  const std::vector<int> interior = interior_of(matrices.mass.rows(), boundary);
+  const int all = static_cast<int>(interior.size());
+  if (modes <= 0 || modes >= all) return std::clamp(modes, 0, all);
+  const VectorXd lambda = interior_modes(matrices, interior).eigenvalues();
+  while (modes < all && lambda(modes) - lambda(modes - 1) < cluster_gap * lambda(modes)) ++modes;
+  return modes;
+}
+
+int count_fixed_interface_modes(const NodalMatrices& matrices, const std::vector<int>& boundary,
+                                double frequency) {
+  const std::vector<int> interior = interior_of(matrices.mass.rows(), boundary);
+  if (interior.empty()) return 0;
+  const VectorXd lambda = interior_modes(matrices, interior).eigenvalues();
+  const auto below = (lambda.array() < frequency * frequency).count();
+  return complete_modes(matrices, boundary, static_cast<int>(below));
+}
+
+BasisWithDerivatives mean_axis_basis(const NodalMatrices& matrices,
+                                     const std::vector<NodalMatrices>& derivatives,
+                                     const BasisWithDerivatives& deformations,
+                                     const std::vector<int>& active) {
+  const auto all = Eigen::all;
+  const MatrixXd c = matrices.momentum(active, all), r = matrices.rigid(all, active);
+  const MatrixXd& d = deformations.basis;
+  const Eigen::PartialPivLU<MatrixXd> inertia(MatrixXd(c * r));
+  const MatrixXd motion = inertia.solve(c * d);
+  BasisWithDerivatives result;
+  result.basis = d - r * motion;
+  for (std::size_t k = 0; k < derivatives.size(); ++k) {
+    const MatrixXd dc = derivatives[k].momentum(active, all),
+                   dr = derivatives[k].rigid(all, active);
+    const MatrixXd& dd = deformations.derivatives[k];
+    const MatrixXd d_motion = inertia.solve(MatrixXd(dc * d + c * dd - (dc * r + c * dr) * motion));
+    result.derivatives.push_back(dd - dr * motion - r * d_motion);
+  }
+  return result;
+}
+
+MatrixXd dense_matrix(const ElasticPattern& pattern, const VectorXd& entries) {
+  MatrixXd matrix = MatrixXd::Zero(pattern.size, pattern.size);
+  for (int row = 0; row < pattern.size; ++row) {
+    for (int i = pattern.row_start[static_cast<std::size_t>(row)];
+         i < pattern.row_start[static_cast<std::size_t>(row) + 1]; ++i) {
+      matrix(row, pattern.column[static_cast<std::size_t>(i)]) = entries(i);
+    }
+  }
+  return matrix;
+}
+
+namespace {
+
+ElasticPattern dense_pattern(Eigen::Index size) {
+  std::vector<int> all(static_cast<std::size_t>(size));
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
+  return pattern_of_groups(static_cast<int>(size), {all});
+}
+
+/// Row-major entries of a full matrix.
+VectorXd entries_of(const MatrixXd& matrix) {
+  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = matrix;
+  return Eigen::Map<const VectorXd>(rows.data(), rows.size());
+}
+
+/// Applies a bilinear rule to each matrix of the invariants.
+template <class Linear, class Bilinear>
+Invariants<double> transform(const Invariants<double>& nodal, Eigen::Index size,
+                             const Linear& linear, const Bilinear& bilinear) {
+  Invariants<double> result;
+  result.pattern = dense_pattern(size);
+  result.pairs = nodal.pairs;
+  result.shape = linear(&Invariants<double>::shape);
+  result.mixed = linear(&Invariants<double>::mixed);
+  const auto matrix = [&](auto entries) { return entries_of(bilinear(entries)); };
+  result.moments.resize(result.pattern.nonzeros(), static_cast<int>(nodal.pairs.size()));
+  for (std::size_t p = 0; p < nodal.pairs.size(); ++p) {
+    const auto column = static_cast<Eigen::Index>(p);
+    result.moments.col(column) =
+        matrix([column](const Invariants<double>& i) { return VectorXd(i.moments.col(column)); });
+  }
+  result.mass_matrix = matrix([](const Invariants<double>& i) { return i.mass_matrix; });
+  result.stiffness = matrix([](const Invariants<double>& i) { return i.stiffness; });
+  result.damping = matrix([](const Invariants<double>& i) { return i.damping; });
+  return result;
+}
+
+}  // namespace
+
+Invariants<double> project_invariants(const Invariants<double>& nodal, const MatrixXd& z) {
+  Invariants<double> result = transform(
+      nodal, z.cols(), [&](auto member) { return MatrixXd(nodal.*member * z); },
+      [&](auto entries) {
+        return MatrixXd(z.transpose() * dense_matrix(nodal.pattern, entries(nodal)) * z);
+      });
+  result.mass = nodal.mass;
+  result.first_moment = nodal.first_moment;
+  result.second_moment = nodal.second_moment;
+  return result;
+}
+
+Invariants<double> project_derivative(const Invariants<double>& nodal,
+                                      const Invariants<double>& nodal_derivative, const MatrixXd& z,
+                                      const MatrixXd& dz) {
+  Invariants<double> result = transform(
+      nodal, z.cols(),
+      [&](auto member) { return MatrixXd(nodal_derivative.*member * z + nodal.*member * dz); },
+      [&](auto entries) {
+        const MatrixXd value = dense_matrix(nodal.pattern, entries(nodal));
+        const MatrixXd change = dense_matrix(nodal.pattern, entries(nodal_derivative));
+        return MatrixXd(z.transpose() * change * z + dz.transpose() * value * z +
+                        z.transpose() * value * dz);
+      });
+  result.mass = nodal_derivative.mass;
+  result.first_moment = nodal_derivative.first_moment;
+  result.second_moment = nodal_derivative.second_moment;
+  return result;
+}
+
+ModalDamping modal_damping(const DampedMatrices& matrices,
+                           const std::vector<DampedMatrices>& derivatives) {
+  // In mass-normalised modes D̂ = 2ζ Ω; with X = (M⁻¹K)^½ differentiating X X = M⁻¹ K gives
+  //     (dX̂)ᵢⱼ (ωᵢ + ωⱼ) = (k̂ − m̂ Ω²)ᵢⱼ,   dD̂ = 2 dζ Ω + 2ζ (m̂ Ω + dX̂),
+  // k̂ = Φᵀ dK Φ, m̂ = Φᵀ dM Φ, and D = M Φ D̂ Φᵀ M.
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> modes(matrices.stiffness, matrices.mass);
+  const VectorXd omega = modes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  const MatrixXd& phi = modes.eigenvectors();
+  const MatrixXd back = matrices.mass * phi;  // Φ⁻ᵀ
+  ModalDamping result;
+  result.damping = back * (2.0 * matrices.ratio * omega).asDiagonal() * back.transpose();
+  for (const DampedMatrices& d : derivatives) {
+    const MatrixXd k = phi.transpose() * d.stiffness * phi, m = phi.transpose() * d.mass * phi;
+    MatrixXd x = k - m * omega.cwiseAbs2().asDiagonal();
+    for (Eigen::Index i = 0; i < x.rows(); ++i) {
+      for (Eigen::Index j = 0; j < x.cols(); ++j) x(i, j) /= omega(i) + omega(j);
+    }
+    MatrixXd hat = 2.0 * matrices.ratio * (m * omega.asDiagonal() + x);
+    hat.diagonal() += 2.0 * d.ratio * omega;
+    result.derivatives.push_back(back * hat * back.transpose());
+  }
+  return result;
+}
+
+MatrixXd rigid_displacements(const ElasticCoordinates& coordinates, const std::vector<double>& x,
+                             double translation) {
+  MatrixXd rigid = MatrixXd::Zero(coordinates.size(), 6);
+  for (int node = 0; node < coordinates.node_count(); ++node) {
+    const auto set = [&](int displacement, int motion, double value) {
+      const int row = coordinates.index(node, displacement);
+      if (row >= 0) rigid(row, motion) = value;
+    };
+    for (int i = 0; i < 6; ++i) set(i, i, translation);
+    const double place = x[static_cast<std::size_t>(node)];
+    set(1, 5, place);   // about z: v = x
+    set(2, 4, -place);  // about y: w = −x
+  }
+  return rigid;
+}
+
+}  // namespace pleuel

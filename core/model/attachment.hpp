@@ -1,0 +1,85 @@
+#pragma once
+
+#include <span>
+
+#include "core/beam/beam_place.hpp"
+#include "core/frame/marker.hpp"
+#include "core/model/body_builder.hpp"
+#include "core/system/coordinate_map.hpp"
+
+namespace pleuel {
+
+/// A point of the scene as a place on a body: where joints and loads hold on to it.
+class Attachment {
+ public:
+  /// @param body  name of a body, or the ground
+  Attachment(const std::string& body, Point at, const std::vector<BodyModel>& bodies,
+             const BuildContext& context);
+
+  bool is_ground() const { return body_ == nullptr; }
+  bool turns() const { return model_ == nullptr || model_->frame.rotations() > 0; }
+  /// Whether its displacements are coordinates themselves, so that a marker can name them.
+  bool is_direct() const;
+  const BodyModel* model() const { return model_; }
+
+  /// Frame and elastic coordinates. Of a place that is not direct, elastic entries are set by
+  /// make_local().
+  Marker marker() const;
+
+  /// The undeformed point in local axes [m].
+  template <class Scalar>
+  Vector3<Scalar> local_point(const Design<Scalar>& design) const {
+    if (is_ground()) return resolve_point(at_, design);
+    if (is_elastic()) {
+      const Beam<Scalar> beam = resolve_beam(beam_body(), context_.scene, design);
+      return {position_of(beam, place_), Scalar(0), Scalar(0)};
+    }
+    const Pose<Scalar> pose = body_pose(*body_, design);
+    return pose.rotation.transpose() * (resolve_point(at_, design) - pose.origin);
+  }
+
+  /// A direction that is given at t = 0 in global axes, in local axes.
+  template <class Scalar>
+  Vector3<Scalar> local_direction(const Eigen::Vector3d& global,
+                                  const Design<Scalar>& design) const {
+    const Vector3<Scalar> direction = global.template cast<Scalar>();
+    if (is_ground()) return direction;
+    return body_pose(*body_, design).rotation.transpose() * direction;
+  }
+
+  /// The angle of a frame in planar motion at t = 0; zero for the ground.
+  template <class Scalar>
+  Scalar start_angle(const Design<Scalar>& design) const {
+    if (is_ground()) return Scalar(0);
+    const auto q = frame_coordinates(model_->frame, body_pose(*body_, design));
+    return q(q.size() - 1);
+  }
+
+  /// Adds the design variables that the place depends on.
+  void add_variables(std::set<int>& variables) const;
+
+  /// u v w θx θy θz of the place from generalized coordinates, and the derivatives of that.
+  struct Rows {
+    std::vector<int> coordinates;
+    Eigen::MatrixXd values;  ///< 6 × coordinates
+    std::vector<DesignDerivative<Eigen::MatrixXd>> derivatives;
+  };
+  Rows displacement_rows() const;
+
+ private:
+  bool is_elastic() const { return model_ != nullptr && model_->is_elastic; }
+  const BeamBody& beam_body() const { return std::get<BeamBody>(body_->shape); }
+  Rows nodal_rows(const BodyModel& body) const;
+
+  const BuildContext& context_;
+  Point at_;
+  const Body* body_ = nullptr;
+  const BodyModel* model_ = nullptr;
+  BeamPlace place_;
+};
+
+/// Gives the markers of some attachments local numbers, and the map from generalized to local
+/// coordinates. Local multipliers follow the local coordinates.
+CoordinateMap make_local(std::span<const Attachment> attachments, std::span<Marker> markers);
+
+}  // namespace pleuel

@@ -1,0 +1,309 @@
+#include "core/model/beam_builder.hpp"
+
+#include <algorithm>
+
+#include "core/beam/beam_place.hpp"
+#include "core/beam/elastic_basis.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// In a plane: displacements along local axes in the plane, rotations about the one normal to it.
+NodalFlags active_displacements(const BodyFrame& frame) {
+  if (frame.rotation == RotationCoordinates::rotation_vector) {
+    return {true, true, true, true, true, true};
+  }
+  NodalFlags active{};
+  const Eigen::Vector3d normal = frame.reference.transpose() * frame.axis;
+  for (int i = 0; i < 3; ++i) {
+    const bool is_normal = std::abs(normal(i)) > 0.5;
+    active[static_cast<std::size_t>(i)] = !is_normal;
+    active[static_cast<std::size_t>(i) + 3] = is_normal;
+  }
+  return active;
+}
+
+ElasticCoordinates clamped_coordinates(ReferenceCondition condition, int nodes,
+                                       const NodalFlags& active) {
+  switch (condition) {
+    case ReferenceCondition::tangent:
+      return tangent_coordinates(nodes, active);
+    case ReferenceCondition::tangent_end:
+      return tangent_end_coordinates(nodes, active);
+    default:
+      return chord_coordinates(nodes, active);
+  }
+}
+
+/// Nodes of a beam that joints and loads act on.
+std::vector<int> attached_nodes(const BeamBody& beam, const Body& body, const BuildContext& context,
+                                const Beam<double>& elements) {
+  std::vector<int> nodes;
+  const auto add = [&](const std::string& name, const Point& point) {
+    if (name != body.name) return;
+    const BeamPlace place = find_place(elements, share_along(beam, point, context.start));
+    if (place.is_node()) {
+      nodes.push_back(place.node());
+    } else {
+      nodes.insert(nodes.end(), {place.element, place.element + 1});
+    }
+  };
+  for (const Joint& joint : context.scene.joints) {
+    add(joint.bodies[0], joint.at);
+    add(joint.bodies[1], joint.type == JointType::distance ? joint.to : joint.at);
+  }
+  for (const Load& load : context.scene.loads) {
+    if (const auto* force = std::get_if<PointForce>(&load.element)) add(force->body, force->at);
+    if (const auto* torque = std::get_if<PointTorque>(&load.element)) add(torque->body, torque->at);
+    if (const auto* spring = std::get_if<SpringDamper>(&load.element)) {
+      for (std::size_t i = 0; i < 2; ++i) add(spring->bodies[i], spring->at[i]);
+    }
+  }
+  return nodes;
+}
+
+class BasisBuilder {
+ public:
+  BasisBuilder(const BeamBody& beam, const Body& body, const BuildContext& context,
+               const NodalFlags& active, BodyModel& model)
+      : beam_(beam),
+        body_(body),
+        context_(context),
+        model_(model),
+        clamped_(clamped_coordinates(beam.frame, model.beam.node_count(), active)) {
+    for (int i = 0; i < 6; ++i) {
+      if (active[static_cast<std::size_t>(i)]) motions_.push_back(i);
+    }
+  }
+
+  /// @param nodal  invariants in the nodal coordinates of the model, with derivatives
+  void build(const Invariants<double>& nodal,
+             const std::vector<DesignDerivative<Invariants<double>>>& nodal_x) {
+    const NodalMatrices matrices = matrices_of(nodal, positions(), 1.0);
+    std::vector<NodalMatrices> changes;
+    for (std::size_t k = 0; k < nodal_x.size(); ++k) {
+      changes.push_back(matrices_of(nodal_x[k].data, position_changes(k), 0.0));
+    }
+    BasisWithDerivatives deformations = deformations_of(matrices, changes);
+    const BasisWithDerivatives basis =
+        is_mean_axis() ? mean_axis_basis(matrices, changes, deformations, motions_) : deformations;
+    model_.basis = basis.basis;
+    model_.invariants = project_invariants(nodal, basis.basis);
+    for (std::size_t k = 0; k < nodal_x.size(); ++k) {
+      model_.basis_x.push_back({nodal_x[k].variable, basis.derivatives[k]});
+      model_.invariants_x.push_back(
+          {nodal_x[k].variable,
+           project_derivative(nodal, nodal_x[k].data, basis.basis, basis.derivatives[k])});
+    }
+    damp_modes();
+  }
+
+ private:
+  bool is_mean_axis() const { return beam_.frame == ReferenceCondition::mean_axis; }
+
+  std::vector<double> positions() const {
+    std::vector<double> x;
+    for (int i = 0; i < model_.beam.node_count(); ++i) x.push_back(model_.beam.node_position(i));
+    return x;
+  }
+  std::vector<double> position_changes(std::size_t k) const {
+    std::vector<double> x;
+    const Beam<Dual>& beam = model_.beam_x[k].second;
+    for (int i = 0; i < beam.node_count(); ++i) x.push_back(derivative_of(beam.node_position(i)));
+    return x;
+  }
+
+  NodalMatrices matrices_of(const Invariants<double>& nodal, const std::vector<double>& x,
+                            double translation) const {
+    NodalMatrices matrices;
+    matrices.mass = dense_matrix(nodal.pattern, nodal.mass_matrix);
+    matrices.stiffness = dense_matrix(nodal.pattern, nodal.stiffness);
+    matrices.momentum.resize(6, nodal.size());
+    matrices.momentum.topRows(3) = nodal.shape;
+    for (int i = 0; i < 3; ++i) {  // (p₀ × S)ᵢ = p₀ⱼ S_k − p₀ₖ Sⱼ
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      matrices.momentum.row(3 + i) = nodal.mixed.row(3 * j + k) - nodal.mixed.row(3 * k + j);
+    }
+    matrices.rigid = rigid_displacements(*model_.coordinates, x, translation);
+    return matrices;
+  }
+
+  /// Restricts to the coordinates that a clamped frame leaves free.
+  NodalMatrices clamp(const NodalMatrices& matrices) const {
+    const std::vector<int> free = free_coordinates();
+    NodalMatrices clamped;
+    clamped.mass = matrices.mass(free, free);
+    clamped.stiffness = matrices.stiffness(free, free);
+    return clamped;
+  }
+
+  /// Indices in the nodal coordinates of the model of those that are not clamped.
+  std::vector<int> free_coordinates() const {
+    std::vector<int> free;
+    for (int node = 0; node < clamped_.node_count(); ++node) {
+      for (int i = 0; i < 6; ++i) {
+        if (clamped_.index(node, i) >= 0) free.push_back(model_.coordinates->index(node, i));
+      }
+    }
+    return free;
+  }
+
+  /// Columns: deformations against the clamped frame.
+  BasisWithDerivatives deformations_of(const NodalMatrices& matrices,
+                                       const std::vector<NodalMatrices>& changes) const {
+    const std::vector<int> free = free_coordinates();
+    const auto size = static_cast<Eigen::Index>(free.size());
+    BasisWithDerivatives reduced;
+    if (beam_.reduction) {
+      std::vector<NodalMatrices> clamped_changes;
+      for (const NodalMatrices& change : changes) clamped_changes.push_back(clamp(change));
+      reduced = craig_bampton_basis(clamp(matrices), clamped_changes, kept_coordinates());
+    } else {
+      reduced.basis = Eigen::MatrixXd::Identity(size, size);
+      reduced.derivatives.assign(changes.size(), Eigen::MatrixXd::Zero(size, size));
+    }
+    const auto expand = [&](const Eigen::MatrixXd& part) {
+      Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(model_.coordinates->size(), part.cols());
+      whole(free, Eigen::all) = part;
+      return whole;
+    };
+    BasisWithDerivatives result{expand(reduced.basis), {}};
+    for (const auto& change : reduced.derivatives) result.derivatives.push_back(expand(change));
+    return result;
+  }
+
+  /// Nodes of joints and loads; with stiffening all axial displacements, too: bending shortens a
+  /// member everywhere, and few axial modes would lock it. The number of modes is decided at the
+  /// start design.
+  KeptCoordinates kept_coordinates() const {
+    const std::vector<int> attached = attached_nodes(beam_, body_, context_, model_.beam);
+    KeptCoordinates kept;
+    for (int node = 0; node < clamped_.node_count(); ++node) {
+      const bool is_attached = std::find(attached.begin(), attached.end(), node) != attached.end();
+      for (int i = 0; i < 6; ++i) {
+        const int index = clamped_.index(node, i);
+        const bool is_kept = is_attached || (i == 0 && model_.has_stiffening);
+        if (index >= 0 && is_kept) kept.boundary.push_back(index);
+      }
+    }
+    const Beam<double> at_start = resolve_beam(beam_, context_.scene, context_.start);
+    const Invariants<double> start = beam_invariants(at_start, clamped_);
+    NodalMatrices matrices;
+    matrices.mass = dense_matrix(start.pattern, start.mass_matrix);
+    matrices.stiffness = dense_matrix(start.pattern, start.stiffness);
+    kept.modes =
+        beam_.reduction->modes
+            ? complete_modes(matrices, kept.boundary, *beam_.reduction->modes)
+            : count_fixed_interface_modes(matrices, kept.boundary, *beam_.reduction->frequency);
+    return kept;
+  }
+
+  void damp_modes() {
+    if (!beam_.damping.modal.is_bound() && beam_.damping.modal.constant == 0.0) return;
+    const auto dense = [&](const Invariants<double>& i, double ratio) {
+      return DampedMatrices{dense_matrix(i.pattern, i.mass_matrix),
+                            dense_matrix(i.pattern, i.stiffness), ratio};
+    };
+    std::vector<DampedMatrices> changes;
+    for (const auto& [variable, change] : model_.invariants_x) {
+      const bool is_ratio = beam_.damping.modal.variable == variable;
+      changes.push_back(dense(change, is_ratio ? beam_.damping.modal.factor : 0.0));
+    }
+    const ModalDamping damping = modal_damping(
+        dense(model_.invariants, resolve(beam_.damping.modal, context_.design)), changes);
+    set_damping(damping.damping, model_.invariants);
+    for (std::size_t k = 0; k < changes.size(); ++k) {
+      set_damping(damping.derivatives[k], model_.invariants_x[k].data);
+    }
+  }
+
+  static void set_damping(const Eigen::MatrixXd& matrix, Invariants<double>& invariants) {
+    // The pattern is full, by rows; the matrix is symmetric.
+    invariants.damping = Eigen::Map<const Eigen::VectorXd>(matrix.data(), matrix.size());
+  }
+
+  const BeamBody& beam_;
+  const Body& body_;
+  const BuildContext& context_;
+  BodyModel& model_;
+  ElasticCoordinates clamped_;
+  std::vector<int> motions_;
+};
+
+/// The same body in nodal coordinates with local numbers, and the way from there.
+void set_nodal_view(BodyModel& model) {
+  const int frame = model.frame.size(), nodal = model.coordinates->size();
+  const int columns = frame + static_cast<int>(model.basis->cols());
+  auto view = std::make_unique<BodyModel>();
+  view->name = model.name;
+  view->frame = model.frame;
+  view->frame.offset = 0;
+  view->coordinates = model.coordinates;
+  view->beam = model.beam;
+  view->beam_x = model.beam_x;
+  view->segment_of_element = model.segment_of_element;
+  view->has_stiffening = model.has_stiffening;
+  view->is_elastic = true;
+  model.nodal = std::move(view);
+  CoordinateMap& map = model.map;
+  for (int i = 0; i < columns; ++i) map.coordinates.push_back(model.frame.offset + i);
+  map.rows = Eigen::MatrixXd::Zero(frame + nodal, columns);
+  map.rows.topLeftCorner(frame, frame).setIdentity();
+  map.rows.bottomRightCorner(nodal, columns - frame) = *model.basis;
+  for (const auto& [variable, change] : model.basis_x) {
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(frame + nodal, columns);
+    rows.bottomRightCorner(nodal, columns - frame) = change;
+    if (!change.isZero(0.0)) map.derivatives.push_back({variable, std::move(rows)});
+  }
+}
+
+}  // namespace
+
+double share_along(const BeamBody& beam, const Point& point, const Design<double>& start) {
+  const Eigen::Vector3d from = resolve_point(beam.from, start), to = resolve_point(beam.to, start);
+  return (resolve_point(point, start) - from).dot(to - from) / (to - from).squaredNorm();
+}
+
+void set_beam(const BeamBody& beam, const Body& body, const BuildContext& context,
+              BodyModel& model) {
+  model.beam = resolve_beam(beam, context.scene, context.design);
+  for (int variable : variables_of(body, context.scene)) {
+    model.beam_x.emplace_back(variable,
+                              resolve_beam(beam, context.scene, context.seeded(variable)));
+  }
+  for (std::size_t s = 0; s < beam.segments.size(); ++s) {
+    model.segment_of_element.insert(model.segment_of_element.end(),
+                                    static_cast<std::size_t>(beam.segments[s].elements),
+                                    static_cast<int>(s));
+  }
+  const BeamEffects& effects = context.effects_of(body.name);
+  model.is_elastic = effects.elasticity;
+  model.has_stiffening = effects.elasticity && effects.geometric_stiffening;
+  NodalFlags active{};
+  if (effects.elasticity) active = active_displacements(model.frame);
+  if (!effects.axial_elasticity) active[0] = false;
+  if (!effects.torsional_elasticity) active[3] = false;
+  const bool is_mean_axis = beam.frame == ReferenceCondition::mean_axis;
+  const int nodes = model.beam.node_count();
+  model.coordinates = is_mean_axis ? ElasticCoordinates(nodes, active)
+                                   : clamped_coordinates(beam.frame, nodes, active);
+
+  const RotaryInertia rotary =
+      effects.rotary_inertia ? RotaryInertia::included : RotaryInertia::neglected;
+  const Invariants<double> nodal = beam_invariants(model.beam, *model.coordinates, rotary);
+  std::vector<DesignDerivative<Invariants<double>>> nodal_x;
+  for (const auto& [variable, seeded] : model.beam_x) {
+    nodal_x.push_back(
+        {variable, derivative_of(beam_invariants(seeded, *model.coordinates, rotary))});
+  }
+  if (effects.elasticity && (is_mean_axis || beam.reduction)) {
+    BasisBuilder(beam, body, context, active, model).build(nodal, nodal_x);
+    set_nodal_view(model);
+  } else {
+    model.invariants = nodal;
+    model.invariants_x = std::move(nodal_x);
+  }
+}
+
+}  // namespace pleuel

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "core/model/body_builder.hpp"
+
+namespace pleuel {
+
+/// Sets what is particular to a beam: elements, elastic coordinates (nodal, or a basis of modes or
+/// of the mean axis), invariants and their derivatives.
+void set_beam(const BeamBody& beam, const Body& body, const BuildContext& context,
+              BodyModel& model);
+
+/// Share of the length at which a point of the scene lies on a beam.
+double share_along(const BeamBody& beam, const Point& point, const Design<double>& start);
+
+}  // namespace pleuel

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <memory>
+
+#include "core/model/model.hpp"
+#include "core/system/term.hpp"
+
+namespace pleuel {
+
+/// Geometric stiffening of a beam.
+/// @param coordinates  of the whole system
+std::unique_ptr<Term> make_stiffening(const BodyModel& body, int coordinates);
+
+}  // namespace pleuel

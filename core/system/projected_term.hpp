@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+
+#include "core/system/coordinate_map.hpp"
+#include "core/system/term.hpp"
+
+namespace pleuel {
+
+/// A term in local coordinates q_l = P q that acts on the generalized ones by virtual work:
+///     R = Pᵀ R_l(P q, P v, P a),   tangent Pᵀ T_l P,
+///     R_x = Pᵀ R_l,x + P_xᵀ R_l + Pᵀ (T_q P_x q + T_v P_x v + T_a P_x a)
+/// Rows of multipliers stay what they are.
+class ProjectedTerm final : public Term {
+ public:
+  /// @param inner  numbers its coordinates and multipliers as the map does
+  ProjectedTerm(std::unique_ptr<Term> inner, CoordinateMap map, int coordinates);
+
+  std::string name() const override { return inner_->name(); }
+  void declare_entries(EntryList& entries) const override;
+  void add_residual(const State& state, ConstraintLevel level, Eigen::VectorXd& residual) override;
+  void linearize(const State& state, const WeightList& weights, ConstraintLevel level,
+                 Eigen::VectorXd& residual, const EntryBlocks& entries) override;
+  void add_design_derivative(const State& state, ConstraintLevel level,
+                             Eigen::MatrixXd& columns) override;
+
+ private:
+  int locals() const { return map_.size(); }
+  int multipliers() const { return static_cast<int>(map_.multipliers.size()); }
+  int row_of_multiplier(int i) const {
+    return coordinates_ + map_.multipliers[static_cast<std::size_t>(i)];
+  }
+  void scatter(Eigen::VectorXd& residual);
+  void set_tangent(std::size_t block);
+  void write_projected(double* entries);
+  void prepare(std::size_t weights);
+  void add_moving_map(ConstraintLevel level, Eigen::MatrixXd& columns);
+
+  std::unique_ptr<Term> inner_;
+  CoordinateMap map_;
+  int coordinates_;  ///< of the system
+  EntryList inner_entries_;
+
+  // Scratch
+  LocalState state_;
+  Eigen::VectorXd residual_, projected_;
+  std::vector<double> values_;   ///< inner entries, one block a weight
+  Eigen::MatrixXd tangent_;      ///< local and multipliers, square
+  Eigen::MatrixXd half_, full_;  ///< T P, Pᵀ T P
+  Eigen::MatrixXd inner_columns_;
+};
+
+}  // namespace pleuel
