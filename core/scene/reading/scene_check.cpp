@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include <Eigen/Eigenvalues>
-#include <fmt/format.h>
 
 #include "core/scene/reading/geometry.hpp"
 #include "core/scene/reading/mechanism_check.hpp"
