@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
@@ -122,6 +124,38 @@ TEST(Stress, OfATwistedBarIsRootThreeTimesItsShear) {
   double shear = 0.0;
   for (const auto& point : section.points) shear = std::max(shear, point.shear);
   EXPECT_NEAR(stresses(model, state).maxCoeff() / (std::sqrt(3.0) * torque * shear), 1.0, 1e-12);
+}
+
+/// Weight across both axes of an ellipse, along none: the moments ρAgL²/2 of the two directions
+/// meet between the axes, σ = √((M_z a/I_z)² + (M_y b/I_y)²).
+TEST(Stress, OfAnEllipseIsLargestBetweenItsAxes) {
+  Scene scene = swinging_beam(length, EllipseSection{width, height}, 2);
+  scene.gravity = {0.0, -gravity, 0.7 * gravity};
+  Model model = build_model(
+      scene, {.spatial_motion = EffectChoice::on, .geometric_stiffening = EffectChoice::off}, {},
+      {});
+  State state = model.mechanism.guess;
+  find_rest(model, state);
+  const double a = height / 2, b = width / 2, area = std::numbers::pi * a * b;
+  const double moment = density * area * gravity * length * length / 2;
+  const double expected =
+      std::hypot(moment * a / (area * a * a / 4), 0.7 * moment * b / (area * b * b / 4));
+  EXPECT_NEAR(stresses(model, state).maxCoeff() / expected, 1.0, 1e-9);  // Newton's method
+}
+
+/// A general section with a point in the centroid sees tension there, and no bending.
+TEST(Stress, OfAGeneralSectionIsThatAtItsPoints) {
+  const double side = 0.02, inertia = std::pow(side, 4) / 12;
+  for (const EffectChoice spatial : {EffectChoice::off, EffectChoice::on}) {
+    Scene scene = swinging_beam(
+        length, GeneralSection{side * side, inertia, inertia, 2 * inertia, {{0.0, 0.0, 0.0}}}, 2);
+    scene.gravity = {gravity, -gravity, 0.0};
+    Model model = build_model(
+        scene, {.spatial_motion = spatial, .geometric_stiffening = EffectChoice::off}, {}, {});
+    State state = model.mechanism.guess;
+    find_rest(model, state);
+    EXPECT_NEAR(stresses(model, state).maxCoeff() / (density * gravity * length), 1.0, 1e-9);
+  }
 }
 
 }  // namespace
