@@ -13,6 +13,7 @@ struct BeamElement {
   Scalar young, shear;  ///< E, G [Pa]
   Scalar density;       ///< ρ [kg/m³]
   SectionProperties<Scalar> section;
+  Scalar strength = Scalar(0);  ///< that stress is compared with [Pa]; 0: not given
 };
 
 /// A straight chain of elements along local x; node i is the start of element i.

@@ -23,6 +23,14 @@ struct MarkerMotion {
 template <class Scalar>
 using Motion = std::array<Vector3<Scalar>, 3>;
 
+/// What a joint does to its second body, global axes: Φ_qᵀ λ is a load on the left-hand side, so
+///     force = −(∂Φ/∂P₂)ᵀ λ at P₂,    moment = −(∂Φ/∂θ₂)ᵀ λ about P₂
+template <class Scalar>
+struct Wrench {
+  Vector3<Scalar> force = Vector3<Scalar>::Constant(Scalar(0));   ///< [N]
+  Vector3<Scalar> moment = Vector3<Scalar>::Constant(Scalar(0));  ///< [N m]
+};
+
 template <class Scalar>
 class JointEvaluation {
  public:
@@ -43,10 +51,14 @@ class JointEvaluation {
   /// Adds Φ_qᵀ λ to `forces` (local coordinates) and writes the equations at the level.
   void evaluate(ConstraintLevel level, const Scalar* lambda, Scalar* forces, Scalar* equations) {
     forces_ = forces;
+    wrench_ = {};
     for (std::size_t i = 0; i < topology_.equations.size(); ++i) {
       equations[i] = evaluate_equation(topology_.equations[i], level, lambda[i]);
     }
   }
+
+  /// What the joint did to its second body in the last evaluation.
+  const Wrench<Scalar>& wrench() const { return wrench_; }
 
  private:
   int set_marker(std::size_t m, const Scalar* q, const Scalar* v, const Scalar* a) {
@@ -118,6 +130,7 @@ class JointEvaluation {
 
   /// Generalized forces of a force g (global axes) on the point of a marker.
   void apply_to_point(std::size_t m, const Vector3<Scalar>& g) {
+    if (m == 1) wrench_.force -= g;
     apply_to_frame(m, g, markers_[m].u[0] + data_.points[m]);
     const BodyFrame& frame = topology_.markers[m].frame;
     for (int i = 0; i < frame.translations(); ++i) {
@@ -128,7 +141,9 @@ class JointEvaluation {
 
   /// … of g = ∂(…)/∂d on the direction d = A (s + ψ × s) of a marker.
   void apply_to_direction(std::size_t m, const Vector3<Scalar>& g, const Vector3<Scalar>& s) {
-    apply_to_frame(m, g, s + markers_[m].psi[0].cross(s));
+    const Vector3<Scalar> turned = s + markers_[m].psi[0].cross(s);
+    apply_to_frame(m, g, turned);
+    if (m == 1) wrench_.moment -= Vector3<Scalar>(markers_[m].frame.A * turned).cross(g);
     apply_to_elastic(m, 3, s.cross(Vector3<Scalar>(markers_[m].frame.A.transpose() * g)));
   }
 
@@ -246,9 +261,11 @@ class JointEvaluation {
   /// φ + nᵀψ of a body that moves in a plane; zero for the ground. n is the normal in local axes.
   Scalar planar_angle(const JointEquation& equation, ConstraintLevel level, const Scalar& lambda) {
     Scalar difference(0);
+    Eigen::Vector3d axis = Eigen::Vector3d::Zero();
     for (std::size_t m = 0; m < 2; ++m) {
       const BodyFrame& frame = topology_.markers[m].frame;
       if (frame.rotations() == 0) continue;
+      axis = equation.sense * frame.axis;
       const double sign = m == 0 ? -equation.sense : equation.sense;
       const auto order = static_cast<std::size_t>(level);
       const Vector3<Scalar> normal = markers_[m].frame.G.col(0);
@@ -257,6 +274,7 @@ class JointEvaluation {
       forces_[start_[m] + frame.translations()] += sign * lambda;
       apply_to_elastic(m, 3, Vector3<Scalar>((sign * lambda) * normal));
     }
+    wrench_.moment -= lambda * axis.template cast<Scalar>();
     const Scalar prescribed = equation.is_driven ? drive_at(level) : Scalar(0);
     if (level != ConstraintLevel::position) return difference - prescribed;
     return difference - equation.sense * data_.offset - prescribed;
@@ -269,6 +287,7 @@ class JointEvaluation {
   std::array<std::array<Scalar, 3>, 2> angles_{};
   std::array<int, 2> start_{};
   Scalar* forces_ = nullptr;
+  Wrench<Scalar> wrench_;
 };
 
 }  // namespace pleuel

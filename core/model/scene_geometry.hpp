@@ -132,6 +132,7 @@ Beam<Scalar> resolve_beam(const BeamBody& body, const Scene& scene, const Design
     element.shear = element.young / (2.0 * (1.0 + resolve(material.poisson, design)));
     element.density = resolve(material.density, design);
     element.section = resolve_section(segment.section, design);
+    if (material.strength) element.strength = resolve(*material.strength, design);
     beam.elements.insert(beam.elements.end(), static_cast<std::size_t>(segment.elements), element);
   }
   beam.mass_damping = resolve(body.damping.mass, design);
