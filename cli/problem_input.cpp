@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/model/effect_estimates.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/scene/reading/override.hpp"
 
@@ -37,6 +38,7 @@ std::string read_text(const std::filesystem::path& path) {
 ProblemInput read_input(const Arguments& arguments) {
   ProblemInput input;
   input.problem = read_problem(arguments.file, arguments.overrides);
+  estimate_effects(input.problem);
   const std::string text = read_text(arguments.file);
   input.effective = parse_json(text, arguments.file.string());
   Fingerprint fingerprint;

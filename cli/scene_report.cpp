@@ -11,7 +11,7 @@ namespace pleuel {
 namespace {
 
 int elastic_coordinates(const BodyModel& body) {
-  return body.is_beam() ? body.coordinates->size() : 0;
+  return body.elastic_size();
 }
 
 }  // namespace

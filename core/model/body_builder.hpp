@@ -3,16 +3,11 @@
 #include <map>
 #include <memory>
 
+#include "core/model/effect_decisions.hpp"
 #include "core/model/model.hpp"
 #include "core/system/term.hpp"
 
 namespace pleuel {
-
-/// What is simulated of a beam.
-struct BeamEffects {
-  bool elasticity = true, axial_elasticity = true, torsional_elasticity = true;
-  bool geometric_stiffening = true, rotary_inertia = true;
-};
 
 /// What all bodies of a model are built with.
 struct BuildContext {

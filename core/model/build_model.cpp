@@ -54,12 +54,16 @@ class ModelBuilder {
 
   Model build() {
     decide_motion();
-    decide_beam_effects();
+    for (const Body& body : context_.scene.bodies) {
+      if (!std::holds_alternative<BeamBody>(body.shape)) continue;
+      context_.beam_effects[body.name] = pleuel::decide_beam_effects(body, context_.effects);
+    }
     for (const Body& body : context_.scene.bodies) {
       model_.bodies.push_back(make_body_model(body, context_, coordinates_));
       const BodyModel& added = model_.bodies.back();
       coordinates_ += added.frame.size() + added.elastic_size();
     }
+    if (context_.plane) model_.effects.front().coordinates_saved = out_of_plane_coordinates();
     add_body_terms();
     add_joints();
     add_loads();
@@ -73,15 +77,18 @@ class ModelBuilder {
  private:
   void decide_motion() {
     const PlaneAnalysis analysis = find_motion_plane(context_.scene, context_.start);
-    EffectRecord record{"spatial_motion", true, analysis.reason};
+    EffectRecord record{"spatial_motion", "", true, EffectRecord::Kind::exact,
+                        analysis.reason,  {}, 0};
     switch (context_.effects.spatial_motion) {
       case EffectChoice::automatic:
         context_.plane = analysis.plane;
         break;
       case EffectChoice::on:
         record.reason = "asked for";
+        record.kind = EffectRecord::Kind::forced;
         break;
       case EffectChoice::off:
+        record.kind = EffectRecord::Kind::forced;
         if (!analysis.plane) {
           throw InputError("/effects/spatial_motion is \"off\", but " + analysis.reason);
         }
@@ -92,25 +99,19 @@ class ModelBuilder {
     model_.effects.push_back(record);
   }
 
-  void decide_beam_effects() {
-    const EffectSettings& settings = context_.effects;
-    const auto is_on = [](EffectChoice choice) { return choice != EffectChoice::off; };
-    for (const Body& body : context_.scene.bodies) {
-      const auto* beam = std::get_if<BeamBody>(&body.shape);
-      if (beam == nullptr) continue;
-      BeamEffects& effects = context_.beam_effects[body.name];
-      effects.elasticity = is_on(settings.elasticity) && !beam->is_rigid;
-      effects.axial_elasticity = is_on(settings.axial_elasticity);
-      effects.torsional_elasticity = is_on(settings.torsional_elasticity);
-      // Without axial elasticity there is no axial force to stiffen.
-      effects.geometric_stiffening =
-          is_on(settings.geometric_stiffening) && effects.axial_elasticity;
-      effects.rotary_inertia = is_on(settings.rotary_inertia);
+  /// What the same mechanism would have in space on top: of frames three of six (one of three for
+  /// a point), of nodes with a rotation and in-plane displacements the same number again.
+  int out_of_plane_coordinates() const {
+    int count = 0;
+    for (const BodyModel& body : model_.bodies) {
+      count += body.frame.rotations() > 0 ? 3 : 1;
+      if (body.is_beam() && !body.basis) count += body.elastic_size();
     }
+    return count;
   }
 
   void add_body_terms() {
-    bool has_stiffening = false, has_damping = false;
+    bool has_damping = false;
     for (const BodyModel& body : model_.bodies) {
       for (auto& term : make_body_terms(body, context_, coordinates_)) {
         terms_.push_back(std::move(term));
@@ -118,16 +119,24 @@ class ModelBuilder {
       if (body.frame.rotation == RotationCoordinates::rotation_vector) {
         model_.mechanism.rotations.push_back(body.frame.offset + body.frame.translations());
       }
-      has_stiffening = has_stiffening || body.has_stiffening;
-      has_damping = has_damping || body.beam.stiffness_damping > 0 || body.beam.mass_damping > 0;
+      has_damping = has_damping || !body.invariants.damping.isZero(0.0);
     }
-    const bool is_forced = context_.effects.geometric_stiffening != EffectChoice::automatic;
-    model_.effects.push_back(
-        {"geometric_stiffening", has_stiffening, is_forced ? "asked for" : "built for every beam"});
-    model_.effects.push_back(
-        {"damping", has_damping, has_damping ? "given for a body" : "no body has any"});
+    for (std::size_t i = 0; i < model_.bodies.size(); ++i) {
+      if (!model_.bodies[i].is_beam()) continue;
+      for (EffectRecord& record : beam_records(context_.scene.bodies[i], context_.effects,
+                                               model_.bodies[i], context_.plane.has_value())) {
+        model_.effects.push_back(std::move(record));
+      }
+    }
+    note_exact("damping", has_damping, has_damping ? "given for a body" : "no body has any");
     const bool has_gravity = !context_.gravity.isZero();
-    model_.effects.push_back({"gravity", has_gravity, has_gravity ? "given" : "none is given"});
+    note_exact("gravity", has_gravity, has_gravity ? "given" : "none is given");
+    const bool has_loads = !context_.scene.loads.empty();
+    note_exact("loads", has_loads, has_loads ? "given" : "none are given");
+  }
+
+  void note_exact(const std::string& name, bool is_built, const std::string& reason) {
+    model_.effects.push_back({name, "", is_built, EffectRecord::Kind::exact, reason, {}, 0});
   }
 
   void add_joints() {

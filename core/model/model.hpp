@@ -67,9 +67,18 @@ struct JointModel {
 
 /// One line of the table of effects.
 struct EffectRecord {
+  enum class Kind {
+    exact,      ///< the answer is the same to round-off
+    estimated,  ///< compared with the tolerance
+    forced      ///< by the file
+  };
   std::string name;
+  std::string body;  ///< empty: of the whole mechanism
   bool is_built = false;
+  Kind kind = Kind::exact;
   std::string reason;
+  std::optional<double> estimate;  ///< relative change of responses without it
+  int coordinates_saved = 0;
 };
 
 /// The mechanism that a scene calls for, at one design.

@@ -13,6 +13,12 @@ namespace pleuel {
 /// Whether an effect is built: by analysis of the scene, always, or never.
 enum class EffectChoice { automatic, on, off };
 
+/// Relative changes of responses that leaving an effect out of a beam may cause, by estimate.
+struct BeamEstimates {
+  double elasticity = 0.0, axial_elasticity = 0.0, torsional_elasticity = 0.0;
+  double geometric_stiffening = 0.0, rotary_inertia = 0.0;
+};
+
 struct EffectSettings {
   // Exact decisions:
   EffectChoice spatial_motion = EffectChoice::automatic;
@@ -24,6 +30,9 @@ struct EffectSettings {
   EffectChoice torsional_elasticity = EffectChoice::automatic;
   /// Relative change of any response that dropping an effect may cause; 0: nothing is dropped.
   double tolerance = 0.0;
+  /// By body; set by estimate_effects() where a tolerance is given. Without an entry an effect is
+  /// built.
+  std::map<std::string, BeamEstimates> estimates;
 };
 
 struct SimulationSettings {

@@ -1,0 +1,273 @@
+#include "core/model/effect_estimates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <Eigen/Cholesky>
+
+#include "core/base/error.hpp"
+#include "core/beam/elastic_basis.hpp"
+#include "core/integration/simulate.hpp"
+#include "core/model/model.hpp"
+
+namespace pleuel {
+
+namespace {
+
+constexpr int most_steps = 1000;
+constexpr double sudden = 2.0;
+
+Design<double> start_values(const ProblemFile& problem) {
+  Design<double> values;
+  for (const DesignVariable& variable : problem.variables) values.push_back(variable.start);
+  return values;
+}
+
+/// Largest deformations of one beam over time.
+struct Deformation {
+  double displacement = 0.0, axial = 0.0, twist = 0.0;  ///< [m]; twist times half depth
+  double acceleration = 0.0, axial_acceleration = 0.0, twist_acceleration = 0.0;  ///< [m/s²]
+  double axial_force = 0.0;                                                       ///< [N]
+};
+
+/// Quasi-static deformation of an elastic beam by the loads of the rigid motion.
+class QuasiStaticBeam {
+ public:
+  explicit QuasiStaticBeam(const BodyModel& body)
+      : body_(body),
+        nodal_(body.basis ? *body.nodal : body),
+        stiffness_(dense_matrix(body.invariants.pattern, body.invariants.stiffness)) {
+    for (const auto& element : body.beam.elements) {
+      for (const auto& point : element.section.points) {
+        depth_ = std::max({depth_, std::abs(point.y), std::abs(point.z)});
+      }
+    }
+  }
+
+  /// @param forces  elastic rows of the residual with undeformed bodies
+  void add(const Eigen::VectorXd& forces, double step) {
+    const Eigen::VectorXd q = -stiffness_.solve(forces);
+    Eigen::VectorXd d = body_.basis ? Eigen::VectorXd(*body_.basis * q) : q;
+    measure(d, largest_.displacement, largest_.axial, largest_.twist);
+    note_axial_force(d);
+    if (count_ >= 2) {
+      const Eigen::VectorXd rate = (d - 2.0 * last_ + before_) / (step * step);
+      measure(rate, largest_.acceleration, largest_.axial_acceleration,
+              largest_.twist_acceleration);
+    }
+    before_ = last_;
+    last_ = std::move(d);
+    ++count_;
+  }
+
+  const Deformation& largest() const { return largest_; }
+
+ private:
+  int row(int node, int i) const { return nodal_.coordinates->index(node, i); }
+
+  void measure(const Eigen::VectorXd& d, double& all, double& axial, double& twist) const {
+    for (int node = 0; node < nodal_.coordinates->node_count(); ++node) {
+      for (int i = 0; i < 4; ++i) {
+        if (row(node, i) < 0) continue;
+        const double size = std::abs(d(row(node, i))) * (i == 3 ? depth_ : 1.0);
+        all = std::max(all, size);
+        if (i == 0) axial = std::max(axial, size);
+        if (i == 3) twist = std::max(twist, size);
+      }
+    }
+  }
+
+  void note_axial_force(const Eigen::VectorXd& d) {
+    for (int e = 0; e + 1 < nodal_.coordinates->node_count(); ++e) {
+      const auto at = [&](int node) { return row(node, 0) < 0 ? 0.0 : d(row(node, 0)); };
+      const auto& element = body_.beam.elements[static_cast<std::size_t>(e)];
+      const double force =
+          element.young * element.section.area / element.length * (at(e + 1) - at(e));
+      largest_.axial_force = std::max(largest_.axial_force, std::abs(force));
+    }
+  }
+
+  const BodyModel& body_;
+  const BodyModel& nodal_;
+  Eigen::LLT<Eigen::MatrixXd> stiffness_;
+  double depth_ = 0.0;
+  Eigen::VectorXd last_, before_;
+  int count_ = 0;
+  Deformation largest_;
+};
+
+/// The smallest Euler load of the sections, about the axis about which it can bend.
+double euler_load(const BodyModel& body, const BeamBody& beam) {
+  double stiffness = std::numeric_limits<double>::infinity();
+  const NodalFlags bends = [&] {
+    NodalFlags flags{};
+    const BodyModel& nodal = body.basis ? *body.nodal : body;
+    for (int node = 0; node < nodal.coordinates->node_count(); ++node) {
+      for (int i = 0; i < 6; ++i) {
+        if (nodal.coordinates->index(node, i) >= 0) flags[static_cast<std::size_t>(i)] = true;
+      }
+    }
+    return flags;
+  }();
+  for (const auto& element : body.beam.elements) {
+    if (bends[5]) stiffness = std::min(stiffness, element.young * element.section.inertia_z);
+    if (bends[4]) stiffness = std::min(stiffness, element.young * element.section.inertia_y);
+  }
+  const bool is_clamped =
+      beam.frame == ReferenceCondition::tangent || beam.frame == ReferenceCondition::tangent_end;
+  const double length =
+      (is_clamped ? 2.0 : 1.0) * body.beam.node_position(body.beam.node_count() - 1);
+  return std::numbers::pi * std::numbers::pi * stiffness / (length * length);
+}
+
+double rotary_share(const BodyModel& body) {
+  const double length = body.beam.node_position(body.beam.node_count() - 1);
+  double share = 0.0;
+  for (const auto& element : body.beam.elements) {
+    const auto& section = element.section;
+    share = std::max(share, std::max(section.inertia_y, section.inertia_z) / section.area);
+  }
+  return std::numbers::pi * std::numbers::pi * share / (length * length);
+}
+
+bool asks_for(const ProblemFile& problem, const std::string& body,
+              std::initializer_list<ResponseType> types) {
+  for (const ResponseSettings& response : problem.responses) {
+    if (std::find(types.begin(), types.end(), response.type) == types.end()) continue;
+    if (response.bodies.empty()) return true;  // frequencies of the whole mechanism
+    if (response.bodies.front() == body) return true;
+  }
+  return false;
+}
+
+/// The elastic model moved like the rigid one.
+class Estimation {
+ public:
+  explicit Estimation(ProblemFile& problem)
+      : problem_(problem),
+        start_(start_values(problem)),
+        elastic_(build(EffectChoice::automatic)),
+        rigid_(build(EffectChoice::off)) {}
+
+  void run() {
+    const Trajectory trajectory = simulate(rigid_.mechanism, options());
+    std::vector<QuasiStaticBeam> beams;
+    std::vector<const BodyModel*> bodies;
+    for (const BodyModel& body : elastic_.bodies) {
+      if (!body.is_beam() || body.elastic_size() == 0) continue;
+      beams.emplace_back(body);
+      bodies.push_back(&body);
+    }
+    System& system = *elastic_.mechanism.system;
+    State rigid, state(system.coordinates(), system.multipliers());
+    Eigen::VectorXd residual;
+    double acceleration = 0.0;
+    for (int step = 0; step <= trajectory.steps(); ++step) {
+      trajectory.load(step, rigid);
+      acceleration = std::max(acceleration, copy(rigid, state));
+      system.residual(state, ConstraintLevel::position, residual);
+      for (std::size_t i = 0; i < beams.size(); ++i) {
+        beams[i].add(residual.segment(bodies[i]->elastic_offset(), bodies[i]->elastic_size()),
+                     trajectory.scheme.step);
+      }
+    }
+    for (std::size_t i = 0; i < beams.size(); ++i) {
+      problem_.effects.estimates[bodies[i]->name] =
+          estimates_of(*bodies[i], beams[i].largest(), acceleration);
+    }
+  }
+
+ private:
+  Model build(EffectChoice elasticity) const {
+    EffectSettings settings = problem_.effects;
+    settings.estimates.clear();
+    settings.elasticity = elasticity;
+    return build_model(problem_.scene, settings, start_, start_);
+  }
+
+  SimulationOptions options() const {
+    const SimulationSettings& settings = problem_.simulation;
+    SimulationOptions options;
+    options.end_time = settings.end_time;
+    options.step = std::max(settings.step, settings.end_time / most_steps);
+    options.spectral_radius = settings.spectral_radius;
+    return options;
+  }
+
+  /// @returns the largest acceleration of a frame's origin or of a member's far end [m/s²]
+  double copy(const State& rigid, State& state) const {
+    double largest = 0.0;
+    state.time = rigid.time;
+    state.lambda = rigid.lambda;
+    for (std::size_t i = 0; i < elastic_.bodies.size(); ++i) {
+      const BodyFrame& from = rigid_.bodies[i].frame;
+      const BodyFrame& to = elastic_.bodies[i].frame;
+      state.q.segment(to.offset, to.size()) = rigid.q.segment(from.offset, from.size());
+      state.v.segment(to.offset, to.size()) = rigid.v.segment(from.offset, from.size());
+      state.a.segment(to.offset, to.size()) = rigid.a.segment(from.offset, from.size());
+      const auto a = rigid.a.segment(from.offset, from.size());
+      const auto v = rigid.v.segment(from.offset, from.size());
+      const double length = length_of(elastic_.bodies[i]);
+      const double turning =
+          a.tail(from.rotations()).norm() + v.tail(from.rotations()).squaredNorm();
+      largest = std::max(largest, a.head(from.translations()).norm() + turning * length);
+    }
+    return largest;
+  }
+
+  static double length_of(const BodyModel& body) {
+    return body.is_beam() ? body.beam.node_position(body.beam.node_count() - 1) : 0.0;
+  }
+
+  BeamEstimates estimates_of(const BodyModel& body, const Deformation& d,
+                             double acceleration) const {
+    const auto& beam =
+        std::get<BeamBody>(std::find_if(problem_.scene.bodies.begin(), problem_.scene.bodies.end(),
+                                        [&](const Body& other) { return other.name == body.name; })
+                               ->shape);
+    // The scale of translations is the size of the mechanism.
+    const double size = elastic_.mechanism.scale(body.frame.offset);
+    const auto change = [&](double displacement, double rate) {
+      return sudden * std::max(displacement / size, acceleration > 0.0 ? rate / acceleration : 0.0);
+    };
+    constexpr double always = std::numeric_limits<double>::infinity();
+    BeamEstimates estimates;
+    estimates.elasticity = change(d.displacement, d.acceleration);
+    if (asks_for(problem_, body.name,
+                 {ResponseType::stress, ResponseType::deflection, ResponseType::frequency,
+                  ResponseType::buckling})) {
+      estimates.elasticity = always;
+    }
+    estimates.axial_elasticity = change(d.axial, d.axial_acceleration);
+    if (asks_for(problem_, body.name, {ResponseType::stress, ResponseType::buckling})) {
+      estimates.axial_elasticity = always;
+    }
+    estimates.torsional_elasticity = change(d.twist, d.twist_acceleration);
+    if (asks_for(problem_, body.name, {ResponseType::stress})) {
+      estimates.torsional_elasticity = always;
+    }
+    estimates.geometric_stiffening = d.axial_force / euler_load(body, beam);
+    estimates.rotary_inertia = rotary_share(body);
+    return estimates;
+  }
+
+  ProblemFile& problem_;
+  Design<double> start_;
+  Model elastic_, rigid_;
+};
+
+}  // namespace
+
+void estimate_effects(ProblemFile& problem) {
+  problem.effects.estimates.clear();
+  if (problem.effects.tolerance <= 0.0 || problem.effects.elasticity == EffectChoice::off) return;
+  try {
+    Estimation(problem).run();
+  } catch (const SimulationError&) {
+    problem.effects.estimates.clear();
+  }
+}
+
+}  // namespace pleuel
