@@ -129,6 +129,7 @@ Beam<To> cast_beam(const Beam<double>& beam) {
     element.young = To(from.young);
     element.shear = To(from.shear);
     element.density = To(from.density);
+    element.strength = To(from.strength);
     const SectionProperties<double>& section = from.section;
     element.section.area = To(section.area);
     element.section.inertia_y = To(section.inertia_y);

@@ -4,12 +4,13 @@
 
 #include "core/beam/beam_place.hpp"
 #include "core/response/body_signal.hpp"
+#include "core/response/vector_component.hpp"
 
 namespace pleuel {
 
 namespace {
 
-/// Displacement of the beam axis at a place, local axes.
+/// Displacement of the beam axis at a place, local axes; or its rate, from nodal rates.
 template <class Scalar, class Nodal>
 Vector3<Scalar> displacement(const Beam<Scalar>& beam, const BeamPlace& place, Nodal&& nodal) {
   const Scalar& length = beam.elements[static_cast<std::size_t>(place.element)].length;
@@ -40,50 +41,70 @@ class DeflectionSignal final : public BodySignal<DeflectionSignal> {
   int direction_;
 };
 
-class PositionSignal final : public BodySignal<PositionSignal> {
+enum class TimeDerivative { none, first, second };
+
+class PlaceSignal final : public BodySignal<PlaceSignal> {
  public:
-  PositionSignal(const BodyModel& body, double at, int direction)
-      : BodySignal(body), at_(at), direction_(direction) {
-    if (body.is_beam()) place_ = find_place(body.beam, at);
+  PlaceSignal(const BodyModel& body, const PlaceMotion& motion, TimeDerivative derivative)
+      : BodySignal(body), motion_(motion), derivative_(derivative) {
+    if (body.is_beam()) place_ = find_place(body.beam, motion.at);
   }
 
   int channels() const override { return 1; }
   std::string describe(int) const override {
-    return body().is_beam() ? fmt::format("at {:g} of the length", at_) : "reference point";
+    const std::string place =
+        body().is_beam() ? fmt::format("at {:g} of the length", motion_.at) : "reference point";
+    return fmt::format("{}, {}", place, component_name(motion_.direction));
   }
   LocalPlace place(int) const { return {place_.element, body().is_beam() ? 2 : 0}; }
 
   template <class Scalar>
   Scalar evaluate(const Beam<Scalar>& beam, const LocalMotion<Scalar>& motion, int) const {
     const FrameMotion<Scalar> frame = this->frame(motion);
-    if (!body().is_beam()) return frame.r(direction_);
-    Vector3<Scalar> p = displacement<Scalar>(beam, place_, [&](int node, int i) {
-      return motion.q[static_cast<std::size_t>(nodal(node, i))];
-    });
+    const Vector3<Scalar> reference = of_reference(frame);
+    if (!body().is_beam()) return component_of<Scalar>(reference, motion_.direction);
+    const auto elastic = [&](const auto& nodes) {
+      return displacement<Scalar>(beam, place_, [&](int node, int i) {
+        return nodes[static_cast<std::size_t>(nodal(node, i))];
+      });
+    };
+    Vector3<Scalar> p = elastic(motion.q);
     p(0) += position_of(beam, place_);
-    return frame.r(direction_) + Vector3<Scalar>(frame.A * p)(direction_);
+    const Vector3<Scalar> relative =
+        of_relative<Scalar>(frame, {p, elastic(motion.v), elastic(motion.a)});
+    return component_of<Scalar>(Vector3<Scalar>(reference + relative), motion_.direction);
   }
 
  private:
-  double at_;
+  template <class Scalar>
+  const Vector3<Scalar>& of_reference(const FrameMotion<Scalar>& frame) const {
+    switch (derivative_) {
+      case TimeDerivative::none:
+        return frame.r;
+      case TimeDerivative::first:
+        return frame.r_dot;
+      default:
+        return frame.r_ddot;
+    }
+  }
+
+  /// @param p  in the frame, with its rates
+  template <class Scalar>
+  Vector3<Scalar> of_relative(const FrameMotion<Scalar>& frame,
+                              const std::array<Vector3<Scalar>, 3>& p) const {
+    switch (derivative_) {
+      case TimeDerivative::none:
+        return frame.A * p[0];
+      case TimeDerivative::first:
+        return frame.A_dot * p[0] + frame.A * p[1];
+      default:
+        return frame.A_ddot * p[0] + 2.0 * (frame.A_dot * p[1]) + frame.A * p[2];
+    }
+  }
+
+  PlaceMotion motion_;
+  TimeDerivative derivative_;
   BeamPlace place_;
-  int direction_;
-};
-
-class DriveTorqueSignal final : public Signal {
- public:
-  explicit DriveTorqueSignal(int row) : row_(row) {}
-  int channels() const override { return 1; }
-  std::string describe(int) const override { return "drive"; }
-  void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
-    values(0) = -state.lambda(row_);
-  }
-  void add_gradient(const State&, int, double weight, SignalGradient& gradient) override {
-    gradient.lambda(row_) -= weight;
-  }
-
- private:
-  int row_;
 };
 
 }  // namespace
@@ -92,12 +113,16 @@ std::unique_ptr<Signal> make_deflection_signal(const BodyModel& body, double at,
   return std::make_unique<DeflectionSignal>(body, at, direction);
 }
 
-std::unique_ptr<Signal> make_position_signal(const BodyModel& body, double at, int direction) {
-  return std::make_unique<PositionSignal>(body, at, direction);
+std::unique_ptr<Signal> make_position_signal(const BodyModel& body, const PlaceMotion& motion) {
+  return std::make_unique<PlaceSignal>(body, motion, TimeDerivative::none);
 }
 
-std::unique_ptr<Signal> make_drive_torque_signal(const JointModel& joint) {
-  return std::make_unique<DriveTorqueSignal>(joint.drive_row);
+std::unique_ptr<Signal> make_velocity_signal(const BodyModel& body, const PlaceMotion& motion) {
+  return std::make_unique<PlaceSignal>(body, motion, TimeDerivative::first);
+}
+
+std::unique_ptr<Signal> make_acceleration_signal(const BodyModel& body, const PlaceMotion& motion) {
+  return std::make_unique<PlaceSignal>(body, motion, TimeDerivative::second);
 }
 
 }  // namespace pleuel

@@ -12,11 +12,20 @@ namespace pleuel {
 /// @param direction  1: local y, 2: local z
 std::unique_ptr<Signal> make_deflection_signal(const BodyModel& body, double at, int direction);
 
-/// Global coordinate [m] of a place of a beam, or of the reference point of another body.
-/// @param direction  0 … 2: global x, y, z
-std::unique_ptr<Signal> make_position_signal(const BodyModel& body, double at, int direction);
+/// Motion of a place of a beam, or of the reference point of another body, in global axes.
+struct PlaceMotion {
+  double at = 0.0;    ///< along the undeformed length, 0 … 1; beams only
+  int direction = 0;  ///< 0 … 2: global x, y, z; −1: magnitude
+};
 
-/// Torque [N m] that a drive exerts on the second body of its joint.
-std::unique_ptr<Signal> make_drive_torque_signal(const JointModel& joint);
+/// With p the place in the frame (undeformed place and elastic displacement):
+///     r + A p [m]
+std::unique_ptr<Signal> make_position_signal(const BodyModel& body, const PlaceMotion& motion);
+
+///     ṙ + Ȧ p + A ṗ [m/s]
+std::unique_ptr<Signal> make_velocity_signal(const BodyModel& body, const PlaceMotion& motion);
+
+///     r̈ + Ä p + 2 Ȧ ṗ + A p̈ [m/s²]: of the true acceleration a, not the scheme's
+std::unique_ptr<Signal> make_acceleration_signal(const BodyModel& body, const PlaceMotion& motion);
 
 }  // namespace pleuel

@@ -34,27 +34,29 @@ Peak interpolate(double a, double b, double c) {
   return peak;
 }
 
-/// Steps first … last of a history.
-struct Range {
-  int first, last;
+/// A history, the steps of it that count, and the stretch of those in which peaks are sought.
+struct Search {
+  const Eigen::VectorXd& time;
+  const Eigen::MatrixXd& values;
+  StepRange whole, range;
 };
 
-/// All local maxima of sign · y in a range that can reach the highest sample.
-void add_peaks(const Eigen::VectorXd& time, const Eigen::MatrixXd& values, const Range& range,
-               double sign, double threshold, std::vector<Peak>& peaks) {
-  const auto last = static_cast<int>(values.cols()) - 1;
-  const double h = last > 0 ? time(1) - time(0) : 0.0;
+/// All local maxima of sign · y in a range that can reach the highest sample. At the edges of the
+/// whole they are samples.
+void add_peaks(const Search& search, double sign, double threshold, std::vector<Peak>& peaks) {
+  const auto& [time, values, whole, range] = search;
+  const double h = time.size() > 1 ? time(1) - time(0) : 0.0;
   for (int step = range.first; step <= range.last; ++step) {
     for (int channel = 0; channel < values.rows(); ++channel) {
       const double b = sign * values(channel, step);
       if (b < threshold) continue;
-      const double a = step > 0 ? sign * values(channel, step - 1) : b;
-      const double c = step < last ? sign * values(channel, step + 1) : b;
+      const double a = step > whole.first ? sign * values(channel, step - 1) : b;
+      const double c = step < whole.last ? sign * values(channel, step + 1) : b;
       if (b < a || b <= c) {
-        if (!(step == last && b >= a)) continue;
+        if (!(step == whole.last && b >= a)) continue;
       }
       Peak peak{b, 0.0, channel, step, sign, {0.0, 1.0, 0.0}};
-      if (step > 0 && step < last) {
+      if (step > whole.first && step < whole.last) {
         const Peak vertex = interpolate(a, b, c);
         peak.height = vertex.height;
         peak.time = vertex.time;
@@ -90,8 +92,8 @@ void note_ties(const std::vector<Peak>& peaks, const Peak& best, Reduction& redu
 }
 
 /// The highest sample of a range, where no local maximum lies in it.
-Reduction highest_sample(const Eigen::MatrixXd& values, const Range& range,
-                         const std::vector<double>& signs) {
+Reduction highest_sample(const Search& search, const std::vector<double>& signs) {
+  const auto& [time, values, whole, range] = search;
   Reduction reduction;
   reduction.value = -std::numeric_limits<double>::infinity();
   for (double sign : signs) {
@@ -107,15 +109,14 @@ Reduction highest_sample(const Eigen::MatrixXd& values, const Range& range,
   return reduction;
 }
 
-Reduction reduce_peaks(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
-                       const Range& range, const std::vector<double>& signs) {
-  Reduction reduction = highest_sample(values, range, signs);
+Reduction reduce_peaks(const Search& search, const std::vector<double>& signs) {
+  Reduction reduction = highest_sample(search, signs);
   const double threshold = reduction.value - 0.05 * std::abs(reduction.value);
   std::vector<Peak> peaks;
-  for (double sign : signs) add_peaks(time, values, range, sign, threshold, peaks);
+  for (double sign : signs) add_peaks(search, sign, threshold, peaks);
   const auto best = std::max_element(
       peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) { return a.height < b.height; });
-  // At the edge of a window the highest sample may not be a peak.
+  // At the edge of a stretch the highest sample may not be a peak.
   if (best == peaks.end() || best->height < reduction.value) return reduction;
   reduction.value = best->height;
   reduction.samples = samples_of(*best);
@@ -123,12 +124,11 @@ Reduction reduce_peaks(const Eigen::VectorXd& time, const Eigen::MatrixXd& value
   return reduction;
 }
 
-/// The peak in a range: max, min or max-abs.
-Reduction reduce_range(OverTime kind, const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
-                       const Range& range) {
-  if (kind == OverTime::max) return reduce_peaks(time, values, range, {1.0});
-  if (kind == OverTime::max_abs) return reduce_peaks(time, values, range, {1.0, -1.0});
-  Reduction reduction = reduce_peaks(time, values, range, {-1.0});
+/// The peak in a stretch: max, min or max-abs.
+Reduction reduce_stretch(OverTime kind, const Search& search) {
+  if (kind == OverTime::max) return reduce_peaks(search, {1.0});
+  if (kind == OverTime::max_abs) return reduce_peaks(search, {1.0, -1.0});
+  Reduction reduction = reduce_peaks(search, {-1.0});
   reduction.value = -reduction.value;
   const auto negate = [](std::vector<Sample>& samples) {
     for (Sample& sample : samples) sample.weight = -sample.weight;
@@ -139,11 +139,10 @@ Reduction reduce_range(OverTime kind, const Eigen::VectorXd& time, const Eigen::
   return reduction;
 }
 
-/// Trapezoidal weights [s].
-Eigen::VectorXd quadrature(const Eigen::VectorXd& time) {
-  const auto n = time.size();
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);
-  for (Eigen::Index i = 0; i + 1 < n; ++i) {
+/// Trapezoidal weights of the steps of a range [s], zero for the others.
+Eigen::VectorXd quadrature(const Eigen::VectorXd& time, const StepRange& range) {
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(time.size());
+  for (int i = range.first; i < range.last; ++i) {
     const double half = 0.5 * (time(i + 1) - time(i));
     weights(i) += half;
     weights(i + 1) += half;
@@ -152,23 +151,24 @@ Eigen::VectorXd quadrature(const Eigen::VectorXd& time) {
 }
 
 Reduction reduce_linear(const Eigen::VectorXd& weights, const Eigen::MatrixXd& values) {
-  assert(values.rows() == 1);
   Reduction reduction;
-  reduction.value = values.row(0) * weights;
+  Eigen::Index channel = 0;
+  reduction.value = (values * weights).maxCoeff(&channel);
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
-    if (weights(i) != 0.0) reduction.samples.push_back({static_cast<int>(i), 0, weights(i)});
+    if (weights(i) == 0.0) continue;
+    reduction.samples.push_back({static_cast<int>(i), static_cast<int>(channel), weights(i)});
   }
   return reduction;
 }
 
-Reduction reduce_rms(const Eigen::VectorXd& time, const Eigen::MatrixXd& values) {
-  const Eigen::VectorXd weights = quadrature(time) / (time(time.size() - 1) - time(0));
+Reduction reduce_rms(const Eigen::VectorXd& weights, const Eigen::MatrixXd& values) {
   Eigen::Index channel = 0;
   const double square = (values.cwiseAbs2() * weights).maxCoeff(&channel);
   Reduction reduction;
   reduction.value = std::sqrt(square);
   if (reduction.value == 0.0) return reduction;
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
+    if (weights(i) == 0.0) continue;
     reduction.samples.push_back({static_cast<int>(i), static_cast<int>(channel),
                                  weights(i) * values(channel, i) / reduction.value});
   }
@@ -181,31 +181,55 @@ bool is_peak(OverTime kind) {
   return kind == OverTime::max || kind == OverTime::min || kind == OverTime::max_abs;
 }
 
+StepRange whole_range(const Eigen::VectorXd& time) {
+  return {0, static_cast<int>(time.size()) - 1};
+}
+
+StepRange steps_between(const Eigen::VectorXd& time, std::optional<double> from,
+                        std::optional<double> to) {
+  StepRange range = whole_range(time);
+  const double round_off = time.size() > 1 ? 1e-6 * (time(1) - time(0)) : 0.0;
+  while (from && range.first <= range.last && time(range.first) < *from - round_off) ++range.first;
+  while (to && range.last >= range.first && time(range.last) > *to + round_off) --range.last;
+  return range;
+}
+
 Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::MatrixXd& values) {
-  const Eigen::Index last = time.size() - 1;
-  if (is_peak(kind)) return reduce_range(kind, time, values, {0, static_cast<int>(last)});
+  return reduce(kind, time, values, whole_range(time));
+}
+
+Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
+                 const StepRange& range) {
+  if (is_peak(kind)) return reduce_stretch(kind, {time, values, range, range});
+  const double duration = time(range.last) - time(range.first);
   switch (kind) {
     case OverTime::rms:
-      return reduce_rms(time, values);
+      return reduce_rms(quadrature(time, range) / duration, values);
     case OverTime::mean:
-      return reduce_linear(quadrature(time) / (time(last) - time(0)), values);
+      return reduce_linear(quadrature(time, range) / duration, values);
     case OverTime::integral:
-      return reduce_linear(quadrature(time), values);
+      return reduce_linear(quadrature(time, range), values);
     default:
-      return reduce_linear(Eigen::VectorXd::Unit(time.size(), last), values);
+      return reduce_linear(Eigen::VectorXd::Unit(time.size(), range.last), values);
   }
 }
 
 std::vector<Reduction> reduce_windows(OverTime kind, const Eigen::VectorXd& time,
                                       const Eigen::MatrixXd& values, int windows) {
+  return reduce_windows(kind, time, values, windows, whole_range(time));
+}
+
+std::vector<Reduction> reduce_windows(OverTime kind, const Eigen::VectorXd& time,
+                                      const Eigen::MatrixXd& values, int windows,
+                                      const StepRange& range) {
   assert(is_peak(kind));
-  const auto steps = static_cast<int>(time.size());
-  const int count = std::min(windows, steps);
   std::vector<Reduction> reductions;
-  for (int i = 0; i < count; ++i) {
-    const int first = static_cast<int>(std::int64_t{steps} * i / count);
-    const int last = static_cast<int>(std::int64_t{steps} * (i + 1) / count) - 1;
-    reductions.push_back(reduce_range(kind, time, values, {first, last}));
+  const auto start_of = [&](int window) {
+    return range.first + static_cast<int>(std::int64_t{range.steps()} * window / windows);
+  };
+  for (int i = 0; i < windows; ++i) {
+    const int first = start_of(i), last = std::max(first, start_of(i + 1) - 1);
+    reductions.push_back(reduce_stretch(kind, {time, values, range, {first, last}}));
   }
   return reductions;
 }

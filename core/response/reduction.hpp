@@ -34,20 +34,39 @@ struct Reduction {
   std::vector<PeakTie> ties;   ///< the closest few
 };
 
-/// Reduces a history over time (and over channels: the largest for max, min, max-abs, rms; the only
-/// one otherwise). Peaks between steps are found by the parabola through three samples; rms, mean
-/// and integral use the trapezoidal rule.
+/// Steps first … last of a history.
+struct StepRange {
+  int first = 0, last = 0;
+  int steps() const { return last - first + 1; }
+};
+
+/// All steps.
+StepRange whole_range(const Eigen::VectorXd& time);
+
+/// The steps within [from, to], both ends included; first > last if there are none.
+StepRange steps_between(const Eigen::VectorXd& time, std::optional<double> from,
+                        std::optional<double> to);
+
+/// Reduces a history over time (and over channels: the smallest for min, the largest for the
+/// others). Peaks between steps are found by the parabola through three samples; at the ends of the
+/// range they are samples. rms, mean and integral use the trapezoidal rule.
 /// @param time    steps + 1 instants, equidistant [s]
 /// @param values  channels × (steps + 1)
+/// @param range   at least two steps; by default all
+Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
+                 const StepRange& range);
 Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::MatrixXd& values);
 
 /// Whether it is the height of a peak: max, min, max-abs.
 bool is_peak(OverTime kind);
 
-/// The peak of each of `windows` equal stretches of time. The reduction of the whole time is the
-/// highest of them (the lowest for min); where two of them tie it has a kink, while each for itself
-/// is smooth.
+/// The peak of each of `windows` equal stretches of a range. The reduction of the whole range is
+/// the highest of them (the lowest for min); where two of them tie it has a kink, while each for
+/// itself is smooth. Always so many: of a range with fewer steps, stretches coincide.
 /// @param kind  for which is_peak() holds
+std::vector<Reduction> reduce_windows(OverTime kind, const Eigen::VectorXd& time,
+                                      const Eigen::MatrixXd& values, int windows,
+                                      const StepRange& range);
 std::vector<Reduction> reduce_windows(OverTime kind, const Eigen::VectorXd& time,
                                       const Eigen::MatrixXd& values, int windows);
 

@@ -1,10 +1,17 @@
 #include "core/response/response.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/response/body_frequency.hpp"
+#include "core/response/buckling_signal.hpp"
+#include "core/response/drive_signals.hpp"
+#include "core/response/mechanism_modes.hpp"
 #include "core/response/motion_signals.hpp"
 #include "core/response/projected_signal.hpp"
+#include "core/response/reaction_signal.hpp"
 #include "core/response/stress_signal.hpp"
 #include "core/scene/response_quantity.hpp"
 
@@ -24,51 +31,182 @@ void set_mass(const ResponseSettings& settings, const Model& model, Response& re
   }
 }
 
+class ResponseMaker {
+ public:
+  ResponseMaker(const ResponseSettings& settings, const Model& model)
+      : settings_(settings), model_(model) {}
+
+  Response make() {
+    response_.name = settings_.name;
+    response_.unit = quantity_of(settings_).unit;
+    response_.over_time = settings_.over_time;
+    response_.from = settings_.from;
+    response_.to = settings_.to;
+    switch (settings_.type) {
+      case ResponseType::mass:
+        set_mass(settings_, model_, response_);
+        break;
+      case ResponseType::frequency:
+        set_frequency();
+        break;
+      case ResponseType::stress:
+      case ResponseType::buckling:
+        check_section_forces();
+        [[fallthrough]];
+      case ResponseType::deflection:
+      case ResponseType::position:
+      case ResponseType::velocity:
+      case ResponseType::acceleration:
+        set_body_signal();
+        break;
+      case ResponseType::drive_torque:
+      case ResponseType::drive_force:
+        response_.signal = make_drive_effort_signal(driven_joint());
+        break;
+      case ResponseType::drive_power:
+        response_.signal = make_drive_power_signal(driven_joint());
+        break;
+      case ResponseType::reaction_force:
+        set_reaction(ReactionPart::Kind::force);
+        break;
+      case ResponseType::reaction_moment:
+        set_reaction(ReactionPart::Kind::moment);
+        break;
+    }
+    return std::move(response_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& why) const {
+    throw InputError(
+        fmt::format("the response \"{}\" cannot be computed: {}", settings_.name, why));
+  }
+
+  int variables() const { return model_.mechanism.system->variables(); }
+  const BodyModel& body() const { return model_.body(settings_.bodies.front()); }
+
+  void set_frequency() {
+    if (settings_.bodies.empty()) {
+      response_.mechanism_mode = settings_.mode;
+      return;
+    }
+    const FrequencyWithDerivatives frequency = body_frequency(body(), settings_.mode, variables());
+    response_.constant = frequency.value;
+    response_.constant_x = frequency.derivatives;
+  }
+
+  /// Section forces come from strain.
+  void check_section_forces() const {
+    const BodyModel& body = this->body();
+    if (!body.is_elastic) fail(fmt::format("\"{}\" is rigid", body.name));
+    const bool needs_axial =
+        settings_.type == ResponseType::buckling || settings_.part == StressPart::axial;
+    if (needs_axial && !has_axial_displacement(body)) {
+      fail(fmt::format("\"{}\" has no axial elasticity", body.name));
+    }
+    const bool has_strength = body.beam.elements.front().strength > 0.0;
+    if (settings_.part == StressPart::utilization && !has_strength) {
+      fail(fmt::format("the material of \"{}\" has no strength", body.name));
+    }
+  }
+
+  static bool has_axial_displacement(const BodyModel& body) {
+    const ElasticCoordinates& coordinates = *body.coordinates;
+    for (int node = 0; node < coordinates.node_count(); ++node) {
+      if (coordinates.index(node, 0) >= 0) return true;
+    }
+    return false;
+  }
+
+  void set_body_signal() {
+    const BodyModel& body = this->body();
+    if (!body.basis) {
+      response_.signal = make_body_signal(body);
+    } else {
+      project(make_body_signal(*body.nodal), body.map);
+    }
+  }
+
+  void project(std::unique_ptr<Signal> signal, const CoordinateMap& map) {
+    response_.signal = std::make_unique<ProjectedSignal>(std::move(signal), map, variables());
+  }
+
+  std::unique_ptr<Signal> make_body_signal(const BodyModel& body) const {
+    const PlaceMotion place{settings_.at, settings_.direction};
+    switch (settings_.type) {
+      case ResponseType::stress:
+        return make_stress_signal(body, model_.gravity, settings_.part,
+                                  {settings_.segment, settings_.station});
+      case ResponseType::buckling:
+        return make_buckling_signal(body, model_.gravity);
+      case ResponseType::deflection:
+        return make_deflection_signal(body, settings_.at, settings_.direction);
+      case ResponseType::position:
+        return make_position_signal(body, place);
+      case ResponseType::velocity:
+        return make_velocity_signal(body, place);
+      default:
+        return make_acceleration_signal(body, place);
+    }
+  }
+
+  const JointModel& driven_joint() const {
+    const JointModel& joint = model_.joint(settings_.joint);
+    if (joint.drive_row < 0) fail(fmt::format("the joint \"{}\" has no drive", joint.name));
+    return joint;
+  }
+
+  void set_reaction(ReactionPart::Kind kind) {
+    const JointModel& joint = model_.joint(settings_.joint);
+    auto signal = make_reaction_signal(joint, {kind, settings_.direction});
+    if (joint.map) {
+      project(std::move(signal), *joint.map);
+    } else {
+      response_.signal = std::move(signal);
+    }
+  }
+
+  const ResponseSettings& settings_;
+  const Model& model_;
+  Response response_;
+};
+
+/// The whole mechanism's frequencies at the initial state.
+void set_mechanism_frequencies(Analysis& analysis) {
+  Eigen::VectorXd frequencies;
+  for (Response& response : analysis.responses) {
+    if (!response.mechanism_mode) continue;
+    if (frequencies.size() == 0) {
+      State initial;
+      analysis.trajectory.load(0, initial);
+      frequencies = mechanism_frequencies(analysis.model.mechanism, initial);
+    }
+    if (*response.mechanism_mode >= frequencies.size()) {
+      throw InputError(
+          fmt::format("the response \"{}\" cannot be computed: the mechanism has {} natural "
+                      "frequencies, not {}",
+                      response.name, frequencies.size(), *response.mechanism_mode + 1));
+    }
+    response.constant = frequencies(*response.mechanism_mode);
+  }
+}
+
 }  // namespace
+
+StepRange Response::steps(const Eigen::VectorXd& time) const {
+  const StepRange range = steps_between(time, from, to);
+  if (range.steps() >= 2) return range;
+  throw InputError(
+      fmt::format("the response \"{}\" is reduced over a window of time with less than two steps; "
+                  "widen it or shorten the steps",
+                  name));
+}
 
 std::vector<Response> make_responses(const std::vector<ResponseSettings>& settings,
                                      const Model& model) {
   std::vector<Response> responses;
   for (const ResponseSettings& setting : settings) {
-    Response response;
-    response.name = setting.name;
-    response.unit = quantity_of(setting).unit;
-    response.over_time = setting.over_time;
-    const auto set_body_signal = [&](const auto& make) {
-      const BodyModel& body = model.body(setting.bodies.front());
-      if (!body.basis) {
-        response.signal = make(body);
-      } else {
-        response.signal = std::make_unique<ProjectedSignal>(make(*body.nodal), body.map,
-                                                            model.mechanism.system->variables());
-      }
-    };
-    switch (setting.type) {
-      case ResponseType::mass:
-        set_mass(setting, model, response);
-        break;
-      case ResponseType::stress:
-        set_body_signal([&](const BodyModel& body) {
-          return make_stress_signal(body, model.gravity, setting.segment);
-        });
-        break;
-      case ResponseType::deflection:
-        set_body_signal([&](const BodyModel& body) {
-          return make_deflection_signal(body, setting.at, setting.direction);
-        });
-        break;
-      case ResponseType::position:
-        set_body_signal([&](const BodyModel& body) {
-          return make_position_signal(body, setting.at, setting.direction);
-        });
-        break;
-      case ResponseType::drive_torque:
-        response.signal = make_drive_torque_signal(model.joint(setting.joint));
-        break;
-      default:
-        throw InputError(fmt::format("the response \"{}\" cannot be computed", setting.name));
-    }
-    responses.push_back(std::move(response));
+    responses.push_back(ResponseMaker(setting, model).make());
   }
   return responses;
 }
@@ -101,12 +239,14 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
                                   {settings.end_time, settings.step, settings.spectral_radius,
                                    settings.newton_tolerance, settings.max_newton_iterations});
   analysis->responses = make_responses(problem.responses, analysis->model);
+  set_mechanism_frequencies(*analysis);
   for (Response& response : analysis->responses) {
     Reduction reduction;
     Eigen::MatrixXd history;
     if (response.signal) {
       history = observe(*response.signal, analysis->trajectory);
-      reduction = reduce(response.over_time, analysis->trajectory.time, history);
+      const Eigen::VectorXd& time = analysis->trajectory.time;
+      reduction = reduce(response.over_time, time, history, response.steps(time));
     } else {
       reduction.value = response.constant;
     }

@@ -19,6 +19,14 @@ struct Response {
   std::unique_ptr<Signal> signal;  ///< null: a constant
   double constant = 0.0;
   Eigen::VectorXd constant_x;  ///< its derivatives, one a design variable
+  /// Of a frequency of the whole mechanism: its mode, from 0. A constant, too, but one of the
+  /// initial state: analyze() sets it, and its derivatives take those of that state.
+  std::optional<int> mechanism_mode;
+  std::optional<double> from, to;  ///< window of time that is reduced [s]
+
+  /// The steps of a simulation that are reduced.
+  /// @throws InputError if the window holds less than two
+  StepRange steps(const Eigen::VectorXd& time) const;
 };
 
 /// Builds the responses of a model, which must outlive them.

@@ -1,48 +1,15 @@
 #include "core/response/stress_signal.hpp"
 
-#include <fmt/format.h>
+#include <algorithm>
 
-#include "core/beam/beam_shape.hpp"
-#include "core/response/body_signal.hpp"
-#include "core/section/section_stress.hpp"
+#include "core/response/section_signal.hpp"
 
 namespace pleuel {
 
 namespace {
 
-/// A section at which stress is evaluated: a node, seen from one or two elements, or the middle of
-/// an element.
-struct Station {
-  std::vector<int> elements;  ///< adjacent, ascending
-  double place;               ///< counted in elements: 2 is node 2, 2.5 half an element further
-};
-
-/// One stress point of a station.
-struct Channel {
-  int station;
-  int point;  ///< index in the section's points, or `pulled`, `pressed`: halves of a round outline
-  static constexpr int pulled = -1, pressed = -2;
-};
-
-std::vector<Station> find_stations(const BodyModel& body, std::optional<int> segment) {
-  std::vector<Station> stations;
-  const int elements = static_cast<int>(body.beam.elements.size());
-  const auto segment_of = [&](int e) {
-    return body.segment_of_element[static_cast<std::size_t>(e)];
-  };
-  for (int e = 0; e < elements; ++e) {
-    if (segment && segment_of(e) != *segment) continue;
-    const bool continues = e > 0 && segment_of(e - 1) == segment_of(e);
-    if (continues) {
-      stations.back().elements.push_back(e);
-    } else {
-      stations.push_back({{e}, double(e)});
-    }
-    for (double xi : {0.25, 0.5, 0.75}) stations.push_back({{e}, e + xi});
-    stations.push_back({{e}, e + 1.0});
-  }
-  return stations;
-}
+/// Halves of a round outline, and sections as a whole.
+constexpr int pulled = -1, pressed = -2, whole = -3;
 
 /// In planar motion, points that differ only across the plane see the same stress, and those in the
 /// middle of others see less than them.
@@ -69,205 +36,84 @@ std::vector<int> distinct_points(const BodyModel& body, const SectionProperties<
   return distinct;
 }
 
-class StressSignal final : public BodySignal<StressSignal> {
+/// Points that torsion tells apart.
+std::vector<int> points_of_distinct_shear(const SectionProperties<double>& section) {
+  std::vector<int> distinct;
+  for (int i = 0; i < static_cast<int>(section.points.size()); ++i) {
+    const auto is_same = [&](int other) {
+      return section.points[static_cast<std::size_t>(other)].shear ==
+             section.points[static_cast<std::size_t>(i)].shear;
+    };
+    if (std::none_of(distinct.begin(), distinct.end(), is_same)) distinct.push_back(i);
+  }
+  return distinct;
+}
+
+template <class Scalar>
+Scalar bending_stress(const SectionProperties<Scalar>& section, const SectionForces<Scalar>& forces,
+                      int point) {
+  using std::sqrt;
+  if (point >= 0) {
+    const StressPoint<Scalar>& at = section.points[static_cast<std::size_t>(point)];
+    return forces.moment_y * at.z / section.inertia_y - forces.moment_z * at.y / section.inertia_z;
+  }
+  // The largest b_y cos θ + b_z sin θ of a round outline.
+  constexpr double tiny = 1e-300;  // keeps the root differentiable at zero [Pa²]
+  const Scalar along_y = forces.moment_z * section.radius_y / section.inertia_z;
+  const Scalar along_z = forces.moment_y * section.radius_z / section.inertia_y;
+  const Scalar largest = sqrt(along_y * along_y + along_z * along_z + tiny);
+  return point == pulled ? largest : Scalar(-largest);
+}
+
+template <class Scalar>
+Scalar von_mises(const SectionProperties<Scalar>& section, const SectionForces<Scalar>& forces,
+                 int point) {
+  return von_mises_stress(section, forces,
+                          point >= 0 ? section.points[static_cast<std::size_t>(point)]
+                                     : most_stressed_point(section, forces, point == pulled));
+}
+
+class StressQuantity {
  public:
-  StressSignal(const BodyModel& body, const Eigen::Vector3d& gravity, std::optional<int> segment)
-      : BodySignal(body), gravity_(gravity), stations_(find_stations(body, segment)) {
+  explicit StressQuantity(StressPart part) : part_(part) {}
+
+  std::vector<int> points(const BodyModel& body, const SectionProperties<double>& section) const {
+    if (part_ == StressPart::axial) return {whole};
+    if (part_ == StressPart::shear) return points_of_distinct_shear(section);
     const bool is_planar = body.frame.rotation == RotationCoordinates::angle;
-    for (int s = 0; s < static_cast<int>(stations_.size()); ++s) {
-      const auto& section = section_of(body.beam, s);
-      if (section.is_round() && !is_planar) {
-        channels_.push_back({s, Channel::pulled});
-        channels_.push_back({s, Channel::pressed});
-        continue;
-      }
-      for (int point : distinct_points(body, section)) channels_.push_back({s, point});
-    }
-  }
-
-  int channels() const override { return static_cast<int>(channels_.size()); }
-
-  std::string describe(int channel) const override {
-    const Channel& c = channels_[static_cast<std::size_t>(channel)];
-    const Station& station = stations_[static_cast<std::size_t>(c.station)];
-    if (c.point < 0) return fmt::format("node {}", station.place);
-    const auto& point =
-        section_of(body().beam, c.station).points[static_cast<std::size_t>(c.point)];
-    return fmt::format("node {}, y = {:.4g} m, z = {:.4g} m", station.place, point.y, point.z);
-  }
-
-  LocalPlace place(int channel) const {
-    const Station& station = station_of(channel);
-    return {station.elements.front(), static_cast<int>(station.elements.size()) + 1};
-  }
-
-  /// All channels share one evaluation of the body.
-  void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
-    const BodyModel& body = this->body();
-    const int first = body.frame.offset, m = body.frame.size();
-    const FrameMotion<double> frame =
-        frame_motion<double>(body.frame, state.q.segment(first, m), state.v.segment(first, m),
-                             state.a.segment(first, m));
-    const int nodes = body.beam.node_count();
-    nodal_q_.resize(6, nodes);
-    accelerations_.resize(3, nodes);
-    double x = 0.0;
-    for (int node = 0; node < nodes; ++node) {
-      std::array<Eigen::Vector3d, 3> motion;  // displacement, rate, acceleration
-      for (int i = 0; i < 6; ++i) {
-        const int index = body.coordinate(node, i);
-        nodal_q_(i, node) = index < 0 ? 0.0 : state.q(index);
-        if (i >= 3) continue;
-        motion[0](i) = nodal_q_(i, node);
-        motion[1](i) = index < 0 ? 0.0 : state.v(index);
-        motion[2](i) = index < 0 ? 0.0 : state.a(index);
-      }
-      accelerations_.col(node) = acceleration<double>(frame, x, motion[0], motion[1], motion[2]);
-      if (node + 1 < nodes) x += body.beam.elements[static_cast<std::size_t>(node)].length;
-    }
-    SectionForces<double> forces;
-    int station = -1;
-    for (int channel = 0; channel < channels(); ++channel) {
-      const Channel& c = channels_[static_cast<std::size_t>(channel)];
-      if (c.station != station) {
-        station = c.station;
-        forces = station_forces<double>(
-            body.beam, station, [&](int node, int i) { return nodal_q_(i, node); },
-            [&](int node) { return Eigen::Vector3d(accelerations_.col(node)); });
-      }
-      values(channel) = von_mises(section_of(body.beam, station), forces, c);
-    }
+    if (section.is_round() && !is_planar) return {pulled, pressed};
+    return distinct_points(body, section);
   }
 
   template <class Scalar>
-  Scalar evaluate(const Beam<Scalar>& beam, const LocalMotion<Scalar>& motion, int channel) const {
-    const Channel& c = channels_[static_cast<std::size_t>(channel)];
-    const int first = station_of(channel).elements.front();
-    const FrameMotion<Scalar> frame = this->frame(motion);
-    const auto displacement = [&](int node, int i) {
-      return motion.q[static_cast<std::size_t>(nodal(node - first, i))];
-    };
-    const auto accelerated = [&](int node) {
-      std::array<Vector3<Scalar>, 3> local;
-      for (int i = 0; i < 3; ++i) {
-        const auto k = static_cast<std::size_t>(nodal(node - first, i));
-        local[0](i) = motion.q[k];
-        local[1](i) = motion.v[k];
-        local[2](i) = motion.a[k];
-      }
-      return acceleration<Scalar>(frame, beam.node_position(node), local[0], local[1], local[2]);
-    };
-    return von_mises(section_of(beam, c.station),
-                     station_forces<Scalar>(beam, c.station, displacement, accelerated), c);
+  Scalar evaluate(const Beam<Scalar>& beam, const SectionProperties<Scalar>& section,
+                  const SectionForces<Scalar>& forces, int point) const {
+    switch (part_) {
+      case StressPart::normal:
+        return forces.axial / section.area + bending_stress(section, forces, point);
+      case StressPart::axial:
+        return forces.axial / section.area;
+      case StressPart::bending:
+        return bending_stress(section, forces, point);
+      case StressPart::shear:
+        return forces.torque * section.points[static_cast<std::size_t>(point)].shear;
+      case StressPart::utilization:  // a beam has one material
+        return von_mises(section, forces, point) / beam.elements.front().strength;
+      default:
+        return von_mises(section, forces, point);
+    }
   }
 
  private:
-  const Station& station_of(int channel) const {
-    return stations_[static_cast<std::size_t>(
-        channels_[static_cast<std::size_t>(channel)].station)];
-  }
-
-  template <class Scalar>
-  const SectionProperties<Scalar>& section_of(const Beam<Scalar>& beam, int station) const {
-    const int element = stations_[static_cast<std::size_t>(station)].elements.front();
-    return beam.elements[static_cast<std::size_t>(element)].section;
-  }
-
-  template <class Scalar>
-  static Scalar von_mises(const SectionProperties<Scalar>& section,
-                          const SectionForces<Scalar>& forces, const Channel& channel) {
-    if (channel.point >= 0) {
-      return von_mises_stress(section, forces,
-                              section.points[static_cast<std::size_t>(channel.point)]);
-    }
-    return von_mises_stress(section, forces,
-                            most_stressed_point(section, forces, channel.point == Channel::pulled));
-  }
-
-  /// @param displacement  (node, 0 … 5) → nodal displacement
-  /// @param accelerated   node → acceleration, local axes
-  template <class Scalar, class Displacement, class Acceleration>
-  SectionForces<Scalar> station_forces(const Beam<Scalar>& beam, int s,
-                                       const Displacement& displacement,
-                                       const Acceleration& accelerated) const {
-    const Station& station = stations_[static_cast<std::size_t>(s)];
-    SectionForces<Scalar> sum;
-    const double share = 1.0 / static_cast<double>(station.elements.size());
-    for (int index : station.elements) {
-      Eigen::Matrix<Scalar, 12, 1> q;
-      for (int i = 0; i < 12; ++i) q(i) = displacement(index + i / 6, i % 6);
-      const auto forces =
-          element_forces<Scalar>(beam.elements[static_cast<std::size_t>(index)], q,
-                                 accelerated(index), accelerated(index + 1), station.place - index);
-      sum.axial += share * forces.axial;
-      sum.moment_y += share * forces.moment_y;
-      sum.moment_z += share * forces.moment_z;
-      sum.torque += share * forces.torque;
-    }
-    return sum;
-  }
-
-  /// a = a₀ + X p + Y u̇ + ü of a node, local axes; its inertia load is −ρA a per length.
-  template <class Scalar>
-  Vector3<Scalar> acceleration(const FrameMotion<Scalar>& frame, const Scalar& x,
-                               const Vector3<Scalar>& u, const Vector3<Scalar>& rate,
-                               const Vector3<Scalar>& local) const {
-    Vector3<Scalar> p = u;
-    p(0) += x;
-    const Vector3<Scalar> spin = frame.omega.cross(p) + 2.0 * rate;
-    return local + frame.alpha.cross(p) + frame.omega.cross(spin) +
-           frame.A.transpose() * (frame.r_ddot - gravity_.template cast<Scalar>());
-  }
-
-  template <class Scalar>
-  Scalar elongation(const BeamElement<Scalar>& element,
-                    const Eigen::Matrix<Scalar, 12, 1>& q) const {
-    const Scalar linear = q(6) - q(0);
-    if (!body().has_stiffening) return linear;
-    return linear + 0.5 * (slope_integral<Scalar>(q(7) - q(1), q(5), q(11), element.length) +
-                           slope_integral<Scalar>(q(8) - q(2), -q(4), -q(10), element.length));
-  }
-
-  /// @param first, second  accelerations of its nodes;  @param xi  place in the element, 0 … 1
-  template <class Scalar>
-  SectionForces<Scalar> element_forces(const BeamElement<Scalar>& element,
-                                       const Eigen::Matrix<Scalar, 12, 1>& q,
-                                       const Vector3<Scalar>& first, const Vector3<Scalar>& second,
-                                       double xi) const {
-    const Scalar& length = element.length;
-    const SectionProperties<Scalar>& section = element.section;
-    // What the linear load w = w₁ + ξ Δ does in a clamped element: EI v″ and EA u' with M″ = w,
-    // N' = −w, and no displacement at the ends.
-    const Scalar density = -element.density * section.area;
-    const Vector3<Scalar> start = density * first, change = density * (second - first);
-    const Vector3<Scalar> clamped =
-        (length * length) * ((xi * xi / 2 - xi / 2 + 1.0 / 12) * start +
-                             (xi * xi * xi / 6 - 3 * xi / 20 + 1.0 / 30) * change);
-    const Scalar clamped_axial =
-        length * ((0.5 - xi) * start(0) - (xi * xi / 2 - 1.0 / 6) * change(0));
-    const auto h = hermite(xi, length, 2);
-
-    SectionForces<Scalar> forces;
-    forces.axial = element.young * section.area * elongation(element, q) / length + clamped_axial;
-    const Scalar curvature_y = h[0] * q(1) + h[1] * q(5) + h[2] * q(7) + h[3] * q(11);
-    const Scalar curvature_z = h[0] * q(2) - h[1] * q(4) + h[2] * q(8) - h[3] * q(10);
-    forces.moment_z = element.young * section.inertia_z * curvature_y + clamped(1);
-    forces.moment_y = -(element.young * section.inertia_y * curvature_z + clamped(2));
-    forces.torque = element.shear * section.torsion * (q(9) - q(3)) / length;
-    return forces;
-  }
-
-  Eigen::Vector3d gravity_;
-  std::vector<Station> stations_;
-  std::vector<Channel> channels_;
-  Eigen::MatrixXd nodal_q_, accelerations_;  ///< scratch of observe()
+  StressPart part_;
 };
 
 }  // namespace
 
 std::unique_ptr<Signal> make_stress_signal(const BodyModel& body, const Eigen::Vector3d& gravity,
-                                           std::optional<int> segment) {
-  return std::make_unique<StressSignal>(body, gravity, segment);
+                                           StressPart part, const StationChoice& stations) {
+  return std::make_unique<SectionSignal<StressQuantity>>(body, gravity, stations,
+                                                         StressQuantity(part));
 }
 
 }  // namespace pleuel

@@ -1,21 +1,24 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "core/model/model.hpp"
 #include "core/response/signal.hpp"
+#include "core/response/station.hpp"
 
 namespace pleuel {
 
-/// Von Mises stress [Pa] at the stress points of the sections at every node and quarter point of
-/// the elements of a beam,
-///     σ = N/A − M_z y/I_z + M_y z/I_y,   σ_vM = √(σ² + 3τ²),   τ = T/W
-/// Section forces are those of the element (N from its strain, M = EI v″) plus the fixed-end terms
-/// of the inertia load w = −ρA a, linear in the element: without them moments at nodes are off by
-/// wℓ²/12. Where two elements of one segment meet, their section forces are averaged.
-/// @param segment  only this segment
+/// Stress [Pa] at the stress points of the sections of an elastic beam. With
+///     σ = N/A − M_z y/I_z + M_y z/I_y,    τ = shear · T
+///     von_mises    √(σ² + 3τ²)
+///     normal       σ, signed (pull is positive)
+///     axial        N/A
+///     bending      σ without N/A, signed
+///     shear        τ, signed as the torque
+///     utilization  √(σ² + 3τ²) over the strength of the material [–]
+/// On round outlines in space the point moves with the load: normal and bending stress have their
+/// maximum on the half where bending pulls and their minimum on the other one.
 std::unique_ptr<Signal> make_stress_signal(const BodyModel& body, const Eigen::Vector3d& gravity,
-                                           std::optional<int> segment);
+                                           StressPart part, const StationChoice& stations);
 
 }  // namespace pleuel

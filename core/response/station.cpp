@@ -1,0 +1,54 @@
+#include "core/response/station.hpp"
+
+#include "core/beam/beam_place.hpp"
+
+namespace pleuel {
+
+namespace {
+
+class StationFinder {
+ public:
+  explicit StationFinder(const BodyModel& body) : body_(body) {}
+
+  std::vector<Station> along(std::optional<int> segment) const {
+    std::vector<Station> stations;
+    for (int e = 0; e < elements(); ++e) {
+      if (segment && segment_of(e) != *segment) continue;
+      if (continues(e)) {
+        stations.back().elements.push_back(e);
+      } else {
+        stations.push_back({{e}, double(e)});
+      }
+      for (double xi : {0.25, 0.5, 0.75}) stations.push_back({{e}, e + xi});
+      stations.push_back({{e}, e + 1.0});
+    }
+    return stations;
+  }
+
+  std::vector<Station> at(double share) const {
+    const BeamPlace place = find_place(body_.beam, share);
+    if (!place.is_node()) return {{{place.element}, place.element + place.xi}};
+    const int node = place.node();
+    if (node == 0) return {{{0}, 0.0}};
+    if (node == elements()) return {{{node - 1}, double(node)}};
+    if (continues(node)) return {{{node - 1, node}, double(node)}};
+    return {{{node - 1}, double(node)}, {{node}, double(node)}};
+  }
+
+ private:
+  int elements() const { return static_cast<int>(body_.beam.elements.size()); }
+  int segment_of(int e) const { return body_.segment_of_element[static_cast<std::size_t>(e)]; }
+  /// Whether an element continues the segment of the one before.
+  bool continues(int e) const { return e > 0 && segment_of(e - 1) == segment_of(e); }
+
+  const BodyModel& body_;
+};
+
+}  // namespace
+
+std::vector<Station> find_stations(const BodyModel& body, const StationChoice& choice) {
+  const StationFinder finder(body);
+  return choice.place ? finder.at(*choice.place) : finder.along(choice.segment);
+}
+
+}  // namespace pleuel

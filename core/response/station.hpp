@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/model/model.hpp"
+
+namespace pleuel {
+
+/// Where along a beam section forces are asked for: everywhere, in one segment, or at one place.
+struct StationChoice {
+  std::optional<int> segment;
+  std::optional<double> place;  ///< 0 … 1
+};
+
+/// A section at which section forces are evaluated: a node, seen from one or two elements, or a
+/// place inside an element.
+struct Station {
+  std::vector<int> elements;  ///< adjacent, ascending
+  double place;               ///< counted in elements: 2 is node 2, 2.5 half an element further
+};
+
+/// By default every node and quarter point of the elements. Nodes between two elements of one
+/// segment are one station; between two segments, one for each.
+std::vector<Station> find_stations(const BodyModel& body, const StationChoice& choice);
+
+}  // namespace pleuel
