@@ -8,6 +8,13 @@ namespace pleuel {
 
 namespace {
 
+/// Whether a response is the height of a peak of a history.
+bool has_peaks(const ResponseSettings& response) {
+  const bool is_constant =
+      response.type == ResponseType::mass || response.type == ResponseType::frequency;
+  return !is_constant && is_peak(response.over_time);
+}
+
 /// How much of a limit is used: larger is worse, above 0 is a violation.
 double excess(const Constraint& constraint, double value) {
   return std::max(value - constraint.upper, constraint.lower - value);
@@ -25,15 +32,17 @@ PeakProblem::PeakProblem(DesignProblem& problem, int windows)
     const Constraint& constraint = problem.constraints()[i];
     const std::string& name = file.constraints[i].response;
     const bool is_split = !name.empty() && !constraint.is_equality() &&
-                          file.responses[problem.response_index(name)].type != ResponseType::mass &&
-                          is_peak(file.responses[problem.response_index(name)].over_time);
+                          has_peaks(file.responses[problem.response_index(name)]);
     is_split_.push_back(is_split);
     for (int window = 0; window < (is_split ? windows_ : 1); ++window) {
       rows_.push_back(constraint);
       if (is_split) {
+        const ResponseSettings& response = file.responses[problem.response_index(name)];
+        const double from = response.from.value_or(0.0);
+        const double duration = response.to.value_or(settings.end_time) - from;
         rows_.back().name +=
-            fmt::format(" between {:.4g} and {:.4g} s", settings.end_time * window / windows_,
-                        settings.end_time * (window + 1) / windows_);
+            fmt::format(" between {:.4g} and {:.4g} s", from + duration * window / windows_,
+                        from + duration * (window + 1) / windows_);
       }
       constraint_of_row_.push_back(i);
     }
@@ -56,9 +65,10 @@ Evaluation PeakProblem::evaluate(const Eigen::VectorXd& x, Request request) {
       continue;
     }
     const std::size_t response = problem_.response_index(problem_.file().constraints[i].response);
-    for (Reduction& peak :
-         reduce_windows(analysis.responses[response].over_time, analysis.trajectory.time,
-                        analysis.histories[response], windows_)) {
+    const Response& observed = analysis.responses[response];
+    const Eigen::VectorXd& time = analysis.trajectory.time;
+    for (Reduction& peak : reduce_windows(observed.over_time, time, analysis.histories[response],
+                                          windows_, observed.steps(time))) {
       rows.push_back({i, std::move(peak)});
     }
   }

@@ -7,6 +7,7 @@
 #include "core/base/error.hpp"
 #include "sensitivity/direct.hpp"
 #include "sensitivity/finite_difference.hpp"
+#include "sensitivity/frequency_sensitivity.hpp"
 
 namespace pleuel {
 
@@ -57,17 +58,29 @@ Eigen::MatrixXd direct_gradients(Analysis& analysis, const std::vector<SampledVa
   const System& system = *analysis.model.mechanism.system;
   Eigen::MatrixXd result =
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(values.size()), system.variables());
+  std::vector<std::size_t> of_initial_state;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Response& response = analysis.responses[values[i].response];
-    if (!response.signal)
+    if (response.mechanism_mode) {
+      of_initial_state.push_back(i);
+    } else if (!response.signal) {
       result.row(static_cast<Eigen::Index>(i)) = response.constant_x.transpose();
+    }
   }
   const auto uses = samples_by_step(values);
-  if (uses.empty() || system.variables() == 0) return result;
+  if ((uses.empty() && of_initial_state.empty()) || system.variables() == 0) return result;
+  const auto set_frequencies = [&](const State& state, const StateSensitivity& s) {
+    for (std::size_t i : of_initial_state) {
+      const int mode = *analysis.responses[values[i].response].mechanism_mode;
+      result.row(static_cast<Eigen::Index>(i)) =
+          frequency_sensitivity(analysis.model.mechanism, state, s, mode).transpose();
+    }
+  };
   SignalGradient gradient(system.coordinates(), system.multipliers(), system.variables());
   const SignalGradient zero = gradient;
   differentiate(analysis.model.mechanism, analysis.trajectory,
                 [&](int step, const State& state, const StateSensitivity& s) {
+                  if (step == 0) set_frequencies(state, s);
                   const auto found = uses.find(step);
                   if (found == uses.end()) return;
                   for (const Use& use : found->second) {

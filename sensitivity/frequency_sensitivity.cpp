@@ -1,0 +1,207 @@
+#include "sensitivity/frequency_sensitivity.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+#include "core/integration/configuration.hpp"
+
+namespace pleuel {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Frequencies that differ by less are one, several times.
+constexpr double coincidence = 1e-6;
+/// Size of the steps of differences, relative to the scales of the coordinates.
+constexpr double step_size = 1e-3;
+
+/// A direction in the space of states.
+struct Direction {
+  Eigen::VectorXd q, v, a, lambda;
+};
+
+/// Vectors of one frequency and all that coincide with it, one a column.
+struct ModalVectors {
+  double frequency = 0.0;
+  Eigen::MatrixXcd right, left;                          ///< n × k
+  Eigen::MatrixXcd right_multipliers, left_multipliers;  ///< m × k
+};
+
+class FrequencySensitivity {
+ public:
+  FrequencySensitivity(const Mechanism& mechanism, const State& state)
+      : mechanism_(mechanism),
+        state_(state),
+        n_(state.q.size()),
+        m_(state.lambda.size()),
+        frozen_(freeze(mechanism, state)) {}
+
+  Eigen::VectorXd run(const StateSensitivity& sensitivity, int mode) {
+    find_vectors(mode);
+    const Eigen::Index count = vectors_.right.cols();
+    const Complex s(0.0, vectors_.frequency);
+    const Eigen::MatrixXcd slope =
+        vectors_.left.adjoint() * (2.0 * s * frozen_.M + frozen_.G) * vectors_.right;
+    const Eigen::PartialPivLU<Eigen::MatrixXcd> solver(slope);
+    std::vector<Eigen::MatrixXcd> changes = changes_by_design();
+    Eigen::VectorXd result(static_cast<Eigen::Index>(changes.size()));
+    for (std::size_t j = 0; j < changes.size(); ++j) {
+      const auto column = static_cast<Eigen::Index>(j);
+      changes[j] += change_along({sensitivity.q.col(column), sensitivity.v.col(column),
+                                  sensitivity.a.col(column), sensitivity.lambda.col(column)});
+      result(column) = -solver.solve(changes[j]).trace().imag() / static_cast<double>(count);
+    }
+    return result;
+  }
+
+ private:
+  void find_vectors(int mode) {
+    const FreeVibration vibration = free_vibration(frozen_);
+    const Eigen::VectorXd frequencies = frequencies_of(vibration);
+    vectors_.frequency = frequencies(mode);
+    const Eigen::Index count =
+        ((frequencies.array() - vectors_.frequency).abs() < coincidence * vectors_.frequency)
+            .count();
+    const Complex s(0.0, vectors_.frequency);
+    Eigen::MatrixXcd pencil = s * vibration.G + vibration.K;
+    pencil.diagonal().array() += s * s;
+    const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(pencil, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    vectors_.right = vibration.Z * svd.matrixV().rightCols(count);
+    vectors_.left = vibration.Z * svd.matrixU().rightCols(count);
+    const Eigen::MatrixXcd whole = s * s * frozen_.M + s * frozen_.G + frozen_.K;
+    const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXcd> constraints(
+        frozen_.phi.transpose().cast<Complex>());
+    vectors_.right_multipliers = -constraints.solve(whole * vectors_.right);
+    vectors_.left_multipliers = -constraints.solve(whole.adjoint() * vectors_.left);
+  }
+
+  /// d/dε of a function along a direction, from what it is at ± two steps.
+  template <class Function>
+  auto derivative_along(const Direction& direction, const Function& function) const {
+    const double step = step_size / std::max(size_of(direction), 1e-300);
+    const auto central = [&](double h) {
+      return ((function(moved(direction, h)) - function(moved(direction, -h))) / (2.0 * h)).eval();
+    };
+    const auto wide = central(step), narrow = central(0.5 * step);
+    return ((4.0 * narrow - wide) / 3.0).eval();
+  }
+
+  double size_of(const Direction& direction) const {
+    const auto share = [](const Eigen::VectorXd& part, const Eigen::VectorXd& of) {
+      if (part.size() == 0) return 0.0;
+      return part.lpNorm<Eigen::Infinity>() / (1.0 + of.lpNorm<Eigen::Infinity>());
+    };
+    const double positions = direction.q.cwiseQuotient(mechanism_.scale).lpNorm<Eigen::Infinity>();
+    return std::max({positions, share(direction.v, state_.v), share(direction.a, state_.a),
+                     share(direction.lambda, state_.lambda)});
+  }
+
+  State moved(const Direction& direction, double step) const {
+    State state = state_;
+    advance(mechanism_.rotations, state_.q, step * direction.q, state.q);
+    state.v += step * direction.v;
+    state.a += step * direction.a;
+    state.lambda += step * direction.lambda;
+    return state;
+  }
+
+  /// ψᴴ P' φ along a change of the state, k × k.
+  Eigen::MatrixXcd change_along(const Direction& direction) const {
+    const Complex s(0.0, vectors_.frequency);
+    return derivative_along(direction, [&](const State& state) {
+      const FrozenMechanism at = freeze(mechanism_, state);
+      const Eigen::MatrixXcd pencil = s * s * at.M + s * at.G + at.K;
+      return (vectors_.left.adjoint() * pencil * vectors_.right +
+              vectors_.left.adjoint() * at.phi.transpose() * vectors_.right_multipliers +
+              vectors_.left_multipliers.adjoint() * at.phi * vectors_.right)
+          .eval();
+    });
+  }
+
+  /// The explicit part of ψᴴ P' φ, k × k for each variable: matrices are derivatives of R along
+  /// vectors, so theirs by the design are those of R_x.
+  std::vector<Eigen::MatrixXcd> changes_by_design() const {
+    const Complex s(0.0, vectors_.frequency);
+    const Eigen::Index count = vectors_.right.cols();
+    std::vector<Eigen::MatrixXcd> changes(static_cast<std::size_t>(mechanism_.system->variables()),
+                                          Eigen::MatrixXcd::Zero(count, count));
+    if (changes.empty()) return changes;
+    std::vector<Eigen::MatrixXcd> damping_of_left;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      damping_of_left.push_back(along_rates(vectors_.left.col(i).conjugate()));
+    }
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const Eigen::VectorXcd right = vectors_.right.col(j);
+      const Eigen::MatrixXcd whole = along_positions(right, vectors_.right_multipliers.col(j)) +
+                                     s * s * along_accelerations(right);
+      const Eigen::MatrixXcd damping = along_rates(right);
+      for (Eigen::Index i = 0; i < count; ++i) {
+        const Eigen::VectorXcd left = vectors_.left.col(i);
+        const Eigen::RowVectorXcd row =
+            left.adjoint() * whole.topRows(n_) +
+            vectors_.left_multipliers.col(i).adjoint() * whole.bottomRows(m_) +
+            0.5 * s *
+                (left.adjoint() * damping.topRows(n_) -
+                 right.transpose() * damping_of_left[static_cast<std::size_t>(i)].topRows(n_));
+        for (std::size_t k = 0; k < changes.size(); ++k) {
+          changes[k](i, j) += row(static_cast<Eigen::Index>(k));
+        }
+      }
+    }
+    return changes;
+  }
+
+  Direction nowhere() const {
+    return {Eigen::VectorXd::Zero(n_), Eigen::VectorXd::Zero(n_), Eigen::VectorXd::Zero(n_),
+            Eigen::VectorXd::Zero(m_)};
+  }
+
+  /// Derivatives of R_x along complex directions, (n + m) × variables.
+  Eigen::MatrixXcd along_positions(const Eigen::VectorXcd& q,
+                                   const Eigen::VectorXcd& lambda) const {
+    Direction real = nowhere(), imaginary = nowhere();
+    real.q = q.real();
+    real.lambda = lambda.real();
+    imaginary.q = q.imag();
+    imaginary.lambda = lambda.imag();
+    return combine(real, imaginary);
+  }
+  Eigen::MatrixXcd along_rates(const Eigen::VectorXcd& v) const {
+    Direction real = nowhere(), imaginary = nowhere();
+    real.v = v.real();
+    imaginary.v = v.imag();
+    return combine(real, imaginary);
+  }
+  Eigen::MatrixXcd along_accelerations(const Eigen::VectorXcd& a) const {
+    Direction real = nowhere(), imaginary = nowhere();
+    real.a = a.real();
+    imaginary.a = a.imag();
+    return combine(real, imaginary);
+  }
+  Eigen::MatrixXcd combine(const Direction& real, const Direction& imaginary) const {
+    const auto design_derivative = [&](const State& state) {
+      Eigen::MatrixXd columns;
+      mechanism_.system->design_derivative(state, ConstraintLevel::position, columns);
+      return columns;
+    };
+    return derivative_along(real, design_derivative).cast<Complex>() +
+           Complex(0.0, 1.0) * derivative_along(imaginary, design_derivative).cast<Complex>();
+  }
+
+  const Mechanism& mechanism_;
+  const State& state_;
+  Eigen::Index n_, m_;
+  FrozenMechanism frozen_;
+  ModalVectors vectors_;
+};
+
+}  // namespace
+
+Eigen::VectorXd frequency_sensitivity(const Mechanism& mechanism, const State& state,
+                                      const StateSensitivity& sensitivity, int mode) {
+  return FrequencySensitivity(mechanism, state).run(sensitivity, mode);
+}
+
+}  // namespace pleuel
