@@ -1,11 +1,13 @@
 #include "sensitivity/initial_sensitivity.hpp"
 
+#include <array>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "core/base/rotation_vector.hpp"
 #include "core/integration/configuration.hpp"
+#include "tests/support/common_basis.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_scenes.hpp"
 
@@ -36,59 +38,73 @@ class StartSensitivity : public testing::TestWithParam<Case> {
       joint.drive = ConstantSpeedDrive{std::get<RampToSpeedDrive>(joint.drive->motion).speed};
     }
   }
-  Model build_at(const Design<double>& design) const {
-    Model model = sample_.build_at(design);
+  /// Disturbs the guess in the coordinates q of q_model = basis · q.
+  void loosen(Model& model, const Eigen::VectorXd& scale, const Eigen::MatrixXd& basis) const {
     std::mt19937 random(4);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-    Eigen::VectorXd disturbance(model.mechanism.guess.q.size());
-    for (Eigen::Index i = 0; i < model.mechanism.guess.q.size(); ++i) {
-      const double loose = GetParam().looseness * model.mechanism.scale(i);
-      disturbance(i) = loose * uniform(random);
-      model.mechanism.guess.v(i) += 10 * loose * uniform(random);
-    }
     const Eigen::VectorXd start = model.mechanism.guess.q;
-    model.mechanism.guess.q += disturbance;
+    Eigen::VectorXd disturbance(start.size()), rate(start.size());
+    for (Eigen::Index i = 0; i < start.size(); ++i) {
+      const double loose = GetParam().looseness * scale(i);
+      disturbance(i) = loose * uniform(random);
+      rate(i) = 10 * loose * uniform(random);
+    }
+    model.mechanism.guess.q += basis * disturbance;
+    model.mechanism.guess.v += basis * rate;
     for (int i : model.mechanism.rotations) {
       // Turned before the design turns it: its derivative, a right perturbation, stays what it is.
       model.mechanism.guess.q.segment<3>(i) =
           compose(disturbance.segment<3>(i), start.segment<3>(i));
     }
-    return model;
   }
 };
 
+/// At the best of three steps: accelerations of stiff bodies leave little room between truncation
+/// and round-off.
 TEST_P(StartSensitivity, IsTheDifferenceOfStartsOfNeighbouringDesigns) {
-  Model model = build_at(sample_.design);
+  Model model = sample_.build();
+  const auto size = model.mechanism.guess.q.size();
+  loosen(model, model.mechanism.scale, Eigen::MatrixXd::Identity(size, size));
   const InitialState initial = initial_state(model.mechanism);
   const StateSensitivity s = initial_sensitivity(model.mechanism, initial);
-  const auto n = initial.state.q.size();
+  const Eigen::VectorXd at = stacked(initial.state);
   for (int j = 0; j < model.mechanism.system->variables(); ++j) {
     const auto index = static_cast<std::size_t>(j);
     const double x = sample_.design[index];
-    const Eigen::VectorXd expected = derivative_at_zero(
-        [&](double step) {
-          auto design = sample_.design;
-          design[index] += step;
-          Model moved = build_at(design);
-          State state = initial_state(moved.mechanism).state;
-          state.q = difference(model.mechanism.rotations, state.q, initial.state.q);
-          return stacked(state);
-        },
-        3e-3 * std::abs(x));  // 1e-2 and 3e-4 show truncation and round-off above 1e-7
-    Eigen::VectorXd found(expected.size());
-    found << s.q.col(j), s.v.col(j), s.a.col(j), s.lambda.col(j);
-    const Eigen::VectorXd at = stacked(initial.state);
-    const auto expect_part = [&](Eigen::Index first, Eigen::Index size, const char* what) {
-      const double scale =
-          std::max(expected.segment(first, size).lpNorm<Eigen::Infinity>(),
-                   at.segment(first, size).lpNorm<Eigen::Infinity>() / std::abs(x));
-      const double difference = (found - expected).segment(first, size).lpNorm<Eigen::Infinity>();
-      EXPECT_LE(difference, 1e-7 * scale) << what << ", variable " << sample_.variables[index];
+    const auto start_at = [&](double step) {
+      auto design = sample_.design;
+      design[index] += step;
+      Model moved = sample_.build_at(design);
+      const Eigen::MatrixXd basis = change_of_basis(model, moved, j, step);
+      loosen(moved, model.mechanism.scale, basis);
+      State state = initial_state(moved.mechanism).state;
+      const auto back = basis.partialPivLu();
+      state.q = back.solve(state.q).eval();
+      state.v = back.solve(state.v).eval();
+      state.a = back.solve(state.a).eval();
+      state.q = difference(model.mechanism.rotations, state.q, initial.state.q);
+      return stacked(state);
     };
-    expect_part(0, n, "q");
-    expect_part(n, n, "v");
-    expect_part(2 * n, n, "a");
-    expect_part(3 * n, initial.state.lambda.size(), "lambda");
+    Eigen::VectorXd found(at.size());
+    found << s.q.col(j), s.v.col(j), s.a.col(j), s.lambda.col(j);
+    const std::array<Eigen::Index, 5> parts = {0, size, 2 * size, 3 * size, at.size()};
+    std::array<double, 4> best = {1.0, 1.0, 1.0, 1.0};
+    for (double relative : {1e-2, 3e-3, 1e-3}) {
+      const Eigen::VectorXd expected = derivative_at_zero(start_at, relative * std::abs(x));
+      for (std::size_t i = 0; i < 4; ++i) {
+        const auto part = [&](const Eigen::VectorXd& all) {
+          return all.segment(parts[i], parts[i + 1] - parts[i]);
+        };
+        const double scale = std::max(part(expected).lpNorm<Eigen::Infinity>(),
+                                      part(at).lpNorm<Eigen::Infinity>() / std::abs(x));
+        const double error = (part(found) - part(expected)).lpNorm<Eigen::Infinity>();
+        best[i] = std::min(best[i], scale > 0.0 ? error / scale : error);
+      }
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_LE(best[i], 1e-7) << std::array{"q", "v", "a", "lambda"}[i] << ", variable "
+                               << sample_.variables[index];
+    }
   }
 }
 
@@ -96,9 +112,13 @@ std::string case_name(const testing::TestParamInfo<Case>& info) {
   return all_samples()[static_cast<std::size_t>(info.param.sample)].name +
          (info.param.looseness == 0.0 ? "Consistent" : "Loose");
 }
-INSTANTIATE_TEST_SUITE_P(Samples, StartSensitivity,
-                         testing::Values(Case{0, 0.0}, Case{1, 0.0}, Case{2, 0.0}, Case{0, 0.01},
-                                         Case{1, 0.01}, Case{2, 0.01}),
-                         case_name);
+std::vector<Case> all_cases() {
+  std::vector<Case> cases;
+  for (double looseness : {0.0, 0.01}) {
+    for (int sample = 0; sample < sample_count; ++sample) cases.push_back({sample, looseness});
+  }
+  return cases;
+}
+INSTANTIATE_TEST_SUITE_P(Samples, StartSensitivity, testing::ValuesIn(all_cases()), case_name);
 
 }  // namespace

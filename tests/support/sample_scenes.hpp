@@ -5,8 +5,8 @@
 
 #include "core/model/model.hpp"
 
-/// Small mechanisms that together contain every kind of body, section, joint and drive, with all
-/// kinds of numbers bound to variables.
+/// Small mechanisms that together contain every kind of body, joint, drive and load, with all kinds
+/// of numbers bound to variables.
 struct SampleScene {
   std::string name;
   pleuel::Scene scene;
@@ -31,7 +31,24 @@ SampleScene planar_sample_in_space();
 /// An open spatial chain with every type of joint between every type of body.
 SampleScene spatial_sample();
 
+/// An open chain and loose bodies in space: spherical, universal, cylindrical, planar and distance
+/// joints, drives of every function of time, loads and force elements of every kind, joints and
+/// loads between nodes, initial velocities.
+SampleScene spatial_joints_sample();
+
+/// What these joints, drives and loads become in a plane: axes normal to it and in it, along and
+/// against its normal.
+SampleScene planar_joints_sample();
+
+/// Beams with Craig–Bampton modes (tangent and mean-axis frame, modal damping), a mean axis without
+/// modes, a frame at the far end, and a rigid beam. In the plane, and forced into space, where the
+/// round ones have pairs of equal frequencies.
+SampleScene reduced_sample();
+SampleScene reduced_sample_in_space();
+
 std::vector<SampleScene> all_samples();
+/// How many there are, for instantiating test suites.
+inline constexpr int sample_count = 7;
 
 /// A beam of steel from the origin along x, turning about z on a bearing in the origin; gravity
 /// along −y. No variables.

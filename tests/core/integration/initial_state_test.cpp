@@ -75,7 +75,7 @@ TEST_P(StartOfAMechanism, IsTheNearestOneToWhatWasGiven) {
 std::string sample_name(const testing::TestParamInfo<int>& info) {
   return all_samples()[static_cast<std::size_t>(info.param)].name;
 }
-INSTANTIATE_TEST_SUITE_P(Samples, StartOfAMechanism, testing::Values(0, 1, 2), sample_name);
+INSTANTIATE_TEST_SUITE_P(Samples, StartOfAMechanism, testing::Range(0, sample_count), sample_name);
 
 TEST(StartOfAMechanism, SaysThatJointsConstrainTheSameMotionTwice) {
   Scene scene = swinging_beam(0.3, CircleSection{0.01}, 2);
