@@ -148,6 +148,17 @@ class PlaneCheck {
       require(are_parallel(to_vector(torque->direction), normal_), what);
     } else if (const auto* spring = std::get_if<SpringDamper>(&load.element)) {
       for (const Point& point : spring->at) check_point(point, what);
+    } else {
+      check_joint_force(std::get<JointForce>(load.element), what);
+    }
+  }
+
+  void check_joint_force(const JointForce& force, const std::string& what) {
+    for (const Joint& joint : scene_.joints) {
+      if (joint.name != force.joint) continue;
+      const Eigen::Vector3d axis = to_vector(joint.axis);
+      const bool turns = force.coordinate == DrivenCoordinate::angle;
+      require(turns ? are_parallel(axis, normal_) : are_normal(axis, normal_), what);
     }
   }
 
