@@ -37,6 +37,23 @@ Marker Attachment::marker() const {
   return marker;
 }
 
+std::optional<Eigen::Matrix3d> Attachment::beam_axes() const {
+  if (model_ == nullptr || !model_->is_beam()) return std::nullopt;
+  return body_pose(*body_, context_.start).rotation;
+}
+
+Eigen::Vector3d reference_direction(std::span<const Attachment> attachments,
+                                    const Eigen::Vector3d& axis) {
+  for (const Attachment& attachment : attachments) {
+    const auto axes = attachment.beam_axes();
+    if (!axes) continue;
+    const bool is_along = std::abs(axes->col(0).dot(axis)) > 0.9;
+    const Eigen::Vector3d direction = axes->col(is_along ? 1 : 0);
+    return (direction - direction.dot(axis) * axis).normalized();
+  }
+  return axis.unitOrthogonal();
+}
+
 void Attachment::add_variables(std::set<int>& variables) const {
   if (body_) variables.merge(variables_of(*body_, context_.scene));
   for (const Number& number : at_) {

@@ -21,6 +21,8 @@ class Attachment {
   /// Whether its displacements are coordinates themselves, so that a marker can name them.
   bool is_direct() const;
   const BodyModel* model() const { return model_; }
+  /// Whether a beam; then its axes in global ones at t = 0 (of the start design).
+  std::optional<Eigen::Matrix3d> beam_axes() const;
 
   /// Frame and elastic coordinates. Of a place that is not direct, elastic entries are set by
   /// make_local().
@@ -77,6 +79,13 @@ class Attachment {
   const BodyModel* model_ = nullptr;
   BeamPlace place_;
 };
+
+/// A unit vector normal to the axis of a joint, from which its angle counts. Elastic rotations are
+/// small, not zero, and angles depend on this choice to second order in them: it must turn with the
+/// scene, hence comes from the axes of a beam.
+/// @param axis  unit vector; this and the result in global axes at t = 0
+Eigen::Vector3d reference_direction(std::span<const Attachment> attachments,
+                                    const Eigen::Vector3d& axis);
 
 /// Gives the markers of some attachments local numbers, and the map from generalized to local
 /// coordinates. Local multipliers follow the local coordinates.

@@ -192,7 +192,7 @@ class JointBuilder {
 
   void add_spatial_equations() {
     const Eigen::Vector3d n = to_vector(joint_.axis).normalized();
-    const Eigen::Vector3d a = n.unitOrthogonal(), b = n.cross(a);
+    const Eigen::Vector3d a = reference_direction(sides_, n), b = n.cross(a);
     switch (joint_.type) {
       case JointType::revolute:
         add_point();

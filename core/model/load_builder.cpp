@@ -141,7 +141,7 @@ class LoadBuilder {
     } else {
       const Eigen::Vector3d reference = joint.type == JointType::universal
                                             ? to_vector(joint.second_axis).normalized()
-                                            : axis.unitOrthogonal();
+                                            : reference_direction(places_, axis);
       numbers.directions[0] = places_[0].local_direction(reference, design);
       numbers.directions[1] =
           places_[0].local_direction(Eigen::Vector3d(axis.cross(reference)), design);
