@@ -1,0 +1,47 @@
+#pragma once
+
+#include "core/beam/beam_place.hpp"
+#include "core/model/model.hpp"
+
+/// Nodal displacements of a beam in an instant, whatever its elastic coordinates are: six a node,
+/// local axes.
+inline Eigen::VectorXd nodal_displacements(const pleuel::BodyModel& body,
+                                           const pleuel::State& state) {
+  const pleuel::BodyModel& nodal = body.nodal ? *body.nodal : body;
+  Eigen::VectorXd local = state.q;
+  if (body.nodal) local = body.map.rows * state.q(body.map.coordinates);
+  const int nodes = body.coordinates->node_count();
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(6 * nodes);
+  for (int i = 0; i < 6 * nodes; ++i) {
+    const int index = nodal.coordinate(i / 6, i % 6);
+    if (index >= 0) all(i) = local(index);
+  }
+  return all;
+}
+
+/// The frame of a body in an instant.
+inline pleuel::FrameMotion<double> frame_of(const pleuel::BodyModel& body,
+                                            const pleuel::State& state) {
+  const int first = body.frame.offset, size = body.frame.size();
+  return pleuel::frame_motion<double>(body.frame, state.q.segment(first, size),
+                                      state.v.segment(first, size), state.a.segment(first, size));
+}
+
+/// Displacement in local axes of the axis of a beam at a share of its length.
+inline Eigen::Vector3d deflection_at(const pleuel::BodyModel& body, const pleuel::State& state,
+                                     double at) {
+  const pleuel::BeamPlace place = find_place(body.beam, at);
+  const double length = body.beam.elements[static_cast<std::size_t>(place.element)].length;
+  return pleuel::axis_shape(place.xi, length) *
+         nodal_displacements(body, state).segment<12>(6 * place.element);
+}
+
+/// Where a body is in space: its centre of mass, or of a beam the axis at a share of the length.
+inline Eigen::Vector3d position_of(const pleuel::BodyModel& body, const pleuel::State& state,
+                                   double at = 0.0) {
+  const auto frame = frame_of(body, state);
+  if (!body.is_beam()) return frame.r;
+  Eigen::Vector3d p = deflection_at(body, state, at);
+  p.x() += pleuel::position_of(body.beam, find_place(body.beam, at));
+  return frame.r + frame.A * p;
+}
