@@ -19,7 +19,9 @@ class FloatingFrameBody : public Term {
                     std::vector<DesignDerivative<Invariants<double>>> derivatives,
                     const Eigen::Vector3d& gravity);
 
-  std::string name() const override { return "inertia and elasticity of " + name_; }
+  std::string name() const override {
+    return (invariants_.size() > 0 ? "inertia and elasticity of " : "inertia of ") + name_;
+  }
   void declare_entries(EntryList& entries) const override;
   void add_residual(const State& state, ConstraintLevel level, Eigen::VectorXd& residual) override;
   void linearize(const State& state, const WeightList& weights, ConstraintLevel level,

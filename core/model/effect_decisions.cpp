@@ -1,5 +1,7 @@
 #include "core/model/effect_decisions.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace pleuel {
@@ -96,8 +98,10 @@ class BeamTable {
     } else if (estimates) {
       record.kind = EffectRecord::Kind::estimated;
       record.estimate = (*estimates).*estimate;
-      record.reason = fmt::format("changes responses by some {:.2g}, tolerance {:g}",
-                                  *record.estimate, settings_.tolerance);
+      record.reason = std::isinf(*record.estimate)
+                          ? "a response of the body asks for it"
+                          : fmt::format("changes responses by some {:.2g}, tolerance {:g}",
+                                        *record.estimate, settings_.tolerance);
       if (is_built && *record.estimate <= settings_.tolerance) {
         record.reason = "geometric stiffening needs it";
       }
