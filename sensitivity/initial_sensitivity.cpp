@@ -3,6 +3,7 @@
 #include "core/base/error.hpp"
 #include "core/base/rotation_vector.hpp"
 #include "core/integration/configuration.hpp"
+#include "core/integration/equilibrium.hpp"
 #include "core/integration/linear_solver.hpp"
 
 namespace pleuel {
@@ -21,6 +22,10 @@ class InitialDifferentiation {
         solver_(matrix_) {}
 
   StateSensitivity run() {
+    if (mechanism_.starts_in_equilibrium) {
+      auto z = Equilibrium(mechanism_).differentiate(initial_);
+      return {std::move(z.q), std::move(z.v), z.a, z.a, std::move(z.lambda)};
+    }
     differentiate_positions();
     differentiate_velocities();
     differentiate_accelerations();

@@ -6,6 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/integration/configuration.hpp"
+#include "core/integration/equilibrium.hpp"
 
 namespace pleuel {
 
@@ -119,7 +120,8 @@ InitialState initial_state(Mechanism& mechanism) {
   assemble_positions(mechanism, solver, matrix, initial);
   project_velocities(mechanism, solver, matrix, initial);
   solve_accelerations(mechanism, solver, matrix, initial.state);
-  return initial;
+  if (!mechanism.starts_in_equilibrium) return initial;
+  return Equilibrium(mechanism).solve(std::move(initial));
 }
 
 }  // namespace pleuel

@@ -13,7 +13,8 @@ struct InitialState {
 };
 
 /// Consistent initial values: positions by assembly (the closest to the guess with Φ = 0),
-/// velocities (the closest with Φ̇ = 0), accelerations and multipliers from R = 0 with Φ̈ = 0.
+/// velocities (the closest with Φ̇ = 0), accelerations and multipliers from R = 0 with Φ̈ = 0; where
+/// the mechanism asks for it, elastic coordinates in equilibrium (equilibrium.hpp).
 /// @throws SimulationError if the mechanism cannot be assembled or is singular
 InitialState initial_state(Mechanism& mechanism);
 

@@ -16,6 +16,10 @@ struct Mechanism {
   /// velocities in body axes, and their changes are right perturbations
   /// (core/base/rotation_vector.hpp).
   std::vector<int> rotations;
+  /// Elastic coordinates.
+  std::vector<int> elastic;
+  /// Whether the elastic coordinates start in equilibrium instead of at the guess.
+  bool starts_in_equilibrium = false;
   /// Derivatives of guess.q and guess.v with respect to the design variables, n × variables.
   Eigen::MatrixXd guess_q_x, guess_v_x;
   /// Typical magnitude of each coordinate: lengths [m] or 1 [rad].

@@ -177,6 +177,9 @@ class ModelBuilder {
       mechanism.scale.segment(frame.offset, frame.translations()).setConstant(size);
       mechanism.assembly_weight.segment(frame.offset, frame.size()).setOnes();
       set_elastic_scale(built, size);
+      for (int k = 0; k < built.elastic_size(); ++k) {
+        mechanism.elastic.push_back(built.elastic_offset() + k);
+      }
     }
     mechanism.assembly_weight.array() /= mechanism.scale.array().square();
   }

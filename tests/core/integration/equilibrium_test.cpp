@@ -1,0 +1,129 @@
+#include "core/integration/equilibrium.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/integration/configuration.hpp"
+#include "sensitivity/gradients.hpp"
+#include "sensitivity/initial_sensitivity.hpp"
+#include "tests/support/differences.hpp"
+#include "tests/support/problem_runs.hpp"
+#include "tests/support/sample_scenes.hpp"
+
+namespace {
+
+using namespace pleuel;
+
+constexpr double length = 1.0, width = 0.02, height = 0.03, young = 2.1e11, density = 7850,
+                 gravity = 9.81;
+
+/// A cantilever under its own weight; its height is the design variable.
+ProblemFile cantilever(bool is_quasi_static) {
+  ProblemFile problem;
+  problem.scene = swinging_beam(length, RectangleSection{width, Number::bound(0)}, 4);
+  problem.scene.joints[0].type = JointType::fixed;
+  problem.variables = {{"height", height, 0.01, 0.1, ""}};
+  problem.simulation = {.end_time = 0.1, .step = 1e-3};
+  problem.simulation.quasi_static_start = is_quasi_static;
+  for (OverTime over_time : {OverTime::max, OverTime::min}) {
+    ResponseSettings tip;
+    tip.name = over_time == OverTime::max ? "highest" : "lowest";
+    tip.type = ResponseType::deflection;
+    tip.bodies = {"beam"};
+    tip.at = 1.0;
+    tip.over_time = over_time;
+    problem.responses.push_back(tip);
+  }
+  return problem;
+}
+
+/// At rest it stays at qL⁴/8EI; without the equilibrium it swings between nothing and twice that.
+TEST(QuasiStaticStart, KeepsACantileverAtRestUnderItsWeight) {
+  const double stiffness = young * width * std::pow(height, 3) / 12;
+  const double sag = -density * width * height * gravity * std::pow(length, 4) / (8 * stiffness);
+  const ProblemFile resting = cantilever(true), ringing = cantilever(false);
+  const Eigen::VectorXd at_rest = values_of(*analyze(resting, start_design(resting)));
+  const Eigen::VectorXd swinging = values_of(*analyze(ringing, start_design(ringing)));
+  EXPECT_NEAR(at_rest(0), sag, 1e-6 * std::abs(sag));  // stiffening by the fall of the tip: 1e-7
+  EXPECT_NEAR(at_rest(1), sag, 1e-6 * std::abs(sag));
+  EXPECT_GT(swinging(0), 0.1 * sag);
+  EXPECT_LT(swinging(1), 1.8 * sag);
+}
+
+/// qL⁴/8EI falls with the square of the height.
+TEST(QuasiStaticStart, HasTheGradientOfTheSag) {
+  const ProblemFile problem = cantilever(true);
+  const auto analysis = analyze(problem, start_design(problem));
+  const Eigen::MatrixXd gradient = direct_gradients(*analysis);
+  const double expected = -2 * analysis->reductions[0].value / height;
+  EXPECT_NEAR(gradient(0, 0), expected, 1e-6 * std::abs(expected));
+}
+
+class EquilibriumOfASample : public testing::TestWithParam<int> {
+ protected:
+  SampleScene sample_ = all_samples()[static_cast<std::size_t>(GetParam())];
+  Model build_at(const Design<double>& design) const {
+    Model model = sample_.build_at(design);
+    model.mechanism.starts_in_equilibrium = true;
+    return model;
+  }
+};
+
+TEST_P(EquilibriumOfASample, HasNoElasticAccelerationAndMeetsAllEquations) {
+  Model model = build_at(sample_.design);
+  Mechanism& mechanism = model.mechanism;
+  const State state = initial_state(mechanism).state;
+  const double largest = state.a.lpNorm<Eigen::Infinity>();
+  ASSERT_GT(largest, 0.0);
+  for (int i : mechanism.elastic) EXPECT_LE(std::abs(state.a(i)), 1e-9 * largest);
+  const int m = mechanism.system->multipliers();
+  Eigen::VectorXd residual;
+  mechanism.system->residual(state, ConstraintLevel::acceleration, residual);
+  EXPECT_LE(residual.lpNorm<Eigen::Infinity>(), 1e-9 * (largest + state.lambda.norm()));
+  for (auto level : {ConstraintLevel::position, ConstraintLevel::velocity}) {
+    mechanism.system->residual(state, level, residual);
+    EXPECT_LE(residual.tail(m).lpNorm<Eigen::Infinity>(), 1e-11);
+  }
+}
+
+TEST_P(EquilibriumOfASample, IsDifferentiated) {
+  Model model = build_at(sample_.design);
+  const InitialState initial = initial_state(model.mechanism);
+  const StateSensitivity s = initial_sensitivity(model.mechanism, initial);
+  for (int j = 0; j < model.mechanism.system->variables(); ++j) {
+    const auto index = static_cast<std::size_t>(j);
+    const double x = sample_.design[index];
+    const auto parts = [&](double step) -> Eigen::VectorXd {
+      auto design = sample_.design;
+      design[index] += step;
+      Model moved = build_at(design);
+      State state = initial_state(moved.mechanism).state;
+      Eigen::VectorXd all(2 * state.q.size() + state.lambda.size());
+      all << difference(model.mechanism.rotations, state.q, initial.state.q), state.v, state.lambda;
+      return all;
+    };
+    const Eigen::VectorXd expected = derivative_at_zero(parts, 3e-3 * std::abs(x));
+    Eigen::VectorXd found(expected.size());
+    found << s.q.col(j), s.v.col(j), s.lambda.col(j);
+    const auto n = initial.state.q.size();
+    const auto expect_part = [&](Eigen::Index first, Eigen::Index size, double at,
+                                 const char* what) {
+      const double scale =
+          std::max(expected.segment(first, size).lpNorm<Eigen::Infinity>(), at / std::abs(x));
+      const double error = (found - expected).segment(first, size).lpNorm<Eigen::Infinity>();
+      EXPECT_LE(error, 1e-6 * scale) << what << ", variable " << sample_.variables[index];
+    };
+    expect_part(0, n, initial.state.q.lpNorm<Eigen::Infinity>(), "q");
+    expect_part(n, n, initial.state.v.lpNorm<Eigen::Infinity>(), "v");
+    expect_part(2 * n, initial.state.lambda.size(), initial.state.lambda.lpNorm<Eigen::Infinity>(),
+                "lambda");
+  }
+}
+
+std::string sample_name(const testing::TestParamInfo<int>& info) {
+  return all_samples()[static_cast<std::size_t>(info.param)].name;
+}
+INSTANTIATE_TEST_SUITE_P(Samples, EquilibriumOfASample, testing::Values(0, 2), sample_name);
+
+}  // namespace
