@@ -34,9 +34,11 @@ void differentiate_problem(benchmark::State& state, const ProblemFile& problem) 
   state.counters["variables"] = static_cast<double>(problem.variables.size());
 }
 
-void register_problem(const std::filesystem::path& path) {
-  const ProblemFile problem = read_problem(path);
-  const std::string name = path.stem();
+void register_problem(const std::string& file, const std::vector<std::string>& overrides) {
+  const ProblemFile problem = read_problem(
+      std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems" / (file + ".json"), overrides);
+  std::string name = file;
+  for (const std::string& assignment : overrides) name += " " + assignment;
   benchmark::RegisterBenchmark(("simulate/" + name).c_str(), simulate_problem, problem)
       ->Unit(benchmark::kMillisecond);
   if (problem.variables.empty()) return;
@@ -49,10 +51,12 @@ void register_problem(const std::filesystem::path& path) {
 
 int main(int argc, char** argv) {
   for (const char* name :
-       {"slider_crank", "slider_crank_round", "slider_crank_tapered", "slider_crank_exudyn"}) {
-    pleuel::register_problem(std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems" /
-                             (std::string(name) + ".json"));
+       {"slider_crank", "slider_crank_round", "slider_crank_tapered", "slider_crank_exudyn",
+        "four_bar", "spatial_slider_crank", "robot_arm"}) {
+    pleuel::register_problem(name, {});
   }
+  // The same mechanism with everything forced on: what the analysis of the scene saves.
+  pleuel::register_problem("slider_crank", {"/effects/spatial_motion=on"});
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
