@@ -72,7 +72,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"slider_crank_exudyn", false, 0.05, {}}, Case{"four_bar", true, 0.01, {}},
                     Case{"four_bar", false, 0.01, {}}, Case{"spatial_slider_crank", true, 0.05, {}},
                     Case{"spatial_slider_crank", false, 0.01, {}},
-                    Case{"robot_arm", true, 0.001, {}}, Case{"robot_arm", false, 0.01, {}}),
+                    Case{"robot_arm", true, 0.001, {}}, Case{"robot_arm", true, 0.05, {}},
+                    Case{"robot_arm", false, 0.01, {}}),
     name_of);
 
 /// The slider of the 10 mm rod pulls with 22 % of the Euler load (closed form: m r Ω² (1 + r/l)
