@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 
 #include "core/integration/configuration.hpp"
 
@@ -12,8 +11,10 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Frequencies that differ by less are one, several times.
+/// Eigenvalues that differ by less are one, several times.
 constexpr double coincidence = 1e-6;
+/// Relative distance from the eigenvalue at which its vectors are sought.
+constexpr double detuning = 1e-9;
 /// Size of the steps of differences, relative to the scales of the coordinates.
 constexpr double step_size = 1e-3;
 
@@ -22,9 +23,9 @@ struct Direction {
   Eigen::VectorXd q, v, a, lambda;
 };
 
-/// Vectors of one frequency and all that coincide with it, one a column.
+/// Vectors of one eigenvalue and all that coincide with it, one a column.
 struct ModalVectors {
-  double frequency = 0.0;
+  Complex s;
   Eigen::MatrixXcd right, left;                          ///< n × k
   Eigen::MatrixXcd right_multipliers, left_multipliers;  ///< m × k
 };
@@ -41,7 +42,7 @@ class FrequencySensitivity {
   Eigen::VectorXd run(const StateSensitivity& sensitivity, int mode) {
     find_vectors(mode);
     const Eigen::Index count = vectors_.right.cols();
-    const Complex s(0.0, vectors_.frequency);
+    const Complex s = vectors_.s;
     const Eigen::MatrixXcd slope =
         vectors_.left.adjoint() * (2.0 * s * frozen_.M + frozen_.G) * vectors_.right;
     const Eigen::PartialPivLU<Eigen::MatrixXcd> solver(slope);
@@ -58,23 +59,37 @@ class FrequencySensitivity {
 
  private:
   void find_vectors(int mode) {
-    const FreeVibration vibration = free_vibration(frozen_);
-    const Eigen::VectorXd frequencies = frequencies_of(vibration);
-    vectors_.frequency = frequencies(mode);
+    const Eigen::VectorXcd all = vibrations_of(frozen_);
+    vectors_.s = all(mode);
     const Eigen::Index count =
-        ((frequencies.array() - vectors_.frequency).abs() < coincidence * vectors_.frequency)
-            .count();
-    const Complex s(0.0, vectors_.frequency);
-    Eigen::MatrixXcd pencil = s * vibration.G + vibration.K;
-    pencil.diagonal().array() += s * s;
-    const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(pencil, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    vectors_.right = vibration.Z * svd.matrixV().rightCols(count);
-    vectors_.left = vibration.Z * svd.matrixU().rightCols(count);
-    const Eigen::MatrixXcd whole = s * s * frozen_.M + s * frozen_.G + frozen_.K;
-    const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXcd> constraints(
-        frozen_.phi.transpose().cast<Complex>());
-    vectors_.right_multipliers = -constraints.solve(whole * vectors_.right);
-    vectors_.left_multipliers = -constraints.solve(whole.adjoint() * vectors_.left);
+        ((all.array() - vectors_.s).abs() < coincidence * std::abs(vectors_.s)).count();
+    // Not exactly at the eigenvalue, where the pencil is singular.
+    const Complex s = vectors_.s * (1.0 + detuning);
+    const Pencil pencil = pencil_at(frozen_, s);
+    Eigen::MatrixXcd slope = Eigen::MatrixXcd::Zero(n_ + m_, n_ + m_);
+    slope.topLeftCorner(n_, n_) = 2.0 * s * frozen_.M + frozen_.G;
+    const Eigen::MatrixXcd right = null_vectors(pencil.matrix, slope, count);
+    const Eigen::MatrixXcd left = null_vectors(pencil.matrix.adjoint(), slope.adjoint(), count);
+    vectors_.right = right.topRows(n_);
+    vectors_.left = left.topRows(n_);
+    vectors_.right_multipliers = pencil.kappa * right.bottomRows(m_);
+    vectors_.left_multipliers = pencil.kappa * left.bottomRows(m_);
+  }
+
+  /// Inverse iteration of a block of vectors, x ← P⁻¹ P_s x: others shrink by the detuning over
+  /// their distance, a thousandth and less.
+  Eigen::MatrixXcd null_vectors(const Eigen::MatrixXcd& pencil, const Eigen::MatrixXcd& slope,
+                                Eigen::Index count) const {
+    const Eigen::PartialPivLU<Eigen::MatrixXcd> solver(pencil);
+    std::srand(1);
+    Eigen::MatrixXcd x = Eigen::MatrixXcd::Random(n_ + m_, count);
+    for (int iteration = 0; iteration < 5; ++iteration) {
+      x = solver.solve(slope * x);
+      const Eigen::HouseholderQR<Eigen::MatrixXcd> qr(x.topRows(n_));
+      const Eigen::MatrixXcd triangle = qr.matrixQR().topRows(count);
+      x = triangle.triangularView<Eigen::Upper>().solve<Eigen::OnTheRight>(x);
+    }
+    return x;
   }
 
   /// d/dε of a function along a direction, from what it is at ± two steps.
@@ -109,7 +124,7 @@ class FrequencySensitivity {
 
   /// ψᴴ P' φ along a change of the state, k × k.
   Eigen::MatrixXcd change_along(const Direction& direction) const {
-    const Complex s(0.0, vectors_.frequency);
+    const Complex s = vectors_.s;
     return derivative_along(direction, [&](const State& state) {
       const FrozenMechanism at = freeze(mechanism_, state);
       const Eigen::MatrixXcd pencil = s * s * at.M + s * at.G + at.K;
@@ -123,7 +138,7 @@ class FrequencySensitivity {
   /// The explicit part of ψᴴ P' φ, k × k for each variable: matrices are derivatives of R along
   /// vectors, so theirs by the design are those of R_x.
   std::vector<Eigen::MatrixXcd> changes_by_design() const {
-    const Complex s(0.0, vectors_.frequency);
+    const Complex s = vectors_.s;
     const Eigen::Index count = vectors_.right.cols();
     std::vector<Eigen::MatrixXcd> changes(static_cast<std::size_t>(mechanism_.system->variables()),
                                           Eigen::MatrixXcd::Zero(count, count));

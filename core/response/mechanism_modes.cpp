@@ -1,9 +1,11 @@
 #include "core/response/mechanism_modes.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/QR>
 
 #include "core/base/error.hpp"
@@ -12,9 +14,51 @@ namespace pleuel {
 
 namespace {
 
-/// Below this share of the largest frequency a motion counts as free. Its double eigenvalue 0 comes
-/// out of the solver as √(machine precision) of the largest, some 1e-8.
-constexpr double free_motion = 1e-6;
+/// The shift σ as a share of the largest frequency.
+constexpr double shift_share = 1e-4;
+/// Below this share of σ a motion counts as free: its double eigenvalue 0 comes out of the solver
+/// as σ √(machine precision), some 1e-8 σ.
+constexpr double free_motion = 1e-4;
+
+/// Matrices on the free motions, with unit inertia.
+class FreeMotions {
+ public:
+  explicit FreeMotions(const FrozenMechanism& frozen) : frozen_(frozen), n_(frozen.M.rows()) {
+    const Eigen::Index m = frozen.phi.rows();
+    null_space_ = Eigen::MatrixXd::Identity(n_, n_).rightCols(n_ - m);
+    if (m > 0) {
+      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(frozen.phi.transpose());
+      null_space_ = qr.householderQ() * null_space_;
+    }
+    mass_.compute(null_space_.transpose() * frozen.M * null_space_);
+    if (mass_.info() != Eigen::Success) {
+      throw SimulationError("the natural frequencies do not exist: a free motion has no inertia");
+    }
+  }
+
+  Eigen::Index count() const { return null_space_.cols(); }
+
+  /// L⁻¹ Zᵀ (matrix) Z L⁻ᵀ
+  Eigen::MatrixXd project(const Eigen::MatrixXd& matrix) const {
+    const Eigen::MatrixXd half = mass_.matrixL().solve(null_space_.transpose() * matrix);
+    return mass_.matrixL().solve((half * null_space_).transpose()).transpose();
+  }
+
+  /// (σ² + σG + K)⁻¹ = Lᵀ Zᵀ P⁻¹ Z L, with P⁻¹ from the pencil.
+  Eigen::MatrixXd flexibility(double sigma) const {
+    const Eigen::MatrixXd pencil = pencil_at(frozen_, sigma).matrix.real();
+    Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(pencil.rows(), count());
+    rhs.topRows(n_) = null_space_ * Eigen::MatrixXd(mass_.matrixL());
+    const Eigen::MatrixXd solution = pencil.partialPivLu().solve(rhs);
+    return mass_.matrixU() * (null_space_.transpose() * solution.topRows(n_));
+  }
+
+ private:
+  const FrozenMechanism& frozen_;
+  Eigen::Index n_;
+  Eigen::MatrixXd null_space_;
+  Eigen::LLT<Eigen::MatrixXd> mass_;
+};
 
 }  // namespace
 
@@ -34,46 +78,48 @@ FrozenMechanism freeze(const Mechanism& mechanism, const State& state) {
   return frozen;
 }
 
-FreeVibration free_vibration(const FrozenMechanism& frozen) {
+Pencil pencil_at(const FrozenMechanism& frozen, std::complex<double> s) {
   const Eigen::Index n = frozen.M.rows(), m = frozen.phi.rows();
-  FreeVibration vibration;
-  Eigen::MatrixXd null_space = Eigen::MatrixXd::Identity(n, n).rightCols(n - m);
-  if (m > 0) {
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(frozen.phi.transpose());
-    null_space = qr.householderQ() * null_space;
-  }
-  const Eigen::LLT<Eigen::MatrixXd> mass(null_space.transpose() * frozen.M * null_space);
-  if (mass.info() != Eigen::Success) {
-    throw SimulationError("the natural frequencies do not exist: a free motion has no inertia");
-  }
-  vibration.Z = mass.matrixL().solve(null_space.transpose()).transpose();
-  vibration.G = vibration.Z.transpose() * frozen.G * vibration.Z;
-  vibration.K = vibration.Z.transpose() * frozen.K * vibration.Z;
-  return vibration;
+  Pencil pencil;
+  const double constraints = frozen.phi.norm(), stiffness = frozen.K.norm() + frozen.M.norm();
+  if (constraints > 0.0 && stiffness > 0.0) pencil.kappa = stiffness / constraints;
+  pencil.matrix = Eigen::MatrixXcd::Zero(n + m, n + m);
+  pencil.matrix.topLeftCorner(n, n) = s * s * frozen.M + s * frozen.G + frozen.K;
+  pencil.matrix.topRightCorner(n, m) = pencil.kappa * frozen.phi.transpose();
+  pencil.matrix.bottomLeftCorner(m, n) = pencil.kappa * frozen.phi;
+  return pencil;
 }
 
-Eigen::VectorXd frequencies_of(const FreeVibration& vibration) {
-  const Eigen::Index n = vibration.K.rows();
+Eigen::VectorXcd vibrations_of(const FrozenMechanism& frozen) {
+  const FreeMotions motions(frozen);
+  const Eigen::Index n = motions.count();
   if (n == 0) return {};
-  const double w = std::max(std::sqrt(vibration.K.norm()), std::numeric_limits<double>::min());
-  Eigen::MatrixXd first_order = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-  first_order.topRightCorner(n, n).diagonal().setConstant(w);
-  first_order.bottomLeftCorner(n, n) = vibration.K / -w;
-  first_order.bottomRightCorner(n, n) = -vibration.G;
-  const Eigen::VectorXcd values =
-      Eigen::EigenSolver<Eigen::MatrixXd>(first_order, false).eigenvalues();
-  const double least = free_motion * values.cwiseAbs().maxCoeff();
-  std::vector<double> frequencies;
-  for (const auto& value : values) {
-    if (value.imag() > least) frequencies.push_back(value.imag());
+  const Eigen::MatrixXd gyroscopic = motions.project(frozen.G);
+  const double largest = std::max(std::sqrt(motions.project(frozen.K).norm()), gyroscopic.norm());
+  if (largest == 0.0) return {};
+  const double sigma = shift_share * largest;
+  const Eigen::MatrixXd flexibility = motions.flexibility(sigma);
+  Eigen::MatrixXd inverse(2 * n, 2 * n);
+  inverse.topLeftCorner(n, n) =
+      -flexibility * (gyroscopic + sigma * Eigen::MatrixXd::Identity(n, n));
+  inverse.bottomLeftCorner(n, n) = inverse.topLeftCorner(n, n);
+  inverse.bottomLeftCorner(n, n).diagonal().array() += 1.0 / sigma;
+  inverse.topRightCorner(n, n) = -sigma * flexibility;
+  inverse.bottomRightCorner(n, n) = -sigma * flexibility;
+  const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(inverse, false).eigenvalues();
+  std::vector<std::complex<double>> vibrations;
+  for (const std::complex<double>& theta : values) {
+    const std::complex<double> s = sigma + 1.0 / theta;
+    if (s.imag() > free_motion * sigma) vibrations.push_back(s);
   }
-  std::sort(frequencies.begin(), frequencies.end());
-  return Eigen::Map<Eigen::VectorXd>(frequencies.data(),
-                                     static_cast<Eigen::Index>(frequencies.size()));
+  std::sort(vibrations.begin(), vibrations.end(),
+            [](const auto& a, const auto& b) { return a.imag() < b.imag(); });
+  return Eigen::Map<Eigen::VectorXcd>(vibrations.data(),
+                                      static_cast<Eigen::Index>(vibrations.size()));
 }
 
 Eigen::VectorXd mechanism_frequencies(const Mechanism& mechanism, const State& state) {
-  return frequencies_of(free_vibration(freeze(mechanism, state)));
+  return vibrations_of(freeze(mechanism, state)).imag();
 }
 
 }  // namespace pleuel

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <complex>
+
 #include "core/integration/mechanism.hpp"
 
 /// Small vibrations of a whole mechanism about an instant of its motion.
@@ -17,20 +19,24 @@ struct FrozenMechanism {
 
 FrozenMechanism freeze(const Mechanism& mechanism, const State& state);
 
-/// The same on the motions that the joints and drives leave, y = Z z with Φ_q Z = 0 and Zᵀ M Z = 1:
-///     z̈ + G ż + K z = 0
-struct FreeVibration {
-  Eigen::MatrixXd Z;     ///< n × free motions
-  Eigen::MatrixXd G, K;  ///< Zᵀ G Z, Zᵀ K Z
+/// [ s²M + sG + K  κΦ_qᵀ ; κΦ_q  0 ], singular where s is an eigenvalue. κ makes the multipliers as
+/// large as the stiffness, for the sake of round-off; they are μ/κ.
+struct Pencil {
+  Eigen::MatrixXcd matrix;
+  double kappa = 1.0;
 };
+Pencil pencil_at(const FrozenMechanism& frozen, std::complex<double> s);
 
+/// Eigenvalues s of the vibrations, those with positive imaginary part ω, the natural angular
+/// frequency [rad/s]; ascending in it. Their real part vanishes in equilibrium; about a motion,
+/// where K is not symmetric, they may grow or decay. On the free motions y = Z z (Φ_q Z = 0,
+/// Zᵀ M Z = 1) with F = (σ² + σ G + K)⁻¹ the eigenvalues θ = 1/(s − σ) are those of
+///     [ −F (G + σ)  −σF ; −F (G + σ) + 1/σ  −σF ]
+/// The inverse, taken from the pencil, keeps low frequencies exact beside high ones: in K itself
+/// they are below round-off. σ is 1e-4 of the largest frequency. Free motions without stiffness
+/// (|ω| < 1e-4 σ) and unstable ones have no frequency.
 /// @throws SimulationError if a free motion has no inertia
-FreeVibration free_vibration(const FrozenMechanism& frozen);
-
-/// Natural angular frequencies [rad/s], ascending: imaginary parts of the eigenvalues of
-///     [ 0  w ; −K/w  −G ],   w² = ‖K‖
-/// Free motions without stiffness (ω below 1e-6 of the largest), and unstable ones, have none.
-Eigen::VectorXd frequencies_of(const FreeVibration& vibration);
+Eigen::VectorXcd vibrations_of(const FrozenMechanism& frozen);
 
 /// Natural angular frequencies of a mechanism about a state [rad/s], ascending: drives and joints
 /// hold, loads and gravity count. Exact for a mechanism at rest in equilibrium; about a motion, an

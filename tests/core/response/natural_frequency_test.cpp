@@ -1,0 +1,172 @@
+#include <gtest/gtest.h>
+
+#include "core/base/error.hpp"
+#include "core/integration/initial_state.hpp"
+#include "core/response/body_frequency.hpp"
+#include "core/response/mechanism_modes.hpp"
+#include "tests/core/response/response_samples.hpp"
+
+namespace {
+
+using namespace pleuel;
+using namespace response_samples;
+
+constexpr double length = 0.8, width = 0.003, height = 0.002, young = 2.1e11, density = 7850.0;
+
+/// (βL)² of a cantilever: cos βL cosh βL = −1.
+constexpr double cantilever_numbers[] = {3.516015268500151, 22.034491564666766, 61.697214407543};
+
+double cantilever_frequency(int mode, double thickness) {
+  const double r2 = thickness * thickness / 12.0;  // I/A
+  return cantilever_numbers[mode] / (length * length) * std::sqrt(young * r2 / density);
+}
+
+Scene cantilever() {
+  Scene scene = swinging_beam(length, RectangleSection{width, height}, 10);
+  scene.gravity = {0.0, 0.0, 0.0};
+  scene.joints[0].drive = PolynomialFunction{{0.0}};
+  return scene;
+}
+
+/// Cubic elements of length ℓ are too stiff by (βℓ)⁴/1440 (Rayleigh's quotient); rotary inertia
+/// takes less than 1e-5 here, (βr)².
+TEST(Frequency, OfACantileverIsTheTabulatedOne) {
+  const Model model = build_model(cantilever(), {}, {}, {});
+  for (int mode = 0; mode < 3; ++mode) {
+    const double found = body_frequency(model.body("beam"), mode, 0).value;
+    const double stiffer = std::pow(cantilever_numbers[mode] / 100.0, 2) / 1440;
+    EXPECT_NEAR(found / cantilever_frequency(mode, height), 1.0 + stiffer, 1e-5 + 0.1 * stiffer);
+  }
+}
+
+/// In space it bends about both axes; the thinner way first.
+TEST(Frequency, OfACantileverInSpaceComesInTwoSeries) {
+  const Model model = build_model(cantilever(), in_motion(EffectChoice::on), {}, {});
+  const BodyModel& beam = model.body("beam");
+  EXPECT_NEAR(body_frequency(beam, 0, 0).value / cantilever_frequency(0, height), 1.0, 5e-5);
+  EXPECT_NEAR(body_frequency(beam, 1, 0).value / cantilever_frequency(0, width), 1.0, 5e-5);
+}
+
+/// A drive that stands still clamps the root. 1e-9: eigenvalues of matrices whose frequencies span
+/// five orders.
+TEST(Frequency, OfAClampedMechanismIsThatOfItsBody) {
+  for (EffectChoice spatial : {EffectChoice::off, EffectChoice::on}) {
+    Model model = build_model(cantilever(), in_motion(spatial), {}, {});
+    const Eigen::VectorXd found =
+        mechanism_frequencies(model.mechanism, initial_state(model.mechanism).state);
+    ASSERT_GE(found.size(), 4);
+    for (int mode = 0; mode < 4; ++mode) {
+      EXPECT_NEAR(found(mode) / body_frequency(model.body("beam"), mode, 0).value, 1.0, 1e-8);
+    }
+  }
+}
+
+/// Free to turn, the beam has no frequency for that (gravity is off), and those of a pinned and
+/// free beam: tan βL = tanh βL, βL = 3.92660231204792.
+TEST(Frequency, OfAMechanismLeavesOutFreeMotions) {
+  Scene scene = cantilever();
+  scene.joints[0].drive.reset();
+  Model model = build_model(scene, {}, {}, {});
+  const Eigen::VectorXd found =
+      mechanism_frequencies(model.mechanism, initial_state(model.mechanism).state);
+  const double expected =
+      std::pow(3.92660231204792 / length, 2) * std::sqrt(young * height * height / 12.0 / density);
+  EXPECT_NEAR(found(0) / expected, 1.0, 5e-5);
+}
+
+Scene hanging_body() {
+  Scene scene;
+  scene.gravity = {0.0, -9.81, 0.0};
+  RigidBody body;
+  body.at = {0.0, -0.4, 0.0};
+  body.mass = 0.7;
+  body.inertia = {0.01, 0.02, 0.03, 0.0, 0.0, 0.0};
+  scene.bodies = {{"bob", body}};
+  Joint joint;
+  joint.name = "bearing";
+  joint.bodies = {ground_name, "bob"};
+  scene.joints = {joint};
+  return scene;
+}
+
+/// ω² = m g L/(I + m L²): the stiffness is the bearing's multipliers'.
+TEST(Frequency, OfAPhysicalPendulumIsThatOfItsWeight) {
+  for (EffectChoice spatial : {EffectChoice::off, EffectChoice::on}) {
+    Model model = build_model(hanging_body(), in_motion(spatial), {}, {});
+    const Eigen::VectorXd found =
+        mechanism_frequencies(model.mechanism, initial_state(model.mechanism).state);
+    ASSERT_EQ(found.size(), 1);
+    EXPECT_NEAR(found(0), std::sqrt(0.7 * 9.81 * 0.4 / (0.03 + 0.7 * 0.16)), 1e-10);
+  }
+}
+
+/// Euler's equations of a body of revolution that spins freely at Ω about z: the axis of rotation
+/// goes round in the body with Ω |I_z − I_x|/I_x.
+TEST(Frequency, OfAFreeTopIsThatOfItsGyroscopicForces) {
+  Scene scene;
+  RigidBody body;
+  body.mass = 1.0;
+  body.inertia = {0.02, 0.02, 0.03, 0.0, 0.0, 0.0};
+  Body top{"top", body};
+  top.angular_velocity = {0.0, 0.0, 50.0};
+  scene.bodies = {top};
+  Model model = build_model(scene, in_motion(EffectChoice::on), {}, {});
+  const Eigen::VectorXd found =
+      mechanism_frequencies(model.mechanism, initial_state(model.mechanism).state);
+  ASSERT_EQ(found.size(), 1);
+  EXPECT_NEAR(found(0), 50.0 * 0.5, 1e-9);
+}
+
+TEST(Frequency, ThatDoesNotExistIsAnErrorThatSaysHowManyThereAre) {
+  ProblemFile problem;
+  problem.scene = hanging_body();
+  problem.simulation.end_time = 1e-3;
+  problem.simulation.step = 1e-3;
+  ResponseSettings settings;
+  settings.name = "fifth";
+  settings.type = ResponseType::frequency;
+  settings.mode = 4;
+  problem.responses = {settings};
+  try {
+    analyze(problem, {});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "the response \"fifth\" cannot be computed: the mechanism has 1 natural "
+                 "frequencies, not 5");
+  }
+}
+
+class BodyFrequencies : public testing::TestWithParam<int> {};
+
+/// Against central differences of neighbouring models. 1e-6: of fourth order with steps of 2e-3.
+TEST_P(BodyFrequencies, HaveTheDerivativesOfDifferences) {
+  const SampleScene sample = all_samples()[static_cast<std::size_t>(GetParam())];
+  const Model model = sample.build();
+  const int variables = model.mechanism.system->variables();
+  for (const BodyModel& body : model.bodies) {
+    const int modes = std::min(3, body.elastic_size());
+    for (int mode = 0; mode < modes; ++mode) {
+      const FrequencyWithDerivatives at = body_frequency(body, mode, variables);
+      for (int j = 0; j < variables; ++j) {
+        const auto k = static_cast<std::size_t>(j);
+        const double step = 1e-3 * std::abs(sample.design[k]);
+        const auto moved = [&](double s) {
+          Design<double> x = sample.design;
+          x[k] += s * step;
+          return body_frequency(sample.build_at(x).body(body.name), mode, variables).value;
+        };
+        const double found = (8.0 * (moved(1) - moved(-1)) - (moved(2) - moved(-2))) / 12.0;
+        EXPECT_NEAR(found, at.derivatives(j) * step, 1e-9 * at.value)
+            << body.name << ", mode " << mode << ", " << sample.variables[k];
+      }
+    }
+  }
+}
+
+std::string sample_name(const testing::TestParamInfo<int>& info) {
+  return all_samples()[static_cast<std::size_t>(info.param)].name;
+}
+INSTANTIATE_TEST_SUITE_P(Samples, BodyFrequencies, testing::Range(0, sample_count), sample_name);
+
+}  // namespace

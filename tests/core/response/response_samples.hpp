@@ -1,0 +1,152 @@
+#pragma once
+
+#include <random>
+
+#include "core/response/response.hpp"
+#include "tests/support/sample_scenes.hpp"
+
+/// Every kind of response, asked of every body and joint of a sample.
+
+namespace response_samples {
+
+using namespace pleuel;
+
+inline constexpr int magnitude_of = -1;
+
+/// In the plane as far as the scene allows, or in space.
+inline EffectSettings in_motion(EffectChoice spatial) {
+  EffectSettings effects;
+  effects.spatial_motion = spatial;
+  return effects;
+}
+
+/// A sample whose material has a strength that depends on the design: a hundredth of E.
+inline SampleScene sample_with_strength(int index) {
+  SampleScene sample = all_samples()[static_cast<std::size_t>(index)];
+  for (Material& material : sample.scene.materials) {
+    Number strength = material.young;
+    strength.factor *= 0.01;
+    strength.constant *= 0.01;
+    material.strength = strength;
+  }
+  return sample;
+}
+
+inline void add_beam_responses(const BodyModel& body, std::vector<ResponseSettings>& all) {
+  ResponseSettings settings;
+  settings.bodies = {body.name};
+  settings.type = ResponseType::stress;
+  for (StressPart part : {StressPart::von_mises, StressPart::normal, StressPart::axial,
+                          StressPart::bending, StressPart::shear, StressPart::utilization}) {
+    settings.part = part;
+    settings.name = body.name + " stress " + std::to_string(static_cast<int>(part));
+    all.push_back(settings);
+  }
+  settings.part = StressPart::normal;
+  settings.station = 0.37;
+  settings.name = body.name + " stress at 0.37";
+  all.push_back(settings);
+  settings.station = {};
+  settings.type = ResponseType::buckling;
+  settings.name = body.name + " buckling";
+  all.push_back(settings);
+  settings.type = ResponseType::deflection;
+  settings.at = 0.6;
+  for (int direction : {1, 2}) {
+    settings.direction = direction;
+    settings.name = body.name + " deflection " + std::to_string(direction);
+    all.push_back(settings);
+  }
+}
+
+inline void add_motion_responses(const BodyModel& body, std::vector<ResponseSettings>& all) {
+  ResponseSettings settings;
+  settings.bodies = {body.name};
+  settings.at = 0.7;
+  for (ResponseType type :
+       {ResponseType::position, ResponseType::velocity, ResponseType::acceleration}) {
+    settings.type = type;
+    for (int direction : {0, 1, 2, magnitude_of}) {
+      settings.direction = direction;
+      settings.name = body.name + " motion " + std::to_string(static_cast<int>(type)) + " " +
+                      std::to_string(direction);
+      all.push_back(settings);
+    }
+  }
+}
+
+inline void add_joint_responses(const JointModel& joint, std::vector<ResponseSettings>& all) {
+  ResponseSettings settings;
+  settings.joint = joint.name;
+  for (ResponseType type : {ResponseType::reaction_force, ResponseType::reaction_moment}) {
+    settings.type = type;
+    for (int direction : {0, 1, 2, magnitude_of}) {
+      settings.direction = direction;
+      settings.name = joint.name + " reaction " + std::to_string(static_cast<int>(type)) + " " +
+                      std::to_string(direction);
+      all.push_back(settings);
+    }
+  }
+  if (joint.drive_row < 0) return;
+  for (ResponseType type : {ResponseType::drive_torque, ResponseType::drive_power}) {
+    settings.type = type;
+    settings.name = joint.name + " drive " + std::to_string(static_cast<int>(type));
+    all.push_back(settings);
+  }
+}
+
+/// All responses with a history.
+inline std::vector<ResponseSettings> all_histories(const Model& model) {
+  std::vector<ResponseSettings> all;
+  for (const BodyModel& body : model.bodies) {
+    if (body.is_beam() && body.is_elastic) add_beam_responses(body, all);
+    add_motion_responses(body, all);
+  }
+  for (const JointModel& joint : model.joints) add_joint_responses(joint, all);
+  return all;
+}
+
+/// A state somewhere near the start, with all rates and multipliers: no signal needs a consistent
+/// one. Lengths are some 0.1 m.
+inline State random_state(const Model& model) {
+  const System& system = *model.mechanism.system;
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  State state(system.coordinates(), system.multipliers());
+  state.time = 0.013;
+  state.q = model.mechanism.guess.q;
+  const auto disturb = [&](Eigen::Index first, Eigen::Index size, double q, double v, double a) {
+    for (Eigen::Index i = first; i < first + size; ++i) {
+      state.q(i) += q * uniform(random);
+      state.v(i) += v * uniform(random);
+      state.a(i) += a * uniform(random);
+    }
+  };
+  for (const BodyModel& body : model.bodies) {
+    disturb(body.frame.offset, body.frame.size(), 0.2, 3.0, 30.0);
+    disturb(body.elastic_offset(), body.elastic_size(), 5e-3, 0.3, 3.0);
+  }
+  for (double& lambda : state.lambda) lambda = 10.0 * uniform(random);
+  return state;
+}
+
+inline Eigen::VectorXd random_vector(Eigen::Index size, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Eigen::VectorXd vector(size);
+  for (double& entry : vector) entry = uniform(random);
+  return vector;
+}
+
+inline Eigen::VectorXd observed(Signal& signal, const State& state) {
+  Eigen::VectorXd values(signal.channels());
+  signal.observe(state, values);
+  return values;
+}
+
+inline double observed(const Model& model, const ResponseSettings& settings, const State& state) {
+  const std::vector<Response> responses = make_responses({settings}, model);
+  return observed(*responses.front().signal, state)(0);
+}
+
+}  // namespace response_samples

@@ -1,0 +1,198 @@
+#include <numbers>
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include "core/base/error.hpp"
+#include "core/section/rectangle_section.hpp"
+#include "tests/core/response/response_samples.hpp"
+#include "tests/support/dense.hpp"
+
+namespace {
+
+using namespace pleuel;
+using namespace response_samples;
+
+constexpr double length = 0.8, width = 0.02, height = 0.03, density = 7850, young = 2.1e11;
+constexpr double strength = 4e8;
+
+Model beam_model(const Section& section, int elements, EffectChoice spatial) {
+  Scene scene = swinging_beam(length, section, elements);
+  scene.gravity = {0.0, 0.0, 0.0};
+  scene.materials[0].strength = strength;
+  EffectSettings effects = in_motion(spatial);
+  effects.geometric_stiffening = EffectChoice::off;
+  return build_model(scene, effects, {}, {});
+}
+
+Eigen::VectorXd stresses(const Model& model, const State& state, StressPart part,
+                         std::optional<double> station = {}) {
+  ResponseSettings settings;
+  settings.type = ResponseType::stress;
+  settings.bodies = {"beam"};
+  settings.part = part;
+  settings.station = station;
+  const auto responses = make_responses({settings}, model);
+  return observed(*responses.front().signal, state);
+}
+
+/// Uniform pull ε, bending v = κx²/2 and w = μx²/2, twist: exact in one element, whatever frame
+/// and number of elements.
+struct Strain {
+  double pull = 0.0, bend_y = 0.0, bend_z = 0.0, twist = 0.0;  ///< ε, κ, μ, θ' [1/m]
+};
+
+State strained(const Model& model, const Strain& strain) {
+  State state = model.mechanism.guess;
+  const BodyModel& body = model.body("beam");
+  for (int node = 0; node < body.beam.node_count(); ++node) {
+    const double x = body.beam.node_position(node);
+    const double values[] = {strain.pull * x,  strain.bend_y * x * x / 2, strain.bend_z * x * x / 2,
+                             strain.twist * x, -strain.bend_z * x,        strain.bend_y * x};
+    for (int i = 0; i < 6; ++i) {
+      const int index = body.coordinate(node, i);
+      if (index >= 0) state.q(index) = values[i];
+    }
+  }
+  return state;
+}
+
+/// σ = E(ε − κy): at the upper edge (y = h/2) bending of κ > 0 presses. 1e-9: round-off of
+/// displacements that nearly cancel in curvature.
+TEST(StressPart, IsSigned) {
+  const Model model = beam_model(RectangleSection{width, height}, 3, EffectChoice::off);
+  const State state = strained(model, {.pull = 2e-4, .bend_y = 0.04});
+  const double axial = young * 2e-4, bending = young * 0.04 * height / 2;
+  const auto expect = [&](StressPart part, double least, double largest) {
+    const Eigen::VectorXd found = stresses(model, state, part);
+    EXPECT_NEAR(found.minCoeff(), least, 1e-9 * bending);
+    EXPECT_NEAR(found.maxCoeff(), largest, 1e-9 * bending);
+  };
+  expect(StressPart::axial, axial, axial);
+  expect(StressPart::bending, -bending, bending);
+  expect(StressPart::normal, axial - bending, axial + bending);
+  expect(StressPart::shear, 0.0, 0.0);
+  const Eigen::VectorXd von_mises = stresses(model, state, StressPart::von_mises);
+  EXPECT_NEAR(von_mises.maxCoeff(), axial + bending, 1e-9 * bending);
+  EXPECT_NEAR(stresses(model, state, StressPart::utilization).maxCoeff(),
+              von_mises.maxCoeff() / strength, 1e-12);
+}
+
+/// On a round outline bending about both axes adds as vectors, E √(κ² + μ²) r; shear is G θ' r.
+TEST(StressPart, OfARoundSectionIsThatOfItsWorstPoint) {
+  const double radius = 0.012;
+  const Model model = beam_model(CircleSection{2 * radius}, 2, EffectChoice::on);
+  const State state =
+      strained(model, {.pull = -1e-4, .bend_y = 0.03, .bend_z = -0.04, .twist = -0.05});
+  const double axial = -young * 1e-4, bending = young * 0.05 * radius;
+  const double shear = young / 2.6 * 0.05 * radius;
+  const Eigen::VectorXd normal = stresses(model, state, StressPart::normal);
+  EXPECT_NEAR(normal.maxCoeff(), axial + bending, 1e-9 * bending);
+  EXPECT_NEAR(normal.minCoeff(), axial - bending, 1e-9 * bending);
+  EXPECT_NEAR(stresses(model, state, StressPart::bending).maxCoeff(), bending, 1e-9 * bending);
+  EXPECT_NEAR(stresses(model, state, StressPart::shear).minCoeff(), -shear, 1e-9 * bending);
+  EXPECT_NEAR(stresses(model, state, StressPart::von_mises).maxCoeff(),
+              std::hypot(bending - axial, std::sqrt(3.0) * shear), 1e-9 * bending);
+}
+
+/// A cantilever with a force at its tip: M = F (L − x), EI v = F (L x²/2 − x³/6).
+TEST(StressPart, AtOnePlaceIsThatOfItsSection) {
+  const Model model = beam_model(RectangleSection{width, height}, 4, EffectChoice::off);
+  const BodyModel& body = model.body("beam");
+  const double force = 100.0, stiffness = young * width * std::pow(height, 3) / 12;
+  State state = model.mechanism.guess;
+  for (int node = 1; node < body.beam.node_count(); ++node) {
+    const double x = body.beam.node_position(node);
+    state.q(body.coordinate(node, 1)) = force * (length * x * x / 2 - x * x * x / 6) / stiffness;
+    state.q(body.coordinate(node, 5)) = force * (length * x - x * x / 2) / stiffness;
+  }
+  for (double station : {0.0, 0.25, 0.4, 0.9}) {
+    const double moment = force * (length - station * length);
+    const Eigen::VectorXd found = stresses(model, state, StressPart::normal, station);
+    EXPECT_EQ(found.size(), 2);  // upper and lower edge
+    EXPECT_NEAR(found.maxCoeff(), moment * 6 / (width * height * height), 1e-3) << station;
+  }
+  EXPECT_NEAR(stresses(model, state, StressPart::normal, 1.0).maxCoeff(), 0.0, 1e-2);
+}
+
+double buckling(const Model& model, const State& state) {
+  ResponseSettings settings;
+  settings.type = ResponseType::buckling;
+  settings.bodies = {"beam"};
+  const auto responses = make_responses({settings}, model);
+  return observed(*responses.front().signal, state).maxCoeff();
+}
+
+double euler_load(double thickness, double across) {
+  const double inertia = across * std::pow(thickness, 3) / 12;
+  return std::numbers::pi * std::numbers::pi * young * inertia / (length * length);
+}
+
+/// Shortened by ε: N = −EAε; in the plane it would bend over its height, in space over its width.
+TEST(Buckling, IsThePressOverTheEulerLoad) {
+  const double press = young * width * height * 1e-4;
+  const Model planar = beam_model(RectangleSection{width, height}, 2, EffectChoice::off);
+  EXPECT_NEAR(buckling(planar, strained(planar, {.pull = -1e-4})),
+              press / euler_load(height, width), 1e-12);
+  const Model spatial = beam_model(RectangleSection{width, height}, 2, EffectChoice::on);
+  EXPECT_NEAR(buckling(spatial, strained(spatial, {.pull = -1e-4})),
+              press / euler_load(width, height), 1e-12);
+  EXPECT_LT(buckling(planar, strained(planar, {.pull = 1e-4})), 0.0) << "pull does no harm";
+}
+
+/// A bar that is pushed along its axis with acceleration a: its root carries ρAL a.
+TEST(Buckling, OfAPushedBarIsThatOfItsInertia) {
+  for (int elements : {1, 3}) {
+    Model model = beam_model(RectangleSection{width, height}, elements, EffectChoice::off);
+    const BodyModel& body = model.body("beam");
+    State state = model.mechanism.guess;
+    const double push = 200.0;
+    state.a(0) = push;
+    // Elastic equilibrium under the inertia load: linear without stiffening.
+    const int first = body.elastic_offset(), n = body.elastic_size();
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(n);
+    Eigen::MatrixXd tangent = Eigen::MatrixXd::Zero(n, n);
+    for (const auto& term : model.mechanism.system->terms()) {
+      if (term->name().starts_with("joint")) continue;
+      force += residual_of(*term, state, ConstraintLevel::position).segment(first, n);
+      tangent +=
+          tangent_of(*term, state, {.q = 1.0}, ConstraintLevel::position).block(first, first, n, n);
+    }
+    state.q.segment(first, n) -= tangent.fullPivLu().solve(force);
+    const double press = density * width * height * length * push;
+    EXPECT_NEAR(buckling(model, state) * euler_load(height, width) / press, 1.0, 1e-9);
+  }
+}
+
+void expect_error(const Model& model, const ResponseSettings& settings,
+                  const std::string& message) {
+  try {
+    make_responses({settings}, model);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.what(), message);
+  }
+}
+
+TEST(SectionForces, OfARigidBodyAreNotKnown) {
+  const Scene scene = swinging_beam(length, RectangleSection{width, height}, 2);
+  EffectSettings without_elasticity, without_axial;
+  without_elasticity.elasticity = EffectChoice::off;
+  without_axial.axial_elasticity = EffectChoice::off;
+  const Model rigid = build_model(scene, without_elasticity, {}, {});
+  ResponseSettings settings;
+  settings.name = "load";
+  settings.bodies = {"beam"};
+  settings.type = ResponseType::buckling;
+  expect_error(rigid, settings, "the response \"load\" cannot be computed: \"beam\" is rigid");
+  const Model stiff = build_model(scene, without_axial, {}, {});
+  expect_error(stiff, settings,
+               "the response \"load\" cannot be computed: \"beam\" has no axial elasticity");
+  settings.type = ResponseType::stress;
+  settings.part = StressPart::utilization;
+  expect_error(
+      stiff, settings,
+      "the response \"load\" cannot be computed: the material of \"beam\" has no strength");
+}
+
+}  // namespace

@@ -1,0 +1,109 @@
+#include <gtest/gtest.h>
+
+#include "core/integration/configuration.hpp"
+#include "tests/core/response/response_samples.hpp"
+#include "tests/support/differences.hpp"
+
+namespace {
+
+using namespace pleuel;
+using namespace response_samples;
+
+class EverySignal : public testing::TestWithParam<int> {
+ protected:
+  SampleScene sample_ = sample_with_strength(GetParam());
+  Model model_ = sample_.build();
+  State state_ = random_state(model_);
+  std::vector<Response> responses_ = make_responses(all_histories(model_), model_);
+
+  SignalGradient gradient_of(Signal& signal, int channel) const {
+    const System& system = *model_.mechanism.system;
+    SignalGradient gradient(system.coordinates(), system.multipliers(), system.variables());
+    signal.add_gradient(state_, channel, 1.0, gradient);
+    return gradient;
+  }
+
+  /// Compares slopes along one direction: `move(state, s)` goes there, `slope(gradient)` is what
+  /// the gradient says. Differences of fourth order with relative steps of 1e-3: 1e-9 of the value,
+  /// and round-off.
+  template <class Move, class Slope>
+  void expect_slopes(const Move& move, const Slope& slope, const char* what) {
+    for (const Response& response : responses_) {
+      Signal& signal = *response.signal;
+      const auto at = [&](double s) {
+        State moved = state_;
+        move(moved, s);
+        return observed(signal, moved);
+      };
+      const Eigen::VectorXd found = derivative_at_zero(at, 4e-4), values = observed(signal, state_);
+      for (int channel = 0; channel < signal.channels(); ++channel) {
+        const double expected = slope(gradient_of(signal, channel));
+        EXPECT_NEAR(found(channel), expected,
+                    1e-8 * (std::abs(expected) + std::abs(values(channel))) + 1e-12)
+            << response.name << ", " << signal.describe(channel) << ", " << what;
+      }
+    }
+  }
+};
+
+TEST_P(EverySignal, HasTheGradientOfItsValueInThePositions) {
+  const Mechanism& mechanism = model_.mechanism;
+  const Eigen::VectorXd along =
+      random_vector(state_.q.size(), 3).cwiseProduct(mechanism.scale.cwiseMin(1.0));
+  expect_slopes(
+      [&](State& at, double s) {
+        const Eigen::VectorXd start = at.q;
+        advance(mechanism.rotations, start, s * along, at.q);
+      },
+      [&](const SignalGradient& gradient) { return gradient.q.dot(along); }, "q");
+}
+
+TEST_P(EverySignal, HasTheGradientOfItsValueInTheRates) {
+  const Eigen::VectorXd v = random_vector(state_.v.size(), 4), a = random_vector(v.size(), 5);
+  expect_slopes(
+      [&](State& at, double s) {
+        at.v += s * v;
+        at.a += 10.0 * s * a;
+      },
+      [&](const SignalGradient& gradient) { return gradient.v.dot(v) + 10.0 * gradient.a.dot(a); },
+      "v, a");
+}
+
+TEST_P(EverySignal, HasTheGradientOfItsValueInTheMultipliers) {
+  const Eigen::VectorXd lambda = random_vector(state_.lambda.size(), 6);
+  expect_slopes([&](State& at, double s) { at.lambda += s * lambda; },
+                [&](const SignalGradient& gradient) { return gradient.lambda.dot(lambda); },
+                "lambda");
+}
+
+/// q(t) = q ⊕ (v t + ½ a t²) has the rates v, a at t = 0, rotation vectors included.
+TEST_P(EverySignal, OfAMotionIsTheTimeDerivativeOfThePosition) {
+  for (const BodyModel& body : model_.bodies) {
+    for (int direction : {0, 1, 2}) {
+      ResponseSettings settings;
+      settings.bodies = {body.name};
+      settings.at = 0.3;
+      settings.direction = direction;
+      settings.type = ResponseType::position;
+      const auto position = [&](double t) {
+        State at = state_;
+        advance(model_.mechanism.rotations, state_.q, t * state_.v + 0.5 * t * t * state_.a, at.q);
+        return observed(model_, settings, at);
+      };
+      const double velocity = derivative_at_zero(position, 2e-3);
+      const double acceleration = second_derivative_at_zero(position, 4e-3);
+      // Fourth order, rates of some 10 1/s: (0.04)⁴/100 of 1 m/s and 100 m/s².
+      settings.type = ResponseType::velocity;
+      EXPECT_NEAR(observed(model_, settings, state_), velocity, 1e-7) << body.name;
+      settings.type = ResponseType::acceleration;
+      EXPECT_NEAR(observed(model_, settings, state_), acceleration, 2e-5) << body.name;
+    }
+  }
+}
+
+std::string sample_name(const testing::TestParamInfo<int>& info) {
+  return all_samples()[static_cast<std::size_t>(info.param)].name;
+}
+INSTANTIATE_TEST_SUITE_P(Samples, EverySignal, testing::Range(0, sample_count), sample_name);
+
+}  // namespace
