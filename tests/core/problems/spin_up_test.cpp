@@ -21,7 +21,9 @@ struct SpinUp {
     scene.gravity = {0.0, 0.0, 0.0};
     scene.materials[0] = {"steel", 2.8e7 / depth, 0.3, 1.2 / depth};
     scene.joints[0].drive = RampToSpeedDrive{speed, ramp};
-    Model model = build_model(scene, {.geometric_stiffening = stiffening}, {}, {});
+    EffectSettings effects;
+    effects.geometric_stiffening = stiffening;
+    Model model = build_model(scene, effects, {}, {});
     trajectory = simulate(model.mechanism, {end_time, 5e-3, 0.8});
     tip = trajectory.q.row(model.bodies[0].coordinate(8, 1));
     stretch = trajectory.q.row(model.bodies[0].coordinate(8, 0));
@@ -30,16 +32,25 @@ struct SpinUp {
 };
 
 TEST(SpinUpBeam, BendsBackAndRecovers) {
-  const SpinUp run(EffectChoice::on, 20.0);
+  const SpinUp run(EffectChoice::automatic, 25.0);
   Eigen::Index peak = 0;
   const double lowest = run.tip.minCoeff(&peak);
-  // The mean strain of an element is not the force of the linear model: 1 % of the peak.
-  EXPECT_NEAR(lowest, -0.574373, 0.0058);
-  EXPECT_NEAR(run.trajectory.time(peak), 6.762, 0.1);
-  EXPECT_NEAR(run.tip_at(3.0), -0.217286, 0.0058);
-  EXPECT_NEAR(run.tip_at(6.0), -0.544065, 0.0058);
-  EXPECT_NEAR(run.tip_at(7.5), -0.559522, 0.0058);
-  EXPECT_NEAR(run.tip_at(12.0), -0.150840, 0.0058);
+  // Measured: 0.1 % of the peak, with 32 elements 0.3 %: what is of second order in the deflection.
+  EXPECT_NEAR(lowest, -0.574373, 0.002);
+  EXPECT_NEAR(run.trajectory.time(peak), 6.762, 0.02);
+  EXPECT_NEAR(run.tip_at(3.0), -0.217286, 0.002);
+  EXPECT_NEAR(run.tip_at(6.0), -0.544065, 0.002);
+  EXPECT_NEAR(run.tip_at(7.5), -0.559522, 0.002);
+  EXPECT_NEAR(run.tip_at(12.0), -0.150840, 0.002);
+}
+
+/// What is left of a peak of 0.57 m: 0.00365 m in the linear model, 0.00371 here and 0.00384 with
+/// many elements, of which 0.0002 m are 0.03 % of the peak. Nothing damps it but the scheme.
+TEST(SpinUpBeam, VibratesLittleAfterwards) {
+  const SpinUp run(EffectChoice::automatic, 25.0);
+  const Eigen::VectorXd after = run.tip.tail(static_cast<int>(10.0 / 5e-3));
+  EXPECT_NEAR(after.maxCoeff(), 0.00365, 0.02 * 0.00365);
+  EXPECT_NEAR(after.minCoeff(), -0.00365, 0.02 * 0.00365);
 }
 
 /// Steady axial extension 5.142857e-4 = ρAΩ²L³/3EA, averaged over the vibration.
