@@ -1,6 +1,9 @@
 #include "core/integration/initial_state.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -23,15 +26,62 @@ void factorize_or_throw(LinearSolver& solver, const System::Matrix& matrix, cons
       what));
 }
 
+/// Names of the two terms whose constraints pull hardest in an assembly: they fight each other.
+std::string hardest_joints(Mechanism& mechanism, const Eigen::VectorXd& multipliers) {
+  const int n = mechanism.system->coordinates();
+  std::vector<std::pair<double, std::string>> pulls;
+  for (const auto& term : mechanism.system->terms()) {
+    EntryList entries;
+    term->declare_entries(entries);
+    double largest = 0.0;
+    for (const auto& [row, col] : entries) {
+      if (row >= n) largest = std::max(largest, std::abs(multipliers(row - n)));
+    }
+    pulls.emplace_back(largest, term->name());
+  }
+  std::stable_sort(pulls.begin(), pulls.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  if (pulls.size() < 2) return pulls.front().second + " pulls";
+  return pulls[0].second + " and " + pulls[1].second + " pull";
+}
+
 /// Assembly moves bodies; if it must deform them by more than a hundredth, the joints do not fit.
-void check_strain(const Mechanism& mechanism, const Eigen::VectorXd& q) {
+void check_strain(Mechanism& mechanism, const Eigen::VectorXd& q,
+                  const Eigen::VectorXd& multipliers) {
   // The scale of elastic coordinates is a thousandth of the mechanism's size.
   const double moved =
       (q - mechanism.guess.q).cwiseQuotient(mechanism.scale).lpNorm<Eigen::Infinity>();
   if (moved <= 10.0) return;
-  throw SimulationError(
-      "the mechanism cannot be assembled without straining its bodies; check the points of the "
-      "joints and the lengths of the bodies");
+  throw SimulationError(fmt::format(
+      "the mechanism cannot be assembled without straining its bodies: {} hardest; check the "
+      "points of the joints, the start of the drives and the lengths of the bodies",
+      hardest_joints(mechanism, multipliers)));
+}
+
+/// Names of the terms whose constraints are not met, worst first, with their violations.
+std::string open_joints(Mechanism& mechanism, const State& at) {
+  System& system = *mechanism.system;
+  struct Open {
+    double violation;
+    std::string name;
+  };
+  std::vector<Open> open;
+  for (const auto& term : system.terms()) {
+    Eigen::VectorXd residual = Eigen::VectorXd::Zero(system.size());
+    term->add_residual(at, ConstraintLevel::position, residual);
+    const double violation = system.multipliers() > 0
+                                 ? residual.tail(system.multipliers()).lpNorm<Eigen::Infinity>()
+                                 : 0.0;
+    if (!(violation <= 1e-8)) open.push_back({violation, term->name()});
+  }
+  std::sort(open.begin(), open.end(),
+            [](const Open& a, const Open& b) { return a.violation > b.violation; });
+  if (open.empty()) return "its joints";
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(open.size(), 4); ++i) {
+    text += fmt::format("{}{} (off by {:.2g})", i > 0 ? ", " : "", open[i].name, open[i].violation);
+  }
+  return open.size() > 4 ? text + ", …" : text;
 }
 
 void assemble_positions(Mechanism& mechanism, LinearSolver& solver, System::Matrix& matrix,
@@ -59,15 +109,16 @@ void assemble_positions(Mechanism& mechanism, LinearSolver& solver, System::Matr
     const bool is_at_rest = correction < 1e-15 || correction > 0.3 * previous;
     previous = correction;
     if (violation < 1e-10 && correction < 1e-10 && is_at_rest) {
-      check_strain(mechanism, at.q);
+      check_strain(mechanism, at.q, step.tail(m));
       initial.state.q = at.q;
       initial.position_multipliers = step.tail(m);
       return;
     }
   }
-  throw SimulationError(
-      "the mechanism cannot be assembled: its joints cannot all be closed near the given "
-      "positions; check the points of the joints and the lengths of the bodies");
+  throw SimulationError(fmt::format(
+      "the mechanism cannot be assembled: {} cannot be closed near the given positions; check the "
+      "points of the joints and the lengths of the bodies",
+      open_joints(mechanism, at)));
 }
 
 void project_velocities(Mechanism& mechanism, LinearSolver& solver, System::Matrix& matrix,

@@ -129,4 +129,24 @@ TEST(StartOfAMechanism, SaysThatItCannotBeAssembled) {
   }
 }
 
+/// A rope whose ends would have to meet where the beam cannot reach.
+TEST(StartOfAMechanism, NamesTheJointThatCannotBeClosed) {
+  Scene scene = swinging_beam(0.3, CircleSection{0.01}, 2);
+  Joint rope;
+  rope.name = "rope";
+  rope.type = JointType::distance;
+  rope.bodies = {ground_name, "beam"};
+  rope.at = {1.0, 0.0, 0.0};
+  rope.to = {0.3, 0.0, 0.0};
+  rope.drive = Drive(PolynomialFunction{{-0.5}}, DrivenCoordinate::displacement);
+  scene.joints.push_back(rope);
+  Model model = build_model(scene, {}, {}, {});
+  try {
+    initial_state(model.mechanism);
+    FAIL();
+  } catch (const SimulationError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("joint rope"));
+  }
+}
+
 }  // namespace
