@@ -1,5 +1,7 @@
 #include "sensitivity/frequency_sensitivity.hpp"
 
+#include <random>
+
 #include <Eigen/LU>
 #include <Eigen/QR>
 
@@ -81,8 +83,10 @@ class FrequencySensitivity {
   Eigen::MatrixXcd null_vectors(const Eigen::MatrixXcd& pencil, const Eigen::MatrixXcd& slope,
                                 Eigen::Index count) const {
     const Eigen::PartialPivLU<Eigen::MatrixXcd> solver(pencil);
-    std::srand(1);
-    Eigen::MatrixXcd x = Eigen::MatrixXcd::Random(n_ + m_, count);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    Eigen::MatrixXcd x = Eigen::MatrixXcd::NullaryExpr(
+        n_ + m_, count, [&] { return Complex(uniform(random), uniform(random)); });
     for (int iteration = 0; iteration < 5; ++iteration) {
       x = solver.solve(slope * x);
       const Eigen::HouseholderQR<Eigen::MatrixXcd> qr(x.topRows(n_));
