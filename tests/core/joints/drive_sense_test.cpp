@@ -34,7 +34,9 @@ struct Outcome {
 
 /// While the drive accelerates.
 Outcome run(const std::array<double, 3>& axis, EffectChoice spatial) {
-  Model model = build_model(driven_bar(axis), {.spatial_motion = spatial}, {}, {});
+  EffectSettings effects;
+  effects.spatial_motion = spatial;
+  Model model = build_model(driven_bar(axis), effects, {}, {});
   const Trajectory trajectory =
       simulate(model.mechanism, {.end_time = 0.05, .step = 1e-3, .spectral_radius = 0.8});
   const BodyModel& bar = model.body("bar");

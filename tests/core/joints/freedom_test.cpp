@@ -42,7 +42,9 @@ Scene scene_of(const Freedom& c) {
 
 /// Coordinates less the rank of Φ_q.
 int freedom_of(const Scene& scene, EffectChoice spatial) {
-  Model model = build_model(scene, {.spatial_motion = spatial}, {}, {});
+  EffectSettings effects;
+  effects.spatial_motion = spatial;
+  Model model = build_model(scene, effects, {}, {});
   System& system = *model.mechanism.system;
   State state = model.mechanism.guess;
   System::Matrix matrix = system.make_matrix();
@@ -180,7 +182,9 @@ double driven_coordinate(const Pair& pair, const Carried& first, const Carried& 
 void check(const Pair& pair, EffectChoice spatial) {
   SCOPED_TRACE(std::string(pair.name) + (pair.driven ? ", driven" : "") +
                (spatial == EffectChoice::off ? ", in a plane" : ", in space"));
-  Model model = build_model(scene_of(pair, spatial), {.spatial_motion = spatial}, {}, {});
+  EffectSettings effects;
+  effects.spatial_motion = spatial;
+  Model model = build_model(scene_of(pair, spatial), effects, {}, {});
   const Trajectory trajectory = simulate(model.mechanism, {0.1, 1e-3, 0.8});
   State start, end;
   trajectory.load(0, start);
@@ -265,8 +269,8 @@ TEST(Joints, BetweenFreeBodiesInAPlaneTakeTheirFreedomAndLeaveTheRest) {
         Pair{"distance", JointType::distance, normal, along, 1, {}},
         Pair{"distance", JointType::distance, normal, along, 0, displacement}}) {
     if (std::string(pair.name) == "universal in plane") {
-      Pair rigid = pair;  // holds all that a plane has: nothing moves
-      Model model = build_model(scene_of(rigid, EffectChoice::off), {}, {}, {});
+      // Holds all that a plane has: nothing moves.
+      Model model = build_model(scene_of(pair, EffectChoice::off), {}, {}, {});
       EXPECT_EQ(model.mechanism.system->multipliers(), 3);
       continue;
     }
