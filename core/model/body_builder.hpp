@@ -17,7 +17,7 @@ struct BuildContext {
   const Design<double>& design;
   std::optional<MotionPlane> plane;
   Eigen::Vector3d gravity;
-  std::map<std::string, BeamEffects> beam_effects;  ///< by body
+  std::map<std::string, BeamEffects> beam_effects = {};  ///< by body
 
   const BeamEffects& effects_of(const std::string& beam) const { return beam_effects.at(beam); }
   int variables() const { return static_cast<int>(design.size()); }

@@ -32,7 +32,7 @@ struct EffectSettings {
   double tolerance = 0.0;
   /// By body; set by estimate_effects() where a tolerance is given. Without an entry an effect is
   /// built.
-  std::map<std::string, BeamEstimates> estimates;
+  std::map<std::string, BeamEstimates> estimates = {};
 };
 
 struct SimulationSettings {
