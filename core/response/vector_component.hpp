@@ -19,6 +19,12 @@ Scalar component_of(const Vector3<Scalar>& vector, int direction) {
   return sqrt(Scalar(vector.dot(vector)) + epsilon * epsilon);
 }
 
+/// Its derivatives with respect to the vector.
+inline Eigen::RowVector3d component_slope(const Eigen::Vector3d& vector, int direction) {
+  if (direction != magnitude) return Eigen::RowVector3d::Unit(direction);
+  return vector.transpose() / component_of<double>(vector, magnitude);
+}
+
 inline const char* component_name(int direction) {
   switch (direction) {
     case 0:

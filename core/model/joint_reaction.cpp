@@ -1,0 +1,146 @@
+#include "core/model/joint_reaction.hpp"
+
+#include <array>
+
+#include "core/joints/joint_residual.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Coordinates of both markers (a frame and six displacements each), and equations.
+constexpr int max_coordinates = 2 * (6 + 6), max_equations = 7;
+using WideDual = DualOf<max_coordinates + max_equations>;
+
+std::vector<int> local_coordinates(const JointTopology& topology) {
+  std::vector<int> coordinates;
+  for (const Marker& marker : topology.markers) {
+    for (int i = 0; i < marker.frame.size(); ++i) coordinates.push_back(marker.frame.offset + i);
+    for (int index : marker.elastic) {
+      if (index >= 0) coordinates.push_back(index);
+    }
+  }
+  return coordinates;
+}
+
+/// The numbers of a joint in another scalar type, number by number: make(value, derivative).
+template <class Scalar, class Make>
+JointData<Scalar> seed_data(const JointData<double>& data, const JointData<double>& derivative,
+                            const Make& make) {
+  JointData<Scalar> seeded;
+  for (std::size_t i = 0; i < 2; ++i) {
+    seeded.points[i] = data.points[i].binaryExpr(derivative.points[i], make);
+  }
+  for (std::size_t i = 0; i < data.directions.size(); ++i) {
+    seeded.directions.emplace_back(data.directions[i].binaryExpr(derivative.directions[i], make));
+  }
+  seeded.offset = make(data.offset, derivative.offset);
+  seeded.length = make(data.length, derivative.length);
+  std::size_t i = 0;
+  seeded.drive = data.drive.transformed<Scalar>(
+      [&](double parameter) { return make(parameter, derivative.drive.parameters[i++]); });
+  return seeded;
+}
+
+JointData<WideDual> as_constants(const JointData<double>& data) {
+  return seed_data<WideDual>(data, data, [](double value, double) { return WideDual(value); });
+}
+
+JointData<Dual> seeded(const JointData<double>& data, const JointData<double>& derivative) {
+  return seed_data<Dual>(data, derivative, [](double value, double change) {
+    return Dual(value, Dual::DerType::Constant(change));
+  });
+}
+
+/// Rates do not matter at position level, but the kinematics wants them.
+template <class Scalar>
+struct Local {
+  std::array<Scalar, max_coordinates> q, v, a;
+  std::array<Scalar, max_equations> lambda;
+};
+
+template <class Scalar>
+Local<Scalar> load(const JointReaction& reaction, const State& state) {
+  Local<Scalar> local;
+  local.v.fill(Scalar(0));
+  local.a.fill(Scalar(0));
+  const std::vector<int>& coordinates = reaction.coordinates();
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    local.q[i] = Scalar(state.q(coordinates[i]));
+  }
+  for (int i = 0; i < reaction.joint().equations(); ++i) {
+    local.lambda[static_cast<std::size_t>(i)] =
+        Scalar(state.lambda(reaction.multiplier(state) + i));
+  }
+  return local;
+}
+
+template <class Scalar>
+Eigen::Matrix<Scalar, 6, 1> evaluate(const JointTopology& topology, const JointData<Scalar>& data,
+                                     const Local<Scalar>& local, double time) {
+  std::array<Scalar, max_coordinates> forces;
+  std::array<Scalar, max_equations> equations;
+  forces.fill(Scalar(0));
+  JointEvaluation<Scalar> evaluation(topology, data, time);
+  evaluation.set_state(local.q.data(), local.v.data(), local.a.data());
+  evaluation.evaluate(ConstraintLevel::position, local.lambda.data(), forces.data(),
+                      equations.data());
+  Eigen::Matrix<Scalar, 6, 1> result;
+  result << evaluation.wrench().force, evaluation.wrench().moment;
+  return result;
+}
+
+}  // namespace
+
+struct JointReaction::Numbers {
+  JointData<WideDual> constants;
+  std::vector<DesignDerivative<JointData<Dual>>> by_variable;
+};
+
+JointReaction::JointReaction(const JointModel& joint)
+    : joint_(joint), coordinates_(local_coordinates(joint.topology)) {
+  auto numbers = std::make_unique<Numbers>();
+  numbers->constants = as_constants(joint.data);
+  for (const auto& [variable, derivative] : joint.derivatives) {
+    numbers->by_variable.push_back({variable, seeded(joint.data, derivative)});
+  }
+  numbers_ = std::move(numbers);
+}
+
+JointReaction::~JointReaction() = default;
+
+int JointReaction::multiplier(const State& state) const {
+  return joint_.topology.multiplier - static_cast<int>(state.q.size());
+}
+
+JointReaction::Wrench JointReaction::wrench(const State& state) const {
+  return evaluate(joint_.topology, joint_.data, load<double>(*this, state), state.time);
+}
+
+JointReaction::Derivatives JointReaction::derivatives(const State& state) const {
+  const auto coordinates = static_cast<int>(coordinates_.size());
+  Local<WideDual> local = load<WideDual>(*this, state);
+  for (int i = 0; i < coordinates; ++i) {
+    local.q[static_cast<std::size_t>(i)].derivatives()[i] = 1.0;
+  }
+  for (int i = 0; i < joint_.equations(); ++i) {
+    local.lambda[static_cast<std::size_t>(i)].derivatives()[max_coordinates + i] = 1.0;
+  }
+  const auto wrench = evaluate(joint_.topology, numbers_->constants, local, state.time);
+  Derivatives result;
+  result.q.resize(6, coordinates);
+  result.lambda.resize(6, joint_.equations());
+  for (int row = 0; row < 6; ++row) {
+    const auto& slopes = wrench(row).derivatives();
+    result.q.row(row) = slopes.head(coordinates).transpose();
+    result.lambda.row(row) = slopes.segment(max_coordinates, joint_.equations()).transpose();
+  }
+  const Local<Dual> constant = load<Dual>(*this, state);
+  for (const auto& [variable, data] : numbers_->by_variable) {
+    result.design.push_back(
+        {variable, derivative_matrix(evaluate(joint_.topology, data, constant, state.time))});
+  }
+  return result;
+}
+
+}  // namespace pleuel
