@@ -63,7 +63,8 @@ TEST_F(Mechanism, HasReducedDampedAndRigidBeams) {
 
 TEST_F(Mechanism, TakesAPlainFrequencyOfAReductionInHertz) {
   const Json plain = edited(good_mechanism(), "/scene/bodies/rod/reduction/frequency", "2000");
-  const auto& rod = std::get<BeamBody>(named(read(plain).scene.bodies, "rod").shape);
+  const ProblemFile problem = read(plain);
+  const auto& rod = std::get<BeamBody>(named(problem.scene.bodies, "rod").shape);
   EXPECT_DOUBLE_EQ(*rod.reduction->frequency, 4000.0 * pi);
 }
 
