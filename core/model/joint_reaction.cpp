@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "core/joints/joint_numbers.hpp"
 #include "core/joints/joint_residual.hpp"
 
 namespace pleuel {
@@ -11,46 +12,6 @@ namespace {
 /// Coordinates of both markers (a frame and six displacements each), and equations.
 constexpr int max_coordinates = 2 * (6 + 6), max_equations = 7;
 using WideDual = DualOf<max_coordinates + max_equations>;
-
-std::vector<int> local_coordinates(const JointTopology& topology) {
-  std::vector<int> coordinates;
-  for (const Marker& marker : topology.markers) {
-    for (int i = 0; i < marker.frame.size(); ++i) coordinates.push_back(marker.frame.offset + i);
-    for (int index : marker.elastic) {
-      if (index >= 0) coordinates.push_back(index);
-    }
-  }
-  return coordinates;
-}
-
-/// The numbers of a joint in another scalar type, number by number: make(value, derivative).
-template <class Scalar, class Make>
-JointData<Scalar> seed_data(const JointData<double>& data, const JointData<double>& derivative,
-                            const Make& make) {
-  JointData<Scalar> seeded;
-  for (std::size_t i = 0; i < 2; ++i) {
-    seeded.points[i] = data.points[i].binaryExpr(derivative.points[i], make);
-  }
-  for (std::size_t i = 0; i < data.directions.size(); ++i) {
-    seeded.directions.emplace_back(data.directions[i].binaryExpr(derivative.directions[i], make));
-  }
-  seeded.offset = make(data.offset, derivative.offset);
-  seeded.length = make(data.length, derivative.length);
-  std::size_t i = 0;
-  seeded.drive = data.drive.transformed<Scalar>(
-      [&](double parameter) { return make(parameter, derivative.drive.parameters[i++]); });
-  return seeded;
-}
-
-JointData<WideDual> as_constants(const JointData<double>& data) {
-  return seed_data<WideDual>(data, data, [](double value, double) { return WideDual(value); });
-}
-
-JointData<Dual> seeded(const JointData<double>& data, const JointData<double>& derivative) {
-  return seed_data<Dual>(data, derivative, [](double value, double change) {
-    return Dual(value, Dual::DerType::Constant(change));
-  });
-}
 
 /// Rates do not matter at position level, but the kinematics wants them.
 template <class Scalar>
@@ -100,9 +61,9 @@ struct JointReaction::Numbers {
 JointReaction::JointReaction(const JointModel& joint)
     : joint_(joint), coordinates_(local_coordinates(joint.topology)) {
   auto numbers = std::make_unique<Numbers>();
-  numbers->constants = as_constants(joint.data);
+  numbers->constants = cast_data<WideDual>(joint.data);
   for (const auto& [variable, derivative] : joint.derivatives) {
-    numbers->by_variable.push_back({variable, seeded(joint.data, derivative)});
+    numbers->by_variable.push_back({variable, seed_data(joint.data, derivative)});
   }
   numbers_ = std::move(numbers);
 }

@@ -4,7 +4,7 @@
 
 #include "tests/cli/program.hpp"
 
-namespace pleuel::testing {
+namespace pleuel::test {
 namespace {
 
 using ::testing::AllOf;
@@ -100,4 +100,4 @@ TEST(Help, IsNoError) {
 }
 
 }  // namespace
-}  // namespace pleuel::testing
+}  // namespace pleuel::test

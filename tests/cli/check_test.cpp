@@ -2,7 +2,7 @@
 
 #include "tests/cli/program.hpp"
 
-namespace pleuel::testing {
+namespace pleuel::test {
 namespace {
 
 TEST(Check, FindsTheDerivativesOfEveryResponseRight) {
@@ -37,4 +37,4 @@ TEST(Check, NeedsNoVariables) {
 }
 
 }  // namespace
-}  // namespace pleuel::testing
+}  // namespace pleuel::test

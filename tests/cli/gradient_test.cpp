@@ -4,7 +4,7 @@
 
 #include "tests/cli/program.hpp"
 
-namespace pleuel::testing {
+namespace pleuel::test {
 namespace {
 
 TEST(Gradient, MethodsStandSideBySideAndAgree) {
@@ -46,4 +46,4 @@ TEST(Backends, AreListed) {
 }
 
 }  // namespace
-}  // namespace pleuel::testing
+}  // namespace pleuel::test

@@ -2,7 +2,7 @@
 
 #include "tests/cli/program.hpp"
 
-namespace pleuel::testing {
+namespace pleuel::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -81,4 +81,4 @@ TEST(Optimize, BackendOfTheCommandLineWinsOverThatOfTheFile) {
 }
 
 }  // namespace
-}  // namespace pleuel::testing
+}  // namespace pleuel::test

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-namespace pleuel::testing {
+namespace pleuel::test {
 
 namespace fs = std::filesystem;
 
@@ -26,17 +26,6 @@ nlohmann::json ProgramRun::document() const {
   const auto document = nlohmann::json::parse(out, nullptr, /*allow_exceptions=*/false);
   EXPECT_FALSE(document.is_discarded()) << "not one JSON document: " << out << err;
   return document;
-}
-
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (fs::temp_directory_path() / "pleuel-test-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code error;
-  fs::remove_all(path_, error);
 }
 
 ProgramRun run_program(const fs::path& folder, const std::vector<std::string>& words) {
@@ -82,4 +71,4 @@ std::vector<std::vector<std::string>> read_csv(const fs::path& path) {
   return rows;
 }
 
-}  // namespace pleuel::testing
+}  // namespace pleuel::test

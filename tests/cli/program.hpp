@@ -6,8 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/support/temporary_folder.hpp"
+
 /// The built program as a subprocess, in a folder of its own.
-namespace pleuel::testing {
+namespace pleuel::test {
 
 /// What a run of the program left.
 struct ProgramRun {
@@ -16,19 +18,6 @@ struct ProgramRun {
 
   /// Standard output as one JSON document; a test failure otherwise.
   nlohmann::json document() const;
-};
-
-/// An empty folder that goes with the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
 };
 
 /// Runs `pleuel words…` with this folder as the current one.
@@ -49,4 +38,4 @@ std::string read_file(const std::filesystem::path& path);
 /// The lines of a file, split at commas; good for files without quotes.
 std::vector<std::vector<std::string>> read_csv(const std::filesystem::path& path);
 
-}  // namespace pleuel::testing
+}  // namespace pleuel::test

@@ -2,7 +2,7 @@
 
 #include "tests/cli/program.hpp"
 
-namespace pleuel::testing {
+namespace pleuel::test {
 namespace {
 
 TEST(ParetoCommand, ReportsEveryPointAndWritesThem) {
@@ -46,4 +46,4 @@ TEST(AccuracyCommand, MeasuresEveryCombination) {
 }
 
 }  // namespace
-}  // namespace pleuel::testing
+}  // namespace pleuel::test

@@ -7,6 +7,7 @@
 #include "core/base/error.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "tests/scene/good_problem.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace pleuel::test {
 namespace {
@@ -146,11 +147,8 @@ TEST(BadMaterial, SuggestsThoseOfTheLibrary) {
 /// A folder with a catalogue beside a problem whose crank takes its section from it.
 class BadCatalogue : public testing::Test {
  protected:
-  const std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) / "pleuel_bad_catalogue";
-
-  BadCatalogue() { std::filesystem::create_directories(folder_); }
-  ~BadCatalogue() override { std::filesystem::remove_all(folder_); }
+  const TemporaryFolder temporary_;
+  const std::filesystem::path& folder_ = temporary_.path();
 
   /// What is said of the problem, with the folder taken out.
   std::string complaint_with(const std::string& catalogue, const std::string& section) {

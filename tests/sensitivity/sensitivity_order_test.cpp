@@ -8,28 +8,12 @@ namespace {
 
 using namespace pleuel;
 
-/// The driven slider-crank alone, one element a segment, without gravity: at rest at first.
-SampleScene smooth_sample() {
-  SampleScene sample = planar_sample();
-  std::erase_if(sample.scene.bodies,
-                [](const Body& b) { return b.name == "block" || b.name == "arm"; });
-  std::erase_if(sample.scene.joints,
-                [](const Joint& j) { return j.name == "slide" || j.name == "weld"; });
-  sample.scene.gravity = {0.0, 0.0, 0.0};
-  for (Body& body : sample.scene.bodies) {
-    if (auto* beam = std::get_if<BeamBody>(&body.shape)) {
-      for (Segment& segment : beam->segments) segment.elements = 1;
-    }
-  }
-  return sample;
-}
-
 struct End {
   Eigen::MatrixXd q, lambda;  ///< per relative change of each variable
 };
 
 End end_with(int steps) {
-  const SampleScene sample = smooth_sample();
+  const SampleScene sample = smooth_planar_sample();
   Model model = sample.build();
   SimulationOptions options{0.06, 0.06 / steps, 0.8};
   options.newton_tolerance = 1e-14;

@@ -11,7 +11,7 @@ namespace pleuel {
 namespace {
 
 AccuracyStudy study(double error) {
-  ProblemFile problem = testing::quick_problem();
+  ProblemFile problem = test::quick_problem();
   problem.accuracy = AccuracySettings{{4e-4, 2e-4, 1e-4}, {4}, error};
   return accuracy_study(problem);
 }
@@ -57,7 +57,7 @@ TEST(Accuracy, ReferenceIsFinerThanEveryRun) {
 }
 
 TEST(Accuracy, AFailingRunIsMarkedAndTheOthersGoOn) {
-  ProblemFile problem = testing::quick_problem({"/simulation/max_newton_iterations=3"});
+  ProblemFile problem = test::quick_problem({"/simulation/max_newton_iterations=3"});
   problem.accuracy = AccuracySettings{{4e-3, 1e-4}, {2}, 1e-3};
   problem.simulation.newton_tolerance = 1e-9;
   const AccuracyStudy result = accuracy_study(problem);
@@ -66,7 +66,7 @@ TEST(Accuracy, AFailingRunIsMarkedAndTheOthersGoOn) {
 }
 
 TEST(Accuracy, WithoutSettingsThereIsNothingToTry) {
-  ProblemFile problem = testing::quick_problem();
+  ProblemFile problem = test::quick_problem();
   problem.accuracy.reset();
   EXPECT_THROW(accuracy_study(problem), InputError);
 }

@@ -8,7 +8,7 @@ namespace pleuel {
 namespace {
 
 TEST(DerivativeCheck, AgreesForEveryResponseOfASampleProblem) {
-  const ProblemFile problem = testing::quick_problem();
+  const ProblemFile problem = test::quick_problem();
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
   const auto checks = check_derivatives(problem, x, *analysis, [](double) {});
@@ -20,7 +20,7 @@ TEST(DerivativeCheck, AgreesForEveryResponseOfASampleProblem) {
 }
 
 TEST(DerivativeCheck, NoticesThatAnalysisAndDesignDoNotBelongTogether) {
-  const ProblemFile problem = testing::quick_problem();
+  const ProblemFile problem = test::quick_problem();
   const Eigen::VectorXd x = start_design(problem);
   const auto elsewhere = analyze(problem, 1.01 * x);
   const auto checks = check_derivatives(problem, x, *elsewhere, [](double) {});

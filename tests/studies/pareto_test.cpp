@@ -19,7 +19,7 @@ std::vector<ParetoPoint> front(const ProblemFile& problem) {
 }
 
 TEST(Pareto, MoreRoomNeverCostsMass) {
-  const std::vector<ParetoPoint> points = front(testing::quick_problem(four_points));
+  const std::vector<ParetoPoint> points = front(test::quick_problem(four_points));
   ASSERT_EQ(points.size(), 4u);
   for (std::size_t i = 0; i < points.size(); ++i) {
     ASSERT_EQ(points[i].result.status, Status::verified) << points[i].result.message;
@@ -33,7 +33,7 @@ TEST(Pareto, MoreRoomNeverCostsMass) {
 }
 
 TEST(Pareto, FirstPointIsTheOptimumOfTheProblemWithThatLimit) {
-  const ProblemFile problem = testing::quick_problem(four_points);
+  const ProblemFile problem = test::quick_problem(four_points);
   ProblemFile limited = problem;
   for (ConstraintSettings& constraint : limited.constraints) {
     if (constraint.name == problem.pareto->constraint) constraint.upper = problem.pareto->from;
@@ -46,7 +46,7 @@ TEST(Pareto, FirstPointIsTheOptimumOfTheProblemWithThatLimit) {
 }
 
 TEST(Pareto, EachPointStartsFromTheOptimumBefore) {
-  const std::vector<ParetoPoint> points = front(testing::quick_problem(four_points));
+  const std::vector<ParetoPoint> points = front(test::quick_problem(four_points));
   for (std::size_t i = 1; i < points.size(); ++i) {
     EXPECT_EQ(points[i].result.history.front().x, points[i - 1].result.x);
   }
@@ -54,7 +54,7 @@ TEST(Pareto, EachPointStartsFromTheOptimumBefore) {
 
 TEST(Pareto, MultiplierIsTheSlopeOfTheFront) {
   const ProblemFile problem =
-      testing::quick_problem({"/pareto/points=3", "/pareto/from=0.02 mm", "/pareto/to=0.0202 mm"});
+      test::quick_problem({"/pareto/points=3", "/pareto/from=0.02 mm", "/pareto/to=0.0202 mm"});
   const std::vector<ParetoPoint> points = front(problem);
   ASSERT_GT(points[1].multiplier, 0.0) << "the limit is not active: the test says nothing";
   const double slope =
@@ -67,7 +67,7 @@ TEST(Pareto, MultiplierIsTheSlopeOfTheFront) {
 TEST(Pareto, EqualDesignsDoNotDominateEachOther) {
   // At five metres the limit plays no part: both points are the same design.
   const ProblemFile problem =
-      testing::quick_problem({"/pareto/points=2", "/pareto/from=5 m", "/pareto/to=6 m"});
+      test::quick_problem({"/pareto/points=2", "/pareto/from=5 m", "/pareto/to=6 m"});
   for (const ParetoPoint& point : front(problem)) {
     EXPECT_FALSE(point.is_dominated);
     EXPECT_EQ(point.multiplier, 0.0);
@@ -75,7 +75,7 @@ TEST(Pareto, EqualDesignsDoNotDominateEachOther) {
 }
 
 TEST(Pareto, WithoutSettingsThereIsNothingToVary) {
-  ProblemFile problem = testing::quick_problem();
+  ProblemFile problem = test::quick_problem();
   problem.pareto.reset();
   EXPECT_THROW(pareto_front(problem, {}), InputError);
 }

@@ -5,7 +5,7 @@
 
 #include "core/scene/problem_reader.hpp"
 
-namespace pleuel::testing {
+namespace pleuel::test {
 
 /// The round slider-crank with coarse steps and only its ramp: a simulation takes milliseconds,
 /// and the most robust of the backends needs few of them.
@@ -18,4 +18,4 @@ inline ProblemFile quick_problem(const std::vector<std::string>& more = {}) {
                       overrides);
 }
 
-}  // namespace pleuel::testing
+}  // namespace pleuel::test

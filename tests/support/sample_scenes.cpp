@@ -101,6 +101,21 @@ SampleScene planar_sample() {
   return write.sample;
 }
 
+SampleScene smooth_planar_sample() {
+  SampleScene sample = planar_sample();
+  std::erase_if(sample.scene.bodies,
+                [](const Body& b) { return b.name == "block" || b.name == "arm"; });
+  std::erase_if(sample.scene.joints,
+                [](const Joint& j) { return j.name == "slide" || j.name == "weld"; });
+  sample.scene.gravity = {0.0, 0.0, 0.0};
+  for (Body& body : sample.scene.bodies) {
+    if (auto* beam = std::get_if<BeamBody>(&body.shape)) {
+      for (Segment& segment : beam->segments) segment.elements = 1;
+    }
+  }
+  return sample;
+}
+
 SampleScene planar_sample_in_space() {
   SampleScene sample = planar_sample();
   sample.name = "PlanarForcedIntoSpace";

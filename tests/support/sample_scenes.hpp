@@ -25,6 +25,10 @@ struct SampleScene {
 /// plane.
 SampleScene planar_sample();
 
+/// Its driven slider-crank alone, one element a segment, without gravity: at rest at first and soft
+/// enough for steps in the asymptotic range.
+SampleScene smooth_planar_sample();
+
 /// The same mechanism, moved without its planarity: forced into space.
 SampleScene planar_sample_in_space();
 

@@ -20,17 +20,7 @@ class SchemeOrder : public testing::Test {
   };
 
   static End simulate_with(double step, double spectral_radius) {
-    SampleScene sample = planar_sample();
-    std::erase_if(sample.scene.bodies,
-                  [](const Body& b) { return b.name == "block" || b.name == "arm"; });
-    std::erase_if(sample.scene.joints,
-                  [](const Joint& j) { return j.name == "slide" || j.name == "weld"; });
-    sample.scene.gravity = {0.0, 0.0, 0.0};
-    for (Body& body : sample.scene.bodies) {
-      if (auto* beam = std::get_if<BeamBody>(&body.shape)) {
-        for (Segment& segment : beam->segments) segment.elements = 1;
-      }
-    }
+    const SampleScene sample = smooth_planar_sample();
     Model model = sample.build();
     SimulationOptions options{end_time, step, spectral_radius};
     options.newton_tolerance = 1e-14;

@@ -31,7 +31,7 @@ class EveryReaction : public testing::TestWithParam<int> {};
 TEST_P(EveryReaction, IsWhatTheTermDoesToTheFrameOfTheSecondBody) {
   const SampleScene sample = all_samples()[static_cast<std::size_t>(GetParam())];
   const Model model = sample.build();
-  const State all = random_state(model);
+  const State all = random_state(model, 11);
   for (const JointModel& joint : model.joints) {
     if (joint.equations() == 0) continue;
     State state = all;

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "core/response/response.hpp"
+#include "tests/support/random_state.hpp"
 #include "tests/support/sample_scenes.hpp"
 
 /// Every kind of response, asked of every body and joint of a sample.
@@ -104,30 +105,6 @@ inline std::vector<ResponseSettings> all_histories(const Model& model) {
   }
   for (const JointModel& joint : model.joints) add_joint_responses(joint, all);
   return all;
-}
-
-/// A state somewhere near the start, with all rates and multipliers: no signal needs a consistent
-/// one. Lengths are some 0.1 m.
-inline State random_state(const Model& model) {
-  const System& system = *model.mechanism.system;
-  std::mt19937 random(11);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  State state(system.coordinates(), system.multipliers());
-  state.time = 0.013;
-  state.q = model.mechanism.guess.q;
-  const auto disturb = [&](Eigen::Index first, Eigen::Index size, double q, double v, double a) {
-    for (Eigen::Index i = first; i < first + size; ++i) {
-      state.q(i) += q * uniform(random);
-      state.v(i) += v * uniform(random);
-      state.a(i) += a * uniform(random);
-    }
-  };
-  for (const BodyModel& body : model.bodies) {
-    disturb(body.frame.offset, body.frame.size(), 0.2, 3.0, 30.0);
-    disturb(body.elastic_offset(), body.elastic_size(), 5e-3, 0.3, 3.0);
-  }
-  for (double& lambda : state.lambda) lambda = 10.0 * uniform(random);
-  return state;
 }
 
 inline Eigen::VectorXd random_vector(Eigen::Index size, unsigned seed) {

@@ -13,7 +13,7 @@ class EverySignal : public testing::TestWithParam<int> {
  protected:
   SampleScene sample_ = sample_with_strength(GetParam());
   Model model_ = sample_.build();
-  State state_ = random_state(model_);
+  State state_ = random_state(model_, 11);
   std::vector<Response> responses_ = make_responses(all_histories(model_), model_);
 
   SignalGradient gradient_of(Signal& signal, int channel) const {

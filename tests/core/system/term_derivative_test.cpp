@@ -1,5 +1,4 @@
 #include <array>
-#include <random>
 
 #include <gtest/gtest.h>
 
@@ -7,35 +6,12 @@
 #include "tests/support/common_basis.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/differences.hpp"
+#include "tests/support/random_state.hpp"
 #include "tests/support/sample_scenes.hpp"
 
 namespace {
 
 using namespace pleuel;
-
-/// A state somewhere near the start, with all rates and multipliers: no law of a term needs a
-/// consistent one. Lengths are some 0.1 m, strains far beyond what is sensible.
-State random_state(const Model& model) {
-  const System& system = *model.mechanism.system;
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  State state(system.coordinates(), system.multipliers());
-  state.time = 0.013;
-  state.q = model.mechanism.guess.q;
-  const auto disturb = [&](Eigen::Index first, Eigen::Index size, double q, double v, double a) {
-    for (Eigen::Index i = first; i < first + size; ++i) {
-      state.q(i) += q * uniform(random);
-      state.v(i) += v * uniform(random);
-      state.a(i) += a * uniform(random);
-    }
-  };
-  for (const BodyModel& body : model.bodies) {
-    disturb(body.frame.offset, body.frame.size(), 0.2, 3.0, 30.0);
-    if (body.is_beam()) disturb(body.elastic_offset(), body.elastic_size(), 5e-3, 0.3, 3.0);
-  }
-  for (double& lambda : state.lambda) lambda = 10.0 * uniform(random);
-  return state;
-}
 
 struct Case {
   int sample;
@@ -46,7 +22,7 @@ class EveryTerm : public testing::TestWithParam<Case> {
  protected:
   SampleScene sample_ = all_samples()[static_cast<std::size_t>(GetParam().sample)];
   Model model_ = sample_.build();
-  State state_ = random_state(model_);
+  State state_ = random_state(model_, 7);
 
   /// Compares ∂(residual)/∂(part of the state) with `expected`, column by column.
   template <class Shift>
@@ -196,7 +172,7 @@ class EverySample : public testing::TestWithParam<int> {
  protected:
   SampleScene sample_ = all_samples()[static_cast<std::size_t>(GetParam())];
   Model model_ = sample_.build();
-  State state_ = random_state(model_);
+  State state_ = random_state(model_, 7);
 };
 
 /// The multipliers' part of the dynamic rows is Φ_qᵀ λ, with Φ_q from differences of Φ.
