@@ -54,6 +54,25 @@ std::map<int, std::vector<Use>> samples_by_step(const std::vector<SampledValue>&
 
 }  // namespace
 
+namespace {
+
+/// Takes off the gradients of what is measured in the mechanism without elasticity.
+void subtract_rigid_mechanism(Analysis& analysis, const std::vector<SampledValue>& values,
+                              Eigen::MatrixXd& gradients) {
+  std::vector<SampledValue> rigid_values;
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto& rigid = analysis.responses[values[i].response].rigid_response;
+    if (!rigid) continue;
+    rigid_values.push_back({*rigid, values[i].samples});
+    rows.push_back(static_cast<Eigen::Index>(i));
+  }
+  if (rows.empty()) return;
+  gradients(rows, Eigen::all) -= direct_gradients(*analysis.rigid, rigid_values);
+}
+
+}  // namespace
+
 Eigen::MatrixXd direct_gradients(Analysis& analysis, const std::vector<SampledValue>& values) {
   const System& system = *analysis.model.mechanism.system;
   Eigen::MatrixXd result =
@@ -93,6 +112,7 @@ Eigen::MatrixXd direct_gradients(Analysis& analysis, const std::vector<SampledVa
                         gradient.design.transpose();
                   }
                 });
+  subtract_rigid_mechanism(analysis, values, result);
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/beam/beam_place.hpp"
 #include "core/response/body_signal.hpp"
+#include "core/response/signal_sum.hpp"
 #include "core/response/vector_component.hpp"
 
 namespace pleuel {
@@ -111,6 +112,15 @@ class PlaceSignal final : public BodySignal<PlaceSignal> {
 
 std::unique_ptr<Signal> make_deflection_signal(const BodyModel& body, double at, int direction) {
   return std::make_unique<DeflectionSignal>(body, at, direction);
+}
+
+std::unique_ptr<Signal> make_chord_deflection_signal(const BodyModel& body, double at,
+                                                     int direction) {
+  std::vector<SignalSum::Part> parts;
+  parts.push_back({1.0, make_deflection_signal(body, at, direction)});
+  parts.push_back({at - 1.0, make_deflection_signal(body, 0.0, direction)});
+  parts.push_back({-at, make_deflection_signal(body, 1.0, direction)});
+  return std::make_unique<SignalSum>(std::move(parts));
 }
 
 std::unique_ptr<Signal> make_position_signal(const BodyModel& body, const PlaceMotion& motion) {

@@ -12,6 +12,10 @@ namespace pleuel {
 /// @param direction  1: local y, 2: local z
 std::unique_ptr<Signal> make_deflection_signal(const BodyModel& body, double at, int direction);
 
+/// The same against the straight line through both ends of the beam, whatever its frame.
+std::unique_ptr<Signal> make_chord_deflection_signal(const BodyModel& body, double at,
+                                                     int direction);
+
 /// Motion of a place of a beam, or of the reference point of another body, in global axes.
 struct PlaceMotion {
   double at = 0.0;    ///< along the undeformed length, 0 … 1; beams only

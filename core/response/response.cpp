@@ -140,13 +140,24 @@ class ResponseMaker {
       case ResponseType::buckling:
         return make_buckling_signal(body, model_.gravity);
       case ResponseType::deflection:
-        return make_deflection_signal(body, settings_.at, settings_.direction);
+        return make_deflection(body);
       case ResponseType::position:
         return make_position_signal(body, place);
       case ResponseType::velocity:
         return make_velocity_signal(body, place);
       default:
         return make_acceleration_signal(body, place);
+    }
+  }
+
+  std::unique_ptr<Signal> make_deflection(const BodyModel& body) const {
+    switch (settings_.against) {
+      case DeflectionReference::frame:
+        return make_deflection_signal(body, settings_.at, settings_.direction);
+      case DeflectionReference::chord:
+        return make_chord_deflection_signal(body, settings_.at, settings_.direction);
+      default:  // the position in the rigid mechanism is taken off afterwards
+        return make_position_signal(body, {settings_.at, settings_.direction});
     }
   }
 
@@ -189,6 +200,47 @@ void set_mechanism_frequencies(Analysis& analysis) {
     }
     response.constant = frequencies(*response.mechanism_mode);
   }
+}
+
+/// The problem without elasticity, for the positions that deflections are measured against.
+ProblemFile without_elasticity(const ProblemFile& problem) {
+  ProblemFile rigid = problem;
+  rigid.effects.elasticity = EffectChoice::off;
+  rigid.simulation.quasi_static_start = false;
+  std::erase_if(rigid.responses, [](const ResponseSettings& response) {
+    return response.against != DeflectionReference::rigid_mechanism;
+  });
+  for (ResponseSettings& response : rigid.responses) {
+    response.type = ResponseType::position;
+    response.against = DeflectionReference::frame;
+  }
+  return rigid;
+}
+
+/// Simulates the mechanism without elasticity where a response needs it.
+void set_rigid_mechanism(const ProblemFile& problem, const Eigen::VectorXd& x, Analysis& analysis) {
+  const ProblemFile rigid = without_elasticity(problem);
+  if (rigid.responses.empty()) return;
+  try {
+    analysis.rigid = analyze(rigid, x);
+  } catch (const SimulationError& error) {
+    throw SimulationError(
+        fmt::format("the mechanism without elasticity, which a deflection is measured against: {}",
+                    error.what()));
+  }
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < problem.responses.size(); ++i) {
+    if (problem.responses[i].against == DeflectionReference::rigid_mechanism) {
+      analysis.responses[i].rigid_response = next++;
+    }
+  }
+}
+
+/// The history of a response, measured against the rigid mechanism if need be.
+Eigen::MatrixXd history_of(const Response& response, const Analysis& analysis) {
+  Eigen::MatrixXd history = observe(*response.signal, analysis.trajectory);
+  if (response.rigid_response) history -= analysis.rigid->histories[*response.rigid_response];
+  return history;
 }
 
 }  // namespace
@@ -241,11 +293,12 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
                                    settings.newton_tolerance, settings.max_newton_iterations});
   analysis->responses = make_responses(problem.responses, analysis->model);
   set_mechanism_frequencies(*analysis);
+  set_rigid_mechanism(problem, x, *analysis);
   for (Response& response : analysis->responses) {
     Reduction reduction;
     Eigen::MatrixXd history;
     if (response.signal) {
-      history = observe(*response.signal, analysis->trajectory);
+      history = history_of(response, *analysis);
       const Eigen::VectorXd& time = analysis->trajectory.time;
       reduction = reduce(response.over_time, time, history, response.steps(time));
     } else {

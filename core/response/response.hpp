@@ -22,6 +22,8 @@ struct Response {
   /// Of a frequency of the whole mechanism: its mode, from 0. A constant, too, but one of the
   /// initial state: analyze() sets it, and its derivatives take those of that state.
   std::optional<int> mechanism_mode;
+  /// Of a deflection against the rigid mechanism: which response of Analysis::rigid is taken off.
+  std::optional<std::size_t> rigid_response;
   std::optional<double> from, to;  ///< window of time that is reduced [s]
 
   /// The steps of a simulation that are reduced.
@@ -43,6 +45,8 @@ struct Analysis {
   std::vector<Response> responses;
   std::vector<Reduction> reductions;       ///< one a response
   std::vector<Eigen::MatrixXd> histories;  ///< one a response; empty for constants
+  /// The same without elasticity, where a response is measured against it; else null.
+  std::unique_ptr<Analysis> rigid;
 };
 
 /// Builds and simulates the mechanism of a problem at a design, and reduces its responses.

@@ -80,6 +80,14 @@ enum class StressPart {
   utilization  ///< von Mises stress over the strength of the material
 };
 
+/// What a deflection is measured against.
+enum class DeflectionReference {
+  frame,           ///< the body frame
+  chord,           ///< the straight line through both ends of the beam
+  rigid_mechanism  ///< the same place in the same mechanism without elasticity, same drives and
+                   ///< loads
+};
+
 struct ResponseSettings {
   std::string name;
   ResponseType type = ResponseType::mass;
@@ -88,8 +96,9 @@ struct ResponseSettings {
   std::optional<double> station;    ///< stress: only at this place along the beam, 0 … 1
   StressPart part = StressPart::von_mises;
   double at = 0.0;  ///< deflection, position …: place along the beam, 0 … 1
-  /// deflection: 1 = local y, 2 = local z; position, velocity, acceleration, reaction: 0 … 2 global
-  /// axes, −1 = magnitude
+  DeflectionReference against = DeflectionReference::frame;
+  /// deflection: 1 = local y, 2 = local z; deflection against the rigid mechanism, position,
+  /// velocity, acceleration, reaction: 0 … 2 global axes, −1 = magnitude
   int direction = 1;
   std::string joint;  ///< drive torque and power, reactions
   int mode = 0;       ///< frequency: from 0 for the lowest

@@ -322,6 +322,13 @@ INSTANTIATE_TEST_SUITE_P(
                    "/responses/weight/over_time is not for a mass, which does not change in time"},
         BadProblem{"/responses/bow/direction", R"("x")",
                    R"(/responses/bow/direction must be "y" or "z", got "x")"},
+        BadProblem{
+            "/responses/bow/against", R"("cord")",
+            R"(/responses/bow/against must be "frame", "chord" or "rigid-mechanism", got "cord"; did you mean "chord"?)"},
+        BadProblem{"/responses/bow",
+                   R"({"type": "deflection", "body": "rod", "at": 0.5, "over_time": "max",
+                       "against": "rigid-mechanism"})",
+                   R"(/responses/bow is missing the key "direction")"},
         BadProblem{"/responses/place/direction", "remove",
                    R"(/responses/place is missing the key "direction")"},
         BadProblem{

@@ -88,6 +88,17 @@ TEST_F(ProblemSchema, AcceptsEverySection) {
   EXPECT_EQ(complaints_about_edit("/scene/materials/steel/strength", R"("355 MPa")"), "");
 }
 
+TEST_F(ProblemSchema, AcceptsEveryReferenceOfADeflection) {
+  for (const char* against : {R"("against": "frame")", R"("against": "chord", "direction": "z")",
+                              R"("against": "rigid-mechanism", "direction": "x")"}) {
+    const std::string bow = std::string(R"({"type": "deflection", "body": "rod", "at": 0.5,
+                                            "over_time": "max", )") +
+                            against + "}";
+    EXPECT_EQ(complaints_about_edit("/responses/bow", bow), "") << against;
+    EXPECT_EQ(complaint(edited("/responses/bow", bow)), "") << against;
+  }
+}
+
 TEST_F(ProblemSchema, AcceptsTheGoodMechanism) {
   EXPECT_EQ(complaints(nlohmann::json::parse(good_mechanism().dump())), "");
 }
@@ -186,6 +197,7 @@ TEST_F(ProblemSchema, RefusesWhatTheReaderRefuses) {
       {"/responses/stress/over_time", "remove"},
       {"/responses/bow/at", "1.5"},
       {"/responses/bow/direction", "\"x\""},
+      {"/responses/bow/against", "\"rigid-mechanism\""},
       {"/constraints/strength/upper", "remove"},
       {"/constraints/slender/response", "\"bow\""},
       {"/optimizer/tolerance", "0"},

@@ -106,10 +106,18 @@ void read_stress(const JsonNode& node, const ResponseContext& context, ResponseS
 
 void read_deflection(const JsonNode& node, const ResponseContext& context,
                      ResponseSettings& response) {
-  allow_history_keys(node, {"body", "at", "direction"});
+  allow_history_keys(node, {"body", "at", "direction", "against"});
   read_elastic_beam(node, context.scene, response);
   response.at = read_place(node.at("at"));
-  if (const auto direction = node.find("direction")) {
+  if (const auto against = node.find("against")) {
+    response.against = read_choice<DeflectionReference>(
+        *against, {{"frame", DeflectionReference::frame},
+                   {"chord", DeflectionReference::chord},
+                   {"rigid-mechanism", DeflectionReference::rigid_mechanism}});
+  }
+  if (response.against == DeflectionReference::rigid_mechanism) {
+    response.direction = read_choice<int>(node.at("direction"), {{"x", 0}, {"y", 1}, {"z", 2}});
+  } else if (const auto direction = node.find("direction")) {
     response.direction = read_choice<int>(*direction, {{"y", 1}, {"z", 2}});
   }
   read_history(node, context, response);

@@ -1,0 +1,101 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "sensitivity/finite_difference.hpp"
+#include "sensitivity/gradients.hpp"
+#include "tests/support/problem_runs.hpp"
+
+namespace pleuel::test {
+namespace {
+
+constexpr double ramp = 0.05, speed = 200.0;
+
+/// The slider-crank with a rod whose frame is given, and deflections against everything.
+ProblemFile problem_with(const std::string& rod_frame) {
+  ProblemFile problem = sample_problem(
+      "slider_crank",
+      {"/simulation/end_time=0.06 s", "/simulation/step=1e-4 s", "/scene/bodies/crank/elements=3",
+       "/scene/bodies/rod/elements=4", "/scene/bodies/rod/frame=" + rod_frame,
+       "/variables/crank_height/start=18 mm",
+       R"(/responses/bow_from_frame={"type": "deflection", "body": "rod", "at": 0.5,
+            "over_time": "rms"})",
+       R"(/responses/bow_from_chord={"type": "deflection", "body": "rod", "at": 0.5,
+            "against": "chord", "over_time": "rms"})",
+       R"(/responses/tip_from_frame={"type": "deflection", "body": "crank", "at": 1,
+            "over_time": "rms"})",
+       R"(/responses/tip_from_rigid_x={"type": "deflection", "body": "crank", "at": 1,
+            "against": "rigid-mechanism", "direction": "x", "over_time": "rms"})",
+       R"(/responses/tip_from_rigid_y={"type": "deflection", "body": "crank", "at": 1,
+            "against": "rigid-mechanism", "direction": "y", "over_time": "max-abs"})"});
+  problem.simulation.newton_tolerance = 1e-12;
+  return problem;
+}
+
+struct Simulated {
+  ProblemFile problem;
+  std::unique_ptr<Analysis> analysis;
+
+  explicit Simulated(const std::string& rod_frame)
+      : problem(problem_with(rod_frame)), analysis(analyze(problem, start_design(problem))) {}
+
+  Eigen::VectorXd history(const std::string& response) const {
+    return analysis->histories[static_cast<std::size_t>(response_index(problem, response))].row(0);
+  }
+};
+
+/// ∫∫(Ω/T)(1 − cos 2πt/T), then Ω t
+double crank_angle(double t) {
+  const double pi = std::acos(-1.0), w = 2.0 * pi / ramp;
+  if (t >= ramp) return speed * (t - 0.5 * ramp);
+  return speed / ramp * (t * t / 2.0 - (1.0 - std::cos(w * t)) / (w * w));
+}
+
+TEST(DeflectionAgainstTheChord, IsThatInAChordFrame) {
+  const Simulated run("chord");
+  const Eigen::VectorXd frame = run.history("bow_from_frame"),
+                        chord = run.history("bow_from_chord");
+  EXPECT_GT(frame.lpNorm<Eigen::Infinity>(), 1e-5);
+  EXPECT_LE((frame - chord).lpNorm<Eigen::Infinity>(), 1e-15);
+}
+
+/// Two frames differ by what is of second order: some δ/L = 1e-3 of the deflection.
+TEST(DeflectionAgainstTheChord, IsThatOfATangentFrame) {
+  const Simulated chord("chord"), tangent("tangent");
+  const Eigen::VectorXd expected = chord.history("bow_from_chord"),
+                        found = tangent.history("bow_from_chord");
+  const double size = expected.lpNorm<Eigen::Infinity>();
+  EXPECT_LE((found - expected).lpNorm<Eigen::Infinity>(), 2e-3 * size);
+  EXPECT_GE((tangent.history("bow_from_frame") - expected).lpNorm<Eigen::Infinity>(), 0.5 * size);
+}
+
+/// The hub of the crank is prescribed, so the rigid crank is at R(φ) (0.12, 0), and the local y
+/// component of the difference is the deflection in the tangent frame.
+TEST(DeflectionAgainstTheRigidMechanism, IsThatFromThePrescribedMotion) {
+  const Simulated run("chord");
+  const Eigen::VectorXd x = run.history("tip_from_rigid_x"), y = run.history("tip_from_rigid_y"),
+                        local = run.history("tip_from_frame");
+  EXPECT_GT(local.lpNorm<Eigen::Infinity>(), 1e-5);
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    const double angle = crank_angle(run.analysis->trajectory.time(k));
+    EXPECT_NEAR(-std::sin(angle) * x(k) + std::cos(angle) * y(k), local(k), 1e-12) << k;
+  }
+}
+
+TEST(DeflectionReferences, HaveTheGradientsOfDifferences) {
+  const Simulated run("tangent");
+  const Eigen::VectorXd x = start_design(run.problem);
+  const Eigen::MatrixXd direct = direct_gradients(*run.analysis) * x.asDiagonal();
+  const Eigen::MatrixXd wide = central_differences(run.problem, x, 1e-3) * x.asDiagonal(),
+                        narrow = central_differences(run.problem, x, 5e-4) * x.asDiagonal();
+  const Eigen::MatrixXd best = (4.0 * narrow - wide) / 3.0;
+  for (const char* name : {"bow_from_chord", "tip_from_rigid_x", "tip_from_rigid_y"}) {
+    const Eigen::Index i = response_index(run.problem, name);
+    EXPECT_LE((best.row(i) - direct.row(i)).lpNorm<Eigen::Infinity>(),
+              1e-7 * direct.row(i).lpNorm<Eigen::Infinity>())
+        << name;
+  }
+}
+
+}  // namespace
+}  // namespace pleuel::test
