@@ -7,12 +7,19 @@
 #include "cli/run_record.hpp"
 #include "cli/stopwatch.hpp"
 #include "cli/trajectory_csv.hpp"
+#include "core/response/monitors.hpp"
 
 namespace pleuel {
 
 namespace {
 
-Json simulation_document(const Analysis& analysis, double seconds) {
+Json monitors_document(const Monitors& monitors) {
+  return {{"position_drift", monitors.position_drift},
+          {"velocity_drift", monitors.velocity_drift},
+          {"energy_error", monitors.energy_error}};
+}
+
+Json simulation_document(const Analysis& analysis, const Monitors& monitors, double seconds) {
   const Trajectory& trajectory = analysis.trajectory;
   const System& system = *analysis.model.mechanism.system;
   return {{"responses", responses_document(analysis)},
@@ -20,16 +27,30 @@ Json simulation_document(const Analysis& analysis, double seconds) {
           {"newton_iterations", trajectory.newton_iterations},
           {"factorizations", trajectory.factorizations},
           {"seconds", seconds},
+          {"monitors", monitors_document(monitors)},
           {"effects", effects_document(analysis.model)},
           {"coordinates", system.coordinates()},
           {"multipliers", system.multipliers()}};
 }
 
-std::string simulation_text(const ProblemFile& problem, const Analysis& analysis, double seconds) {
+std::string monitors_text(const Monitors& monitors, int multipliers) {
+  std::string text;
+  if (multipliers > 0) {
+    text =
+        fmt::format("Joints and drives are kept to {} m or rad, their rates to {} m/s or rad/s.\n",
+                    magnitude(monitors.position_drift), magnitude(monitors.velocity_drift));
+  }
+  return text + fmt::format("Energy is balanced to {} of the largest energy in the motion.\n",
+                            magnitude(monitors.energy_error));
+}
+
+std::string simulation_text(const ProblemFile& problem, const Analysis& analysis,
+                            const Monitors& monitors, double seconds) {
   const Trajectory& trajectory = analysis.trajectory;
-  return fmt::format("{}: {}\n\n{}\n{}, {} Newton iterations, {} factorizations\n", problem.name,
-                     size_text(analysis), responses_text(problem, analysis), duration(seconds),
-                     trajectory.newton_iterations, trajectory.factorizations);
+  return fmt::format("{}: {}\n\n{}\n{}{}, {} Newton iterations, {} factorizations\n", problem.name,
+                     size_text(analysis), responses_text(problem, analysis),
+                     monitors_text(monitors, analysis.model.mechanism.system->multipliers()),
+                     duration(seconds), trajectory.newton_iterations, trajectory.factorizations);
 }
 
 }  // namespace
@@ -41,10 +62,12 @@ Outcome run_simulate(const Arguments& arguments) {
   const Stopwatch stopwatch;
   const auto analysis = analyze(input.problem, start_design(input.problem));
   const double seconds = stopwatch.seconds();
+  record.begin_phase("monitor");
+  const Monitors monitors = monitor(analysis->model, analysis->trajectory);
   record.begin_phase("write");
   write_trajectory(record.folder() / "trajectory.csv", *analysis);
-  Outcome outcome{ExitCode::done, simulation_document(*analysis, seconds),
-                  simulation_text(input.problem, *analysis, seconds)};
+  Outcome outcome{ExitCode::done, simulation_document(*analysis, monitors, seconds),
+                  simulation_text(input.problem, *analysis, monitors, seconds)};
   outcome.text += fmt::format("Written to {}: trajectory.csv, result.json, run_card.json\n",
                               record.folder().string());
   record.finish(outcome);

@@ -63,6 +63,17 @@ TEST(RunFolder, HashTellsInputsApart) {
   EXPECT_NE(hash("one"), hash("other"));
 }
 
+TEST(RunFolder, ResultSaysHowWellConstraintsAndEnergyAreKept) {
+  const TemporaryFolder folder;
+  const ProgramRun run = simulate_into(folder, "one");
+  EXPECT_THAT(run.out, HasSubstr("Energy is balanced to "));
+  const auto monitors =
+      nlohmann::json::parse(read_file(folder.path() / "one/result.json")).at("monitors");
+  EXPECT_LE(monitors.at("position_drift"), 1e-10);  // Newton's tolerance
+  EXPECT_GT(monitors.at("velocity_drift"), 0.0);
+  EXPECT_LE(monitors.at("energy_error"), 1e-2);  // steps of 0.2 ms, eight times those of the file
+}
+
 TEST(RunFolder, TrajectoryHasALineAnInstantAndAColumnAResponse) {
   const TemporaryFolder folder;
   ASSERT_EQ(simulate_into(folder, "one").exit_code, 0);

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "core/model/model.hpp"
+
+namespace pleuel {
+
+/// What a body holds and loses in one instant.
+struct BodyEnergy {
+  double kinetic = 0.0;  ///< T [J]
+  double elastic = 0.0;  ///< ½ q_fᵀ K q_f [J], without geometric stiffening
+  double weight = 0.0;   ///< −g · ∫ρ r [J], zero where the centre of mass is at the origin
+  double dissipation = 0.0;  ///< q̇_fᵀ D q̇_f [W]
+
+  double total() const { return kinetic + elastic + weight; }
+};
+
+/// From the invariants (core/beam/invariants.hpp), in a formula that shares nothing with the
+/// residual of the body: with ṙ in body axes and p = p₀ + S q_f,
+///     T = ½ m ṙ² + ṙ · (ω × c + S̄ q̇_f) + ½ ω · I ω + ω · ∫ρ p × ṗ + ½ q̇_fᵀ S_ff q̇_f
+/// (Shabana, Dynamics of Multibody Systems, ch. 5), c = c₀ + S̄ q_f and I = tr(M) 1 − M from the
+/// second moment M = ∫ρ p pᵀ.
+/// @param gravity  [m/s²], global axes
+BodyEnergy body_energy(const BodyModel& body, const Eigen::Vector3d& gravity, const State& state);
+
+/// The terms whose forces body_energy() does not count. They contain no inertia, so that −vᵀ R is
+/// their power.
+struct TermsBesidesBodies {
+  std::vector<Term*> stiffening;  ///< geometric stiffening: stores elastic energy, too
+  std::vector<Term*> acting;      ///< joints with their drives, loads, springs and dampers
+};
+
+TermsBesidesBodies terms_besides_bodies(const Model& model);
+
+}  // namespace pleuel

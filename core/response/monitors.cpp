@@ -1,0 +1,106 @@
+#include "core/response/monitors.hpp"
+
+#include <algorithm>
+
+#include "core/model/body_energy.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// ∫₀ᵗ power dt in every instant, by the trapezoidal rule.
+Eigen::VectorXd integral(const Eigen::VectorXd& time, const Eigen::VectorXd& power) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(power.size());
+  for (Eigen::Index i = 1; i < power.size(); ++i) {
+    sum(i) = sum(i - 1) + 0.5 * (time(i) - time(i - 1)) * (power(i - 1) + power(i));
+  }
+  return sum;
+}
+
+class Monitoring {
+ public:
+  Monitoring(const Model& model, const Trajectory& trajectory)
+      : model_(model),
+        trajectory_(trajectory),
+        terms_(terms_besides_bodies(model)),
+        residual_(model.mechanism.system->size()) {}
+
+  Monitors run() {
+    const Eigen::Index instants = trajectory_.time.size();
+    for (auto* history : {&kinetic_, &elastic_, &weight_, &stretching_, &acting_}) {
+      history->resize(instants);
+    }
+    for (Eigen::Index i = 0; i < instants; ++i) {
+      trajectory_.load(static_cast<int>(i), state_);
+      observe_bodies(i);
+      observe_terms(i);
+    }
+    balance();
+    return std::move(monitors_);
+  }
+
+ private:
+  void observe_bodies(Eigen::Index instant) {
+    BodyEnergy sum;
+    for (const BodyModel& body : model_.bodies) {
+      const BodyEnergy energy = body_energy(body, model_.gravity, state_);
+      sum.kinetic += energy.kinetic;
+      sum.elastic += energy.elastic;
+      sum.weight += energy.weight;
+      sum.dissipation += energy.dissipation;
+    }
+    kinetic_(instant) = sum.kinetic;
+    elastic_(instant) = sum.elastic;
+    weight_(instant) = sum.weight;
+    acting_(instant) = -sum.dissipation;
+  }
+
+  /// One evaluation of joints at position level gives Φ and their forces.
+  void observe_terms(Eigen::Index instant) {
+    evaluate(terms_.stiffening, ConstraintLevel::position);
+    stretching_(instant) = power();
+    evaluate(terms_.acting, ConstraintLevel::position);
+    acting_(instant) += power();
+    monitors_.position_drift = std::max(monitors_.position_drift, drift());
+    evaluate(terms_.acting, ConstraintLevel::velocity);
+    monitors_.velocity_drift = std::max(monitors_.velocity_drift, drift());
+  }
+
+  void evaluate(const std::vector<Term*>& terms, ConstraintLevel level) {
+    residual_.setZero();
+    for (Term* term : terms) term->add_residual(state_, level, residual_);
+  }
+  double power() const { return -state_.v.dot(residual_.head(state_.v.size())); }
+  double drift() const { return residual_.tail(state_.lambda.size()).lpNorm<Eigen::Infinity>(); }
+
+  void balance() {
+    elastic_ -= integral(trajectory_.time, stretching_);
+    monitors_.work = integral(trajectory_.time, acting_);
+    monitors_.energy = kinetic_ + elastic_ + weight_;
+    weight_.array() -= weight_(0);
+    double largest = 0.0;
+    for (const auto* part : {&kinetic_, &elastic_, &weight_, &monitors_.work}) {
+      largest = std::max(largest, part->lpNorm<Eigen::Infinity>());
+    }
+    if (largest == 0.0) return;
+    const Eigen::VectorXd error = (monitors_.energy - monitors_.work).array() - monitors_.energy(0);
+    monitors_.energy_error = error.lpNorm<Eigen::Infinity>() / largest;
+  }
+
+  const Model& model_;
+  const Trajectory& trajectory_;
+  TermsBesidesBodies terms_;
+  State state_;
+  Eigen::VectorXd residual_;
+  Eigen::VectorXd kinetic_, elastic_, weight_;  ///< energies [J]
+  Eigen::VectorXd stretching_, acting_;         ///< powers on the bodies [W]
+  Monitors monitors_;
+};
+
+}  // namespace
+
+Monitors monitor(const Model& model, const Trajectory& trajectory) {
+  return Monitoring(model, trajectory).run();
+}
+
+}  // namespace pleuel

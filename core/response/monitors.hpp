@@ -1,0 +1,39 @@
+#pragma once
+
+#include "core/integration/simulate.hpp"
+#include "core/model/model.hpp"
+
+namespace pleuel {
+
+/// How far a trajectory is from what the equations of motion promise. Nothing of it is needed for
+/// the simulation: it is evidence for whoever reads the results.
+struct Monitors {
+  /// Largest |Φ(q, t)| of any constraint in any instant, as the joints state it: [m], [rad], or
+  /// the cosine between directions that shall stay normal.
+  double position_drift = 0.0;
+  double velocity_drift = 0.0;  ///< the same of dΦ/dt [1/s]
+  /// Largest |E(t) − E(0) − W(t)| over the largest of kinetic energy, elastic energy, change of
+  /// weight's potential and |W| in any instant; zero if all are.
+  double energy_error = 0.0;
+  Eigen::VectorXd energy;  ///< E: kinetic, elastic, of weight [J]; one entry an instant
+  Eigen::VectorXd work;    ///< W: of all other forces since t = 0 [J]
+};
+
+/// Constraints and energy along a trajectory, with
+///     E = Σ T + ½ q_fᵀ K q_f − g · ∫ρ r + ∫ vᵀ R_stiffening dt   of the bodies
+///     W = ∫ −vᵀ R_acting − Σ q̇_fᵀ D q̇_f dt   joints and drives, loads, springs, dampers; damping
+/// (core/model/body_energy.hpp). What geometric stiffening stores is found as the work against it:
+/// ½ q_fᵀ K q_f alone is no energy of a beam that bends far, since bending shortens it. Rotation
+/// vectors have angular velocities as rates and moments as forces (Mechanism::rotations), so that
+/// vᵀR is a power in space, too.
+///
+/// The trapezoidal rule sums the work, O(h²) as the trajectory: half the step leaves a quarter of
+/// the error, which is that of both together. Cubics through four instants were measured not to do
+/// better: they take off up to a third on slider-cranks, but fall behind by up to ten times where
+/// the step does not resolve what vibrates.
+///
+/// Costs 4 to 10 µs a step, 5 to 35 % of a simulation: nothing for optimizations.
+/// @param trajectory  of the mechanism of the model
+Monitors monitor(const Model& model, const Trajectory& trajectory);
+
+}  // namespace pleuel

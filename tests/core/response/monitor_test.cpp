@@ -1,0 +1,216 @@
+#include <gtest/gtest.h>
+
+#include "core/integration/configuration.hpp"
+#include "core/model/body_energy.hpp"
+#include "core/response/monitors.hpp"
+#include "tests/support/convergence.hpp"
+#include "tests/support/dense.hpp"
+#include "tests/support/differences.hpp"
+#include "tests/support/energy.hpp"
+#include "tests/support/random_state.hpp"
+#include "tests/support/sample_scenes.hpp"
+
+namespace {
+
+using namespace pleuel;
+
+BodyEnergy energy_of_bodies(const Model& model, const State& state) {
+  BodyEnergy sum;
+  for (const BodyModel& body : model.bodies) {
+    const BodyEnergy energy = body_energy(body, model.gravity, state);
+    sum.kinetic += energy.kinetic;
+    sum.elastic += energy.elastic;
+    sum.weight += energy.weight;
+    sum.dissipation += energy.dissipation;
+  }
+  return sum;
+}
+
+/// vᵀR of the terms that the energy of bodies stands for: all less the others.
+double power_into_bodies(Model& model, const State& state) {
+  Eigen::VectorXd residual, others = Eigen::VectorXd::Zero(model.mechanism.system->size());
+  model.mechanism.system->residual(state, ConstraintLevel::position, residual);
+  const TermsBesidesBodies besides = terms_besides_bodies(model);
+  for (const auto* terms : {&besides.stiffening, &besides.acting}) {
+    for (Term* term : *terms) term->add_residual(state, ConstraintLevel::position, others);
+  }
+  return state.v.dot((residual - others).head(state.v.size()));
+}
+
+class EveryMechanism : public ::testing::TestWithParam<SampleScene> {};
+
+TEST_P(EveryMechanism, HasTheKineticEnergyOfItsMassMatrix) {
+  Model model = GetParam().build();
+  System& system = *model.mechanism.system;
+  const Eigen::Index n = system.coordinates();
+  for (unsigned seed : {1u, 2u}) {
+    const State state = random_state(model, seed);
+    System::Matrix mass = system.make_matrix();
+    system.tangent(state, {.a = 1.0}, ConstraintLevel::position, mass);
+    const double expected = 0.5 * state.v.dot(Eigen::MatrixXd(mass).topLeftCorner(n, n) * state.v);
+    EXPECT_NEAR(energy_of_bodies(model, state).kinetic, expected, 1e-12 * expected);
+  }
+}
+
+/// dE/dt = vᵀ (M a − Q) − dissipation along any motion with these q, v, a: ties energy of every
+/// kind and the loss by damping to the forces of the bodies. The error is that of the differences.
+TEST_P(EveryMechanism, GainsInEnergyWhatItsBodiesAreDriven) {
+  Model model = GetParam().build();
+  for (unsigned seed : {1u, 2u}) {
+    const State state = random_state(model, seed);
+    const double expected =
+        power_into_bodies(model, state) - energy_of_bodies(model, state).dissipation;
+    const double found = derivative_at_zero(
+        [&](double t) {
+          State moved = state;
+          advance(model.mechanism.rotations, state.q, t * state.v, moved.q);
+          moved.v += t * state.a;
+          return energy_of_bodies(model, moved).total();
+        },
+        1e-4);
+    EXPECT_NEAR(found, expected, 1e-8 * std::abs(expected));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Samples, EveryMechanism, ::testing::ValuesIn(all_samples()),
+                         [](const auto& test) { return test.param.name; });
+
+Monitors monitors_of(const SampleScene& sample, double end, double step) {
+  Model model = sample.build();
+  SimulationOptions options{end, step, 0.8};
+  options.newton_tolerance = 1e-12;
+  return monitor(model, simulate(model.mechanism, options));
+}
+
+/// A mechanism with steps that resolve what vibrates in it.
+struct Run {
+  SampleScene sample;
+  double end;
+  std::vector<double> steps;
+};
+
+class EveryMotion : public ::testing::TestWithParam<Run> {};
+
+/// Order two, of the scheme and of the rule that sums the work: see monitors.hpp.
+TEST_P(EveryMotion, ClosesItsBalanceOfEnergyWithTheOrderOfTheScheme) {
+  std::vector<double> velocity_drifts, errors;
+  for (double step : GetParam().steps) {
+    const Monitors monitors = monitors_of(GetParam().sample, GetParam().end, step);
+    errors.push_back(monitors.energy_error);
+    velocity_drifts.push_back(monitors.velocity_drift);
+    EXPECT_LE(monitors.position_drift, 1e-14);  // index 3: to round-off; measured 1.4e-15
+  }
+  EXPECT_NEAR(observed_order(GetParam().steps, errors), 2.0, 0.2);
+  EXPECT_NEAR(observed_order(GetParam().steps, velocity_drifts), 2.0, 0.1);
+  EXPECT_LE(errors.back(), 5e-5);
+}
+
+std::vector<Run> motions() {
+  const std::vector<double> steps = {1e-3, 5e-4, 2.5e-4};
+  // For loads that act at once on beams without damping, which vibrate at up to 3e4 rad/s.
+  const std::vector<double> fine = {3.2e-5, 1.6e-5, 8e-6};
+  SampleScene smooth = smooth_planar_sample();
+  smooth.name = "DrivenSliderCrank";
+  return {{smooth, 0.1, steps},
+          {planar_sample(), 0.1, steps},
+          {planar_sample_in_space(), 0.1, steps},
+          {spatial_sample(), 0.1, steps},
+          {spatial_joints_sample(), 0.1, steps},
+          {reduced_sample(), 0.1, steps},
+          {reduced_sample_in_space(), 0.1, steps},
+          {planar_joints_sample(), 0.02, fine}};
+}
+
+INSTANTIATE_TEST_SUITE_P(Samples, EveryMotion, ::testing::ValuesIn(motions()),
+                         [](const auto& test) { return test.param.sample.name; });
+
+/// A rubber beam that falls from the horizontal and swings, without damping: it bends far, so that
+/// geometric stiffening takes part.
+SampleScene rubber_pendulum() {
+  SampleScene sample;
+  sample.scene = swinging_beam(0.5, RectangleSection{0.02, 0.02}, 3);
+  sample.scene.materials[0] = {"steel", 5e6, 0.3, 1100.0};
+  return sample;
+}
+
+struct Simulation {
+  Model model;
+  Trajectory trajectory;
+};
+
+Simulation simulated_pendulum(double step) {
+  Simulation simulation{rubber_pendulum().build(), {}};
+  SimulationOptions options{0.3, step, 0.95};
+  options.newton_tolerance = 1e-12;
+  simulation.trajectory = simulate(simulation.model.mechanism, options);
+  return simulation;
+}
+
+TEST(Monitors, FindNoWorkInAFreeSwingAndAnEnergyThatStays) {
+  const std::vector<double> steps = {4e-4, 2e-4, 1e-4};
+  std::vector<double> errors;
+  for (double step : steps) {
+    auto [model, trajectory] = simulated_pendulum(step);
+    const Monitors monitors = monitor(model, trajectory);
+    // Nothing acts but the bearing, whose multipliers are some 10 N.
+    EXPECT_LE(monitors.work.lpNorm<Eigen::Infinity>(), 1e-12);
+    errors.push_back(monitors.energy_error);
+  }
+  EXPECT_NEAR(observed_order(steps, errors), 2.0, 0.2);
+}
+
+/// What stretching stores is a potential (tests/support/energy.hpp integrates the strain itself);
+/// here it is summed as work. The difference is that of the sum, O(h²).
+TEST(Monitors, FindTheEnergyOfTheStrain) {
+  const std::vector<double> steps = {4e-4, 2e-4, 1e-4};
+  std::vector<double> errors;
+  for (double step : steps) {
+    auto [model, trajectory] = simulated_pendulum(step);
+    ASSERT_TRUE(model.bodies[0].has_stiffening);
+    const Monitors monitors = monitor(model, trajectory);
+    State state;
+    double error = 0.0;
+    for (int i = 0; i <= trajectory.steps(); ++i) {
+      trajectory.load(i, state);
+      error = std::max(error, std::abs(monitors.energy(i) - energy_of(model, state)));
+    }
+    errors.push_back(error);
+  }
+  EXPECT_NEAR(observed_order(steps, errors), 2.0, 0.2);
+}
+
+/// The pendulum as it swings, with all rates 1 % too large: its kinetic energy, which makes all of
+/// the energy in its deepest position, is 1.01² of the true one, so that 1 − 1.01⁻² of it are
+/// missing.
+TEST(Monitors, SeeRatesThatDoNotBelongToTheMotion) {
+  auto [model, trajectory] = simulated_pendulum(1e-4);
+  trajectory.v *= 1.01;
+  EXPECT_NEAR(monitor(model, trajectory).energy_error, 1.0 - 1.0 / (1.01 * 1.01), 1e-3);
+}
+
+/// A slider that is put 1 mm off its guide for an instant, and moves off it at 10 mm/s in another:
+/// by so much the equations of the guide are wrong, and those of its pin.
+TEST(Monitors, SeeConstraintsThatAreNotKept) {
+  Model model = smooth_planar_sample().build();
+  Trajectory trajectory = simulate(model.mechanism, {0.05, 1e-4, 0.8});
+  const BodyFrame& slider = model.body("slider").frame;
+  const Eigen::Vector3d off_the_guide = {0.0, 1.0, 0.0};
+  const Eigen::VectorXd direction = slider.basis.transpose() * off_the_guide;
+  trajectory.q.col(200).segment(slider.offset, slider.size()) += 1e-3 * direction;
+  trajectory.v.col(100).segment(slider.offset, slider.size()) += 1e-2 * direction;
+  const Monitors monitors = monitor(model, trajectory);
+  EXPECT_NEAR(monitors.position_drift, 1e-3, 1e-12);
+  EXPECT_NEAR(monitors.velocity_drift, 1e-2, 1e-3);  // with the drift that is there: 7e-5
+}
+
+TEST(Monitors, FindNothingAtRest) {
+  SampleScene sample = rubber_pendulum();
+  sample.scene.gravity = {0.0, 0.0, 0.0};
+  Model model = sample.build();
+  const Monitors monitors = monitor(model, simulate(model.mechanism, {0.01, 1e-3, 0.8}));
+  EXPECT_EQ(monitors.position_drift, 0.0);
+  EXPECT_EQ(monitors.velocity_drift, 0.0);
+  EXPECT_EQ(monitors.energy_error, 0.0);
+}
+
+}  // namespace
