@@ -1,0 +1,88 @@
+#include "sensitivity/finite_difference.hpp"
+#include "sensitivity/gradients.hpp"
+#include "tests/hard/hard_problems.hpp"
+
+namespace pleuel::test {
+namespace {
+
+struct GradientCase {
+  std::string name, problem;
+  std::vector<std::string> overrides;  ///< short runs: differences of long ones are round-off
+  double tolerance;                    ///< relative to the largest entry of a response
+};
+
+class HardGradient : public testing::TestWithParam<std::tuple<std::string, GradientCase>> {};
+
+/// Central differences of several steps and Richardson's extrapolation of two: the best of them is
+/// as good as the round-off and the truncation of differences allow.
+TEST_P(HardGradient, IsThatOfCentralDifferencesAtTheBestStep) {
+  const auto& [formulation, hard] = GetParam();
+  std::vector<std::string> overrides = hard.overrides;
+  overrides.push_back("/simulation/formulation=" + formulation);
+  ProblemFile problem = sample_problem("hard/" + hard.problem, overrides);
+  problem.simulation.newton_tolerance = 1e-13;
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const Eigen::VectorXd direct = direct_gradients(*analysis) * x;
+  // Against a thousandth of the value where it hardly depends on the design.
+  Eigen::VectorXd best = Eigen::VectorXd::Ones(direct.size());
+  const auto compare = [&](const Eigen::VectorXd& differences) {
+    for (Eigen::Index i = 0; i < direct.size(); ++i) {
+      const double value = std::abs(analysis->reductions[static_cast<std::size_t>(i)].value);
+      const double size = std::max(std::abs(direct(i)), 1e-3 * value);
+      best(i) = std::min(best(i), std::abs(differences(i) - direct(i)) / size);
+    }
+  };
+  for (const double step : {1e-2, 1e-3, 1e-4}) {
+    const Eigen::VectorXd wide = central_differences(problem, x, step) * x;
+    const Eigen::VectorXd narrow = central_differences(problem, x, step / 2) * x;
+    compare(narrow);
+    compare((4 * narrow - wide) / 3);
+  }
+  for (Eigen::Index i = 0; i < direct.size(); ++i) {
+    const std::string& name = problem.responses[static_cast<std::size_t>(i)].name;
+    EXPECT_LE(best(i), hard.tolerance) << name;
+  }
+}
+
+std::string case_name(const testing::TestParamInfo<HardGradient::ParamType>& info) {
+  std::string name = std::get<0>(info.param) + std::get<1>(info.param).name;
+  std::erase_if(name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; });
+  return name;
+}
+
+/// Limits: measured times ten. Where they are above 1e-8, round-off of the differences is
+/// amplified: by the many steps of a coasting mechanism, by stiffness, by vibrations that nothing
+/// damps.
+INSTANTIATE_TEST_SUITE_P(
+    Problems, HardGradient,
+    testing::Combine(
+        testing::ValuesIn(formulations()),
+        testing::Values(
+            GradientCase{"dead_centres", "dead_centres", {"/simulation/end_time=0.4"}, 3e-7},
+            GradientCase{"change_point", "change_point", {}, 1e-9},
+            GradientCase{"heavy_slider", "heavy_slider", {}, 2e-9},
+            GradientCase{"light_slider", "light_slider", {}, 1e-8},
+            GradientCase{"stiff_rod", "stiff_rod", {}, 1e-6},
+            GradientCase{"soft_rod", "soft_rod", {}, 2e-8},
+            GradientCase{"fast_crank", "fast_crank", {"/simulation/end_time=0.01"}, 2e-6},
+            GradientCase{
+                "inconsistent_start", "inconsistent_start", {"/simulation/end_time=0.1"}, 4e-6},
+            GradientCase{"sudden_load", "sudden_load", {"/simulation/end_time=0.05"}, 5e-9},
+            GradientCase{"squeezer", "squeezer", {}, 2e-7},
+            GradientCase{"free_vibration",
+                         "free_vibration",
+                         {"/simulation/end_time=20", "/responses/last_peak/from=18"},
+                         4e-8},
+            GradientCase{"flyball_governor", "flyball_governor", {"/simulation/end_time=1"}, 1e-8},
+            GradientCase{"thinnest", "light_slider", {"/variables/rod_height/start=4 mm"}, 2e-7},
+            GradientCase{"thickest", "light_slider", {"/variables/rod_height/start=40 mm"}, 2e-8},
+            GradientCase{"softest", "soft_rod", {"/variables/rod_diameter/start=4 mm"}, 1e-8},
+            GradientCase{"heaviest",
+                         "fast_crank",
+                         {"/variables/slider_mass/start=1 kg", "/simulation/end_time=0.01"},
+                         5e-8})),
+    case_name);
+
+}  // namespace
+}  // namespace pleuel::test
