@@ -25,15 +25,19 @@ CLI::App* add_command(CLI::App& app, Arguments& arguments, const std::string& na
   return command;
 }
 
-CLI::App* add_file_command(CLI::App& app, Arguments& arguments, const std::string& name,
-                           const std::string& description) {
-  CLI::App* command = add_command(app, arguments, name, description);
-  command->add_option("FILE", arguments.file, "problem file (JSON)")->required();
+void add_overrides(CLI::App* command, Arguments& arguments) {
   command
       ->add_option("--set", arguments.overrides,
                    "override a value of the file; repeatable: --set \"/simulation/step=0.1 ms\"")
       ->type_name("/POINTER=VALUE")
       ->allow_extra_args(false);
+}
+
+CLI::App* add_file_command(CLI::App& app, Arguments& arguments, const std::string& name,
+                           const std::string& description) {
+  CLI::App* command = add_command(app, arguments, name, description);
+  command->add_option("FILE", arguments.file, "problem file (JSON)")->required();
+  add_overrides(command, arguments);
   return command;
 }
 
@@ -49,6 +53,14 @@ void add_backend(CLI::App* command, Arguments& arguments) {
       ->add_option("--backend", arguments.backend,
                    "optimizer instead of the file's; see `pleuel backends`")
       ->type_name("NAME");
+}
+
+void add_stability(CLI::App& app, Arguments& arguments) {
+  CLI::App* stability =
+      add_command(app, arguments, "stability", "drift, energy and work of files x formulations");
+  stability->add_option("FILE", arguments.files, "problem files (JSON)")->required();
+  add_overrides(stability, arguments);
+  add_output(stability, arguments);
 }
 
 void add_gradient(CLI::App& app, Arguments& arguments) {
@@ -81,6 +93,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   add_output(add_file_command(app, arguments, "accuracy",
                               "errors and times for steps x elements; the cheapest that will do"),
              arguments);
+  add_stability(app, arguments);
   add_command(app, arguments, "backends", "list the optimizers");
 }
 

@@ -11,7 +11,8 @@ namespace pleuel {
 /// What the user typed.
 struct Arguments {
   std::string command;
-  std::filesystem::path file;
+  std::filesystem::path file;                   ///< of a command that takes one
+  std::vector<std::filesystem::path> files;     ///< of a command that takes several
   std::vector<std::string> overrides;           ///< "/json/pointer=value"
   std::optional<std::filesystem::path> output;  ///< run folder
   std::optional<std::string> backend;

@@ -13,5 +13,6 @@ Outcome run_gradient(const Arguments& arguments);
 Outcome run_optimize(const Arguments& arguments);
 Outcome run_pareto(const Arguments& arguments);
 Outcome run_simulate(const Arguments& arguments);
+Outcome run_stability(const Arguments& arguments);
 
 }  // namespace pleuel

@@ -33,22 +33,34 @@ std::string read_text(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-}  // namespace
-
-ProblemInput read_input(const Arguments& arguments) {
+ProblemInput read_file(const std::filesystem::path& file,
+                       const std::vector<std::string>& overrides) {
   ProblemInput input;
-  input.problem = read_problem(arguments.file, arguments.overrides);
+  input.file = file;
+  input.problem = read_problem(file, overrides);
   estimate_effects(input.problem);
-  const std::string text = read_text(arguments.file);
-  input.effective = parse_json(text, arguments.file.string());
+  const std::string text = read_text(file);
+  input.effective = parse_json(text, file.string());
   Fingerprint fingerprint;
   fingerprint.add(text);
-  for (const std::string& assignment : arguments.overrides) {
-    apply_override(input.effective, assignment, arguments.file.string());
+  for (const std::string& assignment : overrides) {
+    apply_override(input.effective, assignment, file.string());
     fingerprint.add(assignment);
   }
   input.hash = fingerprint.text();
   return input;
+}
+
+}  // namespace
+
+ProblemInput read_input(const Arguments& arguments) {
+  return read_file(arguments.file, arguments.overrides);
+}
+
+std::vector<ProblemInput> read_inputs(const Arguments& arguments) {
+  std::vector<ProblemInput> inputs;
+  for (const auto& file : arguments.files) inputs.push_back(read_file(file, arguments.overrides));
+  return inputs;
 }
 
 }  // namespace pleuel

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "cli/arguments.hpp"
 #include "cli/json.hpp"
@@ -10,12 +12,16 @@ namespace pleuel {
 
 /// A problem file as a command sees it.
 struct ProblemInput {
+  std::filesystem::path file;
   ProblemFile problem;
   Json effective;    ///< the file with all overrides applied
   std::string hash;  ///< of the file's text and the overrides: "fnv1a64:…"
 };
 
-/// @throws InputError
+/// The file of a command that takes one. @throws InputError
 ProblemInput read_input(const Arguments& arguments);
+
+/// Those of a command that takes several. @throws InputError
+std::vector<ProblemInput> read_inputs(const Arguments& arguments);
 
 }  // namespace pleuel

@@ -18,17 +18,20 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* card_name = "run_card.json";
 
 /// Everything that a run of any command may leave.
-constexpr std::array<const char*, 8> result_names = {"history.csv",
+constexpr std::array<const char*, 9> result_names = {"history.csv",
                                                      "result.json",
                                                      "trajectory.csv",
                                                      "trajectory-start.csv",
                                                      "trajectory-optimum.csv",
                                                      "pareto.csv",
                                                      "accuracy.csv",
+                                                     "stability.csv",
                                                      card_name};
 
 fs::path default_folder(const Arguments& arguments) {
-  return fs::path("runs") / (arguments.file.stem().string() + "-" + arguments.command);
+  if (arguments.files.size() > 1) return fs::path("runs") / arguments.command;
+  const fs::path& file = arguments.files.empty() ? arguments.file : arguments.files.front();
+  return fs::path("runs") / (file.stem().string() + "-" + arguments.command);
 }
 
 void prepare_folder(const fs::path& folder) {
@@ -61,13 +64,17 @@ void write_whole(const fs::path& path, const std::string& text) {
   fs::rename(draft, path);
 }
 
+Json input_document(const ProblemInput& input, const Arguments& arguments) {
+  return {{"file", input.file.string()}, {"overrides", arguments.overrides}, {"hash", input.hash}};
+}
+
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
 }  // namespace
 
-RunRecord::RunRecord(const Arguments& arguments, const ProblemInput& input, Json options)
+RunRecord::RunRecord(const Arguments& arguments, Json options)
     : folder_(arguments.output.value_or(default_folder(arguments))), begin_(Clock::now()) {
   prepare_folder(folder_);
   card_["finished"] = false;
@@ -81,9 +88,22 @@ RunRecord::RunRecord(const Arguments& arguments, const ProblemInput& input, Json
                        {"klu", versions::klu},
                        {"compiler", versions::compiler},
                        {"build_type", versions::build_type}};
-  card_["input"] = {
-      {"file", arguments.file.string()}, {"overrides", arguments.overrides}, {"hash", input.hash}};
+}
+
+RunRecord::RunRecord(const Arguments& arguments, const ProblemInput& input, Json options)
+    : RunRecord(arguments, std::move(options)) {
+  card_["input"] = input_document(input, arguments);
   card_["problem"] = input.effective;
+  write_card();
+}
+
+RunRecord::RunRecord(const Arguments& arguments, const std::vector<ProblemInput>& inputs,
+                     Json options)
+    : RunRecord(arguments, std::move(options)) {
+  for (const ProblemInput& input : inputs) {
+    card_["inputs"].push_back(input_document(input, arguments));
+    card_["problems"].push_back(input.effective);
+  }
   write_card();
 }
 

@@ -22,6 +22,9 @@ class RunRecord {
   /// @throws InputError if the folder holds something else than a run
   RunRecord(const Arguments& arguments, const ProblemInput& input, Json options);
 
+  /// The same for a command that takes several files.
+  RunRecord(const Arguments& arguments, const std::vector<ProblemInput>& inputs, Json options);
+
   const std::filesystem::path& folder() const { return folder_; }
 
   /// Ends the phase before and begins another, for the wall times of the card.
@@ -31,6 +34,7 @@ class RunRecord {
   void finish(const Outcome& outcome);
 
  private:
+  RunRecord(const Arguments& arguments, Json options);
   void end_phase();
   void write_card();
 

@@ -45,5 +45,39 @@ TEST(AccuracyCommand, MeasuresEveryCombination) {
   EXPECT_EQ(read_csv(folder.path() / "study/accuracy.csv").size(), 1u + 7u);  // and the reference
 }
 
+TEST(StabilityCommand, TabulatesFilesTimesFormulations) {
+  const TemporaryFolder folder;
+  const ProgramRun run =
+      run_program(folder.path(), {"stability", problem("hard/dead_centres"),
+                                  problem("hard/change_point"), "--json", "-o", "study"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json document = run.document();
+  const std::size_t runs = 2 * document.at("formulations").size();
+  ASSERT_EQ(document.at("runs").size(), runs);
+  for (const auto& study_run : document.at("runs")) {
+    EXPECT_FALSE(study_run.contains("failure")) << study_run;
+    EXPECT_LE(study_run.at("position_drift"), 1e-6);
+    EXPECT_GE(study_run.at("work").at("newton_iterations"), study_run.at("work").at("steps"));
+  }
+  EXPECT_EQ(read_csv(folder.path() / "study/stability.csv").size(), 1u + runs);
+  const nlohmann::json card =
+      nlohmann::json::parse(read_file(folder.path() / "study/run_card.json"));
+  EXPECT_EQ(card.at("inputs").size(), 2u);
+  EXPECT_EQ(card.at("problems").size(), 2u);
+}
+
+/// A mechanism that one formulation cannot simulate is a result of the study, not its failure.
+TEST(StabilityCommand, ReportsWhatFails) {
+  const TemporaryFolder folder;
+  const ProgramRun run =
+      run_program(folder.path(), {"stability", problem("hard/dead_centres"), "--json", "--set",
+                                  "/simulation/max_newton_iterations=1"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  for (const auto& study_run : run.document().at("runs")) {
+    EXPECT_THAT(study_run.at("failure").get<std::string>(), testing::HasSubstr("t = "));
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "runs/dead_centres-stability/stability.csv"));
+}
+
 }  // namespace
 }  // namespace pleuel::test

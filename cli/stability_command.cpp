@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+
+#include "cli/commands.hpp"
+#include "cli/csv_file.hpp"
+#include "cli/number_text.hpp"
+#include "cli/run_record.hpp"
+#include "cli/table.hpp"
+#include "studies/stability.hpp"
+
+namespace pleuel {
+
+namespace {
+
+std::string case_name(const StabilityRun& run) {
+  return run.file.stem().string();
+}
+
+Json run_document(const StabilityRun& run) {
+  Json document = {
+      {"file", run.file.string()}, {"problem", run.problem}, {"formulation", run.formulation}};
+  if (!run.is_ok()) {
+    document["failure"] = run.failure;
+    return document;
+  }
+  document["position_drift"] = run.position_drift;
+  document["velocity_drift"] = run.velocity_drift;
+  document["energy_error"] = run.energy_error;
+  document["seconds"] = run.seconds;
+  document["work"] = {{"steps", run.steps},
+                      {"newton_iterations", run.newton_iterations},
+                      {"factorizations", run.factorizations}};
+  return document;
+}
+
+Json make_document(const std::vector<StabilityRun>& runs) {
+  Json document = {{"formulations", Json::array()}, {"runs", Json::array()}};
+  for (const ComparedFormulation& formulation : compared_formulations()) {
+    document["formulations"].push_back(formulation.name);
+  }
+  for (const StabilityRun& run : runs) document["runs"].push_back(run_document(run));
+  return document;
+}
+
+/// stability.csv: a line for each run as it is done [SI].
+class StabilityCsv {
+ public:
+  explicit StabilityCsv(const std::filesystem::path& path)
+      : csv_(path, {"file", "formulation", "steps", "newton_iterations", "factorizations",
+                    "position_drift", "velocity_drift", "energy_error", "seconds", "failure"}) {}
+
+  void add(const StabilityRun& run) {
+    csv_.add(run.file.string()).add(run.formulation);
+    if (run.is_ok()) {
+      csv_.add(run.steps).add(run.newton_iterations).add(run.factorizations);
+      csv_.add(run.position_drift).add(run.velocity_drift).add(run.energy_error).add(run.seconds);
+    } else {
+      for (int i = 0; i < 7; ++i) csv_.add(std::string());
+    }
+    csv_.add(run.failure);
+    csv_.end_row();
+  }
+
+ private:
+  CsvFile csv_;
+};
+
+std::vector<std::string> row(const StabilityRun& run) {
+  std::vector<std::string> cells = {case_name(run), run.formulation};
+  if (!run.is_ok()) {
+    cells.push_back("failed");
+    return cells;
+  }
+  cells.insert(cells.end(),
+               {"ok", magnitude(run.position_drift), magnitude(run.velocity_drift),
+                magnitude(run.energy_error), std::to_string(run.steps),
+                fmt::format("{:.2f}", run.iterations_per_step()), duration(run.seconds)});
+  return cells;
+}
+
+std::string runs_text(const std::vector<StabilityRun>& runs) {
+  Table table({{"case", Table::Align::left},
+               {"formulation", Table::Align::left},
+               {"result", Table::Align::left},
+               {"position drift"},
+               {"velocity drift"},
+               {"energy error"},
+               {"steps"},
+               {"iterations a step"},
+               {"time"}});
+  for (const StabilityRun& run : runs) table.add_row(row(run));
+  return table.text();
+}
+
+std::string failures_text(const std::vector<StabilityRun>& runs) {
+  std::string text;
+  for (const StabilityRun& run : runs) {
+    if (run.is_ok()) continue;
+    text += fmt::format("{}, {}: {}\n", case_name(run), run.formulation, run.failure);
+  }
+  return text.empty() ? text : "\n" + text;
+}
+
+}  // namespace
+
+Outcome run_stability(const Arguments& arguments) {
+  RunRecord record(arguments, read_inputs(arguments), Json::object());
+  record.begin_phase("stability");
+  StabilityCsv csv(record.folder() / "stability.csv");
+  const std::vector<StabilityRun> runs =
+      stability_study(arguments.files, arguments.overrides, [&](const StabilityRun& run) {
+        csv.add(run);
+        fmt::print(stderr, "  {}, {}: {}\n", case_name(run), run.formulation,
+                   run.is_ok() ? duration(run.seconds) : "failed");
+      });
+  Outcome outcome{ExitCode::done, make_document(runs), runs_text(runs) + failures_text(runs)};
+  outcome.text += fmt::format("\nWritten to {}: stability.csv, result.json, run_card.json\n",
+                              record.folder().string());
+  record.finish(outcome);
+  return outcome;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,75 @@
+#include "studies/stability.hpp"
+
+#include <chrono>
+
+#include "core/base/error.hpp"
+#include "core/model/effect_estimates.hpp"
+#include "core/response/monitors.hpp"
+#include "core/response/response.hpp"
+#include "core/scene/problem_reader.hpp"
+
+namespace pleuel {
+
+namespace {
+
+ProblemFile read_with(const std::filesystem::path& file, std::vector<std::string> overrides,
+                      const ComparedFormulation& formulation) {
+  overrides.insert(overrides.end(), formulation.overrides.begin(), formulation.overrides.end());
+  return read_problem(file, overrides);
+}
+
+void measure(ProblemFile problem, StabilityRun& run) {
+  estimate_effects(problem);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto analysis = analyze(problem, start_design(problem));
+  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const Trajectory& trajectory = analysis->trajectory;
+  run.steps = trajectory.steps();
+  run.newton_iterations = trajectory.newton_iterations;
+  run.factorizations = trajectory.factorizations;
+  const Monitors monitors = monitor(analysis->model, trajectory);
+  run.position_drift = monitors.position_drift;
+  run.velocity_drift = monitors.velocity_drift;
+  run.energy_error = monitors.energy_error;
+}
+
+StabilityRun try_to_measure(const std::filesystem::path& file, const ProblemFile& problem,
+                            const std::string& formulation) {
+  StabilityRun run;
+  run.file = file;
+  run.problem = problem.name;
+  run.formulation = formulation;
+  try {
+    measure(problem, run);
+  } catch (const SimulationError& error) {
+    run.failure = error.what();
+  }
+  return run;
+}
+
+}  // namespace
+
+const std::vector<ComparedFormulation>& compared_formulations() {
+  static const std::vector<ComparedFormulation> all = {
+      {"index-3", {"/simulation/formulation=index-3"}},
+  };
+  return all;
+}
+
+std::vector<StabilityRun> stability_study(const std::vector<std::filesystem::path>& files,
+                                          const std::vector<std::string>& overrides,
+                                          const StabilityObserver& observer) {
+  // Bad input shall not cost the runs before it.
+  for (const auto& file : files) read_problem(file, overrides);
+  std::vector<StabilityRun> runs;
+  for (const auto& file : files) {
+    for (const ComparedFormulation& formulation : compared_formulations()) {
+      const ProblemFile problem = read_with(file, overrides, formulation);
+      runs.push_back(try_to_measure(file, problem, formulation.name));
+      if (observer) observer(runs.back());
+    }
+  }
+  return runs;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace pleuel {
+
+/// How one file ran with one formulation of the constrained equations of motion.
+struct StabilityRun {
+  std::filesystem::path file;
+  std::string problem;  ///< its name
+  std::string formulation;
+  std::string failure;  ///< empty: it succeeded; else nothing below is known
+  int steps = 0, newton_iterations = 0, factorizations = 0;
+  double position_drift = 0.0, velocity_drift = 0.0;  ///< largest |Φ| and |dΦ/dt|: see Monitors
+  double energy_error = 0.0;                          ///< relative
+  double seconds = 0.0;                               ///< wall time of the simulation, one thread
+
+  bool is_ok() const { return failure.empty(); }
+  double iterations_per_step() const { return static_cast<double>(newton_iterations) / steps; }
+};
+
+/// A formulation by what it changes in a file.
+struct ComparedFormulation {
+  std::string name;
+  std::vector<std::string> overrides;  ///< as in read_problem()
+};
+
+/// The formulations that are compared: all that /simulation/formulation of a file may name.
+const std::vector<ComparedFormulation>& compared_formulations();
+
+/// Sees each run as it is done.
+using StabilityObserver = std::function<void(const StabilityRun&)>;
+
+/// Simulates the start design of each file with each formulation; everything else is as the file
+/// says.
+/// @param overrides  of all files, as in read_problem()
+/// @throws InputError for a file that cannot be read, before any is simulated; a failing simulation
+///         is only marked
+std::vector<StabilityRun> stability_study(const std::vector<std::filesystem::path>& files,
+                                          const std::vector<std::string>& overrides,
+                                          const StabilityObserver& observer = {});
+
+}  // namespace pleuel
