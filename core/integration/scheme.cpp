@@ -22,4 +22,43 @@ Scheme generalized_alpha(double step, double spectral_radius) {
   return scheme;
 }
 
+Scheme newmark(double step, double spectral_radius) {
+  const double h = step, alpha = (1 - spectral_radius) / (1 + spectral_radius);
+  const double gamma = 0.5 + alpha, beta = 0.25 * (1 + alpha) * (1 + alpha);
+  Scheme scheme;
+  scheme.name = "newmark";
+  scheme.step = h;
+  scheme.history << 1, h, 0, h * h * (0.5 - beta),  //
+      0, 1, 0, h * (1 - gamma),                     //
+      0, 0, 0, 0,                                   //
+      0, 0, 0, 0;
+  const double a_of_z = 1 / (h * h * beta);
+  scheme.correction << 1, h * gamma * a_of_z, a_of_z, a_of_z;
+  return scheme;
+}
+
+Scheme implicit_euler(double step) {
+  const double h = step;
+  Scheme scheme;
+  scheme.name = "implicit-euler";
+  scheme.step = h;
+  scheme.history << 1, h, 0, 0,  //
+      0, 1, 0, 0,                //
+      0, 0, 0, 0,                //
+      0, 0, 0, 0;
+  scheme.correction << 1, 1 / h, 1 / (h * h), 1 / (h * h);
+  return scheme;
+}
+
+Scheme make_scheme(SchemeType type, double step, double spectral_radius) {
+  switch (type) {
+    case SchemeType::generalized_alpha:
+      return generalized_alpha(step, spectral_radius);
+    case SchemeType::newmark:
+      return newmark(step, spectral_radius);
+    default:
+      return implicit_euler(step);
+  }
+}
+
 }  // namespace pleuel

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "core/base/time_integration.hpp"
+
 namespace pleuel {
 
 /// A one-step scheme for second-order systems as data: with y = (q, v, a, w) — w an algorithmic
@@ -25,5 +27,14 @@ struct Scheme {
 ///     q⁺ = q + h v + h²(½−β) w + h²β w⁺,   v⁺ = v + h(1−γ) w + hγ w⁺
 /// @param spectral_radius  ρ∞ in [0, 1]: 1 keeps high frequencies, 0 removes them in one step
 Scheme generalized_alpha(double step, double spectral_radius);
+
+/// Newmark's scheme (Newmark 1959), of second order only for ρ∞ = 1 (average acceleration):
+///     γ = ½ + α,  β = ¼ (1 + α)²,  α = (1 − ρ∞)/(1 + ρ∞);  w = a
+Scheme newmark(double step, double spectral_radius);
+
+/// q⁺ = q + h v⁺, v⁺ = v + h a⁺: first order, damps all that vibrates.
+Scheme implicit_euler(double step);
+
+Scheme make_scheme(SchemeType type, double step, double spectral_radius);
 
 }  // namespace pleuel

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
-#include "core/integration/configuration.hpp"
 #include "core/integration/initial_state.hpp"
 #include "core/integration/linear_solver.hpp"
+#include "core/integration/step_equations.hpp"
 
 namespace pleuel {
 
@@ -39,16 +39,16 @@ class TimeLoop {
  public:
   TimeLoop(Mechanism& mechanism, const SimulationOptions& options)
       : system_(*mechanism.system),
-        rotations_(mechanism.rotations),
         scale_(mechanism.scale),
         options_(options),
         steps_(step_count(options)),
-        scheme_(generalized_alpha(options.end_time / steps_, options.spectral_radius)),
-        state_(initial_state(mechanism).state),
-        w_(state_.a),
-        matrices_(rotations_.empty() ? 1 : 2, system_.make_matrix()),
-        solver_(matrices_[0]),
-        correction_(system_.size()) {}
+        scheme_(make_scheme(options.scheme, options.end_time / steps_, options.spectral_radius)),
+        equations_(mechanism, scheme_, options.formulation),
+        state_(equations_.make_state(initial_state(mechanism).state)),
+        old_(state_),
+        matrix_(equations_.make_matrix()),
+        solver_(matrix_),
+        correction_(equations_.size()) {}
 
   Trajectory run() {
     allocate();
@@ -71,8 +71,9 @@ class TimeLoop {
       matrix->resize(n, steps_ + 1);
     }
     trajectory_.lambda.resize(system_.multipliers(), steps_ + 1);
-    for (auto* vector : {&old_q_, &old_v_, &old_a_, &old_w_, &increment_}) vector->resize(n);
-    residual_.resize(system_.size());
+    trajectory_.formulation = options_.formulation;
+    trajectory_.eta.resize(state_.eta.size(), steps_ + 1);
+    residual_.resize(equations_.size());
   }
 
   void store(int step) {
@@ -81,37 +82,37 @@ class TimeLoop {
     trajectory_.v.col(step) = state_.v;
     trajectory_.a.col(step) = state_.a;
     trajectory_.lambda.col(step) = state_.lambda;
+    trajectory_.eta.col(step) = state_.eta;
   }
 
   /// y⁺ = history · y (for q as q ⊕ increment), then the correction that keeps the acceleration.
   void predict(int step) {
     const Eigen::Matrix4d& h = scheme_.history;
-    old_q_ = state_.q;
-    old_v_ = state_.v;
-    old_a_ = state_.a;
-    old_w_ = w_;
-    increment_ = h(0, 1) * old_v_ + h(0, 2) * old_a_ + h(0, 3) * old_w_;
-    state_.v = h(1, 0) * old_q_ + h(1, 1) * old_v_ + h(1, 2) * old_a_ + h(1, 3) * old_w_;
-    state_.a = h(2, 0) * old_q_ + h(2, 1) * old_v_ + h(2, 2) * old_a_ + h(2, 3) * old_w_;
-    w_ = h(3, 0) * old_q_ + h(3, 1) * old_v_ + h(3, 2) * old_a_ + h(3, 3) * old_w_;
-    correction_.head(system_.coordinates()) = (old_a_ - state_.a) / scheme_.correction(2);
-    apply(correction_.head(system_.coordinates()));
+    old_ = state_;
+    equations_.begin(old_);
+    state_.increment = h(0, 1) * old_.v + h(0, 2) * old_.a + h(0, 3) * old_.w;
+    state_.v = h(1, 0) * old_.q + h(1, 1) * old_.v + h(1, 2) * old_.a + h(1, 3) * old_.w;
+    state_.a = h(2, 0) * old_.q + h(2, 1) * old_.v + h(2, 2) * old_.a + h(2, 3) * old_.w;
+    state_.w = h(3, 0) * old_.q + h(3, 1) * old_.v + h(3, 2) * old_.a + h(3, 3) * old_.w;
+    state_.shift.setZero();
+    state_.eta.setZero();
+    correction_.setZero();
+    correction_.head(system_.coordinates()) = (old_.a - state_.a) / scheme_.correction(2);
+    equations_.apply(correction_, state_);
     state_.time = options_.end_time * step / steps_;
   }
 
-  template <class Vector>
-  void apply(const Vector& z) {
-    increment_ += scheme_.correction(0) * z;
-    advance(rotations_, old_q_, increment_, state_.q);
-    state_.v += scheme_.correction(1) * z;
-    state_.a += scheme_.correction(2) * z;
-    w_ += scheme_.correction(3) * z;
+  /// Largest change of a coordinate, relative to its scale.
+  double size_of_correction() const {
+    const int n = system_.coordinates();
+    double size = correction_.head(n).cwiseQuotient(scale_).lpNorm<Eigen::Infinity>();
+    if (state_.shift.size() == 0) return size;
+    const auto shift = correction_.segment(system_.size(), n);
+    return std::max(size, shift.cwiseQuotient(scale_).lpNorm<Eigen::Infinity>());
   }
 
   /// Newton's method that keeps the factors within the step while they serve.
   void correct(int step) {
-    const int n = system_.coordinates(), m = system_.multipliers();
-    const double s = scheme_.dynamic_scale();
     bool is_stale = true;
     double previous = 0.0;
     for (int iteration = 1; iteration <= options_.max_newton_iterations; ++iteration) {
@@ -120,14 +121,12 @@ class TimeLoop {
       if (is_stale) {
         linearize(step, iteration);
       } else {
-        system_.residual(state_, ConstraintLevel::position, residual_);
+        equations_.residual(state_, residual_);
       }
-      correction_.head(n) = -s * residual_.head(n);
-      correction_.tail(m) = -residual_.tail(m);
+      correction_ = -residual_;
       solver_.solve(correction_);
-      apply(correction_.head(n));
-      state_.lambda += correction_.tail(m) / s;
-      const double size = correction_.head(n).cwiseQuotient(scale_).lpNorm<Eigen::Infinity>();
+      equations_.apply(correction_, state_);
+      const double size = size_of_correction();
       if (!std::isfinite(size)) fail(step, iteration, "the solution is not finite");
       double error = std::min(size, curvature_ * size * size);
       if (iteration > 1) {
@@ -152,16 +151,10 @@ class TimeLoop {
   }
 
   void linearize(int step, int iteration) {
-    const Weights weights{scheme_.correction(0), scheme_.correction(1), scheme_.correction(2)};
-    const std::array<Weights, 2> all{weights, {.q = 1.0}};
-    const WeightList used(all.data(), matrices_.size());
-    System::Matrix& matrix = matrices_[0];
-    system_.linearize(state_, used, ConstraintLevel::position, residual_, matrices_);
-    if (!rotations_.empty()) {
-      add_increment_tangent(rotations_, increment_, matrices_[1], weights.q, matrix);
-    }
-    scale_dynamic_block(system_.coordinates(), scheme_.dynamic_scale(), matrix);
-    if (!solver_.factorize(matrix)) fail(step, iteration, "the step matrix is singular");
+    equations_.linearize(state_, residual_, matrix_);
+    if (!solver_.factorize(matrix_)) fail(step, iteration, "the step matrix is singular");
+    trajectory_.worst_condition =
+        std::max(trajectory_.worst_condition, 1.0 / solver_.reciprocal_condition());
   }
 
   [[noreturn]] void fail(int step, int iteration, const char* what) const {
@@ -174,19 +167,16 @@ class TimeLoop {
   }
 
   System& system_;
-  const Rotations& rotations_;
   const Eigen::VectorXd& scale_;
   SimulationOptions options_;
   int steps_;
   Scheme scheme_;
-  State state_;
-  Eigen::VectorXd w_;
-  std::vector<System::Matrix> matrices_;  ///< of the step and, where there are rotations, R_q
+  StepEquations equations_;
+  StepState state_, old_;
+  System::Matrix matrix_;
   LinearSolver solver_;
   Eigen::VectorXd correction_, residual_;
   double curvature_ = std::numeric_limits<double>::infinity();
-  Eigen::VectorXd old_q_, old_v_, old_a_, old_w_;
-  Eigen::VectorXd increment_;  ///< q = old_q ⊕ increment
   Trajectory trajectory_;
 };
 

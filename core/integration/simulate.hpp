@@ -8,11 +8,13 @@ namespace pleuel {
 struct SimulationOptions {
   double end_time = 0.0;         ///< [s]; the start is t = 0
   double step = 0.0;             ///< [s]; shortened so that it divides the time
-  double spectral_radius = 0.8;  ///< ρ∞ of generalized-α
+  double spectral_radius = 0.8;  ///< ρ∞ of the scheme
   /// Newton's method ends when the error left in any coordinate, relative to its scale, is
   /// estimated to be below this. Gradients by differences need a tight one.
   double newton_tolerance = 1e-10;
   int max_newton_iterations = 20;
+  SchemeType scheme = SchemeType::generalized_alpha;
+  Formulation formulation;
 };
 
 /// All steps of a simulation; column i belongs to time(i).
@@ -20,7 +22,10 @@ struct Trajectory {
   Eigen::VectorXd time;
   Eigen::MatrixXd q, v, a;  ///< n × (steps + 1)
   Eigen::MatrixXd lambda;   ///< m × (steps + 1), unscaled
+  Eigen::MatrixXd eta;      ///< m × (steps + 1), of the stabilized index 2 only
   Scheme scheme;
+  Formulation formulation;
+  double worst_condition = 0.0;  ///< largest estimate for a step matrix
   int newton_iterations = 0;
   int factorizations = 0;
 
@@ -31,11 +36,10 @@ struct Trajectory {
 /// Number of steps of a simulation: the last time is end_time exactly.
 int step_count(const SimulationOptions& options);
 
-/// Integrates the index-3 equations [M a − Q + Φ_qᵀ λ; Φ] = 0 (Arnold & Brüls 2007). Each step
-/// solves
-///     [ s(β'M + γ'C + K)  Φ_qᵀ ; Φ_q  0 ] [Δq; s Δλ] = −[s R_dyn; Φ],   s = 1/β' ~ h²
-/// by Newton's method with the exact tangent of the beginning of the step (renewed where it
-/// converges slowly). Nothing is allocated in the time loop.
+/// Integrates M a − Q + Φ_qᵀ λ = 0 with the constraints in the form that is asked for
+/// (step_equations.hpp; for index 3 Arnold & Brüls 2007). Each step is solved by Newton's method
+/// with the exact tangent of the beginning of the step (renewed where it converges slowly). Nothing
+/// is allocated in the time loop.
 /// @throws SimulationError saying time, step, iteration and what to try
 Trajectory simulate(Mechanism& mechanism, const SimulationOptions& options);
 

@@ -1,8 +1,10 @@
-#include <cassert>
+#include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/integration/redundancy.hpp"
 #include "core/model/joint_builder.hpp"
 #include "core/model/load_builder.hpp"
 #include "core/model/model.hpp"
@@ -71,6 +73,7 @@ class ModelBuilder {
     model_.gravity = context_.gravity;
     model_.mechanism.system = std::make_unique<System>(coordinates_, multipliers_,
                                                        context_.variables(), std::move(terms_));
+    leave_out_redundant();
     return std::move(model_);
   }
 
@@ -153,6 +156,29 @@ class ModelBuilder {
     for (const Load& load : context_.scene.loads) {
       terms_.push_back(make_load_term(load, model_.bodies, context_, coordinates_));
     }
+  }
+
+  void leave_out_redundant() {
+    const std::vector<int> redundant = redundant_constraints(model_.mechanism);
+    if (redundant.empty()) return;
+    model_.mechanism.system->leave_out(redundant);
+    std::map<std::string, int> counts;
+    for (int row : redundant) ++counts[joint_of(row).name];
+    std::string text;
+    for (const auto& [name, count] : counts) {
+      text += fmt::format("{}{} of \"{}\"", text.empty() ? "" : ", ", count, name);
+    }
+    note_exact(
+        "redundant_constraints", false,
+        fmt::format("{} follow from the others; reactions are not unique, and theirs zero", text));
+  }
+
+  const JointModel& joint_of(int multiplier) const {
+    const auto holds = [multiplier](const JointModel& joint) {
+      return joint.first_multiplier <= multiplier &&
+             multiplier < joint.first_multiplier + joint.equations();
+    };
+    return *std::find_if(model_.joints.begin(), model_.joints.end(), holds);
   }
 
   void set_guess() {

@@ -288,9 +288,10 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   analysis->model = build_model(problem.scene, problem.effects, start_values, design);
   analysis->model.mechanism.starts_in_equilibrium = problem.simulation.quasi_static_start;
   const SimulationSettings& settings = problem.simulation;
-  analysis->trajectory = simulate(analysis->model.mechanism,
-                                  {settings.end_time, settings.step, settings.spectral_radius,
-                                   settings.newton_tolerance, settings.max_newton_iterations});
+  analysis->trajectory = simulate(
+      analysis->model.mechanism,
+      {settings.end_time, settings.step, settings.spectral_radius, settings.newton_tolerance,
+       settings.max_newton_iterations, settings.scheme, settings.formulation});
   analysis->responses = make_responses(problem.responses, analysis->model);
   set_mechanism_frequencies(*analysis);
   set_rigid_mechanism(problem, x, *analysis);

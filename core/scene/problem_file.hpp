@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/time_integration.hpp"
 #include "core/scene/scene.hpp"
 
 /// Everything that a problem file says, as plain structs.
@@ -36,9 +37,11 @@ struct EffectSettings {
 };
 
 struct SimulationSettings {
-  double end_time = 0.0;         ///< [s]
-  double step = 0.0;             ///< [s]
-  double spectral_radius = 0.8;  ///< ρ∞ of generalized-α, in [0, 1]
+  double end_time = 0.0;  ///< [s]
+  double step = 0.0;      ///< [s]
+  SchemeType scheme = SchemeType::generalized_alpha;
+  double spectral_radius = 0.8;  ///< ρ∞ of the scheme, in [0, 1]
+  Formulation formulation;
   /// Newton's method ends when the error left, relative to the scale of each coordinate, is
   /// estimated to be below this.
   double newton_tolerance = 1e-10;

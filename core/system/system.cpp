@@ -14,8 +14,15 @@ System::System(int coordinates, int multipliers, int variables,
   build_pattern();
 }
 
+void System::leave_out(const std::vector<int>& multipliers) {
+  left_out_ = multipliers;
+  build_pattern();
+}
+
 void System::build_pattern() {
   EntryList entries;
+  first_entry_.clear();
+  slots_.clear();
   for (const auto& term : terms_) {
     first_entry_.push_back(entries.size());
     term->declare_entries(entries);
@@ -24,6 +31,7 @@ void System::build_pattern() {
   for (const auto& [row, col] : entries) triplets.emplace_back(row, col, 0.0);
   // The diagonal serves the initial state, which weighs the distance to the given coordinates.
   for (int i = 0; i < coordinates_; ++i) triplets.emplace_back(i, i, 0.0);
+  for (int i : left_out_) triplets.emplace_back(coordinates_ + i, coordinates_ + i, 0.0);
   pattern_.resize(size(), size());
   pattern_.setFromTriplets(triplets.begin(), triplets.end());
   pattern_.makeCompressed();
@@ -36,9 +44,26 @@ void System::build_pattern() {
   }
 }
 
+void System::replace_left_out(const State& state, Eigen::VectorXd& residual) const {
+  for (int i : left_out_) residual(coordinates_ + i) = state.lambda(i);
+}
+
+void System::replace_left_out(Matrix& matrix) const {
+  if (left_out_.empty()) return;
+  for (int col = 0; col < size(); ++col) {
+    for (int k = matrix.outerIndexPtr()[col]; k < matrix.outerIndexPtr()[col + 1]; ++k) {
+      const int row = matrix.innerIndexPtr()[k];
+      if (std::binary_search(left_out_.begin(), left_out_.end(), row - coordinates_)) {
+        matrix.valuePtr()[k] = row == col ? 1.0 : 0.0;
+      }
+    }
+  }
+}
+
 void System::residual(const State& state, ConstraintLevel level, Eigen::VectorXd& residual) {
   residual.setZero(size());
   for (const auto& term : terms_) term->add_residual(state, level, residual);
+  replace_left_out(state, residual);
 }
 
 void System::tangent(const State& state, const Weights& weights, ConstraintLevel level,
@@ -65,13 +90,16 @@ void System::linearize(const State& state, const WeightList& weights, Constraint
     const double* entries = entries_.data() + k * count;
     std::fill(values, values + matrices[k].nonZeros(), 0.0);
     for (std::size_t i = 0; i < count; ++i) values[slots_[i]] += entries[i];
+    replace_left_out(matrices[k]);
   }
+  replace_left_out(state, residual);
 }
 
 void System::design_derivative(const State& state, ConstraintLevel level,
                                Eigen::MatrixXd& columns) {
   columns.setZero(size(), variables_);
   for (const auto& term : terms_) term->add_design_derivative(state, level, columns);
+  for (int i : left_out_) columns.row(coordinates_ + i).setZero();
 }
 
 void scale_dynamic_block(int coordinates, double factor, System::Matrix& matrix) {

@@ -26,6 +26,10 @@ class System {
   int size() const { return coordinates_ + multipliers_; }
   const std::vector<std::unique_ptr<Term>>& terms() const { return terms_; }
 
+  /// Replaces constraints that follow from the others by λ_i = 0, before any matrix is made.
+  void leave_out(const std::vector<int>& multipliers);
+  const std::vector<int>& left_out() const { return left_out_; }
+
   /// A zero matrix with the pattern of the tangent, (n + m) × (n + m).
   Matrix make_matrix() const { return pattern_; }
 
@@ -48,9 +52,13 @@ class System {
 
  private:
   void build_pattern();
+  /// Rows of what is left out: zero, and one on the diagonal.
+  void replace_left_out(const State& state, Eigen::VectorXd& residual) const;
+  void replace_left_out(Matrix& matrix) const;
 
   int coordinates_, multipliers_, variables_;
   std::vector<std::unique_ptr<Term>> terms_;
+  std::vector<int> left_out_;
   Matrix pattern_;
   std::vector<int> slots_;       ///< value index of each declared entry, terms in order
   std::vector<double> entries_;  ///< scratch, same order, a block for each of the weights

@@ -104,11 +104,14 @@ INSTANTIATE_TEST_SUITE_P(
         BadProblem{
             "/simulation/end_time", R"({"variable": "width"})",
             R"(/simulation/end_time must be a time [s]: a number in SI units or a text with unit, got {"variable":"width"})"},
-        BadProblem{"/simulation/scheme", R"("euler")",
-                   R"(/simulation/scheme must be "generalized-alpha", got "euler")"},
         BadProblem{
-            "/simulation/formulation", R"("index-1")",
-            R"(/simulation/formulation must be "index-3", got "index-1"; did you mean "index-3"?)"},
+            "/simulation/scheme", R"("euler")",
+            R"(/simulation/scheme must be "generalized-alpha", "newmark" or "implicit-euler", got "euler")"},
+        BadProblem{
+            "/simulation/formulation", R"("index-2")",
+            R"(/simulation/formulation must be "index-3", "stabilized-index-2" or "index-1", got "index-2"; did you mean "index-3"?)"},
+        BadProblem{"/simulation/baumgarte", "\"100 1/s\"",
+                   R"(/simulation/baumgarte is for the formulation "index-1" only)"},
         BadProblem{"/effects/spatial_motion", "true",
                    R"(/effects/spatial_motion must be "auto", "on" or "off", got true)"},
         BadProblem{"/accuracy/steps", "1e-4", "/accuracy/steps must be a list […], got 0.0001"},

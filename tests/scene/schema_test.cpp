@@ -197,7 +197,7 @@ TEST_F(ProblemSchema, RefusesWhatTheReaderRefuses) {
       {"/responses/stress/over_time", "remove"},
       {"/responses/bow/at", "1.5"},
       {"/responses/bow/direction", "\"x\""},
-      {"/responses/bow/against", "\"rigid-mechanism\""},
+      {"/responses/bow/against", "\"cord\""},
       {"/constraints/strength/upper", "remove"},
       {"/constraints/slender/response", "\"bow\""},
       {"/optimizer/tolerance", "0"},

@@ -59,16 +59,35 @@ EffectSettings read_effects(const JsonNode& node) {
   return effects;
 }
 
+Formulation read_formulation(const JsonNode& node, const NumberReader& numbers) {
+  Formulation formulation;
+  if (const auto constraints = node.find("formulation")) {
+    formulation.constraints = read_choice<ConstraintForm>(
+        *constraints, {{"index-3", ConstraintForm::index_3},
+                       {"stabilized-index-2", ConstraintForm::stabilized_index_2},
+                       {"index-1", ConstraintForm::index_1}});
+  }
+  if (const auto baumgarte = node.find("baumgarte")) {
+    if (formulation.constraints != ConstraintForm::index_1) {
+      baumgarte->fail("is for the formulation \"index-1\" only");
+    }
+    formulation.baumgarte = numbers.fixed(*baumgarte, quantities::rate, Range::positive);
+  }
+  return formulation;
+}
+
 SimulationSettings read_simulation(const JsonNode& node, const NumberReader& numbers) {
-  node.allow_keys({"end_time", "step", "scheme", "spectral_radius", "formulation",
+  node.allow_keys({"end_time", "step", "scheme", "spectral_radius", "formulation", "baumgarte",
                    "newton_tolerance", "max_newton_iterations", "initial_state"});
   SimulationSettings settings;
   read_times(node, numbers, settings);
-  if (const auto scheme = node.find("scheme"))
-    read_choice<int>(*scheme, {{"generalized-alpha", 0}});
-  if (const auto formulation = node.find("formulation")) {
-    read_choice<int>(*formulation, {{"index-3", 0}});
+  if (const auto scheme = node.find("scheme")) {
+    settings.scheme =
+        read_choice<SchemeType>(*scheme, {{"generalized-alpha", SchemeType::generalized_alpha},
+                                          {"newmark", SchemeType::newmark},
+                                          {"implicit-euler", SchemeType::implicit_euler}});
   }
+  settings.formulation = read_formulation(node, numbers);
   if (const auto radius = node.find("spectral_radius")) {
     settings.spectral_radius = numbers.fixed(*radius, quantities::pure_number, Range::fraction);
   }

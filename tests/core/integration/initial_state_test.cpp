@@ -77,20 +77,6 @@ std::string sample_name(const testing::TestParamInfo<int>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(Samples, StartOfAMechanism, testing::Range(0, sample_count), sample_name);
 
-TEST(StartOfAMechanism, SaysThatJointsConstrainTheSameMotionTwice) {
-  Scene scene = swinging_beam(0.3, CircleSection{0.01}, 2);
-  Joint again = scene.joints[0];
-  again.name = "again";
-  scene.joints.push_back(again);
-  Model model = build_model(scene, {}, {}, {});
-  try {
-    simulate(model.mechanism, {0.1, 1e-3});
-    FAIL() << "a doubled joint must not go unnoticed";
-  } catch (const SimulationError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("constrain the same motion twice"));
-  }
-}
-
 /// q² + 1 = 0 has no solution.
 class Impossible : public Term {
  public:

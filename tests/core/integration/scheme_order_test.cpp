@@ -19,10 +19,11 @@ class SchemeOrder : public testing::Test {
     Eigen::VectorXd q, v, lambda;
   };
 
-  static End simulate_with(double step, double spectral_radius) {
+  static End simulate_with(SimulationOptions options, double step) {
     const SampleScene sample = smooth_planar_sample();
     Model model = sample.build();
-    SimulationOptions options{end_time, step, spectral_radius};
+    options.end_time = end_time;
+    options.step = step;
     options.newton_tolerance = 1e-14;
     const Trajectory trajectory = simulate(model.mechanism, options);
     const int last = trajectory.steps();
@@ -33,11 +34,11 @@ class SchemeOrder : public testing::Test {
     double q, v, lambda;
   };
   /// Against half the step: round-off of λ, which grows as h⁻², spoils a much finer reference.
-  static Orders observe(double spectral_radius) {
+  static Orders observe(const SimulationOptions& options) {
     std::vector<double> steps, q, v, lambda;
     for (int n : {1500, 2121, 3000}) {
-      const End end = simulate_with(end_time / n, spectral_radius);
-      const End fine = simulate_with(end_time / (2 * n), spectral_radius);
+      const End end = simulate_with(options, end_time / n);
+      const End fine = simulate_with(options, end_time / (2 * n));
       steps.push_back(end_time / n);
       q.push_back((end.q - fine.q).norm());
       v.push_back((end.v - fine.v).norm());
@@ -47,24 +48,60 @@ class SchemeOrder : public testing::Test {
   }
 };
 
-class DampedSchemeOrder : public SchemeOrder, public testing::WithParamInterface<double> {};
+struct SchemeCase {
+  std::string name;
+  SchemeType scheme;
+  double spectral_radius;
+  Formulation formulation;
+  double order;
 
-TEST_P(DampedSchemeOrder, PositionsVelocitiesAndMultipliersAreOfSecondOrder) {
-  const Orders orders = observe(GetParam());
-  EXPECT_NEAR(orders.q, 2.0, 0.1);
-  EXPECT_NEAR(orders.v, 2.0, 0.1);
+  SimulationOptions options() const {
+    SimulationOptions options{.spectral_radius = spectral_radius};
+    options.scheme = scheme;
+    options.formulation = formulation;
+    return options;
+  }
+};
+
+class EverySchemeOrder : public SchemeOrder, public testing::WithParamInterface<SchemeCase> {};
+
+TEST_P(EverySchemeOrder, IsThatOfItsTheory) {
+  const Orders orders = observe(GetParam().options());
+  EXPECT_NEAR(orders.q, GetParam().order, 0.1);
+  EXPECT_NEAR(orders.v, GetParam().order, 0.1);
   // Arnold & Brüls 2007 prove second order for λ, too, after a smooth start. Weakly damped parts of
   // it fall faster (2.16 at ρ∞ = 0.9).
-  EXPECT_GE(orders.lambda, 1.9);
+  EXPECT_GE(orders.lambda, GetParam().order - 0.1);
 }
 
 /// ρ∞ = 1 keeps for ever what round-off and the start leave in λ, and little by little in v.
 TEST_F(SchemeOrder, IsLostByTheMultipliersWithoutNumericalDamping) {
-  const Orders orders = observe(1.0);
+  const Orders orders = observe({.spectral_radius = 1.0});
   EXPECT_NEAR(orders.q, 2.0, 0.1);
   EXPECT_LT(orders.lambda, 0.5);  // measured: 0.00
 }
 
-INSTANTIATE_TEST_SUITE_P(SpectralRadii, DampedSchemeOrder, testing::Values(0.0, 0.5, 0.8, 0.9));
+constexpr SchemeType alpha = SchemeType::generalized_alpha;
+constexpr Formulation index_3{};
+constexpr Formulation stabilized{ConstraintForm::stabilized_index_2};
+constexpr Formulation index_1{ConstraintForm::index_1};
+constexpr Formulation baumgarte{ConstraintForm::index_1, 200.0};
+
+INSTANTIATE_TEST_SUITE_P(
+    Schemes, EverySchemeOrder,
+    testing::Values(SchemeCase{"Radius0", alpha, 0.0, index_3, 2.0},
+                    SchemeCase{"Radius05", alpha, 0.5, index_3, 2.0},
+                    SchemeCase{"Radius08", alpha, 0.8, index_3, 2.0},
+                    SchemeCase{"Radius09", alpha, 0.9, index_3, 2.0},
+                    SchemeCase{"StabilizedIndex2", alpha, 0.8, stabilized, 2.0},
+                    SchemeCase{"Index1", alpha, 0.8, index_1, 2.0},
+                    SchemeCase{"Index1Radius1", alpha, 1.0, index_1, 2.0},
+                    SchemeCase{"Baumgarte", alpha, 0.8, baumgarte, 2.0},
+                    SchemeCase{"NewmarkIndex1", SchemeType::newmark, 1.0, index_1, 2.0},
+                    SchemeCase{"DampedNewmark", SchemeType::newmark, 0.5, index_3, 1.0},
+                    SchemeCase{"ImplicitEuler", SchemeType::implicit_euler, 0.0, index_3, 1.0},
+                    SchemeCase{"ImplicitEulerStabilized", SchemeType::implicit_euler, 0.0,
+                               stabilized, 1.0}),
+    [](const auto& info) { return info.param.name; });
 
 }  // namespace

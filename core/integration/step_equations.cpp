@@ -1,0 +1,282 @@
+#include "core/integration/step_equations.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+#include "core/integration/configuration.hpp"
+
+namespace pleuel {
+
+namespace {
+
+ConstraintLevel level_of(ConstraintForm form) {
+  switch (form) {
+    case ConstraintForm::index_3:
+      return ConstraintLevel::position;
+    case ConstraintForm::stabilized_index_2:
+      return ConstraintLevel::velocity;
+    default:
+      return ConstraintLevel::acceleration;
+  }
+}
+
+/// One over the weight of z in what the level constrains.
+double scale_of(ConstraintLevel level, const Scheme& scheme) {
+  switch (level) {
+    case ConstraintLevel::position:
+      return 1.0 / scheme.correction(0);
+    case ConstraintLevel::velocity:
+      return 1.0 / scheme.correction(1);
+    default:
+      return 1.0 / scheme.correction(2);
+  }
+}
+
+/// Calls visit(k, row, column) for all entries of a pattern.
+template <class Visit>
+void for_each_entry(const System::Matrix& matrix, Visit visit) {
+  for (int col = 0; col < matrix.cols(); ++col) {
+    for (int k = matrix.outerIndexPtr()[col]; k < matrix.outerIndexPtr()[col + 1]; ++k) {
+      visit(static_cast<std::size_t>(k), matrix.innerIndexPtr()[k], col);
+    }
+  }
+}
+
+int find_slot(const System::Matrix& matrix, int row, int col) {
+  const int* begin = matrix.innerIndexPtr() + matrix.outerIndexPtr()[col];
+  const int* end = matrix.innerIndexPtr() + matrix.outerIndexPtr()[col + 1];
+  const int* found = std::lower_bound(begin, end, row);
+  assert(found != end && *found == row);
+  return static_cast<int>(found - matrix.innerIndexPtr());
+}
+
+/// to.row(n …) of coordinate columns += factor · from, of the same pattern.
+void add_constraint_rows(int n, double factor, const System::Matrix& from, System::Matrix& to) {
+  for_each_entry(from, [&](std::size_t k, int row, int col) {
+    if (row >= n && col < n) to.valuePtr()[k] += factor * from.valuePtr()[k];
+  });
+}
+
+}  // namespace
+
+StepEquations::StepEquations(Mechanism& mechanism, const Scheme& scheme,
+                             const Formulation& formulation)
+    : mechanism_(mechanism),
+      system_(*mechanism.system),
+      scheme_(scheme),
+      formulation_(formulation),
+      level_{level_of(formulation.constraints), 1.0},
+      dynamic_scale_(scheme.dynamic_scale()),
+      constraint_scale_(scale_of(level_.level, scheme)),
+      matrices_(4, system_.make_matrix()) {
+  const double b = formulation.baumgarte;
+  if (formulation.constraints == ConstraintForm::index_1 && b > 0.0) {
+    other_levels_ = {{ConstraintLevel::velocity, 2.0 * b}, {ConstraintLevel::position, b * b}};
+    other_matrices_ = matrices_;
+  }
+  build_pattern();
+}
+
+void StepEquations::build_pattern() {
+  pattern_ = system_.make_matrix();
+  if (!is_stabilized()) return;
+  const System::Matrix& block = matrices_.front();
+  const int n = system_.coordinates(), size = system_.size();
+  // In the second block rows the dynamics is W δ and does not know z.
+  const auto is_in_21 = [n](int row, int col) { return row >= n && col < n; };
+  const auto is_in_22 = [n](int row, int col) { return row >= n || col >= n || row == col; };
+  std::vector<Eigen::Triplet<double>> entries;
+  for_each_entry(block, [&](std::size_t, int row, int col) {
+    entries.emplace_back(row, col, 0.0);
+    if (col < n) entries.emplace_back(row, size + col, 0.0);
+    if (is_in_21(row, col)) entries.emplace_back(size + row, col, 0.0);
+    if (is_in_22(row, col)) entries.emplace_back(size + row, size + col, 0.0);
+  });
+  pattern_.resize(2 * size, 2 * size);
+  pattern_.setFromTriplets(entries.begin(), entries.end());
+  pattern_.makeCompressed();
+  const auto count = static_cast<std::size_t>(block.nonZeros());
+  for (auto* slots : {&slots_11_, &slots_12_, &slots_21_, &slots_22_}) slots->assign(count, -1);
+  for_each_entry(block, [&](std::size_t k, int row, int col) {
+    slots_11_[k] = find_slot(pattern_, row, col);
+    if (col < n) slots_12_[k] = find_slot(pattern_, row, size + col);
+    if (is_in_21(row, col)) slots_21_[k] = find_slot(pattern_, size + row, col);
+    if (is_in_22(row, col)) slots_22_[k] = find_slot(pattern_, size + row, size + col);
+  });
+  old_constraints_ = system_.make_matrix();
+}
+
+StepState StepEquations::make_state(const State& start) const {
+  StepState state;
+  static_cast<State&>(state) = start;
+  state.w = start.a;
+  state.increment.setZero(system_.coordinates());
+  if (is_stabilized()) {
+    state.shift.setZero(system_.coordinates());
+    state.eta.setZero(system_.multipliers());
+  }
+  return state;
+}
+
+void StepEquations::begin(const State& old) {
+  old_ = old;
+  if (is_stabilized()) {
+    system_.tangent(old_, {}, ConstraintLevel::position, old_constraints_);
+  }
+}
+
+/// The system's residual and tangents for the weights into residual_ and matrices_, constraints on
+/// the levels of the formulation.
+void StepEquations::evaluate(const StepState& state, WeightList weights) {
+  const std::span<System::Matrix> matrices(matrices_.data(), weights.size());
+  system_.linearize(state, weights, level_.level, residual_, matrices);
+  for (const Level& other : other_levels_) {
+    const std::span<System::Matrix> others(other_matrices_.data(), weights.size());
+    system_.linearize(state, weights, other.level, other_residual_, others);
+    residual_.tail(system_.multipliers()) +=
+        other.factor * other_residual_.tail(system_.multipliers());
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      add_constraint_rows(system_.coordinates(), other.factor, others[i], matrices[i]);
+    }
+  }
+}
+
+/// From residual_, at the same state.
+void StepEquations::write_residual(const StepState& state, Eigen::VectorXd& residual) {
+  const int n = system_.coordinates(), m = system_.multipliers();
+  residual.resize(size());
+  residual.head(n) = dynamic_scale_ * residual_.head(n);
+  residual.segment(n, m) = constraint_scale_ * residual_.tail(m);
+  if (!is_stabilized()) return;
+  residual.segment(n + m, n) = mechanism_.assembly_weight.cwiseProduct(state.shift);
+  for_each_entry(old_constraints_, [&](std::size_t k, int row, int col) {
+    if (col < n || row >= n) return;
+    residual(n + m + row) += old_constraints_.valuePtr()[k] * state.eta(col - n);
+  });
+  system_.residual(state, ConstraintLevel::position, other_residual_);
+  residual.tail(m) = other_residual_.tail(m);
+}
+
+void StepEquations::residual(const StepState& state, Eigen::VectorXd& residual) {
+  system_.residual(state, level_.level, residual_);
+  for (const Level& other : other_levels_) {
+    system_.residual(state, other.level, other_residual_);
+    residual_.tail(system_.multipliers()) +=
+        other.factor * other_residual_.tail(system_.multipliers());
+  }
+  write_residual(state, residual);
+}
+
+void StepEquations::linearize(const StepState& state, Eigen::VectorXd& residual,
+                              System::Matrix& matrix) {
+  const Eigen::Vector4d& b = scheme_.correction;
+  const std::array<Weights, 3> weights{{{b(0), b(1), b(2)}, {.q = 1.0}, {.v = 1.0}}};
+  const bool turns = !mechanism_.rotations.empty();
+  evaluate(state, WeightList(weights.data(), is_stabilized() ? 3u : turns ? 2u : 1u));
+  write_residual(state, residual);
+  write_matrix(state, 1, 2, matrix);
+}
+
+/// From matrices_: the step's, the one with weight q and the one with weight v.
+void StepEquations::write_matrix(const StepState& state, std::size_t q, std::size_t v,
+                                 System::Matrix& matrix) {
+  const int n = system_.coordinates();
+  const Rotations& rotations = mechanism_.rotations;
+  System::Matrix& step = matrices_.front();
+  if (!rotations.empty()) {
+    add_increment_tangent(rotations, state.increment, matrices_[q], scheme_.correction(0), step);
+  }
+  for_each_entry(step, [&](std::size_t k, int row, int col) {
+    if (col < n) step.valuePtr()[k] *= row < n ? dynamic_scale_ : constraint_scale_;
+  });
+  if (!is_stabilized()) {
+    std::copy(step.valuePtr(), step.valuePtr() + step.nonZeros(), matrix.valuePtr());
+    return;
+  }
+  System::Matrix &with_q = matrices_[q], &with_v = matrices_[v];
+  if (!rotations.empty()) {
+    add_increment_tangent(rotations, state.increment, with_q, 1.0, with_q);
+    add_increment_tangent(rotations, state.increment, with_v, 1.0, with_v);
+  }
+  double* out = matrix.valuePtr();
+  for_each_entry(step, [&](std::size_t k, int row, int col) {
+    out[slots_11_[k]] = step.valuePtr()[k];
+    if (slots_12_[k] >= 0) {
+      out[slots_12_[k]] = (row < n ? dynamic_scale_ : constraint_scale_) * with_q.valuePtr()[k];
+    }
+    // On velocity level the derivative with respect to v is Φ_q.
+    if (slots_21_[k] >= 0) out[slots_21_[k]] = with_v.valuePtr()[k];
+    if (slots_22_[k] < 0) return;
+    if (col < n) {
+      out[slots_22_[k]] = row < n ? mechanism_.assembly_weight(row) : with_v.valuePtr()[k];
+    } else {
+      out[slots_22_[k]] = old_constraints_.valuePtr()[k];
+    }
+  });
+}
+
+void StepEquations::apply(const Eigen::VectorXd& correction, StepState& state) const {
+  const int n = system_.coordinates(), m = system_.multipliers();
+  const auto z = correction.head(n);
+  state.increment += scheme_.correction(0) * z;
+  state.v += scheme_.correction(1) * z;
+  state.a += scheme_.correction(2) * z;
+  state.w += scheme_.correction(3) * z;
+  state.lambda += correction.segment(n, m) / dynamic_scale_;
+  if (is_stabilized()) {
+    state.shift += correction.segment(n + m, n);
+    state.increment += correction.segment(n + m, n);
+    state.eta += correction.tail(m);
+  }
+  advance(mechanism_.rotations, old_.q, state.increment, state.q);
+}
+
+void StepEquations::differentiate(const StepState& state, const Eigen::MatrixXd& v,
+                                  const Eigen::MatrixXd& a, const Eigen::MatrixXd& old_q,
+                                  System::Matrix& matrix, Eigen::MatrixXd& rhs) {
+  const int n = system_.coordinates(), m = system_.multipliers();
+  const Eigen::Vector4d& b = scheme_.correction;
+  const std::array<Weights, 4> weights{{{b(0), b(1), b(2)}, {.v = 1.0}, {.a = 1.0}, {.q = 1.0}}};
+  const bool needs_q = is_stabilized() || !mechanism_.rotations.empty();
+  evaluate(state, WeightList(weights.data(), needs_q ? 4u : 3u));
+  system_.design_derivative(state, level_.level, columns_);
+  for (const Level& other : other_levels_) {
+    system_.design_derivative(state, other.level, other_columns_);
+    columns_.bottomRows(m) += other.factor * other_columns_.bottomRows(m);
+  }
+  columns_.noalias() += matrices_[1].leftCols(n) * v;
+  columns_.noalias() += matrices_[2].leftCols(n) * a;
+  rhs.resize(size(), system_.variables());
+  rhs.topRows(n) = -dynamic_scale_ * columns_.topRows(n);
+  rhs.middleRows(n, m) = -constraint_scale_ * columns_.bottomRows(m);
+  write_matrix(state, 3, 1, matrix);
+  if (is_stabilized()) differentiate_old_constraints(state, old_q, rhs);
+}
+
+/// The rows of the shift, −(Φ_q(q)ᵀ η)_q s_q − (Φ_q(q)ᵀ η)_x, and of Φ(q⁺), −Φ_x. Constraint forces
+/// are the part of the residual that is linear in the multipliers.
+void StepEquations::differentiate_old_constraints(const StepState& state,
+                                                  const Eigen::MatrixXd& old_q,
+                                                  Eigen::MatrixXd& rhs) {
+  const int n = system_.coordinates(), m = system_.multipliers();
+  auto shift_rows = rhs.middleRows(n + m, n);
+  shift_rows.setZero();
+  State& at = constraints_at_;
+  at = old_;
+  for (double sign : {1.0, -1.0}) {
+    if (sign > 0.0) {
+      at.lambda = state.eta;
+    } else {
+      at.lambda.setZero();
+    }
+    system_.tangent(at, {.q = 1.0}, ConstraintLevel::position, matrices_.front());
+    system_.design_derivative(at, ConstraintLevel::position, other_columns_);
+    other_columns_.noalias() += matrices_.front().leftCols(n) * old_q;
+    shift_rows -= sign * other_columns_.topRows(n);
+  }
+  system_.design_derivative(state, ConstraintLevel::position, other_columns_);
+  rhs.bottomRows(m) = -other_columns_.bottomRows(m);
+}
+
+}  // namespace pleuel

@@ -1,0 +1,106 @@
+#include "core/integration/redundancy.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/integration/simulate.hpp"
+#include "tests/support/sample_scenes.hpp"
+
+namespace pleuel::test {
+namespace {
+
+Joint revolute(const std::string& name, const std::string& a, const std::string& b, Point at) {
+  Joint joint;
+  joint.name = name;
+  joint.bodies = {a, b};
+  joint.at = std::move(at);
+  return joint;
+}
+
+Body rigid_bar(const std::string& name, Point from, Point to) {
+  BeamBody bar;
+  bar.from = std::move(from);
+  bar.to = std::move(to);
+  bar.material = "steel";
+  bar.segments = {{CircleSection{0.01}, 1, {}}};
+  bar.is_rigid = true;
+  return {name, bar};
+}
+
+/// A planar four-bar with rigid links; its ground pins are a unit apart.
+Scene four_bar(const Point& crank_pin, const Point& rocker_pin) {
+  Scene scene;
+  scene.gravity = {0.0, -9.81, 0.0};
+  scene.materials.push_back({"steel", 2.1e11, 0.3, 7850.0});
+  const Point left = {0.0, 0.0, 0.0}, right = {1.0, 0.0, 0.0};
+  scene.bodies = {rigid_bar("crank", left, crank_pin), rigid_bar("coupler", crank_pin, rocker_pin),
+                  rigid_bar("rocker", right, rocker_pin)};
+  scene.joints = {revolute("left", ground_name, "crank", left),
+                  revolute("first pin", "crank", "coupler", crank_pin),
+                  revolute("second pin", "coupler", "rocker", rocker_pin),
+                  revolute("right", ground_name, "rocker", right)};
+  return scene;
+}
+
+Model in_space(const Scene& scene) {
+  EffectSettings effects;
+  effects.spatial_motion = EffectChoice::on;
+  return build_model(scene, effects, {}, {});
+}
+
+TEST(RedundantConstraints, AreNotInTheSamples) {
+  for (const SampleScene& sample : all_samples()) {
+    EXPECT_THAT(sample.build().mechanism.system->left_out(), testing::IsEmpty()) << sample.name;
+  }
+}
+
+/// Grübler's count in space: 6 · 3 − 5 · 4 = −2 for a loop that has one freedom: 3 too many.
+TEST(RedundantConstraints, OfAPlanarLoopInSpaceAreThree) {
+  const Model model = in_space(four_bar({0.2, 0.3, 0.0}, {1.1, 0.6, 0.0}));
+  EXPECT_EQ(model.mechanism.system->left_out().size(), 3u);
+  const EffectRecord& record = model.effects.back();
+  EXPECT_EQ(record.name, "redundant_constraints");
+  EXPECT_THAT(record.reason, testing::HasSubstr("follow from the others"));
+}
+
+TEST(RedundantConstraints, LeaveTheMotionThatThePlaneHas) {
+  const Scene scene = four_bar({0.2, 0.3, 0.0}, {1.1, 0.6, 0.0});
+  Model space = in_space(scene), plane = build_model(scene, {}, {}, {});
+  const SimulationOptions options{0.5, 1e-3, 0.8};
+  const Trajectory in_the_plane = simulate(plane.mechanism, options);
+  const int last = in_the_plane.steps();
+  for (ConstraintForm form : {ConstraintForm::index_3, ConstraintForm::stabilized_index_2}) {
+    SimulationOptions with_form = options;
+    with_form.formulation.constraints = form;
+    const Trajectory found = simulate(space.mechanism, with_form),
+                     expected = simulate(plane.mechanism, with_form);
+    for (std::size_t i = 0; i < space.bodies.size(); ++i) {
+      const auto place = [&](const Model& model, const Trajectory& trajectory) {
+        return Eigen::Vector2d(trajectory.q.col(last).segment<2>(model.bodies[i].frame.offset));
+      };
+      // Positions to what Newton's method leaves.
+      EXPECT_LE((place(space, found) - place(plane, expected)).norm(), 1e-9) << i;
+    }
+  }
+}
+
+/// All links in a line: the rank falls there, but only there.
+TEST(RedundantConstraints, AreToldFromASingularPosition) {
+  const Model model = build_model(four_bar({0.5, 0.0, 0.0}, {1.5, 0.0, 0.0}), {}, {}, {});
+  EXPECT_THAT(model.mechanism.system->left_out(), testing::IsEmpty());
+}
+
+TEST(RedundantConstraints, OfADoubledJointAreThoseOfOne) {
+  Scene scene = swinging_beam(0.3, CircleSection{0.01}, 2);
+  scene.joints.push_back(revolute("again", ground_name, "beam", {0.0, 0.0, 0.0}));
+  Model twice = build_model(scene, {}, {}, {});
+  scene.joints.pop_back();
+  Model once = build_model(scene, {}, {}, {});
+  EXPECT_EQ(twice.mechanism.system->left_out().size(), 2u);
+  const Trajectory found = simulate(twice.mechanism, {0.1, 1e-3}),
+                   expected = simulate(once.mechanism, {0.1, 1e-3});
+  EXPECT_LE((found.q - expected.q).lpNorm<Eigen::Infinity>(), 1e-12);
+}
+
+}  // namespace
+}  // namespace pleuel::test
