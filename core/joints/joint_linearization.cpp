@@ -1,5 +1,7 @@
 #include "core/joints/joint_linearization.hpp"
 
+#include <cmath>
+
 namespace pleuel {
 
 using Eigen::Matrix3d;
@@ -7,7 +9,11 @@ using Eigen::Vector3d;
 
 JointLinearization::JointLinearization(const JointTopology& topology, const JointData<double>& data,
                                        double time, const double* q, int size)
-    : topology_(topology), data_(data), gradient_(size), hessian_(size, size) {
+    : topology_(topology),
+      data_(data),
+      gradient_(size),
+      gradient_rate_(size),
+      hessian_(size, size) {
   if (topology.is_driven) drive_ = data.drive.at(time);
   markers_[0].start = 0;
   set_marker(0, q);
@@ -105,9 +111,9 @@ JointLinearization::Attached JointLinearization::direction(std::size_t m,
 }
 
 /// gradient += Jᵀ g
-void JointLinearization::add_gradient(const Attached& a, const Vector3d& g) {
+void JointLinearization::add_to(Vector& gradient, const Attached& a, const Vector3d& g) const {
   const MarkerState& state = markers_[a.marker];
-  gradient_.segment(state.start, state.size).noalias() += a.jacobian.transpose() * g;
+  gradient.segment(state.start, state.size).noalias() += a.jacobian.transpose() * g;
 }
 
 /// hessian += H(g): second derivatives with respect to two rotations, or a rotation and an elastic
@@ -150,6 +156,7 @@ void JointLinearization::add_product(const Attached& a, const Attached& b, doubl
 
 void JointLinearization::evaluate(const JointEquation& equation) {
   gradient_.setZero();
+  gradient_rate_.setZero();
   hessian_.setZero();
   const auto local = [&](int index) { return data_.directions[static_cast<std::size_t>(index)]; };
   switch (equation.kind) {
@@ -171,8 +178,7 @@ void JointLinearization::evaluate(const JointEquation& equation) {
                           direction(1, local(equation.second)));
       break;
     case EquationKind::drive:
-      evaluate_directions(direction(0, driven_direction(equation)),
-                          direction(1, local(equation.second)));
+      evaluate_drive(equation);
       break;
     case EquationKind::planar_angle:
       evaluate_planar_angle(equation);
@@ -218,6 +224,7 @@ void JointLinearization::evaluate_distance() {
   add_product(first, second, -1.0 / length);
   add_product(first, first, 0.5 / length);
   add_product(second, second, 0.5 / length);
+  gradient_rate_ = -(drive_.rate / length) * gradient_;
 }
 
 void JointLinearization::evaluate_directions(const Attached& first, const Attached& second) {
@@ -229,9 +236,20 @@ void JointLinearization::evaluate_directions(const Attached& first, const Attach
   add_product(first, second, 1.0);
 }
 
-Vector3d JointLinearization::driven_direction(const JointEquation& equation) const {
-  return std::cos(drive_.value) * data_.directions[static_cast<std::size_t>(equation.third)] -
-         std::sin(drive_.value) * data_.directions[static_cast<std::size_t>(equation.first)];
+/// cos f d_b − sin f d_a, and its derivative with respect to f with f a quarter turn further.
+Vector3d JointLinearization::driven_direction(const JointEquation& equation,
+                                              double quarter_turns) const {
+  const double angle = drive_.value + quarter_turns * std::acos(0.0);
+  return std::cos(angle) * data_.directions[static_cast<std::size_t>(equation.third)] -
+         std::sin(angle) * data_.directions[static_cast<std::size_t>(equation.first)];
+}
+
+void JointLinearization::evaluate_drive(const JointEquation& equation) {
+  const Attached second = direction(1, data_.directions[static_cast<std::size_t>(equation.second)]);
+  evaluate_directions(direction(0, driven_direction(equation, 0.0)), second);
+  const Attached rate = direction(0, drive_.rate * driven_direction(equation, 1.0));
+  add_to(gradient_rate_, rate, second.y);
+  add_to(gradient_rate_, second, rate.y);
 }
 
 void JointLinearization::evaluate_planar_angle(const JointEquation& equation) {

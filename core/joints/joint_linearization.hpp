@@ -4,9 +4,11 @@
 
 namespace pleuel {
 
-/// Value, gradient and Hessian of the equations of a joint at position level, by hand: the step
-/// matrix needs them in every Newton iteration, where dual numbers took a third of the time of a
-/// simulation. Tests tie it to joint_residual.hpp.
+/// Value, gradient and Hessian of the equations of a joint, by hand: the step matrix needs them in
+/// every Newton iteration, where dual numbers took a third of the time of a simulation. Tests tie
+/// it to joint_residual.hpp. They serve all levels: with g = Φ_q, H_ij = ∂g_i/∂q_j and g_t = ∂g/∂t,
+///     dΦ/dt = gᵀv + Φ_t:         ∂/∂v = g,              ∂/∂q = Hᵀ v + g_t
+///     d²Φ/dt²:       ∂/∂a = g,   ∂/∂v = (H + Hᵀ) v + 2 g_t
 ///
 /// With vectors y = σ r + A s attached to a marker, J = ∂y/∂q and H(g) = ∂²(gᵀy)/∂q²,
 ///     Φ = a · b  ⇒  Φ_q = Jₐᵀ b + J_bᵀ a,   Φ_qq = Hₐ(b) + H_b(a) + Jₐᵀ J_b + J_bᵀ Jₐ
@@ -20,12 +22,15 @@ class JointLinearization {
   JointLinearization(const JointTopology& topology, const JointData<double>& data, double time,
                      const double* q, int size);
 
-  /// Sets value(), gradient() and hessian() to those of one equation.
+  /// Sets value(), gradient(), hessian() and gradient_rate() to those of one equation.
   void evaluate(const JointEquation& equation);
 
   double value() const { return value_; }
   const Vector& gradient() const { return gradient_; }
+  /// H: rows belong to g, columns to its derivatives; not symmetric for rotations in space.
   const Hessian& hessian() const { return hessian_; }
+  /// g_t: zero unless a drive moves the equation.
+  const Vector& gradient_rate() const { return gradient_rate_; }
 
  private:
   using Jacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, max_size>;
@@ -56,9 +61,11 @@ class JointLinearization {
   Attached point(std::size_t m) const;
   Attached direction(std::size_t m, const Eigen::Vector3d& local) const;
   void add_rotations(Attached& attached) const;
-  Eigen::Vector3d driven_direction(const JointEquation& equation) const;
+  Eigen::Vector3d driven_direction(const JointEquation& equation, double quarter_turns) const;
+  void evaluate_drive(const JointEquation& equation);
 
-  void add_gradient(const Attached& a, const Eigen::Vector3d& g);
+  void add_gradient(const Attached& a, const Eigen::Vector3d& g) { add_to(gradient_, a, g); }
+  void add_to(Vector& gradient, const Attached& a, const Eigen::Vector3d& g) const;
   void add_curvature(const Attached& a, const Eigen::Vector3d& g);
   void add_product(const Attached& a, const Attached& b, double sign);
   void evaluate_coincident(const Eigen::Vector3d& e);
@@ -72,7 +79,7 @@ class JointLinearization {
   TimeValue<double> drive_{0.0, 0.0, 0.0};
   std::array<MarkerState, 2> markers_;
   double value_ = 0.0;
-  Vector gradient_;
+  Vector gradient_, gradient_rate_;
   Hessian hessian_;
 };
 

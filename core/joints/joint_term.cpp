@@ -44,14 +44,31 @@ class JointTerm : public Term {
 
   void linearize(const State& state, const WeightList& weights, ConstraintLevel level,
                  Eigen::VectorXd& residual, const EntryBlocks& entries) override {
-    if (level == ConstraintLevel::position) {
-      linearize_position(state, weights, residual, entries);
-      return;
+    const int size = local_size(), count = equations();
+    const Local<double> local = load<double>(state);
+    JointLinearization joint(topology_, data_, state.time, local.q.data(), size);
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      std::fill_n(entries.block(k), size * (size + count) + count * size, 0.0);
     }
-    add_residual(state, level, residual);
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-      write_dual_tangent(state, weights[i], level, entries.block(i));
+    const bool is_position = level == ConstraintLevel::position;
+    const auto first = topology_.multiplier - state.q.size();
+    for (int i = 0; i < count; ++i) {
+      joint.evaluate(topology_.equations[index(i)]);
+      const double lambda = state.lambda(first + i);
+      if (is_position) residual(topology_.multiplier + i) += joint.value();
+      for (int row = 0; row < size; ++row) {
+        residual(coordinate(row)) += lambda * joint.gradient()(row);
+      }
+      const EquationTangent tangent = tangent_of(joint, local, level);
+      for (std::size_t k = 0; k < weights.size(); ++k) {
+        add_equation(joint, tangent, i, weights[k], lambda, entries.block(k));
+      }
     }
+    if (is_position) return;
+    const Result<double> result = evaluate(data_, local, state.time, level);
+    for (int i = 0; i < count; ++i)
+      residual(topology_.multiplier + i) += result.equations[index(i)];
+    if (level == ConstraintLevel::acceleration) add_third_derivatives(state, weights, entries);
   }
 
   void add_design_derivative(const State& state, ConstraintLevel level,
@@ -70,7 +87,7 @@ class JointTerm : public Term {
  private:
   /// Bounds the number of local coordinates and equations together.
   static constexpr int max_slots = JointLinearization::max_size + 7;
-  using WideDual = DualOf<max_slots>;
+  using WideDual = DualOf<JointLinearization::max_size>;
 
   template <class Scalar>
   struct Local {
@@ -86,65 +103,50 @@ class JointTerm : public Term {
   int equations() const { return static_cast<int>(topology_.equations.size()); }
   int coordinate(int i) const { return coordinates_[index(i)]; }
 
-  /// The fast way, for the time loop.
-  void linearize_position(const State& state, const WeightList& weights, Eigen::VectorXd& residual,
-                          const EntryBlocks& entries) const {
-    const int size = local_size(), count = equations();
-    JointLinearization::Vector q(size);
-    for (int i = 0; i < size; ++i) q(i) = state.q(coordinate(i));
-    JointLinearization joint(topology_, data_, state.time, q.data(), size);
-    for (std::size_t k = 0; k < weights.size(); ++k) {
-      std::fill_n(entries.block(k), size * (size + count) + count * size, 0.0);
-    }
-    const auto first = topology_.multiplier - state.q.size();
-    for (int i = 0; i < count; ++i) {
-      joint.evaluate(topology_.equations[index(i)]);
-      const double lambda = state.lambda(first + i);
-      residual(topology_.multiplier + i) += joint.value();
-      for (int row = 0; row < size; ++row) {
-        residual(coordinate(row)) += lambda * joint.gradient()(row);
-      }
-      for (std::size_t k = 0; k < weights.size(); ++k) {
-        add_equation(joint, i, weights[k].q, lambda, entries.block(k));
-      }
-    }
+  /// Derivatives of one equation at a level; of d²Φ/dt² without that by q.
+  struct EquationTangent {
+    JointLinearization::Vector q, v, a;
+  };
+  EquationTangent tangent_of(const JointLinearization& joint, const Local<double>& local,
+                             ConstraintLevel level) const {
+    const int size = local_size();
+    const JointLinearization::Vector zero = JointLinearization::Vector::Zero(size);
+    if (level == ConstraintLevel::position) return {joint.gradient(), zero, zero};
+    const Eigen::Map<const Eigen::VectorXd> v(local.v.data(), size);
+    const JointLinearization::Vector by_q = joint.hessian().transpose() * v + joint.gradient_rate();
+    if (level == ConstraintLevel::velocity) return {by_q, joint.gradient(), zero};
+    return {zero, by_q + joint.hessian() * v + joint.gradient_rate(), joint.gradient()};
   }
 
-  void add_equation(const JointLinearization& joint, int equation, double weight, double lambda,
-                    double* entries) const {
+  void add_equation(const JointLinearization& joint, const EquationTangent& tangent, int equation,
+                    const Weights& weights, double lambda, double* entries) const {
     const int size = local_size(), stride = size + equations();
     for (int row = 0; row < size; ++row) {
-      const double gradient = joint.gradient()(row);
-      entries[row * stride + size + equation] = gradient;
-      entries[size * stride + equation * size + row] = weight * gradient;
-      if (weight == 0.0) continue;
+      entries[row * stride + size + equation] = joint.gradient()(row);
+      entries[size * stride + equation * size + row] =
+          weights.q * tangent.q(row) + weights.v * tangent.v(row) + weights.a * tangent.a(row);
+      if (weights.q == 0.0) continue;
       for (int col = 0; col < size; ++col) {
-        entries[row * stride + col] += weight * lambda * joint.hessian()(row, col);
+        entries[row * stride + col] += weights.q * lambda * joint.hessian()(row, col);
       }
     }
   }
 
-  /// At any level, by dual numbers.
-  void write_dual_tangent(const State& state, const Weights& weights, ConstraintLevel level,
-                          double* entries) const {
+  /// ∂(d²Φ/dt²)/∂q, by dual numbers.
+  void add_third_derivatives(const State& state, const WeightList& weights,
+                             const EntryBlocks& entries) const {
+    const auto uses_q = [](const Weights& w) { return w.q != 0.0; };
+    if (std::none_of(weights.begin(), weights.end(), uses_q)) return;
+    const int size = local_size(), count = equations();
     Local<WideDual> local = load<WideDual>(state);
-    for (int i = 0; i < local_size(); ++i) {
-      local.q[index(i)].derivatives()[i] = weights.q;
-      local.v[index(i)].derivatives()[i] = weights.v;
-      local.a[index(i)].derivatives()[i] = weights.a;
-    }
-    for (int i = 0; i < equations(); ++i) {
-      local.lambda[index(i)].derivatives()[local_size() + i] = 1.0;
-    }
-    const Result<WideDual> result = evaluate(dual_data_, local, state.time, level);
-    for (int row = 0; row < local_size(); ++row) {
-      for (int col = 0; col < local_size() + equations(); ++col) {
-        *entries++ = result.forces[index(row)].derivatives()[col];
-      }
-    }
-    for (int row = 0; row < equations(); ++row) {
-      for (int col = 0; col < local_size(); ++col) {
-        *entries++ = result.equations[index(row)].derivatives()[col];
+    for (int i = 0; i < size; ++i) local.q[index(i)].derivatives()[i] = 1.0;
+    const Result<WideDual> result =
+        evaluate(dual_data_, local, state.time, ConstraintLevel::acceleration);
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      double* rows = entries.block(k) + size * (size + count);
+      for (int i = 0; i < count; ++i) {
+        const auto& derivatives = result.equations[index(i)].derivatives();
+        for (int col = 0; col < size; ++col) *rows++ += weights[k].q * derivatives[col];
       }
     }
   }
