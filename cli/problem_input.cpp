@@ -1,6 +1,7 @@
 #include "cli/problem_input.hpp"
 
 #include <cstdint>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 
@@ -33,6 +34,20 @@ std::string read_text(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
+/// Index 3 without numerical damping is unstable: the multipliers swing ever more, and nothing in a
+/// short simulation shows it.
+void note_unstable_scheme(const ProblemInput& input) {
+  const SimulationSettings& settings = input.problem.simulation;
+  if (settings.scheme == SchemeType::implicit_euler || settings.spectral_radius < 1.0 ||
+      settings.formulation.constraints != ConstraintForm::index_3) {
+    return;
+  }
+  fmt::print(stderr,
+             "{}: note: with the spectral radius 1 the forces in joints are unstable in the "
+             "formulation \"index-3\"; take a radius below 1, or \"stabilized-index-2\"\n",
+             input.file.string());
+}
+
 ProblemInput read_file(const std::filesystem::path& file,
                        const std::vector<std::string>& overrides) {
   ProblemInput input;
@@ -48,6 +63,7 @@ ProblemInput read_file(const std::filesystem::path& file,
     fingerprint.add(assignment);
   }
   input.hash = fingerprint.text();
+  note_unstable_scheme(input);
   return input;
 }
 

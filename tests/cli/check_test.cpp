@@ -28,6 +28,18 @@ TEST(Check, GivesAReasonForEveryEffect) {
   }
 }
 
+TEST(Check, WarnsOfAnUnstableScheme) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> check = {"check", problem("slider_crank_exudyn"),
+                                          "--set", "/simulation/end_time=10 ms",
+                                          "--set", "/simulation/spectral_radius=1"};
+  EXPECT_THAT(run_program(folder.path(), check).err, ::testing::HasSubstr("unstable"));
+  const ProgramRun stabilized = run_program(
+      folder.path(), joined(check, {"--set", "/simulation/formulation=stabilized-index-2"}));
+  EXPECT_EQ(stabilized.exit_code, 0) << stabilized.err;
+  EXPECT_THAT(stabilized.err, ::testing::Not(::testing::HasSubstr("unstable")));
+}
+
 TEST(Check, NeedsNoVariables) {
   const TemporaryFolder folder;
   const ProgramRun run = run_program(folder.path(), {"check", problem("slider_crank_exudyn"),
