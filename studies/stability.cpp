@@ -52,6 +52,9 @@ StabilityRun try_to_measure(const std::filesystem::path& file, const ProblemFile
 const std::vector<ComparedFormulation>& compared_formulations() {
   static const std::vector<ComparedFormulation> all = {
       {"index-3", {"/simulation/formulation=index-3"}},
+      {"stabilized-index-2", {"/simulation/formulation=stabilized-index-2"}},
+      {"index-1", {"/simulation/formulation=index-1"}},
+      {"index-1 with Baumgarte", {"/simulation/formulation=index-1", "/simulation/baumgarte=100"}},
   };
   return all;
 }

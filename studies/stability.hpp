@@ -28,7 +28,8 @@ struct ComparedFormulation {
   std::vector<std::string> overrides;  ///< as in read_problem()
 };
 
-/// The formulations that are compared: all that /simulation/formulation of a file may name.
+/// The formulations that are compared: all that /simulation/formulation of a file may name, index 1
+/// without and with Baumgarte's terms (100 1/s).
 const std::vector<ComparedFormulation>& compared_formulations();
 
 /// Sees each run as it is done.

@@ -56,7 +56,7 @@ TEST(StabilityCommand, TabulatesFilesTimesFormulations) {
   ASSERT_EQ(document.at("runs").size(), runs);
   for (const auto& study_run : document.at("runs")) {
     EXPECT_FALSE(study_run.contains("failure")) << study_run;
-    EXPECT_LE(study_run.at("position_drift"), 1e-6);
+    EXPECT_LE(study_run.at("position_drift"), 1e-3);
     EXPECT_GE(study_run.at("work").at("newton_iterations"), study_run.at("work").at("steps"));
   }
   EXPECT_EQ(read_csv(folder.path() / "study/stability.csv").size(), 1u + runs);
