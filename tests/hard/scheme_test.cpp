@@ -71,6 +71,33 @@ TEST(Index3, FailsInTheEndWithoutAnyDissipationAndSaysWhen) {
   }
 }
 
+/// Largest violation of constraints in so many seconds of a coasting slider-crank.
+double drift_of_index_1(double seconds, const std::vector<std::string>& more) {
+  std::vector<std::string> overrides = {"/simulation/formulation=index-1", end_of(seconds)};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  const ProblemFile problem = sample_problem("hard/dead_centres", overrides);
+  return largest_violation(*analyze(problem, start_design(problem)));
+}
+
+/// Constraints on accelerations only: what they err in adds up (measured: four times as much in
+/// four times as long). Baumgarte's terms (1972) hold it at a level that does not depend on time.
+TEST(Index1, DriftsAwayAndBaumgartesTermsHoldIt) {
+  EXPECT_GE(drift_of_index_1(4.0, {}) / drift_of_index_1(1.0, {}), 3.5);
+  const std::vector<std::string> baumgarte = {"/simulation/baumgarte=100"};
+  EXPECT_LE(drift_of_index_1(4.0, baumgarte) / drift_of_index_1(1.0, baumgarte), 1.1);
+}
+
+/// A redundant loop that drifts apart cannot be moved any more.
+TEST(Index1, FailsWithTheBricardMechanismAndSaysWhen) {
+  const ProblemFile problem = sample_problem("hard/bricard", {"/simulation/formulation=index-1"});
+  try {
+    analyze(problem, start_design(problem));
+    FAIL() << "it drifts";
+  } catch (const SimulationError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("simulation stopped at t = "));
+  }
+}
+
 /// Matrix of one step of generalized-α (Chung & Hulbert 1993, in the form of Arnold & Brüls
 /// 2007) on  q̈ + 2ζω q̇ + ω² q = 0,  state (q, v, w):
 ///     q⁺ = q + hv + h²(½−β) w + h²β w⁺,  v⁺ = v + h(1−γ) w + hγ w⁺,
