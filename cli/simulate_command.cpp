@@ -24,6 +24,7 @@ Json simulation_document(const Analysis& analysis, const Monitors& monitors, dou
   const System& system = *analysis.model.mechanism.system;
   return {{"responses", responses_document(analysis)},
           {"steps", trajectory.steps()},
+          {"split_steps", trajectory.split_steps},
           {"newton_iterations", trajectory.newton_iterations},
           {"factorizations", trajectory.factorizations},
           {"seconds", seconds},
@@ -47,10 +48,17 @@ std::string monitors_text(const Monitors& monitors, int multipliers) {
 std::string simulation_text(const ProblemFile& problem, const Analysis& analysis,
                             const Monitors& monitors, double seconds) {
   const Trajectory& trajectory = analysis.trajectory;
-  return fmt::format("{}: {}\n\n{}\n{}{}, {} Newton iterations, {} factorizations\n", problem.name,
-                     size_text(analysis), responses_text(problem, analysis),
-                     monitors_text(monitors, analysis.model.mechanism.system->multipliers()),
-                     duration(seconds), trajectory.newton_iterations, trajectory.factorizations);
+  std::string text = fmt::format(
+      "{}: {}\n\n{}\n{}", problem.name, size_text(analysis), responses_text(problem, analysis),
+      monitors_text(monitors, analysis.model.mechanism.system->multipliers()));
+  if (trajectory.split_steps > 0) {
+    text += fmt::format(
+        "Newton's method failed in {} steps, which were split; look there with a "
+        "smaller /simulation/step.\n",
+        trajectory.split_steps);
+  }
+  return text + fmt::format("{}, {} Newton iterations, {} factorizations\n", duration(seconds),
+                            trajectory.newton_iterations, trajectory.factorizations);
 }
 
 }  // namespace

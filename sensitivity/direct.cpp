@@ -20,7 +20,8 @@ class DirectDifferentiation {
         trajectory_(trajectory),
         sensitivity_(initial_sensitivity(mechanism, initial_state(mechanism))),
         old_(sensitivity_),
-        equations_(mechanism, trajectory.scheme, trajectory.formulation),
+        scheme_(trajectory.scheme),
+        equations_(mechanism, scheme_, trajectory.formulation),
         state_(equations_.make_state(State(system_.coordinates(), system_.multipliers()))),
         matrix_(equations_.make_matrix()),
         solver_(matrix_) {}
@@ -29,6 +30,10 @@ class DirectDifferentiation {
     trajectory_.load(0, state_);
     observer(0, state_, sensitivity_);
     for (int step = 1; step <= trajectory_.steps(); ++step) {
+      if (trajectory_.split_steps > 0) {
+        scheme_ = trajectory_.scheme_of(step);
+        equations_.set_scheme(scheme_);
+      }
       equations_.begin(state_);
       old_q_ = state_.q;
       trajectory_.load(step, state_);
@@ -47,7 +52,7 @@ class DirectDifferentiation {
     std::swap(old_, sensitivity_);
     old_q_x_ = old_.q;
     pull_back(rotations_, state_.increment, old_.q);
-    const Eigen::Matrix4d& h = trajectory_.scheme.history;
+    const Eigen::Matrix4d& h = scheme_.history;
     const auto combine = [&](int row, Eigen::MatrixXd& out) {
       out = h(row, 0) * old_.q + h(row, 1) * old_.v + h(row, 2) * old_.a + h(row, 3) * old_.w;
     };
@@ -55,7 +60,7 @@ class DirectDifferentiation {
     combine(1, sensitivity_.v);
     combine(2, sensitivity_.a);
     combine(3, sensitivity_.w);
-    const Eigen::Vector4d& b = trajectory_.scheme.correction;
+    const Eigen::Vector4d& b = scheme_.correction;
     sensitivity_.v -= b(1) / b(0) * sensitivity_.q;
     sensitivity_.a -= b(2) / b(0) * sensitivity_.q;
     sensitivity_.w -= b(3) / b(0) * sensitivity_.q;
@@ -63,7 +68,7 @@ class DirectDifferentiation {
 
   void solve(int step) {
     const int n = system_.coordinates(), m = system_.multipliers();
-    const Eigen::Vector4d& b = trajectory_.scheme.correction;
+    const Eigen::Vector4d& b = scheme_.correction;
     equations_.differentiate(state_, sensitivity_.v, sensitivity_.a, old_q_x_, matrix_, rhs_);
     if (!solver_.factorize(matrix_)) {
       throw SimulationError(fmt::format("the sensitivities are singular at t = {:.6g} s (step {})",
@@ -71,7 +76,7 @@ class DirectDifferentiation {
     }
     solver_.solve(rhs_);
     sensitivity_.q = rhs_.topRows(n);
-    sensitivity_.lambda = rhs_.middleRows(n, m) / trajectory_.scheme.dynamic_scale();
+    sensitivity_.lambda = rhs_.middleRows(n, m) / scheme_.dynamic_scale();
     sensitivity_.v += b(1) / b(0) * sensitivity_.q;
     sensitivity_.a += b(2) / b(0) * sensitivity_.q;
     sensitivity_.w += b(3) / b(0) * sensitivity_.q;
@@ -84,6 +89,7 @@ class DirectDifferentiation {
   const Trajectory& trajectory_;
   StateSensitivity sensitivity_, old_;
   Eigen::MatrixXd old_q_x_;
+  Scheme scheme_;
   StepEquations equations_;
   StepState state_;
   Eigen::VectorXd old_q_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/system/system.hpp"
@@ -16,6 +17,9 @@ struct Mechanism {
   /// velocities in body axes, and their changes are right perturbations
   /// (core/base/rotation_vector.hpp).
   std::vector<int> rotations;
+  /// What each equation of the system belongs to, for messages: "the body \"rod\"", "the joint …";
+  /// may be empty.
+  std::vector<std::string> equation_names;
   /// Elastic coordinates.
   std::vector<int> elastic;
   /// Whether the elastic coordinates start in equilibrium instead of at the guess.

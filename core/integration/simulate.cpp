@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -25,12 +26,21 @@ int step_count(const SimulationOptions& options) {
   return std::max(1, static_cast<int>(std::ceil(options.end_time / options.step * (1 - 1e-12))));
 }
 
+Scheme Trajectory::scheme_of(int step) const {
+  const double h = time(step) - time(step - 1);
+  if (split_steps == 0 || std::abs(h - scheme.step) <= 1e-6 * scheme.step) return scheme;
+  return make_scheme(scheme_type, h, spectral_radius);
+}
+
 namespace {
 
 /// Factors are renewed where the corrections shrink by less than this.
 constexpr double slow_rate = 0.1;
 /// Scaled corrections below this that no longer shrink are round-off.
 constexpr double round_off = 1e-9;
+
+/// A step is halved so often at most.
+constexpr int max_splits = 6;
 
 /// Every so many steps a second iteration is made to see how fast the method converges.
 constexpr int curvature_interval = 16;
@@ -40,6 +50,7 @@ class TimeLoop {
   TimeLoop(Mechanism& mechanism, const SimulationOptions& options)
       : system_(*mechanism.system),
         scale_(mechanism.scale),
+        equation_names_(mechanism.equation_names),
         options_(options),
         steps_(step_count(options)),
         scheme_(make_scheme(options.scheme, options.end_time / steps_, options.spectral_radius)),
@@ -52,12 +63,9 @@ class TimeLoop {
 
   Trajectory run() {
     allocate();
-    store(0);
-    for (int step = 1; step <= steps_; ++step) {
-      predict(step);
-      correct(step);
-      store(step);
-    }
+    store();
+    for (step_ = 1; step_ <= steps_; ++step_) advance_to(options_.end_time * step_ / steps_, 0);
+    trim();
     trajectory_.factorizations = solver_.factorizations();
     return std::move(trajectory_);
   }
@@ -66,6 +74,8 @@ class TimeLoop {
   void allocate() {
     const int n = system_.coordinates();
     trajectory_.scheme = scheme_;
+    trajectory_.scheme_type = options_.scheme;
+    trajectory_.spectral_radius = options_.spectral_radius;
     trajectory_.time.resize(steps_ + 1);
     for (auto* matrix : {&trajectory_.q, &trajectory_.v, &trajectory_.a}) {
       matrix->resize(n, steps_ + 1);
@@ -76,7 +86,22 @@ class TimeLoop {
     residual_.resize(equations_.size());
   }
 
-  void store(int step) {
+  /// Instants between the regular ones, of steps that were split, need more room.
+  void make_room(Eigen::Index columns) {
+    trajectory_.time.conservativeResize(columns);
+    for (auto* matrix :
+         {&trajectory_.q, &trajectory_.v, &trajectory_.a, &trajectory_.lambda, &trajectory_.eta}) {
+      matrix->conservativeResize(Eigen::NoChange, columns);
+    }
+  }
+
+  void trim() {
+    if (trajectory_.time.size() > stored_) make_room(stored_);
+  }
+
+  void store() {
+    const Eigen::Index step = stored_++;
+    if (step == trajectory_.time.size()) make_room(step + steps_ / 8 + 64);
     trajectory_.time(step) = state_.time;
     trajectory_.q.col(step) = state_.q;
     trajectory_.v.col(step) = state_.v;
@@ -85,8 +110,33 @@ class TimeLoop {
     trajectory_.eta.col(step) = state_.eta;
   }
 
+  /// One step, or where Newton's method fails two of half the size.
+  void advance_to(double time, int splits) {
+    if (splits > 0) use_step(time - state_.time);
+    predict(time);
+    const std::optional<Failure> failure = correct(splits > 0);
+    if (!failure) {
+      store();
+    } else {
+      if (splits == max_splits) fail(*failure);
+      ++trajectory_.split_steps;
+      const double middle = 0.5 * (old_.time + time);
+      state_ = old_;
+      advance_to(middle, splits + 1);
+      advance_to(time, splits + 1);
+    }
+    if (splits == 1) use_step(regular_step());
+  }
+
+  double regular_step() const { return options_.end_time / steps_; }
+
+  void use_step(double step) {
+    scheme_ = make_scheme(options_.scheme, step, options_.spectral_radius);
+    equations_.set_scheme(scheme_);
+  }
+
   /// y⁺ = history · y (for q as q ⊕ increment), then the correction that keeps the acceleration.
-  void predict(int step) {
+  void predict(double time) {
     const Eigen::Matrix4d& h = scheme_.history;
     old_ = state_;
     equations_.begin(old_);
@@ -99,7 +149,7 @@ class TimeLoop {
     correction_.setZero();
     correction_.head(system_.coordinates()) = (old_.a - state_.a) / scheme_.correction(2);
     equations_.apply(correction_, state_);
-    state_.time = options_.end_time * step / steps_;
+    state_.time = time;
   }
 
   /// Largest change of a coordinate, relative to its scale.
@@ -111,37 +161,43 @@ class TimeLoop {
     return std::max(size, shift.cwiseQuotient(scale_).lpNorm<Eigen::Infinity>());
   }
 
+  struct Failure {
+    const char* what;
+    int iteration;
+  };
+
   /// Newton's method that keeps the factors within the step while they serve.
-  void correct(int step) {
+  /// @param is_careful  no trust in the curvature seen before
+  std::optional<Failure> correct(bool is_careful) {
     bool is_stale = true;
     double previous = 0.0;
     for (int iteration = 1; iteration <= options_.max_newton_iterations; ++iteration) {
       ++trajectory_.newton_iterations;
       const bool is_fresh = is_stale;
-      if (is_stale) {
-        linearize(step, iteration);
-      } else {
+      if (!is_stale) {
         equations_.residual(state_, residual_);
+      } else if (!linearize()) {
+        return Failure{"the step matrix is singular", iteration};
       }
       correction_ = -residual_;
       solver_.solve(correction_);
       equations_.apply(correction_, state_);
       const double size = size_of_correction();
-      if (!std::isfinite(size)) fail(step, iteration, "the solution is not finite");
+      if (!std::isfinite(size)) return Failure{"the solution is not finite", iteration};
       double error = std::min(size, curvature_ * size * size);
       if (iteration > 1) {
         error = size * std::min(1.0, size / previous);
         if (iteration == 2) note_curvature(size / (previous * previous));
-      } else if (step % curvature_interval == 1) {
+      } else if (is_careful || step_ % curvature_interval == 1) {
         error = size;  // go on, to see the curvature
       }
-      if (error <= options_.newton_tolerance) return;
+      if (error <= options_.newton_tolerance) return std::nullopt;
       const bool is_slow = iteration > 1 && size > slow_rate * previous;
-      if (is_slow && is_fresh && size < round_off) return;
+      if (is_slow && is_fresh && size < round_off) return std::nullopt;
       is_stale = is_slow;
       previous = size;
     }
-    fail(step, options_.max_newton_iterations, "Newton's method does not converge");
+    return Failure{"Newton's method does not converge", options_.max_newton_iterations};
   }
 
   /// c of  |δ₂| = c |δ₁|²: how Newton's method converges quadratically here. It may fall slowly
@@ -150,24 +206,35 @@ class TimeLoop {
     curvature_ = std::isfinite(curvature_) ? std::max(seen, 0.5 * curvature_) : seen;
   }
 
-  void linearize(int step, int iteration) {
+  bool linearize() {
     equations_.linearize(state_, residual_, matrix_);
-    if (!solver_.factorize(matrix_)) fail(step, iteration, "the step matrix is singular");
+    if (!solver_.factorize(matrix_)) return false;
     trajectory_.worst_condition =
         std::max(trajectory_.worst_condition, 1.0 / solver_.reciprocal_condition());
+    return true;
   }
 
-  [[noreturn]] void fail(int step, int iteration, const char* what) const {
+  /// The equation that is met worst.
+  std::string worst_equation() const {
+    const int size = system_.size();
+    Eigen::Index worst = 0;
+    residual_.head(size).cwiseAbs().maxCoeff(&worst);
+    const auto index = static_cast<std::size_t>(worst);
+    return index < equation_names_.size() ? " of " + equation_names_[index] : "";
+  }
+
+  [[noreturn]] void fail(const Failure& failure) const {
     throw SimulationError(fmt::format(
-        "simulation stopped at t = {:.6g} s (step {} of {}, Newton iteration {}): {}; largest "
-        "residual {:.3g}. Try a smaller /simulation/step (now {:.3g} s), or look for a position in "
-        "which the mechanism locks",
-        state_.time, step, steps_, iteration, what, residual_.lpNorm<Eigen::Infinity>(),
-        scheme_.step));
+        "simulation stopped at t = {:.6g} s (step {} of {}, Newton iteration {}): {}, nor with a "
+        "step of {:.3g} s; largest residual {:.3g}{}. Try a smaller /simulation/step (now {:.3g} "
+        "s), or look for a position in which the mechanism locks",
+        state_.time, step_, steps_, failure.iteration, failure.what, scheme_.step,
+        residual_.lpNorm<Eigen::Infinity>(), worst_equation(), regular_step()));
   }
 
   System& system_;
   const Eigen::VectorXd& scale_;
+  const std::vector<std::string>& equation_names_;
   SimulationOptions options_;
   int steps_;
   Scheme scheme_;
@@ -177,6 +244,8 @@ class TimeLoop {
   LinearSolver solver_;
   Eigen::VectorXd correction_, residual_;
   double curvature_ = std::numeric_limits<double>::infinity();
+  int step_ = 0;             ///< regular step at work
+  Eigen::Index stored_ = 0;  ///< instants of the trajectory
   Trajectory trajectory_;
 };
 

@@ -17,20 +17,26 @@ struct SimulationOptions {
   Formulation formulation;
 };
 
-/// All steps of a simulation; column i belongs to time(i).
+/// All steps of a simulation; column i belongs to time(i). Steps are equal, but for those that had
+/// to be split.
 struct Trajectory {
   Eigen::VectorXd time;
   Eigen::MatrixXd q, v, a;  ///< n × (steps + 1)
   Eigen::MatrixXd lambda;   ///< m × (steps + 1), unscaled
   Eigen::MatrixXd eta;      ///< m × (steps + 1), of the stabilized index 2 only
-  Scheme scheme;
+  Scheme scheme;            ///< of the regular steps
+  SchemeType scheme_type = SchemeType::generalized_alpha;
+  double spectral_radius = 0.8;
   Formulation formulation;
+  int split_steps = 0;  ///< that Newton's method could not do: halved, which adds an instant
   double worst_condition = 0.0;  ///< largest estimate for a step matrix
   int newton_iterations = 0;
   int factorizations = 0;
 
   int steps() const { return static_cast<int>(time.size()) - 1; }
   void load(int step, State& state) const;
+  /// The scheme that made a step, from 1.
+  Scheme scheme_of(int step) const;
 };
 
 /// Number of steps of a simulation: the last time is end_time exactly.
@@ -38,9 +44,10 @@ int step_count(const SimulationOptions& options);
 
 /// Integrates M a − Q + Φ_qᵀ λ = 0 with the constraints in the form that is asked for
 /// (step_equations.hpp; for index 3 Arnold & Brüls 2007). Each step is solved by Newton's method
-/// with the exact tangent of the beginning of the step (renewed where it converges slowly). Nothing
-/// is allocated in the time loop.
-/// @throws SimulationError saying time, step, iteration and what to try
+/// with the exact tangent of the beginning of the step (renewed where it converges slowly). A step
+/// in which it fails is halved, up to six times. Nothing is allocated in the time loop, but for
+/// what a split step adds.
+/// @throws SimulationError saying time, step, iteration, equation and what to try
 Trajectory simulate(Mechanism& mechanism, const SimulationOptions& options);
 
 }  // namespace pleuel

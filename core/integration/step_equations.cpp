@@ -67,15 +67,20 @@ StepEquations::StepEquations(Mechanism& mechanism, const Scheme& scheme,
       scheme_(scheme),
       formulation_(formulation),
       level_{level_of(formulation.constraints), 1.0},
-      dynamic_scale_(scheme.dynamic_scale()),
-      constraint_scale_(scale_of(level_.level, scheme)),
       matrices_(4, system_.make_matrix()) {
+  set_scheme(scheme);
   const double b = formulation.baumgarte;
   if (formulation.constraints == ConstraintForm::index_1 && b > 0.0) {
     other_levels_ = {{ConstraintLevel::velocity, 2.0 * b}, {ConstraintLevel::position, b * b}};
     other_matrices_ = matrices_;
   }
   build_pattern();
+}
+
+void StepEquations::set_scheme(const Scheme& scheme) {
+  scheme_ = scheme;
+  dynamic_scale_ = scheme.dynamic_scale();
+  constraint_scale_ = scale_of(level_.level, scheme);
 }
 
 void StepEquations::build_pattern() {

@@ -31,6 +31,9 @@ class StepEquations {
  public:
   StepEquations(Mechanism& mechanism, const Scheme& scheme, const Formulation& formulation);
 
+  /// Changes the step size.
+  void set_scheme(const Scheme& scheme);
+
   /// n + m, or twice that.
   int size() const { return is_stabilized() ? 2 * system_.size() : system_.size(); }
   System::Matrix make_matrix() const { return pattern_; }

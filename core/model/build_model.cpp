@@ -74,6 +74,7 @@ class ModelBuilder {
     model_.mechanism.system = std::make_unique<System>(coordinates_, multipliers_,
                                                        context_.variables(), std::move(terms_));
     leave_out_redundant();
+    name_equations();
     return std::move(model_);
   }
 
@@ -155,6 +156,19 @@ class ModelBuilder {
   void add_loads() {
     for (const Load& load : context_.scene.loads) {
       terms_.push_back(make_load_term(load, model_.bodies, context_, coordinates_));
+    }
+  }
+
+  void name_equations() {
+    std::vector<std::string>& names = model_.mechanism.equation_names;
+    for (const BodyModel& body : model_.bodies) {
+      const int count = body.frame.size() + body.elastic_size();
+      names.insert(names.end(), static_cast<std::size_t>(count),
+                   fmt::format("the body \"{}\"", body.name));
+    }
+    for (const JointModel& joint : model_.joints) {
+      names.insert(names.end(), static_cast<std::size_t>(joint.equations()),
+                   fmt::format("the joint \"{}\"", joint.name));
     }
   }
 

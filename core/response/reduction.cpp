@@ -45,7 +45,11 @@ struct Search {
 /// whole they are samples.
 void add_peaks(const Search& search, double sign, double threshold, std::vector<Peak>& peaks) {
   const auto& [time, values, whole, range] = search;
-  const double h = time.size() > 1 ? time(1) - time(0) : 0.0;
+  // Next to a step that was split the sample itself is the peak.
+  const auto is_regular = [&time = time](int step) {
+    const double before = time(step) - time(step - 1), after = time(step + 1) - time(step);
+    return std::abs(after - before) <= 1e-6 * before;
+  };
   for (int step = range.first; step <= range.last; ++step) {
     for (int channel = 0; channel < values.rows(); ++channel) {
       const double b = sign * values(channel, step);
@@ -56,7 +60,9 @@ void add_peaks(const Search& search, double sign, double threshold, std::vector<
         if (!(step == whole.last && b >= a)) continue;
       }
       Peak peak{b, 0.0, channel, step, sign, {0.0, 1.0, 0.0}};
-      if (step > whole.first && step < whole.last) {
+      double h = 0.0;
+      if (step > whole.first && step < whole.last && is_regular(step)) {
+        h = time(step + 1) - time(step);
         const Peak vertex = interpolate(a, b, c);
         peak.height = vertex.height;
         peak.time = vertex.time;

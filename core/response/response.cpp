@@ -239,8 +239,15 @@ void set_rigid_mechanism(const ProblemFile& problem, const Eigen::VectorXd& x, A
 /// The history of a response, measured against the rigid mechanism if need be.
 Eigen::MatrixXd history_of(const Response& response, const Analysis& analysis) {
   Eigen::MatrixXd history = observe(*response.signal, analysis.trajectory);
-  if (response.rigid_response) history -= analysis.rigid->histories[*response.rigid_response];
-  return history;
+  if (!response.rigid_response) return history;
+  const Eigen::MatrixXd& rigid = analysis.rigid->histories[*response.rigid_response];
+  if (rigid.cols() != history.cols()) {
+    throw SimulationError(fmt::format(
+        "the deflection \"{}\" cannot be compared with the mechanism without elasticity: steps had "
+        "to be split in one of the two. Try a smaller /simulation/step",
+        response.name));
+  }
+  return history - rigid;
 }
 
 }  // namespace
