@@ -39,6 +39,8 @@ constexpr double slow_rate = 0.1;
 /// Scaled corrections below this that no longer shrink are round-off.
 constexpr double round_off = 1e-9;
 
+/// Constraints of index 1 may drift so far, relative to the largest scale of a coordinate.
+constexpr double most_drift = 1e-2;
 /// A step is halved so often at most.
 constexpr int max_splits = 6;
 
@@ -116,6 +118,7 @@ class TimeLoop {
     predict(time);
     const std::optional<Failure> failure = correct(splits > 0);
     if (!failure) {
+      check_drift();
       store();
     } else {
       if (splits == max_splits) fail(*failure);
@@ -126,6 +129,21 @@ class TimeLoop {
       advance_to(time, splits + 1);
     }
     if (splits == 1) use_step(regular_step());
+  }
+
+  /// Index 1 does not see how far its joints have come apart.
+  void check_drift() {
+    if (options_.formulation.constraints != ConstraintForm::index_1 || system_.multipliers() == 0) {
+      return;
+    }
+    system_.residual(state_, ConstraintLevel::position, residual_);
+    const double drift = residual_.tail(system_.multipliers()).lpNorm<Eigen::Infinity>();
+    if (drift <= most_drift * scale_.maxCoeff()) return;
+    residual_.head(system_.coordinates()).setZero();
+    throw SimulationError(fmt::format(
+        "simulation stopped at t = {:.6g} s (step {} of {}): constraints have drifted, those{} by "
+        "{:.3g} m or rad. Try another /simulation/formulation, or /simulation/baumgarte",
+        state_.time, step_, steps_, worst_equation(), drift));
   }
 
   double regular_step() const { return options_.end_time / steps_; }
