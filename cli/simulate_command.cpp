@@ -13,10 +13,14 @@ namespace pleuel {
 
 namespace {
 
+/// Elastic rotations [rad] beyond which deformation is not small.
+constexpr double small_rotation = 0.2;
+
 Json monitors_document(const Monitors& monitors) {
   return {{"position_drift", monitors.position_drift},
           {"velocity_drift", monitors.velocity_drift},
-          {"energy_error", monitors.energy_error}};
+          {"energy_error", monitors.energy_error},
+          {"elastic_rotation", monitors.elastic_rotation}};
 }
 
 Json simulation_document(const Analysis& analysis, const Monitors& monitors, double seconds) {
@@ -41,8 +45,15 @@ std::string monitors_text(const Monitors& monitors, int multipliers) {
         fmt::format("Joints and drives are kept to {} m or rad, their rates to {} m/s or rad/s.\n",
                     magnitude(monitors.position_drift), magnitude(monitors.velocity_drift));
   }
-  return text + fmt::format("Energy is balanced to {} of the largest energy in the motion.\n",
-                            magnitude(monitors.energy_error));
+  text += fmt::format("Energy is balanced to {} of the largest energy in the motion.\n",
+                      magnitude(monitors.energy_error));
+  if (monitors.elastic_rotation > small_rotation) {
+    text += fmt::format(
+        "\"{}\" bends until it has turned by {} rad against its frame: too far for linear "
+        "elasticity, which is good for some {:g} rad. Do not trust these numbers.\n",
+        monitors.most_bent, significant(monitors.elastic_rotation), small_rotation);
+  }
+  return text;
 }
 
 std::string simulation_text(const ProblemFile& problem, const Analysis& analysis,

@@ -14,7 +14,7 @@ struct SimulationOptions {
   double newton_tolerance = 1e-10;
   int max_newton_iterations = 20;
   SchemeType scheme = SchemeType::generalized_alpha;
-  Formulation formulation;
+  Formulation formulation = {};
 };
 
 /// All steps of a simulation; column i belongs to time(i). Steps are equal, but for those that had
@@ -27,7 +27,7 @@ struct Trajectory {
   Scheme scheme;            ///< of the regular steps
   SchemeType scheme_type = SchemeType::generalized_alpha;
   double spectral_radius = 0.8;
-  Formulation formulation;
+  Formulation formulation = {};
   int split_steps = 0;  ///< that Newton's method could not do: halved, which adds an instant
   double worst_condition = 0.0;  ///< largest estimate for a step matrix
   int newton_iterations = 0;

@@ -1,6 +1,7 @@
 #include "core/response/monitors.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/model/body_energy.hpp"
 
@@ -48,11 +49,27 @@ class Monitoring {
       sum.elastic += energy.elastic;
       sum.weight += energy.weight;
       sum.dissipation += energy.dissipation;
+      if (body.is_elastic) observe_rotations(body);
     }
     kinetic_(instant) = sum.kinetic;
     elastic_(instant) = sum.elastic;
     weight_(instant) = sum.weight;
     acting_(instant) = -sum.dissipation;
+  }
+
+  void observe_rotations(const BodyModel& body) {
+    const auto q = state_.q.segment(body.elastic_offset(), body.elastic_size());
+    const ElasticCoordinates& nodal = body.basis ? *body.nodal->coordinates : *body.coordinates;
+    for (int node = 0; node < nodal.node_count(); ++node) {
+      for (int i = 3; i < 6; ++i) {
+        const int index = nodal.index(node, i);
+        if (index < 0) continue;
+        const double rotation = std::abs(body.basis ? body.basis->row(index).dot(q) : q(index));
+        if (rotation <= monitors_.elastic_rotation) continue;
+        monitors_.elastic_rotation = rotation;
+        monitors_.most_bent = body.name;
+      }
+    }
   }
 
   /// One evaluation of joints at position level gives Φ and their forces.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "core/integration/simulate.hpp"
 #include "core/model/model.hpp"
 
@@ -15,6 +17,10 @@ struct Monitors {
   /// Largest |E(t) − E(0) − W(t)| over the largest of kinetic energy, elastic energy, change of
   /// weight's potential and |W| in any instant; zero if all are.
   double energy_error = 0.0;
+  /// Largest rotation of a node of a beam against its body frame [rad], and that beam. Deformation
+  /// is taken to be small: beyond some 0.2 rad results mean little.
+  double elastic_rotation = 0.0;
+  std::string most_bent;
   Eigen::VectorXd energy;  ///< E: kinetic, elastic, of weight [J]; one entry an instant
   Eigen::VectorXd work;    ///< W: of all other forces since t = 0 [J]
 };

@@ -222,4 +222,27 @@ TEST(Monitors, FindNothingAtRest) {
   EXPECT_EQ(monitors.energy_error, 0.0);
 }
 
+/// A cantilever that starts in equilibrium under a force P at its tip stays there: its tip turns by
+/// P L²/(2EI), in nodal and in modal coordinates.
+TEST(ElasticRotation, OfACantileverIsThatOfStatics) {
+  const double length = 0.3, side = 0.01, force = 2.0, young = 2.1e11;
+  const double expected = force * length * length / (2.0 * young * std::pow(side, 4) / 12.0);
+  for (bool is_reduced : {false, true}) {
+    Scene scene = swinging_beam(length, RectangleSection{side, side}, 3);
+    scene.gravity = {0.0, 0.0, 0.0};
+    scene.joints.front().type = JointType::fixed;
+    if (is_reduced) {
+      std::get<BeamBody>(scene.bodies.front().shape).reduction = CraigBampton{.modes = 2};
+    }
+    PointForce push{"beam", {length, 0.0, 0.0}, {0.0, 1.0, 0.0}, {}, false};
+    push.value = ConstantFunction{force};
+    scene.loads = {{"push", push}};
+    Model model = build_model(scene, {}, {}, {});
+    model.mechanism.starts_in_equilibrium = true;
+    const Monitors monitors = monitor(model, simulate(model.mechanism, {0.01, 1e-3, 0.8}));
+    EXPECT_NEAR(monitors.elastic_rotation, expected, 1e-6 * expected) << is_reduced;
+    EXPECT_EQ(monitors.most_bent, "beam");
+  }
+}
+
 }  // namespace
