@@ -57,8 +57,8 @@ TEST_P(Formulations, OfIndexOneDriftUnlessStabilized) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, Formulations, testing::Range(0, sample_count),
-                         [](const auto& info) {
-                           return all_samples()[static_cast<std::size_t>(info.param)].name;
+                         [](const auto& test) {
+                           return all_samples()[static_cast<std::size_t>(test.param)].name;
                          });
 
 }  // namespace

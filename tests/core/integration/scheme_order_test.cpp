@@ -102,6 +102,6 @@ INSTANTIATE_TEST_SUITE_P(
                     SchemeCase{"ImplicitEuler", SchemeType::implicit_euler, 0.0, index_3, 1.0},
                     SchemeCase{"ImplicitEulerStabilized", SchemeType::implicit_euler, 0.0,
                                stabilized, 1.0}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& test) { return test.param.name; });
 
 }  // namespace
