@@ -24,7 +24,8 @@ ProblemFile cantilever(bool is_quasi_static) {
   problem.scene = swinging_beam(length, RectangleSection{width, Number::bound(0)}, 4);
   problem.scene.joints[0].type = JointType::fixed;
   problem.variables = {{"height", height, 0.01, 0.1, ""}};
-  problem.simulation = {.end_time = 0.1, .step = 1e-3};
+  problem.simulation.end_time = 0.1;
+  problem.simulation.step = 1e-3;
   problem.simulation.quasi_static_start = is_quasi_static;
   for (OverTime over_time : {OverTime::max, OverTime::min}) {
     ResponseSettings tip;

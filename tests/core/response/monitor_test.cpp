@@ -232,7 +232,7 @@ TEST(ElasticRotation, OfACantileverIsThatOfStatics) {
     scene.gravity = {0.0, 0.0, 0.0};
     scene.joints.front().type = JointType::fixed;
     if (is_reduced) {
-      std::get<BeamBody>(scene.bodies.front().shape).reduction = CraigBampton{.modes = 2};
+      std::get<BeamBody>(scene.bodies.front().shape).reduction = CraigBampton{2, {}};
     }
     PointForce push{"beam", {length, 0.0, 0.0}, {0.0, 1.0, 0.0}, {}, false};
     push.value = ConstantFunction{force};
