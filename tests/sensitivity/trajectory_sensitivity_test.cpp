@@ -1,4 +1,5 @@
 #include <array>
+#include <ostream>
 #include <tuple>
 
 #include <gtest/gtest.h>
@@ -25,6 +26,10 @@ SimulationOptions short_run(const Formulation& formulation) {
 struct NamedFormulation {
   std::string name;
   Formulation formulation;
+
+  friend std::ostream& operator<<(std::ostream& stream, const NamedFormulation& named) {
+    return stream << (named.name.empty() ? "Index3" : named.name);
+  }
 };
 const NamedFormulation index_3{"", {}};
 const NamedFormulation stabilized{"StabilizedIndex2", {ConstraintForm::stabilized_index_2}};

@@ -1,3 +1,5 @@
+#include <ostream>
+
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
@@ -60,6 +62,9 @@ struct SchemeCase {
     options.scheme = scheme;
     options.formulation = formulation;
     return options;
+  }
+  friend std::ostream& operator<<(std::ostream& stream, const SchemeCase& scheme_case) {
+    return stream << scheme_case.name;
   }
 };
 
