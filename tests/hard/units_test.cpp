@@ -77,22 +77,22 @@ Eigen::MatrixXd digits_in(const Units& u, const std::string& formulation) {
 class UnitsHardCase : public HardCase {};
 PLEUEL_WITH_EACH_FORMULATION(UnitsHardCase);
 
-TEST_P(UnitsHardCase, GivesTheSameDigitsInMillimetresTonnesAndNewtons) {
-  const Eigen::MatrixXd si = digits_in({1.0, 1.0}, GetParam());
-  const Eigen::MatrixXd scaled = digits_in({1e3, 1e-3}, GetParam());
+/// Derivatives with respect to a logarithm have the unit of the value; where they nearly vanish,
+/// the round-off of the value is what can be asked of them.
+void expect_same_digits(const Eigen::MatrixXd& scaled, const Eigen::MatrixXd& si) {
   for (Eigen::Index i = 0; i < si.rows(); ++i) {
-    EXPECT_NEAR(scaled(i, 0) / si(i, 0), 1.0, 1e-9) << "value " << i;
-    EXPECT_NEAR(scaled(i, 1) / si(i, 1), 1.0, 1e-9) << "derivative " << i;
+    const double size = si.row(i).cwiseAbs().maxCoeff();
+    EXPECT_NEAR(scaled(i, 0), si(i, 0), 1e-9 * std::abs(si(i, 0))) << "value " << i;
+    EXPECT_NEAR(scaled(i, 1), si(i, 1), 1e-9 * size) << "derivative " << i;
   }
 }
 
+TEST_P(UnitsHardCase, GivesTheSameDigitsInMillimetresTonnesAndNewtons) {
+  expect_same_digits(digits_in({1e3, 1e-3}, GetParam()), digits_in({1.0, 1.0}, GetParam()));
+}
+
 TEST_P(UnitsHardCase, GivesTheSameDigitsInMicrometresAndGrams) {
-  const Eigen::MatrixXd si = digits_in({1.0, 1.0}, GetParam());
-  const Eigen::MatrixXd scaled = digits_in({1e6, 1e3}, GetParam());
-  for (Eigen::Index i = 0; i < si.rows(); ++i) {
-    EXPECT_NEAR(scaled(i, 0) / si(i, 0), 1.0, 1e-9) << "value " << i;
-    EXPECT_NEAR(scaled(i, 1) / si(i, 1), 1.0, 1e-9) << "derivative " << i;
-  }
+  expect_same_digits(digits_in({1e6, 1e3}, GetParam()), digits_in({1.0, 1.0}, GetParam()));
 }
 
 }  // namespace
