@@ -105,6 +105,18 @@ BodyEnergy body_energy(const BodyModel& body, const Vector3d& gravity, const Sta
   return energy;
 }
 
+BodyEnergy energy_of_bodies(const Model& model, const State& state) {
+  BodyEnergy sum;
+  for (const BodyModel& body : model.bodies) {
+    const BodyEnergy energy = body_energy(body, model.gravity, state);
+    sum.kinetic += energy.kinetic;
+    sum.elastic += energy.elastic;
+    sum.weight += energy.weight;
+    sum.dissipation += energy.dissipation;
+  }
+  return sum;
+}
+
 TermsBesidesBodies terms_besides_bodies(const Model& model) {
   TermsBesidesBodies besides;
   // build_model() begins with the terms of the bodies, see make_body_terms().

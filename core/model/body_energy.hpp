@@ -24,6 +24,9 @@ struct BodyEnergy {
 /// @param gravity  [m/s²], global axes
 BodyEnergy body_energy(const BodyModel& body, const Eigen::Vector3d& gravity, const State& state);
 
+/// The sum over all bodies.
+BodyEnergy energy_of_bodies(const Model& model, const State& state);
+
 /// The terms whose forces body_energy() does not count. They contain no inertia, so that −vᵀ R is
 /// their power.
 struct TermsBesidesBodies {

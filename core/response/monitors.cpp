@@ -42,19 +42,14 @@ class Monitoring {
 
  private:
   void observe_bodies(Eigen::Index instant) {
-    BodyEnergy sum;
-    for (const BodyModel& body : model_.bodies) {
-      const BodyEnergy energy = body_energy(body, model_.gravity, state_);
-      sum.kinetic += energy.kinetic;
-      sum.elastic += energy.elastic;
-      sum.weight += energy.weight;
-      sum.dissipation += energy.dissipation;
-      if (body.is_elastic) observe_rotations(body);
-    }
+    const BodyEnergy sum = energy_of_bodies(model_, state_);
     kinetic_(instant) = sum.kinetic;
     elastic_(instant) = sum.elastic;
     weight_(instant) = sum.weight;
     acting_(instant) = -sum.dissipation;
+    for (const BodyModel& body : model_.bodies) {
+      if (body.is_elastic) observe_rotations(body);
+    }
   }
 
   void observe_rotations(const BodyModel& body) {

@@ -74,6 +74,16 @@ TEST(RunFolder, ResultSaysHowWellConstraintsAndEnergyAreKept) {
   EXPECT_LE(monitors.at("energy_error"), 1e-2);  // steps of 0.2 ms, eight times those of the file
 }
 
+/// Rubber at 30 rad/s: numbers come out, and mean nothing.
+TEST(RunFolder, ResultSaysWhereLinearElasticityIsLeft) {
+  const TemporaryFolder folder;
+  const ProgramRun run =
+      run_program(folder.path(), {"simulate", problem("hard/soft_rod"), "-o", "soft", "--set",
+                                  "/scene/joints/bearing/drive/speed=30"});
+  EXPECT_THAT(run.out, HasSubstr("too far for linear elasticity"));
+  EXPECT_THAT(simulate_into(folder, "one").out, ::testing::Not(HasSubstr("linear elasticity")));
+}
+
 TEST(RunFolder, TrajectoryHasALineAnInstantAndAColumnAResponse) {
   const TemporaryFolder folder;
   ASSERT_EQ(simulate_into(folder, "one").exit_code, 0);

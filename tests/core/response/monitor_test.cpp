@@ -14,18 +14,6 @@ namespace {
 
 using namespace pleuel;
 
-BodyEnergy energy_of_bodies(const Model& model, const State& state) {
-  BodyEnergy sum;
-  for (const BodyModel& body : model.bodies) {
-    const BodyEnergy energy = body_energy(body, model.gravity, state);
-    sum.kinetic += energy.kinetic;
-    sum.elastic += energy.elastic;
-    sum.weight += energy.weight;
-    sum.dissipation += energy.dissipation;
-  }
-  return sum;
-}
-
 /// vᵀR of the terms that the energy of bodies stands for: all less the others.
 double power_into_bodies(Model& model, const State& state) {
   Eigen::VectorXd residual, others = Eigen::VectorXd::Zero(model.mechanism.system->size());
