@@ -28,9 +28,11 @@ void simulate_problem(benchmark::State& state, const ProblemFile& problem) {
       steps, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-void differentiate_problem(benchmark::State& state, const ProblemFile& problem) {
+void differentiate_problem(benchmark::State& state, const ProblemFile& problem,
+                           ExactMethod method) {
   const auto analysis = analyze(problem, start_design(problem));
-  for (auto _ : state) benchmark::DoNotOptimize(direct_gradients(*analysis));
+  const auto values = response_values(*analysis);
+  for (auto _ : state) benchmark::DoNotOptimize(sampled_gradients(*analysis, values, method));
   state.counters["variables"] = static_cast<double>(problem.variables.size());
 }
 
@@ -42,7 +44,11 @@ void register_problem(const std::string& file, const std::vector<std::string>& o
   benchmark::RegisterBenchmark(("simulate/" + name).c_str(), simulate_problem, problem)
       ->Unit(benchmark::kMillisecond);
   if (problem.variables.empty()) return;
-  benchmark::RegisterBenchmark(("gradient/" + name).c_str(), differentiate_problem, problem)
+  benchmark::RegisterBenchmark(("direct/" + name).c_str(), differentiate_problem, problem,
+                               ExactMethod::direct)
+      ->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark(("adjoint/" + name).c_str(), differentiate_problem, problem,
+                               ExactMethod::adjoint)
       ->Unit(benchmark::kMillisecond);
 }
 

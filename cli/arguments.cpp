@@ -68,7 +68,8 @@ void add_gradient(CLI::App& app, Arguments& arguments) {
       add_file_command(app, arguments, "gradient", "gradients of all responses at the start");
   gradient
       ->add_option("--method", arguments.methods,
-                   "direct (default), forward-difference, central-difference; repeat to compare")
+                   "auto (default: direct or adjoint, whichever is faster), direct, adjoint, "
+                   "forward-difference, central-difference; repeat to compare")
       ->type_name("NAME")
       ->allow_extra_args(false);
   gradient

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "cli/analysis_report.hpp"
@@ -10,6 +12,7 @@
 #include "cli/ties.hpp"
 #include "core/base/error.hpp"
 #include "sensitivity/gradients.hpp"
+#include "sensitivity/method_choice.hpp"
 
 namespace pleuel {
 
@@ -24,8 +27,20 @@ struct MethodResult {
 std::vector<GradientMethod> chosen_methods(const Arguments& arguments) {
   std::vector<GradientMethod> methods;
   for (const std::string& name : arguments.methods) methods.push_back(gradient_method(name));
-  if (methods.empty()) methods.push_back(GradientMethod::direct);
+  if (methods.empty()) methods.push_back(GradientMethod::automatic);
   return methods;
+}
+
+/// Replaces "auto" by what it chooses.
+std::optional<MethodChoice> resolve(Analysis& analysis, std::vector<GradientMethod>& methods) {
+  const auto found = std::find(methods.begin(), methods.end(), GradientMethod::automatic);
+  if (found == methods.end()) return std::nullopt;
+  const MethodChoice choice = choose_method(analysis, response_values(analysis));
+  const auto chosen =
+      choice.method == ExactMethod::direct ? GradientMethod::direct : GradientMethod::adjoint;
+  *found = chosen;
+  if (std::count(methods.begin(), methods.end(), chosen) > 1) methods.erase(found);
+  return choice;
 }
 
 std::vector<MethodResult> compute(const ProblemFile& problem, Analysis& analysis,
@@ -57,9 +72,14 @@ Json gradients_document(const ProblemFile& problem, const std::vector<MethodResu
 struct Findings {
   std::unique_ptr<Analysis> analysis;
   double simulation_seconds = 0.0;
+  std::optional<MethodChoice> choice;  ///< if it was left to the program
   std::vector<MethodResult> results;
   Ties ties;
 };
+
+Json choice_document(const MethodChoice& choice) {
+  return {{"method", to_string(choice.method)}, {"reason", choice.reason}};
+}
 
 Json make_document(const ProblemFile& problem, const Findings& findings) {
   const Analysis& analysis = *findings.analysis;
@@ -71,6 +91,7 @@ Json make_document(const ProblemFile& problem, const Findings& findings) {
         gradients_document(problem, findings.results, static_cast<Eigen::Index>(i));
     if (findings.ties[i]) response["tie"] = tie_document(*findings.ties[i], analysis.responses[i]);
   }
+  if (findings.choice) document["choice"] = choice_document(*findings.choice);
   for (const MethodResult& result : findings.results) {
     document["seconds"][to_string(result.method)] = result.seconds;
   }
@@ -118,6 +139,11 @@ std::string gradients_text(const ProblemFile& problem, const std::vector<MethodR
   return table.text();
 }
 
+std::string choice_text(const std::optional<MethodChoice>& choice) {
+  if (!choice) return "";
+  return fmt::format("\nMethod: {} ({})\n", to_string(choice->method), choice->reason);
+}
+
 std::string seconds_text(const std::vector<MethodResult>& results, double simulation_seconds) {
   std::string text = "\nTime: simulation " + duration(simulation_seconds);
   for (const MethodResult& result : results) {
@@ -129,7 +155,7 @@ std::string seconds_text(const std::vector<MethodResult>& results, double simula
 }  // namespace
 
 Outcome run_gradient(const Arguments& arguments) {
-  const std::vector<GradientMethod> methods = chosen_methods(arguments);
+  std::vector<GradientMethod> methods = chosen_methods(arguments);
   const ProblemFile problem = read_input(arguments).problem;
   if (problem.variables.empty()) {
     throw InputError("/variables is missing: there is nothing to differentiate for");
@@ -138,12 +164,13 @@ Outcome run_gradient(const Arguments& arguments) {
   const Stopwatch stopwatch;
   findings.analysis = analyze(problem, start_design(problem));
   findings.simulation_seconds = stopwatch.seconds();
+  findings.choice = resolve(*findings.analysis, methods);
   findings.results = compute(problem, *findings.analysis, methods, {arguments.difference_step});
   findings.ties = find_ties(*findings.analysis);
   return {ExitCode::done, make_document(problem, findings),
-          fmt::format("Gradients at the start of {}\n\n{}{}{}", problem.name,
+          fmt::format("Gradients at the start of {}\n\n{}{}{}{}", problem.name,
                       gradients_text(problem, findings.results),
-                      ties_text(findings.ties, *findings.analysis),
+                      ties_text(findings.ties, *findings.analysis), choice_text(findings.choice),
                       seconds_text(findings.results, findings.simulation_seconds))};
 }
 

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "sensitivity/gradients.hpp"
-
 namespace pleuel {
 
 DesignProblem::DesignProblem(ProblemFile file) : file_(std::move(file)) {
@@ -73,7 +71,8 @@ Evaluation DesignProblem::evaluate_rows(const Eigen::VectorXd& x, Request reques
     values.push_back(
         {response, row.peak ? row.peak->samples : analysis.reductions[response].samples});
   }
-  const Eigen::MatrixXd gradients = direct_gradients(analysis, values);
+  if (!choice_) choice_ = choose_method(analysis, values);
+  const Eigen::MatrixXd gradients = sampled_gradients(analysis, values, choice_->method);
   evaluation.objective_gradient = gradients.row(0);
   evaluation.constraint_jacobian = Eigen::MatrixXd::Zero(count, x.size());
   Eigen::Index next = 1;

@@ -2,6 +2,7 @@
 
 #include "core/response/response.hpp"
 #include "optimization/problem.hpp"
+#include "sensitivity/method_choice.hpp"
 
 namespace pleuel {
 
@@ -12,7 +13,7 @@ struct ConstraintRow {
 };
 
 /// The optimization problem that a problem file describes: responses of the simulated mechanism as
-/// objective and constraints, gradients by direct differentiation.
+/// objective and constraints, gradients by the exact method that suits its first design.
 class DesignProblem : public Problem {
  public:
   /// @throws InputError if the file has no variables or no objective
@@ -31,6 +32,8 @@ class DesignProblem : public Problem {
                            const std::vector<ConstraintRow>& rows);
 
   const ProblemFile& file() const { return file_; }
+  /// How gradients are computed; none before the first one.
+  const std::optional<MethodChoice>& method() const { return choice_; }
 
   /// The simulation of a design; kept until another one is asked for.
   /// @throws SimulationError
@@ -47,6 +50,7 @@ class DesignProblem : public Problem {
   std::vector<Constraint> constraints_;
   Eigen::VectorXd x_;
   std::unique_ptr<Analysis> analysis_;
+  std::optional<MethodChoice> choice_;
 };
 
 }  // namespace pleuel

@@ -69,7 +69,8 @@ class DirectDifferentiation {
   void solve(int step) {
     const int n = system_.coordinates(), m = system_.multipliers();
     const Eigen::Vector4d& b = scheme_.correction;
-    equations_.differentiate(state_, sensitivity_.v, sensitivity_.a, old_q_x_, matrix_, rhs_);
+    equations_.linearize_sensitivities(state_, matrix_);
+    equations_.differentiate(state_, sensitivity_.v, sensitivity_.a, old_q_x_, rhs_);
     if (!solver_.factorize(matrix_)) {
       throw SimulationError(fmt::format("the sensitivities are singular at t = {:.6g} s (step {})",
                                         state_.time, step));

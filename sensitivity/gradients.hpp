@@ -3,13 +3,19 @@
 #include <string>
 #include <vector>
 
-#include "core/response/response.hpp"
+#include "sensitivity/sampled_gradients.hpp"
 
 namespace pleuel {
 
-enum class GradientMethod { direct, forward_difference, central_difference };
+enum class GradientMethod {
+  automatic,  ///< direct or adjoint, whichever is cheaper (method_choice.hpp)
+  direct,
+  adjoint,
+  forward_difference,
+  central_difference
+};
 
-/// "direct", "forward-difference", "central-difference".
+/// "auto", "direct", "adjoint", "forward-difference", "central-difference".
 std::string to_string(GradientMethod method);
 
 /// @throws InputError for an unknown name; the message lists the names there are.
@@ -27,17 +33,7 @@ struct GradientOptions {
 Eigen::MatrixXd gradients(const ProblemFile& problem, const Eigen::VectorXd& x, Analysis& analysis,
                           GradientMethod method, const GradientOptions& options = {});
 
-/// By direct differentiation, from the analysis alone.
+/// Those of all responses by direct differentiation, from the analysis alone.
 Eigen::MatrixXd direct_gradients(Analysis& analysis);
-
-/// Something whose gradient is asked for: Σ weight · (channel at step) of a response's signal, or a
-/// response that is constant in time (no samples).
-struct SampledValue {
-  std::size_t response;
-  std::vector<Sample> samples;
-};
-
-/// Gradients of several sampled values by one run of direct differentiation, values × variables.
-Eigen::MatrixXd direct_gradients(Analysis& analysis, const std::vector<SampledValue>& values);
 
 }  // namespace pleuel

@@ -1,5 +1,7 @@
 #include "sensitivity/kinks.hpp"
 
+#include "sensitivity/method_choice.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -19,7 +21,8 @@ std::vector<Kink> find_kinks(Analysis& analysis) {
   }
   std::vector<Kink> kinks;
   if (values.empty()) return kinks;
-  const Eigen::MatrixXd gradients = direct_gradients(analysis, values);
+  const Eigen::MatrixXd gradients =
+      sampled_gradients(analysis, values, choose_method(analysis, values).method);
   Eigen::Index row = 0;
   for (std::size_t i = 0; i < analysis.reductions.size(); ++i) {
     const Reduction& reduction = analysis.reductions[i];

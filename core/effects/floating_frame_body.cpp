@@ -1,21 +1,33 @@
 #include "core/effects/floating_frame_body.hpp"
 
+#include "core/effects/invariant_sums.hpp"
+
 namespace pleuel {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-FloatingFrameBody::FloatingFrameBody(std::string name, BodyFrame frame,
-                                     Invariants<double> invariants,
-                                     std::vector<DesignDerivative<Invariants<double>>> derivatives,
-                                     const Vector3d& gravity)
+FloatingFrameBody::FloatingFrameBody(
+    std::string name, BodyFrame frame, Invariants<double> invariants,
+    const std::vector<DesignDerivative<Invariants<double>>>& derivatives, const Vector3d& gravity)
     : name_(std::move(name)),
       frame_(std::move(frame)),
       invariants_(std::move(invariants)),
-      derivatives_(std::move(derivatives)),
+      layout_(invariants_),
       gravity_(gravity) {
   rigid_elastic_.resize(6, invariants_.size());
   elastic_rigid_.resize(invariants_.size(), 6);
+  flat_derivatives_.resize(layout_.size(), static_cast<Eigen::Index>(derivatives.size()));
+  derivatives_.reserve(derivatives.size());
+  for (const auto& [variable, data] : derivatives) {
+    flat_derivatives_.col(static_cast<Eigen::Index>(variables_.size())) =
+        layout_.flatten(data).sparseView();
+    variables_.push_back(variable);
+    Derivative& derivative = derivatives_.emplace_back();
+    derivative.variable = variable;
+    derivative.invariants = without_zeros(data);
+    derivative.forces.resize(frame_.size() + derivative.invariants.data.size());
+  }
 }
 
 void FloatingFrameBody::declare_entries(EntryList& entries) const {
@@ -50,16 +62,55 @@ void FloatingFrameBody::add_residual(const State& state, ConstraintLevel,
                                      Eigen::VectorXd& residual) {
   evaluate(state);
   evaluate_body(invariants_, motion_, gravity_, products_);
-  add_body_forces(invariants_, frame_, motion_, products_, residual);
+  add_body_forces(invariants_, frame_, motion_, products_, frame_.offset, residual);
+}
+
+/// Forces of dI/dx at the state evaluated last.
+void FloatingFrameBody::evaluate(Derivative& derivative) {
+  const PartialInvariants& partial = derivative.invariants;
+  derivative.products.q = products_.q(partial.coordinates);
+  derivative.products.v = products_.v(partial.coordinates);
+  derivative.products.a = products_.a(partial.coordinates);
+  evaluate_body(partial.data, motion_, gravity_, derivative.products);
+  derivative.forces.setZero();
+  add_body_forces(partial.data, frame_, motion_, derivative.products, 0, derivative.forces);
 }
 
 void FloatingFrameBody::add_design_derivative(const State& state, ConstraintLevel,
                                               Eigen::MatrixXd& columns) {
   evaluate(state);
-  for (const auto& [variable, data] : derivatives_) {
-    evaluate_body(data, motion_, gravity_, products_);
-    auto column = columns.col(variable);
-    add_body_forces(data, frame_, motion_, products_, column);
+  const int m = frame_.size();
+  for (Derivative& derivative : derivatives_) {
+    evaluate(derivative);
+    auto column = columns.col(derivative.variable);
+    column.segment(frame_.offset, m) += derivative.forces.head(m);
+    for (std::size_t i = 0; i < derivative.invariants.coordinates.size(); ++i) {
+      column(frame_.offset + m + derivative.invariants.coordinates[i]) +=
+          derivative.forces(m + static_cast<Eigen::Index>(i));
+    }
+  }
+}
+
+void FloatingFrameBody::add_design_sums(const State& state, ConstraintLevel, const ConstColumns& mu,
+                                        Columns sums) {
+  if (!is_designed()) return;
+  evaluate(state);
+  evaluate_body(invariants_, motion_, gravity_, products_);
+  const int k = frame_.translations(), rotations = frame_.rotations();
+  for (Eigen::Index i = 0; i < mu.cols(); ++i) {
+    const auto of_body = mu.col(i).segment(frame_.offset, frame_.size() + invariants_.size());
+    const Vector3d force = motion_.A.transpose() * (frame_.basis * of_body.head(k));
+    const Vector3d moment = motion_.G.leftCols(rotations) * of_body.segment(k, rotations);
+    add_invariant_sums(invariants_, layout_, products_,
+                       {force, moment, of_body.tail(invariants_.size())}, sums.col(i).data());
+  }
+}
+
+void FloatingFrameBody::add_design_gradients(const ConstColumns& sums,
+                                             Eigen::MatrixXd& gradients) const {
+  const Eigen::MatrixXd found = flat_derivatives_.transpose() * sums;
+  for (std::size_t i = 0; i < variables_.size(); ++i) {
+    gradients.row(variables_[i]) += found.row(static_cast<Eigen::Index>(i));
   }
 }
 

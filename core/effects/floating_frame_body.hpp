@@ -1,5 +1,8 @@
 #pragma once
 
+#include <Eigen/SparseCore>
+
+#include "core/beam/invariant_vector.hpp"
 #include "core/effects/floating_frame_residual.hpp"
 #include "core/system/term.hpp"
 
@@ -16,7 +19,7 @@ class FloatingFrameBody : public Term {
   /// @param derivatives  dI/dx of the variables that the body depends on
   /// @param gravity      [m/s²], global axes
   FloatingFrameBody(std::string name, BodyFrame frame, Invariants<double> invariants,
-                    std::vector<DesignDerivative<Invariants<double>>> derivatives,
+                    const std::vector<DesignDerivative<Invariants<double>>>& derivatives,
                     const Eigen::Vector3d& gravity);
 
   std::string name() const override {
@@ -28,12 +31,26 @@ class FloatingFrameBody : public Term {
                  Eigen::VectorXd& residual, const EntryBlocks& entries) override;
   void add_design_derivative(const State& state, ConstraintLevel level,
                              Eigen::MatrixXd& columns) override;
+  int design_sum_count() const override { return is_designed() ? layout_.size() : 0; }
+  void add_design_sums(const State& state, ConstraintLevel level, const ConstColumns& mu,
+                       Columns sums) override;
+  void add_design_gradients(const ConstColumns& sums, Eigen::MatrixXd& gradients) const override;
 
   const BodyFrame& frame() const { return frame_; }
   const Invariants<double>& invariants() const { return invariants_; }
 
  private:
+  /// dI/dx of one variable, on the coordinates that it concerns.
+  struct Derivative {
+    int variable = 0;
+    PartialInvariants invariants;
+    Eigen::VectorXd forces;         ///< scratch: frame, then those coordinates
+    BodyProducts<double> products;  ///< scratch
+  };
+
+  bool is_designed() const { return !derivatives_.empty(); }
   void evaluate(const State& state);
+  void evaluate(Derivative& derivative);
   void write_tangent_of(const Weights& weights, double* entries);
   void set_rigid_columns(const Weights& weights);
   void set_elastic_columns(const Weights& weights);
@@ -42,7 +59,10 @@ class FloatingFrameBody : public Term {
   std::string name_;
   BodyFrame frame_;
   Invariants<double> invariants_;
-  std::vector<DesignDerivative<Invariants<double>>> derivatives_;
+  std::vector<Derivative> derivatives_;
+  InvariantLayout layout_;
+  Eigen::SparseMatrix<double> flat_derivatives_;  ///< numbers of the invariants × variables
+  std::vector<int> variables_;                    ///< of its columns
   Eigen::Vector3d gravity_;
 
   // Scratch of one evaluation.

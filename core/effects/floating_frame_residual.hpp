@@ -131,21 +131,21 @@ void evaluate_body(const Invariants<double>& body, const FrameMotion<Scalar>& fr
   out.moment = axial<Scalar>(N);
 }
 
-/// residual.segment(frame.offset, …) += [ basisᵀ A f ; Gᵀ T ; F ] of one body.
+/// residual.segment(row, …) += [ basisᵀ A f ; Gᵀ T ; F ] of one body.
 template <class Scalar, class Residual>
 void add_body_forces(const Invariants<double>& body, const BodyFrame& frame,
                      const FrameMotion<Scalar>& motion, const BodyProducts<Scalar>& products,
-                     Residual& residual) {
+                     int row, Residual& residual) {
   const int k = frame.translations(), rotations = frame.rotations();
   const Vector3<Scalar> global = motion.A * products.force;
   for (int i = 0; i < k; ++i) {
     const Vector3<Scalar> direction = frame.basis.col(i).template cast<Scalar>();
-    residual(frame.offset + i) += direction.dot(global);
+    residual(row + i) += direction.dot(global);
   }
   for (int i = 0; i < rotations; ++i) {
-    residual(frame.offset + k + i) += motion.G.col(i).dot(products.moment);
+    residual(row + k + i) += motion.G.col(i).dot(products.moment);
   }
-  const int first = frame.offset + frame.size();
+  const int first = row + frame.size();
   for (int i = 0; i < body.size(); ++i) {
     Scalar force = products.forces(i);
     for (int c = 0; c < 3; ++c) force += body.shape(c, i) * products.a0(c);

@@ -108,4 +108,56 @@ void GeometricStiffening::add_design_derivative(const State& state, ConstraintLe
   }
 }
 
+int GeometricStiffening::design_sum_count() const {
+  if (derivatives_.empty()) return 0;
+  Eigen::Index count = 0;
+  for (const StiffeningElement& element : elements_) count += sum_count(element);
+  return static_cast<int>(count);
+}
+
+/// With m = μᵀ (b + Ĝ q), the force in add_design_derivative() read as a function of κ', β', Ĝ'.
+void GeometricStiffening::add_design_sums(const State& state, ConstraintLevel,
+                                          const ConstColumns& mu, Columns sums) {
+  if (derivatives_.empty()) return;
+  Eigen::Index first = 0;
+  for (const StiffeningElement& element : elements_) {
+    evaluate(element, state);
+    const auto size = static_cast<Eigen::Index>(element.coordinates.size());
+    const double kappa = element.axial_stiffness;
+    const double total = strain_.total + damping_ * strain_.total_rate;
+    const double linear = strain_.linear + damping_ * strain_.linear_rate;
+    const ElementVector half = 0.5 * strain_.q + damping_ * strain_.v;
+    ElementVector local(size);
+    for (Eigen::Index i = 0; i < mu.cols(); ++i) {
+      for (Eigen::Index k = 0; k < size; ++k) {
+        local(k) = mu(element.coordinates[static_cast<std::size_t>(k)], i);
+      }
+      const double m = local.dot(strain_.gradient), b = local.dot(element.elongation);
+      auto of_element = sums.col(i).segment(first, sum_count(element));
+      of_element(0) += total * m - linear * b;
+      of_element(1) += kappa * (strain_.total_rate * m - strain_.linear_rate * b);
+      Eigen::Map<Eigen::MatrixXd>(of_element.data() + 2, size, size) +=
+          kappa * (m * half + total * local) * strain_.q.transpose();
+    }
+    first += sum_count(element);
+  }
+}
+
+void GeometricStiffening::add_design_gradients(const ConstColumns& sums,
+                                               Eigen::MatrixXd& gradients) const {
+  std::vector<Eigen::Index> first{0};
+  for (const StiffeningElement& element : elements_) {
+    first.push_back(first.back() + sum_count(element));
+  }
+  for (const auto& [variable, changes] : derivatives_) {
+    for (const StiffeningDerivative& change : changes) {
+      const Eigen::Index at = first[static_cast<std::size_t>(change.element)];
+      const Eigen::Map<const Eigen::VectorXd> slopes(change.slopes.data(), change.slopes.size());
+      gradients.row(variable) += change.axial_stiffness * sums.row(at) +
+                                 change.damping * sums.row(at + 1) +
+                                 slopes.transpose() * sums.middleRows(at + 2, slopes.size());
+    }
+  }
+}
+
 }  // namespace pleuel

@@ -46,6 +46,10 @@ class GeometricStiffening : public Term {
                  Eigen::VectorXd& residual, const EntryBlocks& entries) override;
   void add_design_derivative(const State& state, ConstraintLevel level,
                              Eigen::MatrixXd& columns) override;
+  int design_sum_count() const override;
+  void add_design_sums(const State& state, ConstraintLevel level, const ConstColumns& mu,
+                       Columns sums) override;
+  void add_design_gradients(const ConstColumns& sums, Eigen::MatrixXd& gradients) const override;
 
  private:
   /// Strain measures of one element in one state.
@@ -54,6 +58,10 @@ class GeometricStiffening : public Term {
     double linear, linear_rate, total, total_rate;  ///< Δu, Δu̇, g, ġ
   };
   void evaluate(const StiffeningElement& element, const State& state);
+  /// Sums of an element: those of κ, of β, of Ĝ.
+  static Eigen::Index sum_count(const StiffeningElement& element) {
+    return 2 + element.slopes.size();
+  }
   /// From the strain of the last evaluation.
   void write_element(const StiffeningElement& element, const Weights& weights,
                      double* entries) const;

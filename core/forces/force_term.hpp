@@ -86,6 +86,27 @@ class ForceTerm : public Term {
     }
   }
 
+  int design_sum_count() const override { return static_cast<int>(derivatives_.size()); }
+
+  void add_design_sums(const State& state, ConstraintLevel, const ConstColumns& mu,
+                       Columns sums) override {
+    Local<Dual> q, v;
+    load<Dual>(state, q, v);
+    for (std::size_t k = 0; k < derivatives_.size(); ++k) {
+      const Local<Dual> forces = evaluate(derivatives_[k].data, state.time, q, v);
+      for (std::size_t i = 0; i < coordinates_.size(); ++i) {
+        sums.row(static_cast<Eigen::Index>(k)) -=
+            derivative_of(forces[i]) * mu.row(coordinates_[i].index);
+      }
+    }
+  }
+
+  void add_design_gradients(const ConstColumns& sums, Eigen::MatrixXd& gradients) const override {
+    for (std::size_t k = 0; k < derivatives_.size(); ++k) {
+      gradients.row(derivatives_[k].variable) += sums.row(static_cast<Eigen::Index>(k));
+    }
+  }
+
  private:
   template <class Scalar>
   using Local = typename MarkerForces<Scalar, marker_count>::Coordinates;

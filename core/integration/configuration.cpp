@@ -58,4 +58,19 @@ void push_forward(const Rotations& rotations, const Eigen::VectorXd& increment,
   }
 }
 
+void pull_back_transposed(const Rotations& rotations, const Eigen::VectorXd& increment, Columns s) {
+  for (int i : rotations) {
+    const Eigen::Vector3d delta = increment.segment<3>(i);
+    s.middleRows<3>(i) = (inverse_tangent_operator(delta) * s.middleRows<3>(i)).eval();
+  }
+}
+
+void push_forward_transposed(const Rotations& rotations, const Eigen::VectorXd& increment,
+                             Columns s) {
+  for (int i : rotations) {
+    const Eigen::Vector3d delta = increment.segment<3>(i);
+    s.middleRows<3>(i) = (tangent_operator(delta).transpose() * s.middleRows<3>(i)).eval();
+  }
+}
+
 }  // namespace pleuel

@@ -34,4 +34,9 @@ void pull_back(const Rotations& rotations, const Eigen::VectorXd& increment, Eig
 /// s ← T(Δ) s in the rows of each rotation.
 void push_forward(const Rotations& rotations, const Eigen::VectorXd& increment, Eigen::MatrixXd& s);
 
+// And the transposed ones, for adjoints: s ← T(Δ)⁻¹ s, s ← T(Δ)ᵀ s.
+void pull_back_transposed(const Rotations& rotations, const Eigen::VectorXd& increment, Columns s);
+void push_forward_transposed(const Rotations& rotations, const Eigen::VectorXd& increment,
+                             Columns s);
+
 }  // namespace pleuel

@@ -110,6 +110,7 @@ void StepEquations::build_pattern() {
     if (is_in_22(row, col)) slots_22_[k] = find_slot(pattern_, size + row, size + col);
   });
   old_constraints_ = system_.make_matrix();
+  turned_ = system_.make_matrix();
 }
 
 StepState StepEquations::make_state(const State& start) const {
@@ -199,10 +200,12 @@ void StepEquations::write_matrix(const StepState& state, std::size_t q, std::siz
     std::copy(step.valuePtr(), step.valuePtr() + step.nonZeros(), matrix.valuePtr());
     return;
   }
-  System::Matrix &with_q = matrices_[q], &with_v = matrices_[v];
+  System::Matrix &with_q = matrices_[q], &with_v = turned_;
+  std::copy(matrices_[v].valuePtr(), matrices_[v].valuePtr() + with_v.nonZeros(),
+            with_v.valuePtr());
   if (!rotations.empty()) {
     add_increment_tangent(rotations, state.increment, with_q, 1.0, with_q);
-    add_increment_tangent(rotations, state.increment, with_v, 1.0, with_v);
+    add_increment_tangent(rotations, state.increment, matrices_[v], 1.0, with_v);
   }
   double* out = matrix.valuePtr();
   for_each_entry(step, [&](std::size_t k, int row, int col) {
@@ -237,14 +240,18 @@ void StepEquations::apply(const Eigen::VectorXd& correction, StepState& state) c
   advance(mechanism_.rotations, old_.q, state.increment, state.q);
 }
 
-void StepEquations::differentiate(const StepState& state, const Eigen::MatrixXd& v,
-                                  const Eigen::MatrixXd& a, const Eigen::MatrixXd& old_q,
-                                  System::Matrix& matrix, Eigen::MatrixXd& rhs) {
-  const int n = system_.coordinates(), m = system_.multipliers();
+void StepEquations::linearize_sensitivities(const StepState& state, System::Matrix& matrix) {
   const Eigen::Vector4d& b = scheme_.correction;
   const std::array<Weights, 4> weights{{{b(0), b(1), b(2)}, {.v = 1.0}, {.a = 1.0}, {.q = 1.0}}};
   const bool needs_q = is_stabilized() || !mechanism_.rotations.empty();
   evaluate(state, WeightList(weights.data(), needs_q ? 4u : 3u));
+  write_matrix(state, 3, 1, matrix);
+}
+
+void StepEquations::differentiate(const StepState& state, const Eigen::MatrixXd& v,
+                                  const Eigen::MatrixXd& a, const Eigen::MatrixXd& old_q,
+                                  Eigen::MatrixXd& rhs) {
+  const int n = system_.coordinates(), m = system_.multipliers();
   system_.design_derivative(state, level_.level, columns_);
   for (const Level& other : other_levels_) {
     system_.design_derivative(state, other.level, other_columns_);
@@ -255,8 +262,24 @@ void StepEquations::differentiate(const StepState& state, const Eigen::MatrixXd&
   rhs.resize(size(), system_.variables());
   rhs.topRows(n) = -dynamic_scale_ * columns_.topRows(n);
   rhs.middleRows(n, m) = -constraint_scale_ * columns_.bottomRows(m);
-  write_matrix(state, 3, 1, matrix);
   if (is_stabilized()) differentiate_old_constraints(state, old_q, rhs);
+}
+
+void StepEquations::pull_back(const StepState& state, const ConstColumns& y, Columns v, Columns a,
+                              Columns old_q, Columns sums) {
+  const int n = system_.coordinates(), m = system_.multipliers();
+  mu_.resize(n + m, y.cols());
+  mu_.topRows(n) = -dynamic_scale_ * y.topRows(n);
+  mu_.bottomRows(m) = -constraint_scale_ * y.middleRows(n, m);
+  system_.add_design_sums(state, level_.level, mu_, sums);
+  for (const Level& other : other_levels_) {
+    other_mu_.setZero(n + m, y.cols());
+    other_mu_.bottomRows(m) = other.factor * mu_.bottomRows(m);
+    system_.add_design_sums(state, other.level, other_mu_, sums);
+  }
+  v.noalias() += matrices_[1].leftCols(n).transpose() * mu_;
+  a.noalias() += matrices_[2].leftCols(n).transpose() * mu_;
+  if (is_stabilized()) pull_back_old_constraints(state, y, old_q, sums);
 }
 
 /// The rows of the shift, −(Φ_q(q)ᵀ η)_q s_q − (Φ_q(q)ᵀ η)_x, and of Φ(q⁺), −Φ_x. Constraint forces
@@ -282,6 +305,29 @@ void StepEquations::differentiate_old_constraints(const StepState& state,
   }
   system_.design_derivative(state, ConstraintLevel::position, other_columns_);
   rhs.bottomRows(m) = -other_columns_.bottomRows(m);
+}
+
+/// As above, transposed.
+void StepEquations::pull_back_old_constraints(const StepState& state, const ConstColumns& y,
+                                              Columns old_q, Columns sums) {
+  const int n = system_.coordinates(), m = system_.multipliers();
+  State& at = constraints_at_;
+  at = old_;
+  other_mu_.setZero(n + m, y.cols());
+  for (double sign : {1.0, -1.0}) {
+    if (sign > 0.0) {
+      at.lambda = state.eta;
+    } else {
+      at.lambda.setZero();
+    }
+    other_mu_.topRows(n) = -sign * y.middleRows(n + m, n);
+    system_.tangent(at, {.q = 1.0}, ConstraintLevel::position, matrices_.front());
+    old_q.noalias() += matrices_.front().leftCols(n).transpose() * other_mu_;
+    system_.add_design_sums(at, ConstraintLevel::position, other_mu_, sums);
+  }
+  other_mu_.topRows(n).setZero();
+  other_mu_.bottomRows(m) = -y.bottomRows(m);
+  system_.add_design_sums(state, ConstraintLevel::position, other_mu_, sums);
 }
 
 }  // namespace pleuel

@@ -17,8 +17,8 @@ struct StepState : State {
   Eigen::VectorXd eta;    ///< η, the multipliers that pull it (m)
 };
 
-/// The equations of one step of a scheme in a formulation, for Newton's method and for direct
-/// differentiation. Unknowns are the correction z of the scheme and λ,
+/// The equations of one step of a scheme in a formulation, for Newton's method, direct
+/// differentiation and the adjoint. Unknowns are the correction z of the scheme and λ,
 ///     q⁺ = q ⊕ (history + z),  v⁺ = history + γ' z,  a⁺ = history + β' z
 /// Equations, with s = 1/β' and c = 1, 1/γ', 1/β' for constraints on position, velocity and
 /// acceleration level, so that the matrix is well conditioned as h → 0 (Bottasso, Dopico &
@@ -52,12 +52,20 @@ class StepEquations {
   /// Adds a correction of the unknowns to a state of the step.
   void apply(const Eigen::VectorXd& correction, StepState& state) const;
 
-  /// Tangent and right-hand sides (size() × variables) of the sensitivities of the unknowns at a
-  /// converged state.
+  // Sensitivities of the unknowns at a converged state solve  matrix · s = rhs.
+
+  /// The matrix, and the tangents from which the other two make their products.
+  void linearize_sensitivities(const StepState& state, System::Matrix& matrix);
+  /// rhs, size() × variables.
   /// @param v, a   predicted parts of the sensitivities of v and a, n × variables
   /// @param old_q  sensitivity of the old state's q
   void differentiate(const StepState& state, const Eigen::MatrixXd& v, const Eigen::MatrixXd& a,
-                     const Eigen::MatrixXd& old_q, System::Matrix& matrix, Eigen::MatrixXd& rhs);
+                     const Eigen::MatrixXd& old_q, Eigen::MatrixXd& rhs);
+  /// The transposed of differentiate(): adds what the derivatives y of functions with respect to
+  /// rhs (size() × functions) make of those with respect to v, a and old_q (n × functions), and the
+  /// design sums (System::add_design_sums).
+  void pull_back(const StepState& state, const ConstColumns& y, Columns v, Columns a, Columns old_q,
+                 Columns sums);
 
  private:
   /// A level on which constraints stand in the residual, and with which factor.
@@ -75,6 +83,8 @@ class StepEquations {
   void write_matrix(const StepState& state, std::size_t q, std::size_t v, System::Matrix& matrix);
   void differentiate_old_constraints(const StepState& state, const Eigen::MatrixXd& old_q,
                                      Eigen::MatrixXd& rhs);
+  void pull_back_old_constraints(const StepState& state, const ConstColumns& y, Columns old_q,
+                                 Columns sums);
 
   Mechanism& mechanism_;
   System& system_;
@@ -89,9 +99,10 @@ class StepEquations {
   /// Where entries of the system's pattern stand in the four blocks of the pattern (−1: nowhere).
   std::vector<int> slots_11_, slots_12_, slots_21_, slots_22_;
   std::vector<System::Matrix> matrices_, other_matrices_;
-  State constraints_at_;  ///< scratch
+  System::Matrix turned_;  ///< scratch
+  State constraints_at_;   ///< scratch
   Eigen::VectorXd residual_, other_residual_;
-  Eigen::MatrixXd columns_, other_columns_;
+  Eigen::MatrixXd columns_, other_columns_, mu_, other_mu_;
 };
 
 }  // namespace pleuel

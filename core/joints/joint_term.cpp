@@ -84,6 +84,29 @@ class JointTerm : public Term {
     }
   }
 
+  int design_sum_count() const override { return static_cast<int>(derivatives_.size()); }
+
+  void add_design_sums(const State& state, ConstraintLevel level, const ConstColumns& mu,
+                       Columns sums) override {
+    const Local<Dual> local = load<Dual>(state);
+    for (std::size_t k = 0; k < derivatives_.size(); ++k) {
+      const Result<Dual> result = evaluate(derivatives_[k].data, local, state.time, level);
+      auto sum = sums.row(static_cast<Eigen::Index>(k));
+      for (int i = 0; i < local_size(); ++i) {
+        sum += derivative_of(result.forces[index(i)]) * mu.row(coordinate(i));
+      }
+      for (int i = 0; i < equations(); ++i) {
+        sum += derivative_of(result.equations[index(i)]) * mu.row(topology_.multiplier + i);
+      }
+    }
+  }
+
+  void add_design_gradients(const ConstColumns& sums, Eigen::MatrixXd& gradients) const override {
+    for (std::size_t k = 0; k < derivatives_.size(); ++k) {
+      gradients.row(derivatives_[k].variable) += sums.row(static_cast<Eigen::Index>(k));
+    }
+  }
+
  private:
   /// Bounds the number of local coordinates and equations together.
   static constexpr int max_slots = JointLinearization::max_size + 7;

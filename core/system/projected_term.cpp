@@ -98,16 +98,20 @@ void ProjectedTerm::add_design_derivative(const State& state, ConstraintLevel le
   }
 }
 
-/// The design moves the local coordinates at given generalized ones, and turns the projection.
-void ProjectedTerm::add_moving_map(ConstraintLevel level, Eigen::MatrixXd& columns) {
+void ProjectedTerm::linearize_inner(ConstraintLevel level) {
   static constexpr std::array<Weights, 3> weights{{{.q = 1.0}, {.v = 1.0}, {.a = 1.0}}};
   prepare(weights.size());
   residual_.setZero();
   inner_->linearize(state_.local, weights, level, residual_,
                     {values_.data(), static_cast<std::ptrdiff_t>(inner_entries_.size())});
+}
+
+/// The design moves the local coordinates at given generalized ones, and turns the projection.
+void ProjectedTerm::add_moving_map(ConstraintLevel level, Eigen::MatrixXd& columns) {
+  linearize_inner(level);
+  const std::array<const Eigen::VectorXd*, 3> parts{&state_.q, &state_.v, &state_.a};
   for (const auto& [variable, rows] : map_.derivatives) {
-    const std::array<const Eigen::VectorXd*, 3> parts{&state_.q, &state_.v, &state_.a};
-    for (std::size_t i = 0; i < weights.size(); ++i) {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
       set_tangent(i);
       inner_columns_.col(variable) += tangent_.leftCols(locals()) * (rows * *parts[i]);
     }
@@ -115,6 +119,47 @@ void ProjectedTerm::add_moving_map(ConstraintLevel level, Eigen::MatrixXd& colum
     for (int i = 0; i < map_.columns(); ++i) {
       columns(map_.coordinates[static_cast<std::size_t>(i)], variable) += turned(i);
     }
+  }
+}
+
+void ProjectedTerm::add_design_sums(const State& state, ConstraintLevel level,
+                                    const ConstColumns& mu, Columns sums) {
+  if (sums.rows() == 0) return;
+  state_.set(map_, state);
+  inner_mu_.resize(residual_.size(), mu.cols());
+  inner_mu_.topRows(locals()).noalias() = map_.rows * mu(map_.coordinates, Eigen::all);
+  for (int i = 0; i < multipliers(); ++i) {
+    inner_mu_.row(locals() + i) = mu.row(row_of_multiplier(i));
+  }
+  inner_->add_design_sums(state_.local, level, inner_mu_, sums.topRows(inner_->design_sum_count()));
+  if (!map_.derivatives.empty()) add_map_sums(level, mu, sums.bottomRows(map_sum_count()));
+}
+
+/// The matrix that P_x is multiplied with, by columns.
+void ProjectedTerm::add_map_sums(ConstraintLevel level, const ConstColumns& mu, Columns sums) {
+  linearize_inner(level);
+  const std::array<const Eigen::VectorXd*, 3> parts{&state_.q, &state_.v, &state_.a};
+  const auto factor = [&](Eigen::Index i) {
+    return Eigen::Map<Eigen::MatrixXd>(sums.col(i).data(), locals(), map_.columns());
+  };
+  for (Eigen::Index i = 0; i < mu.cols(); ++i) {
+    factor(i) += residual_.head(locals()) * mu.col(i)(map_.coordinates).transpose();
+  }
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    set_tangent(part);
+    const Eigen::MatrixXd forces = tangent_.leftCols(locals()).transpose() * inner_mu_;
+    for (Eigen::Index i = 0; i < mu.cols(); ++i) {
+      factor(i) += forces.col(i) * parts[part]->transpose();
+    }
+  }
+}
+
+void ProjectedTerm::add_design_gradients(const ConstColumns& sums,
+                                         Eigen::MatrixXd& gradients) const {
+  inner_->add_design_gradients(sums.topRows(inner_->design_sum_count()), gradients);
+  for (const auto& [variable, rows] : map_.derivatives) {
+    const Eigen::Map<const Eigen::VectorXd> flat(rows.data(), rows.size());
+    gradients.row(variable) += flat.transpose() * sums.bottomRows(map_sum_count());
   }
 }
 

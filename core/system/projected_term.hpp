@@ -10,6 +10,7 @@ namespace pleuel {
 /// A term in local coordinates q_l = P q that acts on the generalized ones by virtual work:
 ///     R = Pᵀ R_l(P q, P v, P a),   tangent Pᵀ T_l P,
 ///     R_x = Pᵀ R_l,x + P_xᵀ R_l + Pᵀ (T_q P_x q + T_v P_x v + T_a P_x a)
+///     μᵀ R_x = (P μ)ᵀ R_l,x + P_x : [ R_l μᵀ + (T_qᵀ P μ) qᵀ + (T_vᵀ P μ) vᵀ + (T_aᵀ P μ) aᵀ ]
 /// Rows of multipliers stay what they are.
 class ProjectedTerm final : public Term {
  public:
@@ -23,6 +24,10 @@ class ProjectedTerm final : public Term {
                  Eigen::VectorXd& residual, const EntryBlocks& entries) override;
   void add_design_derivative(const State& state, ConstraintLevel level,
                              Eigen::MatrixXd& columns) override;
+  int design_sum_count() const override { return inner_->design_sum_count() + map_sum_count(); }
+  void add_design_sums(const State& state, ConstraintLevel level, const ConstColumns& mu,
+                       Columns sums) override;
+  void add_design_gradients(const ConstColumns& sums, Eigen::MatrixXd& gradients) const override;
 
  private:
   int locals() const { return map_.size(); }
@@ -35,6 +40,12 @@ class ProjectedTerm final : public Term {
   void write_projected(double* entries);
   void prepare(std::size_t weights);
   void add_moving_map(ConstraintLevel level, Eigen::MatrixXd& columns);
+  /// Residual and the tangents for weights one on q, v and a at the local state.
+  void linearize_inner(ConstraintLevel level);
+  int map_sum_count() const {
+    return map_.derivatives.empty() ? 0 : static_cast<int>(map_.rows.size());
+  }
+  void add_map_sums(ConstraintLevel level, const ConstColumns& mu, Columns sums);
 
   std::unique_ptr<Term> inner_;
   CoordinateMap map_;
@@ -47,7 +58,7 @@ class ProjectedTerm final : public Term {
   std::vector<double> values_;   ///< inner entries, one block a weight
   Eigen::MatrixXd tangent_;      ///< local and multipliers, square
   Eigen::MatrixXd half_, full_;  ///< T P, Pᵀ T P
-  Eigen::MatrixXd inner_columns_;
+  Eigen::MatrixXd inner_columns_, inner_mu_;
 };
 
 }  // namespace pleuel

@@ -102,6 +102,38 @@ void System::design_derivative(const State& state, ConstraintLevel level,
   for (int i : left_out_) columns.row(coordinates_ + i).setZero();
 }
 
+int System::design_sum_count() const {
+  int count = 0;
+  for (const auto& term : terms_) count += term->design_sum_count();
+  return count;
+}
+
+void System::add_design_sums(const State& state, ConstraintLevel level, const ConstColumns& mu,
+                             Columns sums) {
+  if (!left_out_.empty()) {
+    kept_mu_ = mu;
+    for (int i : left_out_) kept_mu_.row(coordinates_ + i).setZero();
+  }
+  const ConstColumns kept = left_out_.empty() ? mu : ConstColumns(kept_mu_);
+  Eigen::Index first = 0;
+  for (const auto& term : terms_) {
+    const Eigen::Index count = term->design_sum_count();
+    if (count > 0) term->add_design_sums(state, level, kept, sums.middleRows(first, count));
+    first += count;
+  }
+}
+
+Eigen::MatrixXd System::design_gradients(const ConstColumns& sums) const {
+  Eigen::MatrixXd gradients = Eigen::MatrixXd::Zero(variables_, sums.cols());
+  Eigen::Index first = 0;
+  for (const auto& term : terms_) {
+    const Eigen::Index count = term->design_sum_count();
+    if (count > 0) term->add_design_gradients(sums.middleRows(first, count), gradients);
+    first += count;
+  }
+  return gradients;
+}
+
 void scale_dynamic_block(int coordinates, double factor, System::Matrix& matrix) {
   for (int col = 0; col < coordinates; ++col) {
     for (int i = matrix.outerIndexPtr()[col]; i < matrix.outerIndexPtr()[col + 1]; ++i) {

@@ -50,6 +50,16 @@ class System {
   /// ∂R/∂x at fixed state into an (n + m) × variables matrix.
   void design_derivative(const State& state, ConstraintLevel level, Eigen::MatrixXd& columns);
 
+  // Σ μᵀ ∂R/∂x over instants for several μ, at a cost that does not grow with the number of
+  // variables (term.hpp).
+
+  int design_sum_count() const;
+  /// sums (design_sum_count() × columns of μ) += what this instant adds; μ is (n + m) × any number.
+  void add_design_sums(const State& state, ConstraintLevel level, const ConstColumns& mu,
+                       Columns sums);
+  /// Σ μᵀ ∂R/∂x, variables × columns of μ.
+  Eigen::MatrixXd design_gradients(const ConstColumns& sums) const;
+
  private:
   void build_pattern();
   /// Rows of what is left out: zero, and one on the diagonal.
@@ -64,6 +74,7 @@ class System {
   std::vector<double> entries_;  ///< scratch, same order, a block for each of the weights
   Eigen::VectorXd unused_;       ///< scratch, where only the tangent is asked for
   std::vector<std::size_t> first_entry_;
+  Eigen::MatrixXd kept_mu_;  ///< scratch, without the rows of what is left out
 };
 
 /// matrix.row(0 … n−1) of coordinate columns *= factor: the scaling of the dynamic rows by βh²,

@@ -46,6 +46,10 @@ enum class ConstraintLevel { position, velocity, acceleration };
 /// 0 … n−1 belong to the coordinates, n … n+m−1 to the multipliers. An entry may occur repeatedly.
 using EntryList = std::vector<std::pair<int, int>>;
 
+/// Columns of a matrix, or some of them.
+using ConstColumns = Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+using Columns = Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+
 /// One physical idea: a summand of the residual
 ///     R = [ M(q) a − Q(q, v, t) + Φ_qᵀ λ ;  Φ(q, t) at the given level ]                 (n + m)
 /// A term may keep scratch memory: a System and its terms belong to one thread.
@@ -78,6 +82,19 @@ class Term {
   /// columns.col(j) += ∂R/∂x_j at fixed state, (n + m) × variables.
   virtual void add_design_derivative(const State& state, ConstraintLevel level,
                                      Eigen::MatrixXd& columns) = 0;
+
+  // Σ μᵀ ∂R/∂x over many instants, at a cost that does not grow with the number of variables: what
+  // multiplies the derivatives of the term's data is summed first, the derivatives come last.
+
+  /// How many numbers a term sums for each μ.
+  virtual int design_sum_count() const = 0;
+  /// sums.col(i) += what multiplies the derivatives of the data in mu.col(i)ᵀ ∂R/∂x.
+  /// @param mu    (n + m) × any number
+  /// @param sums  design_sum_count() × the same number
+  virtual void add_design_sums(const State& state, ConstraintLevel level, const ConstColumns& mu,
+                               Columns sums) = 0;
+  /// gradients.col(i) += Σ μᵀ ∂R/∂x of sums.col(i), variables × the same number.
+  virtual void add_design_gradients(const ConstColumns& sums, Eigen::MatrixXd& gradients) const = 0;
 };
 
 /// The derivative of a term's data with respect to one design variable.

@@ -168,6 +168,33 @@ TEST_P(EveryTerm, HasTheDesignDerivativeOfItsResidual) {
   }
 }
 
+/// The sums of several instants, multiplied with the derivatives of the data afterwards, against
+/// the columns of each instant, multiplied with μ.
+TEST_P(EveryTerm, SumsWhatMultipliesItsDesignDerivatives) {
+  const System& system = *model_.mechanism.system;
+  const State other = random_state(model_, 8);
+  const Eigen::MatrixXd mu = Eigen::MatrixXd::Random(system.size(), 3);
+  for (const auto& term : system.terms()) {
+    Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(system.variables(), 3);
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(term->design_sum_count(), 3);
+    for (const State& state : {state_, other}) {
+      Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(system.size(), system.variables());
+      term->add_design_derivative(state, GetParam().level, columns);
+      expected += columns.transpose() * mu;
+      term->add_design_sums(state, GetParam().level, mu, sums);
+    }
+    Eigen::MatrixXd found = Eigen::MatrixXd::Zero(system.variables(), 3);
+    term->add_design_gradients(sums, found);
+    const double residual = residual_of(*term, state_, GetParam().level).lpNorm<Eigen::Infinity>();
+    for (Eigen::Index j = 0; j < found.rows(); ++j) {
+      const double x = std::abs(sample_.design[static_cast<std::size_t>(j)]);
+      const double scale = std::max(residual, x * expected.row(j).lpNorm<Eigen::Infinity>());
+      EXPECT_LE(x * (found - expected).row(j).lpNorm<Eigen::Infinity>(), 1e-10 * scale)
+          << term->name() << ", variable " << j;
+    }
+  }
+}
+
 class EverySample : public testing::TestWithParam<int> {
  protected:
   SampleScene sample_ = all_samples()[static_cast<std::size_t>(GetParam())];

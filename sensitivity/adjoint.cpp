@@ -1,0 +1,136 @@
+#include "sensitivity/adjoint.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "core/integration/configuration.hpp"
+#include "core/integration/linear_solver.hpp"
+#include "core/integration/step_equations.hpp"
+#include "sensitivity/initial_sensitivity.hpp"
+
+namespace pleuel {
+
+namespace {
+
+StateAdjoint zero_adjoint(const System& system, int functions) {
+  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(system.coordinates(), functions);
+  return {zero, zero, zero, zero, Eigen::MatrixXd::Zero(system.multipliers(), functions)};
+}
+
+class AdjointRun {
+ public:
+  AdjointRun(Mechanism& mechanism, const Trajectory& trajectory, int functions)
+      : mechanism_(mechanism),
+        system_(*mechanism.system),
+        trajectory_(trajectory),
+        scheme_(trajectory.scheme),
+        equations_(mechanism, scheme_, trajectory.formulation),
+        state_(equations_.make_state(State(system_.coordinates(), system_.multipliers()))),
+        old_(state_),
+        matrix_(equations_.make_matrix()),
+        solver_(matrix_),
+        adjoint_(zero_adjoint(system_, functions)),
+        before_(adjoint_),
+        y_(Eigen::MatrixXd::Zero(equations_.size(), functions)),
+        sums_(Eigen::MatrixXd::Zero(system_.design_sum_count(), functions)) {}
+
+  Eigen::MatrixXd run(const FunctionDerivatives& derivatives) {
+    trajectory_.load(trajectory_.steps(), state_);
+    for (int step = trajectory_.steps(); step > 0; --step) {
+      active_ = derivatives(step, state_, adjoint_);
+      trajectory_.load(step - 1, old_);
+      if (active_ > 0) go_back(step);
+      std::swap(static_cast<State&>(state_), static_cast<State&>(old_));
+    }
+    derivatives(0, state_, adjoint_);
+    const StateSensitivity start = initial_sensitivity(mechanism_, initial_state(mechanism_));
+    return system_.design_gradients(sums_) + start.q.transpose() * adjoint_.q +
+           start.v.transpose() * adjoint_.v + start.a.transpose() * adjoint_.a +
+           start.w.transpose() * adjoint_.w + start.lambda.transpose() * adjoint_.lambda;
+  }
+
+ private:
+  /// From derivatives with respect to the end of a step to those with respect to its beginning.
+  void go_back(int step) {
+    prepare(step);
+    solve();
+    const auto of = [this](Eigen::MatrixXd& all) { return all.leftCols(active_); };
+    before_.q.setZero();
+    equations_.pull_back(state_, of(y_), of(adjoint_.v), of(adjoint_.a), of(before_.q), of(sums_));
+    combine();
+    std::swap(adjoint_, before_);
+    adjoint_.lambda.setZero();
+  }
+
+  void prepare(int step) {
+    if (trajectory_.split_steps > 0) {
+      scheme_ = trajectory_.scheme_of(step);
+      equations_.set_scheme(scheme_);
+    }
+    equations_.begin(old_);
+    state_.increment = difference(mechanism_.rotations, state_.q, old_.q);
+    state_.eta = trajectory_.eta.col(step);
+    equations_.linearize_sensitivities(state_, matrix_);
+    if (!solver_.factorize(matrix_)) {
+      throw SimulationError(
+          fmt::format("the adjoint is singular at t = {:.6g} s (step {})", state_.time, step));
+    }
+  }
+
+  /// y = J⁻ᵀ (derivatives with respect to z, s λ, δ, η).
+  void solve() {
+    const int n = system_.coordinates(), m = system_.multipliers();
+    const Eigen::Vector4d b = scheme_.correction / scheme_.correction(0);
+    auto q = adjoint_.q.leftCols(active_);
+    push_forward_transposed(mechanism_.rotations, state_.increment, q);
+    auto y = y_.leftCols(active_);
+    y.topRows(n) = q + b(1) * adjoint_.v.leftCols(active_) + b(2) * adjoint_.a.leftCols(active_) +
+                   b(3) * adjoint_.w.leftCols(active_);
+    y.middleRows(n, m) = adjoint_.lambda.leftCols(active_) / scheme_.dynamic_scale();
+    if (y.rows() > n + m) {
+      y.middleRows(n + m, n) = q;
+      y.bottomRows(m).setZero();
+    }
+    solver_.solve_transposed(y);
+  }
+
+  /// The transposed of the prediction; before_.q holds what is added in the end.
+  void combine() {
+    const Eigen::Matrix4d& h = scheme_.history;
+    const Eigen::Vector4d b = scheme_.correction / scheme_.correction(0);
+    const auto v = adjoint_.v.leftCols(active_), a = adjoint_.a.leftCols(active_),
+               w = adjoint_.w.leftCols(active_);
+    auto q = adjoint_.q.leftCols(active_);
+    q = -b(1) * v - b(2) * a - b(3) * w;
+    const auto combine = [&](int column) {
+      return h(0, column) * q + h(1, column) * v + h(2, column) * a + h(3, column) * w;
+    };
+    before_.v.leftCols(active_) = combine(1);
+    before_.a.leftCols(active_) = combine(2);
+    before_.w.leftCols(active_) = combine(3);
+    q = combine(0).eval();
+    pull_back_transposed(mechanism_.rotations, state_.increment, q);
+    before_.q.leftCols(active_) += q;
+  }
+
+  Mechanism& mechanism_;
+  System& system_;
+  const Trajectory& trajectory_;
+  Scheme scheme_;
+  StepEquations equations_;
+  StepState state_, old_;
+  System::Matrix matrix_;
+  LinearSolver solver_;
+  int active_ = 0;
+  StateAdjoint adjoint_, before_;
+  Eigen::MatrixXd y_, sums_;
+};
+
+}  // namespace
+
+Eigen::MatrixXd adjoint_gradients(Mechanism& mechanism, const Trajectory& trajectory, int functions,
+                                  const FunctionDerivatives& derivatives) {
+  return AdjointRun(mechanism, trajectory, functions).run(derivatives);
+}
+
+}  // namespace pleuel

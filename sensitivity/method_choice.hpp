@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "sensitivity/sampled_gradients.hpp"
+
+namespace pleuel {
+
+/// Which of the two exact methods is cheaper here, and why: a sentence.
+struct MethodChoice {
+  ExactMethod method;
+  std::string reason;
+};
+
+/// By the numbers of variables and of values that depend on the motion, and where those do not
+/// settle it by the time that both take for a short stretch of the trajectory. Direct
+/// differentiation, unless the adjoint is clearly faster.
+MethodChoice choose_method(Analysis& analysis, const std::vector<SampledValue>& values);
+
+}  // namespace pleuel

@@ -1,0 +1,176 @@
+#include "sensitivity/sampled_gradients.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "sensitivity/adjoint.hpp"
+#include "sensitivity/direct.hpp"
+#include "sensitivity/frequency_sensitivity.hpp"
+#include "sensitivity/initial_sensitivity.hpp"
+
+namespace pleuel {
+
+std::string to_string(ExactMethod method) {
+  return method == ExactMethod::direct ? "direct" : "adjoint";
+}
+
+namespace {
+
+using Gradients = Eigen::MatrixXd;  // values × variables
+
+/// A sample of a value at a step that is known.
+struct Use {
+  Eigen::Index value;
+  Signal* signal;
+  int channel;
+  double weight;
+};
+
+class SampledGradients {
+ public:
+  SampledGradients(Analysis& analysis, const std::vector<SampledValue>& values)
+      : analysis_(analysis),
+        mechanism_(analysis.model.mechanism),
+        gradients_(Gradients::Zero(static_cast<Eigen::Index>(values.size()),
+                                   mechanism_.system->variables())),
+        part_(mechanism_.system->coordinates(), mechanism_.system->multipliers(),
+              mechanism_.system->variables()),
+        zero_(part_) {
+    for (std::size_t i = 0; i < values.size(); ++i) add_value(i, values[i]);
+  }
+
+  Gradients direct() {
+    if (uses_.empty() || gradients_.cols() == 0) return gradients_;
+    differentiate(mechanism_, analysis_.trajectory,
+                  [&](int step, const State& state, const StateSensitivity& s) {
+                    for_each_use(step, state, [&](const Use& use) {
+                      gradients_.row(use.value) +=
+                          part_.q.transpose() * s.q + part_.v.transpose() * s.v +
+                          part_.a.transpose() * s.a + part_.lambda.transpose() * s.lambda +
+                          part_.design.transpose();
+                    });
+                  });
+    return gradients_;
+  }
+
+  Gradients adjoint() {
+    if (uses_.empty() || gradients_.cols() == 0) return gradients_;
+    const std::vector<Eigen::Index> order = latest_first();
+    std::vector<Eigen::Index> column(static_cast<std::size_t>(gradients_.rows()), -1);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      column[static_cast<std::size_t>(order[i])] = static_cast<Eigen::Index>(i);
+    }
+    Eigen::Index active = 0;
+    const auto functions = static_cast<int>(order.size());
+    const Eigen::MatrixXd found =
+        adjoint_gradients(mechanism_, analysis_.trajectory, functions,
+                          [&](int step, const State& state, StateAdjoint& adjoint) {
+                            for_each_use(step, state, [&](const Use& use) {
+                              const Eigen::Index j = column[static_cast<std::size_t>(use.value)];
+                              active = std::max(active, j + 1);
+                              adjoint.q.col(j) += part_.q;
+                              adjoint.v.col(j) += part_.v;
+                              adjoint.a.col(j) += part_.a;
+                              adjoint.lambda.col(j) += part_.lambda;
+                              gradients_.row(use.value) += part_.design.transpose();
+                            });
+                            return static_cast<int>(active);
+                          });
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      gradients_.row(order[i]) += found.col(static_cast<Eigen::Index>(i)).transpose();
+    }
+    return gradients_;
+  }
+
+ private:
+  void add_value(std::size_t i, const SampledValue& value) {
+    const Response& response = analysis_.responses[value.response];
+    const auto row = static_cast<Eigen::Index>(i);
+    if (response.mechanism_mode) {
+      gradients_.row(row) = frequency_gradient(*response.mechanism_mode);
+    } else if (!response.signal) {
+      gradients_.row(row) = response.constant_x.transpose();
+    }
+    for (const Sample& sample : value.samples) {
+      uses_[sample.step].push_back({row, response.signal.get(), sample.channel, sample.weight});
+    }
+  }
+
+  Eigen::RowVectorXd frequency_gradient(int mode) {
+    State state;
+    analysis_.trajectory.load(0, state);
+    const StateSensitivity start = initial_sensitivity(mechanism_, initial_state(mechanism_));
+    return frequency_sensitivity(mechanism_, state, start, mode).transpose();
+  }
+
+  /// Calls visit(use) for what is sampled at a step, with its derivatives in part_.
+  template <class Visit>
+  void for_each_use(int step, const State& state, Visit visit) {
+    const auto found = uses_.find(step);
+    if (found == uses_.end()) return;
+    for (const Use& use : found->second) {
+      part_ = zero_;
+      use.signal->add_gradient(state, use.channel, use.weight, part_);
+      visit(use);
+    }
+  }
+
+  /// The values with samples; those of which the last one comes latest come first: going back in
+  /// time they are the first to count.
+  std::vector<Eigen::Index> latest_first() const {
+    std::vector<Eigen::Index> order;
+    for (auto step = uses_.rbegin(); step != uses_.rend(); ++step) {
+      for (const Use& use : step->second) {
+        if (std::find(order.begin(), order.end(), use.value) == order.end()) {
+          order.push_back(use.value);
+        }
+      }
+    }
+    return order;
+  }
+
+  Analysis& analysis_;
+  Mechanism& mechanism_;
+  Gradients gradients_;
+  std::map<int, std::vector<Use>> uses_;  ///< by step
+  SignalGradient part_;                   ///< scratch
+  const SignalGradient zero_;
+};
+
+/// What is measured in the mechanism without elasticity, and which of the values it is taken from.
+std::vector<SampledValue> rigid_values(const Analysis& analysis,
+                                       const std::vector<SampledValue>& values,
+                                       std::vector<Eigen::Index>& rows) {
+  std::vector<SampledValue> rigid;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto& response = analysis.responses[values[i].response].rigid_response;
+    if (!response) continue;
+    rigid.push_back({*response, values[i].samples});
+    rows.push_back(static_cast<Eigen::Index>(i));
+  }
+  return rigid;
+}
+
+}  // namespace
+
+Eigen::MatrixXd sampled_gradients(Analysis& analysis, const std::vector<SampledValue>& values,
+                                  ExactMethod method) {
+  SampledGradients run(analysis, values);
+  Gradients gradients = method == ExactMethod::direct ? run.direct() : run.adjoint();
+  std::vector<Eigen::Index> rows;
+  const auto rigid = rigid_values(analysis, values, rows);
+  if (!rigid.empty()) {
+    gradients(rows, Eigen::all) -= sampled_gradients(*analysis.rigid, rigid, method);
+  }
+  return gradients;
+}
+
+std::vector<SampledValue> response_values(const Analysis& analysis) {
+  std::vector<SampledValue> values;
+  for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
+    values.push_back({i, analysis.reductions[i].samples});
+  }
+  return values;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/response/response.hpp"
+
+namespace pleuel {
+
+/// Something whose gradient is asked for: Σ weight · (channel at step) of a response's signal, or a
+/// response that is constant in time (no samples).
+struct SampledValue {
+  std::size_t response;
+  std::vector<Sample> samples;
+};
+
+/// All responses of an analysis as such values, in their order.
+std::vector<SampledValue> response_values(const Analysis& analysis);
+
+/// Methods that differentiate the discrete scheme; their gradients agree up to round-off.
+enum class ExactMethod {
+  direct,  ///< cost grows with the number of variables (direct.hpp)
+  adjoint  ///< cost grows with the number of values that depend on the motion (adjoint.hpp)
+};
+
+/// "direct", "adjoint".
+std::string to_string(ExactMethod method);
+
+/// Gradients of several sampled values by one run, values × variables [SI].
+/// @throws SimulationError
+Eigen::MatrixXd sampled_gradients(Analysis& analysis, const std::vector<SampledValue>& values,
+                                  ExactMethod method);
+
+}  // namespace pleuel

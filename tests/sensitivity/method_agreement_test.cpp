@@ -1,0 +1,58 @@
+#include <gtest/gtest.h>
+
+#include "sensitivity/gradients.hpp"
+#include "sensitivity/method_choice.hpp"
+#include "tests/support/problem_runs.hpp"
+
+namespace {
+
+using namespace pleuel;
+
+class MethodsOfAProblem : public testing::TestWithParam<const char*> {};
+
+/// Every response of every problem file, as the file stands: the two methods share the step's
+/// tangents and nothing else.
+TEST_P(MethodsOfAProblem, AgreeToRoundOff) {
+  const ProblemFile problem = sample_problem(GetParam());
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const auto values = response_values(*analysis);
+  const Eigen::MatrixXd direct =
+      sampled_gradients(*analysis, values, ExactMethod::direct) * x.asDiagonal();
+  const Eigen::MatrixXd adjoint =
+      sampled_gradients(*analysis, values, ExactMethod::adjoint) * x.asDiagonal();
+  for (Eigen::Index i = 0; i < direct.rows(); ++i) {
+    EXPECT_LE((adjoint - direct).row(i).lpNorm<Eigen::Infinity>(),
+              1e-10 * direct.row(i).lpNorm<Eigen::Infinity>())
+        << problem.responses[static_cast<std::size_t>(i)].name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Problems, MethodsOfAProblem,
+                         testing::Values("slider_crank", "slider_crank_round",
+                                         "slider_crank_tapered", "four_bar", "spatial_slider_crank",
+                                         "robot_arm"),
+                         [](const auto& test) { return std::string(test.param); });
+
+/// Nothing is measured where the numbers settle it.
+TEST(ChoiceOfAMethod, IsDirectForFewVariablesAndManyValues) {
+  const ProblemFile problem = sample_problem("slider_crank_round");
+  const auto analysis = analyze(problem, start_design(problem));
+  const auto values = response_values(*analysis);
+  ASSERT_GT(values.size(), problem.variables.size());
+  const MethodChoice choice = choose_method(*analysis, values);
+  EXPECT_EQ(choice.method, ExactMethod::direct);
+  EXPECT_EQ(choice.reason.find("times"), std::string::npos) << choice.reason;
+}
+
+/// The gradient does not depend on the choice.
+TEST(ChoiceOfAMethod, LeavesTheGradientAsItIs) {
+  const ProblemFile problem = sample_problem("slider_crank_tapered");
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const Eigen::MatrixXd automatic = gradients(problem, x, *analysis, GradientMethod::automatic);
+  const Eigen::MatrixXd direct = gradients(problem, x, *analysis, GradientMethod::direct);
+  EXPECT_LE((automatic - direct).norm(), 1e-10 * direct.norm());
+}
+
+}  // namespace
