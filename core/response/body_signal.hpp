@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
 #include "core/model/model.hpp"
 #include "core/response/signal.hpp"
@@ -94,7 +95,8 @@ class BodySignal : public Signal {
     return motion;
   }
 
-  Beam<WideDual> widen(const Beam<double>& beam) const;
+  /// The beam as constants, cast once: it is large.
+  const Beam<WideDual>& wide_beam();
 
   void add_state_gradient(const State& state, int channel, double weight,
                           SignalGradient& gradient) {
@@ -105,7 +107,7 @@ class BodySignal : public Signal {
       motion.v[k].derivatives()[size + i] = 1.0;
       motion.a[k].derivatives()[2 * size + i] = 1.0;
     }
-    const WideDual y = derived().template evaluate<WideDual>(widen(body_.beam), motion, channel);
+    const WideDual y = derived().template evaluate<WideDual>(wide_beam(), motion, channel);
     const LocalPlace place = derived().place(channel);
     for (int i = 0; i < size; ++i) {
       const int index = global(place, i);
@@ -117,6 +119,7 @@ class BodySignal : public Signal {
   }
 
   const BodyModel& body_;
+  std::unique_ptr<const Beam<WideDual>> wide_beam_;
 };
 
 /// The same beam in another scalar type, as constants.
@@ -148,9 +151,11 @@ Beam<To> cast_beam(const Beam<double>& beam) {
 }
 
 template <class Derived>
-Beam<typename BodySignal<Derived>::WideDual> BodySignal<Derived>::widen(
-    const Beam<double>& beam) const {
-  return cast_beam<WideDual>(beam);
+const Beam<typename BodySignal<Derived>::WideDual>& BodySignal<Derived>::wide_beam() {
+  if (!wide_beam_) {
+    wide_beam_ = std::make_unique<const Beam<WideDual>>(cast_beam<WideDual>(body_.beam));
+  }
+  return *wide_beam_;
 }
 
 }  // namespace pleuel
