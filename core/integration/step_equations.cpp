@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "core/integration/configuration.hpp"
+#include "core/integration/sparse_products.hpp"
 
 namespace pleuel {
 
@@ -257,8 +258,7 @@ void StepEquations::differentiate(const StepState& state, const Eigen::MatrixXd&
     system_.design_derivative(state, other.level, other_columns_);
     columns_.bottomRows(m) += other.factor * other_columns_.bottomRows(m);
   }
-  columns_.noalias() += matrices_[1].leftCols(n) * v;
-  columns_.noalias() += matrices_[2].leftCols(n) * a;
+  add_products(matrices_[1], v, matrices_[2], a, columns_);
   rhs.resize(size(), system_.variables());
   rhs.topRows(n) = -dynamic_scale_ * columns_.topRows(n);
   rhs.middleRows(n, m) = -constraint_scale_ * columns_.bottomRows(m);

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "core/system/system.hpp"
+
+namespace pleuel {
+
+/// out += A x + B y for two matrices of one pattern (their first x.rows() columns) and several
+/// columns x, y. Columns are taken in groups that fill the vector registers, so that the matrices
+/// are read once a group.
+void add_products(const System::Matrix& a, const Eigen::MatrixXd& x, const System::Matrix& b,
+                  const Eigen::MatrixXd& y, Eigen::MatrixXd& out);
+
+}  // namespace pleuel
