@@ -55,6 +55,20 @@ void add_backend(CLI::App* command, Arguments& arguments) {
       ->type_name("NAME");
 }
 
+void add_jobs(CLI::App* command, Arguments& arguments) {
+  command->add_option("--jobs", arguments.jobs, "simulations at a time (default: all processors)")
+      ->type_name("NUMBER")
+      ->check(CLI::PositiveNumber);
+}
+
+void add_uncertainty(CLI::App& app, Arguments& arguments) {
+  CLI::App* uncertainty =
+      add_file_command(app, arguments, "uncertainty",
+                       "deviations and bounds of responses; Monte Carlo as the check");
+  add_output(uncertainty, arguments);
+  add_jobs(uncertainty, arguments);
+}
+
 void add_stability(CLI::App& app, Arguments& arguments) {
   CLI::App* stability =
       add_command(app, arguments, "stability", "drift, energy and work of files x formulations");
@@ -76,6 +90,7 @@ void add_gradient(CLI::App& app, Arguments& arguments) {
       ->add_option("--step", arguments.difference_step,
                    "relative step of the differences (default 1e-5)")
       ->type_name("NUMBER");
+  add_jobs(gradient, arguments);
 }
 
 void add_commands(CLI::App& app, Arguments& arguments) {
@@ -95,6 +110,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
                               "errors and times for steps x elements; the cheapest that will do"),
              arguments);
   add_stability(app, arguments);
+  add_uncertainty(app, arguments);
   add_command(app, arguments, "backends", "list the optimizers");
 }
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/parallel.hpp"
+
 namespace pleuel {
 
 /// What the user typed.
@@ -17,7 +19,8 @@ struct Arguments {
   std::optional<std::filesystem::path> output;  ///< run folder
   std::optional<std::string> backend;
   std::vector<std::string> methods;
-  double difference_step = 1e-5;  ///< relative
+  double difference_step = 1e-5;   ///< relative
+  int jobs = available_threads();  ///< simulations at a time
   bool wants_json = false;
   std::vector<std::string> words;  ///< the command line as it was
 

@@ -7,6 +7,7 @@
 namespace pleuel {
 
 Outcome run_accuracy(const Arguments& arguments);
+Outcome run_uncertainty(const Arguments& arguments);
 Outcome run_backends(const Arguments& arguments);
 Outcome run_check(const Arguments& arguments);
 Outcome run_gradient(const Arguments& arguments);

@@ -165,7 +165,8 @@ Outcome run_gradient(const Arguments& arguments) {
   findings.analysis = analyze(problem, start_design(problem));
   findings.simulation_seconds = stopwatch.seconds();
   findings.choice = resolve(*findings.analysis, methods);
-  findings.results = compute(problem, *findings.analysis, methods, {arguments.difference_step});
+  findings.results =
+      compute(problem, *findings.analysis, methods, {arguments.difference_step, arguments.jobs});
   findings.ties = find_ties(*findings.analysis);
   return {ExitCode::done, make_document(problem, findings),
           fmt::format("Gradients at the start of {}\n\n{}{}{}{}", problem.name,

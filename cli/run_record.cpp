@@ -18,15 +18,16 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* card_name = "run_card.json";
 
 /// Everything that a run of any command may leave.
-constexpr std::array<const char*, 9> result_names = {"history.csv",
-                                                     "result.json",
-                                                     "trajectory.csv",
-                                                     "trajectory-start.csv",
-                                                     "trajectory-optimum.csv",
-                                                     "pareto.csv",
-                                                     "accuracy.csv",
-                                                     "stability.csv",
-                                                     card_name};
+constexpr std::array<const char*, 10> result_names = {"history.csv",
+                                                      "result.json",
+                                                      "trajectory.csv",
+                                                      "trajectory-start.csv",
+                                                      "trajectory-optimum.csv",
+                                                      "pareto.csv",
+                                                      "accuracy.csv",
+                                                      "stability.csv",
+                                                      "uncertainty.csv",
+                                                      card_name};
 
 fs::path default_folder(const Arguments& arguments) {
   if (arguments.files.size() > 1) return fs::path("runs") / arguments.command;

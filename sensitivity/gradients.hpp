@@ -24,6 +24,8 @@ GradientMethod gradient_method(const std::string& name);
 struct GradientOptions {
   /// Relative step of finite differences, Δx = step · |x|.
   double difference_step = 1e-5;
+  /// Simulations at a time, of finite differences.
+  int threads = 1;
 };
 
 /// Gradients of all responses, responses × variables; unit of entry (i, j) = unit of response i /

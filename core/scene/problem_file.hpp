@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -142,6 +143,26 @@ struct AccuracySettings {
   double error = 1e-3;        ///< relative error for which the cheapest setting is recommended
 };
 
+/// A variable that is not exactly what it is said to be; of a fixed one (lower == upper) just as of
+/// one that is designed. Either a deviation or an interval is positive.
+struct UncertainParameter {
+  int variable;
+  double deviation = 0.0;  ///< standard deviation of a normal distribution [SI]
+  double interval = 0.0;   ///< half width of a uniform distribution [SI]
+
+  double standard_deviation() const {
+    return deviation > 0.0 ? deviation : interval / std::sqrt(3.0);
+  }
+  /// Three deviations of a normal distribution.
+  double half_width() const { return interval > 0.0 ? interval : 3.0 * deviation; }
+};
+
+struct UncertaintySettings {
+  std::vector<UncertainParameter> parameters;
+  int samples = 0;  ///< of Monte Carlo
+  unsigned seed = 1;
+};
+
 struct ProblemFile {
   std::string name, description;
   Scene scene;
@@ -154,6 +175,7 @@ struct ProblemFile {
   OptimizerSettings optimizer;
   std::optional<ParetoSettings> pareto;
   std::optional<AccuracySettings> accuracy;
+  std::optional<UncertaintySettings> uncertainty;
 };
 
 }  // namespace pleuel

@@ -26,7 +26,8 @@ std::vector<std::string> variable_names(const JsonNode& root) {
 
 void read_heading(const JsonNode& root, ProblemFile& problem) {
   root.allow_keys({"$schema", "name", "description", "scene", "effects", "simulation", "variables",
-                   "responses", "objective", "constraints", "optimizer", "pareto", "accuracy"});
+                   "responses", "objective", "constraints", "optimizer", "pareto", "accuracy",
+                   "uncertainty"});
   if (const auto schema = root.find("$schema")) schema->text();
   if (const auto name = root.find("name")) problem.name = name->text();
   if (const auto description = root.find("description")) problem.description = description->text();
@@ -40,6 +41,9 @@ void read_settings(const JsonNode& root, const NumberReader& numbers, ProblemFil
   }
   if (const auto accuracy = root.find("accuracy")) {
     problem.accuracy = read_accuracy(*accuracy, numbers);
+  }
+  if (const auto uncertainty = root.find("uncertainty")) {
+    problem.uncertainty = read_uncertainty(*uncertainty, numbers);
   }
 }
 

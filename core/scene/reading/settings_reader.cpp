@@ -7,6 +7,7 @@ namespace {
 
 constexpr int most_elements = 10000;
 constexpr int most_iterations = 1000000;
+constexpr int most_samples = 10000000;
 constexpr double most_steps = 1e9;
 
 /// A tolerance of one or more asks for nothing.
@@ -128,6 +129,41 @@ AccuracySettings read_accuracy(const JsonNode& node, const NumberReader& numbers
   if (settings.steps.empty()) node.at("steps").fail("must have at least one step");
   if (settings.elements.empty()) node.at("elements").fail("must have at least one number");
   if (const auto error = node.find("error")) settings.error = read_tolerance(*error);
+  return settings;
+}
+
+namespace {
+
+UncertainParameter read_parameter(const std::string& name, const JsonNode& node,
+                                  const NumberReader& numbers) {
+  node.allow_keys({"deviation", "interval"});
+  UncertainParameter parameter{numbers.variable(node, name)};
+  const auto quantity = numbers.quantity_of(parameter.variable);
+  const auto deviation = node.find("deviation"), interval = node.find("interval");
+  if (deviation.has_value() == interval.has_value()) {
+    node.fail("must have either a deviation or an interval");
+  }
+  if (!quantity) node.fail("is not used by the scene");
+  if (deviation) parameter.deviation = numbers.fixed(*deviation, *quantity, Range::positive);
+  if (interval) parameter.interval = numbers.fixed(*interval, *quantity, Range::positive);
+  return parameter;
+}
+
+}  // namespace
+
+UncertaintySettings read_uncertainty(const JsonNode& node, const NumberReader& numbers) {
+  node.allow_keys({"parameters", "samples", "seed"});
+  UncertaintySettings settings;
+  for (const auto& [name, parameter] : node.at("parameters").members()) {
+    settings.parameters.push_back(read_parameter(name, parameter, numbers));
+  }
+  if (settings.parameters.empty()) node.at("parameters").fail("must have at least one parameter");
+  if (const auto samples = node.find("samples")) {
+    settings.samples = samples->whole_number(2, most_samples);
+  }
+  if (const auto seed = node.find("seed")) {
+    settings.seed = static_cast<unsigned>(seed->whole_number(0, most_samples));
+  }
   return settings;
 }
 

@@ -4,7 +4,7 @@
 #include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/number_reader.hpp"
 
-/// How to compute: effects, simulation, optimizer, accuracy. All throw InputError.
+/// How to compute: effects, simulation, optimizer, accuracy, uncertainty. All throw InputError.
 namespace pleuel {
 
 EffectSettings read_effects(const JsonNode& node);
@@ -15,5 +15,6 @@ SimulationSettings read_simulation(const JsonNode& node, const NumberReader& num
 OptimizerSettings read_optimizer(const JsonNode& node);
 
 AccuracySettings read_accuracy(const JsonNode& node, const NumberReader& numbers);
+UncertaintySettings read_uncertainty(const JsonNode& node, const NumberReader& numbers);
 
 }  // namespace pleuel

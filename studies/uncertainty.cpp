@@ -1,0 +1,236 @@
+#include "studies/uncertainty.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <random>
+
+#include "core/base/error.hpp"
+#include "core/base/parallel.hpp"
+#include "sensitivity/method_choice.hpp"
+
+namespace pleuel {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// Derivatives with respect to the uncertain parameters, from those with respect to all variables.
+Eigen::MatrixXd columns_of(const Eigen::MatrixXd& gradients,
+                           const std::vector<UncertainParameter>& parameters) {
+  Eigen::MatrixXd columns(gradients.rows(), static_cast<Eigen::Index>(parameters.size()));
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    columns.col(static_cast<Eigen::Index>(i)) = gradients.col(parameters[i].variable);
+  }
+  return columns;
+}
+
+Eigen::VectorXd deviations_of(const std::vector<UncertainParameter>& parameters) {
+  Eigen::VectorXd deviations(static_cast<Eigen::Index>(parameters.size()));
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    deviations(static_cast<Eigen::Index>(i)) = parameters[i].standard_deviation();
+  }
+  return deviations;
+}
+
+Eigen::VectorXd half_widths_of(const std::vector<UncertainParameter>& parameters) {
+  Eigen::VectorXd widths(static_cast<Eigen::Index>(parameters.size()));
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    widths(static_cast<Eigen::Index>(i)) = parameters[i].half_width();
+  }
+  return widths;
+}
+
+/// Mean and variance of numbers that come one by one (Welford 1962).
+class Moments {
+ public:
+  void add(const Eigen::VectorXd& values) {
+    if (count_ == 0) {
+      mean_ = squares_ = Eigen::VectorXd::Zero(values.size());
+      lowest_ = highest_ = values;
+    }
+    ++count_;
+    const Eigen::VectorXd change = values - mean_;
+    mean_ += change / count_;
+    squares_ += change.cwiseProduct(values - mean_);
+    lowest_ = lowest_.cwiseMin(values);
+    highest_ = highest_.cwiseMax(values);
+  }
+  Eigen::VectorXd deviations() const { return (squares_ / std::max(1, count_ - 1)).cwiseSqrt(); }
+  Sampled of(Eigen::Index i) const { return {mean_(i), deviations()(i), lowest_(i), highest_(i)}; }
+  int count() const { return count_; }
+
+ private:
+  int count_ = 0;
+  Eigen::VectorXd mean_, squares_, lowest_, highest_;
+};
+
+class Study {
+ public:
+  Study(const ProblemFile& problem, const UncertaintySettings& settings)
+      : problem_(problem),
+        settings_(settings),
+        x_(start_design(problem)),
+        deviations_(deviations_of(settings.parameters)),
+        analysis_(analyze(problem, x_)) {}
+
+  void linearize() {
+    const auto begin = Clock::now();
+    const auto values = response_values(*analysis_);
+    const Eigen::MatrixXd gradients =
+        columns_of(sampled_gradients(*analysis_, values, choose_method(*analysis_, values).method),
+                   settings_.parameters);
+    const Eigen::VectorXd widths = half_widths_of(settings_.parameters);
+    for (Eigen::Index i = 0; i < gradients.rows(); ++i) {
+      const Eigen::VectorXd parts = gradients.row(i).transpose().cwiseProduct(deviations_);
+      UncertainResponse response;
+      response.value = analysis_->reductions[static_cast<std::size_t>(i)].value;
+      response.deviation = parts.norm();
+      response.bound = gradients.row(i).cwiseAbs() * widths;
+      response.shares = parts.cwiseAbs2();
+      if (response.deviation > 0.0) response.shares /= parts.squaredNorm();
+      study_.responses.push_back(std::move(response));
+    }
+    linearize_histories();
+    study_.gradient_seconds = seconds_since(begin);
+  }
+
+  void sample(int threads, const SampleObserver& observer) {
+    if (settings_.samples == 0) return;
+    const auto begin = Clock::now();
+    const std::vector<Eigen::VectorXd> designs = draw();
+    Moments responses, histories;
+    std::mutex mutex;
+    for_each_in_parallel(settings_.samples, threads, [&](int i) {
+      std::unique_ptr<Analysis> analysis;
+      try {
+        analysis = analyze(problem_, designs[static_cast<std::size_t>(i)]);
+      } catch (const SimulationError&) {
+      }
+      const std::lock_guard lock(mutex);
+      if (analysis) {
+        responses.add(values_of(*analysis));
+        if (is_comparable(*analysis)) histories.add(histories_of(*analysis));
+      } else {
+        ++study_.failures;
+      }
+      if (observer) observer(responses.count() + study_.failures);
+    });
+    study_.samples = responses.count();
+    store(responses, histories);
+    study_.sampling_seconds = seconds_since(begin);
+  }
+
+  UncertaintyStudy take() { return std::move(study_); }
+
+ private:
+  /// Where a response is taken: the place of its peak, or the first.
+  static int channel_of(const Reduction& reduction) {
+    return reduction.samples.empty() ? 0 : reduction.samples.front().channel;
+  }
+
+  /// σ(t) of every history: one value a response and instant.
+  void linearize_histories() {
+    study_.time = analysis_->trajectory.time;
+    std::vector<SampledValue> values;
+    for (std::size_t i = 0; i < analysis_->responses.size(); ++i) {
+      if (analysis_->histories[i].size() == 0) continue;
+      const int channel = channel_of(analysis_->reductions[i]);
+      study_.histories.push_back({i, analysis_->histories[i].row(channel).transpose(), {}, {}});
+      for (int step = 0; step <= analysis_->trajectory.steps(); ++step) {
+        values.push_back({i, {{step, channel, 1.0}}});
+      }
+    }
+    if (values.empty()) return;
+    const Eigen::MatrixXd parts =
+        columns_of(sampled_gradients(*analysis_, values, ExactMethod::direct),
+                   settings_.parameters) *
+        deviations_.asDiagonal();
+    const Eigen::VectorXd deviations = parts.rowwise().norm();
+    const Eigen::Index instants = study_.time.size();
+    for (std::size_t k = 0; k < study_.histories.size(); ++k) {
+      study_.histories[k].deviations =
+          deviations.segment(static_cast<Eigen::Index>(k) * instants, instants);
+    }
+  }
+
+  /// All samples at once, so that they do not depend on the threads.
+  std::vector<Eigen::VectorXd> draw() const {
+    std::mt19937_64 generator(settings_.seed);
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    std::vector<Eigen::VectorXd> designs(static_cast<std::size_t>(settings_.samples), x_);
+    for (Eigen::VectorXd& design : designs) {
+      for (const UncertainParameter& parameter : settings_.parameters) {
+        design(parameter.variable) += parameter.deviation > 0.0
+                                          ? parameter.deviation * normal(generator)
+                                          : parameter.interval * uniform(generator);
+      }
+    }
+    return designs;
+  }
+
+  static Eigen::VectorXd values_of(const Analysis& analysis) {
+    Eigen::VectorXd values(static_cast<Eigen::Index>(analysis.reductions.size()));
+    for (std::size_t i = 0; i < analysis.reductions.size(); ++i) {
+      values(static_cast<Eigen::Index>(i)) = analysis.reductions[i].value;
+    }
+    return values;
+  }
+
+  /// Steps that were split add instants.
+  bool is_comparable(const Analysis& analysis) const {
+    return analysis.trajectory.time.size() == study_.time.size();
+  }
+
+  Eigen::VectorXd histories_of(const Analysis& analysis) const {
+    const Eigen::Index instants = study_.time.size();
+    Eigen::VectorXd all(instants * static_cast<Eigen::Index>(study_.histories.size()));
+    for (std::size_t k = 0; k < study_.histories.size(); ++k) {
+      const std::size_t response = study_.histories[k].response;
+      all.segment(static_cast<Eigen::Index>(k) * instants, instants) =
+          analysis.histories[response].row(channel_of(analysis_->reductions[response])).transpose();
+    }
+    return all;
+  }
+
+  void store(const Moments& responses, const Moments& histories) {
+    if (responses.count() < 2) return;
+    for (std::size_t i = 0; i < study_.responses.size(); ++i) {
+      study_.responses[i].sampled = responses.of(static_cast<Eigen::Index>(i));
+    }
+    if (histories.count() < 2) return;
+    const Eigen::VectorXd deviations = histories.deviations();
+    const Eigen::Index instants = study_.time.size();
+    for (std::size_t k = 0; k < study_.histories.size(); ++k) {
+      study_.histories[k].sampled_deviations =
+          deviations.segment(static_cast<Eigen::Index>(k) * instants, instants);
+    }
+  }
+
+  const ProblemFile& problem_;
+  const UncertaintySettings& settings_;
+  Eigen::VectorXd x_, deviations_;
+  std::unique_ptr<Analysis> analysis_;
+  UncertaintyStudy study_;
+};
+
+}  // namespace
+
+UncertaintyStudy uncertainty_study(const ProblemFile& problem, int threads,
+                                   const SampleObserver& observer) {
+  if (!problem.uncertainty) {
+    throw InputError("/uncertainty is missing: it says which parameters are uncertain");
+  }
+  Study study(problem, *problem.uncertainty);
+  study.linearize();
+  study.sample(threads, observer);
+  return study.take();
+}
+
+}  // namespace pleuel

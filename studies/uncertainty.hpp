@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "core/response/response.hpp"
+
+namespace pleuel {
+
+/// What Monte Carlo says of a number.
+struct Sampled {
+  double mean = 0.0, deviation = 0.0, lowest = 0.0, highest = 0.0;
+};
+
+/// How uncertain parameters make a response, to first order:
+///     σ² = Σ (g_i σ_i)²,   bounds = value ∓ Σ |g_i| r_i,   g_i = ∂(response)/∂(parameter)
+/// for independent parameters with deviations σ_i and half widths r_i.
+struct UncertainResponse {
+  double value = 0.0;      ///< at the design; to first order the mean [SI]
+  double deviation = 0.0;  ///< σ
+  double bound = 0.0;      ///< Σ |g_i| r_i: the response lies within value ± bound
+  Eigen::VectorXd shares;  ///< (g_i σ_i)²/σ² of each parameter; zero if σ is
+  std::optional<Sampled> sampled;
+};
+
+/// The history of a signal at the place where its response is taken, with its deviation at every
+/// instant.
+struct UncertainHistory {
+  std::size_t response;
+  Eigen::VectorXd values, deviations;  ///< one an instant [SI]
+  Eigen::VectorXd sampled_deviations;  ///< by Monte Carlo; empty without
+};
+
+struct UncertaintyStudy {
+  Eigen::VectorXd time;                      ///< of the histories [s]
+  std::vector<UncertainResponse> responses;  ///< as in the problem
+  std::vector<UncertainHistory> histories;   ///< of those that have one
+  int samples = 0;                           ///< that could be simulated
+  int failures = 0;                          ///< that could not
+  double gradient_seconds = 0.0, sampling_seconds = 0.0;
+};
+
+/// Called after each sample with the number done; from any thread, one at a time.
+using SampleObserver = std::function<void(int done)>;
+
+/// First-order second-moment analysis about the start design, and Monte Carlo with so many samples
+/// as the settings ask for as the check.
+/// @param threads  for the samples
+/// @throws InputError if the problem has no uncertainty settings
+/// @throws SimulationError if the design itself cannot be simulated
+UncertaintyStudy uncertainty_study(const ProblemFile& problem, int threads,
+                                   const SampleObserver& observer = {});
+
+}  // namespace pleuel
