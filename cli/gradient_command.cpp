@@ -28,14 +28,14 @@ std::vector<GradientMethod> chosen_methods(const Arguments& arguments) {
   return methods;
 }
 
-std::vector<MethodResult> compute(const ProblemFile& problem, Analysis& analysis,
+std::vector<MethodResult> compute(const ProblemInput& input, Analysis& analysis,
                                   const std::vector<GradientMethod>& methods,
                                   const GradientOptions& options) {
   std::vector<MethodResult> results;
   for (const GradientMethod method : methods) {
     const Stopwatch stopwatch;
     MethodResult result{method, {}, 0.0};
-    result.gradients = gradients(problem, start_design(problem), analysis, method, options);
+    result.gradients = gradients(input.problem, input.design, analysis, method, options);
     result.seconds = stopwatch.seconds();
     results.push_back(std::move(result));
   }
@@ -130,21 +130,23 @@ std::string seconds_text(const std::vector<MethodResult>& results, double simula
 
 Outcome run_gradient(const Arguments& arguments) {
   const std::vector<GradientMethod> methods = chosen_methods(arguments);
-  const ProblemFile problem = read_input(arguments).problem;
+  const ProblemInput input = read_input(arguments);
+  const ProblemFile& problem = input.problem;
   if (problem.variables.empty()) {
     throw InputError("/variables is missing: there is nothing to differentiate for");
   }
   Findings findings;
   const Stopwatch stopwatch;
-  findings.analysis = analyze(problem, start_design(problem));
+  findings.analysis = analyze(problem, input.design);
   findings.simulation_seconds = stopwatch.seconds();
-  findings.results = compute(problem, *findings.analysis, methods, {arguments.difference_step});
+  findings.results = compute(input, *findings.analysis, methods, {arguments.difference_step});
   findings.ties = find_ties(*findings.analysis);
-  return {ExitCode::done, make_document(problem, findings),
-          fmt::format("Gradients at the start of {}\n\n{}{}{}", problem.name,
-                      gradients_text(problem, findings.results),
-                      ties_text(findings.ties, *findings.analysis),
-                      seconds_text(findings.results, findings.simulation_seconds))};
+  return {
+      ExitCode::done, make_document(problem, findings),
+      fmt::format("Gradients at {} of {}\n\n{}{}{}", arguments.design ? "the design" : "the start",
+                  problem.name, gradients_text(problem, findings.results),
+                  ties_text(findings.ties, *findings.analysis),
+                  seconds_text(findings.results, findings.simulation_seconds))};
 }
 
 }  // namespace pleuel
