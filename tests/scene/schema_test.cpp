@@ -147,7 +147,11 @@ TEST_F(ProblemSchema, RefusesMechanismsThatTheReaderRefuses) {
       {"/responses/tone/over_time", "\"max\""},
       {"/responses/shear/at", "0.5"},
       {"/responses/axial/part", "\"tension\""},
-      {"/responses/bearing/direction", "remove"}};
+      {"/responses/bearing/direction", "remove"},
+      {"/responses/motion/over_time", "remove"},
+      {"/responses/missing/over_time", "\"max\""},
+      {"/responses/drift/level", "\"speed\""},
+      {"/responses/drift/body", "\"arm\""}};
   for (const auto& [pointer, value] : edits) {
     const Json document = edited(good_mechanism(), pointer, value);
     EXPECT_NE(complaints(nlohmann::json::parse(document.dump())), "") << pointer << " = " << value;
