@@ -104,7 +104,8 @@ TEST_P(LongDesignCase, KeepsItsConstraintsForNeighbouringDesigns) {
   const Eigen::RowVectorXd gradient =
       direct_gradients(*analysis).row(response_index(file, "drift"));
   EXPECT_LE(value_of(*analysis, "drift"), 1e-12);  // ten Newton tolerances; measured 6e-14 m
-  EXPECT_LE(gradient.cwiseProduct(x.transpose()).lpNorm<Eigen::Infinity>(), 1e-15);
+  EXPECT_LE(gradient.cwiseProduct(x.transpose()).lpNorm<Eigen::Infinity>(),
+            1e-15);  // round-off; measured 9e-17 m
 }
 
 struct Corner {
