@@ -48,6 +48,13 @@ void add_output(CLI::App* command, Arguments& arguments) {
       ->type_name("DIR");
 }
 
+void add_design(CLI::App* command, Arguments& arguments) {
+  command
+      ->add_option("--design", arguments.design,
+                   "at the design of a result.json or failed_design.json of an optimization")
+      ->type_name("FILE");
+}
+
 void add_backend(CLI::App* command, Arguments& arguments) {
   command
       ->add_option("--backend", arguments.backend,
@@ -80,6 +87,7 @@ void add_stability(CLI::App& app, Arguments& arguments) {
 void add_gradient(CLI::App& app, Arguments& arguments) {
   CLI::App* gradient =
       add_file_command(app, arguments, "gradient", "gradients of all responses at the start");
+  add_design(gradient, arguments);
   gradient
       ->add_option("--method", arguments.methods,
                    "auto (default: direct or adjoint, whichever is faster), direct, adjoint, "
@@ -94,9 +102,14 @@ void add_gradient(CLI::App& app, Arguments& arguments) {
 }
 
 void add_commands(CLI::App& app, Arguments& arguments) {
-  add_file_command(app, arguments, "check",
-                   "validate, describe the mechanism, verify the derivatives, estimate the time");
-  add_output(add_file_command(app, arguments, "simulate", "simulate the start design"), arguments);
+  add_design(add_file_command(
+                 app, arguments, "check",
+                 "validate, describe the mechanism, verify the derivatives, estimate the time"),
+             arguments);
+  CLI::App* simulate =
+      add_file_command(app, arguments, "simulate", "simulate one design, by default the start");
+  add_output(simulate, arguments);
+  add_design(simulate, arguments);
   add_gradient(app, arguments);
   CLI::App* optimize =
       add_file_command(app, arguments, "optimize", "find the best design and prove it");

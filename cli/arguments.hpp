@@ -17,6 +17,7 @@ struct Arguments {
   std::vector<std::filesystem::path> files;     ///< of a command that takes several
   std::vector<std::string> overrides;           ///< "/json/pointer=value"
   std::optional<std::filesystem::path> output;  ///< run folder
+  std::optional<std::filesystem::path> design;  ///< file with another design than the start
   std::optional<std::string> backend;
   std::vector<std::string> methods;
   double difference_step = 1e-5;   ///< relative

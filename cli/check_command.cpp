@@ -26,8 +26,7 @@ struct Findings {
   std::vector<DerivativeCheck> derivatives;  ///< empty without variables
 };
 
-Findings examine(const ProblemFile& problem) {
-  const Eigen::VectorXd x = start_design(problem);
+Findings examine(const ProblemFile& problem, const Eigen::VectorXd& x) {
   Findings findings;
   const Stopwatch simulation;
   findings.analysis = analyze(problem, x);
@@ -97,7 +96,7 @@ std::string derivatives_text(const ProblemFile& problem, const Findings& finding
                                               word == "agrees" ? "to" : "by", magnitude(error),
                                               word == "kink" ? ": a kink, see below" : "")});
   }
-  return "Responses at the start; direct differentiation against central differences (relative)\n" +
+  return "Responses; direct differentiation against central differences (relative)\n" +
          table.text();
 }
 
@@ -127,8 +126,9 @@ std::string make_text(const ProblemFile& problem, const Findings& findings) {
 }  // namespace
 
 Outcome run_check(const Arguments& arguments) {
-  const ProblemFile problem = read_input(arguments).problem;
-  const Findings findings = examine(problem);
+  const ProblemInput input = read_input(arguments);
+  const ProblemFile& problem = input.problem;
+  const Findings findings = examine(problem, input.design);
   return {ExitCode::done, make_document(problem, findings), make_text(problem, findings)};
 }
 

@@ -43,14 +43,14 @@ std::optional<MethodChoice> resolve(Analysis& analysis, std::vector<GradientMeth
   return choice;
 }
 
-std::vector<MethodResult> compute(const ProblemFile& problem, Analysis& analysis,
+std::vector<MethodResult> compute(const ProblemInput& input, Analysis& analysis,
                                   const std::vector<GradientMethod>& methods,
                                   const GradientOptions& options) {
   std::vector<MethodResult> results;
   for (const GradientMethod method : methods) {
     const Stopwatch stopwatch;
     MethodResult result{method, {}, 0.0};
-    result.gradients = gradients(problem, start_design(problem), analysis, method, options);
+    result.gradients = gradients(input.problem, input.design, analysis, method, options);
     result.seconds = stopwatch.seconds();
     results.push_back(std::move(result));
   }
@@ -156,20 +156,22 @@ std::string seconds_text(const std::vector<MethodResult>& results, double simula
 
 Outcome run_gradient(const Arguments& arguments) {
   std::vector<GradientMethod> methods = chosen_methods(arguments);
-  const ProblemFile problem = read_input(arguments).problem;
+  const ProblemInput input = read_input(arguments);
+  const ProblemFile& problem = input.problem;
   if (problem.variables.empty()) {
     throw InputError("/variables is missing: there is nothing to differentiate for");
   }
   Findings findings;
   const Stopwatch stopwatch;
-  findings.analysis = analyze(problem, start_design(problem));
+  findings.analysis = analyze(problem, input.design);
   findings.simulation_seconds = stopwatch.seconds();
   findings.choice = resolve(*findings.analysis, methods);
   findings.results =
-      compute(problem, *findings.analysis, methods, {arguments.difference_step, arguments.jobs});
+      compute(input, *findings.analysis, methods, {arguments.difference_step, arguments.jobs});
   findings.ties = find_ties(*findings.analysis);
   return {ExitCode::done, make_document(problem, findings),
-          fmt::format("Gradients at the start of {}\n\n{}{}{}{}", problem.name,
+          fmt::format("Gradients at {} of {}\n\n{}{}{}{}",
+                      arguments.design ? "the design" : "the start", problem.name,
                       gradients_text(problem, findings.results),
                       ties_text(findings.ties, *findings.analysis), choice_text(findings.choice),
                       seconds_text(findings.results, findings.simulation_seconds))};

@@ -19,16 +19,20 @@ std::vector<std::string> header(const Problem& problem) {
 
 }  // namespace
 
+std::string to_string(Request request) {
+  return request == Request::values ? "values" : "gradients";
+}
+
 HistoryCsv::HistoryCsv(const std::filesystem::path& path, const Problem& problem)
     : constraints_(problem.constraints().size()), csv_(path, header(problem)) {}
 
 void HistoryCsv::add(const EvaluationRecord& record) {
-  const bool has_failed = !record.failure.empty();
+  const bool has_failed = record.has_failed();
   const auto add_value = [&](double value) {
     has_failed ? csv_.add(std::string()) : csv_.add(value);
   };
   csv_.add(record.evaluation).add(record.iteration).add(record.seconds);
-  csv_.add(std::string(record.request == Request::values ? "values" : "gradients"));
+  csv_.add(to_string(record.request));
   add_value(record.max_violation);
   csv_.add(record.step);
   add_value(record.objective);

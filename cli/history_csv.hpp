@@ -8,6 +8,9 @@
 
 namespace pleuel {
 
+/// "values" or "gradients"
+std::string to_string(Request request);
+
 /// history.csv: a line for every evaluation as it happens [SI].
 class HistoryCsv {
  public:

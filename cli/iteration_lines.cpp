@@ -28,7 +28,7 @@ IterationLines::IterationLines(std::FILE* out, const ProblemFile& problem)
 
 void IterationLines::see(const EvaluationRecord& record) {
   step_ = std::max(step_, record.step);
-  if (!record.failure.empty()) {
+  if (record.has_failed()) {
     fmt::print(out_, "  evaluation {} failed: {}\n", record.evaluation,
                first_clause(record.failure));
   } else if (record.iteration > iteration_) {

@@ -12,6 +12,8 @@ namespace pleuel {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 Outcome run(const Arguments& arguments) {
   static const std::map<std::string, Outcome (*)(const Arguments&)> commands = {
       {"accuracy", run_accuracy}, {"backends", run_backends},   {"check", run_check},
@@ -23,10 +25,11 @@ Outcome run(const Arguments& arguments) {
 
 /// Errors of the lower floors begin with the JSON pointer; only we know the file.
 std::string with_file(const std::string& message, const Arguments& arguments) {
-  return message.starts_with("/") && !arguments.file.empty() &&
-                 !message.starts_with(arguments.file.string())
-             ? arguments.file.string() + ": " + message
-             : message;
+  const auto begins_with = [&](const fs::path& file) { return message.starts_with(file.string()); };
+  const bool names_file = arguments.file.empty() || begins_with(arguments.file) ||
+                          (arguments.design && begins_with(*arguments.design));
+  return message.starts_with("/") && !names_file ? arguments.file.string() + ": " + message
+                                                 : message;
 }
 
 int report_error(ExitCode code, const std::string& message, bool wants_json) {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.hpp"
+#include "cli/failed_design.hpp"
 #include "cli/history_csv.hpp"
 #include "cli/iteration_lines.hpp"
 #include "cli/optimum_document.hpp"
@@ -15,16 +16,24 @@ namespace pleuel {
 
 namespace {
 
-/// Simulates a design for its trajectory file and gives the values of its responses.
-Eigen::VectorXd write_design(const std::filesystem::path& path, const ProblemFile& problem,
-                             const Eigen::VectorXd& x) {
-  const auto analysis = analyze(problem, x);
-  write_trajectory(path, *analysis);
-  Eigen::VectorXd values(static_cast<Eigen::Index>(analysis->reductions.size()));
-  for (std::size_t i = 0; i < analysis->reductions.size(); ++i) {
-    values(static_cast<Eigen::Index>(i)) = analysis->reductions[i].value;
+Eigen::VectorXd values_of(const Analysis& analysis) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(analysis.reductions.size()));
+  for (std::size_t i = 0; i < analysis.reductions.size(); ++i) {
+    values(static_cast<Eigen::Index>(i)) = analysis.reductions[i].value;
   }
   return values;
+}
+
+/// Simulates the first and the last design for their trajectory files and for what is reported of
+/// them.
+void examine_designs(const RunRecord& record, Optimum& optimum) {
+  const auto start = analyze(optimum.problem, start_design(optimum.problem));
+  write_trajectory(record.folder() / "trajectory-start.csv", *start);
+  optimum.start_responses = values_of(*start);
+  const auto end = analyze(optimum.problem, optimum.result.x);
+  write_trajectory(record.folder() / "trajectory-optimum.csv", *end);
+  optimum.responses = values_of(*end);
+  optimum.monitors = monitor(end->model, end->trajectory);
 }
 
 ExitCode exit_code(const Optimum& optimum) {
@@ -33,15 +42,18 @@ ExitCode exit_code(const Optimum& optimum) {
 }
 
 Result solve_visibly(DesignProblem& problem, const SolveOptions& options,
-                     const std::filesystem::path& folder, std::FILE* out) {
+                     const RunRecord& run_record, const Arguments& arguments) {
+  std::FILE* out = arguments.progress();
   fmt::print(out, "{}: minimize {} by {} variables under {} constraints, with {}\n\n",
              problem.file().name, problem.objective_name(), problem.variables().size(),
              problem.constraints().size(), options.backend);
-  HistoryCsv history(folder / "history.csv", problem);
+  HistoryCsv history(run_record.folder() / "history.csv", problem);
   IterationLines lines(out, problem.file());
   return solve_design(problem, options, [&](const EvaluationRecord& record) {
     history.add(record);
     lines.see(record);
+    if (!record.has_failed()) return;
+    write_failed_design(run_record, arguments, problem.file(), record);
   });
 }
 
@@ -59,17 +71,16 @@ Outcome run_optimize(const Arguments& arguments) {
   DesignProblem problem(input.problem);
   RunRecord record(arguments, input, options_document(options));
   record.begin_phase("optimize");
-  const Result result = solve_visibly(problem, options, record.folder(), arguments.progress());
-  Optimum optimum{input.problem, result, {}, {}};
+  const Result result = solve_visibly(problem, options, record, arguments);
+  Optimum optimum{input.problem, result, {}, {}, {}};
   if (optimum.has_design()) {
     record.begin_phase("trajectories");
-    optimum.start_responses = write_design(record.folder() / "trajectory-start.csv", input.problem,
-                                           start_design(input.problem));
-    optimum.responses =
-        write_design(record.folder() / "trajectory-optimum.csv", input.problem, result.x);
+    examine_designs(record, optimum);
   }
   const Outcome outcome{exit_code(optimum), optimum_document(optimum),
-                        optimum_report(optimum) + files_text(record, optimum)};
+                        optimum_report(optimum) +
+                            failed_design_text(record, arguments, result.history) +
+                            files_text(record, optimum)};
   record.finish(outcome);
   return outcome;
 }

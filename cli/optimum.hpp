@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cli/shown_unit.hpp"
+#include "core/response/monitors.hpp"
 #include "optimization/solve.hpp"
 
 namespace pleuel {
@@ -14,6 +15,7 @@ struct Optimum {
   const Result& result;
   /// Values of all responses; empty if the start cannot be simulated.
   Eigen::VectorXd start_responses, responses;
+  Monitors monitors;  ///< of the last design; likewise
 
   bool has_design() const { return result.evaluation.has_gradients(); }
 };

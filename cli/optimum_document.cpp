@@ -1,5 +1,7 @@
 #include "cli/optimum_document.hpp"
 
+#include "cli/monitors_report.hpp"
+#include "cli/scene_report.hpp"
 #include "core/scene/response_quantity.hpp"
 
 namespace pleuel {
@@ -12,20 +14,6 @@ Json objective_document(const Optimum& optimum) {
   if (!optimum.has_design()) return document;
   document["value"] = optimum.result.evaluation.objective;
   document["start"] = optimum.result.history.front().objective;
-  return document;
-}
-
-Json variables_document(const Optimum& optimum) {
-  const std::vector<ShownUnit> units = variable_units(optimum.problem);
-  Json document = Json::object();
-  for (std::size_t i = 0; i < optimum.problem.variables.size(); ++i) {
-    const DesignVariable& variable = optimum.problem.variables[i];
-    document[variable.name] = {{"value", optimum.result.x(static_cast<Eigen::Index>(i))},
-                               {"unit", units[i].si},
-                               {"lower", variable.lower},
-                               {"upper", variable.upper},
-                               {"start", variable.start}};
-  }
   return document;
 }
 
@@ -63,7 +51,7 @@ Json optimum_document(const Optimum& optimum) {
                    {"message", result.message},
                    {"backend", result.backend},
                    {"objective", objective_document(optimum)},
-                   {"variables", variables_document(optimum)},
+                   {"variables", variables_document(optimum.problem, result.x)},
                    {"constraints", Json::object()}};
   if (optimum.has_design()) {
     for (std::size_t i = 0; i < optimum.problem.constraints.size(); ++i) {
@@ -71,10 +59,12 @@ Json optimum_document(const Optimum& optimum) {
           constraint_document(optimum, i);
     }
     document["responses"] = responses_document(optimum);
+    document["monitors"] = monitors_document(optimum.monitors);
   }
   document["kkt_residual"] = result.kkt_residual;
   document["max_violation"] = result.max_violation;
   document["evaluations"] = result.evaluations;
+  document["failed_evaluations"] = count_failures(result.history);
   document["gradient_evaluations"] = result.gradient_evaluations;
   document["iterations"] = result.iterations;
   document["restarts"] = result.restarts;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/monitors_report.hpp"
 #include "cli/number_text.hpp"
 #include "cli/table.hpp"
 
@@ -121,8 +122,8 @@ std::string optimum_report(const Optimum& optimum) {
   const std::string status = "\n" + status_text(optimum.result) + "\n";
   if (!optimum.has_design()) return status;
   return status + "\n" + objective_text(optimum) + "\n" + variables_text(optimum) +
-         constraints_text(optimum) + "\n" + residuals_text(optimum.result) +
-         effort_text(optimum.result);
+         constraints_text(optimum) + "\n" + bending_text(optimum.monitors) +
+         residuals_text(optimum.result) + effort_text(optimum.result);
 }
 
 }  // namespace pleuel

@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "cli/design_file.hpp"
 #include "core/model/effect_estimates.hpp"
+#include "core/response/response.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/scene/reading/override.hpp"
 
@@ -48,20 +50,22 @@ void note_unstable_scheme(const ProblemInput& input) {
              input.file.string());
 }
 
-ProblemInput read_file(const std::filesystem::path& file,
-                       const std::vector<std::string>& overrides) {
+ProblemInput read_file(const std::filesystem::path& file, const Arguments& arguments) {
   ProblemInput input;
   input.file = file;
-  input.problem = read_problem(file, overrides);
+  input.problem = read_problem(file, arguments.overrides);
+  input.design = arguments.design ? read_design(*arguments.design, input.problem)
+                                  : start_design(input.problem);
   estimate_effects(input.problem);
   const std::string text = read_text(file);
   input.effective = parse_json(text, file.string());
   Fingerprint fingerprint;
   fingerprint.add(text);
-  for (const std::string& assignment : overrides) {
+  for (const std::string& assignment : arguments.overrides) {
     apply_override(input.effective, assignment, file.string());
     fingerprint.add(assignment);
   }
+  if (arguments.design) fingerprint.add(read_text(*arguments.design));
   input.hash = fingerprint.text();
   note_unstable_scheme(input);
   return input;
@@ -70,12 +74,12 @@ ProblemInput read_file(const std::filesystem::path& file,
 }  // namespace
 
 ProblemInput read_input(const Arguments& arguments) {
-  return read_file(arguments.file, arguments.overrides);
+  return read_file(arguments.file, arguments);
 }
 
 std::vector<ProblemInput> read_inputs(const Arguments& arguments) {
   std::vector<ProblemInput> inputs;
-  for (const auto& file : arguments.files) inputs.push_back(read_file(file, arguments.overrides));
+  for (const auto& file : arguments.files) inputs.push_back(read_file(file, arguments));
   return inputs;
 }
 

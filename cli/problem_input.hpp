@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "cli/arguments.hpp"
 #include "cli/json.hpp"
 #include "core/scene/problem_file.hpp"
@@ -14,8 +16,9 @@ namespace pleuel {
 struct ProblemInput {
   std::filesystem::path file;
   ProblemFile problem;
-  Json effective;    ///< the file with all overrides applied
-  std::string hash;  ///< of the file's text and the overrides: "fnv1a64:…"
+  Eigen::VectorXd design;  ///< [SI]: that of --design, else the start
+  Json effective;          ///< the file with all overrides applied
+  std::string hash;        ///< of the file's text, the overrides and another design: "fnv1a64:…"
 };
 
 /// The file of a command that takes one. @throws InputError

@@ -18,7 +18,7 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* card_name = "run_card.json";
 
 /// Everything that a run of any command may leave.
-constexpr std::array<const char*, 10> result_names = {"history.csv",
+constexpr std::array<const char*, 11> result_names = {"history.csv",
                                                       "result.json",
                                                       "trajectory.csv",
                                                       "trajectory-start.csv",
@@ -27,6 +27,7 @@ constexpr std::array<const char*, 10> result_names = {"history.csv",
                                                       "accuracy.csv",
                                                       "stability.csv",
                                                       "uncertainty.csv",
+                                                      "failed_design.json",
                                                       card_name};
 
 fs::path default_folder(const Arguments& arguments) {
@@ -66,7 +67,10 @@ void write_whole(const fs::path& path, const std::string& text) {
 }
 
 Json input_document(const ProblemInput& input, const Arguments& arguments) {
-  return {{"file", input.file.string()}, {"overrides", arguments.overrides}, {"hash", input.hash}};
+  Json document = {
+      {"file", input.file.string()}, {"overrides", arguments.overrides}, {"hash", input.hash}};
+  if (arguments.design) document["design"] = arguments.design->string();
+  return document;
 }
 
 double seconds_since(Clock::time_point begin) {
@@ -119,9 +123,13 @@ void RunRecord::end_phase() {
   phase_.clear();
 }
 
+void RunRecord::write(const std::string& name, const Json& document) const {
+  write_whole(folder_ / name, to_text(document));
+}
+
 void RunRecord::finish(const Outcome& outcome) {
   end_phase();
-  write_whole(folder_ / "result.json", to_text(outcome.document));
+  write("result.json", outcome.document);
   phases_["total"] = seconds_since(begin_);
   card_["finished"] = true;
   card_["exit_code"] = static_cast<int>(outcome.exit_code);
@@ -130,7 +138,7 @@ void RunRecord::finish(const Outcome& outcome) {
 }
 
 void RunRecord::write_card() {
-  write_whole(folder_ / card_name, to_text(card_));
+  write(card_name, card_);
 }
 
 }  // namespace pleuel

@@ -30,6 +30,9 @@ class RunRecord {
   /// Ends the phase before and begins another, for the wall times of the card.
   void begin_phase(const std::string& name);
 
+  /// Writes a document into the folder, in place of an earlier one of this name.
+  void write(const std::string& name, const Json& document) const;
+
   /// Writes result.json and the last card.
   void finish(const Outcome& outcome);
 

@@ -55,6 +55,20 @@ Json variables_document(const ProblemFile& problem) {
   return document;
 }
 
+Json variables_document(const ProblemFile& problem, const Eigen::VectorXd& x) {
+  const std::vector<ShownUnit> units = variable_units(problem);
+  Json document = Json::object();
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    const DesignVariable& variable = problem.variables[i];
+    document[variable.name] = {{"value", x(static_cast<Eigen::Index>(i))},
+                               {"unit", units[i].si},
+                               {"lower", variable.lower},
+                               {"upper", variable.upper},
+                               {"start", variable.start}};
+  }
+  return document;
+}
+
 std::string variables_text(const ProblemFile& problem) {
   const std::vector<ShownUnit> units = variable_units(problem);
   Table table({{"variable", Table::Align::left},

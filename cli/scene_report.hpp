@@ -14,6 +14,8 @@ std::string bodies_text(const Model& model);
 
 /// {NAME: {"start", "lower", "upper", "unit"}} [SI]
 Json variables_document(const ProblemFile& problem);
+/// {NAME: {"value", "unit", "lower", "upper", "start"}} [SI]: what read_design() reads.
+Json variables_document(const ProblemFile& problem, const Eigen::VectorXd& x);
 std::string variables_text(const ProblemFile& problem);
 
 }  // namespace pleuel

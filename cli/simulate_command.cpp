@@ -2,26 +2,16 @@
 
 #include "cli/analysis_report.hpp"
 #include "cli/commands.hpp"
+#include "cli/monitors_report.hpp"
 #include "cli/number_text.hpp"
 #include "cli/problem_input.hpp"
 #include "cli/run_record.hpp"
 #include "cli/stopwatch.hpp"
 #include "cli/trajectory_csv.hpp"
-#include "core/response/monitors.hpp"
 
 namespace pleuel {
 
 namespace {
-
-/// Elastic rotations [rad] beyond which deformation is not small.
-constexpr double small_rotation = 0.2;
-
-Json monitors_document(const Monitors& monitors) {
-  return {{"position_drift", monitors.position_drift},
-          {"velocity_drift", monitors.velocity_drift},
-          {"energy_error", monitors.energy_error},
-          {"elastic_rotation", monitors.elastic_rotation}};
-}
 
 Json simulation_document(const Analysis& analysis, const Monitors& monitors, double seconds) {
   const Trajectory& trajectory = analysis.trajectory;
@@ -38,30 +28,15 @@ Json simulation_document(const Analysis& analysis, const Monitors& monitors, dou
           {"multipliers", system.multipliers()}};
 }
 
-std::string monitors_text(const Monitors& monitors, int multipliers) {
-  std::string text;
-  if (multipliers > 0) {
-    text =
-        fmt::format("Joints and drives are kept to {} m or rad, their rates to {} m/s or rad/s.\n",
-                    magnitude(monitors.position_drift), magnitude(monitors.velocity_drift));
-  }
-  text += fmt::format("Energy is balanced to {} of the largest energy in the motion.\n",
-                      magnitude(monitors.energy_error));
-  if (monitors.elastic_rotation > small_rotation) {
-    text += fmt::format(
-        "\"{}\" bends until it has turned by {} rad against its frame: too far for linear "
-        "elasticity, which is good for some {:g} rad. Do not trust these numbers.\n",
-        monitors.most_bent, significant(monitors.elastic_rotation), small_rotation);
-  }
-  return text;
-}
-
-std::string simulation_text(const ProblemFile& problem, const Analysis& analysis,
-                            const Monitors& monitors, double seconds) {
+/// @param design  where it comes from, if it is not the start
+std::string simulation_text(const ProblemFile& problem, const std::string& design,
+                            const Analysis& analysis, const Monitors& monitors, double seconds) {
   const Trajectory& trajectory = analysis.trajectory;
-  std::string text = fmt::format(
-      "{}: {}\n\n{}\n{}", problem.name, size_text(analysis), responses_text(problem, analysis),
-      monitors_text(monitors, analysis.model.mechanism.system->multipliers()));
+  std::string text =
+      fmt::format("{}{}: {}\n\n{}\n{}", problem.name, design, size_text(analysis),
+                  responses_text(problem, analysis),
+                  monitors_text(monitors, analysis.model.mechanism.system->multipliers()) +
+                      bending_text(monitors));
   if (trajectory.split_steps > 0) {
     text += fmt::format(
         "Newton's method failed in {} steps, which were split; look there with a "
@@ -79,14 +54,15 @@ Outcome run_simulate(const Arguments& arguments) {
   RunRecord record(arguments, input, Json::object());
   record.begin_phase("simulate");
   const Stopwatch stopwatch;
-  const auto analysis = analyze(input.problem, start_design(input.problem));
+  const auto analysis = analyze(input.problem, input.design);
   const double seconds = stopwatch.seconds();
   record.begin_phase("monitor");
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
   record.begin_phase("write");
   write_trajectory(record.folder() / "trajectory.csv", *analysis);
+  const std::string design = arguments.design ? " at " + arguments.design->string() : "";
   Outcome outcome{ExitCode::done, simulation_document(*analysis, monitors, seconds),
-                  simulation_text(input.problem, *analysis, monitors, seconds)};
+                  simulation_text(input.problem, design, *analysis, monitors, seconds)};
   outcome.text += fmt::format("Written to {}: trajectory.csv, result.json, run_card.json\n",
                               record.folder().string());
   record.finish(outcome);

@@ -22,9 +22,18 @@ struct EvaluationRecord {
   double max_violation = 0.0;   ///< relative, see scaling.hpp
   double step = 0.0;            ///< ‖Δx / s‖∞ from the evaluation before
   double seconds = 0.0;         ///< wall time since the start of solve()
+
+  bool has_failed() const { return !failure.empty(); }
 };
 
 using History = std::vector<EvaluationRecord>;
+
+/// The number of evaluations that failed.
+inline int count_failures(const History& history) {
+  int count = 0;
+  for (const EvaluationRecord& record : history) count += record.has_failed() ? 1 : 0;
+  return count;
+}
 
 /// Sees every evaluation as it happens; may be empty.
 using Observer = std::function<void(const EvaluationRecord&)>;

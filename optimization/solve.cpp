@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -182,12 +183,12 @@ class Run {
   }
 
   std::string describe_failures() const {
-    const auto failed = [](const EvaluationRecord& record) { return !record.failure.empty(); };
     const History& history = cache_.history();
-    const auto last = std::find_if(history.rbegin(), history.rend(), failed);
+    const auto last =
+        std::find_if(history.rbegin(), history.rend(), std::mem_fn(&EvaluationRecord::has_failed));
     if (last == history.rend()) return "";
     return fmt::format("; {} of {} evaluations failed{}, the last with: {} (at {})",
-                       std::count_if(history.begin(), history.end(), failed), history.size(),
+                       count_failures(history), history.size(),
                        is_lost_ ? " and too many in a row" : "", last->failure,
                        describe_design(cache_.problem(), last->x));
   }

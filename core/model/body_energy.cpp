@@ -1,5 +1,6 @@
 #include "core/model/body_energy.hpp"
 
+#include <array>
 #include <cassert>
 
 #include "core/effects/floating_frame_body.hpp"
@@ -85,14 +86,112 @@ double kinetic_energy(const FrameMotion<double>& frame, double mass,
          0.5 * turning + omega.dot(spin) + 0.5 * elastic;
 }
 
+FrameMotion<double> frame_of(const BodyModel& body, const State& state) {
+  const int offset = body.frame.offset, size = body.frame.size();
+  return frame_motion<double>(body.frame, state.q.segment(offset, size),
+                              state.v.segment(offset, size), state.a.segment(offset, size));
+}
+
+/// Weighted derivatives of T and of the weight's potential by the integrals over the body.
+struct IntegralSlopes {
+  Vector3d first, first_rate;
+  Matrix3d second, second_rate;
+
+  IntegralSlopes(const FrameMotion<double>& frame, const Vector3d& gravity,
+                 const EnergyWeights& weights) {
+    const Vector3d& omega = frame.omega;
+    const Vector3d velocity = frame.A.transpose() * frame.r_dot;
+    first =
+        weights.kinetic * velocity.cross(omega) - weights.weight * (frame.A.transpose() * gravity);
+    first_rate = weights.kinetic * velocity;
+    second = 0.5 * weights.kinetic *
+             (omega.squaredNorm() * Matrix3d::Identity() - omega * omega.transpose());
+    second_rate = weights.kinetic * skew<double>(omega).transpose();
+  }
+};
+
+/// The part of the elastic coordinates.
+class ElasticGradient {
+ public:
+  ElasticGradient(const Invariants<double>& body, const IntegralSlopes& slopes,
+                  const EnergyWeights& weights)
+      : body_(body), slopes_(slopes), weights_(weights) {}
+
+  template <class Vector, class Gradient>
+  void add(const Vector& q, const Vector& v, Gradient by_q, Gradient by_v) const {
+    by_q += body_.shape.transpose() * slopes_.first;
+    by_v += body_.shape.transpose() * slopes_.first_rate;
+    for (int k = 0; k < 3; ++k) {
+      for (int l = 0; l < 3; ++l) {
+        const auto mixed = body_.mixed.row(3 * k + l).transpose();
+        by_q += (slopes_.second(k, l) + slopes_.second(l, k)) * mixed;
+        by_v += slopes_.second_rate(k, l) * mixed;
+      }
+    }
+    for (int row = 0; row < body_.size(); ++row) {
+      const auto begin = body_.pattern.row_start[static_cast<std::size_t>(row)];
+      const auto end = body_.pattern.row_start[static_cast<std::size_t>(row) + 1];
+      for (int i = begin; i < end; ++i) {
+        const int col = body_.pattern.column[static_cast<std::size_t>(i)];
+        const auto [qq, qv, vv] = forms(i);
+        by_q(row) += qq * q(col) + qv * v(col);
+        by_q(col) += qq * q(row);
+        by_v(row) += vv * v(col);
+        by_v(col) += vv * v(row) + qv * q(row);
+      }
+    }
+  }
+
+ private:
+  /// Weighted coefficients of q_row q_col, q_row v_col and v_row v_col.
+  std::array<double, 3> forms(int entry) const {
+    double qq = 0.5 * weights_.elastic * body_.stiffness(entry), qv = 0.0;
+    for (std::size_t p = 0; p < body_.pairs.size(); ++p) {
+      const auto [k, l] = body_.pairs[p];
+      const double moment = body_.moments(entry, static_cast<Eigen::Index>(p));
+      qq += slopes_.second(k, l) * moment;
+      qv += slopes_.second_rate(k, l) * moment;
+    }
+    return {qq, qv,
+            0.5 * weights_.kinetic * body_.mass_matrix(entry) +
+                weights_.dissipation * body_.damping(entry)};
+  }
+
+  const Invariants<double>& body_;
+  const IntegralSlopes& slopes_;
+  const EnergyWeights& weights_;
+};
+
+/// That of the frame's coordinates.
+template <class Gradient>
+void add_frame_gradient(const BodyModel& body, const FrameMotion<double>& frame,
+                        const MassDistribution& distribution, const Vector3d& gravity,
+                        const EnergyWeights& weights, Gradient by_q, Gradient by_v) {
+  const auto& [first, first_rate, second, B] = distribution;
+  const double mass = body.invariants.mass;
+  const Vector3d& omega = frame.omega;
+  const Vector3d relative = omega.cross(first) + first_rate;
+  const Vector3d velocity = frame.A.transpose() * frame.r_dot;
+  const Vector3d spin(B(1, 2) - B(2, 1), B(2, 0) - B(0, 2), B(0, 1) - B(1, 0));
+  const int k = body.frame.translations();
+  by_v.head(k) +=
+      weights.kinetic * body.frame.basis.transpose() * (mass * frame.r_dot + frame.A * relative);
+  by_q.head(k) -= weights.weight * mass * body.frame.basis.transpose() * gravity;
+  by_v.tail(body.frame.rotations()) +=
+      weights.kinetic * frame.G.transpose() *
+      (first.cross(velocity) + second.trace() * omega - second * omega + spin);
+  for (int i = 0; i < body.frame.rotations(); ++i) {
+    const Matrix3d& turn = frame.A_p[static_cast<std::size_t>(i)];
+    by_q(k + i) += weights.kinetic * frame.r_dot.dot(turn * relative) -
+                   weights.weight * gravity.dot(turn * first);
+  }
+}
+
 }  // namespace
 
-BodyEnergy body_energy(const BodyModel& body, const Vector3d& gravity, const State& state) {
-  const Invariants<double>& invariants = body.invariants;
-  const int offset = body.frame.offset, size = body.frame.size();
-  const auto frame =
-      frame_motion<double>(body.frame, state.q.segment(offset, size), state.v.segment(offset, size),
-                           state.a.segment(offset, size));
+BodyEnergy body_energy(const BodyModel& body, const Invariants<double>& invariants,
+                       const Vector3d& gravity, const State& state) {
+  const auto frame = frame_of(body, state);
   const auto q = state.q.segment(body.elastic_offset(), invariants.size());
   const auto v = state.v.segment(body.elastic_offset(), invariants.size());
   const ElasticForms forms(invariants, q, v);
@@ -105,10 +204,26 @@ BodyEnergy body_energy(const BodyModel& body, const Vector3d& gravity, const Sta
   return energy;
 }
 
+void add_energy_gradient(const BodyModel& body, const Vector3d& gravity, const State& state,
+                         const EnergyWeights& weights, Eigen::VectorXd& q, Eigen::VectorXd& v) {
+  const Invariants<double>& invariants = body.invariants;
+  const auto frame = frame_of(body, state);
+  const int offset = body.elastic_offset(), size = invariants.size();
+  const auto q_f = state.q.segment(offset, size), v_f = state.v.segment(offset, size);
+  const MassDistribution distribution =
+      mass_distribution(invariants, ElasticForms(invariants, q_f, v_f), q_f, v_f);
+  add_frame_gradient(body, frame, distribution, gravity, weights,
+                     q.segment(body.frame.offset, body.frame.size()),
+                     v.segment(body.frame.offset, body.frame.size()));
+  const IntegralSlopes slopes(frame, gravity, weights);
+  ElasticGradient(invariants, slopes, weights)
+      .add(q_f, v_f, q.segment(offset, size), v.segment(offset, size));
+}
+
 BodyEnergy energy_of_bodies(const Model& model, const State& state) {
   BodyEnergy sum;
   for (const BodyModel& body : model.bodies) {
-    const BodyEnergy energy = body_energy(body, model.gravity, state);
+    const BodyEnergy energy = body_energy(body, body.invariants, model.gravity, state);
     sum.kinetic += energy.kinetic;
     sum.elastic += energy.elastic;
     sum.weight += energy.weight;

@@ -16,13 +16,31 @@ struct BodyEnergy {
   double total() const { return kinetic + elastic + weight; }
 };
 
+/// Weights of a sum of what a body holds and loses.
+struct EnergyWeights {
+  double kinetic = 0.0, elastic = 0.0, weight = 0.0, dissipation = 0.0;
+
+  double sum(const BodyEnergy& energy) const {
+    return kinetic * energy.kinetic + elastic * energy.elastic + weight * energy.weight +
+           dissipation * energy.dissipation;
+  }
+};
+
 /// From the invariants (core/beam/invariants.hpp), in a formula that shares nothing with the
 /// residual of the body: with ṙ in body axes and p = p₀ + S q_f,
 ///     T = ½ m ṙ² + ṙ · (ω × c + S̄ q̇_f) + ½ ω · I ω + ω · ∫ρ p × ṗ + ½ q̇_fᵀ S_ff q̇_f
 /// (Shabana, Dynamics of Multibody Systems, ch. 5), c = c₀ + S̄ q_f and I = tr(M) 1 − M from the
 /// second moment M = ∫ρ p pᵀ.
-/// @param gravity  [m/s²], global axes
-BodyEnergy body_energy(const BodyModel& body, const Eigen::Vector3d& gravity, const State& state);
+/// All of it is linear in the invariants: with their derivatives in place of them it returns its
+/// own explicit design derivative.
+/// @param invariants  of the body, or their derivatives
+/// @param gravity     [m/s²], global axes
+BodyEnergy body_energy(const BodyModel& body, const Invariants<double>& invariants,
+                       const Eigen::Vector3d& gravity, const State& state);
+
+/// q, v += ∂(weighted sum of the energies of a body)/∂(q, v).
+void add_energy_gradient(const BodyModel& body, const Eigen::Vector3d& gravity, const State& state,
+                         const EnergyWeights& weights, Eigen::VectorXd& q, Eigen::VectorXd& v);
 
 /// The sum over all bodies.
 BodyEnergy energy_of_bodies(const Model& model, const State& state);

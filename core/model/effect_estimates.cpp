@@ -237,15 +237,16 @@ class Estimation {
     estimates.elasticity = change(d.displacement, d.acceleration);
     if (asks_for(problem_, body.name,
                  {ResponseType::stress, ResponseType::deflection, ResponseType::frequency,
-                  ResponseType::buckling})) {
+                  ResponseType::buckling, ResponseType::elastic_energy})) {
       estimates.elasticity = always;
     }
     estimates.axial_elasticity = change(d.axial, d.axial_acceleration);
-    if (asks_for(problem_, body.name, {ResponseType::stress, ResponseType::buckling})) {
+    if (asks_for(problem_, body.name,
+                 {ResponseType::stress, ResponseType::buckling, ResponseType::elastic_energy})) {
       estimates.axial_elasticity = always;
     }
     estimates.torsional_elasticity = change(d.twist, d.twist_acceleration);
-    if (asks_for(problem_, body.name, {ResponseType::stress})) {
+    if (asks_for(problem_, body.name, {ResponseType::stress, ResponseType::elastic_energy})) {
       estimates.torsional_elasticity = always;
     }
     estimates.geometric_stiffening = d.axial_force / euler_load(body, beam);

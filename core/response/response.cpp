@@ -7,7 +7,9 @@
 #include "core/base/error.hpp"
 #include "core/response/body_frequency.hpp"
 #include "core/response/buckling_signal.hpp"
+#include "core/response/drift_signal.hpp"
 #include "core/response/drive_signals.hpp"
+#include "core/response/energy_signals.hpp"
 #include "core/response/mechanism_modes.hpp"
 #include "core/response/motion_signals.hpp"
 #include "core/response/projected_signal.hpp"
@@ -71,6 +73,20 @@ class ResponseMaker {
         break;
       case ResponseType::reaction_moment:
         set_reaction(ReactionPart::Kind::moment);
+        break;
+      case ResponseType::kinetic_energy:
+        response_.signal = make_kinetic_energy_signal(model_, settings_.bodies);
+        break;
+      case ResponseType::elastic_energy:
+        response_.signal = make_elastic_energy_signal(model_, settings_.bodies);
+        break;
+      case ResponseType::energy_balance:
+        response_.signal = make_energy_and_power_signal(model_);
+        response_.is_balance = true;
+        break;
+      case ResponseType::constraint_drift:
+        if (model_.mechanism.system->multipliers() == 0) fail("the mechanism has no constraints");
+        response_.signal = make_drift_signal(model_, settings_.level);
         break;
     }
     return std::move(response_);
@@ -236,6 +252,16 @@ void set_rigid_mechanism(const ProblemFile& problem, const Eigen::VectorXd& x, A
   }
 }
 
+/// Reduces a history over time; that of a balance becomes the error at each instant.
+Reduction reduce_history(const Response& response, const Eigen::VectorXd& time,
+                         Eigen::MatrixXd& history) {
+  const StepRange range = response.steps(time);
+  if (!response.is_balance) return reduce(response.over_time, time, history, range);
+  Reduction reduction = reduce_balance(time, history, range);
+  history = balance_history(time, history, range);
+  return reduction;
+}
+
 /// The history of a response, measured against the rigid mechanism if need be.
 Eigen::MatrixXd history_of(const Response& response, const Analysis& analysis) {
   Eigen::MatrixXd history = observe(*response.signal, analysis.trajectory);
@@ -307,8 +333,7 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
     Eigen::MatrixXd history;
     if (response.signal) {
       history = history_of(response, *analysis);
-      const Eigen::VectorXd& time = analysis->trajectory.time;
-      reduction = reduce(response.over_time, time, history, response.steps(time));
+      reduction = reduce_history(response, analysis->trajectory.time, history);
     } else {
       reduction.value = response.constant;
     }

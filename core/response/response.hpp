@@ -24,6 +24,7 @@ struct Response {
   std::optional<int> mechanism_mode;
   /// Of a deflection against the rigid mechanism: which response of Analysis::rigid is taken off.
   std::optional<std::size_t> rigid_response;
+  bool is_balance = false;         ///< of energy: reduced by reduce_balance() instead
   std::optional<double> from, to;  ///< window of time that is reduced [s]
 
   /// The steps of a simulation that are reduced.

@@ -70,7 +70,11 @@ enum class ResponseType {
   reaction_force,
   reaction_moment,
   frequency,
-  buckling
+  buckling,
+  kinetic_energy,
+  elastic_energy,
+  energy_balance,
+  constraint_drift
 };
 enum class OverTime { max, min, max_abs, rms, mean, integral, final };
 
@@ -92,20 +96,25 @@ enum class DeflectionReference {
                    ///< loads
 };
 
+/// Whether constraints themselves or their rates are looked at.
+enum class DriftLevel { position, velocity };
+
 struct ResponseSettings {
   std::string name;
   ResponseType type = ResponseType::mass;
-  std::vector<std::string> bodies;  ///< mass: those counted (empty = all); else the one body
-  std::optional<int> segment;       ///< stress: only this segment, from 0
-  std::optional<double> station;    ///< stress: only at this place along the beam, 0 … 1
+  /// Mass: those counted; energies: the one that is counted (empty = all); else the one body.
+  std::vector<std::string> bodies;
+  std::optional<int> segment;     ///< stress: only this segment, from 0
+  std::optional<double> station;  ///< stress: only at this place along the beam, 0 … 1
   StressPart part = StressPart::von_mises;
   double at = 0.0;  ///< deflection, position …: place along the beam, 0 … 1
   DeflectionReference against = DeflectionReference::frame;
   /// deflection: 1 = local y, 2 = local z; deflection against the rigid mechanism, position,
   /// velocity, acceleration, reaction: 0 … 2 global axes, −1 = magnitude
   int direction = 1;
-  std::string joint;  ///< drive torque and power, reactions
-  int mode = 0;       ///< frequency: from 0 for the lowest
+  std::string joint;                        ///< drive torque and power, reactions
+  int mode = 0;                             ///< frequency: from 0 for the lowest
+  DriftLevel level = DriftLevel::position;  ///< constraint drift
   OverTime over_time = OverTime::max;
   std::optional<double> from, to;  ///< window of time [s]
 };

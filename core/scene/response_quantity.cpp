@@ -27,7 +27,12 @@ Quantity instant_quantity(const ResponseSettings& response) {
     case ResponseType::frequency:
       return quantities::angular_speed;
     case ResponseType::buckling:
+    case ResponseType::constraint_drift:
       return quantities::pure_number;
+    case ResponseType::kinetic_energy:
+    case ResponseType::elastic_energy:
+    case ResponseType::energy_balance:
+      return quantities::energy;
     case ResponseType::mass:
       break;
   }

@@ -197,7 +197,7 @@ const std::vector<DerivedQuantity>& time_integrals() {
   static const std::vector<DerivedQuantity> table = [] {
     std::vector<DerivedQuantity> rows = {{"1", "a time", "s"}, {"W", "an energy", "J"}};
     for (const Quantity& quantity :
-         {length, speed, acceleration, mass, stress, force, torque, angle, angular_speed}) {
+         {length, speed, acceleration, mass, stress, force, torque, energy, angle, angular_speed}) {
       rows.push_back({std::string(quantity.unit), fmt::format("{} times a time", quantity.name),
                       fmt::format("{} s", quantity.unit)});
     }

@@ -33,6 +33,7 @@ inline constexpr Quantity speed{"a speed", "m/s"};
 inline constexpr Quantity acceleration{"an acceleration", "m/s^2"};
 inline constexpr Quantity force{"a force", "N"};
 inline constexpr Quantity power{"a power", "W"};
+inline constexpr Quantity energy{"an energy", "J"};
 inline constexpr Quantity area{"an area", "m^2"};
 inline constexpr Quantity second_moment_of_area{"a second moment of area", "m^4"};
 inline constexpr Quantity torsional_shear{"a shear stress per torque", "1/m^3"};

@@ -72,6 +72,22 @@ TEST(Optimize, AStartThatCannotBeSimulatedIsASimulationFailure) {
   EXPECT_EQ(run.document().at("status"), "failed");
 }
 
+/// Rubber at 30 rad/s bends too far for linear elasticity, wherever one iteration leads.
+TEST(Optimize, SaysWhereLinearElasticityIsLeft) {
+  const TemporaryFolder folder;
+  const ProgramRun run =
+      run_program(folder.path(), {"optimize", problem("hard/soft_rod"), "--set",
+                                  "/scene/joints/bearing/drive/speed=30", "--set",
+                                  R"(/objective={"minimize": "rod_bow"})", "--set",
+                                  R"(/optimizer={"max_iterations": 1})"});
+  EXPECT_THAT(run.out, HasSubstr("too far for linear elasticity"));
+  const auto result =
+      nlohmann::json::parse(read_file(folder.path() / "runs/soft_rod-optimize/result.json"));
+  EXPECT_GT(result.at("monitors").at("elastic_rotation"), 0.2);
+  EXPECT_THAT(run_program(folder.path(), quick_optimization({})).out,
+              ::testing::Not(HasSubstr("linear elasticity")));
+}
+
 TEST(Optimize, BackendOfTheCommandLineWinsOverThatOfTheFile) {
   const TemporaryFolder folder;
   const ProgramRun run =

@@ -29,11 +29,17 @@ nlohmann::json ProgramRun::document() const {
 }
 
 ProgramRun run_program(const fs::path& folder, const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) line += quoted(word) + " ";
+  return run_line(folder, line);
+}
+
+ProgramRun run_line(const fs::path& folder, const std::string& line) {
   const TemporaryFolder streams;
   const fs::path out = streams.path() / "out", err = streams.path() / "err";
-  std::string command = fmt::format("cd {} && {}", quoted(folder.string()), quoted(PLEUEL_PROGRAM));
-  for (const std::string& word : words) command += " " + quoted(word);
-  command += fmt::format(" >{} 2>{}", quoted(out.string()), quoted(err.string()));
+  const std::string command =
+      fmt::format("cd {} && {} {} >{} 2>{}", quoted(folder.string()), quoted(PLEUEL_PROGRAM), line,
+                  quoted(out.string()), quoted(err.string()));
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
 }

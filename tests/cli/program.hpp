@@ -23,6 +23,9 @@ struct ProgramRun {
 /// Runs `pleuel words…` with this folder as the current one.
 ProgramRun run_program(const std::filesystem::path& folder, const std::vector<std::string>& words);
 
+/// The same with the words as a line for the shell.
+ProgramRun run_line(const std::filesystem::path& folder, const std::string& line);
+
 /// A problem file of the repository.
 std::string problem(const std::string& name);
 

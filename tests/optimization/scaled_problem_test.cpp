@@ -1,5 +1,8 @@
 #include "optimization/scaled_problem.hpp"
 
+#include <cmath>
+#include <functional>
+
 #include <gtest/gtest.h>
 
 #include "complex_step.hpp"
@@ -81,6 +84,33 @@ TEST_F(EveryKind, OfQuestionAboutOneDesignCostsOneEvaluation) {
   scaled_.evaluate(y, Request::values);
   scaled_.evaluate(y, Request::values_and_gradients);
   EXPECT_EQ(cache_.evaluations(), 2);  // the start is the other one
+}
+
+/// A NaN would make NLopt's MMA drop the constraint and report success.
+TEST(NumbersThatAreNotFinite, ReachNoBackend) {
+  const std::vector<std::function<void(Evaluation&)>> mishaps = {
+      [](Evaluation& evaluation) { evaluation.objective = infinity; },
+      [](Evaluation& evaluation) { evaluation.constraints[0] = std::nan(""); },
+      [](Evaluation& evaluation) { evaluation.objective_gradient[1] = std::nan(""); },
+      [](Evaluation& evaluation) { evaluation.constraint_jacobian(0, 2) = -infinity; }};
+  for (const auto& mishap : mishaps) {
+    KnownProblem known = cantilever();
+    const Eigen::VectorXd start = checked_start(known.problem);
+    FunctionProblem problem(known.problem.variables(), known.problem.constraints(),
+                            [&](const Eigen::VectorXd& x, Request request) {
+                              Evaluation evaluation = known.problem.evaluate(x, request);
+                              if (x != start) mishap(evaluation);
+                              return evaluation;
+                            });
+    const KnownDesign design{start, problem.evaluate(start, Request::values_and_gradients)};
+    const Eigen::VectorXd scales = variable_scales(problem, start);
+    EvaluationCache cache(
+        problem, design, {scales, constraint_scales(problem, design.evaluation, scales)}, {{}, {}});
+    ScaledProblem scaled(cache, design, {100, 100, 10, 30});
+    EXPECT_TRUE(scaled.evaluate(scaled.start(), Request::values_and_gradients));
+    EXPECT_FALSE(scaled.evaluate(1.1 * scaled.start(), Request::values_and_gradients));
+    EXPECT_EQ(count_failures(cache.history()), 1);
+  }
 }
 
 TEST(Observer, SeesEveryEvaluationAsItHappens) {

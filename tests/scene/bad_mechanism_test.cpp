@@ -328,7 +328,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadMechanism{
             "/responses/speed/type", R"("velocty")",
-            R"(/responses/speed/type must be "mass", "stress", "deflection", "position", "velocity", "acceleration", "drive-torque", "drive-force", "drive-power", "reaction-force", "reaction-moment", "frequency" or "buckling", got "velocty"; did you mean "velocity"?)"},
+            R"(/responses/speed/type must be "mass", "stress", "deflection", "position", "velocity", "acceleration", "drive-torque", "drive-force", "drive-power", "reaction-force", "reaction-moment", "frequency", "buckling", "kinetic-energy", "elastic-energy", "energy-balance" or "constraint-drift", got "velocty"; did you mean "velocity"?)"},
         BadMechanism{"/responses/speed/at", "remove",
                      R"(/responses/speed is missing the key "at")"},
         BadMechanism{
@@ -375,6 +375,18 @@ INSTANTIATE_TEST_SUITE_P(
             R"(/responses/axial/part must be "von-mises", "normal", "axial", "bending", "shear" or "utilization", got "tension")"},
         BadMechanism{"/responses/shear/at", "0.5",
                      R"(/responses/shear has both "segment" and "at")"},
+        BadMechanism{
+            "/responses/swing/body", R"("blok")",
+            R"(/responses/swing/body names the unknown body "blok"; did you mean "block"?)"},
+        BadMechanism{"/responses/spring/body", R"("strut")",
+                     R"(/responses/spring/body must name an elastic beam, but "strut" is rigid)"},
+        BadMechanism{"/responses/motion/over_time", "remove",
+                     R"(/responses/motion is missing the key "over_time")"},
+        BadMechanism{"/responses/missing/over_time", R"("max")",
+                     "/responses/missing/over_time is not for an energy-balance, which compares "
+                     "two times"},
+        BadMechanism{"/responses/drift/level", R"("speed")",
+                     R"(/responses/drift/level must be "position" or "velocity", got "speed")"},
         BadMechanism{"/responses/normal/at", "1.1",
                      "/responses/normal/at must be a place along the beam from 0 to 1, got 1.1"},
         BadMechanism{

@@ -111,7 +111,13 @@ Json good_mechanism() {
     "bending": {"type": "stress", "body": "arm", "part": "bending", "over_time": "max"},
     "shear": {"type": "stress", "body": "rod", "part": "shear", "segment": 1, "over_time": "max"},
     "use": {"type": "stress", "body": "arm", "part": "utilization", "over_time": "max"},
-    "strain": {"type": "stress", "body": "arm", "part": "von-mises", "over_time": "max"}
+    "strain": {"type": "stress", "body": "arm", "part": "von-mises", "over_time": "max"},
+    "motion": {"type": "kinetic-energy", "over_time": "max"},
+    "swing": {"type": "kinetic-energy", "body": "block", "over_time": "integral"},
+    "spring": {"type": "elastic-energy", "body": "arm", "over_time": "mean", "from": 0.05},
+    "missing": {"type": "energy-balance", "to": 0.05},
+    "drift": {"type": "constraint-drift", "over_time": "max-abs"},
+    "speed_drift": {"type": "constraint-drift", "level": "velocity", "over_time": "rms"}
   },
   "objective": {"minimize": "energy", "scale": "2 J"},
   "constraints": {

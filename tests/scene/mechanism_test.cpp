@@ -194,6 +194,19 @@ TEST_F(Mechanism, HasResponsesOfForcesAndStress) {
   EXPECT_EQ(response("strain").part, StressPart::von_mises);
 }
 
+TEST_F(Mechanism, HasResponsesOfEnergyAndErrors) {
+  EXPECT_EQ(response("motion").type, ResponseType::kinetic_energy);
+  EXPECT_TRUE(response("motion").bodies.empty());
+  EXPECT_THAT(response("swing").bodies, ElementsAre("block"));
+  EXPECT_EQ(response("spring").type, ResponseType::elastic_energy);
+  EXPECT_THAT(response("spring").bodies, ElementsAre("arm"));
+  EXPECT_EQ(response("missing").type, ResponseType::energy_balance);
+  EXPECT_EQ(response("missing").to, 0.05);
+  EXPECT_EQ(response("drift").type, ResponseType::constraint_drift);
+  EXPECT_EQ(response("drift").level, DriftLevel::position);
+  EXPECT_EQ(response("speed_drift").level, DriftLevel::velocity);
+}
+
 TEST_F(Mechanism, HasResponsesInWindowsOfTime) {
   EXPECT_DOUBLE_EQ(*response("jolt").from, 0.02);
   EXPECT_EQ(response("jolt").to, 0.1);
@@ -211,6 +224,10 @@ TEST_F(Mechanism, HasLimitsInTheUnitsOfItsResponses) {
   EXPECT_EQ(quantity_of(response("thrust")).unit, "N");
   EXPECT_EQ(quantity_of(response("jolt")).unit, "m/s^2");
   EXPECT_EQ(quantity_of(response("clamp")).unit, "N m");
+  EXPECT_EQ(quantity_of(response("motion")).unit, "J");
+  EXPECT_EQ(quantity_of(response("swing")).unit, "J s");
+  EXPECT_EQ(quantity_of(response("missing")).unit, "J");
+  EXPECT_EQ(quantity_of(response("drift")).unit, "1");
 }
 
 TEST_F(Mechanism, HasEffectsAndInitialState) {

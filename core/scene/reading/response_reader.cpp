@@ -188,6 +188,38 @@ void read_reaction(const JsonNode& node, const ResponseContext& context,
   read_history(node, context, response);
 }
 
+/// Kinetic or elastic, of one body or of all.
+void read_energy(const JsonNode& node, const ResponseContext& context, ResponseSettings& response) {
+  allow_history_keys(node, {"body"});
+  if (const auto body = node.find("body")) {
+    if (response.type == ResponseType::elastic_energy) {
+      read_elastic_beam(node, context.scene, response);
+    } else {
+      response.bodies = {read_body_name(*body, context.scene).name};
+    }
+  }
+  read_history(node, context, response);
+}
+
+void read_energy_balance(const JsonNode& node, const ResponseContext& context,
+                         ResponseSettings& response) {
+  node.allow_keys({"type", "from", "to", "over_time"});
+  if (const auto over_time = node.find("over_time")) {
+    over_time->fail("is not for an energy-balance, which compares two times");
+  }
+  response.over_time = OverTime::final;
+  read_window(node, context, response);
+}
+
+void read_drift(const JsonNode& node, const ResponseContext& context, ResponseSettings& response) {
+  allow_history_keys(node, {"level"});
+  if (const auto level = node.find("level")) {
+    response.level = read_choice<DriftLevel>(
+        *level, {{"position", DriftLevel::position}, {"velocity", DriftLevel::velocity}});
+  }
+  read_history(node, context, response);
+}
+
 // Responses without.
 
 void read_mass(const JsonNode& node, const Scene& scene, ResponseSettings& response) {
@@ -231,7 +263,11 @@ ResponseType read_response_type(const JsonNode& node) {
                                           {"reaction-force", ResponseType::reaction_force},
                                           {"reaction-moment", ResponseType::reaction_moment},
                                           {"frequency", ResponseType::frequency},
-                                          {"buckling", ResponseType::buckling}});
+                                          {"buckling", ResponseType::buckling},
+                                          {"kinetic-energy", ResponseType::kinetic_energy},
+                                          {"elastic-energy", ResponseType::elastic_energy},
+                                          {"energy-balance", ResponseType::energy_balance},
+                                          {"constraint-drift", ResponseType::constraint_drift}});
 }
 
 ResponseSettings read_response(const std::string& name, const JsonNode& node,
@@ -268,6 +304,16 @@ ResponseSettings read_response(const std::string& name, const JsonNode& node,
     case ResponseType::reaction_force:
     case ResponseType::reaction_moment:
       read_reaction(node, context, response);
+      break;
+    case ResponseType::kinetic_energy:
+    case ResponseType::elastic_energy:
+      read_energy(node, context, response);
+      break;
+    case ResponseType::energy_balance:
+      read_energy_balance(node, context, response);
+      break;
+    case ResponseType::constraint_drift:
+      read_drift(node, context, response);
       break;
   }
   return response;

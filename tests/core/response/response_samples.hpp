@@ -96,6 +96,32 @@ inline void add_joint_responses(const JointModel& joint, std::vector<ResponseSet
   }
 }
 
+inline void add_energy(ResponseType type, const std::vector<std::string>& bodies,
+                       std::vector<ResponseSettings>& all) {
+  ResponseSettings settings;
+  settings.type = type;
+  settings.bodies = bodies;
+  settings.name = (bodies.empty() ? "all" : bodies.front()) + " energy " +
+                  std::to_string(static_cast<int>(type));
+  all.push_back(settings);
+}
+
+inline void add_monitor_responses(const Model& model, std::vector<ResponseSettings>& all) {
+  for (ResponseType type : {ResponseType::kinetic_energy, ResponseType::elastic_energy}) {
+    add_energy(type, {}, all);
+    for (const BodyModel& body : model.bodies) add_energy(type, {body.name}, all);
+  }
+  add_energy(ResponseType::energy_balance, {}, all);
+  if (model.mechanism.system->multipliers() == 0) return;
+  ResponseSettings settings;
+  settings.type = ResponseType::constraint_drift;
+  for (DriftLevel level : {DriftLevel::position, DriftLevel::velocity}) {
+    settings.level = level;
+    settings.name = "drift " + std::to_string(static_cast<int>(level));
+    all.push_back(settings);
+  }
+}
+
 /// All responses with a history.
 inline std::vector<ResponseSettings> all_histories(const Model& model) {
   std::vector<ResponseSettings> all;
@@ -104,6 +130,7 @@ inline std::vector<ResponseSettings> all_histories(const Model& model) {
     add_motion_responses(body, all);
   }
   for (const JointModel& joint : model.joints) add_joint_responses(joint, all);
+  add_monitor_responses(model, all);
   return all;
 }
 

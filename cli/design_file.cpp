@@ -1,0 +1,57 @@
+#include "cli/design_file.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/shown_unit.hpp"
+#include "core/scene/reading/json_node.hpp"
+#include "core/scene/reading/text_file.hpp"
+
+namespace pleuel {
+
+namespace {
+
+void check_names(const JsonNode& variables, const ProblemFile& problem) {
+  std::vector<std::string> known;
+  for (const DesignVariable& variable : problem.variables) known.push_back(variable.name);
+  for (const auto& [name, member] : variables.members()) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    fail_unknown_name(variables, "design variable", name, known);
+  }
+}
+
+double read_value(const JsonNode& node, const DesignVariable& variable, const ShownUnit& unit) {
+  const auto written = node.find("unit");
+  if (written && written->text() != unit.si) {
+    written->fail_with_value(fmt::format("must be \"{}\" as in the problem", unit.si));
+  }
+  const JsonNode value = node.at("value");
+  const double x = value.number();
+  if (x < variable.lower || x > variable.upper) {
+    value.fail_with_value(
+        fmt::format("must lie within the bounds of {:g} to {:g}", variable.lower, variable.upper));
+  }
+  return x;
+}
+
+}  // namespace
+
+Eigen::VectorXd read_design(const std::filesystem::path& path, const ProblemFile& problem) {
+  const std::string file = path.string();
+  const Json document = parse_json(read_text_file(path), file);
+  const JsonNode root(document, file, "", "the design");
+  const JsonNode variables = root.at("variables");
+  check_names(variables, problem);
+  const std::vector<ShownUnit> units = variable_units(problem);
+  Eigen::VectorXd x(static_cast<Eigen::Index>(problem.variables.size()));
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    const DesignVariable& variable = problem.variables[i];
+    x(static_cast<Eigen::Index>(i)) = read_value(variables.at(variable.name), variable, units[i]);
+  }
+  return x;
+}
+
+}  // namespace pleuel

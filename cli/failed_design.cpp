@@ -1,0 +1,62 @@
+#include "cli/failed_design.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "cli/history_csv.hpp"
+#include "cli/scene_report.hpp"
+
+namespace pleuel {
+
+namespace {
+
+constexpr const char* file_name = "failed_design.json";
+
+/// A word as a shell wants it.
+std::string quoted(const std::string& word) {
+  constexpr const char* harmless =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./=:,@%";
+  if (!word.empty() && word.find_first_not_of(harmless) == std::string::npos) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+/// For the folder in which the optimization was called. Where gradients were asked for, they are
+/// what may have failed.
+std::string command_again(const RunRecord& record, const Arguments& arguments,
+                          const EvaluationRecord& failed) {
+  std::string command = failed.request == Request::values ? "pleuel simulate " : "pleuel gradient ";
+  command += quoted(arguments.file.string());
+  for (const std::string& assignment : arguments.overrides) {
+    command += " --set " + quoted(assignment);
+  }
+  return command + " --design " + quoted((record.folder() / file_name).string());
+}
+
+}  // namespace
+
+void write_failed_design(const RunRecord& record, const Arguments& arguments,
+                         const ProblemFile& problem, const EvaluationRecord& failed) {
+  record.write(file_name, {{"evaluation", failed.evaluation},
+                           {"request", to_string(failed.request)},
+                           {"failure", failed.failure},
+                           {"command", command_again(record, arguments, failed)},
+                           {"variables", variables_document(problem, failed.x)}});
+}
+
+std::string failed_design_text(const RunRecord& record, const Arguments& arguments,
+                               const History& history) {
+  const auto last =
+      std::find_if(history.rbegin(), history.rend(), std::mem_fn(&EvaluationRecord::has_failed));
+  if (last == history.rend()) return "";
+  return fmt::format(
+      "{} of {} evaluations failed; the last such design is in {}, and this runs it again:\n"
+      "  {}\n",
+      count_failures(history), history.size(), (record.folder() / file_name).string(),
+      command_again(record, arguments, *last));
+}
+
+}  // namespace pleuel

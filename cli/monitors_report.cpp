@@ -1,0 +1,42 @@
+#include "cli/monitors_report.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/number_text.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Elastic rotations [rad] beyond which deformation is not small.
+constexpr double small_rotation = 0.2;
+
+}  // namespace
+
+Json monitors_document(const Monitors& monitors) {
+  return {{"position_drift", monitors.position_drift},
+          {"velocity_drift", monitors.velocity_drift},
+          {"energy_error", monitors.energy_error},
+          {"elastic_rotation", monitors.elastic_rotation}};
+}
+
+std::string monitors_text(const Monitors& monitors, int multipliers) {
+  std::string text;
+  if (multipliers > 0) {
+    text =
+        fmt::format("Joints and drives are kept to {} m or rad, their rates to {} m/s or rad/s.\n",
+                    magnitude(monitors.position_drift), magnitude(monitors.velocity_drift));
+  }
+  return text + fmt::format("Energy is balanced to {} of the largest energy in the motion.\n",
+                            magnitude(monitors.energy_error));
+}
+
+std::string bending_text(const Monitors& monitors) {
+  if (monitors.elastic_rotation <= small_rotation) return "";
+  return fmt::format(
+      "\"{}\" bends until it has turned by {} rad against its frame: too far for linear "
+      "elasticity, which is good for some {:g} rad. Do not trust these numbers.\n",
+      monitors.most_bent, significant(monitors.elastic_rotation), small_rotation);
+}
+
+}  // namespace pleuel

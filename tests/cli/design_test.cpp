@@ -1,0 +1,133 @@
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "tests/cli/program.hpp"
+
+/// Designs that an optimization leaves, run again with --design.
+namespace pleuel::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+nlohmann::json read_json(const fs::path& path) {
+  return nlohmann::json::parse(read_file(path));
+}
+
+/// The words of a command behind the name of the program.
+std::string without_program(const std::string& command) {
+  EXPECT_THAT(command, ::testing::StartsWith("pleuel "));
+  return command.substr(command.find(' ') + 1);
+}
+
+class FailedDesign : public testing::Test {
+ protected:
+  ProgramRun optimize(const std::string& start) const {
+    return run_program(folder_.path(), {"optimize", problem("hard/impossible_designs"), "-o", "run",
+                                        "--set", "/variables/crank_length/start=" + start});
+  }
+  nlohmann::json dossier() const { return read_json(folder_.path() / "run/failed_design.json"); }
+
+  const TemporaryFolder folder_;
+};
+
+TEST_F(FailedDesign, OfAStartIsKeptWithTheCommandThatMeetsTheSameFailure) {
+  const ProgramRun run = optimize("120 mm");
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  EXPECT_EQ(dossier().at("evaluation"), 1);
+  EXPECT_EQ(dossier().at("variables").at("crank_length").at("value"), 0.12);
+  EXPECT_EQ(dossier().at("variables").at("crank_length").at("unit"), "m");
+  const std::string command = dossier().at("command");
+  EXPECT_THAT(run.out, HasSubstr("run/failed_design.json"));
+  EXPECT_THAT(run.out, HasSubstr(command));
+  const ProgramRun again = run_line(folder_.path(), without_program(command));
+  EXPECT_EQ(again.exit_code, 3);
+  EXPECT_EQ(again.err, "pleuel: " + dossier().at("failure").get<std::string>() + "\n");
+}
+
+/// The last failure of a search that found its optimum all the same.
+TEST_F(FailedDesign, OfASearchIsTheLastOneOfItsHistory) {
+  const ProgramRun run = optimize("30 mm");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const auto history = read_csv(folder_.path() / "run/history.csv");
+  int failures = 0;
+  std::vector<std::string> last;
+  for (const auto& row : history) {
+    const bool is_failure = row != history.front() && row.size() >= history.front().size();
+    failures += is_failure ? 1 : 0;
+    if (is_failure) last = row;
+  }
+  ASSERT_GT(failures, 0);
+  EXPECT_EQ(dossier().at("evaluation"), std::stoi(last.front()));
+  const nlohmann::json result = read_json(folder_.path() / "run/result.json");
+  EXPECT_EQ(result.at("failed_evaluations"), failures);
+  const ProgramRun again =
+      run_line(folder_.path(), without_program(dossier().at("command").get<std::string>()));
+  EXPECT_EQ(again.err, "pleuel: " + dossier().at("failure").get<std::string>() + "\n");
+}
+
+TEST_F(FailedDesign, IsNotThereWhereNoneFailed) {
+  EXPECT_EQ(optimize("90 mm").exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder_.path() / "run/failed_design.json"));
+}
+
+/// Responses and gradients at the optimum, from its result.
+TEST_F(FailedDesign, OrAnyOtherOfAResultIsSimulatedExactly) {
+  ASSERT_EQ(optimize("90 mm").exit_code, 0);
+  const nlohmann::json optimum = read_json(folder_.path() / "run/result.json");
+  for (const char* command : {"simulate", "gradient", "check"}) {
+    const ProgramRun run =
+        run_program(folder_.path(), {command, problem("hard/impossible_designs"), "--set",
+                                     "/variables/crank_length/start=90 mm", "--design",
+                                     "run/result.json", "--json"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    for (const auto& [name, response] : optimum.at("responses").items()) {
+      EXPECT_EQ(run.document().at("responses").at(name).at("value"), response.at("value"))
+          << command << " " << name;
+    }
+  }
+}
+
+class WrongDesign : public testing::Test {
+ protected:
+  void expect_complaint(const std::string& design, const std::string& part) const {
+    std::ofstream(folder_.path() / "design.json") << design;
+    const ProgramRun run =
+        run_program(folder_.path(), {"simulate", problem("hard/impossible_designs"), "--design",
+                                     (folder_.path() / "design.json").string()});
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_EQ(run.err, "pleuel: " + (folder_.path() / "design.json").string() + ": " + part + "\n");
+  }
+
+  const TemporaryFolder folder_;
+};
+
+TEST_F(WrongDesign, IsRefusedWithFileAndPlace) {
+  expect_complaint("{}", "the design is missing the key \"variables\"");
+  expect_complaint(R"({"variables": {"crank_length": {"value": 0.05}}})",
+                   "/variables is missing the key \"rod_height\"");
+  expect_complaint(
+      R"({"variables": {"crank_lenght": {"value": 0.05}, "rod_height": {"value": 0.01}}})",
+      "/variables names the unknown design variable \"crank_lenght\"; did you mean "
+      "\"crank_length\"?");
+  expect_complaint(R"({"variables": {"crank_length": {"start": 0.05}}})",
+                   "/variables/crank_length is missing the key \"value\"");
+  expect_complaint(R"({"variables": {"crank_length": {"value": "50 mm"}}})",
+                   "/variables/crank_length/value must be a number, got \"50 mm\"");
+  expect_complaint(R"({"variables": {"crank_length": {"value": 50, "unit": "mm"}}})",
+                   "/variables/crank_length/unit must be \"m\" as in the problem, got \"mm\"");
+  expect_complaint(R"({"variables": {"crank_length": {"value": 0.2}}})",
+                   "/variables/crank_length/value must lie within the bounds of 0.02 to 0.15, "
+                   "got 0.2");
+}
+
+TEST_F(WrongDesign, ThatIsNotThereIsNamed) {
+  const ProgramRun run = run_program(
+      folder_.path(), {"simulate", problem("hard/impossible_designs"), "--design", "nothing.json"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("nothing.json: there is no such file"));
+}
+
+}  // namespace
+}  // namespace pleuel::test
