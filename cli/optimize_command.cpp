@@ -72,7 +72,7 @@ Outcome run_optimize(const Arguments& arguments) {
   RunRecord record(arguments, input, options_document(options));
   record.begin_phase("optimize");
   const Result result = solve_visibly(problem, options, record, arguments);
-  Optimum optimum{input.problem, result, {}, {}, {}};
+  Optimum optimum{input.problem, result, {}, {}, {}, problem.method()};
   if (optimum.has_design()) {
     record.begin_phase("trajectories");
     examine_designs(record, optimum);

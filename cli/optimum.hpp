@@ -6,6 +6,7 @@
 #include "cli/shown_unit.hpp"
 #include "core/response/monitors.hpp"
 #include "optimization/solve.hpp"
+#include "sensitivity/method_choice.hpp"
 
 namespace pleuel {
 
@@ -15,7 +16,8 @@ struct Optimum {
   const Result& result;
   /// Values of all responses; empty if the start cannot be simulated.
   Eigen::VectorXd start_responses, responses;
-  Monitors monitors;  ///< of the last design; likewise
+  Monitors monitors;                   ///< of the last design; likewise
+  std::optional<MethodChoice> method;  ///< of the gradients; none if there was none
 
   bool has_design() const { return result.evaluation.has_gradients(); }
 };

@@ -68,6 +68,10 @@ Json optimum_document(const Optimum& optimum) {
   document["gradient_evaluations"] = result.gradient_evaluations;
   document["iterations"] = result.iterations;
   document["restarts"] = result.restarts;
+  if (optimum.method) {
+    document["gradients"] = {{"method", to_string(optimum.method->method)},
+                             {"reason", optimum.method->reason}};
+  }
   document["seconds"] = result.seconds;
   return document;
 }

@@ -110,9 +110,12 @@ std::string residuals_text(const Result& result) {
                      magnitude(result.kkt_residual), magnitude(result.max_violation));
 }
 
-std::string effort_text(const Result& result) {
-  return fmt::format("{}: {} evaluations, {} with gradients, {} restarts, {}\n", result.backend,
-                     result.evaluations, result.gradient_evaluations, result.restarts,
+std::string effort_text(const Optimum& optimum) {
+  const Result& result = optimum.result;
+  std::string gradients = "gradients";
+  if (optimum.method) gradients += fmt::format(" ({})", to_string(optimum.method->method));
+  return fmt::format("{}: {} evaluations, {} with {}, {} restarts, {}\n", result.backend,
+                     result.evaluations, result.gradient_evaluations, gradients, result.restarts,
                      duration(result.seconds));
 }
 
@@ -123,7 +126,7 @@ std::string optimum_report(const Optimum& optimum) {
   if (!optimum.has_design()) return status;
   return status + "\n" + objective_text(optimum) + "\n" + variables_text(optimum) +
          constraints_text(optimum) + "\n" + bending_text(optimum.monitors) +
-         residuals_text(optimum.result) + effort_text(optimum.result);
+         residuals_text(optimum.result) + effort_text(optimum);
 }
 
 }  // namespace pleuel

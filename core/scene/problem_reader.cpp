@@ -43,7 +43,7 @@ void read_settings(const JsonNode& root, const NumberReader& numbers, ProblemFil
     problem.accuracy = read_accuracy(*accuracy, numbers);
   }
   if (const auto uncertainty = root.find("uncertainty")) {
-    problem.uncertainty = read_uncertainty(*uncertainty, numbers);
+    problem.uncertainty = read_uncertainty(*uncertainty, numbers, problem.variables);
   }
 }
 

@@ -45,6 +45,37 @@ TEST(AccuracyCommand, MeasuresEveryCombination) {
   EXPECT_EQ(read_csv(folder.path() / "study/accuracy.csv").size(), 1u + 7u);  // and the reference
 }
 
+TEST(UncertaintyCommand, ReportsDeviationsAndWritesHistories) {
+  const TemporaryFolder folder;
+  const ProgramRun run =
+      run_program(folder.path(),
+                  joined({"uncertainty", problem("slider_crank_round"), "--json", "-o", "study",
+                          "--jobs", "2", "--set",
+                          R"(/uncertainty={"parameters": {"rod_diameter": {"deviation": "0.1 mm"}},
+                               "samples": 8})"},
+                         quick()));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json document = run.document();
+  EXPECT_EQ(document.at("samples"), 8);
+  EXPECT_EQ(document.at("parameters").at("rod_diameter").at("deviation"), 1e-4);
+  for (const auto& [name, response] : document.at("responses").items()) {
+    EXPECT_GE(response.at("deviation"), 0.0) << name;
+    EXPECT_EQ(response.at("bounds").size(), 2u);
+    EXPECT_TRUE(response.contains("sampled"));
+  }
+  const auto rows = read_csv(folder.path() / "study/uncertainty.csv");
+  EXPECT_EQ(rows.front().front(), "time");
+  EXPECT_EQ(rows.front().size(), 1u + 3 * 7);  // the mass has no history
+  EXPECT_GT(rows.size(), 10u);
+}
+
+TEST(UncertaintyCommand, AsksForItsSettings) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(folder.path(), {"uncertainty", problem("slider_crank_round")});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, testing::HasSubstr("/uncertainty is missing"));
+}
+
 TEST(StabilityCommand, TabulatesFilesTimesFormulations) {
   const TemporaryFolder folder;
   const ProgramRun run =

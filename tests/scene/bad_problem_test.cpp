@@ -35,7 +35,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadProblem{
             "/colour", "1",
-            R"(the problem has the unknown key "colour"; known are "$schema", "name", "description", "scene", "effects", "simulation", "variables", "responses", "objective", "constraints", "optimizer", "pareto" and "accuracy")"},
+            R"(the problem has the unknown key "colour"; known are "$schema", "name", "description", "scene", "effects", "simulation", "variables", "responses", "objective", "constraints", "optimizer", "pareto", "accuracy" and "uncertainty")"},
         BadProblem{
             "/scene/bodies/crank/section/heigth", "1",
             R"(/scene/bodies/crank/section has the unknown key "heigth"; did you mean "height"?)"},
@@ -60,8 +60,8 @@ INSTANTIATE_TEST_SUITE_P(
             "/effects/torsion", R"("on")",
             R"(/effects has the unknown key "torsion"; known are "spatial_motion", "geometric_stiffening", "rotary_inertia", "elasticity", "axial_elasticity", "torsional_elasticity" and "tolerance")"},
         BadProblem{
-            "/uncertainty", "{}",
-            R"(the problem has the unknown key "uncertainty"; known are "$schema", "name", "description", "scene", "effects", "simulation", "variables", "responses", "objective", "constraints", "optimizer", "pareto" and "accuracy")"},
+            "/robustness", "{}",
+            R"(the problem has the unknown key "robustness"; known are "$schema", "name", "description", "scene", "effects", "simulation", "variables", "responses", "objective", "constraints", "optimizer", "pareto", "accuracy" and "uncertainty")"},
         BadProblem{"/variables/width/lower", "remove",
                    R"(/variables/width is missing the key "lower")"},
         BadProblem{"/scene/joints/bearing/drive/ramp", "remove",
@@ -350,6 +350,23 @@ INSTANTIATE_TEST_SUITE_P(
         BadProblem{"/accuracy/error", "0",
                    "/accuracy/error must be greater than 0 and less than 1, got 0"},
         BadProblem{"/accuracy/steps/1", "0", "/accuracy/steps/1 must be positive [s], got 0"},
+        BadProblem{"/uncertainty", R"({"parameters": {}})",
+                   "/uncertainty/parameters must have at least one parameter"},
+        BadProblem{
+            "/uncertainty", R"({"parameters": {"wdth": {"deviation": "0.1 mm"}}})",
+            R"(/uncertainty/parameters/wdth names the unknown variable "wdth"; did you mean "width"?)"},
+        BadProblem{"/uncertainty",
+                   R"({"parameters": {"width": {"deviation": "1 mm", "interval": "1 mm"}}})",
+                   "/uncertainty/parameters/width must have either a deviation or an interval"},
+        BadProblem{"/uncertainty", R"({"parameters": {"width": {"deviation": 0}}})",
+                   "/uncertainty/parameters/width/deviation must be positive [m], got 0"},
+        BadProblem{
+            "/uncertainty", R"({"parameters": {"width": {"deviation": "7 mm"}}})",
+            "/uncertainty/parameters/width leads to -0.001 for /scene/bodies/crank/section/width, "
+            "which must be positive [m]"},
+        BadProblem{"/uncertainty",
+                   R"({"parameters": {"width": {"deviation": "1 mm"}}, "samples": 1})",
+                   "/uncertainty/samples must be a whole number from 2 to 10000000, got 1"},
         BadProblem{"/scene/joints/guide/axis", "[0, 0, 0]",
                    "/scene/joints/guide/axis must not be zero, got [0,0,0]"},
         BadProblem{"/scene/joints/guide/axis", "remove",

@@ -149,13 +149,31 @@ UncertainParameter read_parameter(const std::string& name, const JsonNode& node,
   return parameter;
 }
 
+/// The numbers of the scene that depend on the parameter must make sense in all of its range.
+void check_range(const JsonNode& node, const UncertainParameter& parameter,
+                 const DesignVariable& variable, const NumberReader& numbers) {
+  for (const VariableUse& use : numbers.uses()) {
+    if (use.number.variable != parameter.variable) continue;
+    for (const double sign : {-1.0, 1.0}) {
+      const double value = use.number.constant +
+                           use.number.factor * (variable.start + sign * parameter.half_width());
+      if (is_within(use.range, value)) continue;
+      node.fail(fmt::format("leads to {:g} for {}, which {}", value, use.node.place(),
+                            rule_of(use.range, use.quantity)));
+    }
+  }
+}
+
 }  // namespace
 
-UncertaintySettings read_uncertainty(const JsonNode& node, const NumberReader& numbers) {
+UncertaintySettings read_uncertainty(const JsonNode& node, const NumberReader& numbers,
+                                     const std::vector<DesignVariable>& variables) {
   node.allow_keys({"parameters", "samples", "seed"});
   UncertaintySettings settings;
   for (const auto& [name, parameter] : node.at("parameters").members()) {
     settings.parameters.push_back(read_parameter(name, parameter, numbers));
+    const auto variable = static_cast<std::size_t>(settings.parameters.back().variable);
+    check_range(parameter, settings.parameters.back(), variables[variable], numbers);
   }
   if (settings.parameters.empty()) node.at("parameters").fail("must have at least one parameter");
   if (const auto samples = node.find("samples")) {

@@ -15,6 +15,7 @@ SimulationSettings read_simulation(const JsonNode& node, const NumberReader& num
 OptimizerSettings read_optimizer(const JsonNode& node);
 
 AccuracySettings read_accuracy(const JsonNode& node, const NumberReader& numbers);
-UncertaintySettings read_uncertainty(const JsonNode& node, const NumberReader& numbers);
+UncertaintySettings read_uncertainty(const JsonNode& node, const NumberReader& numbers,
+                                     const std::vector<DesignVariable>& variables);
 
 }  // namespace pleuel
