@@ -8,10 +8,18 @@
 
 #include "core/base/error.hpp"
 #include "core/integration/initial_state.hpp"
+#include "core/integration/jerk.hpp"
 #include "core/integration/linear_solver.hpp"
 #include "core/integration/step_equations.hpp"
 
 namespace pleuel {
+
+namespace {
+
+/// Steps that differ by less, relatively, are equal.
+constexpr double round_off_of_steps = 1e-6;
+
+}  // namespace
 
 void Trajectory::load(int step, State& state) const {
   state.time = time(step);
@@ -26,10 +34,25 @@ int step_count(const SimulationOptions& options) {
   return std::max(1, static_cast<int>(std::ceil(options.end_time / options.step * (1 - 1e-12))));
 }
 
-Scheme Trajectory::scheme_of(int step) const {
+double Trajectory::step_size(int step) const {
   const double h = time(step) - time(step - 1);
-  if (split_steps == 0 || std::abs(h - scheme.step) <= 1e-6 * scheme.step) return scheme;
-  return make_scheme(scheme_type, h, spectral_radius);
+  const double halved = std::ldexp(scheme.step, std::lround(std::log2(h / scheme.step)));
+  return std::abs(h - halved) <= round_off_of_steps * halved ? halved : h;
+}
+
+Scheme Trajectory::scheme_of(int step) const {
+  const double h = step_size(step);
+  const bool is_as_before =
+      step == 1 || std::abs(h - step_size(step - 1)) <= round_off_of_steps * h;
+  return is_as_before ? make_scheme(scheme_type, h, spectral_radius)
+                      : make_restarting_scheme(scheme_type, h, spectral_radius);
+}
+
+StartWeights Trajectory::start_weights() const {
+  if (lambda.rows() == 0) return {};
+  const Scheme first = scheme_of(1);
+  if (formulation.constraints != ConstraintForm::index_3) return {0.0, first.delay};
+  return {-first.local_error / step_size(1), first.delay};
 }
 
 namespace {
@@ -55,13 +78,17 @@ class TimeLoop {
         equation_names_(mechanism.equation_names),
         options_(options),
         steps_(step_count(options)),
-        scheme_(make_scheme(options.scheme, options.end_time / steps_, options.spectral_radius)),
+        scheme_(make_scheme(options.scheme, regular_step(), options.spectral_radius)),
         equations_(mechanism, scheme_, options.formulation),
         state_(equations_.make_state(initial_state(mechanism).state)),
         old_(state_),
         matrix_(equations_.make_matrix()),
         solver_(matrix_),
-        correction_(equations_.size()) {}
+        correction_(equations_.size()) {
+    if (system_.multipliers() > 0) {
+      jerk_ = ConstrainedJerk(mechanism, state_, regular_step()).value();
+    }
+  }
 
   Trajectory run() {
     allocate();
@@ -103,7 +130,6 @@ class TimeLoop {
 
   void store() {
     const Eigen::Index step = stored_++;
-    if (step == trajectory_.time.size()) make_room(step + steps_ / 8 + 64);
     trajectory_.time(step) = state_.time;
     trajectory_.q.col(step) = state_.q;
     trajectory_.v.col(step) = state_.v;
@@ -114,7 +140,7 @@ class TimeLoop {
 
   /// One step, or where Newton's method fails two of half the size.
   void advance_to(double time, int splits) {
-    if (splits > 0) use_step(time - state_.time);
+    use_step(time);
     predict(time);
     const std::optional<Failure> failure = correct(splits > 0);
     if (!failure) {
@@ -128,7 +154,6 @@ class TimeLoop {
       advance_to(middle, splits + 1);
       advance_to(time, splits + 1);
     }
-    if (splits == 1) use_step(regular_step());
   }
 
   /// Index 1 does not see how far its joints have come apart.
@@ -148,15 +173,27 @@ class TimeLoop {
 
   double regular_step() const { return options_.end_time / steps_; }
 
-  void use_step(double step) {
-    scheme_ = make_scheme(options_.scheme, step, options_.spectral_radius);
+  /// The scheme for a step to an instant.
+  void use_step(double time) {
+    if (stored_ == trajectory_.time.size()) make_room(stored_ + steps_ / 8 + 64);
+    trajectory_.time(stored_) = time;
+    scheme_ = trajectory_.scheme_of(static_cast<int>(stored_));
     equations_.set_scheme(scheme_);
+  }
+
+  /// So that multipliers have their order from the first step on.
+  void start() {
+    const StartWeights weights = trajectory_.start_weights();
+    if (weights.are_zero()) return;
+    old_.v = trajectory_.v.col(0) + weights.v * jerk_;
+    old_.w = trajectory_.a.col(0) + weights.w * jerk_;
   }
 
   /// y⁺ = history · y (for q as q ⊕ increment), then the correction that keeps the acceleration.
   void predict(double time) {
     const Eigen::Matrix4d& h = scheme_.history;
     old_ = state_;
+    if (stored_ == 1) start();
     equations_.begin(old_);
     state_.increment = h(0, 1) * old_.v + h(0, 2) * old_.a + h(0, 3) * old_.w;
     state_.v = h(1, 0) * old_.q + h(1, 1) * old_.v + h(1, 2) * old_.a + h(1, 3) * old_.w;
@@ -206,7 +243,7 @@ class TimeLoop {
       if (iteration > 1) {
         error = size * std::min(1.0, size / previous);
         if (iteration == 2) note_curvature(size / (previous * previous));
-      } else if (is_careful || step_ % curvature_interval == 1) {
+      } else if (is_careful || step_ <= 2 || step_ % curvature_interval == 1) {
         error = size;  // go on, to see the curvature
       }
       if (error <= options_.newton_tolerance) return std::nullopt;
@@ -261,6 +298,7 @@ class TimeLoop {
   System::Matrix matrix_;
   LinearSolver solver_;
   Eigen::VectorXd correction_, residual_;
+  Eigen::VectorXd jerk_;  ///< that the constraints prescribe at the start
   double curvature_ = std::numeric_limits<double>::infinity();
   int step_ = 0;             ///< regular step at work
   Eigen::Index stored_ = 0;  ///< instants of the trajectory
