@@ -36,7 +36,8 @@ int step_count(const SimulationOptions& options) {
 
 double Trajectory::step_size(int step) const {
   const double h = time(step) - time(step - 1);
-  const double halved = std::ldexp(scheme.step, std::lround(std::log2(h / scheme.step)));
+  const double halved =
+      std::ldexp(scheme.step, static_cast<int>(std::lround(std::log2(h / scheme.step))));
   return std::abs(h - halved) <= round_off_of_steps * halved ? halved : h;
 }
 
@@ -264,9 +265,15 @@ class TimeLoop {
   bool linearize() {
     equations_.linearize(state_, residual_, matrix_);
     if (!solver_.factorize(matrix_)) return false;
-    trajectory_.worst_condition =
-        std::max(trajectory_.worst_condition, 1.0 / solver_.reciprocal_condition());
+    note_condition();
     return true;
+  }
+
+  /// The costly estimate where the cheap one is worse than ever.
+  void note_condition() {
+    if (solver_.reciprocal_condition() > 0.5 * worst_pivots_) return;
+    worst_pivots_ = solver_.reciprocal_condition();
+    trajectory_.worst_condition = std::max(trajectory_.worst_condition, solver_.condition());
   }
 
   /// The equation that is met worst.
@@ -300,6 +307,7 @@ class TimeLoop {
   Eigen::VectorXd correction_, residual_;
   Eigen::VectorXd jerk_;  ///< that the constraints prescribe at the start
   double curvature_ = std::numeric_limits<double>::infinity();
+  double worst_pivots_ = std::numeric_limits<double>::infinity();
   int step_ = 0;             ///< regular step at work
   Eigen::Index stored_ = 0;  ///< instants of the trajectory
   Trajectory trajectory_;
