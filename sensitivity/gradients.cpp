@@ -130,9 +130,11 @@ Eigen::MatrixXd gradients(const ProblemFile& problem, const Eigen::VectorXd& x, 
     case GradientMethod::direct:
       return direct_gradients(analysis);
     case GradientMethod::forward_difference:
-      return forward_differences(problem, x, analysis, options.difference_step);
+      return forward_differences(with_steps_of(analysis.trajectory, problem), x, analysis,
+                                 options.difference_step);
     default:
-      return central_differences(problem, x, options.difference_step);
+      return central_differences(with_steps_of(analysis.trajectory, problem), x,
+                                 options.difference_step);
   }
 }
 

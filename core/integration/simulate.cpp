@@ -68,6 +68,18 @@ constexpr double most_drift = 1e-2;
 /// A step is halved so often at most.
 constexpr int max_splits = 6;
 
+/// Control of the local error halves a step so often at most, unless told otherwise.
+constexpr int usual_halvings = 10, most_halvings = 20;
+/// A step doubles where its error is so small, relative to what is allowed: it then is four times
+/// as large.
+constexpr double small_error = 0.15;
+
+int halvings(const SimulationOptions& options, double regular_step) {
+  if (options.smallest_step <= 0.0) return usual_halvings;
+  const double ratio = regular_step / options.smallest_step * (1 + 1e-12);
+  return std::clamp(static_cast<int>(std::floor(std::log2(ratio))), 0, most_halvings);
+}
+
 /// Every so many steps a second iteration is made to see how fast the method converges.
 constexpr int curvature_interval = 16;
 
@@ -85,7 +97,8 @@ class TimeLoop {
         old_(state_),
         matrix_(equations_.make_matrix()),
         solver_(matrix_),
-        correction_(equations_.size()) {
+        correction_(equations_.size()),
+        finest_level_(halvings(options, regular_step())) {
     if (system_.multipliers() > 0) {
       jerk_ = ConstrainedJerk(mechanism, state_, regular_step()).value();
     }
@@ -94,7 +107,11 @@ class TimeLoop {
   Trajectory run() {
     allocate();
     store();
-    for (step_ = 1; step_ <= steps_; ++step_) advance_to(options_.end_time * step_ / steps_, 0);
+    if (options_.instants.empty()) {
+      for (step_ = 1; step_ <= steps_; ++step_) advance_step(options_.end_time * step_ / steps_);
+    } else {
+      repeat(options_.instants);
+    }
     trim();
     trajectory_.factorizations = solver_.factorizations();
     return std::move(trajectory_);
@@ -137,6 +154,67 @@ class TimeLoop {
     trajectory_.a.col(step) = state_.a;
     trajectory_.lambda.col(step) = state_.lambda;
     trajectory_.eta.col(step) = state_.eta;
+  }
+
+  void repeat(const std::vector<double>& instants) {
+    for (std::size_t i = 1; i < instants.size(); ++i) {
+      step_ = static_cast<int>(std::ceil(instants[i] / regular_step() * (1 - 1e-12)));
+      advance_to(instants[i], 0);
+    }
+  }
+
+  void advance_step(double end) {
+    if (options_.local_error > 0.0) {
+      advance_controlled(end);
+    } else {
+      advance_to(end, 0);
+    }
+  }
+
+  /// A regular step in parts of 2^-level of it, each beginning at a multiple of its size, where the
+  /// level follows the local error.
+  void advance_controlled(double end) {
+    const double begin = state_.time;
+    const int whole = 1 << finest_level_;
+    for (int done = 0; done < whole;) {
+      while (done % (whole >> level_) != 0) ++level_;
+      const int next = done + (whole >> level_);
+      const double time = next == whole ? end : begin + (end - begin) * next / whole;
+      use_step(time);
+      predict(time);
+      const std::optional<Failure> failure = correct(false);
+      const double error = failure ? std::numeric_limits<double>::infinity() : relative_error();
+      if (error > 1.0) {
+        if (level_ == finest_level_) fail(failure, error);
+        state_ = old_;
+        ++level_;
+        ++trajectory_.rejected_steps;
+        continue;
+      }
+      check_drift();
+      store();
+      done = next;
+      if (level_ > 0 && error < small_error) --level_;
+    }
+  }
+
+  /// Error of a coordinate in a step, relative to its scale.
+  double error_of(Eigen::Index i) const {
+    return std::abs(state_.a(i) - old_.a(i)) / scale_(i) * std::abs(scheme_.local_error) /
+           scheme_.step;
+  }
+  Eigen::Index worst_coordinate() const {
+    Eigen::Index worst = 0;
+    for (Eigen::Index i = 1; i < scale_.size(); ++i) {
+      if (error_of(i) > error_of(worst)) worst = i;
+    }
+    return worst;
+  }
+
+  /// Local errors of a regular step in such parts, c h³ q⃛ each with q⃛ ≈ (a⁺ − a)/h, relative to
+  /// what is allowed.
+  double relative_error() const {
+    return error_of(worst_coordinate()) * (1 << level_) / options_.local_error;
   }
 
   /// One step, or where Newton's method fails two of half the size.
@@ -285,6 +363,18 @@ class TimeLoop {
     return index < equation_names_.size() ? " of " + equation_names_[index] : "";
   }
 
+  [[noreturn]] void fail(const std::optional<Failure>& failure, double error) const {
+    if (failure) fail(*failure);
+    const auto worst = static_cast<std::size_t>(worst_coordinate());
+    throw SimulationError(fmt::format(
+        "simulation stopped at t = {:.6g} s (step {} of {}): with a step of {:.3g} s the local "
+        "error"
+        "{} is still {:.3g} times what /simulation/local_error allows. Allow more, or a smaller "
+        "/simulation/smallest_step; or look for something that jumps there",
+        state_.time, step_, steps_, scheme_.step,
+        worst < equation_names_.size() ? " of " + equation_names_[worst] : "", error));
+  }
+
   [[noreturn]] void fail(const Failure& failure) const {
     throw SimulationError(fmt::format(
         "simulation stopped at t = {:.6g} s (step {} of {}, Newton iteration {}): {}, nor with a "
@@ -308,8 +398,9 @@ class TimeLoop {
   Eigen::VectorXd jerk_;  ///< that the constraints prescribe at the start
   double curvature_ = std::numeric_limits<double>::infinity();
   double worst_pivots_ = std::numeric_limits<double>::infinity();
-  int step_ = 0;             ///< regular step at work
-  Eigen::Index stored_ = 0;  ///< instants of the trajectory
+  int finest_level_, level_ = 0;  ///< of the parts of a regular step: 2^-level of it
+  int step_ = 0;                  ///< regular step at work
+  Eigen::Index stored_ = 0;       ///< instants of the trajectory
   Trajectory trajectory_;
 };
 

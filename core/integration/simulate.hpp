@@ -15,6 +15,13 @@ struct SimulationOptions {
   int max_newton_iterations = 20;
   SchemeType scheme = SchemeType::generalized_alpha;
   Formulation formulation = {};
+  /// What the local errors of the coordinates within one step may add up to, each relative to its
+  /// scale: steps are halved, again and again, until that holds. 0: all steps are equal.
+  /// Generalized-α only, and not index 3.
+  double local_error = 0.0;
+  double smallest_step = 0.0;  ///< of those halves [s]; 0: a 1024th of the step
+  /// To repeat a sequence of steps: the instants of another simulation, in place of control.
+  std::vector<double> instants = {};
 };
 
 /// With the jerk j that the constraints prescribe, the first step has v₀ + v j and a₀ + w j in
@@ -25,7 +32,7 @@ struct StartWeights {
 };
 
 /// All steps of a simulation; column i belongs to time(i). Steps are equal, but for those that had
-/// to be split.
+/// to be split or were made smaller by the control of the local error.
 struct Trajectory {
   Eigen::VectorXd time;
   Eigen::MatrixXd q, v, a;  ///< n × (steps + 1)
@@ -35,7 +42,8 @@ struct Trajectory {
   SchemeType scheme_type = SchemeType::generalized_alpha;
   double spectral_radius = 0.8;
   Formulation formulation = {};
-  int split_steps = 0;  ///< that Newton's method could not do: halved, which adds an instant
+  int split_steps = 0;     ///< that Newton's method could not do: halved, which adds an instant
+  int rejected_steps = 0;  ///< whose local error was too large: made again by halves
   double worst_condition = 0.0;  ///< of a step matrix, scaled: see LinearSolver
   int newton_iterations = 0;
   int factorizations = 0;

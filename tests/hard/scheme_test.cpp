@@ -28,6 +28,19 @@ TEST_P(SchemeHardCase, NeedsNoMoreNewtonIterationsAsTheStepFalls) {
   EXPECT_LE(before, 1.15) << "one a step, and a second look every sixteenth";
 }
 
+/// Scaled rows and unknowns: no step is worse conditioned than another by more than a factor of
+/// ten.
+TEST_P(SchemeHardCase, HasStepMatricesWhoseConditionDoesNotKnowTheStep) {
+  double least = 1e300, most = 0.0;
+  for (const double h : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
+    const double now =
+        run("dead_centres", {step_of(h), end_of(20 * h)})->trajectory.worst_condition;
+    least = std::min(least, now);
+    most = std::max(most, now);
+  }
+  EXPECT_LE(most, 10.0 * least) << most;
+}
+
 /// The crank bearing holds the centripetal force of crank and pin from the first instant on; within
 /// twenty steps of at most a microsecond the mechanism hardly moves. What index 3 errs in its
 /// multipliers is the round-off of its positions over h²: a tenth is left of them at 1e-8 s.
