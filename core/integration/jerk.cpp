@@ -9,11 +9,16 @@ namespace pleuel {
 namespace {
 
 constexpr auto level = ConstraintLevel::acceleration;
+/// D errs by O(τ) with the squares of accelerations, which are large where members start to ring.
+constexpr double interval_share = 1e-3;
 
 }  // namespace
 
-ConstrainedJerk::ConstrainedJerk(Mechanism& mechanism, const State& start, double interval)
-    : mechanism_(mechanism), system_(*mechanism.system), start_(start), interval_(interval) {
+ConstrainedJerk::ConstrainedJerk(Mechanism& mechanism, const State& start, double step)
+    : mechanism_(mechanism),
+      system_(*mechanism.system),
+      start_(start),
+      interval_(step * interval_share) {
   const int n = system_.coordinates(), m = system_.multipliers();
   Eigen::VectorXd before, after;
   system_.residual(start_, level, before);

@@ -15,9 +15,9 @@ namespace pleuel {
 /// is.
 class ConstrainedJerk {
  public:
-  /// @param interval  τ [s]
+  /// @param step  of the scheme [s]; τ is a thousandth of it
   /// @throws SimulationError if the equations are singular
-  ConstrainedJerk(Mechanism& mechanism, const State& start, double interval);
+  ConstrainedJerk(Mechanism& mechanism, const State& start, double step);
 
   /// j, n entries.
   const Eigen::VectorXd& value() const { return value_; }
