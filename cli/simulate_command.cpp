@@ -19,6 +19,7 @@ Json simulation_document(const Analysis& analysis, const Monitors& monitors, dou
   return {{"responses", responses_document(analysis)},
           {"steps", trajectory.steps()},
           {"split_steps", trajectory.split_steps},
+          {"rejected_steps", trajectory.rejected_steps},
           {"newton_iterations", trajectory.newton_iterations},
           {"factorizations", trajectory.factorizations},
           {"seconds", seconds},
@@ -26,6 +27,15 @@ Json simulation_document(const Analysis& analysis, const Monitors& monitors, dou
           {"effects", effects_document(analysis.model)},
           {"coordinates", system.coordinates()},
           {"multipliers", system.multipliers()}};
+}
+
+double smallest_step(const Trajectory& trajectory) {
+  const Eigen::Index steps = trajectory.steps();
+  return (trajectory.time.tail(steps) - trajectory.time.head(steps)).minCoeff();
+}
+double largest_step(const Trajectory& trajectory) {
+  const Eigen::Index steps = trajectory.steps();
+  return (trajectory.time.tail(steps) - trajectory.time.head(steps)).maxCoeff();
 }
 
 /// @param design  where it comes from, if it is not the start
@@ -42,6 +52,11 @@ std::string simulation_text(const ProblemFile& problem, const std::string& desig
         "Newton's method failed in {} steps, which were split; look there with a "
         "smaller /simulation/step.\n",
         trajectory.split_steps);
+  }
+  if (problem.simulation.local_error > 0.0) {
+    text += fmt::format("Steps from {} to {}, {} of them made again.\n",
+                        duration(smallest_step(trajectory)), duration(largest_step(trajectory)),
+                        trajectory.rejected_steps);
   }
   return text + fmt::format("{}, {} Newton iterations, {} factorizations\n", duration(seconds),
                             trajectory.newton_iterations, trajectory.factorizations);

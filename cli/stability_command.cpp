@@ -25,6 +25,7 @@ Json run_document(const StabilityRun& run) {
   document["position_drift"] = run.position_drift;
   document["velocity_drift"] = run.velocity_drift;
   document["energy_error"] = run.energy_error;
+  document["condition"] = run.condition;
   document["seconds"] = run.seconds;
   document["work"] = {{"steps", run.steps},
                       {"newton_iterations", run.newton_iterations},
@@ -46,15 +47,20 @@ class StabilityCsv {
  public:
   explicit StabilityCsv(const std::filesystem::path& path)
       : csv_(path, {"file", "formulation", "steps", "newton_iterations", "factorizations",
-                    "position_drift", "velocity_drift", "energy_error", "seconds", "failure"}) {}
+                    "position_drift", "velocity_drift", "energy_error", "condition", "seconds",
+                    "failure"}) {}
 
   void add(const StabilityRun& run) {
     csv_.add(run.file.string()).add(run.formulation);
     if (run.is_ok()) {
       csv_.add(run.steps).add(run.newton_iterations).add(run.factorizations);
-      csv_.add(run.position_drift).add(run.velocity_drift).add(run.energy_error).add(run.seconds);
+      csv_.add(run.position_drift)
+          .add(run.velocity_drift)
+          .add(run.energy_error)
+          .add(run.condition)
+          .add(run.seconds);
     } else {
-      for (int i = 0; i < 7; ++i) csv_.add(std::string());
+      for (int i = 0; i < 8; ++i) csv_.add(std::string());
     }
     csv_.add(run.failure);
     csv_.end_row();
@@ -70,10 +76,10 @@ std::vector<std::string> row(const StabilityRun& run) {
     cells.push_back("failed");
     return cells;
   }
-  cells.insert(cells.end(),
-               {"ok", magnitude(run.position_drift), magnitude(run.velocity_drift),
-                magnitude(run.energy_error), std::to_string(run.steps),
-                fmt::format("{:.2f}", run.iterations_per_step()), duration(run.seconds)});
+  cells.insert(cells.end(), {"ok", magnitude(run.position_drift), magnitude(run.velocity_drift),
+                             magnitude(run.energy_error), std::to_string(run.steps),
+                             fmt::format("{:.2f}", run.iterations_per_step()),
+                             magnitude(run.condition), duration(run.seconds)});
   return cells;
 }
 
@@ -86,6 +92,7 @@ std::string runs_text(const std::vector<StabilityRun>& runs) {
                {"energy error"},
                {"steps"},
                {"iterations a step"},
+               {"condition"},
                {"time"}});
   for (const StabilityRun& run : runs) table.add_row(row(run));
   return table.text();

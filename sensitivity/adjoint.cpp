@@ -4,6 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/integration/configuration.hpp"
+#include "core/integration/jerk.hpp"
 #include "core/integration/linear_solver.hpp"
 #include "core/integration/step_equations.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
@@ -42,14 +43,31 @@ class AdjointRun {
       if (active_ > 0) go_back(step);
       std::swap(static_cast<State&>(state_), static_cast<State&>(old_));
     }
-    derivatives(0, state_, adjoint_);
     const StateSensitivity start = initial_sensitivity(mechanism_, initial_state(mechanism_));
-    return system_.design_gradients(sums_) + start.q.transpose() * adjoint_.q +
-           start.v.transpose() * adjoint_.v + start.a.transpose() * adjoint_.a +
-           start.w.transpose() * adjoint_.w + start.lambda.transpose() * adjoint_.lambda;
+    const Eigen::MatrixXd of_steps =
+        system_.design_gradients(sums_) + along(start_of_steps(start), adjoint_);
+    adjoint_ = zero_adjoint(system_, static_cast<int>(sums_.cols()));
+    derivatives(0, state_, adjoint_);
+    return of_steps + along(start, adjoint_);
   }
 
  private:
+  /// The sensitivities from which the first step sets out.
+  StateSensitivity start_of_steps(StateSensitivity start) {
+    const StartWeights weights = trajectory_.start_weights();
+    if (weights.are_zero()) return start;
+    const ConstrainedJerk jerk(mechanism_, state_, trajectory_.scheme.step);
+    const Eigen::MatrixXd j = jerk.differentiate(start.q, start.v, start.a);
+    start.v += weights.v * j;
+    start.w += weights.w * j;
+    return start;
+  }
+
+  static Eigen::MatrixXd along(const StateSensitivity& s, const StateAdjoint& adjoint) {
+    return s.q.transpose() * adjoint.q + s.v.transpose() * adjoint.v + s.a.transpose() * adjoint.a +
+           s.w.transpose() * adjoint.w + s.lambda.transpose() * adjoint.lambda;
+  }
+
   /// From derivatives with respect to the end of a step to those with respect to its beginning.
   void go_back(int step) {
     prepare(step);
@@ -63,10 +81,8 @@ class AdjointRun {
   }
 
   void prepare(int step) {
-    if (trajectory_.split_steps > 0) {
-      scheme_ = trajectory_.scheme_of(step);
-      equations_.set_scheme(scheme_);
-    }
+    scheme_ = trajectory_.scheme_of(step);
+    equations_.set_scheme(scheme_);
     equations_.begin(old_);
     state_.increment = difference(mechanism_.rotations, state_.q, old_.q);
     state_.eta = trajectory_.eta.col(step);

@@ -4,6 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/integration/configuration.hpp"
+#include "core/integration/jerk.hpp"
 #include "core/integration/linear_solver.hpp"
 #include "core/integration/step_equations.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
@@ -15,7 +16,8 @@ namespace {
 class DirectDifferentiation {
  public:
   DirectDifferentiation(Mechanism& mechanism, const Trajectory& trajectory)
-      : system_(*mechanism.system),
+      : mechanism_(mechanism),
+        system_(*mechanism.system),
         rotations_(mechanism.rotations),
         trajectory_(trajectory),
         sensitivity_(initial_sensitivity(mechanism, initial_state(mechanism))),
@@ -29,11 +31,10 @@ class DirectDifferentiation {
   void run(const SensitivityObserver& observer) {
     trajectory_.load(0, state_);
     observer(0, state_, sensitivity_);
+    start();
     for (int step = 1; step <= trajectory_.steps(); ++step) {
-      if (trajectory_.split_steps > 0) {
-        scheme_ = trajectory_.scheme_of(step);
-        equations_.set_scheme(scheme_);
-      }
+      scheme_ = trajectory_.scheme_of(step);
+      equations_.set_scheme(scheme_);
       equations_.begin(state_);
       old_q_ = state_.q;
       trajectory_.load(step, state_);
@@ -46,6 +47,15 @@ class DirectDifferentiation {
   }
 
  private:
+  void start() {
+    const StartWeights weights = trajectory_.start_weights();
+    if (weights.are_zero()) return;
+    const ConstrainedJerk jerk(mechanism_, state_, trajectory_.scheme.step);
+    const Eigen::MatrixXd j = jerk.differentiate(sensitivity_.q, sensitivity_.v, sensitivity_.a);
+    sensitivity_.v += weights.v * j;
+    sensitivity_.w += weights.w * j;
+  }
+
   /// ŝ = history · s, then shifted along the correction to ŝ_q = 0: the unknown is s_q itself, in
   /// the rows of rotations T(Δ)⁻¹ s_q.
   void predict() {
@@ -85,6 +95,7 @@ class DirectDifferentiation {
     push_forward(rotations_, state_.increment, sensitivity_.q);
   }
 
+  Mechanism& mechanism_;
   System& system_;
   const Rotations& rotations_;
   const Trajectory& trajectory_;

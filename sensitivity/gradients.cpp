@@ -48,9 +48,11 @@ Eigen::MatrixXd gradients(const ProblemFile& problem, const Eigen::VectorXd& x, 
     case GradientMethod::adjoint:
       return sampled_gradients(analysis, values, ExactMethod::adjoint);
     case GradientMethod::forward_difference:
-      return forward_differences(problem, x, analysis, options.difference_step, options.threads);
+      return forward_differences(with_steps_of(analysis.trajectory, problem), x, analysis,
+                                 options.difference_step, options.threads);
     default:
-      return central_differences(problem, x, options.difference_step, options.threads);
+      return central_differences(with_steps_of(analysis.trajectory, problem), x,
+                                 options.difference_step, options.threads);
   }
 }
 

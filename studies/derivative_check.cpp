@@ -12,10 +12,11 @@ std::vector<DerivativeCheck> check_derivatives(const ProblemFile& problem, const
                                                Analysis& analysis,
                                                const std::function<void(double step)>& see_step) {
   const Eigen::MatrixXd direct = direct_gradients(analysis);
+  const ProblemFile repeated = with_steps_of(analysis.trajectory, problem);
   std::vector<DerivativeCheck> checks(analysis.responses.size(), {1e300, 0.0});
   for (const double step : {1e-5, 1e-6, 1e-4, 1e-7}) {
     see_step(step);
-    const Eigen::MatrixXd differences = central_differences(problem, x, step);
+    const Eigen::MatrixXd differences = central_differences(repeated, x, step);
     for (std::size_t i = 0; i < checks.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(i);
       const double error = gradient_error(direct.row(row), differences.row(row), x,

@@ -27,6 +27,7 @@ void measure(ProblemFile problem, StabilityRun& run) {
   run.steps = trajectory.steps();
   run.newton_iterations = trajectory.newton_iterations;
   run.factorizations = trajectory.factorizations;
+  run.condition = trajectory.worst_condition;
   const Monitors monitors = monitor(analysis->model, trajectory);
   run.position_drift = monitors.position_drift;
   run.velocity_drift = monitors.velocity_drift;

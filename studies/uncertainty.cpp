@@ -73,11 +73,11 @@ class Moments {
 class Study {
  public:
   Study(const ProblemFile& problem, const UncertaintySettings& settings)
-      : problem_(problem),
-        settings_(settings),
+      : settings_(settings),
         x_(start_design(problem)),
         deviations_(deviations_of(settings.parameters)),
-        analysis_(analyze(problem, x_)) {}
+        analysis_(analyze(problem, x_)),
+        with_same_steps_(with_steps_of(analysis_->trajectory, problem)) {}
 
   void linearize() {
     const auto begin = Clock::now();
@@ -109,7 +109,7 @@ class Study {
     for_each_in_parallel(settings_.samples, threads, [&](int i) {
       std::unique_ptr<Analysis> analysis;
       try {
-        analysis = analyze(problem_, designs[static_cast<std::size_t>(i)]);
+        analysis = analyze(with_same_steps_, designs[static_cast<std::size_t>(i)]);
       } catch (const SimulationError&) {
       }
       const std::lock_guard lock(mutex);
@@ -213,10 +213,10 @@ class Study {
     }
   }
 
-  const ProblemFile& problem_;
   const UncertaintySettings& settings_;
   Eigen::VectorXd x_, deviations_;
   std::unique_ptr<Analysis> analysis_;
+  ProblemFile with_same_steps_;
   UncertaintyStudy study_;
 };
 

@@ -7,7 +7,9 @@
 namespace pleuel {
 
 /// Sparse LU of matrices with one fixed pattern (KLU: Davis & Palamadai Natarajan 2010): the
-/// ordering once, then numeric refactorisation with the old pivots, re-pivoted when they are poor.
+/// ordering once, then numeric refactorisation with the old pivots. Rows and columns are scaled by
+/// powers of two. Pivots and scales are chosen anew where the condition has become worse by a lot,
+/// pivots also where the residual of a solution shows that they are poor.
 class LinearSolver {
  public:
   using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
@@ -19,14 +21,23 @@ class LinearSolver {
   /// @returns false if the matrix is singular or not finite
   [[nodiscard]] bool factorize(const Matrix& matrix);
 
-  /// rhs ← A⁻¹ rhs, all columns as one block.
+  /// rhs ← A⁻¹ rhs, all columns as one block; one step of iterative refinement where the residual
+  /// is more than round-off. Allocates only if there are more columns than before.
   void solve(Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> rhs);
 
-  /// rhs ← A⁻ᵀ rhs.
+  /// rhs ← A⁻ᵀ rhs, likewise.
   void solve_transposed(Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> rhs);
 
-  /// Cheap estimate of 1/condition from the pivots of the last factorisation.
+  /// max |b − A x| / (max |a_ij| Σ|x| + max |b|) of the scaled equations, the worst column of the
+  /// last solution.
+  double backward_error() const;
+
+  /// Cheap estimate of 1/condition of the scaled matrix from the pivots of the last factorisation.
   double reciprocal_condition() const;
+
+  /// Estimate of the condition number of the scaled matrix in the 1-norm (Higham & Tisseur 2000),
+  /// at the cost of some ten solutions.
+  double condition() const;
 
   int factorizations() const;
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include <Eigen/Core>
 
 #include "core/base/time_integration.hpp"
@@ -13,10 +11,13 @@ namespace pleuel {
 ///     y⁺ = history · y + correction z
 /// Newton, direct differentiation and the adjoint are written once for all such schemes.
 struct Scheme {
-  std::string name;
   double step = 0.0;           ///< h [s]
   Eigen::Matrix4d history;     ///< rows: new q, v, a, w; columns: old q, v, a, w
   Eigen::Vector4d correction;  ///< (1, γ', β', …): weights of the tangent, too
+  /// c h³ of the local error  q⁺ − q(t⁺) = c h³ q⃛ + O(h⁴) [s³]; 0 where it is of another order.
+  double local_error = 0.0;
+  /// w = a(t + delay) + O(h²) [s]: (α_m − α_f) h of generalized-α.
+  double delay = 0.0;
 
   /// Scale of the dynamic rows and of λ that keeps the step matrix well conditioned as h → 0.
   double dynamic_scale() const { return 1.0 / correction(2); }
@@ -36,5 +37,12 @@ Scheme newmark(double step, double spectral_radius);
 Scheme implicit_euler(double step);
 
 Scheme make_scheme(SchemeType type, double step, double spectral_radius);
+
+/// The step after a change of the step size: w belongs to an instant that depends on the step, so
+/// it is not used. Interpolated linearly, with δ = α_m − α_f,
+///     w = a + δ (a⁺ − a),   w⁺ = a⁺ + δ (a⁺ − a)
+/// which makes this step of generalized-α Newmark's with γ = ½, β = ¼ (1 + δ²): stable however
+/// often the size changes.
+Scheme make_restarting_scheme(SchemeType type, double step, double spectral_radius);
 
 }  // namespace pleuel

@@ -8,10 +8,18 @@
 
 #include "core/base/error.hpp"
 #include "core/integration/initial_state.hpp"
+#include "core/integration/jerk.hpp"
 #include "core/integration/linear_solver.hpp"
 #include "core/integration/step_equations.hpp"
 
 namespace pleuel {
+
+namespace {
+
+/// Steps that differ by less, relatively, are equal.
+constexpr double round_off_of_steps = 1e-6;
+
+}  // namespace
 
 void Trajectory::load(int step, State& state) const {
   state.time = time(step);
@@ -26,10 +34,26 @@ int step_count(const SimulationOptions& options) {
   return std::max(1, static_cast<int>(std::ceil(options.end_time / options.step * (1 - 1e-12))));
 }
 
-Scheme Trajectory::scheme_of(int step) const {
+double Trajectory::step_size(int step) const {
   const double h = time(step) - time(step - 1);
-  if (split_steps == 0 || std::abs(h - scheme.step) <= 1e-6 * scheme.step) return scheme;
-  return make_scheme(scheme_type, h, spectral_radius);
+  const double halved =
+      std::ldexp(scheme.step, static_cast<int>(std::lround(std::log2(h / scheme.step))));
+  return std::abs(h - halved) <= round_off_of_steps * halved ? halved : h;
+}
+
+Scheme Trajectory::scheme_of(int step) const {
+  const double h = step_size(step);
+  const bool is_as_before =
+      step == 1 || std::abs(h - step_size(step - 1)) <= round_off_of_steps * h;
+  return is_as_before ? make_scheme(scheme_type, h, spectral_radius)
+                      : make_restarting_scheme(scheme_type, h, spectral_radius);
+}
+
+StartWeights Trajectory::start_weights() const {
+  if (lambda.rows() == 0) return {};
+  const Scheme first = scheme_of(1);
+  if (formulation.constraints != ConstraintForm::index_3) return {0.0, first.delay};
+  return {-first.local_error / step_size(1), first.delay};
 }
 
 namespace {
@@ -44,6 +68,18 @@ constexpr double most_drift = 1e-2;
 /// A step is halved so often at most.
 constexpr int max_splits = 6;
 
+/// Control of the local error halves a step so often at most, unless told otherwise.
+constexpr int usual_halvings = 10, most_halvings = 20;
+/// A step doubles where its error is so small, relative to what is allowed: it then is four times
+/// as large.
+constexpr double small_error = 0.15;
+
+int halvings(const SimulationOptions& options, double regular_step) {
+  if (options.smallest_step <= 0.0) return usual_halvings;
+  const double ratio = regular_step / options.smallest_step * (1 + 1e-12);
+  return std::clamp(static_cast<int>(std::floor(std::log2(ratio))), 0, most_halvings);
+}
+
 /// Every so many steps a second iteration is made to see how fast the method converges.
 constexpr int curvature_interval = 16;
 
@@ -55,18 +91,27 @@ class TimeLoop {
         equation_names_(mechanism.equation_names),
         options_(options),
         steps_(step_count(options)),
-        scheme_(make_scheme(options.scheme, options.end_time / steps_, options.spectral_radius)),
+        scheme_(make_scheme(options.scheme, regular_step(), options.spectral_radius)),
         equations_(mechanism, scheme_, options.formulation),
         state_(equations_.make_state(initial_state(mechanism).state)),
         old_(state_),
         matrix_(equations_.make_matrix()),
         solver_(matrix_),
-        correction_(equations_.size()) {}
+        correction_(equations_.size()),
+        finest_level_(halvings(options, regular_step())) {
+    if (system_.multipliers() > 0) {
+      jerk_ = ConstrainedJerk(mechanism, state_, regular_step()).value();
+    }
+  }
 
   Trajectory run() {
     allocate();
     store();
-    for (step_ = 1; step_ <= steps_; ++step_) advance_to(options_.end_time * step_ / steps_, 0);
+    if (options_.instants.empty()) {
+      for (step_ = 1; step_ <= steps_; ++step_) advance_step(options_.end_time * step_ / steps_);
+    } else {
+      repeat(options_.instants);
+    }
     trim();
     trajectory_.factorizations = solver_.factorizations();
     return std::move(trajectory_);
@@ -103,7 +148,6 @@ class TimeLoop {
 
   void store() {
     const Eigen::Index step = stored_++;
-    if (step == trajectory_.time.size()) make_room(step + steps_ / 8 + 64);
     trajectory_.time(step) = state_.time;
     trajectory_.q.col(step) = state_.q;
     trajectory_.v.col(step) = state_.v;
@@ -112,9 +156,70 @@ class TimeLoop {
     trajectory_.eta.col(step) = state_.eta;
   }
 
+  void repeat(const std::vector<double>& instants) {
+    for (std::size_t i = 1; i < instants.size(); ++i) {
+      step_ = static_cast<int>(std::ceil(instants[i] / regular_step() * (1 - 1e-12)));
+      advance_to(instants[i], 0);
+    }
+  }
+
+  void advance_step(double end) {
+    if (options_.local_error > 0.0) {
+      advance_controlled(end);
+    } else {
+      advance_to(end, 0);
+    }
+  }
+
+  /// A regular step in parts of 2^-level of it, each beginning at a multiple of its size, where the
+  /// level follows the local error.
+  void advance_controlled(double end) {
+    const double begin = state_.time;
+    const int whole = 1 << finest_level_;
+    for (int done = 0; done < whole;) {
+      while (done % (whole >> level_) != 0) ++level_;
+      const int next = done + (whole >> level_);
+      const double time = next == whole ? end : begin + (end - begin) * next / whole;
+      use_step(time);
+      predict(time);
+      const std::optional<Failure> failure = correct(false);
+      const double error = failure ? std::numeric_limits<double>::infinity() : relative_error();
+      if (error > 1.0) {
+        if (level_ == finest_level_) fail(failure, error);
+        state_ = old_;
+        ++level_;
+        ++trajectory_.rejected_steps;
+        continue;
+      }
+      check_drift();
+      store();
+      done = next;
+      if (level_ > 0 && error < small_error) --level_;
+    }
+  }
+
+  /// Error of a coordinate in a step, relative to its scale.
+  double error_of(Eigen::Index i) const {
+    return std::abs(state_.a(i) - old_.a(i)) / scale_(i) * std::abs(scheme_.local_error) /
+           scheme_.step;
+  }
+  Eigen::Index worst_coordinate() const {
+    Eigen::Index worst = 0;
+    for (Eigen::Index i = 1; i < scale_.size(); ++i) {
+      if (error_of(i) > error_of(worst)) worst = i;
+    }
+    return worst;
+  }
+
+  /// Local errors of a regular step in such parts, c h³ q⃛ each with q⃛ ≈ (a⁺ − a)/h, relative to
+  /// what is allowed.
+  double relative_error() const {
+    return error_of(worst_coordinate()) * (1 << level_) / options_.local_error;
+  }
+
   /// One step, or where Newton's method fails two of half the size.
   void advance_to(double time, int splits) {
-    if (splits > 0) use_step(time - state_.time);
+    use_step(time);
     predict(time);
     const std::optional<Failure> failure = correct(splits > 0);
     if (!failure) {
@@ -128,7 +233,6 @@ class TimeLoop {
       advance_to(middle, splits + 1);
       advance_to(time, splits + 1);
     }
-    if (splits == 1) use_step(regular_step());
   }
 
   /// Index 1 does not see how far its joints have come apart.
@@ -148,15 +252,27 @@ class TimeLoop {
 
   double regular_step() const { return options_.end_time / steps_; }
 
-  void use_step(double step) {
-    scheme_ = make_scheme(options_.scheme, step, options_.spectral_radius);
+  /// The scheme for a step to an instant.
+  void use_step(double time) {
+    if (stored_ == trajectory_.time.size()) make_room(stored_ + steps_ / 8 + 64);
+    trajectory_.time(stored_) = time;
+    scheme_ = trajectory_.scheme_of(static_cast<int>(stored_));
     equations_.set_scheme(scheme_);
+  }
+
+  /// So that multipliers have their order from the first step on.
+  void start() {
+    const StartWeights weights = trajectory_.start_weights();
+    if (weights.are_zero()) return;
+    old_.v = trajectory_.v.col(0) + weights.v * jerk_;
+    old_.w = trajectory_.a.col(0) + weights.w * jerk_;
   }
 
   /// y⁺ = history · y (for q as q ⊕ increment), then the correction that keeps the acceleration.
   void predict(double time) {
     const Eigen::Matrix4d& h = scheme_.history;
     old_ = state_;
+    if (stored_ == 1) start();
     equations_.begin(old_);
     state_.increment = h(0, 1) * old_.v + h(0, 2) * old_.a + h(0, 3) * old_.w;
     state_.v = h(1, 0) * old_.q + h(1, 1) * old_.v + h(1, 2) * old_.a + h(1, 3) * old_.w;
@@ -206,7 +322,7 @@ class TimeLoop {
       if (iteration > 1) {
         error = size * std::min(1.0, size / previous);
         if (iteration == 2) note_curvature(size / (previous * previous));
-      } else if (is_careful || step_ % curvature_interval == 1) {
+      } else if (is_careful || step_ <= 2 || step_ % curvature_interval == 1) {
         error = size;  // go on, to see the curvature
       }
       if (error <= options_.newton_tolerance) return std::nullopt;
@@ -227,9 +343,15 @@ class TimeLoop {
   bool linearize() {
     equations_.linearize(state_, residual_, matrix_);
     if (!solver_.factorize(matrix_)) return false;
-    trajectory_.worst_condition =
-        std::max(trajectory_.worst_condition, 1.0 / solver_.reciprocal_condition());
+    note_condition();
     return true;
+  }
+
+  /// The costly estimate where the cheap one is worse than ever.
+  void note_condition() {
+    if (solver_.reciprocal_condition() > 0.5 * worst_pivots_) return;
+    worst_pivots_ = solver_.reciprocal_condition();
+    trajectory_.worst_condition = std::max(trajectory_.worst_condition, solver_.condition());
   }
 
   /// The equation that is met worst.
@@ -239,6 +361,18 @@ class TimeLoop {
     residual_.head(size).cwiseAbs().maxCoeff(&worst);
     const auto index = static_cast<std::size_t>(worst);
     return index < equation_names_.size() ? " of " + equation_names_[index] : "";
+  }
+
+  [[noreturn]] void fail(const std::optional<Failure>& failure, double error) const {
+    if (failure) fail(*failure);
+    const auto worst = static_cast<std::size_t>(worst_coordinate());
+    throw SimulationError(fmt::format(
+        "simulation stopped at t = {:.6g} s (step {} of {}): with a step of {:.3g} s the local "
+        "error"
+        "{} is still {:.3g} times what /simulation/local_error allows. Allow more, or a smaller "
+        "/simulation/smallest_step; or look for something that jumps there",
+        state_.time, step_, steps_, scheme_.step,
+        worst < equation_names_.size() ? " of " + equation_names_[worst] : "", error));
   }
 
   [[noreturn]] void fail(const Failure& failure) const {
@@ -261,9 +395,12 @@ class TimeLoop {
   System::Matrix matrix_;
   LinearSolver solver_;
   Eigen::VectorXd correction_, residual_;
+  Eigen::VectorXd jerk_;  ///< that the constraints prescribe at the start
   double curvature_ = std::numeric_limits<double>::infinity();
-  int step_ = 0;             ///< regular step at work
-  Eigen::Index stored_ = 0;  ///< instants of the trajectory
+  double worst_pivots_ = std::numeric_limits<double>::infinity();
+  int finest_level_, level_ = 0;  ///< of the parts of a regular step: 2^-level of it
+  int step_ = 0;                  ///< regular step at work
+  Eigen::Index stored_ = 0;       ///< instants of the trajectory
   Trajectory trajectory_;
 };
 

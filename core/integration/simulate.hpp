@@ -15,10 +15,24 @@ struct SimulationOptions {
   int max_newton_iterations = 20;
   SchemeType scheme = SchemeType::generalized_alpha;
   Formulation formulation = {};
+  /// What the local errors of the coordinates within one step may add up to, each relative to its
+  /// scale: steps are halved, again and again, until that holds. 0: all steps are equal.
+  /// Generalized-α only, and not index 3.
+  double local_error = 0.0;
+  double smallest_step = 0.0;  ///< of those halves [s]; 0: a 1024th of the step
+  /// To repeat a sequence of steps: the instants of another simulation, in place of control.
+  std::vector<double> instants = {};
+};
+
+/// With the jerk j that the constraints prescribe, the first step has v₀ + v j and a₀ + w j in
+/// place of v₀ and w₀ = a₀.
+struct StartWeights {
+  double v = 0.0, w = 0.0;
+  bool are_zero() const { return v == 0.0 && w == 0.0; }
 };
 
 /// All steps of a simulation; column i belongs to time(i). Steps are equal, but for those that had
-/// to be split.
+/// to be split or were made smaller by the control of the local error.
 struct Trajectory {
   Eigen::VectorXd time;
   Eigen::MatrixXd q, v, a;  ///< n × (steps + 1)
@@ -28,26 +42,33 @@ struct Trajectory {
   SchemeType scheme_type = SchemeType::generalized_alpha;
   double spectral_radius = 0.8;
   Formulation formulation = {};
-  int split_steps = 0;  ///< that Newton's method could not do: halved, which adds an instant
-  double worst_condition = 0.0;  ///< largest estimate for a step matrix
+  int split_steps = 0;     ///< that Newton's method could not do: halved, which adds an instant
+  int rejected_steps = 0;  ///< whose local error was too large: made again by halves
+  double worst_condition = 0.0;  ///< of a step matrix, scaled: see LinearSolver
   int newton_iterations = 0;
   int factorizations = 0;
 
   int steps() const { return static_cast<int>(time.size()) - 1; }
   void load(int step, State& state) const;
+  /// Size of a step, from 1: time(step) − time(step − 1) without the round-off of the instants [s].
+  double step_size(int step) const;
   /// The scheme that made a step, from 1.
   Scheme scheme_of(int step) const;
+  /// What the first step adds to the initial values (jerk.hpp).
+  StartWeights start_weights() const;
 };
 
-/// Number of steps of a simulation: the last time is end_time exactly.
+/// Number of regular steps of a simulation: the last time is end_time exactly.
 int step_count(const SimulationOptions& options);
 
 /// Integrates M a − Q + Φ_qᵀ λ = 0 with the constraints in the form that is asked for
 /// (step_equations.hpp; for index 3 Arnold & Brüls 2007). Each step is solved by Newton's method
 /// with the exact tangent of the beginning of the step (renewed where it converges slowly). A step
-/// in which it fails is halved, up to six times. Nothing is allocated in the time loop, but for
-/// what a split step adds.
-/// @throws SimulationError saying time, step, iteration, equation and what to try
+/// in which it fails is halved, up to six times. Nothing is allocated in the time loop, but for the
+/// instants that are more than the regular ones.
+/// @throws SimulationError saying time, step, iteration, equation and what to try; or that the
+/// local
+///         error is too large with the smallest step
 Trajectory simulate(Mechanism& mechanism, const SimulationOptions& options);
 
 }  // namespace pleuel

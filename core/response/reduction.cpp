@@ -22,13 +22,15 @@ struct Peak {
   std::array<double, 3> weights;  ///< of the samples before, at and after `step`
 };
 
-/// Vertex of the parabola through (−1, a), (0, b), (1, c), b ≥ a, c. By the envelope theorem the
-/// derivative of the height is the Lagrange polynomials at the vertex.
-Peak interpolate(double a, double b, double c) {
-  const double curvature = a - 2 * b + c;
-  const double s = curvature < 0.0 ? 0.5 * (a - c) / curvature : 0.0;
+/// Vertex of the parabola through (−before, a), (0, b), (after, c), b ≥ a, c. By the envelope
+/// theorem the derivative of the height is the Lagrange polynomials at the vertex.
+Peak interpolate(double a, double b, double c, double before, double after) {
+  const double rise = (b - a) / before, fall = (c - b) / after, width = before + after;
+  const double slope = (rise * after + fall * before) / width, bend = (fall - rise) / width;
+  const double s = bend < 0.0 ? -0.5 * slope / bend : 0.0;
   Peak peak{};
-  peak.weights = {0.5 * s * (s - 1), 1 - s * s, 0.5 * s * (s + 1)};
+  peak.weights = {s * (s - after) / (before * width), (s + before) * (after - s) / (before * after),
+                  s * (s + before) / (after * width)};
   peak.height = peak.weights[0] * a + peak.weights[1] * b + peak.weights[2] * c;
   peak.time = s;
   return peak;
@@ -45,11 +47,6 @@ struct Search {
 /// whole they are samples.
 void add_peaks(const Search& search, double sign, double threshold, std::vector<Peak>& peaks) {
   const auto& [time, values, whole, range] = search;
-  // Next to a step that was split the sample itself is the peak.
-  const auto is_regular = [&time = time](int step) {
-    const double before = time(step) - time(step - 1), after = time(step + 1) - time(step);
-    return std::abs(after - before) <= 1e-6 * before;
-  };
   for (int step = range.first; step <= range.last; ++step) {
     for (int channel = 0; channel < values.rows(); ++channel) {
       const double b = sign * values(channel, step);
@@ -60,15 +57,14 @@ void add_peaks(const Search& search, double sign, double threshold, std::vector<
         if (!(step == whole.last && b >= a)) continue;
       }
       Peak peak{b, 0.0, channel, step, sign, {0.0, 1.0, 0.0}};
-      double h = 0.0;
-      if (step > whole.first && step < whole.last && is_regular(step)) {
-        h = time(step + 1) - time(step);
-        const Peak vertex = interpolate(a, b, c);
+      if (step > whole.first && step < whole.last) {
+        const Peak vertex =
+            interpolate(a, b, c, time(step) - time(step - 1), time(step + 1) - time(step));
         peak.height = vertex.height;
         peak.time = vertex.time;
         peak.weights = vertex.weights;
       }
-      peak.time = time(step) + h * peak.time;
+      peak.time += time(step);
       peaks.push_back(peak);
     }
   }

@@ -50,7 +50,7 @@ StepRange steps_between(const Eigen::VectorXd& time, std::optional<double> from,
 /// Reduces a history over time (and over channels: the smallest for min, the largest for the
 /// others). Peaks between steps are found by the parabola through three samples; at the ends of the
 /// range they are samples. rms, mean and integral use the trapezoidal rule.
-/// @param time    steps + 1 instants, equidistant [s]
+/// @param time    steps + 1 instants [s]
 /// @param values  channels × (steps + 1)
 /// @param range   at least two steps; by default all
 Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::MatrixXd& values,

@@ -235,7 +235,7 @@ ProblemFile without_elasticity(const ProblemFile& problem) {
 
 /// Simulates the mechanism without elasticity where a response needs it.
 void set_rigid_mechanism(const ProblemFile& problem, const Eigen::VectorXd& x, Analysis& analysis) {
-  const ProblemFile rigid = without_elasticity(problem);
+  const ProblemFile rigid = without_elasticity(with_steps_of(analysis.trajectory, problem));
   if (rigid.responses.empty()) return;
   try {
     analysis.rigid = analyze(rigid, x);
@@ -314,6 +314,12 @@ Eigen::VectorXd start_design(const ProblemFile& problem) {
   return x;
 }
 
+ProblemFile with_steps_of(const Trajectory& trajectory, ProblemFile problem) {
+  if (problem.simulation.local_error == 0.0) return problem;
+  problem.simulation.instants.assign(trajectory.time.begin(), trajectory.time.end());
+  return problem;
+}
+
 std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::VectorXd& x) {
   const Eigen::VectorXd start = start_design(problem);
   const Design<double> design(x.begin(), x.end()), start_values(start.begin(), start.end());
@@ -324,7 +330,8 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   analysis->trajectory = simulate(
       analysis->model.mechanism,
       {settings.end_time, settings.step, settings.spectral_radius, settings.newton_tolerance,
-       settings.max_newton_iterations, settings.scheme, settings.formulation});
+       settings.max_newton_iterations, settings.scheme, settings.formulation, settings.local_error,
+       settings.smallest_step, settings.instants});
   analysis->responses = make_responses(problem.responses, analysis->model);
   set_mechanism_frequencies(*analysis);
   set_rigid_mechanism(problem, x, *analysis);

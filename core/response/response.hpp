@@ -55,6 +55,10 @@ struct Analysis {
 /// @throws SimulationError
 std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::VectorXd& x);
 
+/// The problem with the steps of a trajectory in place of those that the control of the local error
+/// would find: so that values at neighbouring designs differ smoothly. Without control, as it is.
+ProblemFile with_steps_of(const Trajectory& trajectory, ProblemFile problem);
+
 /// The start values of the design variables.
 Eigen::VectorXd start_design(const ProblemFile& problem);
 

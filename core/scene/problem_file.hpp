@@ -47,6 +47,11 @@ struct SimulationSettings {
   /// estimated to be below this.
   double newton_tolerance = 1e-10;
   int max_newton_iterations = 20;
+  /// What the local errors of the positions within one step may add up to; 0: all steps are equal.
+  double local_error = 0.0;
+  double smallest_step = 0.0;  ///< with local_error [s]; 0: a 1024th of the step
+  /// Not of a file: the instants of a simulation to be repeated step by step [s].
+  std::vector<double> instants;
   /// Starts from elastic equilibrium under the initial accelerations, without vibration.
   bool quasi_static_start = false;
 };

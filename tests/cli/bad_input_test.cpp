@@ -43,7 +43,7 @@ TEST(BadInput, UnknownBackendListsThoseThereAre) {
 
 TEST(BadInput, UnknownMethodListsThoseThereAre) {
   expect_complaint({"gradient", problem("slider_crank_round"), "--method", "guess"},
-                   "direct, forward-difference, central-difference");
+                   "auto, direct, adjoint, forward-difference, central-difference");
 }
 
 TEST(BadInput, DifferenceStepOutOfRangeIsRefused) {

@@ -110,6 +110,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadProblem{
             "/simulation/formulation", R"("index-2")",
             R"(/simulation/formulation must be "index-3", "stabilized-index-2" or "index-1", got "index-2"; did you mean "index-3"?)"},
+        BadProblem{
+            "/simulation/local_error", "1e-6",
+            R"(/simulation/local_error is for the formulations "stabilized-index-2" and "index-1" only)"},
+        BadProblem{"/simulation/smallest_step", "\"1 us\"",
+                   R"(/simulation/smallest_step is for a simulation with "local_error" only)"},
         BadProblem{"/simulation/baumgarte", "\"100 1/s\"",
                    R"(/simulation/baumgarte is for the formulation "index-1" only)"},
         BadProblem{"/effects/spatial_motion", "true",

@@ -9,6 +9,7 @@ constexpr int most_elements = 10000;
 constexpr int most_iterations = 1000000;
 constexpr int most_samples = 10000000;
 constexpr double most_steps = 1e9;
+constexpr double most_parts = 1e6;
 
 /// A tolerance of one or more asks for nothing.
 double read_tolerance(const JsonNode& node) {
@@ -33,6 +34,29 @@ void read_times(const JsonNode& node, const NumberReader& numbers, SimulationSet
   }
   if (settings.end_time / settings.step > most_steps) {
     step.fail_with_value(fmt::format("must not make more than {:g} steps", most_steps));
+  }
+}
+
+void read_step_control(const JsonNode& node, const NumberReader& numbers,
+                       SimulationSettings& settings) {
+  const auto error = node.find("local_error"), smallest = node.find("smallest_step");
+  if (error) {
+    if (settings.scheme != SchemeType::generalized_alpha) {
+      error->fail("is for the scheme \"generalized-alpha\" only");
+    }
+    if (settings.formulation.constraints == ConstraintForm::index_3) {
+      error->fail("is for the formulations \"stabilized-index-2\" and \"index-1\" only");
+    }
+    settings.local_error = read_tolerance(*error);
+  }
+  if (!smallest) return;
+  if (!error) smallest->fail("is for a simulation with \"local_error\" only");
+  settings.smallest_step = numbers.fixed(*smallest, quantities::time, Range::positive);
+  if (settings.smallest_step > settings.step)
+    smallest->fail_with_value("must not be above the step");
+  if (settings.step / settings.smallest_step > most_parts) {
+    smallest->fail_with_value(
+        fmt::format("must not be below the step by more than {:g}", most_parts));
   }
 }
 
@@ -79,7 +103,8 @@ Formulation read_formulation(const JsonNode& node, const NumberReader& numbers) 
 
 SimulationSettings read_simulation(const JsonNode& node, const NumberReader& numbers) {
   node.allow_keys({"end_time", "step", "scheme", "spectral_radius", "formulation", "baumgarte",
-                   "newton_tolerance", "max_newton_iterations", "initial_state"});
+                   "newton_tolerance", "max_newton_iterations", "initial_state", "local_error",
+                   "smallest_step"});
   SimulationSettings settings;
   read_times(node, numbers, settings);
   if (const auto scheme = node.find("scheme")) {
@@ -89,6 +114,7 @@ SimulationSettings read_simulation(const JsonNode& node, const NumberReader& num
                                           {"implicit-euler", SchemeType::implicit_euler}});
   }
   settings.formulation = read_formulation(node, numbers);
+  read_step_control(node, numbers, settings);
   if (const auto radius = node.find("spectral_radius")) {
     settings.spectral_radius = numbers.fixed(*radius, quantities::pure_number, Range::fraction);
   }

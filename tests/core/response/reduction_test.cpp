@@ -23,6 +23,25 @@ TEST(Reduction, FindsThePeakOfAParabolaBetweenTheSteps) {
   EXPECT_NEAR(reduce(OverTime::max_abs, grid, y).value, 3.0, 1e-14);
 }
 
+/// The same between steps of different sizes, with the derivatives of the height as weights.
+TEST(Reduction, FindsThePeakOfAParabolaBetweenUnequalSteps) {
+  Eigen::VectorXd time(5);
+  time << 0.0, 0.04, 0.08, 0.09, 0.1;
+  const Eigen::MatrixXd y = (3.0 - 70.0 * (time.array() - 0.0811).square()).matrix().transpose();
+  const Reduction peak = reduce(OverTime::max, time, y);
+  EXPECT_NEAR(peak.value, 3.0, 1e-14);
+  ASSERT_EQ(peak.samples.size(), 3U);
+  for (const Sample& sample : peak.samples) {
+    const double h = 1e-6;
+    Eigen::MatrixXd up = y, down = y;
+    up(0, sample.step) += h;
+    down(0, sample.step) -= h;
+    const double slope =
+        (reduce(OverTime::max, time, up).value - reduce(OverTime::max, time, down).value) / (2 * h);
+    EXPECT_NEAR(sample.weight, slope, 1e-8);
+  }
+}
+
 TEST(Reduction, TakesAPeakAtTheEndsAsItIs) {
   EXPECT_EQ(reduce(OverTime::max, grid, sampled([](double t) { return 2 - t; })).value, 2.0);
   EXPECT_EQ(reduce(OverTime::max, grid, sampled([](double t) { return t; })).value, 0.2);
