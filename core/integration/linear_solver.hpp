@@ -28,8 +28,8 @@ class LinearSolver {
   /// rhs ← A⁻ᵀ rhs, likewise.
   void solve_transposed(Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> rhs);
 
-  /// max |b − A x| / (max |a_ij| Σ|x| + max |b|) of the scaled equations, the worst column of the
-  /// last solution.
+  /// max |b − A x| / (max |a_ij| Σ|x| + max |b|) of the scaled equations in the last solution; of
+  /// several columns that of their sum, each divided by the denominator.
   double backward_error() const;
 
   /// Cheap estimate of 1/condition of the scaled matrix from the pivots of the last factorisation.
