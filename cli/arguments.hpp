@@ -16,6 +16,7 @@ struct Arguments {
   std::vector<std::string> overrides;           ///< "/json/pointer=value"
   std::optional<std::filesystem::path> output;  ///< run folder
   std::optional<std::string> backend;
+  std::optional<std::string> body;  ///< whose invariants are written; by default of all
   std::vector<std::string> methods;
   double difference_step = 1e-5;  ///< relative
   bool wants_json = false;

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/model/beam_builder.hpp"
+#include "core/model/imported_builder.hpp"
 #include "core/scene/visit_numbers.hpp"
 
 namespace pleuel {
@@ -18,13 +19,15 @@ Attachment::Attachment(const std::string& body, Point at, const std::vector<Body
     model_ = &bodies[i];
   }
   assert(body_ != nullptr);
-  if (is_elastic()) {
+  if (const auto* imported = std::get_if<ImportedBody>(&body_->shape)) {
+    imported_place_ = place_at(*imported, at_, context.start);
+  } else if (is_elastic()) {
     place_ = find_place(model_->beam, share_along(beam_body(), at_, context.start));
   }
 }
 
 bool Attachment::is_direct() const {
-  return !is_elastic() || (place_.is_node() && !model_->basis);
+  return !is_elastic() || (model_->is_beam() && place_.is_node() && !model_->basis);
 }
 
 Marker Attachment::marker() const {
@@ -38,7 +41,8 @@ Marker Attachment::marker() const {
 }
 
 std::optional<Eigen::Matrix3d> Attachment::beam_axes() const {
-  if (model_ == nullptr || !model_->is_beam()) return std::nullopt;
+  const bool lies_as_beam = model_ != nullptr && (model_->is_beam() || model_->is_imported());
+  if (!lies_as_beam) return std::nullopt;
   return body_pose(*body_, context_.start).rotation;
 }
 
@@ -82,8 +86,27 @@ Attachment::Rows Attachment::nodal_rows(const BodyModel& body) const {
   return rows;
 }
 
+Attachment::Rows Attachment::imported_rows() const {
+  const auto stack = [](const BodyPlace& place) {
+    Eigen::MatrixXd rows(6, place.displacement.cols());
+    rows << Eigen::MatrixXd(place.displacement), Eigen::MatrixXd(place.rotation);
+    return rows;
+  };
+  Rows rows;
+  rows.values = stack(imported_place(*model_->constants));
+  for (int i = 0; i < model_->elastic_size(); ++i) {
+    rows.coordinates.push_back(model_->elastic_offset() + i);
+  }
+  for (const auto& [variable, change] : model_->constants_x) {
+    Eigen::MatrixXd derivative = stack(imported_place(change));
+    if (!derivative.isZero(0.0)) rows.derivatives.push_back({variable, std::move(derivative)});
+  }
+  return rows;
+}
+
 Attachment::Rows Attachment::displacement_rows() const {
   if (!is_elastic()) return {{}, Eigen::MatrixXd::Zero(6, 0), {}};
+  if (model_->is_imported()) return imported_rows();
   if (!model_->basis) return nodal_rows(*model_);
   const Rows nodal = nodal_rows(*model_->nodal);
   const CoordinateMap& map = model_->map;
