@@ -24,7 +24,7 @@ struct Arrangement {
 
 class ArrangementFinder {
  public:
-  explicit ArrangementFinder(int size) : groups_(static_cast<std::size_t>(size)) {
+  explicit ArrangementFinder(int size) : size_(size), groups_(static_cast<std::size_t>(size)) {
     for (std::size_t i = 0; i < groups_.size(); ++i) groups_[i] = {static_cast<int>(i)};
   }
 
@@ -39,7 +39,7 @@ class ArrangementFinder {
   }
 
   Arrangement find() const {
-    Arrangement arrangement{pattern_of_groups(static_cast<int>(groups_.size()), groups_), {}};
+    Arrangement arrangement{pattern_of_groups(size_, groups_), {}};
     for (int k = 0; k < 3; ++k) {
       for (int l = 0; l < 3; ++l) {
         for (std::size_t i = 0; i < moment_pairs.size(); ++i) {
@@ -61,6 +61,7 @@ class ArrangementFinder {
     }
   }
 
+  int size_;
   std::vector<std::vector<int>> groups_;
   std::array<bool, 6> has_pair_{};
 };

@@ -64,7 +64,9 @@ Json stress_json(const StressRecovery& stress, bool is_derivative) {
   if (is_derivative || stress.strength > 0.0) json["strength"] = stress.strength;
   json["of_coordinates"] = entries_json(stress.of_coordinates);
   json["of_accelerations"] = entries_json(stress.of_accelerations);
-  json["of_stretching"] = entries_json(stress.of_stretching);
+  if (stress.of_stretching.cols() > 0) {
+    json["of_stretching"] = entries_json(stress.of_stretching);
+  }
   return json;
 }
 
