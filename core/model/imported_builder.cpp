@@ -226,6 +226,26 @@ CoordinateMap map_of(const BodyModel& model) {
   return map;
 }
 
+/// Where the displacements that stretch a body are coordinates of it themselves: their indices in
+/// q.
+std::optional<std::vector<int>> find_coordinates(const BodyModel& model) {
+  const SparseMatrix& rows = model.constants->stretching->displacements;
+  std::vector<int> coordinates;
+  for (int row = 0; row < rows.outerSize(); ++row) {
+    int entries = 0;
+    for (SparseMatrix::InnerIterator entry(rows, row); entry; ++entry) {
+      if (entry.value() != 1.0 || ++entries > 1) return std::nullopt;
+      coordinates.push_back(model.elastic_offset() + static_cast<int>(entry.col()));
+    }
+    if (entries == 0) return std::nullopt;
+  }
+  for (const auto& [variable, change] : model.constants_x) {
+    const SparseMatrix& of = change.stretching->displacements;
+    if (of.nonZeros() > 0 && !of.coeffs().isZero(0.0)) return std::nullopt;
+  }
+  return coordinates;
+}
+
 std::vector<StiffeningDerivative> differentiate_stiffening(const Stretching& change) {
   std::vector<StiffeningDerivative> derivatives;
   for (std::size_t e = 0; e < change.elements.size(); ++e) {
@@ -243,20 +263,24 @@ std::vector<StiffeningDerivative> differentiate_stiffening(const Stretching& cha
 
 std::unique_ptr<Term> make_imported_stiffening(const BodyModel& model, int coordinates) {
   const Stretching& stretching = *model.constants->stretching;
+  const std::optional<std::vector<int>> direct = find_coordinates(model);
   std::vector<StiffeningElement> elements;
   for (const StretchedElement& element : stretching.elements) {
     elements.push_back(
         {element.displacements, element.elongation, element.axial_stiffness, element.slopes});
+    if (!direct) continue;
+    for (int& index : elements.back().coordinates)
+      index = (*direct)[static_cast<std::size_t>(index)];
   }
   std::vector<DesignDerivative<std::vector<StiffeningDerivative>>> derivatives;
   for (const auto& [variable, change] : model.constants_x) {
     auto changes = differentiate_stiffening(*change.stretching);
     if (!changes.empty()) derivatives.push_back({variable, std::move(changes)});
   }
-  return std::make_unique<ProjectedTerm>(
-      std::make_unique<GeometricStiffening>(model.name, std::move(elements), stretching.damping,
-                                            std::move(derivatives)),
-      map_of(model), coordinates);
+  auto term = std::make_unique<GeometricStiffening>(model.name, std::move(elements),
+                                                    stretching.damping, std::move(derivatives));
+  if (direct) return term;
+  return std::make_unique<ProjectedTerm>(std::move(term), map_of(model), coordinates);
 }
 
 int place_at(const ImportedBody& imported, const Point& point, const Design<double>& start) {

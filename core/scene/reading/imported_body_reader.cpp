@@ -30,19 +30,18 @@ std::vector<ImportedVariable> find_variables(const JsonNode& name, const Invaria
     const std::optional<int> variable = numbers.find_variable(of.variable);
     if (!variable) continue;
     if (!of.derivative) {
-      name.fail(
-          fmt::format("names a file without derivatives with respect to the variable \"{}\", "
-                      "which its design has; write them, or rename the variable of the problem "
-                      "if it is another one",
-                      of.variable));
+      name.fail(fmt::format(
+          "names the file {}, which has no derivatives with respect to the variable \"{}\" of its "
+          "design; write them, or rename the variable of the problem if it is another one",
+          name.text(), of.variable));
     }
     if (is_zero(*of.derivative)) continue;
     const std::optional<Quantity> quantity = find_quantity(of.unit);
     if (!quantity) {
-      name.fail(
-          fmt::format("names a file whose variable \"{}\" has the unit \"{}\", which is no "
-                      "SI unit of a design variable",
-                      of.variable, of.unit));
+      name.fail(fmt::format(
+          "names the file {}, whose variable \"{}\" has the unit \"{}\", which is no SI "
+          "unit of a design variable",
+          name.text(), of.variable, of.unit));
     }
     const Number number = Number::bound(*variable);
     numbers.add_use({number, *quantity, Range::any, name});

@@ -65,8 +65,8 @@ void check_design(const JsonNode& node, const ImportedBody& body, const Design<d
       continue;
     }
     node.at("file").fail(fmt::format(
-        "names a file of the design {} = {:.12g} [{}], but the variable starts at {:.12g}",
-        derivative.variable, derivative.value, derivative.unit, value));
+        "names the file {} of the design {} = {:.12g} [{}], but the variable starts at {:.12g}",
+        body.source, derivative.variable, derivative.value, derivative.unit, value));
   }
 }
 

@@ -150,19 +150,17 @@ class Exchange : public testing::Test {
 
 class ExchangeOf : public Exchange, public testing::WithParamInterface<std::string> {};
 
-/// Edits of the problem, one a case: planar, in space, reduced on a mean axis, without stiffening.
+/// Edits of the problem, one a case: planar, in space, without stiffening, reduced on a mean axis.
+/// Measured 1.5e-12 for values and 6e-11 for gradients, which sum large parts; ten times that.
 TEST_P(ExchangeOf, ARodChangesNothingButRoundOff) {
   Json document = slider_crank();
   document.merge_patch(Json::parse(GetParam()));
   const ProblemFile original = read("original.json", document);
   const ProblemFile imported = read("imported.json", exchanged(document));
   const Differences differences = compare(original, imported);
-  RecordProperty("values", std::to_string(differences.values * 1e12));
-  std::printf("values %.2e direct %.2e adjoint %.2e\n", differences.values, differences.direct,
-              differences.adjoint);
-  EXPECT_LE(differences.values, 1e-9);
-  EXPECT_LE(differences.direct, 1e-9);
-  EXPECT_LE(differences.adjoint, 1e-9);
+  EXPECT_LE(differences.values, 2e-11);
+  EXPECT_LE(differences.direct, 6e-10);
+  EXPECT_LE(differences.adjoint, 6e-10);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -181,9 +179,9 @@ TEST_F(Exchange, WithoutDerivativesKeepsTheGradientsOfOtherBodies) {
   Json edited = with_file(document, file);
   // Its design names variables of the problem, whose influence nobody knows.
   edited["variables"].erase("rod_width");
-  EXPECT_THAT(complaint(edited),
-              HasSubstr("/scene/bodies/rod/file names a file without derivatives "
-                        "with respect to the variable \"rod_height\""));
+  EXPECT_THAT(complaint(edited), HasSubstr("/scene/bodies/rod/file names the file rod.json, which "
+                                           "has no derivatives with respect to the variable "
+                                           "\"rod_height\""));
   edited["variables"].erase("rod_height");
   const ProblemFile imported = read("imported.json", edited);
   const Eigen::VectorXd x = start_design(original), y = start_design(imported);
@@ -214,9 +212,10 @@ TEST_F(Exchange, RefusesAnotherDesignUnlessItMayBeContinued) {
                                         " = 0.03 only, not at 0.0303: write rod.json anew"));
   }
   document["variables"]["rod_height"]["start"] = "31 mm";
-  EXPECT_THAT(complaint(document), HasSubstr("/scene/bodies/rod/file names a file of the design "
-                                             "rod_height = 0.03 [m], but the variable starts at "
-                                             "0.031"));
+  EXPECT_THAT(complaint(document),
+              HasSubstr("/scene/bodies/rod/file names the file rod.json of the design "
+                        "rod_height = 0.03 [m], but the variable starts at "
+                        "0.031"));
 }
 
 /// Continued linearly, central differences see the same derivatives: exact for the linear model.
@@ -316,7 +315,7 @@ TEST_F(Exchange, SaysWhatAFileCannotDo) {
               HasSubstr("/scene/bodies/rod/file must name a file"));
   EXPECT_THAT(complaint_about("/scene/bodies/rod/elements", "6"),
               HasSubstr("/scene/bodies/rod has the unknown key \"elements\""));
-  EXPECT_THAT(complaint_about("/scene/loads/tug/at", "[0.21, 0, 0]"),
+  EXPECT_THAT(complaint_about("/scene/loads/tug/at", "[0.207, 0, 0]"),
               HasSubstr("/scene/loads/tug/at must be at a place of the body \"rod\""));
   EXPECT_THAT(complaint_about("/responses/bow/at", "\"bwo\""),
               HasSubstr("/responses/bow/at names the unknown place \"bwo\"; did you mean \"bow\""));
