@@ -1,5 +1,6 @@
 #include "core/model/attachment.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <map>
 
@@ -92,14 +93,25 @@ Attachment::Rows Attachment::imported_rows() const {
     rows << Eigen::MatrixXd(place.displacement), Eigen::MatrixXd(place.rotation);
     return rows;
   };
-  Rows rows;
-  rows.values = stack(imported_place(*model_->constants));
-  for (int i = 0; i < model_->elastic_size(); ++i) {
-    rows.coordinates.push_back(model_->elastic_offset() + i);
-  }
+  const Eigen::MatrixXd values = stack(imported_place(*model_->constants));
+  std::vector<DesignDerivative<Eigen::MatrixXd>> changes;
   for (const auto& [variable, change] : model_->constants_x) {
-    Eigen::MatrixXd derivative = stack(imported_place(change));
-    if (!derivative.isZero(0.0)) rows.derivatives.push_back({variable, std::move(derivative)});
+    changes.push_back({variable, stack(imported_place(change))});
+  }
+  // A place moves with few of the coordinates, if they are nodal ones.
+  std::vector<int> used;
+  for (int i = 0; i < model_->elastic_size(); ++i) {
+    const bool moves = !values.col(i).isZero(0.0) ||
+                       std::any_of(changes.begin(), changes.end(), [i](const auto& change) {
+                         return !change.data.col(i).isZero(0.0);
+                       });
+    if (moves) used.push_back(i);
+  }
+  Rows rows;
+  for (int i : used) rows.coordinates.push_back(model_->elastic_offset() + i);
+  rows.values = values(Eigen::all, used);
+  for (const auto& [variable, change] : changes) {
+    if (!change.isZero(0.0)) rows.derivatives.push_back({variable, change(Eigen::all, used)});
   }
   return rows;
 }
