@@ -101,6 +101,18 @@ void add_gradient(CLI::App& app, Arguments& arguments) {
   add_jobs(gradient, arguments);
 }
 
+void add_invariants(CLI::App& app, Arguments& arguments) {
+  CLI::App* invariants =
+      add_file_command(app, arguments, "invariants",
+                       "write what the mechanics knows of elastic bodies, with derivatives");
+  invariants->add_option("--body", arguments.body, "this body only (default: all elastic ones)")
+      ->type_name("NAME");
+  invariants
+      ->add_option("-o,--output", arguments.output,
+                   "a file NAME.json, or a run folder (default: runs/<file>-invariants)")
+      ->type_name("PATH");
+}
+
 void add_commands(CLI::App& app, Arguments& arguments) {
   add_design(add_file_command(
                  app, arguments, "check",
@@ -111,6 +123,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   add_output(simulate, arguments);
   add_design(simulate, arguments);
   add_gradient(app, arguments);
+  add_invariants(app, arguments);
   CLI::App* optimize =
       add_file_command(app, arguments, "optimize", "find the best design and prove it");
   add_output(optimize, arguments);

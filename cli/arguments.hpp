@@ -19,6 +19,7 @@ struct Arguments {
   std::optional<std::filesystem::path> output;  ///< run folder
   std::optional<std::filesystem::path> design;  ///< file with another design than the start
   std::optional<std::string> backend;
+  std::optional<std::string> body;  ///< whose invariants are written; by default of all
   std::vector<std::string> methods;
   double difference_step = 1e-5;   ///< relative
   int jobs = available_threads();  ///< simulations at a time

@@ -11,6 +11,7 @@ Outcome run_uncertainty(const Arguments& arguments);
 Outcome run_backends(const Arguments& arguments);
 Outcome run_check(const Arguments& arguments);
 Outcome run_gradient(const Arguments& arguments);
+Outcome run_invariants(const Arguments& arguments);
 Outcome run_optimize(const Arguments& arguments);
 Outcome run_pareto(const Arguments& arguments);
 Outcome run_simulate(const Arguments& arguments);

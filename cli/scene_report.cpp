@@ -34,10 +34,11 @@ std::string bodies_text(const Model& model) {
                {"rigid coordinates"},
                {"elastic"}});
   for (const BodyModel& body : model.bodies) {
-    table.add_row({body.name, significant(body.mass),
-                   body.is_beam() ? std::to_string(body.segment_of_element.size()) : "–",
-                   std::to_string(body.frame.size()),
-                   body.is_beam() ? std::to_string(elastic_coordinates(body)) : "–"});
+    table.add_row(
+        {body.name, significant(body.mass),
+         body.is_beam() ? std::to_string(body.segment_of_element.size()) : "–",
+         std::to_string(body.frame.size()),
+         body.is_elastic || body.is_beam() ? std::to_string(elastic_coordinates(body)) : "–"});
   }
   return table.text();
 }

@@ -120,4 +120,17 @@ inline constexpr std::array<GaussPoint, 4> gauss_points = {{
     {0.930568155797026288, 0.173927422568726929},
 }};
 
+/// Ĝ of an element in its twelve coordinates: ∫ v₀'² + w₀'² dx = qᵀ Ĝ q.
+template <class Scalar>
+Eigen::Matrix<Scalar, 12, 12> slope_matrix(const Scalar& length) {
+  using Matrix = Eigen::Matrix<Scalar, 12, 12>;
+  Matrix matrix = Matrix::Constant(Scalar(0));
+  for (const GaussPoint& point : gauss_points) {
+    const auto v = deflection_y_row(point.xi, length, 1);
+    const auto w = deflection_z_row(point.xi, length, 1);
+    matrix += (point.weight * length) * (v.transpose() * v + w.transpose() * w);
+  }
+  return matrix;
+}
+
 }  // namespace pleuel

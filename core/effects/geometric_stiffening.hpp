@@ -74,17 +74,4 @@ class GeometricStiffening : public Term {
   Strain strain_;  ///< scratch
 };
 
-/// Ĝ of one element in its twelve coordinates.
-template <class Scalar>
-Eigen::Matrix<Scalar, 12, 12> slope_matrix(const Scalar& length) {
-  using Matrix = Eigen::Matrix<Scalar, 12, 12>;
-  Matrix matrix = Matrix::Constant(Scalar(0));
-  for (const GaussPoint& point : gauss_points) {
-    const auto v = deflection_y_row(point.xi, length, 1);
-    const auto w = deflection_z_row(point.xi, length, 1);
-    matrix += (point.weight * length) * (v.transpose() * v + w.transpose() * w);
-  }
-  return matrix;
-}
-
 }  // namespace pleuel

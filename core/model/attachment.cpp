@@ -1,9 +1,11 @@
 #include "core/model/attachment.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <map>
 
 #include "core/model/beam_builder.hpp"
+#include "core/model/imported_builder.hpp"
 #include "core/scene/visit_numbers.hpp"
 
 namespace pleuel {
@@ -18,13 +20,15 @@ Attachment::Attachment(const std::string& body, Point at, const std::vector<Body
     model_ = &bodies[i];
   }
   assert(body_ != nullptr);
-  if (is_elastic()) {
+  if (const auto* imported = std::get_if<ImportedBody>(&body_->shape)) {
+    imported_place_ = place_at(*imported, at_, context.start);
+  } else if (is_elastic()) {
     place_ = find_place(model_->beam, share_along(beam_body(), at_, context.start));
   }
 }
 
 bool Attachment::is_direct() const {
-  return !is_elastic() || (place_.is_node() && !model_->basis);
+  return !is_elastic() || (model_->is_beam() && place_.is_node() && !model_->basis);
 }
 
 Marker Attachment::marker() const {
@@ -38,7 +42,8 @@ Marker Attachment::marker() const {
 }
 
 std::optional<Eigen::Matrix3d> Attachment::beam_axes() const {
-  if (model_ == nullptr || !model_->is_beam()) return std::nullopt;
+  const bool lies_as_beam = model_ != nullptr && (model_->is_beam() || model_->is_imported());
+  if (!lies_as_beam) return std::nullopt;
   return body_pose(*body_, context_.start).rotation;
 }
 
@@ -82,8 +87,38 @@ Attachment::Rows Attachment::nodal_rows(const BodyModel& body) const {
   return rows;
 }
 
+Attachment::Rows Attachment::imported_rows() const {
+  const auto stack = [](const BodyPlace& place) {
+    Eigen::MatrixXd rows(6, place.displacement.cols());
+    rows << Eigen::MatrixXd(place.displacement), Eigen::MatrixXd(place.rotation);
+    return rows;
+  };
+  const Eigen::MatrixXd values = stack(imported_place(*model_->constants));
+  std::vector<DesignDerivative<Eigen::MatrixXd>> changes;
+  for (const auto& [variable, change] : model_->constants_x) {
+    changes.push_back({variable, stack(imported_place(change))});
+  }
+  // A place moves with few of the coordinates, if they are nodal ones.
+  std::vector<int> used;
+  for (int i = 0; i < model_->elastic_size(); ++i) {
+    const bool moves = !values.col(i).isZero(0.0) ||
+                       std::any_of(changes.begin(), changes.end(), [i](const auto& change) {
+                         return !change.data.col(i).isZero(0.0);
+                       });
+    if (moves) used.push_back(i);
+  }
+  Rows rows;
+  for (int i : used) rows.coordinates.push_back(model_->elastic_offset() + i);
+  rows.values = values(Eigen::all, used);
+  for (const auto& [variable, change] : changes) {
+    if (!change.isZero(0.0)) rows.derivatives.push_back({variable, change(Eigen::all, used)});
+  }
+  return rows;
+}
+
 Attachment::Rows Attachment::displacement_rows() const {
   if (!is_elastic()) return {{}, Eigen::MatrixXd::Zero(6, 0), {}};
+  if (model_->is_imported()) return imported_rows();
   if (!model_->basis) return nodal_rows(*model_);
   const Rows nodal = nodal_rows(*model_->nodal);
   const CoordinateMap& map = model_->map;

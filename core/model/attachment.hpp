@@ -21,7 +21,7 @@ class Attachment {
   /// Whether its displacements are coordinates themselves, so that a marker can name them.
   bool is_direct() const;
   const BodyModel* model() const { return model_; }
-  /// Whether a beam; then its axes in global ones at t = 0 (of the start design).
+  /// Whether it lies as a beam; then its axes in global ones at t = 0 (of the start design).
   std::optional<Eigen::Matrix3d> beam_axes() const;
 
   /// Frame and elastic coordinates. Of a place that is not direct, elastic entries are set by
@@ -32,6 +32,7 @@ class Attachment {
   template <class Scalar>
   Vector3<Scalar> local_point(const Design<Scalar>& design) const {
     if (is_ground()) return resolve_point(at_, design);
+    if (model_->is_imported()) return imported_point(design);
     if (is_elastic()) {
       const Beam<Scalar> beam = resolve_beam(beam_body(), context_.scene, design);
       return {position_of(beam, place_), Scalar(0), Scalar(0)};
@@ -72,12 +73,29 @@ class Attachment {
   bool is_elastic() const { return model_ != nullptr && model_->is_elastic; }
   const BeamBody& beam_body() const { return std::get<BeamBody>(body_->shape); }
   Rows nodal_rows(const BodyModel& body) const;
+  Rows imported_rows() const;
+  const BodyPlace& imported_place(const BodyConstants& constants) const {
+    return constants.places[static_cast<std::size_t>(imported_place_)];
+  }
+
+  template <class Scalar>
+  Vector3<Scalar> imported_point(const Design<Scalar>& design) const {
+    const Vector3<double>& position = imported_place(*model_->constants).position;
+    Vector3<Scalar> point = position.template cast<Scalar>();
+    for (const auto& [variable, change] : model_->constants_x) {
+      const auto i = static_cast<std::size_t>(variable);
+      const Scalar distance = design[i] - context_.design[i];
+      for (int k = 0; k < 3; ++k) point(k) += distance * imported_place(change).position(k);
+    }
+    return point;
+  }
 
   const BuildContext& context_;
   Point at_;
   const Body* body_ = nullptr;
   const BodyModel* model_ = nullptr;
   BeamPlace place_;
+  int imported_place_ = -1;
 };
 
 /// A unit vector normal to the axis of a joint, from which its angle counts. Elastic rotations are

@@ -2,6 +2,7 @@
 
 #include "core/effects/floating_frame_body.hpp"
 #include "core/model/beam_builder.hpp"
+#include "core/model/imported_builder.hpp"
 #include "core/model/stiffening_builder.hpp"
 
 namespace pleuel {
@@ -76,6 +77,8 @@ BodyModel make_body_model(const Body& body, const BuildContext& context, int off
   model.frame = make_frame(body, context, offset);
   if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
     set_beam(*beam, body, context, model);
+  } else if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
+    set_imported(*imported, body, context, model);
   } else {
     set_rigid(body, context, model);
   }

@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "core/integration/redundancy.hpp"
+#include "core/model/imported_builder.hpp"
 #include "core/model/joint_builder.hpp"
 #include "core/model/load_builder.hpp"
 #include "core/model/model.hpp"
@@ -38,6 +39,11 @@ double size_of(const Scene& scene, const Design<double>& start) {
     points.push_back(body_pose(body, start).origin);
     if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
       points.push_back(resolve_point(beam->to, start));
+    } else if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
+      const Pose<double> pose = beam_pose(*imported, start);
+      for (const BodyPlace& place : imported->file->constants.places) {
+        points.push_back(pose.origin + pose.rotation * place.position);
+      }
     }
   }
   double size = 0.0;
@@ -126,9 +132,16 @@ class ModelBuilder {
       has_damping = has_damping || !body.invariants.damping.isZero(0.0);
     }
     for (std::size_t i = 0; i < model_.bodies.size(); ++i) {
+      const Body& body = context_.scene.bodies[i];
+      if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
+        for (EffectRecord& record :
+             imported_records(*imported, context_.effects, model_.bodies[i])) {
+          model_.effects.push_back(std::move(record));
+        }
+      }
       if (!model_.bodies[i].is_beam()) continue;
-      for (EffectRecord& record : beam_records(context_.scene.bodies[i], context_.effects,
-                                               model_.bodies[i], context_.plane.has_value())) {
+      for (EffectRecord& record :
+           beam_records(body, context_.effects, model_.bodies[i], context_.plane.has_value())) {
         model_.effects.push_back(std::move(record));
       }
     }
@@ -235,6 +248,7 @@ class ModelBuilder {
   }
 
   void set_elastic_scale(const BodyModel& body, double size) {
+    if (body.is_imported()) set_imported_scale(body, size);
     if (!body.is_beam()) return;
     if (body.basis) {
       set_basis_scale(body, size);
@@ -245,6 +259,22 @@ class ModelBuilder {
         if (body.coordinate(node, i) < 0) continue;
         model_.mechanism.scale(body.coordinate(node, i)) = elastic_scale * (i < 3 ? size : 1.0);
       }
+    }
+  }
+
+  /// The largest displacement at a place counts, or the mean one of the body.
+  void set_imported_scale(const BodyModel& body, double size) {
+    const BodyConstants& constants = *body.constants;
+    const Eigen::VectorXd squares = constants.mass_matrix.diagonal() / constants.mass;
+    for (int k = 0; k < body.elastic_size(); ++k) {
+      double largest = std::sqrt(squares(k)) / size;
+      for (const BodyPlace& place : constants.places) {
+        for (int i = 0; i < 3; ++i) {
+          largest = std::max({largest, std::abs(place.displacement.coeff(i, k)) / size,
+                              std::abs(place.rotation.coeff(i, k))});
+        }
+      }
+      model_.mechanism.scale(body.elastic_offset() + k) = elastic_scale / largest;
     }
   }
 

@@ -25,13 +25,18 @@ struct BodyModel {
   Invariants<double> invariants;
   std::vector<DesignDerivative<Invariants<double>>> invariants_x;
 
+  bool has_stiffening = false;
+  bool is_elastic = false;
+
   // Beams only:
   std::optional<ElasticCoordinates> coordinates;  ///< nodal
   Beam<double> beam;
   std::vector<std::pair<int, Beam<Dual>>> beam_x;  ///< for each variable the beam depends on
   std::vector<int> segment_of_element;
-  bool has_stiffening = false;
-  bool is_elastic = false;
+
+  // Imported bodies only: their constants at the present design.
+  std::optional<BodyConstants> constants;
+  std::vector<DesignDerivative<BodyConstants>> constants_x;
 
   // Beams with a basis (mean axis, modes): d = Z q_f. All that is written in nodal displacements
   // sees `nodal`, the same body with local numbers: frame, then nodal coordinates; `map` leads
@@ -42,6 +47,7 @@ struct BodyModel {
   CoordinateMap map;
 
   bool is_beam() const { return coordinates.has_value(); }
+  bool is_imported() const { return constants.has_value(); }
   int elastic_offset() const { return frame.offset + frame.size(); }
   int elastic_size() const { return invariants.size(); }
   /// Index in q of a nodal displacement of a body without basis, or −1.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/model/imported_builder.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -87,6 +89,11 @@ class PlaneCheck {
     } else if (const auto* rigid = std::get_if<RigidBody>(&body.shape)) {
       check_point(rigid->at, what);
       check_inertia(*rigid, what);
+    } else if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
+      check_point(imported->from, what);
+      check_point(imported->to, what);
+      const Eigen::Vector3d local = beam_pose(*imported, start_).rotation.transpose() * normal_;
+      require(is_symmetric(imported->file->constants, local), what);
     } else {
       check_point(std::get<PointMass>(body.shape).at, what);
     }
@@ -199,7 +206,9 @@ std::vector<Eigen::Vector3d> candidate_normals(const Scene& scene, const Design<
   for (const Body& body : scene.bodies) {
     const Pose<double> pose = body_pose(body, start);
     points.push_back(pose.origin);
-    if (std::holds_alternative<BeamBody>(body.shape)) directions.push_back(pose.rotation.col(0));
+    const bool lies_as_beam = std::holds_alternative<BeamBody>(body.shape) ||
+                              std::holds_alternative<ImportedBody>(body.shape);
+    if (lies_as_beam) directions.push_back(pose.rotation.col(0));
   }
   for (const auto& point : points) {
     const Eigen::Vector3d distance = point - points.front();

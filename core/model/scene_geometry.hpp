@@ -7,6 +7,7 @@
 #include "core/base/time_law.hpp"
 #include "core/beam/beam.hpp"
 #include "core/frame/body_frame.hpp"
+#include "core/scene/body_axes.hpp"
 #include "core/scene/scene.hpp"
 #include "core/section/box_section.hpp"
 #include "core/section/ellipse_section.hpp"
@@ -147,31 +148,18 @@ struct Pose {
   Matrix3<Scalar> rotation;  ///< body to global axes
 };
 
-/// Local x from `from` to `to`; local y the part normal to it of the reference vector (by default
-/// z × x, or global y for beams along z).
-template <class Scalar>
-Pose<Scalar> beam_pose(const BeamBody& body, const Design<Scalar>& design) {
-  Pose<Scalar> pose;
-  pose.origin = resolve_point(body.from, design);
-  const Vector3<Scalar> x = (resolve_point(body.to, design) - pose.origin).normalized();
-  Vector3<Scalar> y;
-  if (body.reference) {
-    const Vector3<Scalar> reference = to_vector(*body.reference).template cast<Scalar>();
-    const Scalar along = reference.dot(x);
-    y = reference - along * x;
-  } else {
-    y = Vector3<Scalar>(-x(1), x(0), Scalar(0));
-    const bool is_vertical = std::abs(value_of(x(0))) + std::abs(value_of(x(1))) < 1e-9;
-    if (is_vertical) y = Eigen::Vector3d::UnitY().template cast<Scalar>() - x(1) * x;
-  }
-  y /= Scalar(y.norm());
-  pose.rotation << x, y, Vector3<Scalar>(x.cross(y));
-  return pose;
+/// Of a beam, or of a body that lies as one (core/scene/body_axes.hpp).
+template <class Scalar, class Beam>
+Pose<Scalar> beam_pose(const Beam& body, const Design<Scalar>& design) {
+  return {resolve_point(body.from, design), beam_axes(body.from, body.to, body.reference, design)};
 }
 
 template <class Scalar>
 Pose<Scalar> body_pose(const Body& body, const Design<Scalar>& design) {
   if (const auto* beam = std::get_if<BeamBody>(&body.shape)) return beam_pose(*beam, design);
+  if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
+    return beam_pose(*imported, design);
+  }
   const auto* rigid = std::get_if<RigidBody>(&body.shape);
   const Point& at = rigid ? rigid->at : std::get<PointMass>(body.shape).at;
   return {resolve_point(at, design), Matrix3<double>::Identity().template cast<Scalar>()};

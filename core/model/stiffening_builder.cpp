@@ -1,6 +1,7 @@
 #include "core/model/stiffening_builder.hpp"
 
 #include "core/effects/geometric_stiffening.hpp"
+#include "core/model/imported_builder.hpp"
 #include "core/system/projected_term.hpp"
 
 namespace pleuel {
@@ -81,6 +82,7 @@ std::unique_ptr<Term> make_nodal_stiffening(const BodyModel& model) {
 }  // namespace
 
 std::unique_ptr<Term> make_stiffening(const BodyModel& body, int coordinates) {
+  if (body.is_imported()) return make_imported_stiffening(body, coordinates);
   if (!body.basis) return make_nodal_stiffening(body);
   return std::make_unique<ProjectedTerm>(make_nodal_stiffening(*body.nodal), body.map, coordinates);
 }

@@ -54,17 +54,26 @@ class Monitoring {
 
   void observe_rotations(const BodyModel& body) {
     const auto q = state_.q.segment(body.elastic_offset(), body.elastic_size());
+    if (body.is_imported()) {
+      for (const BodyPlace& place : body.constants->places) {
+        note_rotation(body, (place.rotation * q).cwiseAbs().maxCoeff());
+      }
+      return;
+    }
     const ElasticCoordinates& nodal = body.basis ? *body.nodal->coordinates : *body.coordinates;
     for (int node = 0; node < nodal.node_count(); ++node) {
       for (int i = 3; i < 6; ++i) {
         const int index = nodal.index(node, i);
         if (index < 0) continue;
-        const double rotation = std::abs(body.basis ? body.basis->row(index).dot(q) : q(index));
-        if (rotation <= monitors_.elastic_rotation) continue;
-        monitors_.elastic_rotation = rotation;
-        monitors_.most_bent = body.name;
+        note_rotation(body, std::abs(body.basis ? body.basis->row(index).dot(q) : q(index)));
       }
     }
+  }
+
+  void note_rotation(const BodyModel& body, double rotation) {
+    if (rotation <= monitors_.elastic_rotation) return;
+    monitors_.elastic_rotation = rotation;
+    monitors_.most_bent = body.name;
   }
 
   /// One evaluation of joints at position level gives Φ and their forces.

@@ -4,6 +4,7 @@
 
 #include "core/beam/beam_place.hpp"
 #include "core/response/body_signal.hpp"
+#include "core/response/place_kinematics.hpp"
 #include "core/response/signal_sum.hpp"
 #include "core/response/vector_component.hpp"
 
@@ -42,8 +43,6 @@ class DeflectionSignal final : public BodySignal<DeflectionSignal> {
   int direction_;
 };
 
-enum class TimeDerivative { none, first, second };
-
 class PlaceSignal final : public BodySignal<PlaceSignal> {
  public:
   PlaceSignal(const BodyModel& body, const PlaceMotion& motion, TimeDerivative derivative)
@@ -62,47 +61,21 @@ class PlaceSignal final : public BodySignal<PlaceSignal> {
   template <class Scalar>
   Scalar evaluate(const Beam<Scalar>& beam, const LocalMotion<Scalar>& motion, int) const {
     const FrameMotion<Scalar> frame = this->frame(motion);
-    const Vector3<Scalar> reference = of_reference(frame);
-    if (!body().is_beam()) return component_of<Scalar>(reference, motion_.direction);
-    const auto elastic = [&](const auto& nodes) {
-      return displacement<Scalar>(beam, place_, [&](int node, int i) {
-        return nodes[static_cast<std::size_t>(nodal(node, i))];
-      });
-    };
-    Vector3<Scalar> p = elastic(motion.q);
-    p(0) += position_of(beam, place_);
-    const Vector3<Scalar> relative =
-        of_relative<Scalar>(frame, {p, elastic(motion.v), elastic(motion.a)});
-    return component_of<Scalar>(Vector3<Scalar>(reference + relative), motion_.direction);
+    std::array<Vector3<Scalar>, 3> p;
+    for (auto& vector : p) vector.setConstant(Scalar(0));
+    if (body().is_beam()) {
+      const auto elastic = [&](const auto& nodes) {
+        return displacement<Scalar>(beam, place_, [&](int node, int i) {
+          return nodes[static_cast<std::size_t>(nodal(node, i))];
+        });
+      };
+      p = {elastic(motion.q), elastic(motion.v), elastic(motion.a)};
+      p[0](0) += position_of(beam, place_);
+    }
+    return component_of<Scalar>(place_motion<Scalar>(frame, p, derivative_), motion_.direction);
   }
 
  private:
-  template <class Scalar>
-  const Vector3<Scalar>& of_reference(const FrameMotion<Scalar>& frame) const {
-    switch (derivative_) {
-      case TimeDerivative::none:
-        return frame.r;
-      case TimeDerivative::first:
-        return frame.r_dot;
-      default:
-        return frame.r_ddot;
-    }
-  }
-
-  /// @param p  in the frame, with its rates
-  template <class Scalar>
-  Vector3<Scalar> of_relative(const FrameMotion<Scalar>& frame,
-                              const std::array<Vector3<Scalar>, 3>& p) const {
-    switch (derivative_) {
-      case TimeDerivative::none:
-        return frame.A * p[0];
-      case TimeDerivative::first:
-        return frame.A_dot * p[0] + frame.A * p[1];
-      default:
-        return frame.A_ddot * p[0] + 2.0 * (frame.A_dot * p[1]) + frame.A * p[2];
-    }
-  }
-
   PlaceMotion motion_;
   TimeDerivative derivative_;
   BeamPlace place_;

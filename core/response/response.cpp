@@ -10,6 +10,7 @@
 #include "core/response/drift_signal.hpp"
 #include "core/response/drive_signals.hpp"
 #include "core/response/energy_signals.hpp"
+#include "core/response/imported_signals.hpp"
 #include "core/response/mechanism_modes.hpp"
 #include "core/response/motion_signals.hpp"
 #include "core/response/projected_signal.hpp"
@@ -53,7 +54,7 @@ class ResponseMaker {
         break;
       case ResponseType::stress:
       case ResponseType::buckling:
-        check_section_forces();
+        if (body().is_beam()) check_section_forces();
         [[fallthrough]];
       case ResponseType::deflection:
       case ResponseType::position:
@@ -136,7 +137,9 @@ class ResponseMaker {
 
   void set_body_signal() {
     const BodyModel& body = this->body();
-    if (!body.basis) {
+    if (body.is_imported()) {
+      response_.signal = make_imported_signal(body);
+    } else if (!body.basis) {
       response_.signal = make_body_signal(body);
     } else {
       project(make_body_signal(*body.nodal), body.map);
@@ -163,6 +166,31 @@ class ResponseMaker {
         return make_velocity_signal(body, place);
       default:
         return make_acceleration_signal(body, place);
+    }
+  }
+
+  std::unique_ptr<Signal> make_imported_signal(const BodyModel& body) const {
+    const bool needs_strain =
+        settings_.type == ResponseType::stress || (settings_.type == ResponseType::deflection &&
+                                                   settings_.against == DeflectionReference::frame);
+    if (needs_strain && !body.is_elastic) fail(fmt::format("\"{}\" is rigid", body.name));
+    const auto motion = [&](TimeDerivative derivative) {
+      return make_imported_motion_signal(body, settings_.place, settings_.direction, derivative);
+    };
+    switch (settings_.type) {
+      case ResponseType::stress:
+        return make_imported_stress_signal(body, model_.gravity, settings_.part);
+      case ResponseType::velocity:
+        return motion(TimeDerivative::first);
+      case ResponseType::acceleration:
+        return motion(TimeDerivative::second);
+      case ResponseType::deflection:
+        if (settings_.against == DeflectionReference::frame) {
+          return make_imported_deflection_signal(body, settings_.place, settings_.direction);
+        }
+        [[fallthrough]];
+      default:  // also against the rigid mechanism, see make_deflection()
+        return motion(TimeDerivative::none);
     }
   }
 

@@ -4,6 +4,8 @@
 
 #include "core/beam/beam_shape.hpp"
 #include "core/response/body_signal.hpp"
+#include "core/response/element_forces.hpp"
+#include "core/response/place_kinematics.hpp"
 #include "core/response/station.hpp"
 #include "core/section/section_stress.hpp"
 
@@ -75,7 +77,8 @@ class SectionSignal final : public BodySignal<SectionSignal<Quantity>> {
         motion[1](i) = index < 0 ? 0.0 : state.v(index);
         motion[2](i) = index < 0 ? 0.0 : state.a(index);
       }
-      accelerations_.col(node) = acceleration<double>(frame, x, motion[0], motion[1], motion[2]);
+      motion[0](0) += x;
+      accelerations_.col(node) = local_acceleration<double>(frame, gravity_, motion);
       if (node + 1 < nodes) x += body.beam.elements[static_cast<std::size_t>(node)].length;
     }
     SectionForces<double> forces;
@@ -109,7 +112,8 @@ class SectionSignal final : public BodySignal<SectionSignal<Quantity>> {
         local[1](i) = motion.v[k];
         local[2](i) = motion.a[k];
       }
-      return acceleration<Scalar>(frame, beam.node_position(node), local[0], local[1], local[2]);
+      local[0](0) += beam.node_position(node);
+      return local_acceleration<Scalar>(frame, gravity_, local);
     };
     return quantity_.evaluate(beam, section_of(beam, c.station),
                               station_forces<Scalar>(beam, c.station, displacement, accelerated),
@@ -140,27 +144,16 @@ class SectionSignal final : public BodySignal<SectionSignal<Quantity>> {
     for (int index : station.elements) {
       Eigen::Matrix<Scalar, 12, 1> q;
       for (int i = 0; i < 12; ++i) q(i) = displacement(index + i / 6, i % 6);
-      const auto forces =
-          element_forces<Scalar>(beam.elements[static_cast<std::size_t>(index)], q,
-                                 accelerated(index), accelerated(index + 1), station.place - index);
+      const BeamElement<Scalar>& element = beam.elements[static_cast<std::size_t>(index)];
+      const auto forces = element_forces<Scalar>(element, q, elongation(element, q),
+                                                 {accelerated(index), accelerated(index + 1)},
+                                                 station.place - index);
       sum.axial += share * forces.axial;
       sum.moment_y += share * forces.moment_y;
       sum.moment_z += share * forces.moment_z;
       sum.torque += share * forces.torque;
     }
     return sum;
-  }
-
-  /// a = a₀ + X p + Y u̇ + ü of a node, local axes; its inertia load is −ρA a per length.
-  template <class Scalar>
-  Vector3<Scalar> acceleration(const FrameMotion<Scalar>& frame, const Scalar& x,
-                               const Vector3<Scalar>& u, const Vector3<Scalar>& rate,
-                               const Vector3<Scalar>& local) const {
-    Vector3<Scalar> p = u;
-    p(0) += x;
-    const Vector3<Scalar> spin = frame.omega.cross(p) + 2.0 * rate;
-    return local + frame.alpha.cross(p) + frame.omega.cross(spin) +
-           frame.A.transpose() * (frame.r_ddot - gravity_.template cast<Scalar>());
   }
 
   template <class Scalar>
@@ -170,35 +163,6 @@ class SectionSignal final : public BodySignal<SectionSignal<Quantity>> {
     if (!this->body().has_stiffening) return linear;
     return linear + 0.5 * (slope_integral<Scalar>(q(7) - q(1), q(5), q(11), element.length) +
                            slope_integral<Scalar>(q(8) - q(2), -q(4), -q(10), element.length));
-  }
-
-  /// @param first, second  accelerations of its nodes;  @param xi  place in the element, 0 … 1
-  template <class Scalar>
-  SectionForces<Scalar> element_forces(const BeamElement<Scalar>& element,
-                                       const Eigen::Matrix<Scalar, 12, 1>& q,
-                                       const Vector3<Scalar>& first, const Vector3<Scalar>& second,
-                                       double xi) const {
-    const Scalar& length = element.length;
-    const SectionProperties<Scalar>& section = element.section;
-    // What the linear load w = w₁ + ξ Δ does in a clamped element: EI v″ and EA u' with M″ = w,
-    // N' = −w, and no displacement at the ends.
-    const Scalar density = -element.density * section.area;
-    const Vector3<Scalar> start = density * first, change = density * (second - first);
-    const Vector3<Scalar> clamped =
-        (length * length) * ((xi * xi / 2 - xi / 2 + 1.0 / 12) * start +
-                             (xi * xi * xi / 6 - 3 * xi / 20 + 1.0 / 30) * change);
-    const Scalar clamped_axial =
-        length * ((0.5 - xi) * start(0) - (xi * xi / 2 - 1.0 / 6) * change(0));
-    const auto h = hermite(xi, length, 2);
-
-    SectionForces<Scalar> forces;
-    forces.axial = element.young * section.area * elongation(element, q) / length + clamped_axial;
-    const Scalar curvature_y = h[0] * q(1) + h[1] * q(5) + h[2] * q(7) + h[3] * q(11);
-    const Scalar curvature_z = h[0] * q(2) - h[1] * q(4) + h[2] * q(8) - h[3] * q(10);
-    forces.moment_z = element.young * section.inertia_z * curvature_y + clamped(1);
-    forces.moment_y = -(element.young * section.inertia_y * curvature_z + clamped(2));
-    forces.torque = element.shear * section.torsion * (q(9) - q(3)) / length;
-    return forces;
   }
 
   /// One number of a station.

@@ -11,31 +11,6 @@ namespace {
 /// Halves of a round outline, and sections as a whole.
 constexpr int pulled = -1, pressed = -2, whole = -3;
 
-/// In planar motion, points that differ only across the plane see the same stress, and those in the
-/// middle of others see less than them.
-std::vector<int> distinct_points(const BodyModel& body, const SectionProperties<double>& section) {
-  const bool is_planar = body.frame.rotation == RotationCoordinates::angle;
-  const Eigen::Vector3d normal = body.frame.reference.transpose() * body.frame.axis;
-  const bool bends_along_y = std::abs(normal.z()) > 0.5;
-  const int points = static_cast<int>(section.points.size());
-  const auto lever = [&](int k) {
-    const StressPoint<double>& point = section.points[static_cast<std::size_t>(k)];
-    return bends_along_y ? point.y : point.z;
-  };
-  bool has_upper = false, has_lower = false;
-  for (int i = 0; i < points; ++i) {
-    has_upper = has_upper || lever(i) > 0.0;
-    has_lower = has_lower || lever(i) < 0.0;
-  }
-  std::vector<int> distinct;
-  for (int i = 0; i < points; ++i) {
-    bool is_new = !is_planar || lever(i) != 0.0 || !(has_upper && has_lower);
-    for (int other : distinct) is_new = is_new && !(is_planar && lever(other) == lever(i));
-    if (is_new) distinct.push_back(i);
-  }
-  return distinct;
-}
-
 /// Points that torsion tells apart.
 std::vector<int> points_of_distinct_shear(const SectionProperties<double>& section) {
   std::vector<int> distinct;
@@ -82,7 +57,7 @@ class StressQuantity {
     if (part_ == StressPart::shear) return points_of_distinct_shear(section);
     const bool is_planar = body.frame.rotation == RotationCoordinates::angle;
     if (section.is_round() && !is_planar) return {pulled, pressed};
-    return distinct_points(body, section);
+    return distinct_stress_points(body, section);
   }
 
   template <class Scalar>
@@ -109,6 +84,30 @@ class StressQuantity {
 };
 
 }  // namespace
+
+std::vector<int> distinct_stress_points(const BodyModel& body,
+                                        const SectionProperties<double>& section) {
+  const bool is_planar = body.frame.rotation == RotationCoordinates::angle;
+  const Eigen::Vector3d normal = body.frame.reference.transpose() * body.frame.axis;
+  const bool bends_along_y = std::abs(normal.z()) > 0.5;
+  const int points = static_cast<int>(section.points.size());
+  const auto lever = [&](int k) {
+    const StressPoint<double>& point = section.points[static_cast<std::size_t>(k)];
+    return bends_along_y ? point.y : point.z;
+  };
+  bool has_upper = false, has_lower = false;
+  for (int i = 0; i < points; ++i) {
+    has_upper = has_upper || lever(i) > 0.0;
+    has_lower = has_lower || lever(i) < 0.0;
+  }
+  std::vector<int> distinct;
+  for (int i = 0; i < points; ++i) {
+    bool is_new = !is_planar || lever(i) != 0.0 || !(has_upper && has_lower);
+    for (int other : distinct) is_new = is_new && !(is_planar && lever(other) == lever(i));
+    if (is_new) distinct.push_back(i);
+  }
+  return distinct;
+}
 
 std::unique_ptr<Signal> make_stress_signal(const BodyModel& body, const Eigen::Vector3d& gravity,
                                            StressPart part, const StationChoice& stations) {

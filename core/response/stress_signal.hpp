@@ -21,4 +21,9 @@ namespace pleuel {
 std::unique_ptr<Signal> make_stress_signal(const BodyModel& body, const Eigen::Vector3d& gravity,
                                            StressPart part, const StationChoice& stations);
 
+/// Points of a section with stresses of their own. In planar motion, points that differ only across
+/// the plane see the same stress, and those in the middle of others see less than them.
+std::vector<int> distinct_stress_points(const BodyModel& body,
+                                        const SectionProperties<double>& section);
+
 }  // namespace pleuel

@@ -112,7 +112,8 @@ struct ResponseSettings {
   std::optional<int> segment;     ///< stress: only this segment, from 0
   std::optional<double> station;  ///< stress: only at this place along the beam, 0 … 1
   StressPart part = StressPart::von_mises;
-  double at = 0.0;  ///< deflection, position …: place along the beam, 0 … 1
+  double at = 0.0;    ///< deflection, position …: place along the beam, 0 … 1
+  std::string place;  ///< the same of an imported body: its name
   DeflectionReference against = DeflectionReference::frame;
   /// deflection: 1 = local y, 2 = local z; deflection against the rigid mechanism, position,
   /// velocity, acceleration, reaction: 0 … 2 global axes, −1 = magnitude

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "core/scene/body_constants.hpp"
 #include "core/scene/time_function.hpp"
 
 /// What the user asked for: plain structs, no mathematics. Order is the order of the file.
@@ -123,9 +125,30 @@ struct PointMass {
   Number mass;  ///< [kg]
 };
 
+/// A design variable of the problem that the constants of an imported body depend on.
+struct ImportedVariable {
+  Number number;              ///< bound to the variable
+  Quantity quantity;          ///< what it measures
+  std::size_t in_design = 0;  ///< index in InvariantsFile::design
+};
+
+/// An elastic body that is known by its invariants only, from a file that another code may have
+/// written.
+struct ImportedBody {
+  Point from;  ///< origin of the body frame at t = 0, global axes [m]
+  Point to;    ///< a point on its local x axis
+  /// As of a beam.
+  std::optional<std::array<double, 3>> reference;
+  std::string source;  ///< the file, for messages
+  std::shared_ptr<const InvariantsFile> file;
+  std::vector<ImportedVariable> variables;
+  /// Whether the constants may be continued linearly to other designs than that of the file.
+  bool is_linear = false;
+};
+
 struct Body {
   std::string name;
-  std::variant<BeamBody, RigidBody, PointMass> shape;
+  std::variant<BeamBody, RigidBody, PointMass, ImportedBody> shape;
   /// Of the body frame at t = 0, made consistent with joints and drives; global axes.
   std::array<Number, 3> velocity = {0.0, 0.0, 0.0};          ///< [m/s]
   std::array<Number, 3> angular_velocity = {0.0, 0.0, 0.0};  ///< [rad/s]

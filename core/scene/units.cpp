@@ -223,6 +223,33 @@ Quantity times_time(const Quantity& quantity) {
   return find_derived(time_integrals(), quantity);
 }
 
+std::optional<Quantity> find_quantity(const std::string& unit) {
+  using namespace quantities;
+  for (const Quantity& quantity : {pure_number,
+                                   length,
+                                   mass,
+                                   inertia,
+                                   density,
+                                   stress,
+                                   torque,
+                                   time,
+                                   rate,
+                                   angle,
+                                   angular_speed,
+                                   speed,
+                                   acceleration,
+                                   force,
+                                   area,
+                                   second_moment_of_area,
+                                   spring_stiffness,
+                                   damping_constant,
+                                   torsional_stiffness,
+                                   torsional_damping}) {
+    if (quantity.unit == unit) return quantity;
+  }
+  return std::nullopt;
+}
+
 std::string describe(const Quantity& quantity) {
   if (quantity == quantities::pure_number) return std::string(quantity.name);
   return fmt::format("{} [{}]", quantity.name, quantity.unit);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -42,6 +43,9 @@ inline constexpr Quantity damping_constant{"a damping constant", "N s/m"};
 inline constexpr Quantity torsional_stiffness{"a torsional stiffness", "N m/rad"};
 inline constexpr Quantity torsional_damping{"a torsional damping constant", "N m s/rad"};
 }  // namespace quantities
+
+/// The quantity of a number of a scene that has this SI unit, if there is one.
+std::optional<Quantity> find_quantity(const std::string& unit);
 
 /// "a length [m]"; "a number without unit".
 std::string describe(const Quantity& quantity);

@@ -92,6 +92,10 @@ void visit_numbers(const Body& body, Visit&& visit) {
     visiting::all(rigid->at, quantities::length, visit);
     visit(rigid->mass, quantities::mass);
     visiting::all(rigid->inertia, quantities::inertia, visit);
+  } else if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
+    visiting::all(imported->from, quantities::length, visit);
+    visiting::all(imported->to, quantities::length, visit);
+    for (const ImportedVariable& of : imported->variables) visit(of.number, of.quantity);
   } else {
     const auto& point = std::get<PointMass>(body.shape);
     visiting::all(point.at, quantities::length, visit);

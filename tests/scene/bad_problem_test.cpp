@@ -80,9 +80,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadProblem{"/scene/bodies/crank", "3", "/scene/bodies/crank must be an object {…}, got 3"},
         BadProblem{
             "/scene/bodies/crank/type", R"("baem")",
-            R"(/scene/bodies/crank/type must be "beam", "rigid" or "point-mass", got "baem"; did you mean "beam"?)"},
-        BadProblem{"/scene/bodies/crank/type", "7",
-                   R"(/scene/bodies/crank/type must be "beam", "rigid" or "point-mass", got 7)"},
+            R"(/scene/bodies/crank/type must be "beam", "rigid", "point-mass" or "invariants", got "baem"; did you mean "beam"?)"},
+        BadProblem{
+            "/scene/bodies/crank/type", "7",
+            R"(/scene/bodies/crank/type must be "beam", "rigid", "point-mass" or "invariants", got 7)"},
         BadProblem{"/scene/bodies/crank/from", "[0, 0]",
                    "/scene/bodies/crank/from must be a list of 3 values, got [0,0]"},
         BadProblem{

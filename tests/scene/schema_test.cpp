@@ -100,6 +100,22 @@ TEST_F(ProblemSchema, AcceptsEveryReferenceOfADeflection) {
   }
 }
 
+TEST_F(ProblemSchema, KnowsImportedBodies) {
+  const auto with = [this](const std::string& keys) {
+    return complaints_about_edit("/scene/bodies/rod",
+                                 R"({"type": "invariants", "to": [0.3, 0, 0], )" + keys + "}");
+  };
+  EXPECT_EQ(with(R"("file": "rod.json", "from": ["120 mm", 0, 0])"), "");
+  EXPECT_EQ(with(R"("file": "rod.json", "from": [0, 0, 0], "reference": [0, 1, 0],
+                    "other_designs": "linear", "velocity": [1, 0, 0])"),
+            "");
+  EXPECT_NE(with(R"("from": [0, 0, 0])"), "");
+  EXPECT_NE(with(R"("file": "rod.json", "from": [0, 0, 0], "other_designs": "guess")"), "");
+  EXPECT_NE(with(R"("file": "rod.json", "from": [0, 0, 0], "elements": 3)"), "");
+  EXPECT_EQ(complaints_about_edit("/responses/place/at", R"("wrist")"), "");
+  EXPECT_EQ(complaints_about_edit("/responses/bow/at", R"("wrist")"), "");
+}
+
 TEST_F(ProblemSchema, AcceptsTheGoodMechanism) {
   EXPECT_EQ(complaints(nlohmann::json::parse(good_mechanism().dump())), "");
 }

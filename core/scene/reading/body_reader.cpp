@@ -11,7 +11,7 @@ namespace {
 constexpr int most_elements = 10000;
 constexpr int most_modes = 1000;
 
-enum class BodyType { beam, rigid, point_mass };
+enum class BodyType { beam, rigid, point_mass, imported };
 
 Segment read_segment(const JsonNode& node, NumberReader& numbers) {
   node.allow_keys({"section", "elements", "length_fraction"});
@@ -167,15 +167,18 @@ void read_velocities(const JsonNode& node, Body& body, NumberReader& numbers) {
 
 Body read_body(const std::string& name, const JsonNode& node,
                const std::vector<std::string>& materials, NumberReader& numbers) {
-  const auto type = read_choice<BodyType>(
-      node.at("type"),
-      {{"beam", BodyType::beam}, {"rigid", BodyType::rigid}, {"point-mass", BodyType::point_mass}});
+  const auto type = read_choice<BodyType>(node.at("type"), {{"beam", BodyType::beam},
+                                                            {"rigid", BodyType::rigid},
+                                                            {"point-mass", BodyType::point_mass},
+                                                            {"invariants", BodyType::imported}});
   Body body;
   body.name = name;
   if (type == BodyType::beam) {
     body.shape = read_beam(node, materials, numbers);
   } else if (type == BodyType::rigid) {
     body.shape = read_rigid(node, numbers);
+  } else if (type == BodyType::imported) {
+    body.shape = read_imported_body(node, numbers);
   } else {
     body.shape = read_point_mass(node, numbers);
   }

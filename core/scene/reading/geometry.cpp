@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "core/scene/body_axes.hpp"
+
 namespace pleuel {
 namespace {
 
@@ -17,6 +19,9 @@ std::vector<Eigen::Vector3d> all_places(const Scene& scene, const Design<double>
       places.push_back(position(beam->to, design));
     } else if (const auto* rigid = std::get_if<RigidBody>(&body.shape)) {
       places.push_back(position(rigid->at, design));
+    } else if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
+      places.push_back(position(imported->from, design));
+      places.push_back(position(imported->to, design));
     } else if (const auto* point = std::get_if<PointMass>(&body.shape)) {
       places.push_back(position(point->at, design));
     }
@@ -49,6 +54,12 @@ double nearest_share(const BeamBody& beam, const Eigen::Vector3d& place,
   const Eigen::Vector3d axis = position(beam.to, design) - from;
   const double length = axis.stableNorm();
   return std::clamp((place - from).dot(axis / length) / length, 0.0, 1.0);
+}
+
+Eigen::Vector3d local_point(const ImportedBody& body, const Eigen::Vector3d& place,
+                            const Design<double>& design) {
+  return beam_axes(body.from, body.to, body.reference, design).transpose() *
+         (place - position(body.from, design));
 }
 
 double extent(const Scene& scene, const Design<double>& design) {

@@ -19,6 +19,10 @@ Eigen::Vector3d point_at(const BeamBody& beam, double share, const Design<double
 double nearest_share(const BeamBody& beam, const Eigen::Vector3d& place,
                      const Design<double>& design);
 
+/// A place in the axes of the body frame of an imported body [m].
+Eigen::Vector3d local_point(const ImportedBody& body, const Eigen::Vector3d& place,
+                            const Design<double>& design);
+
 /// The diagonal of the box around all bodies and joints [m].
 double extent(const Scene& scene, const Design<double>& design);
 

@@ -24,6 +24,9 @@ class JsonNode {
 
   const Json& value() const { return *value_; }
 
+  /// How messages name the file.
+  const std::string& file() const { return *file_; }
+
   /// Where it is, for a message: the JSON pointer, or what the whole document is called.
   const std::string& place() const { return place_; }
 

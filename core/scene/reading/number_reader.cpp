@@ -114,8 +114,14 @@ std::array<double, 3> NumberReader::unit_vector(const JsonNode& node) const {
 }
 
 int NumberReader::variable(const JsonNode& node, const std::string& name) const {
+  const std::optional<int> found = find_variable(name);
+  if (!found) fail_unknown_name(node, "variable", name, variables_);
+  return *found;
+}
+
+std::optional<int> NumberReader::find_variable(const std::string& name) const {
   const auto found = std::find(variables_.begin(), variables_.end(), name);
-  if (found == variables_.end()) fail_unknown_name(node, "variable", name, variables_);
+  if (found == variables_.end()) return std::nullopt;
   return static_cast<int>(found - variables_.begin());
 }
 

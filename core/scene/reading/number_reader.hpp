@@ -61,6 +61,9 @@ class NumberReader {
   /// Index of the variable with this name, which the document has at `node`.
   int variable(const JsonNode& node, const std::string& name) const;
 
+  /// Index of the variable with this name, if there is one.
+  std::optional<int> find_variable(const std::string& name) const;
+
   /// Says that a variable means this quantity here. Checks that it means the same everywhere.
   void add_use(VariableUse use);
 

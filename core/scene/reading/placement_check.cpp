@@ -99,6 +99,20 @@ void check_on_beam(const PlacedPoint& place, const BeamBody& beam,
   }
 }
 
+/// In the axes of the body frame at the start.
+void check_on_imported(const PlacedPoint& place, const ImportedBody& body,
+                       const Design<double>& start) {
+  const BodyConstants& constants = body.file->constants;
+  const Eigen::Vector3d at = local_point(body, position(*place.point, start), start);
+  const BodyPlace& nearest =
+      constants.places[static_cast<std::size_t>(nearest_place(constants, at))];
+  if ((at - nearest.position).stableNorm() <= placement_tolerance * size_of(constants)) return;
+  place.node.fail(fmt::format(
+      "must be at a place of the body \"{}\"; in its axes, the nearest one is \"{}\" at "
+      "{} [m], got {}",
+      place.body->name, nearest.name, describe(nearest.position), describe(at)));
+}
+
 void check_on_mass(const PlacedPoint& place, const PointMass& mass, const Scene& scene,
                    const std::vector<Sample>& samples) {
   for (const Sample& sample : samples) {
@@ -131,6 +145,8 @@ void check_placement(const JsonNode& node, const Scene& scene, const std::vector
       if (!beam->is_rigid) check_on_beam(place, *beam, samples);
     } else if (const auto* mass = std::get_if<PointMass>(&place.body->shape)) {
       check_on_mass(place, *mass, scene, samples);
+    } else if (const auto* imported = std::get_if<ImportedBody>(&place.body->shape)) {
+      check_on_imported(place, *imported, samples.front().design);
     }
   }
   for (const PointPair& pair : places.pairs) check_pair(pair, samples);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <Eigen/Eigenvalues>
+#include <fmt/format.h>
 
 #include "core/scene/reading/geometry.hpp"
 #include "core/scene/reading/mechanism_check.hpp"
@@ -16,7 +17,9 @@ namespace {
 /// Directions closer than this, and inertia less than zero by no more than this, are rounding.
 constexpr double rounding_tolerance = 1e-9;
 
-void check_beam(const JsonNode& node, const BeamBody& beam, const Sample& sample) {
+/// A beam, or a body that lies as one.
+template <class Beam>
+void check_axes(const JsonNode& node, const Beam& beam, const Sample& sample) {
   const Eigen::Vector3d axis =
       position(beam.to, sample.design) - position(beam.from, sample.design);
   const double size = std::max(position(beam.to, sample.design).stableNorm(),
@@ -53,14 +56,31 @@ void check_inertia(const JsonNode& node, const RigidBody& body, const Design<dou
   }
 }
 
+/// Derivatives belong to the design at which they were made.
+void check_design(const JsonNode& node, const ImportedBody& body, const Design<double>& start) {
+  for (const ImportedVariable& of : body.variables) {
+    const ConstantsDerivative& derivative = body.file->design[of.in_design];
+    const double value = resolve(of.number, start);
+    if (std::abs(value - derivative.value) <= rounding_tolerance * std::abs(derivative.value)) {
+      continue;
+    }
+    node.at("file").fail(fmt::format(
+        "names the file {} of the design {} = {:.12g} [{}], but the variable starts at {:.12g}",
+        body.source, derivative.variable, derivative.value, derivative.unit, value));
+  }
+}
+
 void check_bodies(const JsonNode& node, const Scene& scene, const std::vector<Sample>& samples) {
   for (const Body& body : scene.bodies) {
     const JsonNode place = node.at(body.name);
     if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
-      for (const Sample& sample : samples) check_beam(place, *beam, sample);
+      for (const Sample& sample : samples) check_axes(place, *beam, sample);
       check_sections(place, *beam, samples.front().design);
     } else if (const auto* rigid = std::get_if<RigidBody>(&body.shape)) {
       check_inertia(place, *rigid, samples.front().design);
+    } else if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
+      for (const Sample& sample : samples) check_axes(place, *imported, sample);
+      check_design(place, *imported, samples.front().design);
     }
   }
 }

@@ -1,0 +1,321 @@
+#include "core/model/imported_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "core/effects/geometric_stiffening.hpp"
+#include "core/system/projected_term.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Variables that differ by less are at the design of the file: rounding of written units.
+constexpr double rounding_tolerance = 1e-9;
+
+/// The pattern and the pairs that the constants and all their derivatives need.
+struct Arrangement {
+  ElasticPattern pattern;
+  std::vector<std::pair<int, int>> pairs;
+};
+
+class ArrangementFinder {
+ public:
+  explicit ArrangementFinder(int size) : size_(size), groups_(static_cast<std::size_t>(size)) {
+    for (std::size_t i = 0; i < groups_.size(); ++i) groups_[i] = {static_cast<int>(i)};
+  }
+
+  void add(const BodyConstants& constants) {
+    for (const auto* matrix : {&constants.mass_matrix, &constants.stiffness, &constants.damping}) {
+      add(*matrix);
+    }
+    for (std::size_t i = 0; i < moment_pairs.size(); ++i) {
+      add(constants.moments[i]);
+      has_pair_[i] = has_pair_[i] || constants.moments[i].nonZeros() > 0;
+    }
+  }
+
+  Arrangement find() const {
+    Arrangement arrangement{pattern_of_groups(size_, groups_), {}};
+    for (int k = 0; k < 3; ++k) {
+      for (int l = 0; l < 3; ++l) {
+        for (std::size_t i = 0; i < moment_pairs.size(); ++i) {
+          const auto [first, second] = moment_pairs[i];
+          const bool is_it = (first == k && second == l) || (first == l && second == k);
+          if (is_it && has_pair_[i]) arrangement.pairs.emplace_back(k, l);
+        }
+      }
+    }
+    return arrangement;
+  }
+
+ private:
+  void add(const SparseMatrix& matrix) {
+    for (int row = 0; row < matrix.outerSize(); ++row) {
+      for (SparseMatrix::InnerIterator entry(matrix, row); entry; ++entry) {
+        groups_.push_back({row, static_cast<int>(entry.col())});
+      }
+    }
+  }
+
+  int size_;
+  std::vector<std::vector<int>> groups_;
+  std::array<bool, 6> has_pair_{};
+};
+
+Eigen::VectorXd entries_of(const SparseMatrix& matrix, const ElasticPattern& pattern) {
+  Eigen::VectorXd entries = Eigen::VectorXd::Zero(pattern.nonzeros());
+  for (int row = 0; row < matrix.outerSize(); ++row) {
+    for (SparseMatrix::InnerIterator entry(matrix, row); entry; ++entry) {
+      entries(pattern.find(row, static_cast<int>(entry.col()))) = entry.value();
+    }
+  }
+  return entries;
+}
+
+Eigen::VectorXd moment_entries(const BodyConstants& constants, const std::pair<int, int>& pair,
+                               const ElasticPattern& pattern) {
+  const auto [k, l] = pair;
+  const auto index = [](int a, int b) {
+    const auto found = std::find(moment_pairs.begin(), moment_pairs.end(), std::pair(a, b));
+    return static_cast<std::size_t>(found - moment_pairs.begin());
+  };
+  const std::size_t given = index(k, l);
+  if (given < moment_pairs.size()) return entries_of(constants.moments[given], pattern);
+  return entries_of(SparseMatrix(constants.moments[index(l, k)].transpose()), pattern);
+}
+
+Invariants<double> invariants_of(const BodyConstants& constants, const Arrangement& arrangement) {
+  const ElasticPattern& pattern = arrangement.pattern;
+  Invariants<double> invariants;
+  invariants.pattern = pattern;
+  invariants.pairs = arrangement.pairs;
+  invariants.mass = constants.mass;
+  invariants.first_moment = constants.first_moment;
+  invariants.second_moment = constants.second_moment;
+  invariants.shape = Eigen::MatrixXd(constants.shape);
+  invariants.mixed = Eigen::MatrixXd(constants.mixed);
+  invariants.mass_matrix = entries_of(constants.mass_matrix, pattern);
+  invariants.stiffness = entries_of(constants.stiffness, pattern);
+  invariants.damping = entries_of(constants.damping, pattern);
+  invariants.moments.resize(pattern.nonzeros(), static_cast<int>(arrangement.pairs.size()));
+  for (std::size_t p = 0; p < arrangement.pairs.size(); ++p) {
+    invariants.moments.col(static_cast<Eigen::Index>(p)) =
+        moment_entries(constants, arrangement.pairs[p], pattern);
+  }
+  return invariants;
+}
+
+Invariants<double> rigid_part(const BodyConstants& constants) {
+  return rigid_invariants<double>(constants.mass, constants.first_moment, constants.second_moment);
+}
+
+/// Adds the derivatives of the file, and what they change where they may be continued.
+void set_constants(const ImportedBody& imported, const Body& body, const BuildContext& context,
+                   BodyModel& model) {
+  model.constants = imported.file->constants;
+  for (const ImportedVariable& of : imported.variables) {
+    const ConstantsDerivative& derivative = imported.file->design[of.in_design];
+    model.constants_x.push_back({of.number.variable, *derivative.derivative});
+    const double distance = resolve(of.number, context.design) - derivative.value;
+    if (std::abs(distance) <= rounding_tolerance * std::abs(derivative.value)) continue;
+    if (!imported.is_linear) {
+      throw InputError(fmt::format(
+          "/scene/bodies/{}/file is known at the design {} = {:.12g} only, not at {:.12g}: write "
+          "{} anew for that design, or continue it linearly with \"other_designs\": \"linear\"",
+          body.name, derivative.variable, derivative.value, derivative.value + distance,
+          imported.source));
+    }
+    add_constants(*model.constants, distance, *derivative.derivative);
+  }
+}
+
+/// Effects that are part of the numbers of a file cannot be taken out of them.
+void check_effects(const ImportedBody& imported, const Body& body, const EffectSettings& settings) {
+  for (const auto& [name, choice] :
+       {std::pair("axial_elasticity", settings.axial_elasticity),
+        std::pair("torsional_elasticity", settings.torsional_elasticity),
+        std::pair("rotary_inertia", settings.rotary_inertia)}) {
+    if (choice != EffectChoice::off) continue;
+    throw InputError(fmt::format(
+        "/effects/{} is \"off\", but the body \"{}\" has the coordinates and the inertia of its "
+        "file {}, from which nothing can be left out",
+        name, body.name, imported.source));
+  }
+  const bool is_missing = !imported.file->constants.stretching;
+  if (settings.geometric_stiffening == EffectChoice::on && is_missing) {
+    throw InputError(fmt::format(
+        "/effects/geometric_stiffening is \"on\", but the file {} of the body \"{}\" has no block "
+        "\"stiffening\"",
+        imported.source, body.name));
+  }
+}
+
+}  // namespace
+
+void set_imported(const ImportedBody& imported, const Body& body, const BuildContext& context,
+                  BodyModel& model) {
+  const EffectSettings& settings = context.effects;
+  set_constants(imported, body, context, model);
+  model.is_elastic = settings.elasticity != EffectChoice::off;
+  const auto add = [&model](const auto& invariants) {
+    for (const auto& [variable, change] : model.constants_x) {
+      model.invariants_x.push_back({variable, invariants(change)});
+    }
+  };
+  if (!model.is_elastic) {
+    model.invariants = rigid_part(*model.constants);
+    add(rigid_part);
+  } else {
+    check_effects(imported, body, settings);
+    model.has_stiffening =
+        settings.geometric_stiffening != EffectChoice::off && model.constants->stretching;
+    ArrangementFinder finder(model.constants->size());
+    finder.add(*model.constants);
+    for (const auto& [variable, change] : model.constants_x) finder.add(change);
+    const Arrangement arrangement = finder.find();
+    model.invariants = invariants_of(*model.constants, arrangement);
+    add([&](const BodyConstants& change) { return invariants_of(change, arrangement); });
+  }
+}
+
+std::vector<EffectRecord> imported_records(const ImportedBody& imported,
+                                           const EffectSettings& settings, const BodyModel& model) {
+  using Kind = EffectRecord::Kind;
+  const auto kind = [](EffectChoice choice) {
+    return choice == EffectChoice::automatic ? Kind::exact : Kind::forced;
+  };
+  std::vector<EffectRecord> records;
+  records.push_back({"elasticity",
+                     model.name,
+                     model.is_elastic,
+                     kind(settings.elasticity),
+                     settings.elasticity == EffectChoice::automatic
+                         ? fmt::format("as the file {} has it", imported.source)
+                         : "asked for",
+                     {},
+                     0});
+  if (!model.is_elastic) return records;
+  const EffectChoice choice = settings.geometric_stiffening;
+  std::string reason = "asked for";
+  if (choice == EffectChoice::automatic) {
+    reason = fmt::format("the file {} {} the block \"stiffening\"", imported.source,
+                         model.has_stiffening ? "has" : "lacks");
+  }
+  records.push_back(
+      {"geometric_stiffening", model.name, model.has_stiffening, kind(choice), reason, {}, 0});
+  return records;
+}
+
+namespace {
+
+/// The way from the body's coordinates to the displacements that stretch it.
+CoordinateMap map_of(const BodyModel& model) {
+  CoordinateMap map;
+  for (int i = 0; i < model.elastic_size(); ++i) {
+    map.coordinates.push_back(model.elastic_offset() + i);
+  }
+  map.rows = Eigen::MatrixXd(model.constants->stretching->displacements);
+  for (const auto& [variable, change] : model.constants_x) {
+    Eigen::MatrixXd rows(change.stretching->displacements);
+    if (!rows.isZero(0.0)) map.derivatives.push_back({variable, std::move(rows)});
+  }
+  return map;
+}
+
+/// Where the displacements that stretch a body are coordinates of it themselves: their indices in
+/// q.
+std::optional<std::vector<int>> find_coordinates(const BodyModel& model) {
+  const SparseMatrix& rows = model.constants->stretching->displacements;
+  std::vector<int> coordinates;
+  for (int row = 0; row < rows.outerSize(); ++row) {
+    int entries = 0;
+    for (SparseMatrix::InnerIterator entry(rows, row); entry; ++entry) {
+      if (entry.value() != 1.0 || ++entries > 1) return std::nullopt;
+      coordinates.push_back(model.elastic_offset() + static_cast<int>(entry.col()));
+    }
+    if (entries == 0) return std::nullopt;
+  }
+  for (const auto& [variable, change] : model.constants_x) {
+    const SparseMatrix& of = change.stretching->displacements;
+    if (of.nonZeros() > 0 && !of.coeffs().isZero(0.0)) return std::nullopt;
+  }
+  return coordinates;
+}
+
+std::vector<StiffeningDerivative> differentiate_stiffening(const Stretching& change) {
+  std::vector<StiffeningDerivative> derivatives;
+  for (std::size_t e = 0; e < change.elements.size(); ++e) {
+    const StretchedElement& element = change.elements[e];
+    StiffeningDerivative derivative{static_cast<int>(e), element.axial_stiffness, change.damping,
+                                    element.slopes};
+    const bool is_zero = derivative.axial_stiffness == 0.0 && derivative.damping == 0.0 &&
+                         derivative.slopes.isZero(0.0);
+    if (!is_zero) derivatives.push_back(std::move(derivative));
+  }
+  return derivatives;
+}
+
+}  // namespace
+
+std::unique_ptr<Term> make_imported_stiffening(const BodyModel& model, int coordinates) {
+  const Stretching& stretching = *model.constants->stretching;
+  const std::optional<std::vector<int>> direct = find_coordinates(model);
+  std::vector<StiffeningElement> elements;
+  for (const StretchedElement& element : stretching.elements) {
+    elements.push_back(
+        {element.displacements, element.elongation, element.axial_stiffness, element.slopes});
+    if (!direct) continue;
+    for (int& index : elements.back().coordinates)
+      index = (*direct)[static_cast<std::size_t>(index)];
+  }
+  std::vector<DesignDerivative<std::vector<StiffeningDerivative>>> derivatives;
+  for (const auto& [variable, change] : model.constants_x) {
+    auto changes = differentiate_stiffening(*change.stretching);
+    if (!changes.empty()) derivatives.push_back({variable, std::move(changes)});
+  }
+  auto term = std::make_unique<GeometricStiffening>(model.name, std::move(elements),
+                                                    stretching.damping, std::move(derivatives));
+  if (direct) return term;
+  return std::make_unique<ProjectedTerm>(std::move(term), map_of(model), coordinates);
+}
+
+int place_at(const ImportedBody& imported, const Point& point, const Design<double>& start) {
+  const Pose<double> pose = beam_pose(imported, start);
+  return nearest_place(imported.file->constants,
+                       pose.rotation.transpose() * (resolve_point(point, start) - pose.origin));
+}
+
+bool is_symmetric(const BodyConstants& constants, const Eigen::Vector3d& normal) {
+  constexpr double tolerance = 1e-9;
+  const Eigen::Matrix3d& second = constants.second_moment;
+  const Eigen::Vector3d across = second * normal - normal.dot(second * normal) * normal;
+  const double length = size_of(constants);
+  if (across.norm() > tolerance * second.cwiseAbs().maxCoeff()) return false;
+  if (std::abs(constants.first_moment.dot(normal)) > tolerance * constants.mass * length) {
+    return false;
+  }
+  // n·S = 0 almost everywhere if ∫ρ (n·S)ᵀ (n·S) vanishes; its diagonal will do.
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(constants.size());
+  Eigen::VectorXd mixed = Eigen::VectorXd::Zero(3 * constants.size());
+  const Eigen::MatrixXd h(constants.mixed);
+  for (std::size_t i = 0; i < moment_pairs.size(); ++i) {
+    const auto [k, l] = moment_pairs[i];
+    const double weight = (k == l ? 1.0 : 2.0) * normal(k) * normal(l);
+    moved += weight * constants.moments[i].diagonal();
+  }
+  for (int k = 0; k < 3; ++k) {
+    for (int l = 0; l < 3; ++l) {
+      mixed.segment(l * constants.size(), constants.size()) +=
+          normal(k) * h.row(3 * k + l).transpose();
+    }
+  }
+  return moved.cwiseAbs().maxCoeff() <=
+             tolerance * constants.mass_matrix.diagonal().cwiseAbs().maxCoeff() &&
+         mixed.cwiseAbs().maxCoeff() <= tolerance * std::max(h.cwiseAbs().maxCoeff(), 1e-300);
+}
+
+}  // namespace pleuel

@@ -1,0 +1,249 @@
+#include "core/scene/reading/constants_reader.hpp"
+
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+namespace pleuel {
+
+namespace {
+
+constexpr int most_rows = 1000000;
+constexpr int components = 6;  // of stress
+constexpr std::size_t most_displacements = 12;
+
+std::string moment_name(std::size_t pair) {
+  const auto [k, l] = moment_pairs[pair];
+  return fmt::format("moment_{}{}", "xyz"[k], "xyz"[l]);
+}
+
+double read_number(const JsonNode& node) {
+  const double number = node.number();
+  if (!std::isfinite(number)) node.fail_with_value("must be finite");
+  return number;
+}
+
+Eigen::VectorXd read_vector(const JsonNode& node, std::size_t size) {
+  Eigen::VectorXd vector(static_cast<Eigen::Index>(size));
+  Eigen::Index i = 0;
+  for (const JsonNode& item : node.items(size)) vector(i++) = read_number(item);
+  return vector;
+}
+
+Eigen::MatrixXd read_rows(const JsonNode& node, std::size_t size) {
+  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(size), static_cast<Eigen::Index>(size));
+  Eigen::Index i = 0;
+  for (const JsonNode& row : node.items(size)) matrix.row(i++) = read_vector(row, size);
+  return matrix;
+}
+
+SparseMatrix empty_matrix(Eigen::Index rows, Eigen::Index columns) {
+  return SparseMatrix(rows, columns);
+}
+
+/// A list of [row, column, value], rows and columns from 0.
+SparseMatrix read_matrix(const JsonNode& node, Eigen::Index rows, Eigen::Index columns) {
+  std::vector<Eigen::Triplet<double>> entries;
+  std::set<std::pair<int, int>> places;
+  for (const JsonNode& item : node.items()) {
+    const std::vector<JsonNode> entry = item.items(3);
+    const int row = entry[0].whole_number(0, static_cast<int>(rows) - 1);
+    const int column = entry[1].whole_number(0, static_cast<int>(columns) - 1);
+    if (!places.insert({row, column}).second) {
+      item.fail(fmt::format("is a second entry in row {}, column {}", row, column));
+    }
+    entries.emplace_back(row, column, read_number(entry[2]));
+  }
+  SparseMatrix matrix = empty_matrix(rows, columns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+/// One of the matrices that are there or zero.
+void read_into(const JsonNode& node, const std::string& key, SparseMatrix& matrix) {
+  if (const auto entries = node.find(key)) {
+    matrix = read_matrix(*entries, matrix.rows(), matrix.cols());
+  }
+}
+
+void set_sizes(BodyConstants& constants, int n) {
+  constants.shape = empty_matrix(3, n);
+  constants.mixed = empty_matrix(9, n);
+  for (auto* matrix : {&constants.mass_matrix, &constants.stiffness, &constants.damping}) {
+    *matrix = empty_matrix(n, n);
+  }
+  for (SparseMatrix& moment : constants.moments) moment = empty_matrix(n, n);
+}
+
+void read_invariants_block(const JsonNode& node, BodyConstants& constants, bool is_derivative) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < moment_pairs.size(); ++i) names.push_back(moment_name(i));
+  std::vector<std::string_view> keys = {"mass",  "first_moment", "second_moment", "shape",
+                                        "mixed", "mass_matrix",  "stiffness",     "damping"};
+  keys.insert(keys.end(), names.begin(), names.end());
+  node.allow_keys(keys);
+  if (!is_derivative) {
+    for (const char* key :
+         {"mass", "first_moment", "second_moment", "shape", "mixed", "mass_matrix", "stiffness"}) {
+      node.at(key);
+    }
+  }
+  if (const auto mass = node.find("mass")) constants.mass = read_number(*mass);
+  if (const auto first = node.find("first_moment")) constants.first_moment = read_vector(*first, 3);
+  if (const auto second = node.find("second_moment")) {
+    constants.second_moment = read_rows(*second, 3);
+  }
+  read_into(node, "shape", constants.shape);
+  read_into(node, "mixed", constants.mixed);
+  for (std::size_t i = 0; i < names.size(); ++i) read_into(node, names[i], constants.moments[i]);
+  read_into(node, "mass_matrix", constants.mass_matrix);
+  read_into(node, "stiffness", constants.stiffness);
+  read_into(node, "damping", constants.damping);
+}
+
+void read_place(const JsonNode& node, BodyPlace& place) {
+  node.allow_keys({"position", "displacement", "rotation"});
+  if (const auto position = node.find("position")) place.position = read_vector(*position, 3);
+  read_into(node, "displacement", place.displacement);
+  read_into(node, "rotation", place.rotation);
+}
+
+void read_places(const JsonNode& node, BodyConstants& constants) {
+  for (const auto& [name, member] : node.members()) {
+    BodyPlace place{name, {}, empty_matrix(3, constants.size()), empty_matrix(3, constants.size())};
+    member.at("position");
+    read_place(member, place);
+    constants.places.push_back(std::move(place));
+  }
+  if (constants.places.empty()) node.fail("must have at least one place");
+}
+
+void read_changes_of_places(const JsonNode& node, BodyConstants& change) {
+  std::vector<std::string> names;
+  for (const BodyPlace& place : change.places) names.push_back(place.name);
+  for (const auto& [name, member] : node.members()) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) fail_unknown_name(node, "place", name, names);
+    read_place(member, change.places[static_cast<std::size_t>(found - names.begin())]);
+  }
+}
+
+void read_stress_matrices(const JsonNode& node, StressRecovery& stress) {
+  if (const auto strength = node.find("strength")) stress.strength = read_number(*strength);
+  read_into(node, "of_coordinates", stress.of_coordinates);
+  read_into(node, "of_accelerations", stress.of_accelerations);
+  read_into(node, "of_stretching", stress.of_stretching);
+}
+
+void read_stress(const JsonNode& node, BodyConstants& constants) {
+  node.allow_keys({"points", "strength", "of_coordinates", "of_accelerations", "of_stretching"});
+  StressRecovery stress;
+  for (const JsonNode& point : node.at("points").items()) stress.points.push_back(point.text());
+  if (stress.points.empty()) node.at("points").fail("must have at least one point");
+  const auto rows = components * static_cast<Eigen::Index>(stress.points.size());
+  const auto elements = constants.stretching ? constants.stretching->elements.size() : 0;
+  stress.of_coordinates = empty_matrix(rows, constants.size());
+  stress.of_accelerations =
+      empty_matrix(rows, 3 * static_cast<Eigen::Index>(constants.places.size()));
+  stress.of_stretching = empty_matrix(rows, static_cast<Eigen::Index>(elements));
+  if (node.find("of_stretching") && !constants.stretching) {
+    node.at("of_stretching").fail("needs the block \"stiffening\"");
+  }
+  read_stress_matrices(node, stress);
+  if (node.find("strength") && stress.strength <= 0.0) {
+    node.at("strength").fail_with_value("must be positive [Pa]");
+  }
+  constants.stress = std::move(stress);
+}
+
+StretchedElement read_element(const JsonNode& node, Eigen::Index displacements) {
+  node.allow_keys({"displacements", "elongation", "axial_stiffness", "slopes"});
+  StretchedElement element;
+  const JsonNode list = node.at("displacements");
+  for (const JsonNode& item : list.items()) {
+    const int index = item.whole_number(0, static_cast<int>(displacements) - 1);
+    for (const int other : element.displacements) {
+      if (other == index) item.fail_with_value("is there twice");
+    }
+    element.displacements.push_back(index);
+  }
+  const std::size_t size = element.displacements.size();
+  if (size == 0 || size > most_displacements) {
+    list.fail(fmt::format("must have 1 to {} values, got {}", most_displacements, size));
+  }
+  element.elongation = read_vector(node.at("elongation"), size);
+  element.axial_stiffness = read_number(node.at("axial_stiffness"));
+  if (element.axial_stiffness <= 0.0) {
+    node.at("axial_stiffness").fail_with_value("must be positive [N/m]");
+  }
+  element.slopes = read_rows(node.at("slopes"), size);
+  return element;
+}
+
+void read_stiffening(const JsonNode& node, BodyConstants& constants) {
+  node.allow_keys({"damping", "size", "displacements", "elements"});
+  Stretching stretching;
+  if (const auto damping = node.find("damping")) stretching.damping = read_number(*damping);
+  stretching.displacements = read_matrix(
+      node.at("displacements"), node.at("size").whole_number(1, most_rows), constants.size());
+  for (const JsonNode& item : node.at("elements").items()) {
+    stretching.elements.push_back(read_element(item, stretching.displacements.rows()));
+  }
+  if (stretching.elements.empty()) node.at("elements").fail("must have at least one element");
+  constants.stretching = std::move(stretching);
+}
+
+void read_change_of_stiffening(const JsonNode& node, Stretching& change) {
+  node.allow_keys({"damping", "displacements", "elements"});
+  if (const auto damping = node.find("damping")) change.damping = read_number(*damping);
+  read_into(node, "displacements", change.displacements);
+  const auto elements = node.find("elements");
+  if (!elements) return;
+  std::size_t i = 0;
+  for (const JsonNode& item : elements->items(change.elements.size())) {
+    item.allow_keys({"axial_stiffness", "slopes"});
+    StretchedElement& element = change.elements[i++];
+    if (const auto stiffness = item.find("axial_stiffness")) {
+      element.axial_stiffness = read_number(*stiffness);
+    }
+    if (const auto slopes = item.find("slopes")) {
+      element.slopes = read_rows(*slopes, element.displacements.size());
+    }
+  }
+}
+
+}  // namespace
+
+BodyConstants read_constants(const JsonNode& node, int coordinates) {
+  BodyConstants constants;
+  set_sizes(constants, coordinates);
+  read_invariants_block(node.at("invariants"), constants, false);
+  read_places(node.at("places"), constants);
+  if (const auto stiffening = node.find("stiffening")) read_stiffening(*stiffening, constants);
+  if (const auto stress = node.find("stress")) read_stress(*stress, constants);
+  return constants;
+}
+
+BodyConstants read_derivative(const JsonNode& node, const BodyConstants& of) {
+  node.allow_keys({"invariants", "places", "stress", "stiffening"});
+  BodyConstants change = zero_constants(of);
+  if (const auto invariants = node.find("invariants")) {
+    read_invariants_block(*invariants, change, true);
+  }
+  if (const auto places = node.find("places")) read_changes_of_places(*places, change);
+  if (const auto stress = node.find("stress")) {
+    if (!change.stress) stress->fail("has no block of the same name outside the derivatives");
+    stress->allow_keys({"strength", "of_coordinates", "of_accelerations", "of_stretching"});
+    read_stress_matrices(*stress, *change.stress);
+  }
+  if (const auto stiffening = node.find("stiffening")) {
+    if (!change.stretching) {
+      stiffening->fail("has no block of the same name outside the derivatives");
+    }
+    read_change_of_stiffening(*stiffening, *change.stretching);
+  }
+  return change;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+
+#include "core/scene/invariants_file.hpp"
+#include "core/scene/reading/json_text.hpp"
+
+namespace pleuel {
+
+namespace {
+
+template <class Derived>
+Json vector_json(const Eigen::MatrixBase<Derived>& vector) {
+  Json json = Json::array();
+  for (const double number : vector) json.push_back(number);
+  return json;
+}
+
+Json rows_json(const Eigen::MatrixXd& matrix) {
+  Json json = Json::array();
+  for (const auto& row : matrix.rowwise()) json.push_back(vector_json(row));
+  return json;
+}
+
+/// [row, column, value] of every entry that is not zero.
+Json entries_json(const SparseMatrix& matrix) {
+  Json json = Json::array();
+  for (int row = 0; row < matrix.outerSize(); ++row) {
+    for (SparseMatrix::InnerIterator entry(matrix, row); entry; ++entry) {
+      if (entry.value() != 0.0) json.push_back({row, entry.col(), entry.value()});
+    }
+  }
+  return json;
+}
+
+Json invariants_json(const BodyConstants& constants) {
+  Json json;
+  json["mass"] = constants.mass;
+  json["first_moment"] = vector_json(constants.first_moment);
+  json["second_moment"] = rows_json(constants.second_moment);
+  json["shape"] = entries_json(constants.shape);
+  json["mixed"] = entries_json(constants.mixed);
+  for (std::size_t i = 0; i < moment_pairs.size(); ++i) {
+    const auto [k, l] = moment_pairs[i];
+    json[fmt::format("moment_{}{}", "xyz"[k], "xyz"[l])] = entries_json(constants.moments[i]);
+  }
+  json["mass_matrix"] = entries_json(constants.mass_matrix);
+  json["stiffness"] = entries_json(constants.stiffness);
+  json["damping"] = entries_json(constants.damping);
+  return json;
+}
+
+Json places_json(const BodyConstants& constants) {
+  Json json = Json::object();
+  for (const BodyPlace& place : constants.places) {
+    json[place.name] = {{"position", vector_json(place.position)},
+                        {"displacement", entries_json(place.displacement)},
+                        {"rotation", entries_json(place.rotation)}};
+  }
+  return json;
+}
+
+Json stress_json(const StressRecovery& stress, bool is_derivative) {
+  Json json = Json::object();
+  if (!is_derivative) json["points"] = stress.points;
+  if (is_derivative || stress.strength > 0.0) json["strength"] = stress.strength;
+  json["of_coordinates"] = entries_json(stress.of_coordinates);
+  json["of_accelerations"] = entries_json(stress.of_accelerations);
+  if (stress.of_stretching.cols() > 0) {
+    json["of_stretching"] = entries_json(stress.of_stretching);
+  }
+  return json;
+}
+
+Json stiffening_json(const Stretching& stretching, bool is_derivative) {
+  Json json = Json::object();
+  json["damping"] = stretching.damping;
+  if (!is_derivative) json["size"] = stretching.displacements.rows();
+  json["displacements"] = entries_json(stretching.displacements);
+  json["elements"] = Json::array();
+  for (const StretchedElement& element : stretching.elements) {
+    Json item = Json::object();
+    if (!is_derivative) {
+      item["displacements"] = element.displacements;
+      item["elongation"] = vector_json(element.elongation);
+    }
+    item["axial_stiffness"] = element.axial_stiffness;
+    item["slopes"] = rows_json(element.slopes);
+    json["elements"].push_back(std::move(item));
+  }
+  return json;
+}
+
+void add_blocks(Json& json, const BodyConstants& constants, bool is_derivative) {
+  json["invariants"] = invariants_json(constants);
+  json["places"] = places_json(constants);
+  if (constants.stress) json["stress"] = stress_json(*constants.stress, is_derivative);
+  if (constants.stretching) {
+    json["stiffening"] = stiffening_json(*constants.stretching, is_derivative);
+  }
+}
+
+/// Objects over several lines, each list on one.
+void write(const Json& json, const std::string& indent, std::string& text) {
+  if (!json.is_object() || json.empty()) {
+    text += json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return;
+  }
+  text += "{\n";
+  std::size_t left = json.size();
+  for (const auto& [key, value] : json.items()) {
+    text += indent + "  " + Json(key).dump(-1, ' ', false, Json::error_handler_t::replace) + ": ";
+    write(value, indent + "  ", text);
+    text += --left > 0 ? ",\n" : "\n";
+  }
+  text += indent + "}";
+}
+
+}  // namespace
+
+std::string write_invariants(const InvariantsFile& file) {
+  Json json;
+  json["format"] = "pleuel-invariants";
+  json["version"] = 1;
+  json["body"] = file.body;
+  if (!file.description.empty()) json["description"] = file.description;
+  json["units"] = "SI";
+  json["reference_condition"] = file.reference_condition;
+  json["coordinates"] = file.coordinates;
+  add_blocks(json, file.constants, false);
+  json["design"] = Json::object();
+  for (const ConstantsDerivative& of : file.design) {
+    json["design"][of.variable] = {{"value", of.value}, {"unit", of.unit}};
+  }
+  json["derivatives"] = Json::object();
+  for (const ConstantsDerivative& of : file.design) {
+    if (!of.derivative) continue;
+    Json& change = json["derivatives"][of.variable];
+    change = Json::object();
+    add_blocks(change, *of.derivative, true);
+  }
+  std::string text;
+  write(json, "", text);
+  return text + "\n";
+}
+
+}  // namespace pleuel

@@ -1,0 +1,86 @@
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "tests/cli/program.hpp"
+
+namespace pleuel::test {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Invariants, OfOneBodyAreOneFile) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(folder.path(), {"invariants", problem("slider_crank"),
+                                                     "--body", "rod", "-o", "rod.json", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json written = run.document().at("bodies");
+  ASSERT_EQ(written.size(), 1U);
+  EXPECT_EQ(written[0].at("file"), "rod.json");
+  EXPECT_EQ(written[0].at("variables"), nlohmann::json({"rod_width", "rod_height"}));
+  const auto file = nlohmann::json::parse(read_file(folder.path() / "rod.json"));
+  EXPECT_EQ(file.at("format"), "pleuel-invariants");
+  EXPECT_EQ(file.at("coordinates").size(), written[0].at("coordinates").get<std::size_t>());
+  // ρ L w h with 7850 kg/m³, 180 mm, 20 mm, 30 mm.
+  EXPECT_NEAR(file.at("invariants").at("mass"), 7850 * 0.18 * 0.02 * 0.03, 1e-14);
+  EXPECT_NEAR(file.at("derivatives").at("rod_width").at("invariants").at("mass"),
+              7850 * 0.18 * 0.03, 1e-12);
+}
+
+TEST(Invariants, OfAllElasticBodiesAreARunFolder) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(folder.path(), {"invariants", problem("slider_crank")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const char* name : {"crank.json", "rod.json", "run_card.json", "result.json"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "runs" / "slider_crank-invariants" / name))
+        << name;
+  }
+}
+
+/// The whole way: written, read in place of the beam, and differentiated.
+TEST(Invariants, TakeThePlaceOfTheBeam) {
+  const TemporaryFolder folder;
+  const auto run = [&](std::vector<std::string> words) {
+    ProgramRun result = run_program(folder.path(), joined(std::move(words), quick()));
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result;
+  };
+  run({"invariants", problem("slider_crank"), "--body", "rod", "-o", "rod.json"});
+  auto document = nlohmann::json::parse(read_file(problem("slider_crank")));
+  document["scene"]["bodies"]["rod"] = {{"type", "invariants"},
+                                        {"file", "rod.json"},
+                                        {"from", {"120 mm", 0, 0}},
+                                        {"to", {"300 mm", 0, 0}}};
+  document["responses"]["rod_bow"]["at"] = "rod_bow";
+  std::ofstream(folder.path() / "imported.json") << document;
+  const auto beam = run({"gradient", problem("slider_crank"), "--json"}).document();
+  const auto body = run({"gradient", "imported.json", "--json"}).document();
+  const auto value = [](const nlohmann::json& of, const char* name) -> double {
+    return of.at("responses").at(name).at("value");
+  };
+  for (const char* name : {"rod_stress", "rod_bow", "torque_rms"}) {
+    EXPECT_NEAR(value(body, name) / value(beam, name), 1.0, 1e-9) << name;
+  }
+  const ProgramRun moved =
+      run_program(folder.path(),
+                  joined({"gradient", "imported.json", "--method", "central-difference"}, quick()));
+  EXPECT_EQ(moved.exit_code, 2);
+  EXPECT_THAT(moved.err, HasSubstr("imported.json: /scene/bodies/rod/file is known at the design"));
+}
+
+TEST(Invariants, RefuseWhatHasNone) {
+  const TemporaryFolder folder;
+  const auto complaint = [&](const std::vector<std::string>& words) {
+    const ProgramRun run =
+        run_program(folder.path(), joined({"invariants", problem("slider_crank")}, words));
+    EXPECT_EQ(run.exit_code, 2);
+    return run.err;
+  };
+  EXPECT_THAT(complaint({"--body", "slider"}), HasSubstr("\"slider\" is rigid"));
+  EXPECT_THAT(complaint({"--body", "rood"}), HasSubstr("there is no body \"rood\""));
+  EXPECT_THAT(complaint({"-o", "all.json"}), HasSubstr("2 bodies are elastic"));
+  EXPECT_THAT(complaint({"--set", "/effects/elasticity=off"}), HasSubstr("no body is elastic"));
+}
+
+}  // namespace
+}  // namespace pleuel::test
