@@ -13,14 +13,20 @@ struct GradientCase {
 
 class HardGradient : public testing::TestWithParam<std::tuple<std::string, GradientCase>> {};
 
-/// Central differences of several steps and Richardson's extrapolation of two: the best of them is
-/// as good as the round-off and the truncation of differences allow.
-TEST_P(HardGradient, IsThatOfCentralDifferencesAtTheBestStep) {
-  const auto& [formulation, hard] = GetParam();
+/// The problem of a case; its Newton iterations end at round-off.
+ProblemFile problem_of(const GradientCase& hard, const std::string& formulation) {
   std::vector<std::string> overrides = hard.overrides;
   overrides.push_back("/simulation/formulation=" + formulation);
   ProblemFile problem = sample_problem("hard/" + hard.problem, overrides);
   problem.simulation.newton_tolerance = 1e-13;
+  return problem;
+}
+
+/// Central differences of several steps and Richardson's extrapolation of two: the best of them is
+/// as good as the round-off and the truncation of differences allow.
+TEST_P(HardGradient, IsThatOfCentralDifferencesAtTheBestStep) {
+  const auto& [formulation, hard] = GetParam();
+  const ProblemFile problem = problem_of(hard, formulation);
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
   const Eigen::VectorXd direct = direct_gradients(*analysis) * x;
@@ -42,6 +48,23 @@ TEST_P(HardGradient, IsThatOfCentralDifferencesAtTheBestStep) {
   for (Eigen::Index i = 0; i < direct.size(); ++i) {
     const std::string& name = problem.responses[static_cast<std::size_t>(i)].name;
     EXPECT_LE(best(i), hard.tolerance) << name;
+  }
+}
+
+/// The transposed map, backwards: no differences, no truncation, only round-off. Against a
+/// thousandth of the value where it hardly depends on the design.
+TEST_P(HardGradient, IsThatOfTheAdjoint) {
+  const auto& [formulation, hard] = GetParam();
+  const ProblemFile problem = problem_of(hard, formulation);
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const auto values = response_values(*analysis);
+  const Eigen::VectorXd direct = sampled_gradients(*analysis, values, ExactMethod::direct) * x;
+  const Eigen::VectorXd adjoint = sampled_gradients(*analysis, values, ExactMethod::adjoint) * x;
+  for (Eigen::Index i = 0; i < direct.size(); ++i) {
+    const double value = std::abs(analysis->reductions[static_cast<std::size_t>(i)].value);
+    EXPECT_LE(std::abs(adjoint(i) - direct(i)), 1e-8 * std::max(std::abs(direct(i)), 1e-3 * value))
+        << problem.responses[static_cast<std::size_t>(i)].name;
   }
 }
 
