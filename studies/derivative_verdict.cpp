@@ -1,0 +1,87 @@
+#include "studies/derivative_verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pleuel {
+
+namespace {
+
+/// Central differences of simulations reach about 1e-8; a wrong term shows as 1e-3 and more.
+constexpr double agreement = 1e-6;
+/// Deviations of noise beyond which noise is no excuse.
+constexpr double most_deviations = 10.0;
+
+double least_derivative(const DerivativeEvidence& evidence, double difference) {
+  return std::max(std::abs(difference), 1e-3 * evidence.response / evidence.size);
+}
+
+double noise_at(const DerivativeEvidence& evidence, double step) {
+  return evidence.noise / (std::sqrt(2.0) * step * evidence.size);
+}
+
+/// The difference with the least of noise and truncation. The largest step shows no truncation: it
+/// counts only where it is the only one.
+const CentralDifference& best_resolved(const DerivativeEvidence& evidence,
+                                       const std::vector<CentralDifference>& curve) {
+  const CentralDifference* best = &curve.back();
+  double least = INFINITY;
+  for (std::size_t k = 0; k + 1 < curve.size(); ++k) {
+    const double uncertainty =
+        noise_at(evidence, curve[k].step) + std::abs(curve[k].value - curve[k + 1].value);
+    if (uncertainty >= least) continue;
+    least = uncertainty;
+    best = &curve[k];
+  }
+  return *best;
+}
+
+}  // namespace
+
+std::string to_string(DerivativeVerdict verdict) {
+  switch (verdict) {
+    case DerivativeVerdict::agrees:
+      return "agrees";
+    case DerivativeVerdict::noise:
+      return "noise";
+    case DerivativeVerdict::kink:
+      return "kink";
+    default:
+      return "differs";
+  }
+}
+
+JudgedDerivative judge_derivative(const DerivativeEvidence& evidence,
+                                  std::vector<CentralDifference> curve) {
+  const auto by_step = [](const CentralDifference& a, const CentralDifference& b) {
+    return a.step < b.step;
+  };
+  const auto by_error = [](const CentralDifference& a, const CentralDifference& b) {
+    return a.error < b.error;
+  };
+  std::sort(curve.begin(), curve.end(), by_step);
+  for (CentralDifference& difference : curve) {
+    const double distance = std::abs(evidence.derivative - difference.value);
+    difference.error =
+        distance == 0.0 ? 0.0 : distance / least_derivative(evidence, difference.value);
+  }
+  const CentralDifference& nearest = *std::min_element(curve.begin(), curve.end(), by_error);
+  const CentralDifference& best = best_resolved(evidence, curve);
+  const double noise = noise_at(evidence, best.step);
+  JudgedDerivative judged;
+  judged.derivative = evidence.derivative;
+  judged.error = nearest.error;
+  judged.step = nearest.step;
+  judged.resolution = noise == 0.0 ? 0.0 : noise / least_derivative(evidence, best.value);
+  if (nearest.error <= agreement) {
+    judged.verdict = DerivativeVerdict::agrees;
+  } else if (evidence.has_kink) {
+    judged.verdict = DerivativeVerdict::kink;
+  } else if (std::abs(evidence.derivative - best.value) <= most_deviations * noise) {
+    judged.verdict = DerivativeVerdict::noise;
+  }
+  judged.curve = std::move(curve);
+  return judged;
+}
+
+}  // namespace pleuel

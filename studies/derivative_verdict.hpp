@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+/// Whether the derivative of one response with respect to one variable is right, as far as
+/// differences of simulations can tell.
+namespace pleuel {
+
+enum class DerivativeVerdict {
+  agrees,  ///< with differences, to 1e-6
+  noise,   ///< differences cannot tell: the noise of the simulation hides the rest
+  kink,    ///< two unlike peaks tie: differences mix them, the gradient is that of the higher one
+  differs  ///< something is wrong
+};
+
+/// "agrees", "noise", "kink", "differs".
+std::string to_string(DerivativeVerdict verdict);
+
+/// A central difference (f(x + Δ) − f(x − Δ)) / 2Δ, Δ = step · size.
+struct CentralDifference {
+  double step = 0.0;   ///< relative
+  double value = 0.0;  ///< unit of the response / unit of the variable
+  double error = 0.0;  ///< of the derivative against it, relative; set by judge_derivative()
+};
+
+/// What is known of a response f and a variable x before the verdict.
+struct DerivativeEvidence {
+  double derivative = 0.0;
+  double size = 1.0;      ///< |x|, or 1 where x = 0
+  double response = 0.0;  ///< |f|
+  double noise = 0.0;     ///< standard deviation of f
+  bool has_kink = false;  ///< f has one near x
+};
+
+struct JudgedDerivative {
+  DerivativeVerdict verdict = DerivativeVerdict::differs;
+  double derivative = 0.0;
+  double error = 0.0;                    ///< the smallest over the steps
+  double step = 0.0;                     ///< where that was
+  double resolution = 0.0;               ///< what noise leaves of a difference at its best step,
+                                         ///< relative as the error
+  std::vector<CentralDifference> curve;  ///< ascending steps
+};
+
+/// Judges a derivative g by central differences d(h) of several relative steps h:
+///     error(h) = |g − d(h)| / max(|d(h)|, 1e-3 · |f| / size)
+///     noise of d(h):       u(h) = σ / (√2 · h · size)
+///     truncation of d(h):  t(h) = |d(h) − d(next larger h)|
+/// A derivative agrees if the smallest error is at most 1e-6. Else, without a kink, the difference
+/// with the least u + t decides: within 10 u of it, it is noise that separates them. Steps where
+/// noise swamps everything excuse nothing.
+/// @param curve  at least one difference
+JudgedDerivative judge_derivative(const DerivativeEvidence& evidence,
+                                  std::vector<CentralDifference> curve);
+
+}  // namespace pleuel
