@@ -54,7 +54,7 @@ std::string response_verdict(const ProblemFile& problem, const DerivativeCheck& 
 std::string explanation(const JudgedDerivative& judged) {
   switch (judged.verdict) {
     case DerivativeVerdict::noise:
-      return fmt::format("noise: differences are certain to {} only", magnitude(judged.resolution));
+      return fmt::format("noise: differences are good to {} only", magnitude(judged.resolution));
     case DerivativeVerdict::kink:
       return "kink: differences mix two peaks";
     default:

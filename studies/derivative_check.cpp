@@ -93,8 +93,8 @@ class Check {
       if (error < check.error) std::tie(check.error, check.step) = std::tie(error, step.step);
     }
     check.adjoint_error = gradient_error(adjoint_.row(i), direct_.row(i), x_, magnitudes_(i));
-    check.noise = noise_(i);
-    const double relative = noise_(i) == 0.0 ? 0.0 : noise_(i) / magnitudes_(i);
+    check.noise = noise_.floor()(i);
+    const double relative = check.noise == 0.0 ? 0.0 : check.noise / magnitudes_(i);
     check.relative_noise = std::max(relative, std::numeric_limits<double>::epsilon());
     for (Eigen::Index j = 0; j < direct_.cols(); ++j) check.variables.push_back(judge(i, j));
     return check;
@@ -104,9 +104,9 @@ class Check {
     const double size = x_(j) == 0.0 ? 1.0 : std::abs(x_(j));
     std::vector<CentralDifference> curve;
     for (const Step& step : steps_) curve.push_back({step.step, step.differences(i, j)});
-    return judge_derivative(
-        {direct_(i, j), size, magnitudes_(i), noise_(i), has_kink_[static_cast<std::size_t>(i)]},
-        std::move(curve));
+    return judge_derivative({direct_(i, j), size, magnitudes_(i), noise_.scatter(i),
+                             noise_.remainder(i), has_kink_[static_cast<std::size_t>(i)]},
+                            std::move(curve));
   }
 
   const ProblemFile& problem_;
@@ -114,7 +114,7 @@ class Check {
   const DerivativeCheckOptions& options_;
   Eigen::VectorXd magnitudes_;
   Eigen::MatrixXd direct_, adjoint_;
-  Eigen::VectorXd noise_;
+  ResponseNoise noise_;
   std::vector<bool> has_kink_;
   std::vector<Step> steps_;
   std::string failure_;  ///< of the last step that failed

@@ -14,7 +14,7 @@ struct DerivativeCheck {
   double error = 0.0;
   double step = 0.0;            ///< relative step of the differences where that was
   double adjoint_error = 0.0;   ///< of the adjoint method against direct differentiation, relative
-  double noise = 0.0;           ///< of the value [SI]: see response_noise()
+  double noise = 0.0;           ///< of the value [SI]: see ResponseNoise::floor()
   double relative_noise = 0.0;  ///< of it; at least the round-off of one number
   std::vector<JudgedDerivative> variables;  ///< one a variable
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pleuel {
 
@@ -11,29 +12,34 @@ namespace {
 constexpr double agreement = 1e-6;
 /// Deviations of noise beyond which noise is no excuse.
 constexpr double most_deviations = 10.0;
+/// Part of the change over a decade of steps that the smaller step may still be off.
+constexpr double most_truncation = 0.1;
 
 double least_derivative(const DerivativeEvidence& evidence, double difference) {
   return std::max(std::abs(difference), 1e-3 * evidence.response / evidence.size);
 }
 
-double noise_at(const DerivativeEvidence& evidence, double step) {
-  return evidence.noise / (std::sqrt(2.0) * step * evidence.size);
-}
+/// The difference with the least of noise and truncation, and both.
+struct BestDifference {
+  double value = 0.0, noise = 0.0, truncation = 0.0;
+};
 
-/// The difference with the least of noise and truncation. The largest step shows no truncation: it
-/// counts only where it is the only one.
-const CentralDifference& best_resolved(const DerivativeEvidence& evidence,
-                                       const std::vector<CentralDifference>& curve) {
-  const CentralDifference* best = &curve.back();
-  double least = INFINITY;
+/// The largest step shows no truncation: it counts only where it is the only one.
+BestDifference best_resolved(const DerivativeEvidence& evidence,
+                             const std::vector<CentralDifference>& curve) {
+  const auto noise_at = [&](double step) {
+    return (evidence.scatter / (std::sqrt(2.0) * step) + evidence.remainder) / evidence.size;
+  };
+  BestDifference best{curve.back().value, noise_at(curve.back().step), 0.0};
+  double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k + 1 < curve.size(); ++k) {
-    const double uncertainty =
-        noise_at(evidence, curve[k].step) + std::abs(curve[k].value - curve[k + 1].value);
-    if (uncertainty >= least) continue;
-    least = uncertainty;
-    best = &curve[k];
+    const double noise = noise_at(curve[k].step);
+    const double truncation = std::abs(curve[k].value - curve[k + 1].value);
+    if (noise + truncation >= least) continue;
+    least = noise + truncation;
+    best = {curve[k].value, noise, truncation};
   }
-  return *best;
+  return best;
 }
 
 }  // namespace
@@ -66,18 +72,19 @@ JudgedDerivative judge_derivative(const DerivativeEvidence& evidence,
         distance == 0.0 ? 0.0 : distance / least_derivative(evidence, difference.value);
   }
   const CentralDifference& nearest = *std::min_element(curve.begin(), curve.end(), by_error);
-  const CentralDifference& best = best_resolved(evidence, curve);
-  const double noise = noise_at(evidence, best.step);
+  const BestDifference best = best_resolved(evidence, curve);
+  const double uncertain = best.noise + most_truncation * best.truncation;
   JudgedDerivative judged;
   judged.derivative = evidence.derivative;
   judged.error = nearest.error;
   judged.step = nearest.step;
-  judged.resolution = noise == 0.0 ? 0.0 : noise / least_derivative(evidence, best.value);
+  judged.resolution = uncertain == 0.0 ? 0.0 : uncertain / least_derivative(evidence, best.value);
   if (nearest.error <= agreement) {
     judged.verdict = DerivativeVerdict::agrees;
   } else if (evidence.has_kink) {
     judged.verdict = DerivativeVerdict::kink;
-  } else if (std::abs(evidence.derivative - best.value) <= most_deviations * noise) {
+  } else if (std::abs(evidence.derivative - best.value) <=
+             most_deviations * best.noise + most_truncation * best.truncation) {
     judged.verdict = DerivativeVerdict::noise;
   }
   judged.curve = std::move(curve);

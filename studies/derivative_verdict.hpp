@@ -9,7 +9,7 @@ namespace pleuel {
 
 enum class DerivativeVerdict {
   agrees,  ///< with differences, to 1e-6
-  noise,   ///< differences cannot tell: the noise of the simulation hides the rest
+  noise,   ///< differences cannot tell: their own errors hide the rest
   kink,    ///< two unlike peaks tie: differences mix them, the gradient is that of the higher one
   differs  ///< something is wrong
 };
@@ -27,10 +27,11 @@ struct CentralDifference {
 /// What is known of a response f and a variable x before the verdict.
 struct DerivativeEvidence {
   double derivative = 0.0;
-  double size = 1.0;      ///< |x|, or 1 where x = 0
-  double response = 0.0;  ///< |f|
-  double noise = 0.0;     ///< standard deviation of f
-  bool has_kink = false;  ///< f has one near x
+  double size = 1.0;       ///< |x|, or 1 where x = 0
+  double response = 0.0;   ///< |f|
+  double scatter = 0.0;    ///< standard deviation of f: see ResponseNoise
+  double remainder = 0.0;  ///< what Newton's method leaves of f
+  bool has_kink = false;   ///< f has one near x
 };
 
 struct JudgedDerivative {
@@ -38,18 +39,17 @@ struct JudgedDerivative {
   double derivative = 0.0;
   double error = 0.0;                    ///< the smallest over the steps
   double step = 0.0;                     ///< where that was
-  double resolution = 0.0;               ///< what noise leaves of a difference at its best step,
-                                         ///< relative as the error
+  double resolution = 0.0;               ///< u + t/10 of the difference at its best step, relative
   std::vector<CentralDifference> curve;  ///< ascending steps
 };
 
 /// Judges a derivative g by central differences d(h) of several relative steps h:
 ///     error(h) = |g − d(h)| / max(|d(h)|, 1e-3 · |f| / size)
-///     noise of d(h):       u(h) = σ / (√2 · h · size)
+///     noise of d(h):       u(h) = (scatter / (√2 h) + remainder) / size
 ///     truncation of d(h):  t(h) = |d(h) − d(next larger h)|
 /// A derivative agrees if the smallest error is at most 1e-6. Else, without a kink, the difference
-/// with the least u + t decides: within 10 u of it, it is noise that separates them. Steps where
-/// noise swamps everything excuse nothing.
+/// with the least u + t decides: within 10 u + t/10 of it (a tenth of the step leaves a hundredth
+/// of the truncation), differences cannot tell. Steps where noise swamps everything excuse nothing.
 /// @param curve  at least one difference
 JudgedDerivative judge_derivative(const DerivativeEvidence& evidence,
                                   std::vector<CentralDifference> curve);

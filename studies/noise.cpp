@@ -101,19 +101,19 @@ double noise_of(const Eigen::VectorXd& values) {
   return smallest;
 }
 
-Eigen::VectorXd response_noise(const ProblemFile& problem, const Eigen::VectorXd& x, int threads) {
-  Eigen::VectorXd noise =
-      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.responses.size()));
+ResponseNoise response_noise(const ProblemFile& problem, const Eigen::VectorXd& x, int threads) {
+  const auto responses = static_cast<Eigen::Index>(problem.responses.size());
+  ResponseNoise noise{Eigen::VectorXd::Zero(responses), Eigen::VectorXd::Zero(responses)};
   for (const double spacing : {round_off_spacing, iteration_spacing}) {
     const Eigen::MatrixXd values = values_on_line(problem, x, spacing, threads);
     if (!values.allFinite()) continue;
-    for (Eigen::Index i = 0; i < noise.size(); ++i) {
-      noise(i) = std::max(noise(i), noise_of(values.row(i).transpose()));
+    for (Eigen::Index i = 0; i < responses; ++i) {
+      noise.scatter(i) = std::max(noise.scatter(i), noise_of(values.row(i).transpose()));
     }
   }
-  const Eigen::MatrixXd tolerances = values_of_tolerances(problem, x, threads);
-  if (!tolerances.allFinite()) return noise;
-  return noise.cwiseMax((tolerances.col(1) - tolerances.col(0)).cwiseAbs());
+  const Eigen::MatrixXd values = values_of_tolerances(problem, x, threads);
+  if (values.allFinite()) noise.remainder = (values.col(1) - values.col(0)).cwiseAbs();
+  return noise;
 }
 
 }  // namespace pleuel

@@ -16,14 +16,21 @@ namespace pleuel {
 /// @param values  at least 6, in the order of the points
 double noise_of(const Eigen::VectorXd& values);
 
-/// Noise of all responses at a design [SI], the largest of three:
-///   - along a line of 8 designs of relative spacing 1e-11, where only round-off differs;
-///   - along one of spacing 1e-6, where iterations may end differently;
-///   - what Newton's method leaves: the change with a thousandth of its tolerance. It is smooth
-///     while all iterations end alike, and jumps where one does not.
+/// Noise of all responses at a design [SI].
+struct ResponseNoise {
+  /// Standard deviation, the larger one along two lines of 8 designs: of relative spacing 1e-11,
+  /// where only round-off differs, and 1e-6, where iterations may end differently.
+  Eigen::VectorXd scatter;
+  /// What Newton's method leaves: the change of the value with a thousandth of its tolerance. It is
+  /// smooth while all iterations end alike, and jumps where one does not.
+  Eigen::VectorXd remainder;
+
+  /// What an optimizer has to expect: the larger one.
+  Eigen::VectorXd floor() const { return scatter.cwiseMax(remainder); }
+};
+
 /// Costs 18 simulations. A line or change of which a simulation fails is left out.
 /// @param threads  simulations at a time
-Eigen::VectorXd response_noise(const ProblemFile& problem, const Eigen::VectorXd& x,
-                               int threads = 1);
+ResponseNoise response_noise(const ProblemFile& problem, const Eigen::VectorXd& x, int threads = 1);
 
 }  // namespace pleuel
