@@ -12,8 +12,6 @@ namespace {
 constexpr double agreement = 1e-6;
 /// Deviations of noise beyond which noise is no excuse.
 constexpr double most_deviations = 10.0;
-/// Part of the change over a decade of steps that the smaller step may still be off.
-constexpr double most_truncation = 0.1;
 
 double least_derivative(const DerivativeEvidence& evidence, double difference) {
   return std::max(std::abs(difference), 1e-3 * evidence.response / evidence.size);
@@ -34,7 +32,8 @@ BestDifference best_resolved(const DerivativeEvidence& evidence,
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k + 1 < curve.size(); ++k) {
     const double noise = noise_at(curve[k].step);
-    const double truncation = std::abs(curve[k].value - curve[k + 1].value);
+    const double below = k > 0 ? std::abs(curve[k].value - curve[k - 1].value) : 0.0;
+    const double truncation = std::max(below, std::abs(curve[k].value - curve[k + 1].value));
     if (noise + truncation >= least) continue;
     least = noise + truncation;
     best = {curve[k].value, noise, truncation};
@@ -73,7 +72,7 @@ JudgedDerivative judge_derivative(const DerivativeEvidence& evidence,
   }
   const CentralDifference& nearest = *std::min_element(curve.begin(), curve.end(), by_error);
   const BestDifference best = best_resolved(evidence, curve);
-  const double uncertain = best.noise + most_truncation * best.truncation;
+  const double uncertain = best.noise + best.truncation;
   JudgedDerivative judged;
   judged.derivative = evidence.derivative;
   judged.error = nearest.error;
@@ -84,7 +83,7 @@ JudgedDerivative judge_derivative(const DerivativeEvidence& evidence,
   } else if (evidence.has_kink) {
     judged.verdict = DerivativeVerdict::kink;
   } else if (std::abs(evidence.derivative - best.value) <=
-             most_deviations * best.noise + most_truncation * best.truncation) {
+             most_deviations * best.noise + best.truncation) {
     judged.verdict = DerivativeVerdict::noise;
   }
   judged.curve = std::move(curve);

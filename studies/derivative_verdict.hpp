@@ -39,17 +39,18 @@ struct JudgedDerivative {
   double derivative = 0.0;
   double error = 0.0;                    ///< the smallest over the steps
   double step = 0.0;                     ///< where that was
-  double resolution = 0.0;               ///< u + t/10 of the difference at its best step, relative
+  double resolution = 0.0;               ///< u + t of the difference at its best step, relative
   std::vector<CentralDifference> curve;  ///< ascending steps
 };
 
 /// Judges a derivative g by central differences d(h) of several relative steps h:
 ///     error(h) = |g − d(h)| / max(|d(h)|, 1e-3 · |f| / size)
 ///     noise of d(h):       u(h) = (scatter / (√2 h) + remainder) / size
-///     truncation of d(h):  t(h) = |d(h) − d(next larger h)|
+///     truncation of d(h):  t(h) = largest |d(h) − d(next h)|, larger and smaller
 /// A derivative agrees if the smallest error is at most 1e-6. Else, without a kink, the difference
-/// with the least u + t decides: within 10 u + t/10 of it (a tenth of the step leaves a hundredth
-/// of the truncation), differences cannot tell. Steps where noise swamps everything excuse nothing.
+/// with the least u + t decides: within 10 u + t of it, differences cannot tell. (A tenth
+/// of the step leaves a hundredth of t where f is smooth; where peaks lie between steps of time it
+/// may be all of it.) Steps where noise swamps everything excuse nothing.
 /// @param curve  at least one difference
 JudgedDerivative judge_derivative(const DerivativeEvidence& evidence,
                                   std::vector<CentralDifference> curve);

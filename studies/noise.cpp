@@ -15,7 +15,7 @@ namespace pleuel {
 namespace {
 
 constexpr int line_points = 8;
-constexpr double round_off_spacing = 1e-11, iteration_spacing = 1e-6;
+constexpr double spacings[] = {1e-11, 1e-6, 1e-4};
 
 /// σ_k and whether Δᵏf changes its sign.
 struct Level {
@@ -104,7 +104,7 @@ double noise_of(const Eigen::VectorXd& values) {
 ResponseNoise response_noise(const ProblemFile& problem, const Eigen::VectorXd& x, int threads) {
   const auto responses = static_cast<Eigen::Index>(problem.responses.size());
   ResponseNoise noise{Eigen::VectorXd::Zero(responses), Eigen::VectorXd::Zero(responses)};
-  for (const double spacing : {round_off_spacing, iteration_spacing}) {
+  for (const double spacing : spacings) {
     const Eigen::MatrixXd values = values_on_line(problem, x, spacing, threads);
     if (!values.allFinite()) continue;
     for (Eigen::Index i = 0; i < responses; ++i) {

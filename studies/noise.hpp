@@ -18,8 +18,8 @@ double noise_of(const Eigen::VectorXd& values);
 
 /// Noise of all responses at a design [SI].
 struct ResponseNoise {
-  /// Standard deviation, the larger one along two lines of 8 designs: of relative spacing 1e-11,
-  /// where only round-off differs, and 1e-6, where iterations may end differently.
+  /// Standard deviation, the largest along three lines of 8 designs: of relative spacing 1e-11,
+  /// where only round-off differs, and 1e-6 and 1e-4, where iterations may end differently.
   Eigen::VectorXd scatter;
   /// What Newton's method leaves: the change of the value with a thousandth of its tolerance. It is
   /// smooth while all iterations end alike, and jumps where one does not.
@@ -29,7 +29,7 @@ struct ResponseNoise {
   Eigen::VectorXd floor() const { return scatter.cwiseMax(remainder); }
 };
 
-/// Costs 18 simulations. A line or change of which a simulation fails is left out.
+/// Costs 26 simulations. A line or change of which a simulation fails is left out.
 /// @param threads  simulations at a time
 ResponseNoise response_noise(const ProblemFile& problem, const Eigen::VectorXd& x, int threads = 1);
 
