@@ -38,16 +38,17 @@ Json variable_document(const JudgedDerivative& judged) {
 }
 
 std::string response_verdict(const ProblemFile& problem, const DerivativeCheck& check) {
-  const std::string& worst = problem.variables[check.worst_variable()].name;
+  const std::size_t worst = check.worst_variable();
+  const double worst_error = check.variables[worst].error;
   switch (check.verdict()) {
     case DerivativeVerdict::agrees:
       return check.error == 0.0 ? "agrees exactly" : "agrees to " + magnitude(check.error);
     case DerivativeVerdict::noise:
-      return fmt::format("noise hides that of {}", worst);
+      return fmt::format("noise hides that of {}", problem.variables[worst].name);
     case DerivativeVerdict::kink:
-      return fmt::format("DIFFERS by {}: a kink, see below", magnitude(check.error));
+      return fmt::format("DIFFERS by {}: a kink, see below", magnitude(worst_error));
     default:
-      return "DIFFERS by " + magnitude(check.error);
+      return "DIFFERS by " + magnitude(worst_error);
   }
 }
 
