@@ -114,10 +114,11 @@ void add_invariants(CLI::App& app, Arguments& arguments) {
 }
 
 void add_commands(CLI::App& app, Arguments& arguments) {
-  add_design(add_file_command(
-                 app, arguments, "check",
-                 "validate, describe the mechanism, verify the derivatives, estimate the time"),
-             arguments);
+  CLI::App* check = add_file_command(
+      app, arguments, "check",
+      "validate, describe the mechanism, verify the derivatives, estimate the time");
+  add_design(check, arguments);
+  add_jobs(check, arguments);
   CLI::App* simulate =
       add_file_command(app, arguments, "simulate", "simulate one design, by default the start");
   add_output(simulate, arguments);

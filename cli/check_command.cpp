@@ -2,12 +2,11 @@
 
 #include "cli/analysis_report.hpp"
 #include "cli/commands.hpp"
+#include "cli/derivative_report.hpp"
 #include "cli/number_text.hpp"
 #include "cli/problem_input.hpp"
 #include "cli/scene_report.hpp"
-#include "cli/shown_unit.hpp"
 #include "cli/stopwatch.hpp"
-#include "cli/table.hpp"
 #include "cli/ties.hpp"
 #include "sensitivity/gradients.hpp"
 #include "studies/derivative_check.hpp"
@@ -16,17 +15,15 @@ namespace pleuel {
 
 namespace {
 
-/// Central differences of simulations reach about 1e-8; a wrong term shows as 1e-3 and more.
-constexpr double agreement = 1e-6;
-
 struct Findings {
   std::unique_ptr<Analysis> analysis;
   double simulation_seconds = 0.0, gradient_seconds = 0.0;
   Ties ties;
   std::vector<DerivativeCheck> derivatives;  ///< empty without variables
+  std::vector<std::string> warnings;
 };
 
-Findings examine(const ProblemFile& problem, const Eigen::VectorXd& x) {
+Findings examine(const ProblemFile& problem, const Eigen::VectorXd& x, int threads) {
   Findings findings;
   const Stopwatch simulation;
   findings.analysis = analyze(problem, x);
@@ -36,26 +33,21 @@ Findings examine(const ProblemFile& problem, const Eigen::VectorXd& x) {
   const Stopwatch gradient;
   direct_gradients(*findings.analysis);
   findings.gradient_seconds = gradient.seconds();
-  findings.derivatives = check_derivatives(problem, x, *findings.analysis, [](double step) {
+  DerivativeCheckOptions options;
+  options.threads = threads;
+  options.see_step = [](double step) {
     fmt::print(stderr, "verifying derivatives by central differences, step {:g} …\n", step);
-  });
+  };
+  findings.derivatives = check_derivatives(problem, x, *findings.analysis, options);
+  findings.warnings = noise_warnings(problem, *findings.analysis, findings.derivatives);
   return findings;
 }
 
-/// "agrees", "kink" where two unlike peaks tie, or "differs"
-std::string verdict(const Findings& findings, std::size_t response) {
-  if (findings.derivatives[response].error <= agreement) return "agrees";
-  const std::optional<Tie>& tie = findings.ties[response];
-  return tie && tie->is_kink() ? "kink" : "differs";
-}
-
-Json responses_with_verdicts(const Findings& findings) {
+Json responses_with_verdicts(const ProblemFile& problem, const Findings& findings) {
   Json document = responses_document(*findings.analysis);
   for (std::size_t i = 0; i < findings.derivatives.size(); ++i) {
-    Json& response = document[findings.analysis->responses[i].name];
-    response["derivatives"] = {{"verdict", verdict(findings, i)},
-                               {"error", findings.derivatives[i].error},
-                               {"difference_step", findings.derivatives[i].step}};
+    document[findings.analysis->responses[i].name]["derivatives"] =
+        derivative_document(problem, findings.derivatives[i]);
   }
   for (std::size_t i = 0; i < findings.ties.size(); ++i) {
     if (!findings.ties[i]) continue;
@@ -74,30 +66,17 @@ Json make_document(const ProblemFile& problem, const Findings& findings) {
                    {"steps", analysis.trajectory.steps()},
                    {"effects", effects_document(analysis.model)},
                    {"variables", variables_document(problem)},
-                   {"responses", responses_with_verdicts(findings)},
+                   {"responses", responses_with_verdicts(problem, findings)},
+                   {"warnings", findings.warnings},
                    {"seconds", {{"simulate", findings.simulation_seconds}}}};
   if (!findings.derivatives.empty()) document["seconds"]["direct"] = findings.gradient_seconds;
   return document;
 }
 
-std::string derivatives_text(const ProblemFile& problem, const Findings& findings) {
-  Table table({{"response", Table::Align::left},
-               {"value"},
-               {"unit", Table::Align::left},
-               {"derivative", Table::Align::left}});
-  for (std::size_t i = 0; i < findings.derivatives.size(); ++i) {
-    const ShownUnit unit = unit_of(problem.responses[i]);
-    const std::string word = verdict(findings, i);
-    const double error = findings.derivatives[i].error;
-    table.add_row({problem.responses[i].name,
-                   significant(unit.shown(findings.analysis->reductions[i].value)), unit.name,
-                   error == 0.0 ? "agrees exactly"
-                                : fmt::format("{} {} {}{}", word == "agrees" ? "agrees" : "DIFFERS",
-                                              word == "agrees" ? "to" : "by", magnitude(error),
-                                              word == "kink" ? ": a kink, see below" : "")});
-  }
-  return "Responses; direct differentiation against central differences (relative)\n" +
-         table.text();
+std::string warnings_text(const std::vector<std::string>& warnings) {
+  std::string text;
+  for (const std::string& warning : warnings) text += fmt::format("\nWarning: {}\n", warning);
+  return text;
 }
 
 std::string time_text(const ProblemFile& problem, const Findings& findings) {
@@ -118,9 +97,11 @@ std::string make_text(const ProblemFile& problem, const Findings& findings) {
       fmt::format("{}: a valid problem\n{}\n\n{}\n{}", problem.name, size_text(analysis),
                   bodies_text(analysis.model), effects_text(analysis.model));
   if (!problem.variables.empty()) text += "\n" + variables_text(problem);
-  text += "\n" + (findings.derivatives.empty() ? responses_text(problem, analysis)
-                                               : derivatives_text(problem, findings));
-  return text + ties_text(findings.ties, analysis) + time_text(problem, findings);
+  text += "\n" + (findings.derivatives.empty()
+                      ? responses_text(problem, analysis)
+                      : derivatives_text(problem, analysis, findings.derivatives));
+  return text + ties_text(findings.ties, analysis) + warnings_text(findings.warnings) +
+         time_text(problem, findings);
 }
 
 }  // namespace
@@ -128,7 +109,7 @@ std::string make_text(const ProblemFile& problem, const Findings& findings) {
 Outcome run_check(const Arguments& arguments) {
   const ProblemInput input = read_input(arguments);
   const ProblemFile& problem = input.problem;
-  const Findings findings = examine(problem, input.design);
+  const Findings findings = examine(problem, input.design, arguments.jobs);
   return {ExitCode::done, make_document(problem, findings), make_text(problem, findings)};
 }
 

@@ -1,32 +1,139 @@
 #include "studies/derivative_check.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <optional>
+#include <tuple>
 
+#include "core/base/error.hpp"
 #include "sensitivity/finite_difference.hpp"
-#include "sensitivity/gradients.hpp"
+#include "sensitivity/kinks.hpp"
+#include "sensitivity/sampled_gradients.hpp"
+#include "studies/noise.hpp"
 #include "studies/relative_error.hpp"
 
 namespace pleuel {
 
+namespace {
+
+constexpr double first_steps[] = {1e-5, 1e-4, 1e-6, 1e-3}, further_steps[] = {1e-7, 1e-2, 1e-8};
+
+class Check {
+ public:
+  Check(const ProblemFile& problem, const Eigen::VectorXd& x, Analysis& analysis,
+        const DerivativeCheckOptions& options)
+      : problem_(with_steps_of(analysis.trajectory, problem)),
+        x_(x),
+        options_(options),
+        magnitudes_(magnitudes_of(analysis)),
+        direct_(gradients_by(analysis, ExactMethod::direct)),
+        adjoint_(gradients_by(analysis, ExactMethod::adjoint)),
+        noise_(response_noise(problem_, x, options.threads)),
+        has_kink_(problem.responses.size(), false) {
+    for (const Kink& kink : find_kinks(analysis)) has_kink_[kink.response] = true;
+  }
+
+  std::vector<DerivativeCheck> run() {
+    for (const double step : first_steps) add_differences(step);
+    for (const double step : further_steps) {
+      if (!steps_.empty() && is_settled()) break;
+      add_differences(step);
+    }
+    if (steps_.empty()) throw SimulationError(failure_);
+    return judge();
+  }
+
+ private:
+  struct Step {
+    double step;
+    Eigen::MatrixXd differences;  ///< responses × variables
+  };
+
+  static Eigen::VectorXd magnitudes_of(const Analysis& analysis) {
+    Eigen::VectorXd magnitudes(static_cast<Eigen::Index>(analysis.reductions.size()));
+    for (Eigen::Index i = 0; i < magnitudes.size(); ++i) {
+      magnitudes(i) = std::abs(analysis.reductions[static_cast<std::size_t>(i)].value);
+    }
+    return magnitudes;
+  }
+
+  static Eigen::MatrixXd gradients_by(Analysis& analysis, ExactMethod method) {
+    return sampled_gradients(analysis, response_values(analysis), method);
+  }
+
+  void add_differences(double step) {
+    options_.see_step(step);
+    try {
+      steps_.push_back({step, central_differences(problem_, x_, step, options_.threads)});
+    } catch (const SimulationError& error) {
+      failure_ = error.what();
+    }
+  }
+
+  bool is_settled() const {
+    const auto agrees = [](const DerivativeCheck& check) {
+      return check.verdict() == DerivativeVerdict::agrees;
+    };
+    const std::vector<DerivativeCheck> checks = judge();
+    return std::all_of(checks.begin(), checks.end(), agrees);
+  }
+
+  std::vector<DerivativeCheck> judge() const {
+    std::vector<DerivativeCheck> checks;
+    for (Eigen::Index i = 0; i < direct_.rows(); ++i) checks.push_back(judge(i));
+    return checks;
+  }
+
+  DerivativeCheck judge(Eigen::Index i) const {
+    DerivativeCheck check;
+    check.error = std::numeric_limits<double>::infinity();
+    for (const Step& step : steps_) {
+      const double error =
+          gradient_error(direct_.row(i), step.differences.row(i), x_, magnitudes_(i));
+      if (error < check.error) std::tie(check.error, check.step) = std::tie(error, step.step);
+    }
+    check.adjoint_error = gradient_error(adjoint_.row(i), direct_.row(i), x_, magnitudes_(i));
+    check.noise = noise_.floor()(i);
+    const double relative = check.noise == 0.0 ? 0.0 : check.noise / magnitudes_(i);
+    check.relative_noise = std::max(relative, std::numeric_limits<double>::epsilon());
+    for (Eigen::Index j = 0; j < direct_.cols(); ++j) check.variables.push_back(judge(i, j));
+    return check;
+  }
+
+  JudgedDerivative judge(Eigen::Index i, Eigen::Index j) const {
+    const double size = x_(j) == 0.0 ? 1.0 : std::abs(x_(j));
+    std::vector<CentralDifference> curve;
+    for (const Step& step : steps_) curve.push_back({step.step, step.differences(i, j)});
+    return judge_derivative({direct_(i, j), size, magnitudes_(i), noise_.scatter(i),
+                             noise_.remainder(i), has_kink_[static_cast<std::size_t>(i)]},
+                            std::move(curve));
+  }
+
+  ProblemFile problem_;  ///< with the steps of the analysis
+  const Eigen::VectorXd& x_;
+  const DerivativeCheckOptions& options_;
+  Eigen::VectorXd magnitudes_;
+  Eigen::MatrixXd direct_, adjoint_;
+  ResponseNoise noise_;
+  std::vector<bool> has_kink_;
+  std::vector<Step> steps_;
+  std::string failure_;  ///< of the last step that failed
+};
+
+}  // namespace
+
+std::size_t DerivativeCheck::worst_variable() const {
+  const auto is_better = [](const JudgedDerivative& a, const JudgedDerivative& b) {
+    return std::tie(a.verdict, a.error) < std::tie(b.verdict, b.error);
+  };
+  const auto worst = std::max_element(variables.begin(), variables.end(), is_better);
+  return static_cast<std::size_t>(worst - variables.begin());
+}
+
 std::vector<DerivativeCheck> check_derivatives(const ProblemFile& problem, const Eigen::VectorXd& x,
                                                Analysis& analysis,
-                                               const std::function<void(double step)>& see_step) {
-  const Eigen::MatrixXd direct = direct_gradients(analysis);
-  const ProblemFile repeated = with_steps_of(analysis.trajectory, problem);
-  std::vector<DerivativeCheck> checks(analysis.responses.size(), {1e300, 0.0});
-  for (const double step : {1e-5, 1e-6, 1e-4, 1e-7}) {
-    see_step(step);
-    const Eigen::MatrixXd differences = central_differences(repeated, x, step);
-    for (std::size_t i = 0; i < checks.size(); ++i) {
-      const auto row = static_cast<Eigen::Index>(i);
-      const double error = gradient_error(direct.row(row), differences.row(row), x,
-                                          std::abs(analysis.reductions[i].value));
-      if (error < checks[i].error) checks[i] = {error, step};
-    }
-    const auto agrees = [](const DerivativeCheck& check) { return check.error <= 1e-8; };
-    if (std::all_of(checks.begin(), checks.end(), agrees)) break;
-  }
-  return checks;
+                                               const DerivativeCheckOptions& options) {
+  return Check(problem, x, analysis, options).run();
 }
 
 }  // namespace pleuel

@@ -4,21 +4,39 @@
 #include <vector>
 
 #include "core/response/response.hpp"
+#include "studies/derivative_verdict.hpp"
 
 namespace pleuel {
 
-/// How direct differentiation and central differences agree for one response.
+/// How well values and derivatives of one response can be trusted.
 struct DerivativeCheck {
-  double error =
-      0.0;  ///< the smallest over all steps, relative: see gradient_error() of relative_error.hpp
-  double step = 0.0;  ///< relative step of the differences where that was
+  /// The smallest over all steps, relative: see gradient_error() of relative_error.hpp.
+  double error = 0.0;
+  double step = 0.0;            ///< relative step of the differences where that was
+  double adjoint_error = 0.0;   ///< of the adjoint method against direct differentiation, relative
+  double noise = 0.0;           ///< of the value [SI]: see ResponseNoise::floor()
+  double relative_noise = 0.0;  ///< of it; at least the round-off of one number
+  std::vector<JudgedDerivative> variables;  ///< one a variable
+
+  /// The variable whose derivative is worst: by verdict, then by error.
+  std::size_t worst_variable() const;
+  DerivativeVerdict verdict() const { return variables[worst_variable()].verdict; }
 };
 
-/// Compares direct_gradients() with central differences of several steps; stops as soon as all
-/// responses agree to 1e-8.
-/// @param see_step  called before the differences of a step are computed
+struct DerivativeCheckOptions {
+  int threads = 1;  ///< simulations at a time
+  /// Called before the differences of a step are computed.
+  std::function<void(double step)> see_step = [](double) {};
+};
+
+/// Compares direct differentiation with central differences of relative steps from 1e-3 to 1e-6,
+/// and while some derivative differs or drowns in noise, of 1e-7, 1e-2 and 1e-8; with the adjoint
+/// method; and the values with their neighbours for noise. A step at which a simulation fails is
+/// left out.
+/// @param analysis  of the problem at x, which has at least one variable
+/// @throws SimulationError if the differences of all steps fail
 std::vector<DerivativeCheck> check_derivatives(const ProblemFile& problem, const Eigen::VectorXd& x,
                                                Analysis& analysis,
-                                               const std::function<void(double step)>& see_step);
+                                               const DerivativeCheckOptions& options = {});
 
 }  // namespace pleuel

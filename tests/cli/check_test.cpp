@@ -13,8 +13,27 @@ TEST(Check, FindsTheDerivativesOfEveryResponseRight) {
   const nlohmann::json document = run.document();
   ASSERT_EQ(document.at("responses").size(), 8u);  // those of the file
   for (const auto& [name, response] : document.at("responses").items()) {
-    EXPECT_EQ(response.at("derivatives").at("verdict"), "agrees") << name;
+    const auto& derivatives = response.at("derivatives");
+    EXPECT_EQ(derivatives.at("verdict"), "agrees") << name;
+    EXPECT_LT(derivatives.at("adjoint_error"), 1e-10) << name;  // both exact: round-off
+    ASSERT_EQ(derivatives.at("variables").size(), 2u);
+    for (const auto& [variable, judged] : derivatives.at("variables").items()) {
+      EXPECT_LE(judged.at("error"), 1e-6) << name << ", " << variable;
+      EXPECT_GE(judged.at("curve").size(), 4u);
+    }
   }
+  EXPECT_TRUE(document.at("warnings").empty());
+}
+
+TEST(Check, WarnsOfNoiseAboveTheTolerance) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> loose =
+      joined(joined({"check", problem("slider_crank_round")}, quick()),
+             {"--set", "/simulation/newton_tolerance=1e-4", "--set", "/optimizer/tolerance=1e-8"});
+  EXPECT_THAT(run_program(folder.path(), loose).out,
+              ::testing::HasSubstr("Tighten /simulation/newton_tolerance"));
+  const ProgramRun run = run_program(folder.path(), joined(loose, {"--json", "--jobs", "2"}));
+  EXPECT_FALSE(run.document().at("warnings").empty());
 }
 
 TEST(Check, GivesAReasonForEveryEffect) {

@@ -11,21 +11,57 @@ TEST(DerivativeCheck, AgreesForEveryResponseOfASampleProblem) {
   const ProblemFile problem = test::quick_problem();
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
-  const auto checks = check_derivatives(problem, x, *analysis, [](double) {});
+  const auto checks = check_derivatives(problem, x, *analysis);
   ASSERT_EQ(checks.size(), problem.responses.size());
   for (std::size_t i = 0; i < checks.size(); ++i) {
     // Differences of simulations with round-off 1e-12 reach 1e-8; what `check` allows is 1e-6.
     EXPECT_LT(checks[i].error, 1e-6) << problem.responses[i].name;
+    for (std::size_t j = 0; j < checks[i].variables.size(); ++j) {
+      EXPECT_EQ(checks[i].variables[j].verdict, DerivativeVerdict::agrees)
+          << problem.responses[i].name << ", " << problem.variables[j].name << ": "
+          << checks[i].variables[j].error;
+    }
   }
+}
+
+TEST(DerivativeCheck, FindsThatDirectAndAdjointAreTheSameUpToRoundOff) {
+  const ProblemFile problem = test::quick_problem();
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const auto checks = check_derivatives(problem, x, *analysis);
+  for (std::size_t i = 0; i < checks.size(); ++i) {
+    EXPECT_LT(checks[i].adjoint_error, 1e-10) << problem.responses[i].name;
+  }
+}
+
+/// An energy balance and a drift of constraints are what errors leave: differences of them say
+/// nothing of the gradient where Newton's method is loose, and must not say that it is wrong.
+TEST(DerivativeCheck, DoesNotBlameResponsesThatAreNoise) {
+  const ProblemFile problem = test::quick_problem(
+      {R"(/responses/balance={"type": "energy-balance"})",
+       R"(/responses/drift={"type": "constraint-drift", "over_time": "max-abs"})",
+       R"(/responses/rate={"type": "constraint-drift", "level": "velocity", "over_time": "max-abs"})"});
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const auto checks = check_derivatives(problem, x, *analysis);
+  for (std::size_t i = 0; i < checks.size(); ++i) {
+    EXPECT_NE(checks[i].verdict(), DerivativeVerdict::differs)
+        << problem.responses[i].name << ": " << checks[i].error;
+  }
+  EXPECT_EQ(checks.at(checks.size() - 2).verdict(), DerivativeVerdict::noise);  // the drift
 }
 
 TEST(DerivativeCheck, NoticesThatAnalysisAndDesignDoNotBelongTogether) {
   const ProblemFile problem = test::quick_problem();
   const Eigen::VectorXd x = start_design(problem);
   const auto elsewhere = analyze(problem, 1.01 * x);
-  const auto checks = check_derivatives(problem, x, *elsewhere, [](double) {});
+  const auto checks = check_derivatives(problem, x, *elsewhere);
   // The mass grows with the square of the diameter: its gradient is 1 % off.
   EXPECT_NEAR(checks.front().error, 0.01, 1e-6);
+  for (const JudgedDerivative& judged : checks.front().variables) {
+    EXPECT_EQ(judged.verdict, DerivativeVerdict::differs);
+    EXPECT_EQ(judged.curve.size(), 7u);  // no step is spared where something is wrong
+  }
 }
 
 }  // namespace
