@@ -3,7 +3,7 @@
 /// elements and method. Times are the shortest of several, in one run: their ratios to the
 /// simulation alone can be compared between machines.
 ///
-///     sensitivity_bench [ENDTIME in s, default 0.02] > sensitivity.csv
+///     sensitivity_bench [ENDTIME in s, default 0.01] > sensitivity.csv
 
 #include <chrono>
 #include <cstdlib>
@@ -134,7 +134,7 @@ class Comparison {
 }  // namespace pleuel::bench
 
 int main(int argc, char** argv) {
-  const double end_time = argc > 1 ? std::atof(argv[1]) : 0.02;
+  const double end_time = argc > 1 ? std::atof(argv[1]) : 0.01;
   fmt::print("elements,variables,method,seconds,ratio,error\n");
   for (int elements : {8, 16, 64}) {
     for (int segments : {1, 4, 16, 64}) {

@@ -116,7 +116,11 @@ Outcome run_invariants(const Arguments& arguments) {
   record.begin_phase("write");
   std::vector<fs::path> paths;
   for (const InvariantsFile& file : files) {
-    paths.push_back(record.folder() / file_name(file.body));
+    const fs::path path = record.folder() / file_name(file.body);
+    if (std::find(paths.begin(), paths.end(), path) != paths.end()) {
+      throw InputError(fmt::format("two bodies would be written to {}: use --body", path.string()));
+    }
+    paths.push_back(path);
     write_file(paths.back(), file);
   }
   const Outcome outcome = report(files, paths);

@@ -9,7 +9,6 @@
 #include "cli/shown_unit.hpp"
 #include "cli/table.hpp"
 #include "core/base/error.hpp"
-#include "core/base/parallel.hpp"
 #include "studies/uncertainty.hpp"
 
 namespace pleuel {
@@ -185,9 +184,7 @@ Outcome run_uncertainty(const Arguments& arguments) {
   record.begin_phase("uncertainty");
   const int samples = problem.uncertainty->samples;
   const UncertaintyStudy study = uncertainty_study(problem, arguments.jobs, [&](int done) {
-    if (done % std::max(1, samples / 10) == 0) {
-      fmt::print(stderr, "  {} of {} samples\n", done, samples);
-    }
+    fmt::print(stderr, "  {} of {} samples\n", done, samples);
   });
   write_histories(record.folder() / "uncertainty.csv", problem, study);
   Outcome outcome{ExitCode::done, make_document(problem, study), study_text(problem, study)};

@@ -26,7 +26,7 @@ class DesignProblem : public Problem {
   /// The simulation of the design seen last is kept, so that its gradients cost no second one.
   Evaluation evaluate(const Eigen::VectorXd& x, Request request) override;
 
-  /// The same with other rows in place of the constraints; one run of direct differentiation for
+  /// The same with other rows in place of the constraints; one run of the chosen method for
   /// all.
   Evaluation evaluate_rows(const Eigen::VectorXd& x, Request request,
                            const std::vector<ConstraintRow>& rows);

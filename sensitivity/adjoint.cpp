@@ -72,6 +72,10 @@ class AdjointRun {
   void go_back(int step) {
     prepare(step);
     solve();
+    if (!y_.leftCols(active_).allFinite()) {
+      throw SimulationError(
+          fmt::format("the adjoint is not finite at t = {:.6g} s (step {})", state_.time, step));
+    }
     const auto of = [this](Eigen::MatrixXd& all) { return all.leftCols(active_); };
     before_.q.setZero();
     equations_.pull_back(state_, of(y_), of(adjoint_.v), of(adjoint_.a), of(before_.q), of(sums_));

@@ -86,6 +86,10 @@ class DirectDifferentiation {
                                         state_.time, step));
     }
     solver_.solve(rhs_);
+    if (!rhs_.allFinite()) {
+      throw SimulationError(fmt::format(
+          "the sensitivities are not finite at t = {:.6g} s (step {})", state_.time, step));
+    }
     sensitivity_.q = rhs_.topRows(n);
     sensitivity_.lambda = rhs_.middleRows(n, m) / scheme_.dynamic_scale();
     sensitivity_.v += b(1) / b(0) * sensitivity_.q;

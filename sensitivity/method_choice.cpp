@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -51,6 +52,10 @@ double mean_columns(const std::vector<SampledValue>& values, int steps) {
 
 }  // namespace
 
+ExactMethod cheaper_method(double direct, double adjoint) {
+  return direct > clear_gain * adjoint ? ExactMethod::adjoint : ExactMethod::direct;
+}
+
 MethodChoice choose_method(Analysis& analysis, const std::vector<SampledValue>& values) {
   Mechanism& mechanism = analysis.model.mechanism;
   const int variables = mechanism.system->variables();
@@ -72,8 +77,7 @@ MethodChoice choose_method(Analysis& analysis, const std::vector<SampledValue>& 
       return columns;
     });
   });
-  const bool adjoint_gains = direct > clear_gain * adjoint;
-  return {adjoint_gains ? ExactMethod::adjoint : ExactMethod::direct,
+  return {cheaper_method(direct, adjoint),
           fmt::format("{}: direct takes {:.2g} times as long as the adjoint in a short stretch",
                       counts, direct / adjoint)};
 }

@@ -17,4 +17,7 @@ struct MethodChoice {
 /// differentiation, unless the adjoint is clearly faster.
 MethodChoice choose_method(Analysis& analysis, const std::vector<SampledValue>& values);
 
+/// Of two measured times [s].
+ExactMethod cheaper_method(double direct, double adjoint);
+
 }  // namespace pleuel

@@ -94,7 +94,9 @@ class Check {
     }
     check.adjoint_error = gradient_error(adjoint_.row(i), direct_.row(i), x_, magnitudes_(i));
     check.noise = noise_.floor()(i);
-    const double relative = check.noise == 0.0 ? 0.0 : check.noise / magnitudes_(i);
+    const double relative = check.noise == 0.0      ? 0.0
+                            : magnitudes_(i) == 0.0 ? 1.0
+                                                    : check.noise / magnitudes_(i);
     check.relative_noise = std::max(relative, std::numeric_limits<double>::epsilon());
     for (Eigen::Index j = 0; j < direct_.cols(); ++j) check.variables.push_back(judge(i, j));
     return check;

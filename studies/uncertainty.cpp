@@ -1,13 +1,13 @@
 #include "studies/uncertainty.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
-#include <mutex>
 #include <random>
 
 #include "core/base/error.hpp"
 #include "core/base/parallel.hpp"
+#include "core/scene/sample_extent.hpp"
 #include "sensitivity/method_choice.hpp"
 
 namespace pleuel {
@@ -105,22 +105,23 @@ class Study {
     const auto begin = Clock::now();
     const std::vector<Eigen::VectorXd> designs = draw();
     Moments responses, histories;
-    std::mutex mutex;
-    for_each_in_parallel(settings_.samples, threads, [&](int i) {
-      std::unique_ptr<Analysis> analysis;
-      try {
-        analysis = analyze(with_same_steps_, designs[static_cast<std::size_t>(i)]);
-      } catch (const SimulationError&) {
+    // Batch by batch, each summed up in order: the sums do not depend on the threads.
+    for (int first = 0; first < settings_.samples; first += batch_size) {
+      const int count = std::min(batch_size, settings_.samples - first);
+      std::vector<Sample> batch(static_cast<std::size_t>(count));
+      for_each_in_parallel(count, threads, [&](int i) {
+        batch[static_cast<std::size_t>(i)] = simulate(designs[static_cast<std::size_t>(first + i)]);
+      });
+      for (const Sample& sample : batch) {
+        if (!sample.values.allFinite() || sample.values.size() == 0) {
+          ++study_.failures;
+          continue;
+        }
+        responses.add(sample.values);
+        if (sample.histories.size() > 0) histories.add(sample.histories);
       }
-      const std::lock_guard lock(mutex);
-      if (analysis) {
-        responses.add(values_of(*analysis));
-        if (is_comparable(*analysis)) histories.add(histories_of(*analysis));
-      } else {
-        ++study_.failures;
-      }
-      if (observer) observer(responses.count() + study_.failures);
-    });
+      if (observer) observer(first + count);
+    }
     study_.samples = responses.count();
     store(responses, histories);
     study_.sampling_seconds = seconds_since(begin);
@@ -129,6 +130,22 @@ class Study {
   UncertaintyStudy take() { return std::move(study_); }
 
  private:
+  static constexpr int batch_size = 64;
+
+  /// Without values if the design could not be simulated, without histories if its steps differ.
+  struct Sample {
+    Eigen::VectorXd values, histories;
+  };
+  Sample simulate(const Eigen::VectorXd& design) const {
+    try {
+      const auto analysis = analyze(with_same_steps_, design);
+      return {values_of(*analysis),
+              is_comparable(*analysis) ? histories_of(*analysis) : Eigen::VectorXd()};
+    } catch (const SimulationError&) {
+      return {};
+    }
+  }
+
   /// Where a response is taken: the place of its peak, or the first.
   static int channel_of(const Reduction& reduction) {
     return reduction.samples.empty() ? 0 : reduction.samples.front().channel;
@@ -139,7 +156,8 @@ class Study {
     study_.time = analysis_->trajectory.time;
     std::vector<SampledValue> values;
     for (std::size_t i = 0; i < analysis_->responses.size(); ++i) {
-      if (analysis_->histories[i].size() == 0) continue;
+      // That of a balance is no signal but a sum over the time before.
+      if (analysis_->histories[i].size() == 0 || analysis_->responses[i].is_balance) continue;
       const int channel = channel_of(analysis_->reductions[i]);
       study_.histories.push_back({i, analysis_->histories[i].row(channel).transpose(), {}, {}});
       for (int step = 0; step <= analysis_->trajectory.steps(); ++step) {
@@ -167,9 +185,12 @@ class Study {
     std::vector<Eigen::VectorXd> designs(static_cast<std::size_t>(settings_.samples), x_);
     for (Eigen::VectorXd& design : designs) {
       for (const UncertainParameter& parameter : settings_.parameters) {
-        design(parameter.variable) += parameter.deviation > 0.0
-                                          ? parameter.deviation * normal(generator)
-                                          : parameter.interval * uniform(generator);
+        double change = 0.0;
+        do {
+          change = parameter.deviation > 0.0 ? parameter.deviation * normal(generator)
+                                             : parameter.interval * uniform(generator);
+        } while (std::abs(change) > sample_extent(parameter));
+        design(parameter.variable) += change;
       }
     }
     return designs;

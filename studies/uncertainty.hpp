@@ -40,7 +40,7 @@ struct UncertaintyStudy {
   double gradient_seconds = 0.0, sampling_seconds = 0.0;
 };
 
-/// Called after each sample with the number done; from any thread, one at a time.
+/// Called after each batch of samples with the number done.
 using SampleObserver = std::function<void(int done)>;
 
 /// First-order second-moment analysis about the start design, and Monte Carlo with so many samples

@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include <klu.h>
 
@@ -132,15 +133,19 @@ struct LinearSolver::Implementation {
     rhs = x;
     solve_scaled(is_transposed, x);
     estimate_backward_error(is_transposed, x);
-    if (!(backward_error > round_off)) return;
+    if (backward_error <= round_off) return;
     residual = rhs;
     subtract_product(is_transposed, x, residual);
     solve_scaled(is_transposed, residual);
     x += residual;
     estimate_backward_error(is_transposed, x);
-    if (!(backward_error > poor) || has_new_pivots || !choose_pivots()) return;
-    x = rhs;
-    solve_and_refine(is_transposed, x);
+    if (backward_error <= poor || has_new_pivots) return;
+    if (choose_pivots()) {
+      x = rhs;
+      solve_and_refine(is_transposed, x);
+    } else {
+      x.setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
   }
 };
 

@@ -22,7 +22,8 @@ class LinearSolver {
   [[nodiscard]] bool factorize(const Matrix& matrix);
 
   /// rhs ← A⁻¹ rhs, all columns as one block; one step of iterative refinement where the residual
-  /// is more than round-off. Allocates only if there are more columns than before.
+  /// is more than round-off. Not finite if the matrix turns out to be singular. Allocates only if
+  /// the number of columns changes.
   void solve(Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> rhs);
 
   /// rhs ← A⁻ᵀ rhs, likewise.

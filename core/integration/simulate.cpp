@@ -184,7 +184,7 @@ class TimeLoop {
       predict(time);
       const std::optional<Failure> failure = correct(false);
       const double error = failure ? std::numeric_limits<double>::infinity() : relative_error();
-      if (error > 1.0) {
+      if (!(error <= 1.0)) {
         if (level_ == finest_level_) fail(failure, error);
         state_ = old_;
         ++level_;
@@ -206,7 +206,7 @@ class TimeLoop {
   Eigen::Index worst_coordinate() const {
     Eigen::Index worst = 0;
     for (Eigen::Index i = 1; i < scale_.size(); ++i) {
-      if (error_of(i) > error_of(worst)) worst = i;
+      if (!(error_of(i) <= error_of(worst))) worst = i;
     }
     return worst;
   }

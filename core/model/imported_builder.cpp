@@ -114,6 +114,10 @@ Invariants<double> rigid_part(const BodyConstants& constants) {
 }
 
 /// Adds the derivatives of the file, and what they change where they may be continued.
+bool is_positive(const Eigen::VectorXd& numbers) {
+  return (numbers.array() > 0.0).all();
+}
+
 void set_constants(const ImportedBody& imported, const Body& body, const BuildContext& context,
                    BodyModel& model) {
   model.constants = imported.file->constants;
@@ -130,6 +134,13 @@ void set_constants(const ImportedBody& imported, const Body& body, const BuildCo
           imported.source));
     }
     add_constants(*model.constants, distance, *derivative.derivative);
+    if (!(model.constants->mass > 0.0) || !is_positive(model.constants->mass_matrix.diagonal()) ||
+        !is_positive(model.constants->stiffness.diagonal())) {
+      throw SimulationError(
+          fmt::format("/scene/bodies/{}/file, continued to {} = {:.6g}, is no body any more: its "
+                      "mass, inertia or stiffness is not positive",
+                      body.name, derivative.variable, derivative.value + distance));
+    }
   }
 }
 

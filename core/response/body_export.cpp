@@ -469,6 +469,7 @@ std::string condition_name(ReferenceCondition condition) {
 /// An imported body goes on as it came, at the design of the model.
 InvariantsFile pass_on(const ImportedBody& imported, const BodyModel& model) {
   InvariantsFile file = *imported.file;
+  file.body = model.name;
   file.constants = *model.constants;
   return file;
 }

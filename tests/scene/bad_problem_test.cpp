@@ -367,7 +367,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadProblem{"/uncertainty", R"({"parameters": {"width": {"deviation": 0}}})",
                    "/uncertainty/parameters/width/deviation must be positive [m], got 0"},
         BadProblem{
-            "/uncertainty", R"({"parameters": {"width": {"deviation": "7 mm"}}})",
+            "/uncertainty", R"({"parameters": {"width": {"deviation": "3.5 mm"}}})",
             "/uncertainty/parameters/width leads to -0.001 for /scene/bodies/crank/section/width, "
             "which must be positive [m]"},
         BadProblem{"/uncertainty",

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/sample_extent.hpp"
+
 namespace pleuel {
 namespace {
 
@@ -182,7 +184,7 @@ void check_range(const JsonNode& node, const UncertainParameter& parameter,
     if (use.number.variable != parameter.variable) continue;
     for (const double sign : {-1.0, 1.0}) {
       const double value = use.number.constant +
-                           use.number.factor * (variable.start + sign * parameter.half_width());
+                           use.number.factor * (variable.start + sign * sample_extent(parameter));
       if (is_within(use.range, value)) continue;
       node.fail(fmt::format("leads to {:g} for {}, which {}", value, use.node.place(),
                             rule_of(use.range, use.quantity)));

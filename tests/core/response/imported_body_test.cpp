@@ -60,7 +60,8 @@ Json slider_crank() {
                                        {"direction", {0, 1, 0}},
                                        {"value", -50}};
   document["responses"] = Json::parse(responses);
-  for (const char* key : {"constraints", "pareto", "accuracy", "optimizer", "$schema"}) {
+  for (const char* key :
+       {"constraints", "pareto", "accuracy", "uncertainty", "optimizer", "$schema"}) {
     document.erase(key);
   }
   document["objective"] = {{"minimize", "mass"}};

@@ -139,13 +139,15 @@ TEST_P(EverySample, DriftsAsTheMonitorsSay) {
   }
   const auto analysis = run();
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-  // The peak of a response may lie between two steps.
+  // The peak of a response may lie between two steps: the vertex of a parabola through three
+  // samples is above the middle one by an eighth of it at most, where one neighbour is as high and
+  // the other zero.
   const double position = value_of(*analysis, "drift 0"), velocity = value_of(*analysis, "drift 1");
   EXPECT_GT(monitors.position_drift, 0.0);
   EXPECT_GE(position, monitors.position_drift);
-  EXPECT_LE(position, 1.01 * monitors.position_drift);
+  EXPECT_LE(position, 1.125 * monitors.position_drift);
   EXPECT_GE(velocity, monitors.velocity_drift);
-  EXPECT_LE(velocity, 1.01 * monitors.velocity_drift);
+  EXPECT_LE(velocity, 1.125 * monitors.velocity_drift);
 }
 
 std::string sample_name(const testing::TestParamInfo<int>& info) {
