@@ -44,7 +44,7 @@ std::string response_verdict(const ProblemFile& problem, const DerivativeCheck& 
     case DerivativeVerdict::agrees:
       return check.error == 0.0 ? "agrees exactly" : "agrees to " + magnitude(check.error);
     case DerivativeVerdict::noise:
-      return fmt::format("noise hides that of {}", problem.variables[worst].name);
+      return fmt::format("differences cannot tell that of {}", problem.variables[worst].name);
     case DerivativeVerdict::kink:
       return fmt::format("DIFFERS by {}: a kink, see below", magnitude(worst_error));
     default:

@@ -15,7 +15,7 @@ constexpr double wrong = 1e-3;
 constexpr double most_deviations = 10.0;
 
 double least_derivative(const DerivativeEvidence& evidence, double difference) {
-  return std::max(std::abs(difference), 1e-3 * evidence.response / evidence.size);
+  return std::max(std::abs(difference), 1e-2 * evidence.response / evidence.size);
 }
 
 /// The difference with the least of noise and truncation, and both.

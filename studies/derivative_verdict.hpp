@@ -44,7 +44,7 @@ struct JudgedDerivative {
 };
 
 /// Judges a derivative g by central differences d(h) of several relative steps h:
-///     error(h) = |g − d(h)| / max(|d(h)|, 1e-3 · |f| / size)
+///     error(h) = |g − d(h)| / max(|d(h)|, 1e-2 · |f| / size)
 ///     noise of d(h):       u(h) = (scatter / (√2 h) + remainder) / size
 ///     truncation of d(h):  t(h) = largest |d(h) − d(next h)|, larger and smaller
 /// A derivative agrees if the smallest error is at most 1e-6. Else, without a kink, the difference
