@@ -108,6 +108,7 @@ void FloatingFrameBody::add_design_sums(const State& state, ConstraintLevel, con
 
 void FloatingFrameBody::add_design_gradients(const ConstColumns& sums,
                                              Eigen::MatrixXd& gradients) const {
+  if (!is_designed()) return;
   const Eigen::MatrixXd found = flat_derivatives_.transpose() * sums;
   for (std::size_t i = 0; i < variables_.size(); ++i) {
     gradients.row(variables_[i]) += found.row(static_cast<Eigen::Index>(i));
