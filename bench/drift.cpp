@@ -1,7 +1,9 @@
-/// How constraints and their sensitivities drift in thirty revolutions of a slider-crank, with each
-/// formulation: the data of docs/drift.svg as CSV on standard output.
+/// How constraints and their sensitivities drift with each formulation, as CSV on standard output:
+/// without arguments in thirty revolutions of a slider-crank, the data of docs/drift.svg, else in a
+/// problem with overrides.
 ///
 ///     build/bench/bench/drift > drift.csv && docs/draw_drift.py drift.csv > docs/drift.svg
+///     build/bench/bench/drift problems/hard/dead_centres.json "/simulation/end_time=10 s"
 
 #include <algorithm>
 #include <filesystem>
@@ -18,10 +20,18 @@
 namespace pleuel {
 namespace {
 
-constexpr const char* problem_name = "impossible_designs";
+struct Case {
+  std::filesystem::path file;
+  std::vector<std::string> overrides;
+};
+
 /// A driven mechanism that closes: thirty revolutions, whose phase does not depend on the design.
-const std::vector<std::string> settings = {"/variables/crank_length/start=60 mm",
-                                           "/simulation/end_time=10 s", "/simulation/step=1 ms"};
+Case drawn_case() {
+  return {std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems/hard/impossible_designs.json",
+          {"/variables/crank_length/start=60 mm", "/simulation/end_time=10 s",
+           "/simulation/step=1 ms"}};
+}
+
 /// Points of each curve.
 constexpr int windows = 100;
 
@@ -31,12 +41,10 @@ struct Drift {
   double sensitivity = 0.0;  ///< |Φ_q s_q + Φ_x| x: per relative change of the variable, likewise
 };
 
-ProblemFile read(const ComparedFormulation& formulation) {
-  std::vector<std::string> overrides = settings;
-  overrides.insert(overrides.end(), formulation.overrides.begin(), formulation.overrides.end());
-  return read_problem(std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems/hard" /
-                          (problem_name + std::string(".json")),
-                      overrides);
+ProblemFile read(Case observed, const ComparedFormulation& formulation) {
+  observed.overrides.insert(observed.overrides.end(), formulation.overrides.begin(),
+                            formulation.overrides.end());
+  return read_problem(observed.file, observed.overrides);
 }
 
 /// Φ and dΦ/dx at one instant.
@@ -90,11 +98,12 @@ void print(const std::string& formulation, double end, const std::vector<Drift>&
 }  // namespace
 }  // namespace pleuel
 
-int main() {
+int main(int argc, char** argv) {
   using namespace pleuel;
+  const Case observed = argc < 2 ? drawn_case() : Case{argv[1], {argv + 2, argv + argc}};
   fmt::print("formulation,time,position,sensitivity\n");
   for (const ComparedFormulation& formulation : compared_formulations()) {
-    const ProblemFile problem = read(formulation);
+    const ProblemFile problem = read(observed, formulation);
     const Eigen::VectorXd x = start_design(problem);
     const auto analysis = analyze(problem, x);
     print(formulation.name, problem.simulation.end_time, observe(*analysis, x));

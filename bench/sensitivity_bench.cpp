@@ -95,25 +95,21 @@ class Comparison {
   void run() {
     print("simulation", simulation_, std::numeric_limits<double>::quiet_NaN());
     const auto values = response_values(*analysis_);
-    compare("direct", simulation_,
-            [&] { return sampled_gradients(*analysis_, values, ExactMethod::direct); });
-    compare("adjoint", simulation_,
-            [&] { return sampled_gradients(*analysis_, values, ExactMethod::adjoint); });
-    compare("direct-coupled", simulation_,
-            [&] { return direct_coupled_gradients(*analysis_, values); });
+    compare("direct", [&] { return sampled_gradients(*analysis_, values, ExactMethod::direct); });
+    compare("adjoint", [&] { return sampled_gradients(*analysis_, values, ExactMethod::adjoint); });
+    compare("direct-coupled", [&] { return direct_coupled_gradients(*analysis_, values); });
     if (x_.size() > 16) return;
-    compare("forward-difference", simulation_,
+    compare("forward-difference",
             [&] { return forward_differences(problem_, x_, *analysis_, 1e-6); });
   }
 
  private:
-  /// @param before  what has to be done before [s]
-  void compare(const std::string& method, double before,
-               const std::function<Eigen::MatrixXd()>& compute) {
+  /// Of a method with the simulation that it needs.
+  void compare(const std::string& method, const std::function<Eigen::MatrixXd()>& compute) {
     Eigen::MatrixXd gradients;
     const double seconds = shortest_seconds([&] { gradients = compute(); });
     const double found = gradients.row(0) * x_.cwiseProduct(direction_);
-    print(method, before + seconds, std::abs(found - reference_) / std::abs(reference_));
+    print(method, simulation_ + seconds, std::abs(found - reference_) / std::abs(reference_));
   }
 
   void print(const std::string& method, double seconds, double error) const {

@@ -16,14 +16,6 @@ namespace pleuel {
 
 namespace {
 
-Eigen::VectorXd values_of(const Analysis& analysis) {
-  Eigen::VectorXd values(static_cast<Eigen::Index>(analysis.reductions.size()));
-  for (std::size_t i = 0; i < analysis.reductions.size(); ++i) {
-    values(static_cast<Eigen::Index>(i)) = analysis.reductions[i].value;
-  }
-  return values;
-}
-
 /// Simulates the first and the last design for their trajectory files and for what is reported of
 /// them.
 void examine_designs(const RunRecord& record, Optimum& optimum) {

@@ -4,7 +4,6 @@
 
 #include "core/base/error.hpp"
 #include "core/integration/configuration.hpp"
-#include "core/integration/jerk.hpp"
 #include "core/integration/linear_solver.hpp"
 #include "core/integration/step_equations.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
@@ -45,24 +44,14 @@ class AdjointRun {
     }
     const StateSensitivity start = initial_sensitivity(mechanism_, initial_state(mechanism_));
     const Eigen::MatrixXd of_steps =
-        system_.design_gradients(sums_) + along(start_of_steps(start), adjoint_);
+        system_.design_gradients(sums_) +
+        along(first_step_sensitivity(mechanism_, trajectory_, state_, start), adjoint_);
     adjoint_ = zero_adjoint(system_, static_cast<int>(sums_.cols()));
     derivatives(0, state_, adjoint_);
     return of_steps + along(start, adjoint_);
   }
 
  private:
-  /// The sensitivities from which the first step sets out.
-  StateSensitivity start_of_steps(StateSensitivity start) {
-    const StartWeights weights = trajectory_.start_weights();
-    if (weights.are_zero()) return start;
-    const ConstrainedJerk jerk(mechanism_, state_, trajectory_.scheme.step);
-    const Eigen::MatrixXd j = jerk.differentiate(start.q, start.v, start.a);
-    start.v += weights.v * j;
-    start.w += weights.w * j;
-    return start;
-  }
-
   static Eigen::MatrixXd along(const StateSensitivity& s, const StateAdjoint& adjoint) {
     return s.q.transpose() * adjoint.q + s.v.transpose() * adjoint.v + s.a.transpose() * adjoint.a +
            s.w.transpose() * adjoint.w + s.lambda.transpose() * adjoint.lambda;

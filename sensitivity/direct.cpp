@@ -4,7 +4,6 @@
 
 #include "core/base/error.hpp"
 #include "core/integration/configuration.hpp"
-#include "core/integration/jerk.hpp"
 #include "core/integration/linear_solver.hpp"
 #include "core/integration/step_equations.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
@@ -31,7 +30,7 @@ class DirectDifferentiation {
   void run(const SensitivityObserver& observer) {
     trajectory_.load(0, state_);
     observer(0, state_, sensitivity_);
-    start();
+    sensitivity_ = first_step_sensitivity(mechanism_, trajectory_, state_, std::move(sensitivity_));
     for (int step = 1; step <= trajectory_.steps(); ++step) {
       scheme_ = trajectory_.scheme_of(step);
       equations_.set_scheme(scheme_);
@@ -47,15 +46,6 @@ class DirectDifferentiation {
   }
 
  private:
-  void start() {
-    const StartWeights weights = trajectory_.start_weights();
-    if (weights.are_zero()) return;
-    const ConstrainedJerk jerk(mechanism_, state_, trajectory_.scheme.step);
-    const Eigen::MatrixXd j = jerk.differentiate(sensitivity_.q, sensitivity_.v, sensitivity_.a);
-    sensitivity_.v += weights.v * j;
-    sensitivity_.w += weights.w * j;
-  }
-
   /// ŝ = history · s, then shifted along the correction to ŝ_q = 0: the unknown is s_q itself, in
   /// the rows of rotations T(Δ)⁻¹ s_q.
   void predict() {

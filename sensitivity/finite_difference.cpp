@@ -6,14 +6,6 @@ namespace pleuel {
 
 namespace {
 
-Eigen::VectorXd values(const Analysis& analysis) {
-  Eigen::VectorXd all(static_cast<Eigen::Index>(analysis.reductions.size()));
-  for (std::size_t i = 0; i < analysis.reductions.size(); ++i) {
-    all(static_cast<Eigen::Index>(i)) = analysis.reductions[i].value;
-  }
-  return all;
-}
-
 double step_of(double x, double step) {
   return x == 0.0 ? step : step * std::abs(x);
 }
@@ -21,14 +13,14 @@ double step_of(double x, double step) {
 Eigen::VectorXd values_at(const ProblemFile& problem, Eigen::VectorXd x, Eigen::Index j,
                           double value) {
   x(j) = value;
-  return values(*analyze(problem, x));
+  return values_of(*analyze(problem, x));
 }
 
 }  // namespace
 
 Eigen::MatrixXd forward_differences(const ProblemFile& problem, const Eigen::VectorXd& x,
                                     const Analysis& at_x, double step, int threads) {
-  const Eigen::VectorXd base = values(at_x);
+  const Eigen::VectorXd base = values_of(at_x);
   Eigen::MatrixXd result(base.size(), x.size());
   for_each_in_parallel(static_cast<int>(x.size()), threads, [&](int j) {
     const double upper = x(j) + step_of(x(j), step);

@@ -4,6 +4,7 @@
 #include "core/base/rotation_vector.hpp"
 #include "core/integration/configuration.hpp"
 #include "core/integration/equilibrium.hpp"
+#include "core/integration/jerk.hpp"
 #include "core/integration/linear_solver.hpp"
 
 namespace pleuel {
@@ -135,6 +136,17 @@ class InitialDifferentiation {
 
 StateSensitivity initial_sensitivity(Mechanism& mechanism, const InitialState& initial) {
   return InitialDifferentiation(mechanism, initial).run();
+}
+
+StateSensitivity first_step_sensitivity(Mechanism& mechanism, const Trajectory& trajectory,
+                                        const State& start, StateSensitivity initial) {
+  const StartWeights weights = trajectory.start_weights();
+  if (weights.are_zero()) return initial;
+  const ConstrainedJerk jerk(mechanism, start, trajectory.scheme.step);
+  const Eigen::MatrixXd j = jerk.differentiate(initial.q, initial.v, initial.a);
+  initial.v += weights.v * j;
+  initial.w += weights.w * j;
+  return initial;
 }
 
 }  // namespace pleuel

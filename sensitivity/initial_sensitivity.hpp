@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/integration/initial_state.hpp"
+#include "core/integration/simulate.hpp"
 #include "sensitivity/state_sensitivity.hpp"
 
 namespace pleuel {
@@ -9,5 +10,10 @@ namespace pleuel {
 /// accelerations are differentiated as they are computed (implicit function theorem), the curvature
 /// of the constraints included.
 StateSensitivity initial_sensitivity(Mechanism& mechanism, const InitialState& initial);
+
+/// Derivatives of the values from which the first step sets out: generalized-α shifts those above
+/// along the constrained jerk (core/integration/jerk.hpp).
+StateSensitivity first_step_sensitivity(Mechanism& mechanism, const Trajectory& trajectory,
+                                        const State& start, StateSensitivity initial);
 
 }  // namespace pleuel

@@ -36,15 +36,11 @@ ProblemFile discretized(ProblemFile problem, const Discretization& settings) {
 }
 
 void keep_values(const Analysis& analysis, AccuracyRun& run) {
-  const auto responses = static_cast<Eigen::Index>(analysis.reductions.size());
-  run.values.resize(responses);
-  run.magnitudes.resize(responses);
-  for (Eigen::Index i = 0; i < responses; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const Eigen::MatrixXd& history = analysis.histories[k];
-    run.values(i) = analysis.reductions[k].value;
-    run.magnitudes(i) =
-        history.size() > 0 ? history.cwiseAbs().maxCoeff() : std::abs(run.values(i));
+  run.values = values_of(analysis);
+  run.magnitudes = run.values.cwiseAbs();
+  for (Eigen::Index i = 0; i < run.magnitudes.size(); ++i) {
+    const Eigen::MatrixXd& history = analysis.histories[static_cast<std::size_t>(i)];
+    if (history.size() > 0) run.magnitudes(i) = history.cwiseAbs().maxCoeff();
   }
   run.steps = analysis.trajectory.steps();
   run.newton_iterations = analysis.trajectory.newton_iterations;

@@ -25,7 +25,7 @@ class Check {
       : problem_(with_steps_of(analysis.trajectory, problem)),
         x_(x),
         options_(options),
-        magnitudes_(magnitudes_of(analysis)),
+        magnitudes_(values_of(analysis).cwiseAbs()),
         direct_(gradients_by(analysis, ExactMethod::direct)),
         adjoint_(gradients_by(analysis, ExactMethod::adjoint)),
         noise_(response_noise(problem_, x, options.threads)),
@@ -48,14 +48,6 @@ class Check {
     double step;
     Eigen::MatrixXd differences;  ///< responses × variables
   };
-
-  static Eigen::VectorXd magnitudes_of(const Analysis& analysis) {
-    Eigen::VectorXd magnitudes(static_cast<Eigen::Index>(analysis.reductions.size()));
-    for (Eigen::Index i = 0; i < magnitudes.size(); ++i) {
-      magnitudes(i) = std::abs(analysis.reductions[static_cast<std::size_t>(i)].value);
-    }
-    return magnitudes;
-  }
 
   static Eigen::MatrixXd gradients_by(Analysis& analysis, ExactMethod method) {
     return sampled_gradients(analysis, response_values(analysis), method);

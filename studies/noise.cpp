@@ -52,16 +52,12 @@ Eigen::VectorXd generic_direction(const Eigen::VectorXd& x) {
 
 /// NaN where the simulation fails.
 Eigen::VectorXd values_at(const ProblemFile& problem, const Eigen::VectorXd& x) {
-  auto values = Eigen::VectorXd(static_cast<Eigen::Index>(problem.responses.size()));
   try {
-    const auto analysis = analyze(problem, x);
-    for (Eigen::Index i = 0; i < values.size(); ++i) {
-      values(i) = analysis->reductions[static_cast<std::size_t>(i)].value;
-    }
+    return values_of(*analyze(problem, x));
   } catch (const SimulationError&) {
-    values.setConstant(std::numeric_limits<double>::quiet_NaN());
+    return Eigen::VectorXd::Constant(static_cast<Eigen::Index>(problem.responses.size()),
+                                     std::numeric_limits<double>::quiet_NaN());
   }
-  return values;
 }
 
 /// responses × points of a line through x, which lies in its middle between two points.
@@ -104,12 +100,17 @@ double noise_of(const Eigen::VectorXd& values) {
 ResponseNoise response_noise(const ProblemFile& problem, const Eigen::VectorXd& x, int threads) {
   const auto responses = static_cast<Eigen::Index>(problem.responses.size());
   ResponseNoise noise{Eigen::VectorXd::Zero(responses), Eigen::VectorXd::Zero(responses)};
+  bool is_known = false;
   for (const double spacing : spacings) {
     const Eigen::MatrixXd values = values_on_line(problem, x, spacing, threads);
     if (!values.allFinite()) continue;
+    is_known = true;
     for (Eigen::Index i = 0; i < responses; ++i) {
       noise.scatter(i) = std::max(noise.scatter(i), noise_of(values.row(i).transpose()));
     }
+  }
+  if (!is_known) {
+    throw SimulationError("the noise is unknown: simulations fail around this design");
   }
   const Eigen::MatrixXd values = values_of_tolerances(problem, x, threads);
   if (values.allFinite()) noise.remainder = (values.col(1) - values.col(0)).cwiseAbs();

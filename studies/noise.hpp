@@ -30,6 +30,7 @@ struct ResponseNoise {
 };
 
 /// Costs 26 simulations. A line or change of which a simulation fails is left out.
+/// @throws SimulationError if none of the lines is left
 /// @param threads  simulations at a time
 ResponseNoise response_noise(const ProblemFile& problem, const Eigen::VectorXd& x, int threads = 1);
 

@@ -196,14 +196,6 @@ class Study {
     return designs;
   }
 
-  static Eigen::VectorXd values_of(const Analysis& analysis) {
-    Eigen::VectorXd values(static_cast<Eigen::Index>(analysis.reductions.size()));
-    for (std::size_t i = 0; i < analysis.reductions.size(); ++i) {
-      values(static_cast<Eigen::Index>(i)) = analysis.reductions[i].value;
-    }
-    return values;
-  }
-
   /// Steps that were split add instants.
   bool is_comparable(const Analysis& analysis) const {
     return analysis.trajectory.time.size() == study_.time.size();

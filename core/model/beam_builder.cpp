@@ -4,6 +4,7 @@
 
 #include "core/beam/beam_place.hpp"
 #include "core/beam/elastic_basis.hpp"
+#include "core/model/attached_points.hpp"
 
 namespace pleuel {
 
@@ -40,24 +41,13 @@ ElasticCoordinates clamped_coordinates(ReferenceCondition condition, int nodes,
 std::vector<int> attached_nodes(const BeamBody& beam, const Body& body, const BuildContext& context,
                                 const Beam<double>& elements) {
   std::vector<int> nodes;
-  const auto add = [&](const std::string& name, const Point& point) {
-    if (name != body.name) return;
-    const BeamPlace place = find_place(elements, share_along(beam, point, context.start));
+  for (const AttachedPoint& point : attached_points(context.scene)) {
+    if (point.body != body.name) continue;
+    const BeamPlace place = find_place(elements, share_along(beam, point.at, context.start));
     if (place.is_node()) {
       nodes.push_back(place.node());
     } else {
       nodes.insert(nodes.end(), {place.element, place.element + 1});
-    }
-  };
-  for (const Joint& joint : context.scene.joints) {
-    add(joint.bodies[0], joint.at);
-    add(joint.bodies[1], joint.type == JointType::distance ? joint.to : joint.at);
-  }
-  for (const Load& load : context.scene.loads) {
-    if (const auto* force = std::get_if<PointForce>(&load.element)) add(force->body, force->at);
-    if (const auto* torque = std::get_if<PointTorque>(&load.element)) add(torque->body, torque->at);
-    if (const auto* spring = std::get_if<SpringDamper>(&load.element)) {
-      for (std::size_t i = 0; i < 2; ++i) add(spring->bodies[i], spring->at[i]);
     }
   }
   return nodes;

@@ -348,6 +348,14 @@ ProblemFile with_steps_of(const Trajectory& trajectory, ProblemFile problem) {
   return problem;
 }
 
+Eigen::VectorXd values_of(const Analysis& analysis) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(analysis.reductions.size()));
+  for (std::size_t i = 0; i < analysis.reductions.size(); ++i) {
+    values(static_cast<Eigen::Index>(i)) = analysis.reductions[i].value;
+  }
+  return values;
+}
+
 std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::VectorXd& x) {
   const Eigen::VectorXd start = start_design(problem);
   const Design<double> design(x.begin(), x.end()), start_values(start.begin(), start.end());

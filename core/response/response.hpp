@@ -50,6 +50,9 @@ struct Analysis {
   std::unique_ptr<Analysis> rigid;
 };
 
+/// One a response [SI].
+Eigen::VectorXd values_of(const Analysis& analysis);
+
 /// Builds and simulates the mechanism of a problem at a design, and reduces its responses.
 /// @param x  design variables [SI]
 /// @throws SimulationError

@@ -8,25 +8,17 @@
 #include "sensitivity/direct.hpp"
 #include "tests/support/convergence.hpp"
 #include "tests/support/sample_scenes.hpp"
+#include "tests/support/scheme_case.hpp"
 
 namespace {
 
 using namespace pleuel;
 
-struct SchemeCase {
-  std::string name;
-  SchemeType scheme;
-  double spectral_radius;
-  Formulation formulation;
-  double order;
-  int coarsest;  ///< steps of the longest run, in the asymptotic range
-
-  friend std::ostream& operator<<(std::ostream& stream, const SchemeCase& scheme_case) {
-    return stream << scheme_case.name;
-  }
+struct SensitivityCase : SchemeCase {
+  int coarsest = 354;  ///< steps of the longest run, in the asymptotic range
 };
 
-class SensitivityOrder : public testing::TestWithParam<SchemeCase> {
+class SensitivityOrder : public testing::TestWithParam<SensitivityCase> {
  protected:
   struct End {
     Eigen::MatrixXd q, v, lambda;  ///< per relative change of each variable
@@ -35,10 +27,9 @@ class SensitivityOrder : public testing::TestWithParam<SchemeCase> {
   static End end_with(int steps) {
     const SampleScene sample = smooth_planar_sample();
     Model model = sample.build();
-    SimulationOptions options{0.06, 0.06 / steps, GetParam().spectral_radius};
+    SimulationOptions options{0.06, 0.06 / steps};
     options.newton_tolerance = 1e-14;
-    options.scheme = GetParam().scheme;
-    options.formulation = GetParam().formulation;
+    GetParam().set(options);
     const Trajectory trajectory = simulate(model.mechanism, options);
     End end;
     differentiate(model.mechanism, trajectory,
@@ -68,25 +59,20 @@ TEST_P(SensitivityOrder, IsThatOfTheScheme) {
   EXPECT_GE(observed_order(steps, lambda), GetParam().order - 0.15);
 }
 
-constexpr SchemeType alpha = SchemeType::generalized_alpha;
-constexpr Formulation index_3{};
-constexpr Formulation stabilized{ConstraintForm::stabilized_index_2};
-constexpr Formulation index_1{ConstraintForm::index_1};
-constexpr Formulation baumgarte{ConstraintForm::index_1, 200.0};
-
 INSTANTIATE_TEST_SUITE_P(
     Schemes, SensitivityOrder,
-    testing::Values(SchemeCase{"Index3", alpha, 0.8, index_3, 2.0, 354},
-                    SchemeCase{"StabilizedIndex2", alpha, 0.8, stabilized, 2.0, 354},
-                    SchemeCase{"Index1", alpha, 0.8, index_1, 2.0, 1400},
-                    SchemeCase{"Baumgarte", alpha, 0.8, baumgarte, 2.0, 1400},
-                    SchemeCase{"NewmarkStabilized", SchemeType::newmark, 1.0, stabilized, 2.0, 354},
-                    SchemeCase{"NewmarkIndex1", SchemeType::newmark, 1.0, index_1, 2.0, 1400},
-                    SchemeCase{"ImplicitEuler", SchemeType::implicit_euler, 0.0, index_3, 1.0, 354},
-                    SchemeCase{"ImplicitEulerStabilized", SchemeType::implicit_euler, 0.0,
-                               stabilized, 1.0, 354},
-                    SchemeCase{"ImplicitEulerIndex1", SchemeType::implicit_euler, 0.0, index_1, 1.0,
-                               354}),
+    testing::Values(
+        SensitivityCase{{"Index3", alpha, 0.8, index_3, 2.0}, 354},
+        SensitivityCase{{"StabilizedIndex2", alpha, 0.8, stabilized, 2.0}, 354},
+        SensitivityCase{{"Index1", alpha, 0.8, index_1, 2.0}, 1400},
+        SensitivityCase{{"Baumgarte", alpha, 0.8, baumgarte, 2.0}, 1400},
+        SensitivityCase{{"NewmarkStabilized", SchemeType::newmark, 1.0, stabilized, 2.0}, 354},
+        SensitivityCase{{"NewmarkIndex1", SchemeType::newmark, 1.0, index_1, 2.0}, 1400},
+        SensitivityCase{{"ImplicitEuler", SchemeType::implicit_euler, 0.0, index_3, 1.0}, 354},
+        SensitivityCase{
+            {"ImplicitEulerStabilized", SchemeType::implicit_euler, 0.0, stabilized, 1.0}, 354},
+        SensitivityCase{{"ImplicitEulerIndex1", SchemeType::implicit_euler, 0.0, index_1, 1.0},
+                        354}),
     [](const auto& test) { return test.param.name; });
 
 }  // namespace

@@ -1,7 +1,10 @@
 #include "studies/derivative_check.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
+#include "studies/noise.hpp"
 #include "tests/studies/quick_problem.hpp"
 
 namespace pleuel {
@@ -62,6 +65,36 @@ TEST(DerivativeCheck, NoticesThatAnalysisAndDesignDoNotBelongTogether) {
     EXPECT_EQ(judged.verdict, DerivativeVerdict::differs);
     EXPECT_EQ(judged.curve.size(), 7u);  // no step is spared where something is wrong
   }
+}
+
+/// Every derivative that counts (a relative change of its variable moves the response by a
+/// hundredth of that), with an error put into it, against the same differences and noise.
+TEST(DerivativeCheck, FindsErrorsPutIntoDerivativesOfASimulation) {
+  const ProblemFile problem = test::quick_problem();
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const auto checks = check_derivatives(problem, x, *analysis);
+  const ResponseNoise noise = response_noise(problem, x);
+  const Eigen::VectorXd values = values_of(*analysis);
+  int counted = 0;
+  for (std::size_t i = 0; i < checks.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    for (std::size_t j = 0; j < checks[i].variables.size(); ++j) {
+      const JudgedDerivative& right = checks[i].variables[j];
+      const double size = x(static_cast<Eigen::Index>(j)), value = std::abs(values(row));
+      if (std::abs(right.derivative) * size < 0.01 * value) continue;
+      ++counted;
+      for (const double error : {1e-4, -1e-4, 1e-3, -1e-2}) {
+        const JudgedDerivative wrong =
+            judge_derivative({right.derivative * (1.0 + error), size, value, noise.scatter(row),
+                              noise.remainder(row), false},
+                             right.curve);
+        EXPECT_EQ(wrong.verdict, DerivativeVerdict::differs)
+            << problem.responses[i].name << ", " << problem.variables[j].name << ": " << error;
+      }
+    }
+  }
+  EXPECT_GT(counted, 8);
 }
 
 }  // namespace

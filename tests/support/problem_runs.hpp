@@ -10,14 +10,6 @@ inline pleuel::ProblemFile sample_problem(const std::string& name,
                               overrides);
 }
 
-inline Eigen::VectorXd values_of(const pleuel::Analysis& analysis) {
-  Eigen::VectorXd values(static_cast<Eigen::Index>(analysis.reductions.size()));
-  for (std::size_t i = 0; i < analysis.reductions.size(); ++i) {
-    values(static_cast<Eigen::Index>(i)) = analysis.reductions[i].value;
-  }
-  return values;
-}
-
 inline Eigen::Index response_index(const pleuel::ProblemFile& problem, const std::string& name) {
   for (std::size_t i = 0; i < problem.responses.size(); ++i) {
     if (problem.responses[i].name == name) return static_cast<Eigen::Index>(i);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/model/model.hpp"
+#include "core/scene/problem_file.hpp"
 
 /// Small mechanisms that together contain every kind of body, joint, drive and load, with all kinds
 /// of numbers bound to variables.
@@ -17,6 +18,17 @@ struct SampleScene {
   pleuel::Model build() const { return build_at(design); }
   pleuel::Model build_at(const pleuel::Design<double>& x) const {
     return pleuel::build_model(scene, effects, design, x);
+  }
+
+  /// Scene, effects and variables.
+  pleuel::ProblemFile problem() const {
+    pleuel::ProblemFile problem;
+    problem.scene = scene;
+    problem.effects = effects;
+    for (std::size_t i = 0; i < design.size(); ++i) {
+      problem.variables.push_back({variables[i], design[i], 0.0, 0.0, ""});
+    }
+    return problem;
   }
 };
 

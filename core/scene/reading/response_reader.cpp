@@ -242,7 +242,8 @@ void read_reaction(const JsonNode& node, const ResponseContext& context,
 void read_energy(const JsonNode& node, const ResponseContext& context, ResponseSettings& response) {
   allow_history_keys(node, {"body"});
   if (const auto body = node.find("body")) {
-    if (response.type == ResponseType::elastic_energy) {
+    const bool is_elastic = response.type == ResponseType::elastic_energy;
+    if (is_elastic && find_imported(node, context.scene, response) == nullptr) {
       read_elastic_beam(node, context.scene, response);
     } else {
       response.bodies = {read_body_name(*body, context.scene).name};

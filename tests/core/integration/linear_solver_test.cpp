@@ -1,5 +1,6 @@
 #include "core/integration/linear_solver.hpp"
 
+#include <limits>
 #include <random>
 
 #include <Eigen/LU>
@@ -87,6 +88,35 @@ TEST(LinearSolver, RefinesWhatOldPivotsLeave) {
       EXPECT_LE((applied * x - rhs).cwiseAbs().maxCoeff(),
                 1e-13 * (1.0 + x.cwiseAbs().colwise().sum().maxCoeff()));
     }
+  }
+}
+
+/// What is lost is said, and does not stay: neither in the factors nor in the scales.
+TEST(LinearSolver, RecoversFromMatricesWithoutInverse) {
+  std::mt19937 random(13);
+  const Eigen::MatrixXd good = random_matrix(random);
+  Eigen::MatrixXd infinite = good, not_a_number = good, singular = good;
+  infinite(0, 0) = std::numeric_limits<double>::infinity();
+  not_a_number(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  singular.row(3) = singular.row(3).cwiseProduct(Eigen::RowVectorXd::Zero(size));
+  LinearSolver::Matrix pattern = good.sparseView();
+  const auto on_pattern = [&](const Eigen::MatrixXd& matrix) {
+    LinearSolver::Matrix sparse = pattern;
+    for (int col = 0; col < sparse.outerSize(); ++col) {
+      for (LinearSolver::Matrix::InnerIterator it(sparse, col); it; ++it) {
+        it.valueRef() = matrix(it.row(), it.col());
+      }
+    }
+    return sparse;
+  };
+  LinearSolver solver(pattern);
+  for (const Eigen::MatrixXd& bad : {infinite, not_a_number, singular}) {
+    EXPECT_FALSE(solver.factorize(on_pattern(bad)));
+    ASSERT_TRUE(solver.factorize(on_pattern(good)));
+    const Eigen::MatrixXd expected = Eigen::MatrixXd::Random(size, 2);
+    Eigen::MatrixXd x = good * expected;
+    solver.solve(x);
+    EXPECT_LE((x - expected).cwiseAbs().maxCoeff(), 1e-11);
   }
 }
 

@@ -90,13 +90,9 @@ class EverySample : public testing::TestWithParam<int> {
  protected:
   EverySample() {
     const SampleScene sample = sample_with_strength(GetParam());
-    problem_.scene = sample.scene;
-    problem_.effects = sample.effects;
+    problem_ = sample.problem();
     problem_.simulation.end_time = 0.02;
     problem_.simulation.step = 1e-4;
-    for (std::size_t i = 0; i < sample.design.size(); ++i) {
-      problem_.variables.push_back({sample.variables[i], sample.design[i], 0.0, 0.0, ""});
-    }
     add_monitor_responses(sample.build(), problem_.responses);
   }
 

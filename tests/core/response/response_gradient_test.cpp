@@ -13,14 +13,10 @@ class GradientsOfResponses : public testing::TestWithParam<int> {
  protected:
   GradientsOfResponses() {
     const SampleScene sample = sample_with_strength(GetParam());
-    problem_.scene = sample.scene;
-    problem_.effects = sample.effects;
+    problem_ = sample.problem();
     problem_.simulation.end_time = 8e-3;
     problem_.simulation.step = 1e-3;
     problem_.simulation.newton_tolerance = 1e-13;
-    for (std::size_t i = 0; i < sample.design.size(); ++i) {
-      problem_.variables.push_back({sample.variables[i], sample.design[i], 0.0, 0.0, ""});
-    }
     problem_.responses = all_histories(sample.build());
     for (ResponseSettings& response : problem_.responses) {
       response.over_time = OverTime::final;

@@ -104,14 +104,9 @@ TEST_P(EverySignal, OfAMotionIsTheTimeDerivativeOfThePosition) {
 /// Central differences of simulated positions over the second half of 200 steps. 2e-3 of the
 /// largest speed: terms of second order in the step, of beams that vibrate (measured 9.5e-4).
 TEST_P(EverySignal, OfAMotionFollowsTheSimulatedPosition) {
-  ProblemFile problem;
-  problem.scene = sample_.scene;
-  problem.effects = sample_.effects;
+  ProblemFile problem = sample_.problem();
   problem.simulation.end_time = 0.01;
   problem.simulation.step = 5e-5;
-  for (std::size_t i = 0; i < sample_.design.size(); ++i) {
-    problem.variables.push_back({sample_.variables[i], sample_.design[i], 0.0, 0.0, ""});
-  }
   for (const ResponseSettings& settings : all_histories(model_)) {
     const bool is_motion =
         settings.type == ResponseType::position || settings.type == ResponseType::velocity;

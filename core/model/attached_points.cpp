@@ -1,0 +1,26 @@
+#include "core/model/attached_points.hpp"
+
+namespace pleuel {
+
+std::vector<AttachedPoint> attached_points(const Scene& scene) {
+  std::vector<AttachedPoint> points;
+  for (const Joint& joint : scene.joints) {
+    const bool has_length = joint.type == JointType::distance;
+    points.push_back({joint.name, joint.bodies[0], joint.at});
+    points.push_back({joint.name, joint.bodies[1], has_length ? joint.to : joint.at});
+  }
+  for (const Load& load : scene.loads) {
+    if (const auto* force = std::get_if<PointForce>(&load.element)) {
+      points.push_back({load.name, force->body, force->at});
+    } else if (const auto* torque = std::get_if<PointTorque>(&load.element)) {
+      points.push_back({load.name, torque->body, torque->at});
+    } else if (const auto* spring = std::get_if<SpringDamper>(&load.element)) {
+      for (std::size_t i = 0; i < 2; ++i) {
+        points.push_back({load.name, spring->bodies[i], spring->at[i]});
+      }
+    }
+  }
+  return points;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scene/scene.hpp"
+
+namespace pleuel {
+
+/// Where a joint or a load holds on to a body.
+struct AttachedPoint {
+  std::string name;  ///< of the joint or load
+  std::string body;  ///< or "ground"
+  Point at;          ///< at t = 0, global axes [m]
+};
+
+/// All of a scene: joints first, in the order of the file.
+std::vector<AttachedPoint> attached_points(const Scene& scene);
+
+}  // namespace pleuel

@@ -1,0 +1,69 @@
+#include "core/response/named_places.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/model/attached_points.hpp"
+#include "core/model/beam_builder.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Where the scene and the responses hold on to a beam.
+class PlaceFinder {
+ public:
+  PlaceFinder(const ProblemFile& problem, const BodyModel& body) : body_(body) {
+    for (const DesignVariable& variable : problem.variables) start_.push_back(variable.start);
+    for (const Body& other : problem.scene.bodies) {
+      if (other.name == body.name) beam_ = &std::get<BeamBody>(other.shape);
+    }
+    for (const AttachedPoint& point : attached_points(problem.scene)) {
+      if (point.body != body.name) continue;
+      add(point.name, find_place(body.beam, share_along(*beam_, point.at, start_)));
+    }
+    for (const ResponseSettings& response : problem.responses) add_response(response);
+    for (int node = 0; node < body.beam.node_count(); ++node) {
+      add(fmt::format("node {}", node), node == 0 ? BeamPlace{0, 0.0} : BeamPlace{node - 1, 1.0});
+    }
+    std::stable_sort(places_.begin(), places_.end(),
+                     [](const NamedPlace& a, const NamedPlace& b) { return a.x < b.x; });
+  }
+
+  std::vector<NamedPlace> take() { return std::move(places_); }
+
+ private:
+  void add_response(const ResponseSettings& response) {
+    const bool has_place =
+        response.type == ResponseType::deflection || response.type == ResponseType::position ||
+        response.type == ResponseType::velocity || response.type == ResponseType::acceleration;
+    if (!has_place || response.bodies.front() != body_.name) return;
+    add(response.name, find_place(body_.beam, response.at));
+  }
+
+  void add(const std::string& name, const BeamPlace& place) {
+    const double x = position_of(body_.beam, place);
+    const double length = body_.beam.node_position(body_.beam.node_count() - 1);
+    bool has_name = false;
+    for (const NamedPlace& other : places_) {
+      if (std::abs(other.x - x) < 1e-9 * length) return;
+      has_name = has_name || other.name == name;
+    }
+    places_.push_back({has_name ? fmt::format("{} at {:.6g}", name, x / length) : name, place, x});
+  }
+
+  const BodyModel& body_;
+  const BeamBody* beam_ = nullptr;
+  Design<double> start_;
+  std::vector<NamedPlace> places_;
+};
+
+}  // namespace
+
+std::vector<NamedPlace> named_places(const ProblemFile& problem, const BodyModel& body) {
+  return PlaceFinder(problem, body).take();
+}
+
+}  // namespace pleuel
