@@ -28,6 +28,7 @@ Json constraint_document(const Optimum& optimum, std::size_t i) {
                    {"unit", unit_of(optimum.problem, constraint).si},
                    {"multiplier", optimum.result.constraint_multipliers(row)}};
   if (used.utilisation) document["utilisation"] = *used.utilisation;
+  if (constraint.deviations > 0.0) document["deviations"] = constraint.deviations;
   return document;
 }
 

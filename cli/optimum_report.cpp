@@ -78,7 +78,11 @@ std::vector<std::string> constraint_row(const Optimum& optimum, std::size_t i) {
   const ShownUnit unit = unit_of(optimum.problem, constraint);
   const ShownUnit objective_unit =
       unit_of(find_response(optimum.problem, optimum.problem.objective->response));
-  return {constraint.name,
+  const std::string margin =
+      constraint.deviations > 0.0
+          ? fmt::format(" {}{:g} σ", constraint.upper ? "+" : "−", constraint.deviations)
+          : "";
+  return {constraint.name + margin,
           significant(unit.shown(value)),
           (used.is_upper ? "≤ " : "≥ ") + significant(unit.shown(used.limit)),
           unit.name,

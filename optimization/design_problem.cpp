@@ -24,6 +24,16 @@ std::size_t DesignProblem::response_index(const std::string& name) const {
   throw InputError(fmt::format("there is no response \"{}\"", name));
 }
 
+Eigen::VectorXd DesignProblem::variable_deviations() const {
+  Eigen::VectorXd deviations =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(file_.variables.size()));
+  if (!file_.uncertainty) return deviations;
+  for (const UncertainParameter& parameter : file_.uncertainty->parameters) {
+    deviations(parameter.variable) = parameter.standard_deviation();
+  }
+  return deviations;
+}
+
 Analysis& DesignProblem::analysis_at(const Eigen::VectorXd& x) {
   if (!analysis_ || x != x_) {
     analysis_.reset();  // a failing simulation leaves nothing stale behind

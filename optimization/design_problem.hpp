@@ -35,6 +35,9 @@ class DesignProblem : public Problem {
   /// How gradients are computed; none before the first one.
   const std::optional<MethodChoice>& method() const { return choice_; }
 
+  /// Standard deviations of the variables, zero where the file does not say that they scatter.
+  Eigen::VectorXd variable_deviations() const;
+
   /// The simulation of a design; kept until another one is asked for.
   /// @throws SimulationError
   Analysis& analysis_at(const Eigen::VectorXd& x);

@@ -1,8 +1,11 @@
 #include "optimization/design_solve.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <numeric>
 
 #include "optimization/peak_problem.hpp"
+#include "optimization/robust_problem.hpp"
 
 namespace pleuel {
 
@@ -31,11 +34,24 @@ void continue_from(const Result& before, Result& result) {
   result.history.insert(result.history.begin(), before.history.begin(), before.history.end());
 }
 
+/// With the margins that the constraints of the file ask for, if any.
+/// @param constraint_of_row  of a problem made of that of the file
+std::unique_ptr<Problem> with_margins(Problem& problem, const DesignProblem& design,
+                                      const std::vector<std::size_t>& constraint_of_row) {
+  Eigen::VectorXd margins(static_cast<Eigen::Index>(constraint_of_row.size()));
+  for (std::size_t row = 0; row < constraint_of_row.size(); ++row) {
+    margins(static_cast<Eigen::Index>(row)) =
+        design.file().constraints[constraint_of_row[row]].deviations;
+  }
+  if (margins.isZero(0.0)) return nullptr;
+  return std::make_unique<RobustProblem>(problem, design.variable_deviations(), margins);
+}
+
 /// On the peaks of windows, beginning where the run on whole constraints ended (if that is within
 /// the limits).
-Result solve_peaks(DesignProblem& problem, const SolveOptions& options, const Result& before,
-                   const Observer& observer) {
-  PeakProblem peaks(problem, peak_windows);
+Result solve_peaks(DesignProblem& design, Problem& problem, const SolveOptions& options,
+                   const Result& before, const Observer& observer) {
+  PeakProblem peaks(design, peak_windows);
   if (before.status == Status::stalled) peaks.start_from(before.x);
   const auto fold = [&](EvaluationRecord record) {
     if (record.constraints.size() > 0) record.constraints = peaks.fold_values(record.constraints);
@@ -43,7 +59,8 @@ Result solve_peaks(DesignProblem& problem, const SolveOptions& options, const Re
   };
   Observer folding;
   if (observer) folding = [&](const EvaluationRecord& record) { observer(fold(record)); };
-  Result result = solve(peaks, options, folding);
+  const auto robust = with_margins(peaks, design, peaks.constraint_of_row());
+  Result result = solve(robust ? *robust : peaks, options, folding);
   for (EvaluationRecord& record : result.history) record = fold(std::move(record));
   if (result.constraint_multipliers.size() > 0) {
     result.constraint_multipliers = peaks.fold_multipliers(result.constraint_multipliers);
@@ -56,7 +73,11 @@ Result solve_peaks(DesignProblem& problem, const SolveOptions& options, const Re
 
 }  // namespace
 
-Result solve_design(DesignProblem& problem, const SolveOptions& options, const Observer& observer) {
+Result solve_design(DesignProblem& design, const SolveOptions& options, const Observer& observer) {
+  std::vector<std::size_t> all(design.constraints().size());
+  std::iota(all.begin(), all.end(), 0u);
+  const auto robust = with_margins(design, design, all);
+  Problem& problem = robust ? *robust : design;
   SolveOptions plain = options;
   plain.max_iterations = std::min(options.max_iterations, plain_iterations);
   plain.max_restarts = std::min(options.max_restarts, 1);
@@ -65,7 +86,7 @@ Result solve_design(DesignProblem& problem, const SolveOptions& options, const O
   rest.max_iterations = options.max_iterations - result.iterations;
   const bool is_final = result.status == Status::verified || result.status == Status::failed;
   if (is_final || rest.max_iterations < 1) return result;
-  Result on_peaks = solve_peaks(problem, rest, result, observer);
+  Result on_peaks = solve_peaks(design, problem, rest, result, observer);
   continue_from(result, on_peaks);
   return on_peaks;
 }

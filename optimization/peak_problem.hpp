@@ -21,6 +21,9 @@ class PeakProblem : public Problem {
   std::string objective_name() const override { return problem_.objective_name(); }
   Evaluation evaluate(const Eigen::VectorXd& x, Request request) override;
 
+  /// The constraint of the file that each row is of.
+  const std::vector<std::size_t>& constraint_of_row() const { return constraint_of_row_; }
+
   /// Values of the rows as values of the constraints: the worst of each.
   Eigen::VectorXd fold_values(const Eigen::VectorXd& rows) const;
   /// Multipliers of the rows as those of the constraints: their sums.

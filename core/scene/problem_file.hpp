@@ -136,6 +136,8 @@ struct ConstraintSettings {
   std::string response;                        ///< empty for a linear constraint
   std::vector<std::pair<int, double>> linear;  ///< (variable, coefficient)
   std::optional<double> lower, upper;
+  /// k: standard deviations of its value (see UncertaintySettings) that are kept free of the limit.
+  double deviations = 0.0;
 };
 
 struct OptimizerSettings {

@@ -47,6 +47,16 @@ void read_settings(const JsonNode& root, const NumberReader& numbers, ProblemFil
   }
 }
 
+void check_margins(const JsonNode& root, const ProblemFile& problem) {
+  for (const ConstraintSettings& constraint : problem.constraints) {
+    if (constraint.deviations == 0.0 || problem.uncertainty) continue;
+    root.at("constraints")
+        .at(constraint.name)
+        .at("deviations")
+        .fail("needs the block \"uncertainty\", which says what scatters");
+  }
+}
+
 /// The variables come late: where they are used tells what they measure.
 ProblemFile read_document(const JsonNode& root, const UnitSystem& units) {
   ProblemFile problem;
@@ -67,6 +77,7 @@ ProblemFile read_document(const JsonNode& root, const UnitSystem& units) {
     problem.variables = read_variables(*variables, numbers);
   }
   read_settings(root, numbers, problem);
+  check_margins(root, problem);
   check_scene(root.at("scene"), problem);
   return problem;
 }

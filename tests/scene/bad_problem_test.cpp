@@ -356,6 +356,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadProblem{"/accuracy/error", "0",
                    "/accuracy/error must be greater than 0 and less than 1, got 0"},
         BadProblem{"/accuracy/steps/1", "0", "/accuracy/steps/1 must be positive [s], got 0"},
+        BadProblem{
+            "/constraints/strength/deviations", "3",
+            R"(/constraints/strength/deviations needs the block "uncertainty", which says what scatters)"},
+        BadProblem{"/constraints/strength/deviations", "-3",
+                   "/constraints/strength/deviations must be positive, got -3"},
+        BadProblem{"/constraints/effort/deviations", "3",
+                   "/constraints/effort/deviations is for one limit; this constraint has two"},
         BadProblem{"/uncertainty", R"({"parameters": {}})",
                    "/uncertainty/parameters must have at least one parameter"},
         BadProblem{

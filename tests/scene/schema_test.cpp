@@ -221,6 +221,7 @@ TEST_F(ProblemSchema, RefusesWhatTheReaderRefuses) {
       {"/responses/bow/against", "\"cord\""},
       {"/constraints/strength/upper", "remove"},
       {"/constraints/slender/response", "\"bow\""},
+      {"/constraints/strength/deviations", "0"},
       {"/optimizer/tolerance", "0"},
       {"/pareto/points", "1"},
       {"/accuracy/steps", "[]"}};

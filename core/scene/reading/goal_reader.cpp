@@ -51,12 +51,17 @@ void read_limits(const JsonNode& node, const Quantity& quantity, const NumberRea
   if (lower && upper && *constraint.lower > *constraint.upper) {
     lower->fail_with_value("must not be above the upper limit");
   }
+  if (const auto deviations = node.find("deviations")) {
+    constraint.deviations = deviations->number();
+    if (constraint.deviations <= 0.0) deviations->fail_with_value("must be positive");
+    if (lower && upper) deviations->fail("is for one limit; this constraint has two");
+  }
 }
 
 ConstraintSettings read_constraint(const std::string& name, const JsonNode& node,
                                    const std::vector<ResponseSettings>& responses,
                                    NumberReader& numbers) {
-  node.allow_keys({"response", "linear", "lower", "upper"});
+  node.allow_keys({"response", "linear", "lower", "upper", "deviations"});
   ConstraintSettings constraint;
   constraint.name = name;
   const std::optional<JsonNode> linear = node.find("linear");

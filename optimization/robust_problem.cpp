@@ -1,0 +1,69 @@
+#include "optimization/robust_problem.hpp"
+
+#include <cassert>
+#include <cmath>
+
+namespace pleuel {
+
+namespace {
+
+/// Of the differences of gradients: they are good to some 1e-8 of the value, and the error of
+/// second order is that of third derivatives.
+constexpr double relative_step = 1e-4;
+
+}  // namespace
+
+RobustProblem::RobustProblem(Problem& problem, Eigen::VectorXd deviations, Eigen::VectorXd margins)
+    : problem_(problem), deviations_(std::move(deviations)), margins_(std::move(margins)) {
+  assert(deviations_.size() == static_cast<Eigen::Index>(variables().size()));
+  assert(margins_.size() == static_cast<Eigen::Index>(constraints().size()));
+  for (std::size_t j = 0; j < constraints().size(); ++j) {
+    const bool has_upper = constraints()[j].upper < infinity;
+    assert(margins_(static_cast<Eigen::Index>(j)) == 0.0 ||
+           has_upper != (constraints()[j].lower > -infinity));
+    if (!has_upper) margins_(static_cast<Eigen::Index>(j)) *= -1.0;
+  }
+}
+
+Eigen::VectorXd RobustProblem::constraint_deviations(const Evaluation& evaluation) const {
+  return (evaluation.constraint_jacobian * deviations_.asDiagonal()).rowwise().norm();
+}
+
+Eigen::MatrixXd RobustProblem::deviation_gradients(const Eigen::VectorXd& x,
+                                                   const Evaluation& evaluation,
+                                                   const Eigen::VectorXd& deviations) {
+  const Eigen::MatrixXd& jacobian = evaluation.constraint_jacobian;
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(jacobian.rows(), jacobian.cols());
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    if (deviations_(i) == 0.0) continue;
+    const double step = relative_step * (x(i) == 0.0 ? 1.0 : std::abs(x(i)));
+    Eigen::VectorXd upper = x, lower = x;
+    upper(i) += step;
+    lower(i) -= step;
+    constexpr Request request = Request::values_and_gradients;
+    const Eigen::MatrixXd change = problem_.evaluate(upper, request).constraint_jacobian -
+                                   problem_.evaluate(lower, request).constraint_jacobian;
+    const Eigen::VectorXd weights = deviations_(i) * deviations_(i) * jacobian.col(i);
+    sum += weights.asDiagonal() * change / (upper(i) - lower(i));
+  }
+  // A value that does not scatter has no gradient of its deviation: zero is one of them.
+  const Eigen::VectorXd inverse = deviations.unaryExpr(
+      [](double deviation) { return deviation > 0.0 ? 1.0 / deviation : 0.0; });
+  return inverse.asDiagonal() * sum;
+}
+
+Evaluation RobustProblem::evaluate(const Eigen::VectorXd& x, Request request) {
+  Evaluation evaluation = problem_.evaluate(x, Request::values_and_gradients);
+  const Eigen::VectorXd deviations = constraint_deviations(evaluation);
+  if (request == Request::values_and_gradients) {
+    const Eigen::MatrixXd gradients = deviation_gradients(x, evaluation, deviations);
+    evaluation.constraint_jacobian += margins_.asDiagonal() * gradients;
+  } else {
+    evaluation.objective_gradient.resize(0);
+    evaluation.constraint_jacobian.resize(0, 0);
+  }
+  evaluation.constraints += margins_.cwiseProduct(deviations);
+  return evaluation;
+}
+
+}  // namespace pleuel

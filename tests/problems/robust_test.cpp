@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include "core/scene/problem_reader.hpp"
+#include "optimization/design_problem.hpp"
+#include "optimization/design_solve.hpp"
+#include "studies/uncertainty.hpp"
+
+namespace {
+
+using namespace pleuel;
+
+/// The round slider-crank with diameters that scatter, three deviations below each limit; coarse,
+/// and over in 20 ms.
+ProblemFile robust_problem() {
+  return read_problem(
+      PLEUEL_SOURCE_DIR "/problems/slider_crank_round.json",
+      {"/simulation/step=0.2 ms", "/simulation/end_time=20 ms",
+       "/scene/joints/bearing/drive/ramp=20 ms", "/constraints/crank_strength/deviations=3",
+       "/constraints/rod_strength/deviations=3", "/constraints/rod_stiffness/deviations=3",
+       "/constraints/crank_stiffness/deviations=3",
+       R"(/uncertainty={"parameters": {"crank_diameter": {"deviation": "0.1 mm"}, )"
+       R"("rod_diameter": {"interval": "0.2 mm"}}, "samples": 2000})"});
+}
+
+Eigen::Index worst_row(const Evaluation& evaluation, const DesignProblem& problem) {
+  Eigen::Index worst = 0;
+  double most = 0.0;
+  for (Eigen::Index i = 0; i < evaluation.constraints.size(); ++i) {
+    const double used = evaluation.constraints(i) / problem.constraints()[std::size_t(i)].upper;
+    if (used > most) std::tie(most, worst) = std::tie(used, i);
+  }
+  return worst;
+}
+
+/// The deviations of the study come from gradients at the optimum and from Monte Carlo: neither
+/// knows what the optimizer did.
+TEST(RobustConstraints, LeaveTheDeviationsThatAreAskedFor) {
+  DesignProblem problem(robust_problem());
+  const Result result = solve_design(problem, {.backend = "nlopt-slsqp"});
+  ASSERT_EQ(result.status, Status::verified) << result.message;
+
+  ProblemFile at_optimum = problem.file();
+  for (Eigen::Index i = 0; i < result.x.size(); ++i) {
+    at_optimum.variables[std::size_t(i)].start = result.x(i);
+  }
+  const UncertaintyStudy study = uncertainty_study(at_optimum, 2);
+  for (std::size_t i = 0; i < at_optimum.constraints.size(); ++i) {
+    const ConstraintSettings& constraint = at_optimum.constraints[i];
+    const UncertainResponse& response =
+        study.responses[problem.response_index(constraint.response)];
+    const double margin = response.value + 3.0 * response.deviation;
+    EXPECT_NEAR(result.evaluation.constraints(Eigen::Index(i)), margin, 1e-6 * margin);
+    EXPECT_LE(margin, *constraint.upper * (1.0 + 1e-4)) << constraint.name;
+    // Of 2000 samples a deviation is good to 1.6 %, one sigma of it.
+    ASSERT_TRUE(response.sampled);
+    EXPECT_NEAR(response.sampled->deviation, response.deviation, 0.06 * response.deviation)
+        << constraint.name;
+  }
+  const Eigen::Index worst = worst_row(result.evaluation, problem);
+  const ConstraintSettings& active = at_optimum.constraints[std::size_t(worst)];
+  EXPECT_NEAR(result.evaluation.constraints(worst), *active.upper, 1e-4 * *active.upper);
+}
+
+TEST(RobustConstraints, CostMassThatPlainLimitsDoNot) {
+  DesignProblem robust(robust_problem());
+  ProblemFile file = robust_problem();
+  for (ConstraintSettings& constraint : file.constraints) constraint.deviations = 0.0;
+  DesignProblem plain(file);
+  const SolveOptions options{.backend = "nlopt-slsqp"};
+  const Result with = solve_design(robust, options), without = solve_design(plain, options);
+  ASSERT_EQ(with.status, Status::verified) << with.message;
+  ASSERT_EQ(without.status, Status::verified) << without.message;
+  EXPECT_GT(with.evaluation.objective, 1.01 * without.evaluation.objective);
+}
+
+}  // namespace
