@@ -51,7 +51,8 @@ Equilibrium::Equilibrium(Mechanism& mechanism)
       n_(system_.coordinates()),
       m_(system_.multipliers()) {}
 
-// Rows: motion n, Φ̈ m, position n (a_e = 0 for elastic coordinates), Φ m, velocity n, Φ̇ m.
+// Rows: motion n, Φ̈ m, position n (a_e = 0 for elastic coordinates), Φ m, velocity n, Φ̇ m. Rows of
+// constraints that are left out say λ_i = μ_i = ν_i = 0.
 // Columns: q n, v n, a n, λ m, μ m, ν m.
 
 Eigen::VectorXd Equilibrium::residual(const InitialState& at) const {
@@ -77,6 +78,10 @@ Eigen::VectorXd Equilibrium::residual(const InitialState& at) const {
       weight.cwiseProduct(state.v - mechanism_.guess.v) + forces(at.velocity_multipliers);
   system_.residual(state, ConstraintLevel::velocity, part);
   all.tail(m_) = part.tail(m_);
+  for (int i : system_.left_out()) {
+    all(2 * n_ + m_ + i) = at.position_multipliers(i);
+    all(3 * n_ + 2 * m_ + i) = at.velocity_multipliers(i);
+  }
   return all;
 }
 
@@ -111,6 +116,11 @@ Eigen::SparseMatrix<double> Equilibrium::jacobian(const InitialState& at) const 
   };
   add_forces(at.position_multipliers, position, mu);
   add_forces(at.velocity_multipliers, velocity, nu);
+  for (int i : system_.left_out()) {
+    entries.emplace_back(n + i, lambda + i, 1.0);
+    entries.emplace_back(position + n + i, mu + i, 1.0);
+    entries.emplace_back(velocity + n + i, nu + i, 1.0);
+  }
   const Eigen::VectorXd& weight = mechanism_.assembly_weight;
   for (int i = 0; i < n; ++i) entries.emplace_back(velocity + i, n + i, weight(i));
 

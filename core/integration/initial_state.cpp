@@ -154,7 +154,7 @@ void solve_accelerations(Mechanism& mechanism, LinearSolver& solver, System::Mat
 
 }  // namespace
 
-void projection_matrix(Mechanism& mechanism, const State& state, System::Matrix& matrix) {
+void projection_matrix(const Mechanism& mechanism, const State& state, System::Matrix& matrix) {
   const int n = mechanism.system->coordinates();
   mechanism.system->tangent(state, {.q = 1.0}, ConstraintLevel::position, matrix);
   scale_dynamic_block(n, 0.0, matrix);

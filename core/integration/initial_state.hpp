@@ -20,6 +20,6 @@ InitialState initial_state(Mechanism& mechanism);
 
 /// [ W  Φ_qᵀ ; Φ_q  0 ] at a state: the matrix of velocity projection and, up to curvature, of
 /// assembly.
-void projection_matrix(Mechanism& mechanism, const State& state, System::Matrix& matrix);
+void projection_matrix(const Mechanism& mechanism, const State& state, System::Matrix& matrix);
 
 }  // namespace pleuel

@@ -31,6 +31,9 @@ struct Mechanism {
   /// Weights of the distance to the guess in the assembly; elastic coordinates weigh most, so that
   /// assembly moves frames rather than deforms bodies.
   Eigen::VectorXd assembly_weight;
+  /// What the square of each multiplier weighs in the norm of the reactions (least_norm.hpp): 1 for
+  /// forces, one over the square of a length [1/m²] for moments.
+  Eigen::VectorXd reaction_weight;
 };
 
 }  // namespace pleuel

@@ -30,6 +30,14 @@ namespace {
 
 /// Elastic displacements are small against the mechanism, elastic rotations against one.
 constexpr double elastic_scale = 1e-3;
+/// What a moment compares with a force by in the norm of reactions: a joint carries it by a couple
+/// of forces across its bearing, whose breadth is taken as this share of the mechanism's size.
+constexpr double bearing_share = 0.1;
+
+bool is_moment(EquationKind kind) {
+  return kind == EquationKind::perpendicular || kind == EquationKind::drive ||
+         kind == EquationKind::planar_angle;
+}
 
 /// The largest distance between bodies and joints [m]: the scale of lengths.
 double size_of(const Scene& scene, const Design<double>& start) {
@@ -197,7 +205,8 @@ class ModelBuilder {
     }
     note_exact(
         "redundant_constraints", false,
-        fmt::format("{} follow from the others; reactions are not unique, and theirs zero", text));
+        fmt::format("{} follow from the others; reactions are not unique: those of least norm",
+                    text));
   }
 
   const JointModel& joint_of(int multiplier) const {
@@ -235,6 +244,18 @@ class ModelBuilder {
       }
     }
     mechanism.assembly_weight.array() /= mechanism.scale.array().square();
+    set_reaction_weight(bearing_share * size);
+  }
+
+  void set_reaction_weight(double length) {
+    Eigen::VectorXd& weight = model_.mechanism.reaction_weight;
+    weight.setOnes(multipliers_);
+    for (const JointModel& joint : model_.joints) {
+      for (int i = 0; i < joint.equations(); ++i) {
+        if (!is_moment(joint.topology.equations[static_cast<std::size_t>(i)].kind)) continue;
+        weight(joint.first_multiplier + i) = 1.0 / (length * length);
+      }
+    }
   }
 
   void set_velocity(const Body& body, const BodyFrame& frame) {

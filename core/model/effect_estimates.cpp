@@ -4,11 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include <Eigen/Cholesky>
 
 #include "core/base/error.hpp"
 #include "core/beam/elastic_basis.hpp"
+#include "core/integration/least_norm.hpp"
 #include "core/integration/simulate.hpp"
 #include "core/model/model.hpp"
 
@@ -164,8 +166,14 @@ class Estimation {
     State rigid, state(system.coordinates(), system.multipliers());
     Eigen::VectorXd residual;
     double acceleration = 0.0;
+    std::optional<LeastNorm> norm;
+    if (!rigid_.mechanism.system->left_out().empty()) norm.emplace(rigid_.mechanism);
     for (int step = 0; step <= trajectory.steps(); ++step) {
       trajectory.load(step, rigid);
+      if (norm) {
+        norm->set(rigid);
+        rigid.lambda = norm->apply(rigid.lambda);
+      }
       acceleration = std::max(acceleration, copy(rigid, state));
       system.residual(state, ConstraintLevel::position, residual);
       for (std::size_t i = 0; i < beams.size(); ++i) {

@@ -11,6 +11,7 @@
 #include "core/response/drive_signals.hpp"
 #include "core/response/energy_signals.hpp"
 #include "core/response/imported_signals.hpp"
+#include "core/response/least_norm_signal.hpp"
 #include "core/response/mechanism_modes.hpp"
 #include "core/response/motion_signals.hpp"
 #include "core/response/projected_signal.hpp"
@@ -64,10 +65,10 @@ class ResponseMaker {
         break;
       case ResponseType::drive_torque:
       case ResponseType::drive_force:
-        response_.signal = make_drive_effort_signal(driven_joint());
+        set_multiplier_signal(make_drive_effort_signal(driven_joint()));
         break;
       case ResponseType::drive_power:
-        response_.signal = make_drive_power_signal(driven_joint());
+        set_multiplier_signal(make_drive_power_signal(driven_joint()));
         break;
       case ResponseType::reaction_force:
         set_reaction(ReactionPart::Kind::force);
@@ -215,9 +216,17 @@ class ResponseMaker {
     const JointModel& joint = model_.joint(settings_.joint);
     auto signal = make_reaction_signal(joint, {kind, settings_.direction});
     if (joint.map) {
-      project(std::move(signal), *joint.map);
-    } else {
+      signal = std::make_unique<ProjectedSignal>(std::move(signal), *joint.map, variables());
+    }
+    set_multiplier_signal(std::move(signal));
+  }
+
+  /// Where constraints are redundant, multipliers are those of least norm.
+  void set_multiplier_signal(std::unique_ptr<Signal> signal) {
+    if (model_.mechanism.system->left_out().empty()) {
       response_.signal = std::move(signal);
+    } else {
+      response_.signal = std::make_unique<LeastNormSignal>(std::move(signal), model_);
     }
   }
 

@@ -61,6 +61,35 @@ TEST(QuasiStaticStart, HasTheGradientOfTheSag) {
   EXPECT_NEAR(gradient(0, 0), expected, 1e-6 * std::abs(expected));
 }
 
+/// A clamp that is there twice: the second follows from the first, and the beam starts as with one;
+/// each carries half of its weight.
+TEST(QuasiStaticStart, OfARedundantMechanismIsThatOfTheSameWithoutRedundancy) {
+  ProblemFile once = cantilever(true), twice = once;
+  Joint again = once.scene.joints[0];
+  again.name = "again";
+  twice.scene.joints.push_back(again);
+  for (ProblemFile* problem : {&once, &twice}) {
+    problem->effects.spatial_motion = EffectChoice::on;
+    ResponseSettings reaction;
+    reaction.type = ResponseType::reaction_force;
+    reaction.joint = problem->scene.joints[0].name;
+    reaction.direction = 1;
+    reaction.over_time = OverTime::mean;
+    problem->responses.push_back(reaction);
+  }
+  const auto found = analyze(twice, start_design(twice)),
+             expected = analyze(once, start_design(once));
+  EXPECT_EQ(found->model.mechanism.system->left_out().size(), 6u);
+  Eigen::VectorXd share = Eigen::VectorXd::Ones(3);
+  share(2) = 0.5;
+  const Eigen::VectorXd values = values_of(*found),
+                        same = share.asDiagonal() * values_of(*expected);
+  EXPECT_LE((values - same).norm(), 1e-10 * same.norm());
+  const Eigen::MatrixXd gradient = direct_gradients(*found),
+                        same_gradient = share.asDiagonal() * direct_gradients(*expected);
+  EXPECT_LE((gradient - same_gradient).norm(), 1e-9 * same_gradient.norm());
+}
+
 class EquilibriumOfASample : public testing::TestWithParam<int> {
  protected:
   SampleScene sample_ = all_samples()[static_cast<std::size_t>(GetParam())];
