@@ -1,10 +1,13 @@
 #include "sensitivity/adjoint.hpp"
 
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
 #include "core/integration/configuration.hpp"
 #include "core/integration/linear_solver.hpp"
+#include "core/integration/projection.hpp"
 #include "core/integration/step_equations.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
 
@@ -32,7 +35,9 @@ class AdjointRun {
         adjoint_(zero_adjoint(system_, functions)),
         before_(adjoint_),
         y_(Eigen::MatrixXd::Zero(equations_.size(), functions)),
-        sums_(Eigen::MatrixXd::Zero(system_.design_sum_count(), functions)) {}
+        sums_(Eigen::MatrixXd::Zero(system_.design_sum_count(), functions)) {
+    if (trajectory.is_projected()) projection_.emplace(mechanism);
+  }
 
   Eigen::MatrixXd run(const FunctionDerivatives& derivatives) {
     trajectory_.load(trajectory_.steps(), state_);
@@ -59,6 +64,7 @@ class AdjointRun {
 
   /// From derivatives with respect to the end of a step to those with respect to its beginning.
   void go_back(int step) {
+    project(step);
     prepare(step);
     solve();
     if (!y_.leftCols(active_).allFinite()) {
@@ -71,6 +77,14 @@ class AdjointRun {
     combine();
     std::swap(adjoint_, before_);
     adjoint_.lambda.setZero();
+  }
+
+  void project(int step) {
+    if (!projection_) return;
+    trajectory_.load_drifted(step, state_);
+    projection_->linearize(state_);
+    projection_->pull_back(adjoint_.q.leftCols(active_), adjoint_.v.leftCols(active_),
+                           sums_.leftCols(active_));
   }
 
   void prepare(int step) {
@@ -133,6 +147,7 @@ class AdjointRun {
   int active_ = 0;
   StateAdjoint adjoint_, before_;
   Eigen::MatrixXd y_, sums_;
+  std::optional<Projection> projection_;
 };
 
 }  // namespace

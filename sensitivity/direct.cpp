@@ -1,10 +1,13 @@
 #include "sensitivity/direct.hpp"
 
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
 #include "core/integration/configuration.hpp"
 #include "core/integration/linear_solver.hpp"
+#include "core/integration/projection.hpp"
 #include "core/integration/step_equations.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
 
@@ -25,7 +28,9 @@ class DirectDifferentiation {
         equations_(mechanism, scheme_, trajectory.formulation),
         state_(equations_.make_state(State(system_.coordinates(), system_.multipliers()))),
         matrix_(equations_.make_matrix()),
-        solver_(matrix_) {}
+        solver_(matrix_) {
+    if (trajectory.is_projected()) projection_.emplace(mechanism);
+  }
 
   void run(const SensitivityObserver& observer) {
     trajectory_.load(0, state_);
@@ -36,11 +41,12 @@ class DirectDifferentiation {
       equations_.set_scheme(scheme_);
       equations_.begin(state_);
       old_q_ = state_.q;
-      trajectory_.load(step, state_);
+      trajectory_.load_drifted(step, state_);
       state_.increment = difference(rotations_, state_.q, old_q_);
       state_.eta = trajectory_.eta.col(step);
       predict();
       solve(step);
+      project(step);
       observer(step, state_, sensitivity_);
     }
   }
@@ -89,6 +95,13 @@ class DirectDifferentiation {
     push_forward(rotations_, state_.increment, sensitivity_.q);
   }
 
+  void project(int step) {
+    if (!projection_) return;
+    projection_->linearize(state_);
+    projection_->differentiate(sensitivity_.q, sensitivity_.v);
+    trajectory_.load(step, state_);
+  }
+
   Mechanism& mechanism_;
   System& system_;
   const Rotations& rotations_;
@@ -102,6 +115,7 @@ class DirectDifferentiation {
   System::Matrix matrix_;
   LinearSolver solver_;
   Eigen::MatrixXd rhs_;
+  std::optional<Projection> projection_;
 };
 
 }  // namespace

@@ -35,6 +35,8 @@ Trajectory last_steps(const Trajectory& all, int steps) {
   part.a = cut(all.a);
   part.lambda = cut(all.lambda);
   part.eta = cut(all.eta);
+  part.drifted_q = cut(all.drifted_q);
+  part.drifted_v = cut(all.drifted_v);
   return part;
 }
 

@@ -19,6 +19,8 @@ enum class ConstraintForm {
 struct Formulation {
   ConstraintForm constraints = ConstraintForm::index_3;
   double baumgarte = 0.0;  ///< b of index 1 [1/s]; 0 lets the constraints drift
+  /// Whether each step of index 1 ends with a projection to Φ = 0 and dΦ/dt = 0.
+  bool is_projected = false;
 };
 
 }  // namespace pleuel

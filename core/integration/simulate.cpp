@@ -10,6 +10,7 @@
 #include "core/integration/initial_state.hpp"
 #include "core/integration/jerk.hpp"
 #include "core/integration/linear_solver.hpp"
+#include "core/integration/projection.hpp"
 #include "core/integration/step_equations.hpp"
 
 namespace pleuel {
@@ -27,6 +28,13 @@ void Trajectory::load(int step, State& state) const {
   state.v = v.col(step);
   state.a = a.col(step);
   state.lambda = lambda.col(step);
+}
+
+void Trajectory::load_drifted(int step, State& state) const {
+  load(step, state);
+  if (!is_projected()) return;
+  state.q = drifted_q.col(step);
+  state.v = drifted_v.col(step);
 }
 
 int step_count(const SimulationOptions& options) {
@@ -99,6 +107,7 @@ class TimeLoop {
         solver_(matrix_),
         correction_(equations_.size()),
         finest_level_(halvings(options, regular_step())) {
+    if (options.formulation.is_projected) projection_.emplace(mechanism);
     if (system_.multipliers() > 0) {
       jerk_ = ConstrainedJerk(mechanism, state_, regular_step()).value();
     }
@@ -130,14 +139,17 @@ class TimeLoop {
     trajectory_.lambda.resize(system_.multipliers(), steps_ + 1);
     trajectory_.formulation = options_.formulation;
     trajectory_.eta.resize(state_.eta.size(), steps_ + 1);
+    drifted_q_ = drifted_v_ = Eigen::VectorXd::Zero(projection_ ? n : 0);
+    trajectory_.drifted_q.resize(drifted_q_.size(), steps_ + 1);
+    trajectory_.drifted_v.resize(drifted_v_.size(), steps_ + 1);
     residual_.resize(equations_.size());
   }
 
   /// Instants between the regular ones, of steps that were split, need more room.
   void make_room(Eigen::Index columns) {
     trajectory_.time.conservativeResize(columns);
-    for (auto* matrix :
-         {&trajectory_.q, &trajectory_.v, &trajectory_.a, &trajectory_.lambda, &trajectory_.eta}) {
+    for (auto* matrix : {&trajectory_.q, &trajectory_.v, &trajectory_.a, &trajectory_.lambda,
+                         &trajectory_.eta, &trajectory_.drifted_q, &trajectory_.drifted_v}) {
       matrix->conservativeResize(Eigen::NoChange, columns);
     }
   }
@@ -154,6 +166,8 @@ class TimeLoop {
     trajectory_.a.col(step) = state_.a;
     trajectory_.lambda.col(step) = state_.lambda;
     trajectory_.eta.col(step) = state_.eta;
+    trajectory_.drifted_q.col(step) = drifted_q_;
+    trajectory_.drifted_v.col(step) = drifted_v_;
   }
 
   void repeat(const std::vector<double>& instants) {
@@ -182,7 +196,7 @@ class TimeLoop {
       const double time = next == whole ? end : begin + (end - begin) * next / whole;
       use_step(time);
       predict(time);
-      const std::optional<Failure> failure = correct(false);
+      const std::optional<Failure> failure = finish(false);
       const double error = failure ? std::numeric_limits<double>::infinity() : relative_error();
       if (!(error <= 1.0)) {
         if (level_ == finest_level_) fail(failure, error);
@@ -221,7 +235,7 @@ class TimeLoop {
   void advance_to(double time, int splits) {
     use_step(time);
     predict(time);
-    const std::optional<Failure> failure = correct(splits > 0);
+    const std::optional<Failure> failure = finish(splits > 0);
     if (!failure) {
       check_drift();
       store();
@@ -237,7 +251,9 @@ class TimeLoop {
 
   /// Index 1 does not see how far its joints have come apart.
   void check_drift() {
-    if (options_.formulation.constraints != ConstraintForm::index_1 || system_.multipliers() == 0) {
+    const Formulation& formulation = options_.formulation;
+    if (formulation.constraints != ConstraintForm::index_1 || formulation.is_projected ||
+        system_.multipliers() == 0) {
       return;
     }
     system_.residual(state_, ConstraintLevel::position, residual_);
@@ -246,7 +262,7 @@ class TimeLoop {
     residual_.head(system_.coordinates()).setZero();
     throw SimulationError(fmt::format(
         "simulation stopped at t = {:.6g} s (step {} of {}): constraints have drifted, those{} by "
-        "{:.3g} m or rad. Try another /simulation/formulation, or /simulation/baumgarte",
+        "{:.3g} m or rad. Try another /simulation/formulation, or /simulation/projection",
         state_.time, step_, steps_, worst_equation(), drift));
   }
 
@@ -334,6 +350,16 @@ class TimeLoop {
     return Failure{"Newton's method does not converge", options_.max_newton_iterations};
   }
 
+  /// Newton's method, and the projection if there is one.
+  std::optional<Failure> finish(bool is_careful) {
+    const std::optional<Failure> failure = correct(is_careful);
+    if (failure || !projection_) return failure;
+    drifted_q_ = state_.q;
+    drifted_v_ = state_.v;
+    if (projection_->apply(state_)) return std::nullopt;
+    return Failure{"the constraints cannot be met again by a projection", 0};
+  }
+
   /// c of  |δ₂| = c |δ₁|²: how Newton's method converges quadratically here. It may fall slowly
   /// only.
   void note_curvature(double seen) {
@@ -395,7 +421,9 @@ class TimeLoop {
   System::Matrix matrix_;
   LinearSolver solver_;
   Eigen::VectorXd correction_, residual_;
-  Eigen::VectorXd jerk_;  ///< that the constraints prescribe at the start
+  std::optional<Projection> projection_;
+  Eigen::VectorXd drifted_q_, drifted_v_;  ///< before the projection
+  Eigen::VectorXd jerk_;                   ///< that the constraints prescribe at the start
   double curvature_ = std::numeric_limits<double>::infinity();
   double worst_pivots_ = std::numeric_limits<double>::infinity();
   int finest_level_, level_ = 0;  ///< of the parts of a regular step: 2^-level of it

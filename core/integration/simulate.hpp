@@ -38,7 +38,10 @@ struct Trajectory {
   Eigen::MatrixXd q, v, a;  ///< n × (steps + 1)
   Eigen::MatrixXd lambda;   ///< m × (steps + 1), unscaled
   Eigen::MatrixXd eta;      ///< m × (steps + 1), of the stabilized index 2 only
-  Scheme scheme;            ///< of the regular steps
+  /// What each step ended with before its projection (projection.hpp), n × (steps + 1); empty
+  /// without.
+  Eigen::MatrixXd drifted_q, drifted_v;
+  Scheme scheme;  ///< of the regular steps
   SchemeType scheme_type = SchemeType::generalized_alpha;
   double spectral_radius = 0.8;
   Formulation formulation = {};
@@ -50,6 +53,9 @@ struct Trajectory {
 
   int steps() const { return static_cast<int>(time.size()) - 1; }
   void load(int step, State& state) const;
+  bool is_projected() const { return formulation.is_projected; }
+  /// The state that a step ended with before its projection; without, as load().
+  void load_drifted(int step, State& state) const;
   /// Size of a step, from 1: time(step) − time(step − 1) without the round-off of the instants [s].
   double step_size(int step) const;
   /// The scheme that made a step, from 1.
@@ -65,7 +71,8 @@ int step_count(const SimulationOptions& options);
 /// (step_equations.hpp; for index 3 Arnold & Brüls 2007). Each step is solved by Newton's method
 /// with the exact tangent of the beginning of the step (renewed where it converges slowly). A step
 /// in which it fails is halved, up to six times. Nothing is allocated in the time loop, but for the
-/// instants that are more than the regular ones.
+/// instants that are more than the regular ones. With a projection each step of index 1 ends with
+/// it (projection.hpp).
 /// @throws SimulationError saying time, step, iteration, equation and what to try; or that the
 /// local
 ///         error is too large with the smallest step

@@ -120,6 +120,14 @@ TEST(Index1, DriftsAwayAndBaumgartesTermsHoldIt) {
   EXPECT_LE(drift_of_index_1(4.0, baumgarte) / drift_of_index_1(1.0, baumgarte), 1.1);
 }
 
+/// A projection leaves round-off, however long it goes on: measured 3e-16 m after 1 s and 1e-15 m
+/// after 4 s, where steps without it are off by 1.4e-4 and 5.5e-4 m.
+TEST(Index1, KeepsItsConstraintsToRoundOffByProjection) {
+  const std::vector<std::string> projection = {"/simulation/projection=true"};
+  EXPECT_LE(drift_of_index_1(1.0, projection), 1e-14);
+  EXPECT_LE(drift_of_index_1(4.0, projection), 1e-14);
+}
+
 /// It would go on with joints that are apart by the size of the mechanism.
 TEST(Index1, StopsWhereTheBricardMechanismComesApartAndNamesTheJoint) {
   const ProblemFile problem = sample_problem("hard/bricard", {"/simulation/formulation=index-1"});

@@ -118,6 +118,8 @@ INSTANTIATE_TEST_SUITE_P(
                    R"(/simulation/smallest_step is for a simulation with "local_error" only)"},
         BadProblem{"/simulation/baumgarte", "\"100 1/s\"",
                    R"(/simulation/baumgarte is for the formulation "index-1" only)"},
+        BadProblem{"/simulation/projection", "true",
+                   R"(/simulation/projection is for the formulation "index-1" only)"},
         BadProblem{"/effects/spatial_motion", "true",
                    R"(/effects/spatial_motion must be "auto", "on" or "off", got true)"},
         BadProblem{"/accuracy/steps", "1e-4", "/accuracy/steps must be a list […], got 0.0001"},

@@ -32,6 +32,12 @@ NamedRun named_run(const std::string& name, SchemeType scheme, ConstraintForm fo
   return run;
 }
 
+NamedRun projected_run(const std::string& name, SchemeType scheme) {
+  NamedRun run = named_run(name, scheme, ConstraintForm::index_1);
+  run.options.formulation.is_projected = true;
+  return run;
+}
+
 using Case = std::tuple<int, NamedRun>;
 
 class Adjoint : public testing::TestWithParam<Case> {
@@ -143,6 +149,8 @@ INSTANTIATE_TEST_SUITE_P(
                         named_run("StabilizedIndex2", generalized_alpha, stabilized_index_2),
                         named_run("Index1", generalized_alpha, index_1),
                         named_run("Baumgarte", generalized_alpha, index_1, 50.0),
+                        projected_run("Projected", generalized_alpha),
+                        projected_run("ProjectedNewmark", newmark),
                         named_run("Newmark", newmark, index_3),
                         named_run("ImplicitEuler", implicit_euler, stabilized_index_2))),
     case_name);

@@ -66,6 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
         SensitivityCase{{"StabilizedIndex2", alpha, 0.8, stabilized, 2.0}, 354},
         SensitivityCase{{"Index1", alpha, 0.8, index_1, 2.0}, 1400},
         SensitivityCase{{"Baumgarte", alpha, 0.8, baumgarte, 2.0}, 1400},
+        SensitivityCase{{"Projected", alpha, 0.8, projected, 2.0}, 1400},
         SensitivityCase{{"NewmarkStabilized", SchemeType::newmark, 1.0, stabilized, 2.0}, 354},
         SensitivityCase{{"NewmarkIndex1", SchemeType::newmark, 1.0, index_1, 2.0}, 1400},
         SensitivityCase{{"ImplicitEuler", SchemeType::implicit_euler, 0.0, index_3, 1.0}, 354},

@@ -34,6 +34,7 @@ struct NamedFormulation {
 const NamedFormulation index_3{"", {}};
 const NamedFormulation stabilized{"StabilizedIndex2", {ConstraintForm::stabilized_index_2}};
 const NamedFormulation baumgarte{"Baumgarte", {ConstraintForm::index_1, 50.0}};
+const NamedFormulation projected{"Projected", {ConstraintForm::index_1, 0.0, true}};
 
 /// q, v, a, λ of the last step.
 std::array<Eigen::VectorXd, 4> end_of(const Trajectory& trajectory) {
@@ -132,11 +133,12 @@ std::string case_name(const testing::TestParamInfo<Case>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(Samples, DirectDifferentiation,
                          testing::Combine(testing::Range(0, sample_count),
-                                          testing::Values(index_3, stabilized, baumgarte)),
+                                          testing::Values(index_3, stabilized, baumgarte,
+                                                          projected)),
                          case_name);
 INSTANTIATE_TEST_SUITE_P(Samples, DifferentiatedConstraints,
                          testing::Combine(testing::Range(0, sample_count),
-                                          testing::Values(index_3, stabilized)),
+                                          testing::Values(index_3, stabilized, projected)),
                          case_name);
 
 }  // namespace

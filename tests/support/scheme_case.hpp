@@ -28,3 +28,4 @@ inline constexpr pleuel::Formulation index_3{};
 inline constexpr pleuel::Formulation stabilized{pleuel::ConstraintForm::stabilized_index_2};
 inline constexpr pleuel::Formulation index_1{pleuel::ConstraintForm::index_1};
 inline constexpr pleuel::Formulation baumgarte{pleuel::ConstraintForm::index_1, 200.0};
+inline constexpr pleuel::Formulation projected{pleuel::ConstraintForm::index_1, 0.0, true};

@@ -100,13 +100,19 @@ Formulation read_formulation(const JsonNode& node, const NumberReader& numbers) 
     }
     formulation.baumgarte = numbers.fixed(*baumgarte, quantities::rate, Range::positive);
   }
+  if (const auto projection = node.find("projection")) {
+    formulation.is_projected = projection->truth();
+    if (formulation.is_projected && formulation.constraints != ConstraintForm::index_1) {
+      projection->fail("is for the formulation \"index-1\" only");
+    }
+  }
   return formulation;
 }
 
 SimulationSettings read_simulation(const JsonNode& node, const NumberReader& numbers) {
   node.allow_keys({"end_time", "step", "scheme", "spectral_radius", "formulation", "baumgarte",
-                   "newton_tolerance", "max_newton_iterations", "initial_state", "local_error",
-                   "smallest_step"});
+                   "projection", "newton_tolerance", "max_newton_iterations", "initial_state",
+                   "local_error", "smallest_step"});
   SimulationSettings settings;
   read_times(node, numbers, settings);
   if (const auto scheme = node.find("scheme")) {

@@ -48,6 +48,13 @@ TEST_P(Formulations, KeepTheConstraintsThatTheyImpose) {
   EXPECT_LE(stabilized.velocity, 1e-7);
 }
 
+/// A projection leaves round-off of both. Measured 4e-14 and 3e-12 at worst.
+TEST_P(Formulations, OfIndexOneKeepAllConstraintsByProjection) {
+  const Drift projected = drift_with({ConstraintForm::index_1, 0.0, true});
+  EXPECT_LE(projected.position, 1e-12);
+  EXPECT_LE(projected.velocity, 1e-10);
+}
+
 /// Without stabilization positions drift; Baumgarte's terms hold them back.
 TEST_P(Formulations, OfIndexOneDriftUnlessStabilized) {
   const Drift free = drift_with({ConstraintForm::index_1});

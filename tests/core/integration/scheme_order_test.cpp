@@ -81,6 +81,7 @@ INSTANTIATE_TEST_SUITE_P(
                     SchemeCase{"Index1", alpha, 0.8, index_1, 2.0},
                     SchemeCase{"Index1Radius1", alpha, 1.0, index_1, 2.0},
                     SchemeCase{"Baumgarte", alpha, 0.8, baumgarte, 2.0},
+                    SchemeCase{"Projected", alpha, 0.8, projected, 2.0},
                     SchemeCase{"NewmarkIndex1", SchemeType::newmark, 1.0, index_1, 2.0},
                     SchemeCase{"DampedNewmark", SchemeType::newmark, 0.5, index_3, 1.0},
                     SchemeCase{"ImplicitEuler", SchemeType::implicit_euler, 0.0, index_3, 1.0},

@@ -156,11 +156,11 @@ ProblemFile falling_door() {
   return problem;
 }
 
-class GradientOfLeastNorm : public testing::TestWithParam<ConstraintForm> {};
+class GradientOfLeastNorm : public testing::TestWithParam<Formulation> {};
 
 TEST_P(GradientOfLeastNorm, IsThatOfDifferencesAndOfTheAdjoint) {
   ProblemFile problem = falling_door();
-  problem.simulation.formulation.constraints = GetParam();
+  problem.simulation.formulation = GetParam();
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
   ASSERT_EQ(analysis->model.mechanism.system->left_out().size(), 5u);
@@ -182,9 +182,10 @@ TEST_P(GradientOfLeastNorm, IsThatOfDifferencesAndOfTheAdjoint) {
   EXPECT_LE(errors[2], 1e-7);
 }
 
-INSTANTIATE_TEST_SUITE_P(Forms, GradientOfLeastNorm,
-                         testing::Values(ConstraintForm::index_3,
-                                         ConstraintForm::stabilized_index_2,
-                                         ConstraintForm::index_1));
+INSTANTIATE_TEST_SUITE_P(Formulations, GradientOfLeastNorm,
+                         testing::Values(Formulation{},
+                                         Formulation{ConstraintForm::stabilized_index_2},
+                                         Formulation{ConstraintForm::index_1},
+                                         Formulation{ConstraintForm::index_1, 0.0, true}));
 
 }  // namespace
