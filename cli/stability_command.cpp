@@ -35,8 +35,10 @@ Json run_document(const StabilityRun& run) {
 
 Json make_document(const std::vector<StabilityRun>& runs) {
   Json document = {{"formulations", Json::array()}, {"runs", Json::array()}};
-  for (const ComparedFormulation& formulation : compared_formulations()) {
-    document["formulations"].push_back(formulation.name);
+  for (const auto* compared : {&compared_formulations(), &compared_schemes()}) {
+    for (const ComparedFormulation& formulation : *compared) {
+      document["formulations"].push_back(formulation.name);
+    }
   }
   for (const StabilityRun& run : runs) document["runs"].push_back(run_document(run));
   return document;

@@ -56,6 +56,17 @@ const std::vector<ComparedFormulation>& compared_formulations() {
       {"stabilized-index-2", {"/simulation/formulation=stabilized-index-2"}},
       {"index-1", {"/simulation/formulation=index-1"}},
       {"index-1 with Baumgarte", {"/simulation/formulation=index-1", "/simulation/baumgarte=100"}},
+      {"index-1 with projection",
+       {"/simulation/formulation=index-1", "/simulation/projection=true"}},
+  };
+  return all;
+}
+
+const std::vector<ComparedFormulation>& compared_schemes() {
+  static const std::vector<ComparedFormulation> all = {
+      {"index-3, Newmark", {"/simulation/formulation=index-3", "/simulation/scheme=newmark"}},
+      {"index-3, implicit Euler",
+       {"/simulation/formulation=index-3", "/simulation/scheme=implicit-euler"}},
   };
   return all;
 }
@@ -67,10 +78,12 @@ std::vector<StabilityRun> stability_study(const std::vector<std::filesystem::pat
   for (const auto& file : files) read_problem(file, overrides);
   std::vector<StabilityRun> runs;
   for (const auto& file : files) {
-    for (const ComparedFormulation& formulation : compared_formulations()) {
-      const ProblemFile problem = read_with(file, overrides, formulation);
-      runs.push_back(try_to_measure(file, problem, formulation.name));
-      if (observer) observer(runs.back());
+    for (const auto* compared : {&compared_formulations(), &compared_schemes()}) {
+      for (const ComparedFormulation& formulation : *compared) {
+        const ProblemFile problem = read_with(file, overrides, formulation);
+        runs.push_back(try_to_measure(file, problem, formulation.name));
+        if (observer) observer(runs.back());
+      }
     }
   }
   return runs;

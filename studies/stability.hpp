@@ -30,14 +30,18 @@ struct ComparedFormulation {
 };
 
 /// The formulations that are compared: all that /simulation/formulation of a file may name, index 1
-/// without and with Baumgarte's terms (100 1/s).
+/// as it is, with Baumgarte's terms (100 1/s) and with projection.
 const std::vector<ComparedFormulation>& compared_formulations();
+
+/// The schemes that are compared with that of the file: Newmark's with its spectral radius, and
+/// implicit Euler, both with index 3.
+const std::vector<ComparedFormulation>& compared_schemes();
 
 /// Sees each run as it is done.
 using StabilityObserver = std::function<void(const StabilityRun&)>;
 
-/// Simulates the start design of each file with each formulation; everything else is as the file
-/// says.
+/// Simulates the start design of each file with each formulation and scheme; everything else is as
+/// the file says.
 /// @param overrides  of all files, as in read_problem()
 /// @throws InputError for a file that cannot be read, before any is simulated; a failing simulation
 ///         is only marked

@@ -98,6 +98,15 @@ INSTANTIATE_TEST_SUITE_P(
                          {"/simulation/end_time=20", "/responses/last_peak/from=18"},
                          4e-8},
             GradientCase{"flyball_governor", "flyball_governor", {"/simulation/end_time=1"}, 1e-8},
+            GradientCase{"velocity_jump", "velocity_jump", {}, 1e-8},
+            // Loads out of the plane, which redundant joints share.
+            GradientCase{
+                "redundant",
+                "redundant_slider_crank",
+                {"/simulation/end_time=0.2", "/scene/gravity=[0, -9.81, 20]",
+                 R"(/responses/pin_force={"type": "reaction-force", "joint": "slider_pin", "direction": "z", "over_time": "rms"})",
+                 R"(/responses/pin_moment={"type": "reaction-moment", "joint": "crank_pin", "direction": "magnitude", "over_time": "rms"})"},
+                1e-7},
             GradientCase{"thinnest", "light_slider", {"/variables/rod_height/start=4 mm"}, 2e-7},
             GradientCase{"thickest", "light_slider", {"/variables/rod_height/start=40 mm"}, 2e-8},
             GradientCase{"softest", "soft_rod", {"/variables/rod_diameter/start=4 mm"}, 1e-8},

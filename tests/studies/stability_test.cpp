@@ -13,13 +13,14 @@ std::filesystem::path hard(const std::string& name) {
   return std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems/hard" / (name + ".json");
 }
 
-TEST(Stability, RunsEveryFileWithEveryFormulation) {
+TEST(Stability, RunsEveryFileWithEveryFormulationAndScheme) {
   const auto runs =
       stability_study({hard("dead_centres"), hard("change_point")}, {"/simulation/end_time=50 ms"});
-  ASSERT_EQ(runs.size(), 2 * compared_formulations().size());
+  std::vector<ComparedFormulation> all = compared_formulations();
+  all.insert(all.end(), compared_schemes().begin(), compared_schemes().end());
+  ASSERT_EQ(runs.size(), 2 * all.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    EXPECT_EQ(runs[i].formulation,
-              compared_formulations()[i % compared_formulations().size()].name);
+    EXPECT_EQ(runs[i].formulation, all[i % all.size()].name);
     EXPECT_TRUE(runs[i].is_ok()) << runs[i].failure;
     EXPECT_GE(runs[i].newton_iterations, runs[i].steps);
     EXPECT_LE(runs[i].position_drift, 1e-3);
