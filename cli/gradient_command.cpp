@@ -24,10 +24,10 @@ struct MethodResult {
   double seconds = 0.0;
 };
 
-std::vector<GradientMethod> chosen_methods(const Arguments& arguments) {
+std::vector<GradientMethod> chosen_methods(const Arguments& arguments, const ProblemFile& problem) {
   std::vector<GradientMethod> methods;
   for (const std::string& name : arguments.methods) methods.push_back(gradient_method(name));
-  if (methods.empty()) methods.push_back(GradientMethod::automatic);
+  if (methods.empty()) methods.push_back(problem.sensitivity.method);
   return methods;
 }
 
@@ -152,12 +152,22 @@ std::string seconds_text(const std::vector<MethodResult>& results, double simula
   return text + "\n";
 }
 
+Outcome make_outcome(const Arguments& arguments, const ProblemFile& problem,
+                     const Findings& findings) {
+  return {ExitCode::done, make_document(problem, findings),
+          fmt::format("Gradients at {} of {}\n\n{}{}{}{}",
+                      arguments.design ? "the design" : "the start", problem.name,
+                      gradients_text(problem, findings.results),
+                      ties_text(findings.ties, *findings.analysis), choice_text(findings.choice),
+                      seconds_text(findings.results, findings.simulation_seconds))};
+}
+
 }  // namespace
 
 Outcome run_gradient(const Arguments& arguments) {
-  std::vector<GradientMethod> methods = chosen_methods(arguments);
   const ProblemInput input = read_input(arguments);
   const ProblemFile& problem = input.problem;
+  std::vector<GradientMethod> methods = chosen_methods(arguments, problem);
   if (problem.variables.empty()) {
     throw InputError("/variables is missing: there is nothing to differentiate for");
   }
@@ -166,15 +176,10 @@ Outcome run_gradient(const Arguments& arguments) {
   findings.analysis = analyze(problem, input.design);
   findings.simulation_seconds = stopwatch.seconds();
   findings.choice = resolve(*findings.analysis, methods);
-  findings.results =
-      compute(input, *findings.analysis, methods, {arguments.difference_step, arguments.jobs});
+  findings.results = compute(input, *findings.analysis, methods,
+                             {problem.sensitivity.difference_step, arguments.jobs});
   findings.ties = find_ties(*findings.analysis);
-  return {ExitCode::done, make_document(problem, findings),
-          fmt::format("Gradients at {} of {}\n\n{}{}{}{}",
-                      arguments.design ? "the design" : "the start", problem.name,
-                      gradients_text(problem, findings.results),
-                      ties_text(findings.ties, *findings.analysis), choice_text(findings.choice),
-                      seconds_text(findings.results, findings.simulation_seconds))};
+  return make_outcome(arguments, problem, findings);
 }
 
 }  // namespace pleuel
