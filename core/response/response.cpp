@@ -360,7 +360,8 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   const Eigen::VectorXd start = start_design(problem);
   const Design<double> design(x.begin(), x.end()), start_values(start.begin(), start.end());
   auto analysis = std::make_unique<Analysis>();
-  analysis->model = build_model(problem.scene, problem.effects, start_values, design);
+  analysis->model = build_model(problem.scene, problem.effects, start_values, design,
+                                problem.sensitivity.invariants);
   analysis->model.mechanism.starts_in_equilibrium = problem.simulation.quasi_static_start;
   const SimulationSettings& settings = problem.simulation;
   analysis->trajectory = simulate(
