@@ -95,6 +95,11 @@ Json make_document(const ProblemFile& problem, const Findings& findings) {
   for (const MethodResult& result : findings.results) {
     document["seconds"][to_string(result.method)] = result.seconds;
   }
+  if (const auto& repeated = analysis.trajectory.repeated) {
+    document["memory"] = {{"checkpoints", repeated->checkpoints()},
+                          {"most_states", repeated->most_held()},
+                          {"repeated_steps", repeated->repeated_steps()}};
+  }
   return document;
 }
 
@@ -144,6 +149,16 @@ std::string choice_text(const std::optional<MethodChoice>& choice) {
   return fmt::format("\nMethod: {} ({})\n", to_string(choice->method), choice->reason);
 }
 
+/// What it took that the trajectory does not fit into the memory.
+std::string memory_text(const Trajectory& trajectory) {
+  if (!trajectory.repeated) return "";
+  const RepeatedStates& repeated = *trajectory.repeated;
+  return fmt::format(
+      "\nMemory: {} checkpoints, at most {} states at once; {} steps simulated again for the {} of "
+      "the trajectory\n",
+      repeated.checkpoints(), repeated.most_held(), repeated.repeated_steps(), trajectory.steps());
+}
+
 std::string seconds_text(const std::vector<MethodResult>& results, double simulation_seconds) {
   std::string text = "\nTime: simulation " + duration(simulation_seconds);
   for (const MethodResult& result : results) {
@@ -155,10 +170,11 @@ std::string seconds_text(const std::vector<MethodResult>& results, double simula
 Outcome make_outcome(const Arguments& arguments, const ProblemFile& problem,
                      const Findings& findings) {
   return {ExitCode::done, make_document(problem, findings),
-          fmt::format("Gradients at {} of {}\n\n{}{}{}{}",
+          fmt::format("Gradients at {} of {}\n\n{}{}{}{}{}",
                       arguments.design ? "the design" : "the start", problem.name,
                       gradients_text(problem, findings.results),
                       ties_text(findings.ties, *findings.analysis), choice_text(findings.choice),
+                      memory_text(findings.analysis->trajectory),
                       seconds_text(findings.results, findings.simulation_seconds))};
 }
 

@@ -34,6 +34,8 @@ struct LinearSolver::Implementation {
   Matrix matrix;         ///< pattern and the scaled values factorised last
   double largest = 0.0;  ///< of their magnitudes
   Eigen::VectorXd row_scale, column_scale;
+  Eigen::VectorXd pivoted_values;  ///< scaled, for which pivots were last chosen
+  int pivot_choices = 0;
   Eigen::MatrixXd rhs, residual;              ///< scratch
   Eigen::VectorXd summed_x, summed_residual;  ///< scratch
   double backward_error = 0.0;
@@ -90,6 +92,8 @@ struct LinearSolver::Implementation {
 
   bool choose_pivots() {
     has_new_pivots = true;
+    ++pivot_choices;
+    pivoted_values = Eigen::Map<const Eigen::VectorXd>(values(), matrix.nonZeros());
     klu_free_numeric(&numeric, &common);
     numeric = klu_factor(starts(), rows(), values(), symbolic, &common);
     if (numeric == nullptr || common.status != KLU_OK) return false;
@@ -153,6 +157,7 @@ LinearSolver::LinearSolver(const Matrix& pattern)
     : implementation_(std::make_unique<Implementation>()) {
   Implementation& klu = *implementation_;
   klu.matrix = pattern;
+  klu.pivoted_values.resize(pattern.nonZeros());
   klu_defaults(&klu.common);
   klu.common.scale = 0;  // done here
   klu.symbolic =
@@ -205,6 +210,28 @@ double LinearSolver::condition() const {
 
 int LinearSolver::factorizations() const {
   return implementation_->factorizations;
+}
+
+LinearSolver::Pivots LinearSolver::pivots() const {
+  const Implementation& klu = *implementation_;
+  if (klu.numeric == nullptr) return {};
+  return {klu.row_scale, klu.column_scale, klu.pivoted_values};
+}
+
+void LinearSolver::use_pivots(const Pivots& pivots) {
+  Implementation& klu = *implementation_;
+  if (pivots.values.size() == 0) {
+    klu_free_numeric(&klu.numeric, &klu.common);
+    return;
+  }
+  klu.row_scale = pivots.row_scale;
+  klu.column_scale = pivots.column_scale;
+  Eigen::Map<Eigen::VectorXd>(klu.values(), klu.matrix.nonZeros()) = pivots.values;
+  klu.choose_pivots();
+}
+
+int LinearSolver::pivot_choices() const {
+  return implementation_->pivot_choices;
 }
 
 }  // namespace pleuel

@@ -42,6 +42,16 @@ class LinearSolver {
 
   int factorizations() const;
 
+  /// All that past factorisations leave behind: the scaled matrix whose pivots are in use, and its
+  /// scales. With the pivots of another solver, factorisations repeat those of that one bit by bit.
+  struct Pivots {
+    Eigen::VectorXd row_scale, column_scale, values;
+  };
+  Pivots pivots() const;
+  void use_pivots(const Pivots& pivots);
+  /// How often pivots were chosen: they are the same while it is.
+  int pivot_choices() const;
+
  private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
