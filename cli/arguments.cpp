@@ -41,8 +41,8 @@ CLI::App* add_file_command(CLI::App& app, Arguments& arguments, const std::strin
   return command;
 }
 
-void add_output(CLI::App* command, Arguments& arguments) {
-  command
+CLI::Option* add_output(CLI::App* command, Arguments& arguments) {
+  return command
       ->add_option("-o,--output", arguments.output,
                    "run folder (default: runs/<file>-" + command->get_name() + ")")
       ->type_name("DIR");
@@ -109,6 +109,10 @@ void add_gradient(CLI::App& app, Arguments& arguments) {
                    "relative step of the differences instead of the file's")
       ->type_name("NUMBER");
   add_jobs(gradient, arguments);
+  CLI::Option* histories =
+      gradient->add_flag("--histories", arguments.wants_histories,
+                         "write the derivatives of all histories into a run folder");
+  add_output(gradient, arguments)->needs(histories);
 }
 
 void add_invariants(CLI::App& app, Arguments& arguments) {

@@ -23,6 +23,7 @@ struct Arguments {
   std::vector<std::string> methods;
   std::optional<double> difference_step;  ///< relative
   int jobs = available_threads();         ///< simulations at a time
+  bool wants_histories = false;           ///< with their derivatives
   bool wants_json = false;
   std::vector<std::string> words;  ///< the command line as it was
 

@@ -4,12 +4,14 @@
 
 #include "cli/analysis_report.hpp"
 #include "cli/commands.hpp"
+#include "cli/gradients_csv.hpp"
 #include "cli/number_text.hpp"
-#include "cli/problem_input.hpp"
+#include "cli/run_record.hpp"
 #include "cli/shown_unit.hpp"
 #include "cli/stopwatch.hpp"
 #include "cli/table.hpp"
 #include "cli/ties.hpp"
+#include "cli/trajectory_csv.hpp"
 #include "core/base/error.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/method_choice.hpp"
@@ -167,6 +169,19 @@ std::string seconds_text(const std::vector<MethodResult>& results, double simula
   return text + "\n";
 }
 
+/// The run folder, with --histories.
+void write_histories(const Arguments& arguments, const ProblemInput& input, Analysis& analysis,
+                     Outcome& outcome) {
+  RunRecord record(arguments, input, Json::object());
+  record.begin_phase("histories");
+  write_trajectory(record.folder() / "trajectory.csv", analysis);
+  write_history_gradients(record.folder() / "gradients.csv", input.problem, analysis);
+  outcome.text +=
+      fmt::format("Written to {}: gradients.csv, trajectory.csv, result.json, run_card.json\n",
+                  record.folder().string());
+  record.finish(outcome);
+}
+
 Outcome make_outcome(const Arguments& arguments, const ProblemFile& problem,
                      const Findings& findings) {
   return {ExitCode::done, make_document(problem, findings),
@@ -195,7 +210,9 @@ Outcome run_gradient(const Arguments& arguments) {
   findings.results = compute(input, *findings.analysis, methods,
                              {problem.sensitivity.difference_step, arguments.jobs});
   findings.ties = find_ties(*findings.analysis);
-  return make_outcome(arguments, problem, findings);
+  Outcome outcome = make_outcome(arguments, problem, findings);
+  if (arguments.wants_histories) write_histories(arguments, input, *findings.analysis, outcome);
+  return outcome;
 }
 
 }  // namespace pleuel
