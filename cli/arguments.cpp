@@ -41,8 +41,8 @@ CLI::App* add_file_command(CLI::App& app, Arguments& arguments, const std::strin
   return command;
 }
 
-void add_output(CLI::App* command, Arguments& arguments) {
-  command
+CLI::Option* add_output(CLI::App* command, Arguments& arguments) {
+  return command
       ->add_option("-o,--output", arguments.output,
                    "run folder (default: runs/<file>-" + command->get_name() + ")")
       ->type_name("DIR");
@@ -60,6 +60,16 @@ void add_backend(CLI::App* command, Arguments& arguments) {
       ->add_option("--backend", arguments.backend,
                    "optimizer instead of the file's; see `pleuel backends`")
       ->type_name("NAME");
+}
+
+/// Of the gradients of an optimizer: one.
+void add_method(CLI::App* command, Arguments& arguments) {
+  command
+      ->add_option("--method", arguments.methods,
+                   "gradients instead of the file's: auto, direct, adjoint, forward-difference, "
+                   "central-difference")
+      ->type_name("NAME")
+      ->expected(1);
 }
 
 void add_jobs(CLI::App* command, Arguments& arguments) {
@@ -90,15 +100,19 @@ void add_gradient(CLI::App& app, Arguments& arguments) {
   add_design(gradient, arguments);
   gradient
       ->add_option("--method", arguments.methods,
-                   "auto (default: direct or adjoint, whichever is faster), direct, adjoint, "
-                   "forward-difference, central-difference; repeat to compare")
+                   "instead of the file's: auto (direct or adjoint, whichever is faster), direct, "
+                   "adjoint, forward-difference, central-difference; repeat to compare")
       ->type_name("NAME")
       ->allow_extra_args(false);
   gradient
       ->add_option("--step", arguments.difference_step,
-                   "relative step of the differences (default 1e-5)")
+                   "relative step of the differences instead of the file's")
       ->type_name("NUMBER");
   add_jobs(gradient, arguments);
+  CLI::Option* histories =
+      gradient->add_flag("--histories", arguments.wants_histories,
+                         "write the derivatives of all histories into a run folder");
+  add_output(gradient, arguments)->needs(histories);
 }
 
 void add_invariants(CLI::App& app, Arguments& arguments) {
@@ -129,10 +143,14 @@ void add_commands(CLI::App& app, Arguments& arguments) {
       add_file_command(app, arguments, "optimize", "find the best design and prove it");
   add_output(optimize, arguments);
   add_backend(optimize, arguments);
+  add_method(optimize, arguments);
+  add_jobs(optimize, arguments);
   CLI::App* pareto = add_file_command(app, arguments, "pareto",
                                       "the best designs for a row of values of one limit");
   add_output(pareto, arguments);
   add_backend(pareto, arguments);
+  add_method(pareto, arguments);
+  add_jobs(pareto, arguments);
   add_output(add_file_command(app, arguments, "accuracy",
                               "errors and times for steps x elements; the cheapest that will do"),
              arguments);
@@ -170,7 +188,7 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     throw InputError(std::string(error.what()) + "; see pleuel --help");
   }
-  const double step = arguments.difference_step;
+  const double step = arguments.difference_step.value_or(0.5);
   if (!(step > 0.0 && step < 1.0)) {
     throw InputError(fmt::format("--step must be greater than 0 and less than 1, got {:g}", step));
   }

@@ -21,8 +21,9 @@ struct Arguments {
   std::optional<std::string> backend;
   std::optional<std::string> body;  ///< whose invariants are written; by default of all
   std::vector<std::string> methods;
-  double difference_step = 1e-5;   ///< relative
-  int jobs = available_threads();  ///< simulations at a time
+  std::optional<double> difference_step;  ///< relative
+  int jobs = available_threads();         ///< simulations at a time
+  bool wants_histories = false;           ///< with their derivatives
   bool wants_json = false;
   std::vector<std::string> words;  ///< the command line as it was
 

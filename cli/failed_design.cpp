@@ -33,6 +33,9 @@ std::string command_again(const RunRecord& record, const Arguments& arguments,
   for (const std::string& assignment : arguments.overrides) {
     command += " --set " + quoted(assignment);
   }
+  if (failed.request != Request::values) {
+    for (const std::string& method : arguments.methods) command += " --method " + method;
+  }
   return command + " --design " + quoted((record.folder() / file_name).string());
 }
 

@@ -4,12 +4,14 @@
 
 #include "cli/analysis_report.hpp"
 #include "cli/commands.hpp"
+#include "cli/gradients_csv.hpp"
 #include "cli/number_text.hpp"
-#include "cli/problem_input.hpp"
+#include "cli/run_record.hpp"
 #include "cli/shown_unit.hpp"
 #include "cli/stopwatch.hpp"
 #include "cli/table.hpp"
 #include "cli/ties.hpp"
+#include "cli/trajectory_csv.hpp"
 #include "core/base/error.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/method_choice.hpp"
@@ -24,10 +26,10 @@ struct MethodResult {
   double seconds = 0.0;
 };
 
-std::vector<GradientMethod> chosen_methods(const Arguments& arguments) {
+std::vector<GradientMethod> chosen_methods(const Arguments& arguments, const ProblemFile& problem) {
   std::vector<GradientMethod> methods;
   for (const std::string& name : arguments.methods) methods.push_back(gradient_method(name));
-  if (methods.empty()) methods.push_back(GradientMethod::automatic);
+  if (methods.empty()) methods.push_back(problem.sensitivity.method);
   return methods;
 }
 
@@ -95,6 +97,11 @@ Json make_document(const ProblemFile& problem, const Findings& findings) {
   for (const MethodResult& result : findings.results) {
     document["seconds"][to_string(result.method)] = result.seconds;
   }
+  if (const auto& repeated = analysis.trajectory.repeated) {
+    document["memory"] = {{"checkpoints", repeated->checkpoints()},
+                          {"most_states", repeated->most_held()},
+                          {"repeated_steps", repeated->repeated_steps()}};
+  }
   return document;
 }
 
@@ -144,6 +151,16 @@ std::string choice_text(const std::optional<MethodChoice>& choice) {
   return fmt::format("\nMethod: {} ({})\n", to_string(choice->method), choice->reason);
 }
 
+/// What it took that the trajectory does not fit into the memory.
+std::string memory_text(const Trajectory& trajectory) {
+  if (!trajectory.repeated) return "";
+  const RepeatedStates& repeated = *trajectory.repeated;
+  return fmt::format(
+      "\nMemory: {} checkpoints, at most {} states at once; {} steps simulated again for the {} of "
+      "the trajectory\n",
+      repeated.checkpoints(), repeated.most_held(), repeated.repeated_steps(), trajectory.steps());
+}
+
 std::string seconds_text(const std::vector<MethodResult>& results, double simulation_seconds) {
   std::string text = "\nTime: simulation " + duration(simulation_seconds);
   for (const MethodResult& result : results) {
@@ -152,12 +169,36 @@ std::string seconds_text(const std::vector<MethodResult>& results, double simula
   return text + "\n";
 }
 
+/// The run folder, with --histories.
+void write_histories(const Arguments& arguments, const ProblemInput& input, Analysis& analysis,
+                     Outcome& outcome) {
+  RunRecord record(arguments, input, Json::object());
+  record.begin_phase("histories");
+  write_trajectory(record.folder() / "trajectory.csv", analysis);
+  write_history_gradients(record.folder() / "gradients.csv", input.problem, analysis);
+  outcome.text +=
+      fmt::format("Written to {}: gradients.csv, trajectory.csv, result.json, run_card.json\n",
+                  record.folder().string());
+  record.finish(outcome);
+}
+
+Outcome make_outcome(const Arguments& arguments, const ProblemFile& problem,
+                     const Findings& findings) {
+  return {ExitCode::done, make_document(problem, findings),
+          fmt::format("Gradients at {} of {}\n\n{}{}{}{}{}",
+                      arguments.design ? "the design" : "the start", problem.name,
+                      gradients_text(problem, findings.results),
+                      ties_text(findings.ties, *findings.analysis), choice_text(findings.choice),
+                      memory_text(findings.analysis->trajectory),
+                      seconds_text(findings.results, findings.simulation_seconds))};
+}
+
 }  // namespace
 
 Outcome run_gradient(const Arguments& arguments) {
-  std::vector<GradientMethod> methods = chosen_methods(arguments);
   const ProblemInput input = read_input(arguments);
   const ProblemFile& problem = input.problem;
+  std::vector<GradientMethod> methods = chosen_methods(arguments, problem);
   if (problem.variables.empty()) {
     throw InputError("/variables is missing: there is nothing to differentiate for");
   }
@@ -166,15 +207,12 @@ Outcome run_gradient(const Arguments& arguments) {
   findings.analysis = analyze(problem, input.design);
   findings.simulation_seconds = stopwatch.seconds();
   findings.choice = resolve(*findings.analysis, methods);
-  findings.results =
-      compute(input, *findings.analysis, methods, {arguments.difference_step, arguments.jobs});
+  findings.results = compute(input, *findings.analysis, methods,
+                             {problem.sensitivity.difference_step, arguments.jobs});
   findings.ties = find_ties(*findings.analysis);
-  return {ExitCode::done, make_document(problem, findings),
-          fmt::format("Gradients at {} of {}\n\n{}{}{}{}",
-                      arguments.design ? "the design" : "the start", problem.name,
-                      gradients_text(problem, findings.results),
-                      ties_text(findings.ties, *findings.analysis), choice_text(findings.choice),
-                      seconds_text(findings.results, findings.simulation_seconds))};
+  Outcome outcome = make_outcome(arguments, problem, findings);
+  if (arguments.wants_histories) write_histories(arguments, input, *findings.analysis, outcome);
+  return outcome;
 }
 
 }  // namespace pleuel

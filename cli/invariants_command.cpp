@@ -40,7 +40,8 @@ std::vector<std::string> chosen_bodies(const Arguments& arguments, const Model& 
 std::vector<InvariantsFile> export_bodies(const Arguments& arguments, const ProblemFile& problem) {
   const Eigen::VectorXd x = start_design(problem);
   const Design<double> start(x.begin(), x.end());
-  const Model model = build_model(problem.scene, problem.effects, start, start);
+  const Model model =
+      build_model(problem.scene, problem.effects, start, start, problem.sensitivity.invariants);
   std::vector<InvariantsFile> files;
   for (const std::string& name : chosen_bodies(arguments, model)) {
     files.push_back(export_body(problem, model, name, si_units(problem)));

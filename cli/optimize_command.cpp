@@ -60,8 +60,8 @@ std::string files_text(const RunRecord& record, const Optimum& optimum) {
 Outcome run_optimize(const Arguments& arguments) {
   const ProblemInput input = read_input(arguments);
   const SolveOptions options = solve_options(input.problem, arguments);
-  DesignProblem problem(input.problem);
-  RunRecord record(arguments, input, options_document(options));
+  DesignProblem problem(input.problem, arguments.jobs);
+  RunRecord record(arguments, input, options_document(options, input.problem));
   record.begin_phase("optimize");
   const Result result = solve_visibly(problem, options, record, arguments);
   Optimum optimum{input.problem, result, {}, {}, {}, problem.method()};

@@ -6,7 +6,7 @@
 #include "cli/shown_unit.hpp"
 #include "core/response/monitors.hpp"
 #include "optimization/solve.hpp"
-#include "sensitivity/method_choice.hpp"
+#include "sensitivity/gradients.hpp"
 
 namespace pleuel {
 
@@ -16,8 +16,8 @@ struct Optimum {
   const Result& result;
   /// Values of all responses; empty if the start cannot be simulated.
   Eigen::VectorXd start_responses, responses;
-  Monitors monitors;                   ///< of the last design; likewise
-  std::optional<MethodChoice> method;  ///< of the gradients; none if there was none
+  Monitors monitors;                     ///< of the last design; likewise
+  std::optional<GradientChoice> method;  ///< of the gradients; none if there was none
 
   bool has_design() const { return result.evaluation.has_gradients(); }
 };

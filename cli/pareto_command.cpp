@@ -165,13 +165,14 @@ Outcome run_pareto(const Arguments& arguments) {
   const ProblemFile& problem = input.problem;
   if (!problem.pareto) throw InputError("/pareto is missing: it says which limit to vary");
   const SolveOptions options = solve_options(problem, arguments);
-  RunRecord record(arguments, input, options_document(options));
+  RunRecord record(arguments, input, options_document(options, problem));
   record.begin_phase("pareto");
   ParetoCsv csv(record.folder() / "pareto.csv", problem);
-  const auto points = pareto_front(problem, options, [&](const ParetoPoint& point) {
+  const auto observer = [&](const ParetoPoint& point) {
     csv.add(point);
     show_progress(stderr, problem, point);
-  });
+  };
+  const auto points = pareto_front(problem, options, observer, arguments.jobs);
   const bool is_verified = verified_points(points) == points.size();
   const Outcome outcome{
       is_verified ? ExitCode::done : ExitCode::not_verified, make_document(problem, points),

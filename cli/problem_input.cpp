@@ -54,6 +54,9 @@ ProblemInput read_file(const std::filesystem::path& file, const Arguments& argum
   ProblemInput input;
   input.file = file;
   input.problem = read_problem(file, arguments.overrides);
+  SensitivitySettings& sensitivity = input.problem.sensitivity;
+  if (!arguments.methods.empty()) sensitivity.method = gradient_method(arguments.methods.front());
+  if (arguments.difference_step) sensitivity.difference_step = *arguments.difference_step;
   input.design = arguments.design ? read_design(*arguments.design, input.problem)
                                   : start_design(input.problem);
   estimate_effects(input.problem);

@@ -15,7 +15,7 @@ namespace pleuel {
 /// A problem file as a command sees it.
 struct ProblemInput {
   std::filesystem::path file;
-  ProblemFile problem;
+  ProblemFile problem;     ///< with the method of the command line
   Eigen::VectorXd design;  ///< [SI]: that of --design, else the start
   Json effective;          ///< the file with all overrides applied
   std::string hash;        ///< of the file's text, the overrides and another design: "fnv1a64:…"

@@ -18,7 +18,7 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* card_name = "run_card.json";
 
 /// Everything that a run of any command may leave.
-constexpr std::array<const char*, 11> result_names = {"history.csv",
+constexpr std::array<const char*, 12> result_names = {"history.csv",
                                                       "result.json",
                                                       "trajectory.csv",
                                                       "trajectory-start.csv",
@@ -27,6 +27,7 @@ constexpr std::array<const char*, 11> result_names = {"history.csv",
                                                       "accuracy.csv",
                                                       "stability.csv",
                                                       "uncertainty.csv",
+                                                      "gradients.csv",
                                                       "failed_design.json",
                                                       card_name};
 

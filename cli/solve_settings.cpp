@@ -13,8 +13,9 @@ SolveOptions solve_options(const ProblemFile& problem, const Arguments& argument
   return options;
 }
 
-Json options_document(const SolveOptions& options) {
+Json options_document(const SolveOptions& options, const ProblemFile& problem) {
   return {{"backend", options.backend},
+          {"method", to_string(problem.sensitivity.method)},
           {"tolerance", options.tolerance},
           {"max_iterations", options.max_iterations},
           {"max_restarts", options.max_restarts},

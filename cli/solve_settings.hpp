@@ -12,6 +12,6 @@ namespace pleuel {
 SolveOptions solve_options(const ProblemFile& problem, const Arguments& arguments);
 
 /// For the run card.
-Json options_document(const SolveOptions& options);
+Json options_document(const SolveOptions& options, const ProblemFile& problem);
 
 }  // namespace pleuel

@@ -4,7 +4,8 @@
 
 namespace pleuel {
 
-DesignProblem::DesignProblem(ProblemFile file) : file_(std::move(file)) {
+DesignProblem::DesignProblem(ProblemFile file, int threads)
+    : file_(std::move(file)), threads_(threads) {
   if (file_.variables.empty())
     throw InputError("/variables is missing: there is nothing to design");
   if (!file_.objective) throw InputError("/objective is missing: there is nothing to minimize");
@@ -44,9 +45,11 @@ Analysis& DesignProblem::analysis_at(const Eigen::VectorXd& x) {
 }
 
 Evaluation DesignProblem::evaluate(const Eigen::VectorXd& x, Request request) {
-  std::vector<ConstraintRow> rows;
-  for (std::size_t i = 0; i < constraints_.size(); ++i) rows.push_back({i, std::nullopt});
-  return evaluate_rows(x, request, rows);
+  return evaluate_rows(x, request, [this](const Analysis&) {
+    std::vector<ConstraintRow> rows;
+    for (std::size_t i = 0; i < constraints_.size(); ++i) rows.push_back({i, std::nullopt});
+    return rows;
+  });
 }
 
 double DesignProblem::row_value(const Analysis& analysis, const ConstraintRow& row) const {
@@ -60,9 +63,39 @@ double DesignProblem::row_value(const Analysis& analysis, const ConstraintRow& r
   return sum;
 }
 
+/// Of the objective, then of the rows that limit a response.
+Eigen::MatrixXd DesignProblem::gradients_of(Analysis& analysis, const RowsOf& rows_of) {
+  const std::size_t objective = response_index(file_.objective->response);
+  const auto is_response = [this](const ConstraintRow& row) {
+    return !file_.constraints[row.constraint].response.empty();
+  };
+  std::vector<SampledValue> values{{objective, analysis.reductions[objective].samples}};
+  for (const ConstraintRow& row : rows_of(analysis)) {
+    if (!is_response(row)) continue;
+    const std::size_t response = response_index(file_.constraints[row.constraint].response);
+    values.push_back(
+        {response, row.peak ? row.peak->samples : analysis.reductions[response].samples});
+  }
+  if (!choice_) choice_ = choose_gradients(file_.sensitivity.method, analysis, values);
+  if (!is_difference(choice_->method)) {
+    return sampled_gradients(analysis, values, exact_method(choice_->method));
+  }
+  const ValuesOf numbers = [&](const Analysis& at) {
+    std::vector<double> all{at.reductions[objective].value};
+    for (const ConstraintRow& row : rows_of(at)) {
+      if (is_response(row)) all.push_back(row_value(at, row));
+    }
+    return Eigen::VectorXd(
+        Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size())));
+  };
+  return gradients_by_differences(file_, x_, analysis, choice_->method, numbers,
+                                  {file_.sensitivity.difference_step, threads_});
+}
+
 Evaluation DesignProblem::evaluate_rows(const Eigen::VectorXd& x, Request request,
-                                        const std::vector<ConstraintRow>& rows) {
+                                        const RowsOf& rows_of) {
   Analysis& analysis = analysis_at(x);
+  const std::vector<ConstraintRow> rows = rows_of(analysis);
   const std::size_t objective = response_index(file_.objective->response);
   const auto count = static_cast<Eigen::Index>(rows.size());
   Evaluation evaluation;
@@ -73,16 +106,7 @@ Evaluation DesignProblem::evaluate_rows(const Eigen::VectorXd& x, Request reques
   }
   if (request == Request::values) return evaluation;
 
-  std::vector<SampledValue> values{{objective, analysis.reductions[objective].samples}};
-  for (const ConstraintRow& row : rows) {
-    const std::string& name = file_.constraints[row.constraint].response;
-    if (name.empty()) continue;
-    const std::size_t response = response_index(name);
-    values.push_back(
-        {response, row.peak ? row.peak->samples : analysis.reductions[response].samples});
-  }
-  if (!choice_) choice_ = choose_method(analysis, values);
-  const Eigen::MatrixXd gradients = sampled_gradients(analysis, values, choice_->method);
+  const Eigen::MatrixXd gradients = gradients_of(analysis, rows_of);
   evaluation.objective_gradient = gradients.row(0);
   evaluation.constraint_jacobian = Eigen::MatrixXd::Zero(count, x.size());
   Eigen::Index next = 1;

@@ -2,7 +2,7 @@
 
 #include "core/response/response.hpp"
 #include "optimization/problem.hpp"
-#include "sensitivity/method_choice.hpp"
+#include "sensitivity/gradients.hpp"
 
 namespace pleuel {
 
@@ -12,12 +12,17 @@ struct ConstraintRow {
   std::optional<Reduction> peak;
 };
 
+/// What stands for the constraints at a simulated design: as many rows at each design.
+using RowsOf = std::function<std::vector<ConstraintRow>(const Analysis&)>;
+
 /// The optimization problem that a problem file describes: responses of the simulated mechanism as
-/// objective and constraints, gradients by the exact method that suits its first design.
+/// objective and constraints, gradients by the method of the file; where that leaves it open, by
+/// the exact one that suits its first design.
 class DesignProblem : public Problem {
  public:
   /// @throws InputError if the file has no variables or no objective
-  explicit DesignProblem(ProblemFile file);
+  /// @param threads  simulations at a time, of gradients by differences
+  explicit DesignProblem(ProblemFile file, int threads = 1);
 
   const std::vector<Variable>& variables() const override { return variables_; }
   const std::vector<Constraint>& constraints() const override { return constraints_; }
@@ -28,12 +33,11 @@ class DesignProblem : public Problem {
 
   /// The same with other rows in place of the constraints; one run of the chosen method for
   /// all.
-  Evaluation evaluate_rows(const Eigen::VectorXd& x, Request request,
-                           const std::vector<ConstraintRow>& rows);
+  Evaluation evaluate_rows(const Eigen::VectorXd& x, Request request, const RowsOf& rows_of);
 
   const ProblemFile& file() const { return file_; }
   /// How gradients are computed; none before the first one.
-  const std::optional<MethodChoice>& method() const { return choice_; }
+  const std::optional<GradientChoice>& method() const { return choice_; }
 
   /// Standard deviations of the variables, zero where the file does not say that they scatter.
   Eigen::VectorXd variable_deviations() const;
@@ -47,13 +51,15 @@ class DesignProblem : public Problem {
 
  private:
   double row_value(const Analysis& analysis, const ConstraintRow& row) const;
+  Eigen::MatrixXd gradients_of(Analysis& analysis, const RowsOf& rows_of);
 
   ProblemFile file_;
+  int threads_;
   std::vector<Variable> variables_;
   std::vector<Constraint> constraints_;
   Eigen::VectorXd x_;
   std::unique_ptr<Analysis> analysis_;
-  std::optional<MethodChoice> choice_;
+  std::optional<GradientChoice> choice_;
 };
 
 }  // namespace pleuel

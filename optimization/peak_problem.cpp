@@ -57,7 +57,11 @@ void PeakProblem::start_from(const Eigen::VectorXd& x) {
 }
 
 Evaluation PeakProblem::evaluate(const Eigen::VectorXd& x, Request request) {
-  Analysis& analysis = problem_.analysis_at(x);
+  return problem_.evaluate_rows(x, request,
+                                [this](const Analysis& analysis) { return rows_of(analysis); });
+}
+
+std::vector<ConstraintRow> PeakProblem::rows_of(const Analysis& analysis) const {
   std::vector<ConstraintRow> rows;
   for (std::size_t i = 0; i < is_split_.size(); ++i) {
     if (!is_split_[i]) {
@@ -72,7 +76,7 @@ Evaluation PeakProblem::evaluate(const Eigen::VectorXd& x, Request request) {
       rows.push_back({i, std::move(peak)});
     }
   }
-  return problem_.evaluate_rows(x, request, rows);
+  return rows;
 }
 
 Eigen::VectorXd PeakProblem::fold_values(const Eigen::VectorXd& rows) const {

@@ -30,6 +30,9 @@ class PeakProblem : public Problem {
   Eigen::VectorXd fold_multipliers(const Eigen::VectorXd& rows) const;
 
  private:
+  /// The constraints, those on peaks window by window.
+  std::vector<ConstraintRow> rows_of(const Analysis& analysis) const;
+
   DesignProblem& problem_;
   int windows_;
   std::vector<Variable> variables_;

@@ -92,7 +92,7 @@ class AdjointRun {
     equations_.set_scheme(scheme_);
     equations_.begin(old_);
     state_.increment = difference(mechanism_.rotations, state_.q, old_.q);
-    state_.eta = trajectory_.eta.col(step);
+    trajectory_.load_eta(step, state_.eta);
     equations_.linearize_sensitivities(state_, matrix_);
     if (!solver_.factorize(matrix_)) {
       throw SimulationError(

@@ -43,7 +43,7 @@ class DirectDifferentiation {
       old_q_ = state_.q;
       trajectory_.load_drifted(step, state_);
       state_.increment = difference(rotations_, state_.q, old_q_);
-      state_.eta = trajectory_.eta.col(step);
+      trajectory_.load_eta(step, state_.eta);
       predict();
       solve(step);
       project(step);

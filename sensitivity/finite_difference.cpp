@@ -11,33 +11,41 @@ double step_of(double x, double step) {
 }
 
 Eigen::VectorXd values_at(const ProblemFile& problem, Eigen::VectorXd x, Eigen::Index j,
-                          double value) {
+                          double value, const ValuesOf& values) {
   x(j) = value;
-  return values_of(*analyze(problem, x));
+  return values(*analyze(problem, x));
+}
+
+/// One column a variable. @param column  called in several threads
+Eigen::MatrixXd collect(Eigen::Index variables, int threads,
+                        const std::function<Eigen::VectorXd(Eigen::Index)>& column) {
+  std::vector<Eigen::VectorXd> columns(static_cast<std::size_t>(variables));
+  for_each_in_parallel(static_cast<int>(variables), threads,
+                       [&](int j) { columns[static_cast<std::size_t>(j)] = column(j); });
+  Eigen::MatrixXd result(columns.empty() ? 0 : columns.front().size(), variables);
+  for (Eigen::Index j = 0; j < variables; ++j) result.col(j) = columns[static_cast<std::size_t>(j)];
+  return result;
 }
 
 }  // namespace
 
 Eigen::MatrixXd forward_differences(const ProblemFile& problem, const Eigen::VectorXd& x,
-                                    const Analysis& at_x, double step, int threads) {
-  const Eigen::VectorXd base = values_of(at_x);
-  Eigen::MatrixXd result(base.size(), x.size());
-  for_each_in_parallel(static_cast<int>(x.size()), threads, [&](int j) {
+                                    const Analysis& at_x, double step, int threads,
+                                    const ValuesOf& values) {
+  const Eigen::VectorXd base = values(at_x);
+  return collect(x.size(), threads, [&](Eigen::Index j) -> Eigen::VectorXd {
     const double upper = x(j) + step_of(x(j), step);
-    result.col(j) = (values_at(problem, x, j, upper) - base) / (upper - x(j));
+    return (values_at(problem, x, j, upper, values) - base) / (upper - x(j));
   });
-  return result;
 }
 
 Eigen::MatrixXd central_differences(const ProblemFile& problem, const Eigen::VectorXd& x,
-                                    double step, int threads) {
-  Eigen::MatrixXd result(static_cast<Eigen::Index>(problem.responses.size()), x.size());
-  for_each_in_parallel(static_cast<int>(x.size()), threads, [&](int j) {
+                                    double step, int threads, const ValuesOf& values) {
+  return collect(x.size(), threads, [&](Eigen::Index j) -> Eigen::VectorXd {
     const double upper = x(j) + step_of(x(j), step), lower = x(j) - step_of(x(j), step);
-    result.col(j) =
-        (values_at(problem, x, j, upper) - values_at(problem, x, j, lower)) / (upper - lower);
+    return (values_at(problem, x, j, upper, values) - values_at(problem, x, j, lower, values)) /
+           (upper - lower);
   });
-  return result;
 }
 
 }  // namespace pleuel

@@ -1,59 +1,53 @@
 #include "sensitivity/gradients.hpp"
 
-#include <fmt/format.h>
+#include <cassert>
 
-#include "core/base/error.hpp"
-#include "sensitivity/finite_difference.hpp"
 #include "sensitivity/method_choice.hpp"
 
 namespace pleuel {
 
-std::string to_string(GradientMethod method) {
-  switch (method) {
-    case GradientMethod::automatic:
-      return "auto";
-    case GradientMethod::direct:
-      return "direct";
-    case GradientMethod::adjoint:
-      return "adjoint";
-    case GradientMethod::forward_difference:
-      return "forward-difference";
-    default:
-      return "central-difference";
-  }
+bool is_difference(GradientMethod method) {
+  return method == GradientMethod::forward_difference ||
+         method == GradientMethod::central_difference;
 }
 
-GradientMethod gradient_method(const std::string& name) {
-  std::string known;
-  for (auto method : {GradientMethod::automatic, GradientMethod::direct, GradientMethod::adjoint,
-                      GradientMethod::forward_difference, GradientMethod::central_difference}) {
-    if (to_string(method) == name) return method;
-    known += (known.empty() ? "" : ", ") + to_string(method);
-  }
-  throw InputError(fmt::format("there is no gradient method \"{}\"; known are {}", name, known));
+ExactMethod exact_method(GradientMethod method) {
+  assert(method == GradientMethod::direct || method == GradientMethod::adjoint);
+  return method == GradientMethod::direct ? ExactMethod::direct : ExactMethod::adjoint;
+}
+
+GradientChoice choose_gradients(GradientMethod asked, Analysis& analysis,
+                                const std::vector<SampledValue>& values) {
+  if (asked != GradientMethod::automatic) return {asked, "asked for"};
+  const MethodChoice choice = choose_method(analysis, values);
+  return {choice.method == ExactMethod::direct ? GradientMethod::direct : GradientMethod::adjoint,
+          choice.reason};
 }
 
 Eigen::MatrixXd direct_gradients(Analysis& analysis) {
   return sampled_gradients(analysis, response_values(analysis), ExactMethod::direct);
 }
 
+Eigen::MatrixXd gradients_by_differences(const ProblemFile& problem, const Eigen::VectorXd& x,
+                                         const Analysis& analysis, GradientMethod method,
+                                         const ValuesOf& values, const GradientOptions& options) {
+  assert(is_difference(method));
+  const ProblemFile repeated = with_steps_of(analysis.trajectory, problem);
+  if (method == GradientMethod::central_difference) {
+    return central_differences(repeated, x, options.difference_step, options.threads, values);
+  }
+  return forward_differences(repeated, x, analysis, options.difference_step, options.threads,
+                             values);
+}
+
 Eigen::MatrixXd gradients(const ProblemFile& problem, const Eigen::VectorXd& x, Analysis& analysis,
                           GradientMethod method, const GradientOptions& options) {
   const std::vector<SampledValue> values = response_values(analysis);
-  switch (method) {
-    case GradientMethod::automatic:
-      return sampled_gradients(analysis, values, choose_method(analysis, values).method);
-    case GradientMethod::direct:
-      return sampled_gradients(analysis, values, ExactMethod::direct);
-    case GradientMethod::adjoint:
-      return sampled_gradients(analysis, values, ExactMethod::adjoint);
-    case GradientMethod::forward_difference:
-      return forward_differences(with_steps_of(analysis.trajectory, problem), x, analysis,
-                                 options.difference_step, options.threads);
-    default:
-      return central_differences(with_steps_of(analysis.trajectory, problem), x,
-                                 options.difference_step, options.threads);
+  const GradientMethod chosen = choose_gradients(method, analysis, values).method;
+  if (is_difference(chosen)) {
+    return gradients_by_differences(problem, x, analysis, chosen, values_of, options);
   }
+  return sampled_gradients(analysis, values, exact_method(chosen));
 }
 
 }  // namespace pleuel

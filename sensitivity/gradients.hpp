@@ -3,23 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "sensitivity/finite_difference.hpp"
 #include "sensitivity/sampled_gradients.hpp"
 
 namespace pleuel {
-
-enum class GradientMethod {
-  automatic,  ///< direct or adjoint, whichever is cheaper (method_choice.hpp)
-  direct,
-  adjoint,
-  forward_difference,
-  central_difference
-};
-
-/// "auto", "direct", "adjoint", "forward-difference", "central-difference".
-std::string to_string(GradientMethod method);
-
-/// @throws InputError for an unknown name; the message lists the names there are.
-GradientMethod gradient_method(const std::string& name);
 
 struct GradientOptions {
   /// Relative step of finite differences, Δx = step · |x|.
@@ -27,6 +14,29 @@ struct GradientOptions {
   /// Simulations at a time, of finite differences.
   int threads = 1;
 };
+
+/// How gradients are computed, and why: a sentence.
+struct GradientChoice {
+  GradientMethod method;  ///< not automatic
+  std::string reason;
+};
+
+/// The method that is asked for; where that is left open, the cheaper one of the exact ones.
+GradientChoice choose_gradients(GradientMethod asked, Analysis& analysis,
+                                const std::vector<SampledValue>& values);
+
+/// Whether simulations of neighbouring designs make the gradients.
+bool is_difference(GradientMethod method);
+
+/// Direct differentiation or the adjoint. @pre one of the two
+ExactMethod exact_method(GradientMethod method);
+
+/// Gradients of some numbers by differences of simulations with the steps of the analysis, numbers
+/// × variables.
+/// @param method  one of the two differences
+Eigen::MatrixXd gradients_by_differences(const ProblemFile& problem, const Eigen::VectorXd& x,
+                                         const Analysis& analysis, GradientMethod method,
+                                         const ValuesOf& values, const GradientOptions& options);
 
 /// Gradients of all responses, responses × variables; unit of entry (i, j) = unit of response i /
 /// unit of variable j [SI].

@@ -27,17 +27,44 @@ double seconds_of(Function&& function) {
 
 /// The last steps of a trajectory, as one of their own.
 Trajectory last_steps(const Trajectory& all, int steps) {
-  Trajectory part = all;
-  part.time = all.time.tail(steps + 1).eval();
-  const auto cut = [&](const Eigen::MatrixXd& from) { return from.rightCols(steps + 1).eval(); };
-  part.q = cut(all.q);
-  part.v = cut(all.v);
-  part.a = cut(all.a);
-  part.lambda = cut(all.lambda);
-  part.eta = cut(all.eta);
-  part.drifted_q = cut(all.drifted_q);
-  part.drifted_v = cut(all.drifted_v);
+  Trajectory part;
+  part.scheme = all.scheme;
+  part.scheme_type = all.scheme_type;
+  part.spectral_radius = all.spectral_radius;
+  part.formulation = all.formulation;
+  part.time = all.time.tail(steps + 1);
+  for (auto* matrix : {&part.q, &part.v, &part.a}) matrix->resize(all.q.rows(), steps + 1);
+  part.lambda.resize(all.lambda.rows(), steps + 1);
+  part.eta.resize(all.eta.rows(), steps + 1);
+  const Eigen::Index projected = all.is_projected() ? all.q.rows() : 0;
+  for (auto* matrix : {&part.drifted_q, &part.drifted_v}) matrix->resize(projected, steps + 1);
+  State state;
+  Eigen::VectorXd eta;
+  for (int i = 0; i <= steps; ++i) {
+    all.load(all.steps() - steps + i, state);
+    all.load_eta(all.steps() - steps + i, eta);
+    part.q.col(i) = state.q;
+    part.v.col(i) = state.v;
+    part.a.col(i) = state.a;
+    part.lambda.col(i) = state.lambda;
+    part.eta.col(i) = eta;
+    if (!all.is_projected()) continue;
+    all.load_drifted(all.steps() - steps + i, state);
+    part.drifted_q.col(i) = state.q;
+    part.drifted_v.col(i) = state.v;
+  }
   return part;
+}
+
+/// What it takes to simulate so many steps again, where the trajectory does not hold its states:
+/// each of the two methods has to go through all of them once.
+double seconds_of_repetition(const Trajectory& trajectory, int steps) {
+  if (!trajectory.repeated) return 0.0;
+  const int before = trajectory.repeated->repeated_steps();
+  State state;
+  const double seconds = seconds_of([&] { trajectory.load(1, state); });
+  const int repeated = trajectory.repeated->repeated_steps() - before;
+  return repeated > 0 ? seconds * steps / repeated : 0.0;
 }
 
 /// How much of the time the adjoints of the values are alive, in columns: a value counts from its
@@ -70,18 +97,23 @@ MethodChoice choose_method(Analysis& analysis, const std::vector<SampledValue>& 
   if (variables <= functions || steps < 2 * measured_steps) return {ExactMethod::direct, counts};
 
   const Trajectory part = last_steps(analysis.trajectory, measured_steps);
-  const double direct = seconds_of(
-      [&] { differentiate(mechanism, part, [](int, const State&, const StateSensitivity&) {}); });
+  const double repetition = seconds_of_repetition(analysis.trajectory, measured_steps);
+  const double direct =
+      repetition + seconds_of([&] {
+        differentiate(mechanism, part, [](int, const State&, const StateSensitivity&) {});
+      });
   const int columns = std::max(1, static_cast<int>(std::lround(mean_columns(values, steps))));
-  const double adjoint = seconds_of([&] {
-    adjoint_gradients(mechanism, part, columns, [&](int step, const State&, StateAdjoint& of) {
-      if (step == part.steps()) of.q.setOnes();
-      return columns;
-    });
-  });
+  const double adjoint =
+      repetition + seconds_of([&] {
+        adjoint_gradients(mechanism, part, columns, [&](int step, const State&, StateAdjoint& of) {
+          if (step == part.steps()) of.q.setOnes();
+          return columns;
+        });
+      });
   return {cheaper_method(direct, adjoint),
-          fmt::format("{}: direct takes {:.2g} times as long as the adjoint in a short stretch",
-                      counts, direct / adjoint)};
+          fmt::format("{}: direct takes {:.2g} times as long as the adjoint in a short stretch{}",
+                      counts, direct / adjoint,
+                      analysis.trajectory.repeated ? ", which both have simulated again" : "")};
 }
 
 }  // namespace pleuel

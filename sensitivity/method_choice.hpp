@@ -13,8 +13,9 @@ struct MethodChoice {
 };
 
 /// By the numbers of variables and of values that depend on the motion, and where those do not
-/// settle it by the time that both take for a short stretch of the trajectory. Direct
-/// differentiation, unless the adjoint is clearly faster.
+/// settle it by the time that both take for a short stretch of the trajectory, with simulating it
+/// again where the memory does not hold its states. Direct differentiation, unless the adjoint is
+/// clearly faster.
 MethodChoice choose_method(Analysis& analysis, const std::vector<SampledValue>& values);
 
 /// Of two measured times [s].

@@ -38,8 +38,8 @@ void start_from(const Eigen::VectorXd& x, std::vector<DesignVariable>& variables
 }
 
 ParetoPoint find_point(const ProblemFile& problem, Eigen::Index row, double limit,
-                       const SolveOptions& options) {
-  DesignProblem design_problem(problem);
+                       const SolveOptions& options, int threads) {
+  DesignProblem design_problem(problem, threads);
   ParetoPoint point;
   point.limit = limit;
   point.result = solve_design(design_problem, options);
@@ -76,7 +76,7 @@ void mark_dominated(std::vector<ParetoPoint>& points, double sign) {
 }  // namespace
 
 std::vector<ParetoPoint> pareto_front(const ProblemFile& problem, const SolveOptions& options,
-                                      const ParetoObserver& observer) {
+                                      const ParetoObserver& observer, int threads) {
   if (!problem.pareto) throw InputError("/pareto is missing: it says which limit to vary");
   const ParetoSettings& settings = *problem.pareto;
   const Eigen::Index row = varied_row(problem);
@@ -87,7 +87,7 @@ std::vector<ParetoPoint> pareto_front(const ProblemFile& problem, const SolveOpt
     const double limit = std::lerp(settings.from, settings.to,
                                    static_cast<double>(i) / std::max(settings.points - 1, 1));
     set_limit(constraint, limit);
-    points.push_back(find_point(varied, row, limit, options));
+    points.push_back(find_point(varied, row, limit, options, threads));
     if (is_within_limits(points.back())) start_from(points.back().result.x, varied.variables);
     if (observer) observer(points.back());
   }

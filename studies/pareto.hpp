@@ -26,8 +26,9 @@ using ParetoObserver = std::function<void(const ParetoPoint&)>;
 /// Wismer 1971): the limit goes from `from` to `to` in equal steps, and each optimization starts
 /// from the optimum before, the first from the start values. Every point is audited like any
 /// optimum.
+/// @param threads  simulations at a time, of gradients by differences
 /// @throws InputError if the problem has no pareto settings, variables or objective
 std::vector<ParetoPoint> pareto_front(const ProblemFile& problem, const SolveOptions& options,
-                                      const ParetoObserver& observer = {});
+                                      const ParetoObserver& observer = {}, int threads = 1);
 
 }  // namespace pleuel

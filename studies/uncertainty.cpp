@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/base/parallel.hpp"
 #include "core/scene/sample_extent.hpp"
+#include "sensitivity/history_gradients.hpp"
 #include "sensitivity/method_choice.hpp"
 
 namespace pleuel {
@@ -146,34 +147,16 @@ class Study {
     }
   }
 
-  /// Where a response is taken: the place of its peak, or the first.
-  static int channel_of(const Reduction& reduction) {
-    return reduction.samples.empty() ? 0 : reduction.samples.front().channel;
-  }
-
   /// σ(t) of every history: one value a response and instant.
   void linearize_histories() {
     study_.time = analysis_->trajectory.time;
-    std::vector<SampledValue> values;
-    for (std::size_t i = 0; i < analysis_->responses.size(); ++i) {
+    for (const HistoryGradients& history : history_gradients(*analysis_)) {
       // That of a balance is no signal but a sum over the time before.
-      if (analysis_->histories[i].size() == 0 || analysis_->responses[i].is_balance) continue;
-      const int channel = channel_of(analysis_->reductions[i]);
-      study_.histories.push_back({i, analysis_->histories[i].row(channel).transpose(), {}, {}});
-      for (int step = 0; step <= analysis_->trajectory.steps(); ++step) {
-        values.push_back({i, {{step, channel, 1.0}}});
-      }
-    }
-    if (values.empty()) return;
-    const Eigen::MatrixXd parts =
-        columns_of(sampled_gradients(*analysis_, values, ExactMethod::direct),
-                   settings_.parameters) *
-        deviations_.asDiagonal();
-    const Eigen::VectorXd deviations = parts.rowwise().norm();
-    const Eigen::Index instants = study_.time.size();
-    for (std::size_t k = 0; k < study_.histories.size(); ++k) {
-      study_.histories[k].deviations =
-          deviations.segment(static_cast<Eigen::Index>(k) * instants, instants);
+      if (analysis_->responses[history.response].is_balance) continue;
+      const Eigen::MatrixXd parts =
+          columns_of(history.gradients, settings_.parameters) * deviations_.asDiagonal();
+      study_.histories.push_back({history.response, history.values, parts.rowwise().norm(), {}});
+      places_.push_back(history.place);
     }
   }
 
@@ -207,7 +190,7 @@ class Study {
     for (std::size_t k = 0; k < study_.histories.size(); ++k) {
       const std::size_t response = study_.histories[k].response;
       all.segment(static_cast<Eigen::Index>(k) * instants, instants) =
-          analysis.histories[response].row(channel_of(analysis_->reductions[response])).transpose();
+          analysis.histories[response].row(places_[k]).transpose();
     }
     return all;
   }
@@ -231,6 +214,7 @@ class Study {
   std::unique_ptr<Analysis> analysis_;
   ProblemFile with_same_steps_;
   UncertaintyStudy study_;
+  std::vector<int> places_;  ///< of the histories
 };
 
 }  // namespace

@@ -6,6 +6,8 @@
 
 #include <klu.h>
 
+#include "core/integration/block_factors.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -14,6 +16,9 @@ namespace {
 constexpr double round_off = 1e-14;
 /// Where refinement leaves more than this, the pivots are no good.
 constexpr double poor = 1e-10;
+
+/// With so many right-hand sides the factors are copied for all of them at once.
+constexpr Eigen::Index least_columns = 16;
 
 using Block = Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
@@ -34,9 +39,13 @@ struct LinearSolver::Implementation {
   Matrix matrix;         ///< pattern and the scaled values factorised last
   double largest = 0.0;  ///< of their magnitudes
   Eigen::VectorXd row_scale, column_scale;
+  Eigen::VectorXd pivoted_values;  ///< scaled, for which pivots were last chosen
+  int pivot_choices = 0;
   Eigen::MatrixXd rhs, residual;              ///< scratch
   Eigen::VectorXd summed_x, summed_residual;  ///< scratch
   double backward_error = 0.0;
+  BlockFactors factors;
+  bool are_factors_copied = false;
 
   int* starts() { return matrix.outerIndexPtr(); }
   int* rows() { return matrix.innerIndexPtr(); }
@@ -75,6 +84,7 @@ struct LinearSolver::Implementation {
     if (numeric == nullptr) return false;
     take(unscaled);
     has_new_pivots = false;
+    are_factors_copied = false;
     const bool done = klu_refactor(starts(), rows(), values(), symbolic, numeric, &common) != 0;
     if (!done || common.status != KLU_OK) return false;
     klu_rcond(symbolic, numeric, &common);
@@ -90,6 +100,9 @@ struct LinearSolver::Implementation {
 
   bool choose_pivots() {
     has_new_pivots = true;
+    are_factors_copied = false;
+    ++pivot_choices;
+    pivoted_values = Eigen::Map<const Eigen::VectorXd>(values(), matrix.nonZeros());
     klu_free_numeric(&numeric, &common);
     numeric = klu_factor(starts(), rows(), values(), symbolic, &common);
     if (numeric == nullptr || common.status != KLU_OK) return false;
@@ -99,6 +112,12 @@ struct LinearSolver::Implementation {
   }
 
   void solve_scaled(bool is_transposed, Block x) {
+    if (x.cols() >= least_columns) {
+      if (!are_factors_copied) factors.copy(symbolic, numeric, &common);
+      are_factors_copied = true;
+      is_transposed ? factors.solve_transposed(x) : factors.solve(x);
+      return;
+    }
     (is_transposed ? klu_tsolve : klu_solve)(symbolic, numeric, static_cast<int>(x.outerStride()),
                                              static_cast<int>(x.cols()), x.data(), &common);
   }
@@ -153,6 +172,7 @@ LinearSolver::LinearSolver(const Matrix& pattern)
     : implementation_(std::make_unique<Implementation>()) {
   Implementation& klu = *implementation_;
   klu.matrix = pattern;
+  klu.pivoted_values.resize(pattern.nonZeros());
   klu_defaults(&klu.common);
   klu.common.scale = 0;  // done here
   klu.symbolic =
@@ -205,6 +225,28 @@ double LinearSolver::condition() const {
 
 int LinearSolver::factorizations() const {
   return implementation_->factorizations;
+}
+
+LinearSolver::Pivots LinearSolver::pivots() const {
+  const Implementation& klu = *implementation_;
+  if (klu.numeric == nullptr) return {};
+  return {klu.row_scale, klu.column_scale, klu.pivoted_values};
+}
+
+void LinearSolver::use_pivots(const Pivots& pivots) {
+  Implementation& klu = *implementation_;
+  if (pivots.values.size() == 0) {
+    klu_free_numeric(&klu.numeric, &klu.common);
+    return;
+  }
+  klu.row_scale = pivots.row_scale;
+  klu.column_scale = pivots.column_scale;
+  Eigen::Map<Eigen::VectorXd>(klu.values(), klu.matrix.nonZeros()) = pivots.values;
+  klu.choose_pivots();
+}
+
+int LinearSolver::pivot_choices() const {
+  return implementation_->pivot_choices;
 }
 
 }  // namespace pleuel

@@ -19,6 +19,9 @@ class Projection {
   /// Projects q and v of a state. Allocates nothing. @returns whether it has converged
   bool apply(State& state);
 
+  /// Of the projection itself: what its results depend on besides the state.
+  LinearSolver& solver() { return solver_; }
+
   // Sensitivities, at a state before the projection.
 
   /// @throws SimulationError if the constraints are dependent there

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <functional>
+#include <limits>
+#include <memory>
+
 #include "core/integration/mechanism.hpp"
 #include "core/integration/scheme.hpp"
 
@@ -22,6 +26,30 @@ struct SimulationOptions {
   double smallest_step = 0.0;  ///< of those halves [s]; 0: a 1024th of the step
   /// To repeat a sequence of steps: the instants of another simulation, in place of control.
   std::vector<double> instants = {};
+  /// What the states of the trajectory may take [byte]. Where they do not fit, some are kept as
+  /// checkpoints, and the stretches between are simulated again when they are asked for.
+  double memory = std::numeric_limits<double>::infinity();
+};
+
+/// Sees each instant as it is reached, beginning with step 0 (and again from there, if it turns out
+/// on the way that the states do not fit into the memory).
+using InstantObserver = std::function<void(int step, const State& state)>;
+
+/// States of a trajectory that are simulated again when they are asked for, bit by bit the same:
+/// one stretch between two checkpoints at a time, so that going through all of them, forwards or
+/// backwards, costs one simulation.
+class RepeatedStates {
+ public:
+  virtual ~RepeatedStates() = default;
+  virtual void load(int step, State& state) = 0;
+  virtual void load_eta(int step, Eigen::VectorXd& eta) = 0;
+  virtual void load_drifted(int step, State& state) = 0;
+
+  virtual int checkpoints() const = 0;
+  /// The most states that were held at once, besides the checkpoints.
+  virtual int most_held() const = 0;
+  /// Steps that were made again so far.
+  virtual int repeated_steps() const = 0;
 };
 
 /// With the jerk j that the constraints prescribe, the first step has v₀ + v j and a₀ + w j in
@@ -35,6 +63,7 @@ struct StartWeights {
 /// to be split or were made smaller by the control of the local error.
 struct Trajectory {
   Eigen::VectorXd time;
+  // Where the states did not fit into the memory, these matrices are empty and `repeated` has them.
   Eigen::MatrixXd q, v, a;  ///< n × (steps + 1)
   Eigen::MatrixXd lambda;   ///< m × (steps + 1), unscaled
   Eigen::MatrixXd eta;      ///< m × (steps + 1), of the stabilized index 2 only
@@ -51,8 +80,12 @@ struct Trajectory {
   int newton_iterations = 0;
   int factorizations = 0;
 
+  /// Refers to the mechanism, which has to stay where it is; copies of the trajectory share it.
+  std::shared_ptr<RepeatedStates> repeated;
+
   int steps() const { return static_cast<int>(time.size()) - 1; }
   void load(int step, State& state) const;
+  void load_eta(int step, Eigen::VectorXd& eta) const;
   bool is_projected() const { return formulation.is_projected; }
   /// The state that a step ended with before its projection; without, as load().
   void load_drifted(int step, State& state) const;
@@ -73,9 +106,11 @@ int step_count(const SimulationOptions& options);
 /// in which it fails is halved, up to six times. Nothing is allocated in the time loop, but for the
 /// instants that are more than the regular ones. With a projection each step of index 1 ends with
 /// it (projection.hpp).
+/// @throws InputError if the memory does not even hold enough checkpoints of equal steps
 /// @throws SimulationError saying time, step, iteration, equation and what to try; or that the
 /// local
 ///         error is too large with the smallest step
-Trajectory simulate(Mechanism& mechanism, const SimulationOptions& options);
+Trajectory simulate(Mechanism& mechanism, const SimulationOptions& options,
+                    const InstantObserver& observer = {});
 
 }  // namespace pleuel

@@ -123,6 +123,10 @@ StepState StepEquations::make_state(const State& start) const {
     state.shift.setZero(system_.coordinates());
     state.eta.setZero(system_.multipliers());
   }
+  if (formulation_.is_projected) {
+    state.drifted_q = start.q;
+    state.drifted_v = start.v;
+  }
   return state;
 }
 

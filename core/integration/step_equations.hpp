@@ -15,6 +15,8 @@ struct StepState : State {
   // Stabilized index 2 only:
   Eigen::VectorXd shift;  ///< δ, the part of the increment that closes the constraints (n)
   Eigen::VectorXd eta;    ///< η, the multipliers that pull it (m)
+  // Index 1 with projection only: q and v before it (n).
+  Eigen::VectorXd drifted_q, drifted_v;
 };
 
 /// The equations of one step of a scheme in a formulation, for Newton's method, direct

@@ -5,6 +5,7 @@
 #include "core/beam/beam_place.hpp"
 #include "core/beam/elastic_basis.hpp"
 #include "core/model/attached_points.hpp"
+#include "core/model/invariant_derivatives.hpp"
 
 namespace pleuel {
 
@@ -283,9 +284,12 @@ void set_beam(const BeamBody& beam, const Body& body, const BuildContext& contex
       effects.rotary_inertia ? RotaryInertia::included : RotaryInertia::neglected;
   const Invariants<double> nodal = beam_invariants(model.beam, *model.coordinates, rotary);
   std::vector<DesignDerivative<Invariants<double>>> nodal_x;
-  for (const auto& [variable, seeded] : model.beam_x) {
+  for (int variable : variables_of(body, context.scene)) {
     nodal_x.push_back(
-        {variable, derivative_of(beam_invariants(seeded, *model.coordinates, rotary))});
+        {variable, differentiate_invariants(context, variable, [&](const auto& design) {
+           return beam_invariants(resolve_beam(beam, context.scene, design), *model.coordinates,
+                                  rotary);
+         })});
   }
   if (effects.elasticity && (is_mean_axis || beam.reduction)) {
     BasisBuilder(beam, body, context, active, model).build(nodal, nodal_x);

@@ -3,6 +3,7 @@
 #include "core/effects/floating_frame_body.hpp"
 #include "core/model/beam_builder.hpp"
 #include "core/model/imported_builder.hpp"
+#include "core/model/invariant_derivatives.hpp"
 #include "core/model/stiffening_builder.hpp"
 
 namespace pleuel {
@@ -60,7 +61,9 @@ void set_rigid(const Body& body, const BuildContext& context, BodyModel& model) 
   model.invariants = make_rigid_invariants(body, context.design);
   for (int variable : variables_of(body, context.scene)) {
     model.invariants_x.push_back(
-        {variable, derivative_of(make_rigid_invariants(body, context.seeded(variable)))});
+        {variable, differentiate_invariants(context, variable, [&](const auto& design) {
+           return make_rigid_invariants(body, design);
+         })});
   }
 }
 

@@ -17,6 +17,7 @@ struct BuildContext {
   const Design<double>& design;
   std::optional<MotionPlane> plane;
   Eigen::Vector3d gravity;
+  InvariantDifferentiation differentiation = {};
   std::map<std::string, BeamEffects> beam_effects = {};  ///< by body
 
   const BeamEffects& effects_of(const std::string& beam) const { return beam_effects.at(beam); }

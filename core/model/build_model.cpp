@@ -64,9 +64,10 @@ double size_of(const Scene& scene, const Design<double>& start) {
 class ModelBuilder {
  public:
   ModelBuilder(const Scene& scene, const EffectSettings& effects, const Design<double>& start,
-               const Design<double>& design)
-      : context_{scene,  effects,      start,
-                 design, std::nullopt, resolve_point(scene.gravity, design)} {}
+               const Design<double>& design, const InvariantDifferentiation& differentiation)
+      : context_{scene,          effects,      start,
+                 design,         std::nullopt, resolve_point(scene.gravity, design),
+                 differentiation} {}
 
   Model build() {
     decide_motion();
@@ -324,8 +325,8 @@ class ModelBuilder {
 }  // namespace
 
 Model build_model(const Scene& scene, const EffectSettings& effects, const Design<double>& start,
-                  const Design<double>& design) {
-  return ModelBuilder(scene, effects, start, design).build();
+                  const Design<double>& design, const InvariantDifferentiation& differentiation) {
+  return ModelBuilder(scene, effects, start, design, differentiation).build();
 }
 
 }  // namespace pleuel

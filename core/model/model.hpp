@@ -103,7 +103,10 @@ struct Model {
 /// only place that knows the scene and all effects; finite elements are not used after it.
 /// @param start   values of the variables that decide the topology (plane, nodes of joints)
 /// @param design  values of the variables at which the model is built
+/// @param differentiation  how the derivatives of the invariants of rigid bodies and beams come
+///                 about
 Model build_model(const Scene& scene, const EffectSettings& effects, const Design<double>& start,
-                  const Design<double>& design);
+                  const Design<double>& design,
+                  const InvariantDifferentiation& differentiation = {});
 
 }  // namespace pleuel

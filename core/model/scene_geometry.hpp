@@ -27,6 +27,13 @@ inline Eigen::Vector3d to_vector(const std::array<double, 3>& array) {
   return {array[0], array[1], array[2]};
 }
 
+/// Without conjugation, so that it serves the complex step.
+template <class Scalar>
+Scalar length_of(const Vector3<Scalar>& vector) {
+  using std::sqrt;
+  return sqrt(vector.cwiseProduct(vector).sum());
+}
+
 template <class Scalar>
 SectionProperties<Scalar> resolve_section(const Section& section, const Design<Scalar>& design) {
   struct Visitor {
@@ -122,7 +129,7 @@ template <class Scalar>
 Beam<Scalar> resolve_beam(const BeamBody& body, const Scene& scene, const Design<Scalar>& design) {
   const Material& material = find_material(scene, body.material);
   const Scalar length =
-      Vector3<Scalar>(resolve_point(body.to, design) - resolve_point(body.from, design)).norm();
+      length_of<Scalar>(resolve_point(body.to, design) - resolve_point(body.from, design));
   const std::vector<double> fractions = length_fractions(body);
   Beam<Scalar> beam;
   for (std::size_t i = 0; i < body.segments.size(); ++i) {

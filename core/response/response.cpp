@@ -299,9 +299,57 @@ Reduction reduce_history(const Response& response, const Eigen::VectorXd& time,
   return reduction;
 }
 
+/// Observes all signals while the mechanism is simulated, so that no state is needed twice.
+class Recorder {
+ public:
+  /// @param instants  as many as there are, if no step has to be split
+  Recorder(const std::vector<Response>& responses, int instants) : responses_(responses) {
+    for (const Response& response : responses) {
+      histories_.emplace_back(response.signal ? response.signal->channels() : 0,
+                              response.signal ? instants : 0);
+    }
+  }
+
+  void see(int step, const State& state) {
+    for (std::size_t i = 0; i < responses_.size(); ++i) {
+      if (!responses_[i].signal) continue;
+      if (step == histories_[i].cols()) {
+        histories_[i].conservativeResize(Eigen::NoChange, step + step / 8 + 64);
+      }
+      responses_[i].signal->observe(state, histories_[i].col(step));
+    }
+  }
+
+  std::vector<Eigen::MatrixXd> take(int instants) {
+    for (Eigen::MatrixXd& history : histories_) {
+      if (history.cols() > instants) history.conservativeResize(Eigen::NoChange, instants);
+    }
+    return std::move(histories_);
+  }
+
+ private:
+  const std::vector<Response>& responses_;
+  std::vector<Eigen::MatrixXd> histories_;
+};
+
+SimulationOptions options_of(const ProblemFile& problem) {
+  const SimulationSettings& settings = problem.simulation;
+  return {settings.end_time,
+          settings.step,
+          settings.spectral_radius,
+          settings.newton_tolerance,
+          settings.max_newton_iterations,
+          settings.scheme,
+          settings.formulation,
+          settings.local_error,
+          settings.smallest_step,
+          settings.instants,
+          problem.sensitivity.memory};
+}
+
 /// The history of a response, measured against the rigid mechanism if need be.
-Eigen::MatrixXd history_of(const Response& response, const Analysis& analysis) {
-  Eigen::MatrixXd history = observe(*response.signal, analysis.trajectory);
+Eigen::MatrixXd against_rigid(const Response& response, Eigen::MatrixXd history,
+                              const Analysis& analysis) {
   if (!response.rigid_response) return history;
   const Eigen::MatrixXd& rigid = analysis.rigid->histories[*response.rigid_response];
   if (rigid.cols() != history.cols()) {
@@ -369,28 +417,28 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   const Eigen::VectorXd start = start_design(problem);
   const Design<double> design(x.begin(), x.end()), start_values(start.begin(), start.end());
   auto analysis = std::make_unique<Analysis>();
-  analysis->model = build_model(problem.scene, problem.effects, start_values, design);
+  analysis->model = build_model(problem.scene, problem.effects, start_values, design,
+                                problem.sensitivity.invariants);
   analysis->model.mechanism.starts_in_equilibrium = problem.simulation.quasi_static_start;
-  const SimulationSettings& settings = problem.simulation;
-  analysis->trajectory = simulate(
-      analysis->model.mechanism,
-      {settings.end_time, settings.step, settings.spectral_radius, settings.newton_tolerance,
-       settings.max_newton_iterations, settings.scheme, settings.formulation, settings.local_error,
-       settings.smallest_step, settings.instants});
   analysis->responses = make_responses(problem.responses, analysis->model);
+  const SimulationOptions options = options_of(problem);
+  Recorder recorder(analysis->responses, step_count(options) + 1);
+  analysis->trajectory = simulate(analysis->model.mechanism, options,
+                                  [&](int step, const State& state) { recorder.see(step, state); });
+  analysis->histories = recorder.take(analysis->trajectory.steps() + 1);
   set_mechanism_frequencies(*analysis);
   set_rigid_mechanism(problem, x, *analysis);
-  for (Response& response : analysis->responses) {
+  for (std::size_t i = 0; i < analysis->responses.size(); ++i) {
+    const Response& response = analysis->responses[i];
     Reduction reduction;
-    Eigen::MatrixXd history;
     if (response.signal) {
-      history = history_of(response, *analysis);
+      Eigen::MatrixXd& history = analysis->histories[i];
+      history = against_rigid(response, std::move(history), *analysis);
       reduction = reduce_history(response, analysis->trajectory.time, history);
     } else {
       reduction.value = response.constant;
     }
     analysis->reductions.push_back(std::move(reduction));
-    analysis->histories.push_back(std::move(history));
   }
   return analysis;
 }

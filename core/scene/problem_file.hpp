@@ -8,6 +8,7 @@
 
 #include "core/base/time_integration.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/sensitivity_settings.hpp"
 
 /// Everything that a problem file says, as plain structs.
 namespace pleuel {
@@ -185,6 +186,7 @@ struct ProblemFile {
   Scene scene;
   EffectSettings effects;
   SimulationSettings simulation;
+  SensitivitySettings sensitivity;
   std::vector<DesignVariable> variables;
   std::vector<ResponseSettings> responses;
   std::optional<Objective> objective;

@@ -25,9 +25,9 @@ std::vector<std::string> variable_names(const JsonNode& root) {
 }
 
 void read_heading(const JsonNode& root, ProblemFile& problem) {
-  root.allow_keys({"$schema", "name", "description", "scene", "effects", "simulation", "variables",
-                   "responses", "objective", "constraints", "optimizer", "pareto", "accuracy",
-                   "uncertainty"});
+  root.allow_keys({"$schema", "name", "description", "scene", "effects", "simulation",
+                   "sensitivity", "variables", "responses", "objective", "constraints", "optimizer",
+                   "pareto", "accuracy", "uncertainty"});
   if (const auto schema = root.find("$schema")) schema->text();
   if (const auto name = root.find("name")) problem.name = name->text();
   if (const auto description = root.find("description")) problem.description = description->text();
@@ -35,6 +35,9 @@ void read_heading(const JsonNode& root, ProblemFile& problem) {
 
 void read_settings(const JsonNode& root, const NumberReader& numbers, ProblemFile& problem) {
   if (const auto effects = root.find("effects")) problem.effects = read_effects(*effects);
+  if (const auto sensitivity = root.find("sensitivity")) {
+    problem.sensitivity = read_sensitivity(*sensitivity, numbers);
+  }
   if (const auto optimizer = root.find("optimizer")) problem.optimizer = read_optimizer(*optimizer);
   if (const auto pareto = root.find("pareto")) {
     problem.pareto = read_pareto(*pareto, problem, numbers);

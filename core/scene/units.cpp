@@ -37,6 +37,17 @@ void add_symbol(ut_system* system, const char* symbol, const std::string& defini
   }
 }
 
+/// The database has a byte that is 8, a pure number.
+void add_bytes(ut_system* system) {
+  const UnitHandle byte(ut_new_base_unit(system));
+  if (!byte || ut_map_symbol_to_unit("B", UT_UTF8, byte.get()) != UT_SUCCESS) {
+    throw std::runtime_error("the database of units takes no bytes");
+  }
+  add_symbol(system, "KiB", "1024 B");
+  add_symbol(system, "MiB", "1048576 B");
+  add_symbol(system, "GiB", "1073741824 B");
+}
+
 bool is_digit(char c) {
   return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
@@ -120,6 +131,7 @@ UnitSystem::UnitSystem() : database_(std::make_unique<Database>()) {
   add_symbol(database_->system.get(), "deg", "degree");
   add_symbol(database_->system.get(), "rev", "turn");
   add_symbol(database_->system.get(), "Nm", "N m");
+  add_bytes(database_->system.get());
 }
 
 UnitSystem::~UnitSystem() = default;

@@ -42,6 +42,7 @@ inline constexpr Quantity spring_stiffness{"a spring stiffness", "N/m"};
 inline constexpr Quantity damping_constant{"a damping constant", "N s/m"};
 inline constexpr Quantity torsional_stiffness{"a torsional stiffness", "N m/rad"};
 inline constexpr Quantity torsional_damping{"a torsional damping constant", "N m s/rad"};
+inline constexpr Quantity data{"an amount of memory", "B"};  ///< byte
 }  // namespace quantities
 
 /// The quantity of a number of a scene that has this SI unit, if there is one.
@@ -71,7 +72,8 @@ struct WrittenQuantity {
 /// Splits "120 mm". @throws UnitError if the text does not begin with a finite number.
 WrittenQuantity split_quantity(const std::string& text);
 
-/// The units that can be written: those of the UDUNITS-2 database and "deg", "rev", "Nm".
+/// The units that can be written: those of the UDUNITS-2 database and "deg", "rev", "Nm", and of
+/// memory "B" (with prefixes), "KiB", "MiB", "GiB".
 class UnitSystem {
  public:
   /// @throws std::runtime_error if the database of units cannot be read.

@@ -36,6 +36,28 @@ TEST(Optimize, GivesADocumentWithTheDocumentedKeys) {
   }
 }
 
+/// Whatever makes the gradients, the optimum is the same: within the tolerance of the optimizer.
+TEST(Optimize, MayUseAnyGradients) {
+  const TemporaryFolder folder;
+  const auto optimum = [&](const std::vector<std::string>& more) {
+    const ProgramRun run = run_program(folder.path(), quick_optimization(joined({"--json"}, more)));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return run.document();
+  };
+  const nlohmann::json chosen = optimum({});
+  EXPECT_EQ(chosen.at("gradients").at("method"), "direct");
+  for (const std::string method : {"adjoint", "central-difference"}) {
+    const nlohmann::json document = optimum({"--method", method});
+    EXPECT_EQ(document.at("gradients").at("method"), method);
+    EXPECT_EQ(document.at("gradients").at("reason"), "asked for");
+    const double expected = chosen.at("objective").at("value");
+    EXPECT_NEAR(document.at("objective").at("value"), expected, 1e-5 * expected) << method;
+  }
+  EXPECT_EQ(
+      optimum({"--set", R"(/sensitivity={"method": "adjoint"})"}).at("gradients").at("method"),
+      "adjoint");
+}
+
 TEST(Optimize, ShowsIterationsAndUnitsOfTheUser) {
   const TemporaryFolder folder;
   const ProgramRun run = run_program(folder.path(), quick_optimization({}));

@@ -49,6 +49,26 @@ TEST(PeakProblem, HasTheGradientOfTheWholeInItsWorstRow) {
   EXPECT_EQ(first, rows.constraints.size()) << "all four limits are on peaks";
 }
 
+/// Differences of each window's peak: those of the exact method, to their truncation.
+TEST(PeakProblem, HasTheGradientsOfDifferencesIfAsked) {
+  ProblemFile file = quick_problem("slider_crank_round");
+  DesignProblem exact(file);
+  file.sensitivity.method = GradientMethod::central_difference;
+  DesignProblem differenced(file, 2);
+  PeakProblem peaks(exact, 16), differenced_peaks(differenced, 16);
+  const Eigen::VectorXd x = 0.8 * start_design(file);
+  const Evaluation expected = peaks.evaluate(x, Request::values_and_gradients);
+  const Evaluation found = differenced_peaks.evaluate(x, Request::values_and_gradients);
+  EXPECT_EQ(differenced.method()->method, GradientMethod::central_difference);
+  EXPECT_EQ(found.constraints, expected.constraints);
+  const auto compare = [](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+    EXPECT_LE((a - b).lpNorm<Eigen::Infinity>(), 1e-5 * b.lpNorm<Eigen::Infinity>());
+    EXPECT_GT((a - b).lpNorm<Eigen::Infinity>(), 0.0);
+  };
+  compare(found.constraint_jacobian, expected.constraint_jacobian);
+  compare(found.objective_gradient, expected.objective_gradient);
+}
+
 TEST(PeakProblem, AddsTheMultipliersOfTheRowsOfAConstraint) {
   DesignProblem problem(quick_problem("slider_crank_round"));
   PeakProblem peaks(problem, 16);

@@ -35,7 +35,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadProblem{
             "/colour", "1",
-            R"(the problem has the unknown key "colour"; known are "$schema", "name", "description", "scene", "effects", "simulation", "variables", "responses", "objective", "constraints", "optimizer", "pareto", "accuracy" and "uncertainty")"},
+            R"(the problem has the unknown key "colour"; known are "$schema", "name", "description", "scene", "effects", "simulation", "sensitivity", "variables", "responses", "objective", "constraints", "optimizer", "pareto", "accuracy" and "uncertainty")"},
         BadProblem{
             "/scene/bodies/crank/section/heigth", "1",
             R"(/scene/bodies/crank/section has the unknown key "heigth"; did you mean "height"?)"},
@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(
             R"(/effects has the unknown key "torsion"; known are "spatial_motion", "geometric_stiffening", "rotary_inertia", "elasticity", "axial_elasticity", "torsional_elasticity" and "tolerance")"},
         BadProblem{
             "/robustness", "{}",
-            R"(the problem has the unknown key "robustness"; known are "$schema", "name", "description", "scene", "effects", "simulation", "variables", "responses", "objective", "constraints", "optimizer", "pareto", "accuracy" and "uncertainty")"},
+            R"(the problem has the unknown key "robustness"; known are "$schema", "name", "description", "scene", "effects", "simulation", "sensitivity", "variables", "responses", "objective", "constraints", "optimizer", "pareto", "accuracy" and "uncertainty")"},
         BadProblem{"/variables/width/lower", "remove",
                    R"(/variables/width is missing the key "lower")"},
         BadProblem{"/scene/joints/bearing/drive/ramp", "remove",
@@ -347,6 +347,22 @@ INSTANTIATE_TEST_SUITE_P(
             R"({"type": "position", "body": "slider", "at": 1, "direction": "x", "over_time": "final"})",
             R"(/responses/place/at is for beams only, but "slider" is none)"},
         BadProblem{"/responses/place/at", "remove", R"(/responses/place is missing the key "at")"},
+        BadProblem{
+            "/sensitivity/method", "\"central\"",
+            R"(/sensitivity/method must be "auto", "direct", "adjoint", "forward-difference" or "central-difference", got "central")"},
+        BadProblem{
+            "/sensitivity/invariant_derivatives", "\"dual\"",
+            R"(/sensitivity/invariant_derivatives must be "exact", "complex-step", "central" or "forward", got "dual")"},
+        BadProblem{
+            "/sensitivity", R"({"invariant_step": 1e-6})",
+            R"(/sensitivity/invariant_step is for the invariant derivatives "central" and "forward" only)"},
+        BadProblem{
+            "/sensitivity/memory", "\"512 kg\"",
+            R"(/sensitivity/memory must be an amount of memory [B], got "512 kg": "kg" measures something else)"},
+        BadProblem{"/sensitivity/memory", "0",
+                   "/sensitivity/memory must be positive [B], got 0"},
+        BadProblem{"/sensitivity/difference_step", "0",
+                   "/sensitivity/difference_step must be greater than 0 and less than 1, got 0"},
         BadProblem{"/optimizer/tolerance", "1",
                    "/optimizer/tolerance must be greater than 0 and less than 1, got 1"},
         BadProblem{"/optimizer/max_iterations", "0",

@@ -78,6 +78,10 @@ TEST_P(SliderCrank, IsSimulatedForTwoRevolutionsAfterTheRamp) {
   EXPECT_EQ(problem.simulation.end_time, 0.05 + 4.0 * pi / 200.0);
   EXPECT_EQ(problem.simulation.step, 2.5e-5);
   EXPECT_EQ(problem.simulation.spectral_radius, 0.8);
+  EXPECT_EQ(problem.sensitivity.method, GradientMethod::automatic);
+  EXPECT_EQ(problem.sensitivity.difference_step, 1e-5);
+  EXPECT_EQ(problem.sensitivity.invariants.derivatives, InvariantDerivatives::exact);
+  EXPECT_EQ(problem.sensitivity.memory, 4e9);
   EXPECT_EQ(problem.effects.geometric_stiffening, EffectChoice::on);
   EXPECT_EQ(problem.effects.spatial_motion, EffectChoice::automatic);
 }
@@ -202,6 +206,11 @@ TEST(GoodProblem, KeepsWhatItSaysInTheOrderOfTheFile) {
   EXPECT_NEAR(drive.speed.constant, 157.07963267948966, 1e-12);  // 1500 · 2π/60
   EXPECT_EQ(problem.simulation.newton_tolerance, 1e-10);
   EXPECT_EQ(problem.simulation.max_newton_iterations, 12);
+  EXPECT_EQ(problem.sensitivity.method, GradientMethod::central_difference);
+  EXPECT_EQ(problem.sensitivity.difference_step, 1e-4);
+  EXPECT_EQ(problem.sensitivity.invariants.derivatives, InvariantDerivatives::central);
+  EXPECT_EQ(problem.sensitivity.invariants.step, 1e-5);
+  EXPECT_EQ(problem.sensitivity.memory, 512e6);
   EXPECT_EQ(problem.optimizer.backend, "ipopt");
   EXPECT_EQ(problem.optimizer.max_iterations, 50);
   EXPECT_THAT(problem.accuracy->elements, ElementsAre(2, 4));
@@ -224,7 +233,7 @@ TEST(GoodProblem, HasItsResponses) {
 TEST(GoodProblem, MayOmitWhatHasADefault) {
   Json document = good_json();
   for (const char* key : {"$schema", "name", "description", "effects", "objective", "constraints",
-                          "optimizer", "pareto", "accuracy", "responses"}) {
+                          "sensitivity", "optimizer", "pareto", "accuracy", "responses"}) {
     document.erase(key);
   }
   document["scene"].erase("gravity");

@@ -222,6 +222,10 @@ TEST_F(ProblemSchema, RefusesWhatTheReaderRefuses) {
       {"/constraints/strength/upper", "remove"},
       {"/constraints/slender/response", "\"bow\""},
       {"/constraints/strength/deviations", "0"},
+      {"/sensitivity/method", "\"central\""},
+      {"/sensitivity/step", "1e-5"},
+      {"/sensitivity/invariant_derivatives", "\"dual\""},
+      {"/sensitivity/memory", "\"much\""},
       {"/optimizer/tolerance", "0"},
       {"/pareto/points", "1"},
       {"/accuracy/steps", "[]"}};

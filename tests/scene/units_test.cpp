@@ -57,7 +57,10 @@ INSTANTIATE_TEST_SUITE_P(
         Reading{"3 Nm", torque, 3.0}, Reading{"3 J", torque, 3.0},
         Reading{"4 kg m^2", inertia, 4.0}, Reading{"5 N m s", times_time(torque), 5.0},
         Reading{"5 mm s", times_time(length), 0.005}, Reading{"5 MPa s", times_time(stress), 5e6},
-        Reading{"0.3", pure_number, 0.3}, Reading{"30 %", pure_number, 0.3}));
+        Reading{"0.3", pure_number, 0.3}, Reading{"30 %", pure_number, 0.3},
+        Reading{"4096 B", data, 4096.0}, Reading{"1.5 kB", data, 1500.0},
+        Reading{"4 GB", data, 4e9}, Reading{"1 KiB", data, 1024.0},
+        Reading{"512 MiB", data, 536870912.0}, Reading{"2 GiB", data, 2147483648.0}));
 
 INSTANTIATE_TEST_SUITE_P(UnitsOfAngularSpeed, UnitReading,
                          testing::Values(Reading{"200 rad/s", angular_speed, 200.0},

@@ -139,6 +139,49 @@ SimulationSettings read_simulation(const JsonNode& node, const NumberReader& num
   return settings;
 }
 
+namespace {
+
+void read_invariant_derivatives(const JsonNode& node, InvariantDifferentiation& invariants) {
+  using enum InvariantDerivatives;
+  if (const auto derivatives = node.find("invariant_derivatives")) {
+    invariants.derivatives =
+        read_choice<InvariantDerivatives>(*derivatives, {{"exact", exact},
+                                                         {"complex-step", complex_step},
+                                                         {"central", central},
+                                                         {"forward", forward}});
+  }
+  const auto step = node.find("invariant_step");
+  if (!step) return;
+  if (invariants.derivatives != central && invariants.derivatives != forward) {
+    step->fail("is for the invariant derivatives \"central\" and \"forward\" only");
+  }
+  invariants.step = read_tolerance(*step);
+}
+
+}  // namespace
+
+SensitivitySettings read_sensitivity(const JsonNode& node, const NumberReader& numbers) {
+  node.allow_keys(
+      {"method", "difference_step", "invariant_derivatives", "invariant_step", "memory"});
+  SensitivitySettings settings;
+  if (const auto method = node.find("method")) {
+    settings.method = read_choice<GradientMethod>(
+        *method, {{"auto", GradientMethod::automatic},
+                  {"direct", GradientMethod::direct},
+                  {"adjoint", GradientMethod::adjoint},
+                  {"forward-difference", GradientMethod::forward_difference},
+                  {"central-difference", GradientMethod::central_difference}});
+  }
+  if (const auto step = node.find("difference_step")) {
+    settings.difference_step = read_tolerance(*step);
+  }
+  read_invariant_derivatives(node, settings.invariants);
+  if (const auto memory = node.find("memory")) {
+    settings.memory = numbers.fixed(*memory, quantities::data, Range::positive);
+  }
+  return settings;
+}
+
 OptimizerSettings read_optimizer(const JsonNode& node) {
   node.allow_keys({"backend", "tolerance", "max_iterations"});
   OptimizerSettings settings;

@@ -4,12 +4,15 @@
 #include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/number_reader.hpp"
 
-/// How to compute: effects, simulation, optimizer, accuracy, uncertainty. All throw InputError.
+/// How to compute: effects, simulation, sensitivity, optimizer, accuracy, uncertainty. All throw
+/// InputError.
 namespace pleuel {
 
 EffectSettings read_effects(const JsonNode& node);
 
 SimulationSettings read_simulation(const JsonNode& node, const NumberReader& numbers);
+
+SensitivitySettings read_sensitivity(const JsonNode& node, const NumberReader& numbers);
 
 /// Whether the backend is there is for the optimizer to say.
 OptimizerSettings read_optimizer(const JsonNode& node);

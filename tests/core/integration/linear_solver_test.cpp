@@ -120,4 +120,60 @@ TEST(LinearSolver, RecoversFromMatricesWithoutInverse) {
   }
 }
 
+/// With the pivots of a solver that has seen other matrices the same numbers come out, bit by bit;
+/// pivots chosen for the last of the matrices give others.
+TEST(LinearSolver, RepeatsWhatAnotherDidWithItsPivots) {
+  std::mt19937 random(11);
+  Eigen::MatrixXd first = random_matrix(random);
+  const Eigen::MatrixXd last = random_matrix(random);
+  first.diagonal().head(3) *= 1e-4;  // no pivots, while those of the last serve
+  LinearSolver solver(first.sparseView()), other(first.sparseView()), fresh(first.sparseView());
+  ASSERT_TRUE(solver.factorize(first.sparseView()));
+  const LinearSolver::Pivots pivots = solver.pivots();
+  EXPECT_EQ(solver.pivot_choices(), 1);
+  ASSERT_TRUE(solver.factorize(last.sparseView()));
+  ASSERT_EQ(solver.pivot_choices(), 1) << "the old pivots served";
+  ASSERT_TRUE(other.factorize(last.sparseView()));
+  other.use_pivots(pivots);
+  ASSERT_TRUE(other.factorize(last.sparseView()));
+  ASSERT_TRUE(fresh.factorize(last.sparseView()));
+  const auto solve = [](LinearSolver& with) {
+    Eigen::MatrixXd x = Eigen::MatrixXd::Ones(size, 1);
+    with.solve(x);
+    return x;
+  };
+  const Eigen::MatrixXd expected = solve(solver);
+  EXPECT_EQ(solve(other), expected);
+  EXPECT_NE(solve(fresh), expected);
+  other.use_pivots({});  // as at the beginning
+  ASSERT_TRUE(other.factorize(last.sparseView()));
+  EXPECT_EQ(solve(other), solve(fresh));
+}
+
+/// Blocks of many columns take another way than single ones, also through a matrix that falls into
+/// diagonal blocks with something above them.
+TEST(LinearSolver, SolvesForManyColumnsAsForEach) {
+  std::mt19937 random(5);
+  const Eigen::MatrixXd whole = random_matrix(random);
+  Eigen::MatrixXd parts = whole;
+  parts.bottomLeftCorner(size - 10, 10).setZero();
+  parts.bottomLeftCorner(8, size - 8).setZero();
+  for (const Eigen::MatrixXd& matrix : {whole, parts}) {
+    LinearSolver solver(matrix.sparseView());
+    for (const double factor : {1.0, 2.0}) {  // other factors on the same pivots
+      ASSERT_TRUE(solver.factorize((factor * matrix).sparseView()));
+      for (const bool is_transposed : {false, true}) {
+        const Eigen::MatrixXd rhs = Eigen::MatrixXd::Random(size, 40);
+        Eigen::MatrixXd x = rhs, expected = rhs;
+        is_transposed ? solver.solve_transposed(x) : solver.solve(x);
+        for (Eigen::Index j = 0; j < rhs.cols(); ++j) {
+          is_transposed ? solver.solve_transposed(expected.col(j)) : solver.solve(expected.col(j));
+        }
+        EXPECT_LE((x - expected).lpNorm<Eigen::Infinity>(),
+                  1e-12 * expected.lpNorm<Eigen::Infinity>());
+      }
+    }
+  }
+}
+
 }  // namespace

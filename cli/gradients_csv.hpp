@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+
+#include "core/response/response.hpp"
+
+namespace pleuel {
+
+/// One line an instant: time, then each response's history and its derivatives with respect to all
+/// variables, at the place where the response is taken [SI].
+/// @throws SimulationError
+void write_history_gradients(const std::filesystem::path& path, const ProblemFile& problem,
+                             Analysis& analysis);
+
+}  // namespace pleuel

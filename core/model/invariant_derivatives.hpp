@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cmath>
+#include <complex>
+
+#include "core/model/body_builder.hpp"
+
+namespace pleuel {
+
+/// (a − b)/dx of all numbers of invariants on one pattern.
+Invariants<double> difference_quotient(const Invariants<double>& a, const Invariants<double>& b,
+                                       double dx);
+
+/// The relative step of differences: as given, else that which balances truncation and round-off
+/// of a smooth function, ε^(1/3) for central and ε^(1/2) for forward ones.
+double relative_step(const InvariantDifferentiation& differentiation);
+
+/// Derivative of a body's invariants with respect to a variable, in the way that is asked for:
+///     dI/dx = Im I(x + iδ)/δ,  (I(x + Δ) − I(x − Δ))/2Δ,  (I(x + Δ) − I(x))/Δ
+/// or by dual numbers.
+/// @param invariants_at  invariants at a design of any scalar type
+template <class Function>
+Invariants<double> differentiate_invariants(const BuildContext& context, int variable,
+                                            const Function& invariants_at) {
+  const InvariantDifferentiation& how = context.differentiation;
+  const auto j = static_cast<std::size_t>(variable);
+  if (how.derivatives == InvariantDerivatives::exact) {
+    return derivative_of(invariants_at(context.seeded(variable)));
+  }
+  if (how.derivatives == InvariantDerivatives::complex_step) {
+    constexpr double tiny = 1e-40;
+    Design<std::complex<double>> design(context.design.begin(), context.design.end());
+    design[j] += std::complex<double>(0.0, tiny);
+    return transform_invariants<double>(
+        invariants_at(design),
+        [](const std::complex<double>& number) { return number.imag() / tiny; });
+  }
+  const double x = context.design[j];
+  const double change = relative_step(how) * (x == 0.0 ? 1.0 : std::abs(x));
+  const bool is_central = how.derivatives == InvariantDerivatives::central;
+  Design<double> upper = context.design, lower = context.design;
+  upper[j] += change;
+  if (is_central) lower[j] -= change;
+  return difference_quotient(invariants_at(upper), invariants_at(lower), upper[j] - lower[j]);
+}
+
+}  // namespace pleuel

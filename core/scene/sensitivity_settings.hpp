@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+
+namespace pleuel {
+
+enum class GradientMethod {
+  automatic,  ///< direct or adjoint, whichever is cheaper (sensitivity/method_choice.hpp)
+  direct,
+  adjoint,
+  forward_difference,
+  central_difference
+};
+
+/// "auto", "direct", "adjoint", "forward-difference", "central-difference".
+std::string to_string(GradientMethod method);
+
+/// @throws InputError for an unknown name; the message lists the names there are.
+GradientMethod gradient_method(const std::string& name);
+
+/// How the derivatives of a body's invariants with respect to the design come about.
+enum class InvariantDerivatives {
+  exact,         ///< dual numbers
+  complex_step,  ///< exact to round-off, too
+  central,       ///< differences of the invariants of two changed designs
+  forward        ///< of one changed design and this one
+};
+
+/// "exact", "complex-step", "central", "forward".
+std::string to_string(InvariantDerivatives derivatives);
+
+struct InvariantDifferentiation {
+  InvariantDerivatives derivatives = InvariantDerivatives::exact;
+  /// Of differences, relative: Δx = step · |x|. 0: as large as balances truncation and round-off.
+  double step = 0.0;
+};
+
+struct SensitivitySettings {
+  GradientMethod method = GradientMethod::automatic;
+  /// Of gradients by differences of simulations, relative: Δx = step · |x|.
+  double difference_step = 1e-5;
+  InvariantDifferentiation invariants;
+  /// What the states of a trajectory may take [byte]; where they do not fit, stretches of it are
+  /// simulated again when they are needed.
+  double memory = 4e9;
+};
+
+}  // namespace pleuel

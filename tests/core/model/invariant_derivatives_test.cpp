@@ -1,0 +1,154 @@
+#include "core/model/invariant_derivatives.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/convergence.hpp"
+#include "tests/support/differences.hpp"
+#include "tests/support/sample_scenes.hpp"
+
+namespace {
+
+using namespace pleuel;
+using enum InvariantDerivatives;
+
+Number variable(int index) {
+  return Number::bound(index);
+}
+
+struct NamedSection {
+  const char* name;
+  Section section;
+  std::vector<double> sizes;
+};
+
+/// One of every type, all sizes variables.
+std::vector<NamedSection> all_sections() {
+  const std::vector<GeneralStressPoint> points = {{0.01, 0.01, 2e5}};
+  return {
+      {"rectangle", RectangleSection{variable(0), variable(1)}, {0.02, 0.03}},
+      {"circle", CircleSection{variable(0)}, {0.03}},
+      {"tube", TubeSection{variable(0), variable(1)}, {0.03, 0.004}},
+      {"ellipse", EllipseSection{variable(0), variable(1)}, {0.02, 0.03}},
+      {"box", BoxSection{variable(0), variable(1), variable(2)}, {0.03, 0.04, 0.003}},
+      {"i",
+       ISection{variable(0), variable(1), variable(2), variable(3)},
+       {0.04, 0.08, 0.005, 0.004}},
+      {"general",
+       GeneralSection{variable(0), variable(1), variable(2), variable(3), points},
+       {6e-4, 2e-8, 4.5e-8, 4.7e-8}},
+  };
+}
+
+/// A beam oblique in space whose end, material and damping are variables, too: the first number
+/// after the sizes of the section is the x of its end.
+SampleScene beam_of(const NamedSection& named, ReferenceCondition frame) {
+  SampleScene sample;
+  sample.scene = swinging_beam(0.7, named.section, 3);
+  sample.effects.spatial_motion = EffectChoice::on;
+  sample.design = named.sizes;
+  const auto next = [&](double start) {
+    sample.design.push_back(start);
+    return variable(static_cast<int>(sample.design.size()) - 1);
+  };
+  auto& beam = std::get<BeamBody>(sample.scene.bodies[0].shape);
+  beam.frame = frame;
+  beam.to = {next(0.6), Number(0.2), next(0.1)};
+  Material& steel = sample.scene.materials[0];
+  steel.young = next(2.1e11);
+  steel.poisson = next(0.3);
+  steel.density = next(7850.0);
+  beam.damping = {next(0.5), next(1e-5)};
+  return sample;
+}
+
+std::vector<DesignDerivative<Invariants<double>>> derivatives_of(
+    const SampleScene& sample, const std::string& body, const InvariantDifferentiation& how) {
+  return build_model(sample.scene, sample.effects, sample.design, sample.design, how)
+      .body(body)
+      .invariants_x;
+}
+
+/// The worst of all parts, each relative to its largest entry or, where it hardly depends on the
+/// variable, to its value per relative change of it. A mean axis leaves of ∫ρS and ∫ρ p₀ S nothing
+/// but round-off: there the mass counts.
+double error_of(const Invariants<double>& found, const Invariants<double>& expected,
+                const Invariants<double>& value, double x) {
+  using I = Invariants<double>;
+  const auto part = [&](auto member, double least = 0.0) {
+    const auto &a = found.*member, &b = expected.*member, &c = value.*member;
+    if (b.size() == 0) return 0.0;
+    const double natural = std::max(c.template lpNorm<Eigen::Infinity>(), least) / std::abs(x);
+    const double size = std::max(b.template lpNorm<Eigen::Infinity>(), natural);
+    const double largest = (a - b).template lpNorm<Eigen::Infinity>();
+    return size > 0.0 ? largest / size : largest;
+  };
+  const double of_mass = std::abs(found.mass - expected.mass) * std::abs(x) / value.mass;
+  return std::max({of_mass, part(&I::first_moment), part(&I::second_moment),
+                   part(&I::shape, value.mass), part(&I::mixed, value.mass), part(&I::moments),
+                   part(&I::mass_matrix), part(&I::stiffness), part(&I::damping)});
+}
+
+/// The largest of all variables of a body.
+double error_of(const SampleScene& sample, const std::string& body,
+                const InvariantDifferentiation& how) {
+  const Model model = sample.build();
+  const BodyModel& built = model.body(body);
+  const auto found = derivatives_of(sample, body, how);
+  EXPECT_EQ(found.size(), built.invariants_x.size());
+  double worst = 0.0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].variable, built.invariants_x[i].variable);
+    const double x = sample.design[static_cast<std::size_t>(found[i].variable)];
+    worst =
+        std::max(worst, error_of(found[i].data, built.invariants_x[i].data, built.invariants, x));
+  }
+  return worst;
+}
+
+TEST(InvariantDerivatives, OfTheComplexStepAreExactForEverySectionAndFrame) {
+  for (const NamedSection& section : all_sections()) {
+    for (auto frame : {ReferenceCondition::tangent, ReferenceCondition::tangent_end,
+                       ReferenceCondition::chord, ReferenceCondition::mean_axis}) {
+      SCOPED_TRACE(section.name);
+      EXPECT_LE(error_of(beam_of(section, frame), "beam", {complex_step}), 1e-13);
+    }
+  }
+}
+
+/// Rigid bodies, point masses and beams with modes, whose basis is differentiated from the
+/// derivatives of mass and stiffness (1.4e-15 was measured here and above).
+TEST(InvariantDerivatives, OfTheComplexStepAreExactForEveryKindOfBody) {
+  for (const SampleScene& sample : all_samples()) {
+    SCOPED_TRACE(sample.name);
+    for (const Body& body : sample.scene.bodies) {
+      EXPECT_LE(error_of(sample, body.name, {complex_step}), 1e-13) << body.name;
+    }
+  }
+}
+
+TEST(InvariantDerivatives, ByDifferencesErrByTheOrderOfTheirStep) {
+  const SampleScene sample = beam_of(all_sections()[0], ReferenceCondition::mean_axis);
+  const auto expected = derivatives_of(sample, "beam", {exact});
+  const std::vector<double> steps = {4e-3, 2e-3, 1e-3};
+  for (const auto& [derivatives, order] : {std::pair(forward, 1.0), std::pair(central, 2.0)}) {
+    for (const std::size_t i : {0u, 1u, 2u}) {  // width, height, x of the end: not linear
+      std::vector<double> errors;
+      for (const double step : steps) {
+        const auto found = derivatives_of(sample, "beam", {derivatives, step});
+        errors.push_back(relative_difference(found[i].data.stiffness, expected[i].data.stiffness));
+      }
+      EXPECT_NEAR(observed_order(steps, errors), order, 0.02) << "variable " << i;
+      EXPECT_LE(errors.back(), 10 * std::pow(steps.back(), order)) << "variable " << i;
+    }
+  }
+}
+
+/// Round-off ε/s and truncation, s or s², where they balance.
+TEST(InvariantDerivatives, ByDifferencesAreGoodWithoutAGivenStep) {
+  const SampleScene sample = beam_of(all_sections()[0], ReferenceCondition::chord);
+  EXPECT_LE(error_of(sample, "beam", {central}), 1e-9);
+  EXPECT_LE(error_of(sample, "beam", {forward}), 1e-6);
+  EXPECT_GT(error_of(sample, "beam", {forward}), 1e-9);
+}
+
+}  // namespace

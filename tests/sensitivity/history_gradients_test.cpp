@@ -1,0 +1,82 @@
+#include "sensitivity/history_gradients.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sensitivity/gradients.hpp"
+#include "tests/support/problem_runs.hpp"
+
+namespace {
+
+using namespace pleuel;
+
+class Histories : public testing::Test {
+ protected:
+  Histories()
+      : problem_(sample_problem(
+            "slider_crank",
+            {"/simulation/end_time=20 ms", "/simulation/step=0.1 ms",
+             "/scene/joints/bearing/drive/ramp=20 ms", "/simulation/newton_tolerance=1e-13",
+             R"(/responses/balance={"type": "energy-balance"})",
+             R"(/responses/lag={"type": "deflection", "body": "rod", "at": 0.5, "direction": "y",)"
+             R"( "against": "rigid-mechanism", "over_time": "rms"})"})),
+        x_(start_design(problem_)),
+        analysis_(analyze(problem_, x_)),
+        histories_(history_gradients(*analysis_)) {}
+
+  ProblemFile problem_;
+  Eigen::VectorXd x_;
+  std::unique_ptr<Analysis> analysis_;
+  std::vector<HistoryGradients> histories_;
+};
+
+/// Central differences of the simulated histories, extrapolated once; largest over time and
+/// variables, relative to the largest derivative by a relative change of a variable. Balances and
+/// positions are small differences of large numbers: what counts there is the round-off of the
+/// energy (100 J) and of the mechanism's size over the step.
+TEST_F(Histories, HaveTheDerivativesOfCentralDifferences) {
+  ASSERT_EQ(histories_.size(), analysis_->responses.size() - 1) << "all but the mass";
+  const auto differences = [&](const HistoryGradients& history, double step) {
+    return central_differences(problem_, x_, step, 1, [&](const Analysis& analysis) {
+      return Eigen::VectorXd(analysis.histories[history.response].row(history.place).transpose());
+    });
+  };
+  for (const HistoryGradients& history : histories_) {
+    const Response& response = analysis_->responses[history.response];
+    const Eigen::MatrixXd found = history.gradients * x_.asDiagonal();
+    const Eigen::MatrixXd expected =
+        (4 * differences(history, 5e-4) - differences(history, 1e-3)) / 3 * x_.asDiagonal();
+    double round_off = 0.0;
+    if (response.is_balance) round_off = 1e-9 * 100;
+    if (response.name == "slider_end") round_off = 1e-12;
+    EXPECT_LE((found - expected).lpNorm<Eigen::Infinity>(),
+              1e-6 * expected.lpNorm<Eigen::Infinity>() + round_off)
+        << response.name;
+  }
+}
+
+/// Where a value is that of one instant or of all, its gradient is what the history says.
+TEST_F(Histories, LeadToTheGradientsOfTheValues) {
+  const Eigen::MatrixXd gradients = direct_gradients(*analysis_);
+  const Eigen::VectorXd& time = analysis_->trajectory.time;
+  for (const HistoryGradients& history : histories_) {
+    const Response& response = analysis_->responses[history.response];
+    const auto row = static_cast<Eigen::Index>(history.response);
+    const Eigen::RowVectorXd last = history.gradients.bottomRows(1);
+    Eigen::RowVectorXd expected;
+    if (response.over_time == OverTime::final || response.is_balance) expected = last;
+    if (response.name == "torque_rms") {
+      const Eigen::VectorXd& y = history.values;  // equal steps: trapezoidal weights
+      Eigen::VectorXd weights = Eigen::VectorXd::Constant(y.size(), 1.0 / double(y.size() - 1));
+      weights(0) = weights(y.size() - 1) = 0.5 / double(y.size() - 1);
+      const double rms = std::sqrt(weights.dot(y.cwiseAbs2()));
+      expected = weights.cwiseProduct(y).transpose() * history.gradients / rms;
+    }
+    if (expected.size() == 0) continue;
+    EXPECT_LE((gradients.row(row) - expected).lpNorm<Eigen::Infinity>(),
+              1e-9 * expected.lpNorm<Eigen::Infinity>())
+        << response.name;
+  }
+  EXPECT_EQ(time.size(), histories_.front().gradients.rows());
+}
+
+}  // namespace
