@@ -58,11 +58,12 @@ def curve(points, column, end, style):
 
 def legend(names, styles):
     parts = []
-    for i, (name, (colour, dash)) in enumerate(zip(names, styles)):
-        x = i * 198
+    x = 0
+    for name, (colour, dash) in zip(names, styles):
         parts.append(f'<path d="M{x} 0h36" stroke="{colour}" stroke-width="2.5" '
                      f'stroke-dasharray="{dash}"/>')
         parts.append(text(x + 44, 5, name, "start"))
+        x += 78 + 7 * len(name)
     return parts
 
 
