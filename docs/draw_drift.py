@@ -10,8 +10,8 @@ import sys
 
 WIDTH, HEIGHT = 420, 300  # of a panel [pixels]
 LOWEST, HIGHEST = -19, 1  # powers of ten
-COLOURS = ["#4c78a8", "#54a24b", "#e45756", "#f58518"]
-DASHES = ["", "6 3", "", "6 3"]
+COLOURS = ["#4c78a8", "#54a24b", "#e45756", "#f58518", "#7b5ea7"]
+DASHES = ["", "6 3", "", "6 3", "2 2"]
 
 
 def read(path):
@@ -58,11 +58,12 @@ def curve(points, column, end, style):
 
 def legend(names, styles):
     parts = []
-    for i, (name, (colour, dash)) in enumerate(zip(names, styles)):
-        x = i * 235
+    x = 0
+    for name, (colour, dash) in zip(names, styles):
         parts.append(f'<path d="M{x} 0h36" stroke="{colour}" stroke-width="2.5" '
                      f'stroke-dasharray="{dash}"/>')
         parts.append(text(x + 44, 5, name, "start"))
+        x += 78 + 7 * len(name)
     return parts
 
 
@@ -81,7 +82,7 @@ def main():
         for points, style in zip(curves.values(), styles):
             print(curve(points, i + 1, end, style))
         print("</g>")
-    print('<g transform="translate(70 425)">')
+    print('<g transform="translate(20 425)">')
     print("\n".join(legend(curves, styles)))
     print("</g>\n</svg>")
 

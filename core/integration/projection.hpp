@@ -5,13 +5,14 @@
 
 namespace pleuel {
 
-/// What ends a step of index 1 that is to keep its joints together: the changes of positions and
-/// velocities of least kinetic energy that lead back to the constraints (Hairer & Wanner 1996,
-/// ch. VII.2; M and Φ_q of where the step ended, so that one matrix serves both),
-///     q* = q ⊕ δ,   M(q) δ + Φ_q(q)ᵀ η = 0,   Φ(q*) = 0
-///     v* = v + ε,   M(q) ε + Φ_q(q)ᵀ ν = 0,   Φ̇(q*, v*) = 0
-/// It changes q and v by what the step erred in them, so that the scheme keeps its order; −ν are
-/// the impulses of a velocity that jumps. a and λ stay as they are.
+/// What ends a step of index 1 that is to keep its joints together: the smallest changes of
+/// positions and velocities that lead back to the constraints (Hairer & Wanner 1996, ch. VII.2),
+///     q* = q ⊕ δ,   W δ + Φ_q(q)ᵀ η = 0,        Φ(q*) = 0
+///     v* = v + ε,   M(q*) ε + Φ_q(q*)ᵀ ν = 0,   Φ̇(q*, v*) = 0
+/// Positions by the weights W of the assembly, which move frames rather than deform bodies; with
+/// masses it would be the light nodes at the joints of stiff members that give way, to ring. But
+/// velocities by masses: −ν are then the impulses of a velocity that jumps. What changes is what
+/// the step erred, so that the scheme keeps its order. a and λ stay as they are.
 class Projection {
  public:
   explicit Projection(Mechanism& mechanism);
@@ -33,40 +34,46 @@ class Projection {
   void pull_back(Columns q, Columns v, Columns sums);
 
  private:
+  /// The change of positions or of velocities, and the multipliers that make it.
+  struct Change {
+    Eigen::VectorXd move, multipliers;
+    void set_zero(const System& system);
+  };
   bool close_positions();
   bool close_velocities();
-  /// Adds to a move and its multipliers what closes constraints that are open by the tail of
-  /// residual_. @returns its size relative to the scale of the coordinates
-  double correct(Eigen::VectorXd& move, Eigen::VectorXd& multipliers);
-  void set_solver(const System::Matrix& rows, LinearSolver& solver);
-  /// M(q) move + Φ_q(q)ᵀ multipliers, which is what of R is linear in a and λ.
+  /// Adds to a change what closes constraints that are open by the tail of residual_. @returns its
+  /// size relative to the scale of the coordinates
+  double correct(LinearSolver& solver, Change& change);
+
+  /// M a + Φ_qᵀ λ at rest: what of R is linear in both.
   struct Pull {
-    const Eigen::VectorXd &move, &multipliers;
+    State& at_rest;  ///< v, a and λ zero
+    const Eigen::VectorXd &a, &lambda;
+    void hold() const;
+    void release() const;
   };
-  void set_pull_tangent(const Pull& pull, System::Matrix& tangent);
-  Eigen::MatrixXd pull_x(const Pull& pull);
-  void add_pull_sums(const Pull& pull, const ConstColumns& mu, Columns sums);
-  void hold(const Pull& pull);
-  void release();
+  Pull pull_of_positions() { return {drifted_, zero_, delta_.multipliers}; }
+  Pull pull_of_velocities() { return {at_rest_, epsilon_.move, epsilon_.multipliers}; }
+  void set_tangent(const Pull& pull, System::Matrix& tangent);
+  Eigen::MatrixXd design_derivative(const Pull& pull);
+  void add_sums(const Pull& pull, const ConstColumns& mu, Columns sums);
   void add_constraint_sums(ConstraintLevel level, const ConstColumns& mu, Columns sums);
 
   Mechanism& mechanism_;
   System& system_;
   System::Matrix matrix_;
-  LinearSolver solver_;
-  State drifted_;  ///< before, with v, a and λ zero
+  LinearSolver position_solver_, velocity_solver_;
+  State drifted_, at_rest_;  ///< before and after, with v, a and λ zero
   State projected_;
   Eigen::VectorXd start_;  ///< velocities before
-  Eigen::VectorXd delta_, eta_, epsilon_, nu_;
-  Eigen::VectorXd residual_, step_;
+  Change delta_, epsilon_;
+  Eigen::VectorXd residual_, step_, zero_;
 
   // Of linearize():
-  LinearSolver velocity_solver_;
   System::Matrix position_rows_;  ///< Φ_q(q*) T(δ)
   System::Matrix velocity_rows_;  ///< Φ_q(q*)
   System::Matrix rate_rows_;      ///< Φ̇_q(q*, v*)
-  /// (M δ + Φ_qᵀ η)_q and (M ε + Φ_qᵀ ν)_q.
-  System::Matrix pull_q_of_positions_, pull_q_of_velocities_;
+  System::Matrix pull_of_positions_q_, pull_of_velocities_q_;
   System::Matrix scratch_;
 };
 

@@ -76,7 +76,7 @@ std::string case_name(const testing::TestParamInfo<HardGradient::ParamType>& inf
 
 /// Limits: measured times ten. Where they are above 1e-8, round-off of the differences is
 /// amplified: by the many steps of a coasting mechanism, by stiffness, by vibrations that nothing
-/// damps.
+/// damps, by the torque of a jump, hundreds of times its mean.
 INSTANTIATE_TEST_SUITE_P(
     Problems, HardGradient,
     testing::Combine(
@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
                          {"/simulation/end_time=20", "/responses/last_peak/from=18"},
                          4e-8},
             GradientCase{"flyball_governor", "flyball_governor", {"/simulation/end_time=1"}, 1e-8},
-            GradientCase{"velocity_jump", "velocity_jump", {}, 1e-8},
+            GradientCase{"velocity_jump", "velocity_jump", {}, 1.2e-5},
             // Loads out of the plane, which redundant joints share.
             GradientCase{
                 "redundant",
