@@ -6,6 +6,8 @@
 
 #include <klu.h>
 
+#include "core/integration/block_factors.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -14,6 +16,9 @@ namespace {
 constexpr double round_off = 1e-14;
 /// Where refinement leaves more than this, the pivots are no good.
 constexpr double poor = 1e-10;
+
+/// With so many right-hand sides the factors are copied for all of them at once.
+constexpr Eigen::Index least_columns = 16;
 
 using Block = Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
@@ -39,6 +44,8 @@ struct LinearSolver::Implementation {
   Eigen::MatrixXd rhs, residual;              ///< scratch
   Eigen::VectorXd summed_x, summed_residual;  ///< scratch
   double backward_error = 0.0;
+  BlockFactors factors;
+  bool are_factors_copied = false;
 
   int* starts() { return matrix.outerIndexPtr(); }
   int* rows() { return matrix.innerIndexPtr(); }
@@ -77,6 +84,7 @@ struct LinearSolver::Implementation {
     if (numeric == nullptr) return false;
     take(unscaled);
     has_new_pivots = false;
+    are_factors_copied = false;
     const bool done = klu_refactor(starts(), rows(), values(), symbolic, numeric, &common) != 0;
     if (!done || common.status != KLU_OK) return false;
     klu_rcond(symbolic, numeric, &common);
@@ -92,6 +100,7 @@ struct LinearSolver::Implementation {
 
   bool choose_pivots() {
     has_new_pivots = true;
+    are_factors_copied = false;
     ++pivot_choices;
     pivoted_values = Eigen::Map<const Eigen::VectorXd>(values(), matrix.nonZeros());
     klu_free_numeric(&numeric, &common);
@@ -102,7 +111,25 @@ struct LinearSolver::Implementation {
     return std::isfinite(common.rcond) && common.rcond > 0.0;
   }
 
+  void copy_factors() {
+    BlockFactors& to = factors;
+    to.resize(symbolic->n, numeric->lnz, numeric->unz, numeric->nzoff, symbolic->nblocks);
+    const int done = klu_extract(
+        numeric, symbolic, to.lower.starts.data(), to.lower.rows.data(), to.lower.values.data(),
+        to.upper.starts.data(), to.upper.rows.data(), to.upper.values.data(),
+        to.above.starts.data(), to.above.rows.data(), to.above.values.data(), to.row_order.data(),
+        to.column_order.data(), nullptr, to.blocks.data(), &common);
+    assert(done != 0);
+    static_cast<void>(done);
+    are_factors_copied = true;
+  }
+
   void solve_scaled(bool is_transposed, Block x) {
+    if (x.cols() >= least_columns) {
+      if (!are_factors_copied) copy_factors();
+      is_transposed ? factors.solve_transposed(x) : factors.solve(x);
+      return;
+    }
     (is_transposed ? klu_tsolve : klu_solve)(symbolic, numeric, static_cast<int>(x.outerStride()),
                                              static_cast<int>(x.cols()), x.data(), &common);
   }

@@ -9,7 +9,8 @@ namespace pleuel {
 /// Sparse LU of matrices with one fixed pattern (KLU: Davis & Palamadai Natarajan 2010): the
 /// ordering once, then numeric refactorisation with the old pivots. Rows and columns are scaled by
 /// powers of two. Pivots and scales are chosen anew where the condition has become worse by a lot,
-/// pivots also where the residual of a solution shows that they are poor.
+/// pivots also where the residual of a solution shows that they are poor. Many right-hand sides are
+/// solved for by rows (block_factors.hpp).
 class LinearSolver {
  public:
   using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
