@@ -3,38 +3,41 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <klu.h>
 
 namespace pleuel {
 
-/// The factors of KLU, P A Q = L U + F with F above the diagonal blocks, for many right-hand sides
-/// at once. KLU takes them by four; here an entry of a factor meets a whole row of them, which the
-/// processor does in vectors. Pays from a dozen columns on, with what it costs to copy the factors.
-class BlockFactors {
- public:
+/// A factor by compressed columns.
+struct ColumnFactor {
+  std::vector<int> starts, rows;
+  std::vector<double> values;
+};
+
+/// Factors P A Q = L U + F of a sparse matrix, with F above the diagonal blocks, for many
+/// right-hand sides at once: an entry of a factor meets a whole row of them, which the processor
+/// does in vectors, while KLU takes them by four. Pays from a dozen columns on, with what it costs
+/// to copy the factors.
+struct BlockFactors {
   using Block = Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
-  /// Copies the factors of a factorisation without scales.
-  void copy(klu_symbolic* symbolic, klu_numeric* numeric, klu_common* common);
+  ColumnFactor lower;                        ///< L, ones on the diagonal, first in their columns
+  ColumnFactor upper;                        ///< U, the diagonal last in its column
+  ColumnFactor above;                        ///< F
+  std::vector<int> row_order, column_order;  ///< row or column of A for each of P A Q
+  std::vector<int> blocks;                   ///< where they begin, and the end of the last one
 
+  /// For factors with so many entries.
+  void resize(int size, int lower_entries, int upper_entries, int entries_above, int block_count);
+
+  /// x ← A⁻¹ x
   void solve(Block x);
+  /// x ← A⁻ᵀ x
   void solve_transposed(Block x);
 
  private:
-  /// By compressed columns.
-  struct Factor {
-    std::vector<int> starts, rows;
-    std::vector<double> values;
-    void resize(int columns, int entries);
-  };
+  int size() const { return static_cast<int>(row_order.size()); }
   auto row(int k) { return rows_.row(k); }
-  void subtract(const Factor& factor, int entry, int from, int to);
+  void subtract(const ColumnFactor& factor, int entry, int from, int to);
 
-  int size_ = 0;
-  Factor lower_;  ///< ones on the diagonal, first in their columns
-  Factor upper_;  ///< the diagonal is last in its column
-  Factor above_;  ///< F
-  std::vector<int> row_order_, column_order_, blocks_;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows_;  ///< permuted
 };
 

@@ -111,10 +111,22 @@ struct LinearSolver::Implementation {
     return std::isfinite(common.rcond) && common.rcond > 0.0;
   }
 
+  void copy_factors() {
+    BlockFactors& to = factors;
+    to.resize(symbolic->n, numeric->lnz, numeric->unz, numeric->nzoff, symbolic->nblocks);
+    const int done = klu_extract(
+        numeric, symbolic, to.lower.starts.data(), to.lower.rows.data(), to.lower.values.data(),
+        to.upper.starts.data(), to.upper.rows.data(), to.upper.values.data(),
+        to.above.starts.data(), to.above.rows.data(), to.above.values.data(), to.row_order.data(),
+        to.column_order.data(), nullptr, to.blocks.data(), &common);
+    assert(done != 0);
+    static_cast<void>(done);
+    are_factors_copied = true;
+  }
+
   void solve_scaled(bool is_transposed, Block x) {
     if (x.cols() >= least_columns) {
-      if (!are_factors_copied) factors.copy(symbolic, numeric, &common);
-      are_factors_copied = true;
+      if (!are_factors_copied) copy_factors();
       is_transposed ? factors.solve_transposed(x) : factors.solve(x);
       return;
     }
@@ -150,7 +162,6 @@ struct LinearSolver::Implementation {
   /// With the scaled rhs in x.
   void solve_and_refine(bool is_transposed, Block x) {
     rhs = x;
-    residual.resizeLike(rhs);  // here, not in the step that first needs it
     solve_scaled(is_transposed, x);
     estimate_backward_error(is_transposed, x);
     if (backward_error <= round_off) return;

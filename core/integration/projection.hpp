@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "core/integration/linear_solver.hpp"
 #include "core/integration/mechanism.hpp"
 
@@ -20,8 +22,8 @@ class Projection {
   /// Projects q and v of a state. Allocates nothing. @returns whether it has converged
   bool apply(State& state);
 
-  /// Of the projection itself: what its results depend on besides the state.
-  LinearSolver& solver() { return solver_; }
+  /// Of positions and of velocities: what results depend on besides the state.
+  std::array<LinearSolver*, 2> solvers() { return {&position_solver_, &velocity_solver_}; }
 
   // Sensitivities, at a state before the projection.
 

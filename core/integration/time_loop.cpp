@@ -121,11 +121,23 @@ void TimeLoop::KeptPivots::give(const std::shared_ptr<const LinearSolver::Pivots
   choice = solver.pivot_choices();
 }
 
+std::vector<LinearSolver*> TimeLoop::solvers() {
+  std::vector<LinearSolver*> all = {&solver_};
+  if (projection_) {
+    for (LinearSolver* solver : projection_->solvers()) all.push_back(solver);
+  }
+  return all;
+}
+
 TimeLoop::Checkpoint TimeLoop::checkpoint(int unit) {
-  kept_.take(solver_);
-  if (projection_) kept_of_projection_.take(projection_->solver());
-  return {instant(),     unit,   state_,       curvature_,
-          worst_pivots_, level_, kept_.pivots, kept_of_projection_.pivots};
+  const std::vector<LinearSolver*> all = solvers();
+  kept_.resize(all.size());
+  Checkpoint checkpoint{instant(), unit, state_, curvature_, worst_pivots_, level_, {}};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    kept_[i].take(*all[i]);
+    checkpoint.pivots.push_back(kept_[i].pivots);
+  }
+  return checkpoint;
 }
 
 void TimeLoop::restore(const Checkpoint& checkpoint) {
@@ -133,10 +145,8 @@ void TimeLoop::restore(const Checkpoint& checkpoint) {
   curvature_ = checkpoint.curvature;
   worst_pivots_ = checkpoint.worst_pivots;
   level_ = checkpoint.level;
-  kept_.give(checkpoint.pivots, solver_);
-  if (projection_) {
-    kept_of_projection_.give(checkpoint.projection_pivots, projection_->solver());
-  }
+  const std::vector<LinearSolver*> all = solvers();
+  for (std::size_t i = 0; i < all.size(); ++i) kept_[i].give(checkpoint.pivots[i], *all[i]);
   stored_ = checkpoint.instant;
   window_.clear(stored_);
   store();

@@ -45,7 +45,7 @@ class TimeLoop {
     StepState state;
     double curvature, worst_pivots;
     int level;
-    std::shared_ptr<const LinearSolver::Pivots> pivots, projection_pivots;
+    std::vector<std::shared_ptr<const LinearSolver::Pivots>> pivots;  ///< one a solver
   };
 
   /// @param unit  the last one
@@ -63,6 +63,9 @@ class TimeLoop {
     void take(const LinearSolver& solver);
     void give(const std::shared_ptr<const LinearSolver::Pivots>& from, LinearSolver& solver);
   };
+
+  /// That of the steps, and those of the projection.
+  std::vector<LinearSolver*> solvers();
 
   void store();
 
@@ -149,7 +152,7 @@ class TimeLoop {
   Eigen::Index stored_ = 0;       ///< instants of the trajectory
   Trajectory trajectory_;         ///< all but the states
   StateWindow window_;            ///< the states of some instants, or of all
-  KeptPivots kept_, kept_of_projection_;
+  std::vector<KeptPivots> kept_;  ///< one a solver
 };
 
 }  // namespace pleuel
