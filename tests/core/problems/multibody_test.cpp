@@ -3,40 +3,16 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
-#include "core/beam/elastic_basis.hpp"
-#include "core/effects/floating_frame_body.hpp"
 #include "core/integration/simulate.hpp"
-#include "core/joints/joint_term.hpp"
 #include "core/model/model.hpp"
 #include "sensitivity/direct.hpp"
+#include "tests/support/flexible_slider_crank.hpp"
 #include "tests/support/places.hpp"
 
 /// Mechanisms with published answers.
 namespace {
 
 using namespace pleuel;
-
-RigidBody body_at(double x, double y, double mass, double inertia) {
-  RigidBody body;
-  body.at = {x, y, 0.0};
-  body.mass = mass;
-  body.inertia = {0.0, 0.0, inertia, 0.0, 0.0, 0.0};
-  return body;
-}
-
-Joint joint(JointType type, const std::string& first, const std::string& second,
-            const Eigen::Vector2d& at) {
-  Joint result;
-  result.name = first + "-" + second;
-  result.type = type;
-  result.bodies = {first, second};
-  result.at = {at.x(), at.y(), 0.0};
-  return result;
-}
-
-Joint revolute(const std::string& first, const std::string& second, const Eigen::Vector2d& at) {
-  return joint(JointType::revolute, first, second, at);
-}
 
 /// Value of a function of the step at h → 0 by Richardson's step: the scheme is of second order.
 template <class Function>
@@ -284,207 +260,15 @@ TEST(SpringSliderCrank, HasTheIntegralAndTheGradientOfSundials) {
   EXPECT_LE((extrapolated(&SpringSliderCrank::values, 1e-2) - found).norm(), 1e-7);
 }
 
-// The flexible slider-crank of the IVP Test Set (Simeon 1998): rigid crank, rod with two sine modes
-// in bending and a quadratic axial displacement, no gravity, Ω = 150 rad/s.
-
-namespace simeon {
-
-constexpr double pi = std::numbers::pi;
-constexpr double crank_length = 0.15, rod_length = 0.3, depth = 0.008, density = 7870.0;
-constexpr double crank_inertia = 0.002727, slider_mass = 0.075552, speed = 150.0;
-
-// At the start: q of the sines, of the axial displacement in the middle and at the end.
-constexpr double q3 = 0.103339863e-4, q4 = 0.169327969e-4;
-constexpr std::array<double, 4> rates = {0.444896105, 0.463434311e-2, -0.178591076e-5,
-                                         -0.268938672e-5};
-constexpr double rod_rate = -74.9957670;
-
-/// The test set's problem as a scene with a rod of so many elements.
-Scene scene(int elements) {
-  Scene scene;
-  scene.materials.push_back({"steel", 2e11, 0.3, density});
-  BeamBody rod;
-  rod.from = {crank_length, 0.0, 0.0};
-  rod.to = {crank_length + rod_length, 0.0, 0.0};
-  rod.material = "steel";
-  rod.segments = {{RectangleSection{depth, depth}, elements, {}}};
-  rod.frame = ReferenceCondition::chord;
-  const Eigen::Vector2d origin(0.0, 0.0), pin(crank_length, 0.0), end(crank_length + rod_length, 0);
-  scene.bodies = {{"crank", body_at(0.0, 0.0, 0.36, crank_inertia)},
-                  {"rod", rod},
-                  {"slider", PointMass{{end.x(), 0.0, 0.0}, slider_mass}}};
-  scene.joints = {revolute(ground_name, "crank", origin), revolute("crank", "rod", pin),
-                  revolute("rod", "slider", end),
-                  joint(JointType::point_on_line, ground_name, "slider", end)};
-  scene.joints[0].drive = ConstantSpeedDrive{speed};
-  scene.joints[3].axis = {1.0, 0.0, 0.0};
-  return scene;
-}
-
-/// Displacements of the modes: value and derivative along the rod at x.
-struct Modes {
-  std::array<double, 2> sine, slope;
-  double middle, end;  ///< of the axial displacement
-};
-Modes modes_at(double x) {
-  const double s = x / rod_length;
-  Modes modes{};
-  for (std::size_t k = 0; k < 2; ++k) {
-    const double number = pi * static_cast<double>(k + 1);
-    modes.sine[k] = std::sin(number * s);
-    modes.slope[k] = number / rod_length * std::cos(number * s);
-  }
-  modes.middle = 4.0 * s * (1.0 - s);
-  modes.end = s * (2.0 * s - 1.0);
-  return modes;
-}
-
-/// Nodal displacements of the four modes in the coordinates of a chord frame, n × 4.
-Eigen::MatrixXd basis_of(const BodyModel& rod) {
-  Eigen::MatrixXd z = Eigen::MatrixXd::Zero(rod.coordinates->size(), 4);
-  for (int node = 0; node < rod.coordinates->node_count(); ++node) {
-    const Modes modes = modes_at(rod.beam.node_position(node));
-    const auto set = [&](int displacement, int mode, double value) {
-      const int row = rod.coordinates->index(node, displacement);
-      if (row >= 0) z(row, mode) = value;
-    };
-    for (int k = 0; k < 2; ++k) {
-      set(1, k, modes.sine[static_cast<std::size_t>(k)]);
-      set(5, k, modes.slope[static_cast<std::size_t>(k)]);
-    }
-    set(0, 2, modes.middle);
-    set(0, 3, modes.end);
-  }
-  return z;
-}
-
-const Eigen::Vector4d start_values(0.0, 0.0, q3, q4);
-const Eigen::Vector4d start_rates(rates[0], rates[1], rates[2], rates[3]);
-
-void set_start(const Model& model, Mechanism& mechanism, const Eigen::VectorXd& q,
-               const Eigen::VectorXd& v) {
-  State& guess = mechanism.guess;
-  guess.v(model.body("crank").frame.offset + 2) = speed;
-  const int rod = model.body("rod").frame.offset;
-  guess.v(rod + 1) = speed * crank_length;
-  guess.v(rod + 2) = rod_rate;
-  guess.q.segment(rod + 3, q.size()) = q;
-  guess.v.segment(rod + 3, v.size()) = v;
-}
-
-/// The test set's four elastic coordinates put together by hand from the terms of the code under
-/// test: its rod has rigid rotary inertia (J₂ = m₂ l₂²/3 + m₂ h²/12), but none of the modes.
-class FourModes {
- public:
-  FourModes() {
-    const Model model = build_model(scene(elements), {}, {}, {});
-    const BodyModel& beam = model.body("rod");
-    Invariants<double> modes = project_invariants(
-        beam_invariants(beam.beam, *beam.coordinates, RotaryInertia::neglected), basis_of(beam));
-    modes.second_moment(1, 1) += modes.mass * depth * depth / 12;
-    add_body("crank", frame(crank, true), crank_invariants());
-    add_body("rod", frame(rod, true), modes);
-    add_body("slider", frame(slider, false), point_mass());
-    add_joints();
-    mechanism.system = std::make_unique<System>(coordinates, multipliers, 0, std::move(terms_));
-    mechanism.scale.setConstant(coordinates, 0.45);
-    mechanism.scale.segment(rod_modes, 4).setConstant(0.45e-3);
-    mechanism.assembly_weight = mechanism.scale.cwiseAbs2().cwiseInverse();
-    mechanism.guess_q_x.setZero(coordinates, 0);
-    mechanism.guess_v_x.setZero(coordinates, 0);
-    set_guess();
-  }
-
-  static constexpr int crank = 0, rod = 3, rod_modes = 6, slider = 10, coordinates = 12;
-  static constexpr int drive_row = 2, guide_row = 7, multipliers = 8;
-  Mechanism mechanism;
-
- private:
-  static constexpr int elements = 200;  ///< linear axial shapes: an error of 2e-6 of q3, q4
-
-  static BodyFrame frame(int offset, bool turns) {
-    BodyFrame frame;
-    frame.offset = offset;
-    frame.basis = Eigen::Matrix3d::Identity().leftCols(2);
-    if (turns) frame.rotation = RotationCoordinates::angle;
-    return frame;
-  }
-  static Invariants<double> crank_invariants() {
-    Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-    second(0, 0) = crank_inertia;
-    return rigid_invariants<double>(0.36, Eigen::Vector3d::Zero(), second);
-  }
-  static Invariants<double> point_mass() {
-    return rigid_invariants<double>(slider_mass, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero());
-  }
-  void add_body(const char* name, const BodyFrame& frame, const Invariants<double>& invariants) {
-    terms_.push_back(std::make_unique<FloatingFrameBody>(
-        name, frame, invariants, std::vector<DesignDerivative<Invariants<double>>>{},
-        Eigen::Vector3d::Zero()));
-  }
-
-  void add_point(const Marker& first, const Eigen::Vector3d& on_first, const Marker& second,
-                 const Eigen::Vector3d& on_second, int row, bool is_driven = false) {
-    JointTopology topology;
-    topology.markers = {first, second};
-    topology.multiplier = coordinates + row;
-    topology.is_driven = is_driven;
-    for (int i = 0; i < 2; ++i) {
-      JointEquation equation{EquationKind::coincident};
-      equation.fixed = Eigen::Vector3d::Unit(i);
-      topology.equations.push_back(equation);
-    }
-    JointData<double> data;
-    data.points = {on_first, on_second};
-    if (is_driven) {
-      JointEquation equation{EquationKind::planar_angle};
-      equation.is_driven = true;
-      topology.equations.push_back(equation);
-      data.drive.parameters = {0.0, speed};
-    }
-    terms_.push_back(make_joint_term(topology, data, {}));
-  }
-  void add_joints() {
-    const Eigen::Vector3d zero = Eigen::Vector3d::Zero(), x = Eigen::Vector3d::UnitX();
-    Marker ground, end;
-    ground.frame = ground_frame();
-    const Marker on_crank{frame(crank, true)}, on_rod{frame(rod, true)},
-        on_slider{frame(slider, false)};
-    end.frame = frame(rod, true);
-    end.elastic[0] = rod_modes + 3;
-    add_point(ground, zero, on_crank, zero, 0, true);
-    add_point(on_crank, crank_length * x, on_rod, zero, 3);
-    add_point(end, rod_length * x, on_slider, zero, 5);
-    JointTopology guide;
-    guide.markers = {ground, on_slider};
-    guide.multiplier = coordinates + guide_row;
-    JointEquation equation{EquationKind::on_plane};
-    equation.first = 0;
-    guide.equations = {equation};
-    JointData<double> data;
-    data.points = {zero, zero};
-    data.directions = {Eigen::Vector3d::UnitY()};
-    terms_.push_back(make_joint_term(guide, data, {}));
-  }
-  void set_guess() {
-    State& guess = mechanism.guess = State(coordinates, multipliers);
-    guess.q << 0.0, 0.0, 0.0, crank_length, 0.0, 0.0, start_values, crank_length + rod_length + q4,
-        0.0;
-    guess.v << 0.0, 0.0, speed, 0.0, speed * crank_length, rod_rate, start_rates, rates[3], 0.0;
-  }
-
-  std::vector<std::unique_ptr<Term>> terms_;
-};
+// The flexible slider-crank of the IVP Test Set (tests/support/flexible_slider_crank.hpp).
 
 /// φ2, x3, q1 … q4, φ̇2, λ1, λ3 at t = 0.1 s, consistent mass, recomputed independently with two
 /// tolerances. (The published column has an axial mass without the factor 1/15 of a quadratic
 /// element.)
-const std::array<double, 9> reference = {
+const std::array<double, 9> test_set_reference = {
     -.331173430332826,   .169737395832603,  1.89308169318799e-4,
     2.37620108497718e-5, -5.28102475991e-6, -8.30355444483e-6,
     60.2531179600310,    -62.2052136559283, 24.9721849020498};
-
-}  // namespace simeon
 
 /// found/expected − 1 against a limit for each of the nine numbers.
 void expect_near(const Eigen::VectorXd& found, const std::array<double, 9>& limits) {
@@ -492,7 +276,7 @@ void expect_near(const Eigen::VectorXd& found, const std::array<double, 9>& limi
                                 "q4",   "phi2'", "lambda1", "lambda3"};
   for (std::size_t i = 0; i < 9; ++i) {
     const double value = found(static_cast<Eigen::Index>(i));
-    EXPECT_NEAR(value / simeon::reference[i], 1.0, limits[i]) << names[i];
+    EXPECT_NEAR(value / test_set_reference[i], 1.0, limits[i]) << names[i];
   }
 }
 
@@ -518,13 +302,16 @@ TEST(FlexibleSliderCrank, WithFourModesIsThatOfTheTestSet) {
 TEST(FlexibleSliderCrank, WithElementsComesCloseToTheTestSet) {
   using namespace simeon;
   constexpr int elements = 16;
-  EffectSettings effects;
-  effects.geometric_stiffening = effects.rotary_inertia = EffectChoice::off;
-  Model model = build_model(scene(elements), effects, {}, {});
+  Model model = build(elements);
   const BodyModel &rod = model.body("rod"), &slider = model.body("slider");
   const Eigen::MatrixXd z = basis_of(rod);
-  set_start(model, model.mechanism, z * start_values, z * start_rates);
-  model.mechanism.guess.q(slider.frame.offset) += q4;
+  State& guess = model.mechanism.guess;
+  guess.v(model.body("crank").frame.offset + 2) = speed;
+  guess.v(rod.frame.offset + 1) = speed * crank_length;
+  guess.v(rod.frame.offset + 2) = rod_rate;
+  guess.q.segment(rod.elastic_offset(), z.rows()) = z * start_values;
+  guess.v.segment(rod.elastic_offset(), z.rows()) = z * start_rates;
+  guess.q(slider.frame.offset) += q4;
   const Trajectory trajectory = simulate(model.mechanism, options_of(0.1, 5e-6));
   State state;
   trajectory.load(trajectory.steps(), state);
