@@ -8,7 +8,8 @@
 namespace pleuel {
 
 /// Whether the inertia of the sections about their own axes (I_y, I_z) enters the inertia
-/// integrals. Torsional inertia of twisting sections is always there.
+/// integrals. Their polar inertia is always there, in torsion and where the whole beam spins about
+/// its axis: without it that would cost nothing.
 enum class RotaryInertia { included, neglected };
 
 /// Element stiffness (12 × 12): ∫ EA u'u' + EI_z v''v'' + EI_y w''w'' + GJ θx'θx' dx.
@@ -94,15 +95,17 @@ void add_element_inertia(const BeamElement<Scalar>& element, const Scalar& start
     // Off-axis points: ∫y dA = ∫z dA = ∫yz dA = 0 leave the second moments of the section only.
     ElementShape<Scalar> y_shape = y_offset_shape(point.xi, element.length);
     ElementShape<Scalar> z_shape = z_offset_shape(point.xi, element.length);
-    Vector3 y_base(zero, one, zero), z_base(zero, zero, one);
+    Scalar inertia_y = element.section.inertia_y, inertia_z = element.section.inertia_z;
     if (rotary == RotaryInertia::neglected) {
+      // Points off the axis stay beside it when it tilts; what is taken from x² leaves a tensor of
+      // inertia with the polar inertia about x, and none of the sections about y and z.
       y_shape.row(0).setConstant(zero);
       z_shape.row(0).setConstant(zero);
-      y_base(1) = zero;
-      z_base(2) = zero;
+      inertia_y = inertia_z = (inertia_y + inertia_z) / 2.0;
+      sum.second_moment(0, 0) -= per_area * inertia_y;
     }
-    integral.add(per_area * element.section.inertia_z, y_base, y_shape);
-    integral.add(per_area * element.section.inertia_y, z_base, z_shape);
+    integral.add(per_area * inertia_z, Vector3(zero, one, zero), y_shape);
+    integral.add(per_area * inertia_y, Vector3(zero, zero, one), z_shape);
   }
 }
 

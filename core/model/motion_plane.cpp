@@ -190,7 +190,7 @@ class PlaneCheck {
 };
 
 /// Directions that a plane of motion can be normal to: axes of joints that turn, and cross products
-/// of the directions and distances of the scene.
+/// of the directions and distances of the scene and of its loads.
 std::vector<Eigen::Vector3d> candidate_normals(const Scene& scene, const Design<double>& start) {
   std::vector<Eigen::Vector3d> normals, directions, points;
   for (const Joint& joint : scene.joints) {
@@ -216,6 +216,13 @@ std::vector<Eigen::Vector3d> candidate_normals(const Scene& scene, const Design<
   }
   const Eigen::Vector3d gravity = resolve_point(scene.gravity, start);
   if (!gravity.isZero()) directions.push_back(gravity);
+  for (const Load& load : scene.loads) {
+    if (const auto* force = std::get_if<PointForce>(&load.element)) {
+      directions.push_back(to_vector(force->direction));
+    } else if (const auto* torque = std::get_if<PointTorque>(&load.element)) {
+      directions.push_back(to_vector(torque->direction));
+    }
+  }
   normals = directions;  // an axis may itself be the normal
   for (const auto& direction : directions) {
     const Eigen::Vector3d normal = directions.front().cross(direction);

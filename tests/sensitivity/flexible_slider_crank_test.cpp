@@ -163,8 +163,9 @@ void expect_near(const Derivatives& found, const Reference& expected,
 /// changes with the design by up to ωt/2: that is most of the derivatives of q3 and q4, and by the
 /// loop of φ2 and x3, and it grows with time. What limits the comparison is the same phase: the
 /// scheme's errs by ωt (ωh)²/12, at 0.02 s and h = 8e-7 s by 0.9 rad of the faster mode, with h/4
-/// by 0.06, of which two extrapolations leave these limits. Measured times three.
-constexpr std::array<double, observed> tolerance_at_20_ms = {6e-7, 4e-6, 1e-8, 4e-8, 9e-6, 4e-6};
+/// by 0.06, of which two extrapolations leave these limits. Measured times three;
+/// in q1 and q2 it is round-off, 1e-9 … 2e-8 by compiler options.
+constexpr std::array<double, observed> tolerance_at_20_ms = {6e-7, 4e-6, 1e-7, 1e-7, 9e-6, 4e-6};
 
 TEST(FlexibleSliderCrankGradient, OfDirectDifferentiationIsThatOfTheComplexStep) {
   expect_near(extrapolated_derivatives(0.02, 8e-7, direct), reference_at(0.02), tolerance_at_20_ms);
@@ -178,7 +179,11 @@ TEST(FlexibleSliderCrankGradient, OfTheAdjointIsThatOfTheComplexStep) {
 TEST(FlexibleSliderCrankGradient, IsTheSameByBothMethods) {
   FourModes rod;
   const Trajectory trajectory = simulated(rod, 0.1, 5e-6);
-  EXPECT_LE(relative_difference(adjoint(rod, trajectory), direct(rod, trajectory)), 1e-10);
+  const Derivatives expected = direct(rod, trajectory), found = adjoint(rod, trajectory);
+  for (int k = 0; k < observed; ++k) {
+    EXPECT_LE(relative_difference(found.row(k), expected.row(k)), 1e-10)
+        << names[static_cast<std::size_t>(k)];
+  }
 }
 
 /// At the end of the test set's interval, after 2.4 revolutions, the fast mode has made 1500
@@ -186,7 +191,7 @@ TEST(FlexibleSliderCrankGradient, IsTheSameByBothMethods) {
 /// 3e-6, 5e-5, 3e-5; with 5e-7 s four times that, as the sixth power says.
 TEST(FlexibleSliderCrankGradient, IsThatOfTheComplexStepAfterTwoRevolutions) {
   expect_near(extrapolated_derivatives(0.1, 4e-7, direct), reference_at(0.1),
-              {5e-5, 8e-5, 7e-7, 9e-6, 1e-4, 8e-5});
+              {5e-5, 8e-5, 2e-6, 9e-6, 1e-4, 8e-5});
 }
 
 }  // namespace

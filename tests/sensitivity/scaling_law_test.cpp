@@ -21,6 +21,7 @@ struct NamedBeam {
   const char* name;
   ReferenceCondition frame;
   bool is_reduced;
+  EffectChoice spatial;
 };
 
 ProblemFile cantilever(const NamedBeam& coordinates) {
@@ -39,6 +40,7 @@ ProblemFile cantilever(const NamedBeam& coordinates) {
   PointForce force{"beam", tip, {0.0, 1.0, 0.0}, {}, false};
   force.value = ConstantFunction{load};
   problem.scene.loads = {{"weight", force}};
+  problem.effects.spatial_motion = coordinates.spatial;
   // The laws are those of a linear beam without rotary inertia.
   problem.effects.rotary_inertia = problem.effects.geometric_stiffening = EffectChoice::off;
   problem.simulation.end_time = problem.simulation.step = 1e-3;
@@ -90,11 +92,15 @@ TEST_P(ScalingLaws, AreTheGradientsOfACantilever) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Coordinates, ScalingLaws,
-                         testing::Values(NamedBeam{"Nodal", ReferenceCondition::tangent, false},
-                                         NamedBeam{"Reduced", ReferenceCondition::tangent, true},
-                                         NamedBeam{"MeanAxis", ReferenceCondition::mean_axis,
-                                                   false}),
-                         [](const auto& test) { return std::string(test.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Coordinates, ScalingLaws,
+    testing::Values(
+        NamedBeam{"Nodal", ReferenceCondition::tangent, false, EffectChoice::off},
+        NamedBeam{"Reduced", ReferenceCondition::tangent, true, EffectChoice::off},
+        NamedBeam{"MeanAxis", ReferenceCondition::mean_axis, false, EffectChoice::off},
+        NamedBeam{"NodalInSpace", ReferenceCondition::tangent, false, EffectChoice::on},
+        NamedBeam{"ReducedInSpace", ReferenceCondition::tangent, true, EffectChoice::on},
+        NamedBeam{"MeanAxisInSpace", ReferenceCondition::mean_axis, false, EffectChoice::on}),
+    [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

@@ -112,10 +112,10 @@ inline DesignedInvariants invariants_of_elements(int elements) {
   const Eigen::MatrixXd basis = basis_of(rod);
   const double h = design[height];
   DesignedInvariants result{project_invariants(rod.invariants, basis), {}};
-  result.value.second_moment(1, 1) = result.value.mass * h * h / 12;
+  result.value.second_moment(1, 1) += result.value.mass * h * h / 12;
   for (const auto& [variable, change] : rod.invariants_x) {
     Invariants<double> derivative = project_invariants(change, basis);
-    derivative.second_moment(1, 1) = derivative.mass * h * h / 12;
+    derivative.second_moment(1, 1) += derivative.mass * h * h / 12;
     if (variable == height) derivative.second_moment(1, 1) += result.value.mass * h / 6;
     result.derivatives.push_back({variable, std::move(derivative)});
   }

@@ -98,6 +98,28 @@ TEST(BeamInvariants, RigidMotionsHaveTheInertiaOfTheSolidBox) {
   EXPECT_LE(relative_difference(found, inertia), 1e-14);
 }
 
+/// A beam that spins about its axis has the polar inertia of its sections: without it a rod between
+/// spherical joints could not be accelerated, and a mean axis not be found in space. Twist is a
+/// spin of its own, so that frame and twist can share one.
+TEST(BeamInvariants, WithoutRotaryInertiaKeepThePolarInertia) {
+  const auto beam = uniform_beam(3, length, rectangle_section(width, height), young, density);
+  const auto body =
+      beam_invariants(beam, ElasticCoordinates(4, all_active), RotaryInertia::neglected);
+  const double m = density * width * height * length;
+  const double polar = m * (width * width + height * height) / 12;
+  const Eigen::Matrix3d found =
+      body.second_moment.trace() * Eigen::Matrix3d::Identity() - body.second_moment;
+  const Eigen::Matrix3d expected =
+      Eigen::Vector3d(polar, m * length * length / 3, m * length * length / 3).asDiagonal();
+  EXPECT_LE((found - expected).norm(), 1e-14 * expected.norm());
+  EXPECT_NEAR(found(0, 0), polar, 1e-12 * polar);
+  const Eigen::VectorXd spin =
+      rigid_motion(beam, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX());
+  EXPECT_NEAR(spin.dot(dense(body.pattern, body.mass_matrix) * spin), polar, 1e-13 * polar);
+  const Eigen::VectorXd mixed = body.mixed * spin;  // ∫ρ (p₀ × S)ₓ
+  EXPECT_NEAR(mixed(3 * 1 + 2) - mixed(3 * 2 + 1), polar, 1e-13 * polar);
+}
+
 TEST(BeamInvariants, CylinderHasTheInertiaTensorOfTheTextbook) {
   const double d = 0.04;
   const auto body = beam_invariants(uniform_beam(2, length, round_section(d, 0.0), young, density),

@@ -1,8 +1,11 @@
+#include "core/model/motion_plane.hpp"
+
 #include <gtest/gtest.h>
 
 #include "sensitivity/gradients.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/problem_runs.hpp"
+#include "tests/support/sample_scenes.hpp"
 
 namespace {
 
@@ -50,6 +53,25 @@ TEST_P(MotionPlane, GivesWhatSpaceGives) {
 
 INSTANTIATE_TEST_SUITE_P(Problems, MotionPlane,
                          testing::Values("slider_crank", "slider_crank_round"));
+
+/// A clamped beam without weight: nothing but its load says in which plane it moves.
+TEST(PlaneOfACantilever, IsThatOfItsLoad) {
+  Scene scene = swinging_beam(0.7, RectangleSection{0.03, 0.02}, 2);
+  scene.gravity = {0.0, 0.0, 0.0};
+  scene.joints.front().type = JointType::fixed;
+  const auto plane_with = [&](const decltype(Load::element)& load) {
+    scene.loads = {{"load", load}};
+    return find_motion_plane(scene, {}).plane;
+  };
+  const Point tip{0.7, 0.0, 0.0};
+  const double slope = std::sqrt(0.5);
+  const auto of_force = plane_with(PointForce{"beam", tip, {0.0, 1.0, 0.0}, {}, false});
+  const auto of_torque = plane_with(PointTorque{"beam", tip, {0.0, -1.0, 0.0}, {}, false});
+  ASSERT_TRUE(of_force && of_torque);
+  EXPECT_EQ(of_force->normal.cwiseAbs(), Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(of_torque->normal.cwiseAbs(), Eigen::Vector3d::UnitY());
+  EXPECT_FALSE(plane_with(PointForce{"beam", tip, {0.0, slope, slope}, {}, false}));
+}
 
 /// A scene whose points are fixed, turned about z and shifted.
 Scene moved_scene(Scene scene, double angle, const Eigen::Vector3d& shift) {
