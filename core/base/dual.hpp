@@ -1,15 +1,106 @@
 #pragma once
 
+#include <cmath>
 #include <complex>
 
 #include <Eigen/Core>
-#include <unsupported/Eigen/AutoDiff>
 
 /// Forward-mode dual numbers: value and derivatives in `Slots` directions, exact to round-off.
 namespace pleuel {
 
+/// a + a'ε with ε² = 0. Every operation is evaluated at once: expression templates of scalars
+/// within Eigen's of matrices are dear to compile and no faster.
 template <int Slots>
-using DualOf = Eigen::AutoDiffScalar<Eigen::Matrix<double, Slots, 1>>;
+class DualOf {
+ public:
+  using Derivatives = Eigen::Matrix<double, Slots, 1>;
+
+  DualOf() = default;  ///< undefined, as a double is
+  DualOf(double value) : derivatives_(Derivatives::Zero()), value_(value) {}
+  DualOf(double value, const Derivatives& derivatives) : derivatives_(derivatives), value_(value) {}
+
+  double value() const { return value_; }
+  const Derivatives& derivatives() const { return derivatives_; }
+  Derivatives& derivatives() { return derivatives_; }
+
+  DualOf operator-() const { return scaled(-value_, -1.0); }
+  DualOf& operator+=(const DualOf& b) { return *this = *this + b; }
+  DualOf& operator-=(const DualOf& b) { return *this = *this - b; }
+  DualOf& operator*=(const DualOf& b) { return *this = *this * b; }
+  DualOf& operator/=(const DualOf& b) { return *this = *this / b; }
+
+  friend DualOf operator+(const DualOf& a, const DualOf& b) {
+    return combined(a.value_ + b.value_, 1.0, a, 1.0, b);
+  }
+  friend DualOf operator-(const DualOf& a, const DualOf& b) {
+    return combined(a.value_ - b.value_, 1.0, a, -1.0, b);
+  }
+  friend DualOf operator*(const DualOf& a, const DualOf& b) {
+    return combined(a.value_ * b.value_, b.value_, a, a.value_, b);
+  }
+  friend DualOf operator/(const DualOf& a, const DualOf& b) {
+    const double quotient = a.value_ / b.value_, inverse = 1.0 / b.value_;
+    return combined(quotient, inverse, a, -quotient * inverse, b);
+  }
+
+  friend DualOf operator+(const DualOf& a, double b) { return {a.value_ + b, a.derivatives_}; }
+  friend DualOf operator+(double a, const DualOf& b) { return {a + b.value_, b.derivatives_}; }
+  friend DualOf operator-(const DualOf& a, double b) { return {a.value_ - b, a.derivatives_}; }
+  friend DualOf operator-(double a, const DualOf& b) { return b.scaled(a - b.value_, -1.0); }
+  friend DualOf operator*(const DualOf& a, double b) { return a.scaled(a.value_ * b, b); }
+  friend DualOf operator*(double a, const DualOf& b) { return b.scaled(a * b.value_, a); }
+  friend DualOf operator/(const DualOf& a, double b) { return a.scaled(a.value_ / b, 1.0 / b); }
+  friend DualOf operator/(double a, const DualOf& b) {
+    const double quotient = a / b.value_;
+    return b.scaled(quotient, -quotient / b.value_);
+  }
+
+  friend bool operator==(const DualOf& a, const DualOf& b) { return a.value_ == b.value_; }
+  friend auto operator<=>(const DualOf& a, const DualOf& b) { return a.value_ <=> b.value_; }
+
+  friend DualOf sqrt(const DualOf& a) {
+    const double root = std::sqrt(a.value_);
+    return a.scaled(root, 0.5 / root);
+  }
+  friend DualOf sin(const DualOf& a) { return a.scaled(std::sin(a.value_), std::cos(a.value_)); }
+  friend DualOf cos(const DualOf& a) { return a.scaled(std::cos(a.value_), -std::sin(a.value_)); }
+  friend DualOf tanh(const DualOf& a) {
+    const double value = std::tanh(a.value_);
+    return a.scaled(value, 1.0 - value * value);
+  }
+  friend DualOf exp(const DualOf& a) {
+    const double value = std::exp(a.value_);
+    return a.scaled(value, value);
+  }
+  friend DualOf atan2(const DualOf& y, const DualOf& x) {
+    const double square = x.value_ * x.value_ + y.value_ * y.value_;
+    return combined(std::atan2(y.value_, x.value_), x.value_ / square, y, -y.value_ / square, x);
+  }
+  friend DualOf abs(const DualOf& a) { return a.value_ < 0.0 ? -a : a; }
+
+ private:
+  /// f(a) from its value and its slope there.
+  DualOf scaled(double value, double slope) const {
+    DualOf result;
+    result.value_ = value;
+    for (int i = 0; i < Slots; ++i) result.derivatives_[i] = slope * derivatives_[i];
+    return result;
+  }
+
+  /// f(a, b) from its value and its two slopes there.
+  static DualOf combined(double value, double slope_a, const DualOf& a, double slope_b,
+                         const DualOf& b) {
+    DualOf result;
+    result.value_ = value;
+    for (int i = 0; i < Slots; ++i) {
+      result.derivatives_[i] = slope_a * a.derivatives_[i] + slope_b * b.derivatives_[i];
+    }
+    return result;
+  }
+
+  Derivatives derivatives_;
+  double value_;
+};
 
 /// One direction: the model is built once for each design variable, with that variable seeded.
 using Dual = DualOf<1>;
@@ -46,3 +137,25 @@ auto value_matrix(const Eigen::MatrixBase<Derived>& matrix) {
 }
 
 }  // namespace pleuel
+
+/// What Eigen asks of a scalar.
+namespace Eigen {
+
+template <int Slots>
+struct NumTraits<pleuel::DualOf<Slots>> : NumTraits<double> {
+  using Real = pleuel::DualOf<Slots>;
+  using NonInteger = pleuel::DualOf<Slots>;
+  using Nested = pleuel::DualOf<Slots>;
+  enum { ReadCost = 1 + Slots, AddCost = 1 + Slots, MulCost = 1 + 2 * Slots };
+};
+
+template <int Slots, class Operation>
+struct ScalarBinaryOpTraits<pleuel::DualOf<Slots>, double, Operation> {
+  using ReturnType = pleuel::DualOf<Slots>;
+};
+template <int Slots, class Operation>
+struct ScalarBinaryOpTraits<double, pleuel::DualOf<Slots>, Operation> {
+  using ReturnType = pleuel::DualOf<Slots>;
+};
+
+}  // namespace Eigen

@@ -65,16 +65,10 @@ struct JointForceLaw {
     markers.add_planar_torque(0, -moment);
   }
 
-  /// atan2(y, x) for numbers and their first derivatives; Eigen's own allocates.
-  template <class Scalar>
-  static Scalar angle_of(const Scalar& x, const Scalar& y) {
-    const double x0 = value_of(x), y0 = value_of(y);
-    return std::atan2(y0, x0) + (x0 * y - y0 * x) / (x0 * x0 + y0 * y0);
-  }
-
   /// s = atan2(y, x), x = d' · d_a, y = d' · d_b,   δs = (x δy − y δx) / (x² + y²)
   template <class Scalar>
   void add_moment(const Data<Scalar>& data, double time, Markers<Scalar>& markers) const {
+    using std::atan2;
     const auto& [local_a, local_b, local_d] = data.directions;
     const Vector3<Scalar> a = markers.direction(0, local_a), b = markers.direction(0, local_b);
     const Vector3<Scalar> d = markers.direction(1, local_d);
@@ -84,7 +78,7 @@ struct JointForceLaw {
     const Vector3<Scalar> d_dot = markers.direction_rate(1, local_d);
     const Scalar x_dot = d_dot.dot(a) + d.dot(markers.direction_rate(0, local_a));
     const Scalar y_dot = d_dot.dot(b) + d.dot(markers.direction_rate(0, local_b));
-    const Scalar s = angle_of<Scalar>(x, y), rate = (x * y_dot - y * x_dot) / squared;
+    const Scalar s = atan2(y, x), rate = (x * y_dot - y * x_dot) / squared;
     const Scalar share = force<Scalar>(data, time, s, rate) / squared;
     const Scalar on_x = -share * y, on_y = share * x;
     markers.add_to_direction(1, on_x * a + on_y * b, local_d);

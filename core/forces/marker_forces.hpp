@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <tuple>
 #include <vector>
 
 #include "core/frame/marker.hpp"
@@ -21,10 +20,6 @@ struct LocalCoordinate {
   std::size_t marker;  ///< of the element
   CoordinatePart part;
 };
-
-/// Most coordinates that a marker has.
-inline constexpr int max_marker_size =
-    3 + static_cast<int>(std::tuple_size_v<decltype(FrameMotion<double>::A_p)>) + 6;
 
 /// Coordinates of the markers one after the other, each: frame, then active elastic ones.
 template <std::size_t Count>

@@ -75,25 +75,44 @@ struct FrameMotion {
 
 namespace frame_detail {
 
+/// Rodrigues with n = axis, R A_ref = n nᵀA_ref + c P + s ñ A_ref and P = (I − n nᵀ) A_ref
 template <class Scalar>
 void set_angle_motion(const BodyFrame& frame, const Scalar& angle, const Scalar& speed,
                       const Scalar& acceleration, FrameMotion<Scalar>& motion) {
   using std::cos;
   using std::sin;
-  // Rodrigues: R = c I + s ñ + (1 − c) n nᵀ
-  const Scalar c = cos(angle), s = sin(angle);
-  const Matrix3<Scalar> n = skew<double>(frame.axis).template cast<Scalar>();
-  const Matrix3<Scalar> nn = (frame.axis * frame.axis.transpose()).template cast<Scalar>();
-  const Matrix3<Scalar> in_plane = Matrix3<double>::Identity().template cast<Scalar>() - nn;
-  const Matrix3<Scalar> reference = frame.reference.template cast<Scalar>();
-  motion.A = (nn + c * in_plane + s * n) * reference;
-  motion.A_p[0] = (c * n - s * in_plane) * reference;
-  motion.A_dot = speed * motion.A_p[0];
-  motion.A_ddot =
-      acceleration * motion.A_p[0] - (speed * speed) * ((c * in_plane + s * n) * reference);
-  motion.G = (frame.reference.transpose() * frame.axis).template cast<Scalar>();
-  motion.omega = speed * motion.G;
-  motion.alpha = acceleration * motion.G;
+  const Scalar c = cos(angle), s = sin(angle), squared = speed * speed;
+  const Eigen::Vector3d normal = frame.reference.transpose() * frame.axis;
+  const Eigen::Matrix3d across = skew<double>(frame.axis) * frame.reference;
+  const Eigen::Matrix3d along = frame.axis * normal.transpose();
+  const Eigen::Matrix3d in_plane = frame.reference - along;
+  for (int k = 0; k < 9; ++k) {
+    const Scalar turned = c * in_plane(k) + s * across(k);
+    const Scalar slope = c * across(k) - s * in_plane(k);
+    motion.A(k) = turned + along(k);
+    motion.A_p[0](k) = slope;
+    motion.A_dot(k) = speed * slope;
+    motion.A_ddot(k) = acceleration * slope - squared * turned;
+  }
+  motion.G.resize(3, 1);
+  for (int k = 0; k < 3; ++k) {
+    motion.G(k) = Scalar(normal(k));
+    motion.omega(k) = speed * normal(k);
+    motion.alpha(k) = acceleration * normal(k);
+  }
+}
+
+/// A w̃
+template <class Scalar>
+Matrix3<Scalar> times_skew(const Matrix3<Scalar>& A, const Vector3<Scalar>& w) {
+  Matrix3<Scalar> product;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const int next = (j + 1) % 3, last = (j + 2) % 3;
+      product(i, j) = w(last) * A(i, next) - w(next) * A(i, last);
+    }
+  }
+  return product;
 }
 
 /// Derivatives of A are those with respect to right perturbations: dual parts of ψ stand for δ.
@@ -103,16 +122,17 @@ void set_spatial_motion(const Vector3<Scalar>& psi, const Vector3<Scalar>& omega
   const Eigen::Vector3d fixed = value_matrix(psi);
   motion.A = rotation_of(fixed).template cast<Scalar>();
   if constexpr (!std::is_same_v<Scalar, double>) {
-    const Vector3<Scalar> perturbation = psi - fixed.template cast<Scalar>();
-    const Matrix3<Scalar> change = motion.A * skew<Scalar>(perturbation);
-    motion.A += change;
+    Vector3<Scalar> perturbation;
+    for (int i = 0; i < 3; ++i) perturbation(i) = psi(i) - fixed(i);
+    motion.A += times_skew<Scalar>(motion.A, perturbation);
   }
-  const Matrix3<Scalar> spin = skew<Scalar>(omega);
-  motion.A_dot = motion.A * spin;
-  motion.A_ddot = motion.A * skew<Scalar>(alpha) + motion.A_dot * spin;
-  for (int i = 0; i < 3; ++i) {
-    const Vector3<Scalar> unit = Eigen::Vector3d::Unit(i).template cast<Scalar>();
-    motion.A_p[static_cast<std::size_t>(i)] = motion.A * skew<Scalar>(unit);
+  motion.A_dot = times_skew<Scalar>(motion.A, omega);
+  motion.A_ddot = times_skew<Scalar>(motion.A, alpha) + times_skew<Scalar>(motion.A_dot, omega);
+  for (int i = 0; i < 3; ++i) {  // A ẽᵢ
+    Matrix3<Scalar>& by_turn = motion.A_p[static_cast<std::size_t>(i)];
+    by_turn.col(i).setConstant(Scalar(0));
+    by_turn.col((i + 1) % 3) = motion.A.col((i + 2) % 3);
+    by_turn.col((i + 2) % 3) = -motion.A.col((i + 1) % 3);
   }
   motion.G = Matrix3<double>::Identity().template cast<Scalar>();
   motion.omega = omega;
@@ -121,19 +141,25 @@ void set_spatial_motion(const Vector3<Scalar>& psi, const Vector3<Scalar>& omega
 
 }  // namespace frame_detail
 
+template <class Scalar>
+using Coordinates = Eigen::Ref<const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>>;
+
 /// Kinematics of a frame from its own coordinates (size() entries) and their rates.
-template <class Scalar, class Q, class V, class A>
-FrameMotion<Scalar> frame_motion(const BodyFrame& frame, const Q& q, const V& v, const A& a) {
+template <class Scalar>
+FrameMotion<Scalar> frame_motion(const BodyFrame& frame, const Coordinates<Scalar>& q,
+                                 const Coordinates<Scalar>& v, const Coordinates<Scalar>& a) {
   FrameMotion<Scalar> motion;
   motion.r = frame.origin.template cast<Scalar>();
   motion.r_dot.setConstant(Scalar(0));
   motion.r_ddot.setConstant(Scalar(0));
-  const int k = frame.translations();
-  for (int i = 0; i < k; ++i) {
-    const Vector3<Scalar> direction = frame.basis.col(i).template cast<Scalar>();
-    motion.r += q(i) * direction;
-    motion.r_dot += v(i) * direction;
-    motion.r_ddot += a(i) * direction;
+  const int first = frame.translations();
+  for (int i = 0; i < first; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const double direction = frame.basis(k, i);
+      motion.r(k) += q(i) * direction;
+      motion.r_dot(k) += v(i) * direction;
+      motion.r_ddot(k) += a(i) * direction;
+    }
   }
   switch (frame.rotation) {
     case RotationCoordinates::none:
@@ -145,14 +171,22 @@ FrameMotion<Scalar> frame_motion(const BodyFrame& frame, const Q& q, const V& v,
       motion.G.resize(3, 0);
       break;
     case RotationCoordinates::angle:
-      frame_detail::set_angle_motion<Scalar>(frame, q(k), v(k), a(k), motion);
+      frame_detail::set_angle_motion<Scalar>(frame, q(first), v(first), a(first), motion);
       break;
     case RotationCoordinates::rotation_vector:
-      frame_detail::set_spatial_motion<Scalar>(q.template segment<3>(k), v.template segment<3>(k),
-                                               a.template segment<3>(k), motion);
+      frame_detail::set_spatial_motion<Scalar>(q.template segment<3>(first),
+                                               v.template segment<3>(first),
+                                               a.template segment<3>(first), motion);
       break;
   }
   return motion;
 }
+
+/// Compiled once.
+extern template FrameMotion<double> frame_motion(const BodyFrame&, const Coordinates<double>&,
+                                                 const Coordinates<double>&,
+                                                 const Coordinates<double>&);
+extern template FrameMotion<Dual> frame_motion(const BodyFrame&, const Coordinates<Dual>&,
+                                               const Coordinates<Dual>&, const Coordinates<Dual>&);
 
 }  // namespace pleuel

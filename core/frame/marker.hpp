@@ -6,11 +6,23 @@
 
 namespace pleuel {
 
+/// Most coordinates that a marker has: frame and elastic ones.
+inline constexpr int max_marker_size = 6 + 6;
+
 /// A place on a body: the frame, and the elastic coordinates that displace and turn it.
 struct Marker {
   BodyFrame frame;
   /// Indices in q of the local displacements u v w and rotations θx θy θz; −1 where they are zero.
   std::array<int, 6> elastic = {-1, -1, -1, -1, -1, -1};
 };
+
+/// Compiled once, for tangents with respect to all coordinates of one marker or of two.
+extern template FrameMotion<DualOf<max_marker_size>> frame_motion(
+    const BodyFrame&, const Coordinates<DualOf<max_marker_size>>&,
+    const Coordinates<DualOf<max_marker_size>>&, const Coordinates<DualOf<max_marker_size>>&);
+extern template FrameMotion<DualOf<2 * max_marker_size>> frame_motion(
+    const BodyFrame&, const Coordinates<DualOf<2 * max_marker_size>>&,
+    const Coordinates<DualOf<2 * max_marker_size>>&,
+    const Coordinates<DualOf<2 * max_marker_size>>&);
 
 }  // namespace pleuel

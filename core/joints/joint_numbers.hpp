@@ -37,7 +37,7 @@ JointData<Scalar> cast_data(const JointData<double>& data) {
 inline JointData<Dual> seed_data(const JointData<double>& data,
                                  const JointData<double>& derivative) {
   const auto with_derivative = [](double value, double change) {
-    return Dual(value, Dual::DerType::Constant(change));
+    return Dual(value, Dual::Derivatives::Constant(change));
   };
   JointData<Dual> seeded = cast_data<Dual>(data);
   for (std::size_t i = 0; i < 2; ++i) {

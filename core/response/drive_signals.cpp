@@ -23,7 +23,7 @@ class DriveEffortSignal final : public Signal {
 TimeLaw<Dual> seed_law(const TimeLaw<double>& law, const TimeLaw<double>& derivative) {
   std::size_t i = 0;
   return law.transformed<Dual>([&](double parameter) {
-    return Dual(parameter, Dual::DerType::Constant(derivative.parameters[i++]));
+    return Dual(parameter, Dual::Derivatives::Constant(derivative.parameters[i++]));
   });
 }
 

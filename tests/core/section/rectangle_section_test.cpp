@@ -105,7 +105,7 @@ TEST(RectangleSection, IsSmoothWhereItBecomesASquare) {
     EXPECT_NEAR(left / right, 1.0, 2e-5) << name;
   }
   // By symmetry both sides of a square count alike: a ∂J/∂a = b ∂J/∂b = 2 J (J ~ size⁴).
-  const Dual width(a, Dual::DerType::Ones());
+  const Dual width(a, Dual::Derivatives::Ones());
   EXPECT_NEAR(derivative_of(rectangle_section(width, Dual(a)).torsion) * a / torsion(a), 2.0,
               1e-12);
 }

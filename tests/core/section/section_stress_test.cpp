@@ -101,7 +101,7 @@ TEST(RoundOutline, DerivativeOfTheLargestStressNeedsNoMotionOfItsPlace) {
   };
   for (std::size_t i = 0; i < x.size(); ++i) {
     std::array<Dual, 6> dual;
-    for (std::size_t k = 0; k < x.size(); ++k) dual[k] = Dual(x[k], Dual::DerType::Zero());
+    for (std::size_t k = 0; k < x.size(); ++k) dual[k] = Dual(x[k], Dual::Derivatives::Zero());
     dual[i].derivatives()[0] = 1.0;
     const double step = 1e-5 * x[i];
     std::array<double, 6> more = x, less = x;
