@@ -4,8 +4,9 @@
 #include <cassert>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+
+#include "core/beam/natural_modes.hpp"
 
 namespace pleuel {
 
@@ -26,11 +27,8 @@ std::vector<int> interior_of(Eigen::Index size, const std::vector<int>& boundary
 }
 
 /// All modes of the interior, mass-normalised, λ ascending.
-Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> interior_modes(
-    const NodalMatrices& matrices, const std::vector<int>& interior) {
-  return Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(
-      MatrixXd(matrices.stiffness(interior, interior)),
-      MatrixXd(matrices.mass(interior, interior)));
+NaturalModes interior_modes(const NodalMatrices& matrices, const std::vector<int>& interior) {
+  return natural_modes(matrices.stiffness(interior, interior), matrices.mass(interior, interior));
 }
 
 /// Change of the span of the first modes: only towards the modes that are left out,
@@ -62,9 +60,9 @@ BasisWithDerivatives craig_bampton_basis(const NodalMatrices& matrices,
   MatrixXd all_modes(interior, 0);
   VectorXd lambda(0), scale(0);
   if (modes > 0) {
-    const auto solved = interior_modes(matrices, i);
-    all_modes = solved.eigenvectors();
-    lambda = solved.eigenvalues();
+    const NaturalModes solved = interior_modes(matrices, i);
+    all_modes = solved.shapes;
+    lambda = solved.lambda;
     scale = all_modes.leftCols(modes).cwiseAbs().colwise().maxCoeff().cwiseInverse();
   }
   BasisWithDerivatives result;
@@ -91,7 +89,7 @@ int complete_modes(const NodalMatrices& matrices, const std::vector<int>& bounda
   const std::vector<int> interior = interior_of(matrices.mass.rows(), boundary);
   const int all = static_cast<int>(interior.size());
   if (modes <= 0 || modes >= all) return std::clamp(modes, 0, all);
-  const VectorXd lambda = interior_modes(matrices, interior).eigenvalues();
+  const VectorXd lambda = interior_modes(matrices, interior).lambda;
   while (modes < all && lambda(modes) - lambda(modes - 1) < cluster_gap * lambda(modes)) ++modes;
   return modes;
 }
@@ -100,7 +98,7 @@ int count_fixed_interface_modes(const NodalMatrices& matrices, const std::vector
                                 double frequency) {
   const std::vector<int> interior = interior_of(matrices.mass.rows(), boundary);
   if (interior.empty()) return 0;
-  const VectorXd lambda = interior_modes(matrices, interior).eigenvalues();
+  const VectorXd lambda = interior_modes(matrices, interior).lambda;
   const auto below = (lambda.array() < frequency * frequency).count();
   return complete_modes(matrices, boundary, static_cast<int>(below));
 }
@@ -210,9 +208,9 @@ ModalDamping modal_damping(const DampedMatrices& matrices,
   // In mass-normalised modes D̂ = 2ζ Ω; with X = (M⁻¹K)^½ differentiating X X = M⁻¹ K gives
   //     (dX̂)ᵢⱼ (ωᵢ + ωⱼ) = (k̂ − m̂ Ω²)ᵢⱼ,   dD̂ = 2 dζ Ω + 2ζ (m̂ Ω + dX̂),
   // k̂ = Φᵀ dK Φ, m̂ = Φᵀ dM Φ, and D = M Φ D̂ Φᵀ M.
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> modes(matrices.stiffness, matrices.mass);
-  const VectorXd omega = modes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  const MatrixXd& phi = modes.eigenvectors();
+  const NaturalModes modes = natural_modes(matrices.stiffness, matrices.mass);
+  const VectorXd omega = modes.lambda.cwiseMax(0.0).cwiseSqrt();
+  const MatrixXd& phi = modes.shapes;
   const MatrixXd back = matrices.mass * phi;  // Φ⁻ᵀ
   ModalDamping result;
   result.damping = back * (2.0 * matrices.ratio * omega).asDiagonal() * back.transpose();

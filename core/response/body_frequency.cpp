@@ -1,10 +1,10 @@
 #include "core/response/body_frequency.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
 #include "core/beam/elastic_basis.hpp"
+#include "core/beam/natural_modes.hpp"
 
 namespace pleuel {
 
@@ -23,11 +23,11 @@ FrequencyWithDerivatives body_frequency(const BodyModel& body, int mode, int var
   const auto dense = [&](const Eigen::VectorXd& entries) {
     return dense_matrix(body.invariants.pattern, entries);
   };
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
-      dense(body.invariants.stiffness), dense(body.invariants.mass_matrix));
-  const double square = modes.eigenvalues()(mode);
+  const NaturalModes modes =
+      natural_modes(dense(body.invariants.stiffness), dense(body.invariants.mass_matrix));
+  const double square = modes.lambda(mode);
   const Eigen::Array<bool, Eigen::Dynamic, 1> coincides =
-      (modes.eigenvalues().array() - square).abs() <= coincidence * square;
+      (modes.lambda.array() - square).abs() <= coincidence * square;
   FrequencyWithDerivatives frequency;
   frequency.value = std::sqrt(square);
   frequency.derivatives = Eigen::VectorXd::Zero(variables);
@@ -35,7 +35,7 @@ FrequencyWithDerivatives body_frequency(const BodyModel& body, int mode, int var
     const Eigen::MatrixXd matrix = dense(change.stiffness) - square * dense(change.mass_matrix);
     double sum = 0.0;
     for (Eigen::Index i = 0; i < coincides.size(); ++i) {
-      const auto shape = modes.eigenvectors().col(i);
+      const auto shape = modes.shapes.col(i);
       if (coincides(i)) sum += shape.dot(matrix * shape);
     }
     frequency.derivatives(variable) =

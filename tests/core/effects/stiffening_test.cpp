@@ -120,10 +120,7 @@ struct RotatingCantilever {
     }
     const Eigen::MatrixXd k = tangent(model, state, {.q = 1.0})(flap, flap);
     const Eigen::MatrixXd m = tangent(model, state, {.a = 1.0})(flap, flap);
-    return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(k, m)
-               .eigenvalues()
-               .cwiseSqrt() /
-           unit;
+    return natural_modes(k, m).lambda.cwiseSqrt() / unit;
   }
 };
 
