@@ -87,8 +87,8 @@ void add_uncertainty(CLI::App& app, Arguments& arguments) {
 }
 
 void add_stability(CLI::App& app, Arguments& arguments) {
-  CLI::App* stability =
-      add_command(app, arguments, "stability", "drift, energy and work of files x formulations");
+  CLI::App* stability = add_command(app, arguments, "stability",
+                                    "drift, energy and work of files x formulations and schemes");
   stability->add_option("FILE", arguments.files, "problem files (JSON)")->required();
   add_overrides(stability, arguments);
   add_output(stability, arguments);

@@ -27,13 +27,17 @@ std::string quoted(const std::string& word) {
 /// For the folder in which the optimization was called. Where gradients were asked for, they are
 /// what may have failed.
 std::string command_again(const RunRecord& record, const Arguments& arguments,
-                          const EvaluationRecord& failed) {
-  std::string command = failed.request == Request::values ? "pleuel simulate " : "pleuel gradient ";
+                          const ProblemFile& problem, const EvaluationRecord& failed) {
+  const bool takes_gradients =
+      failed.request != Request::values ||
+      std::any_of(problem.constraints.begin(), problem.constraints.end(),
+                  [](const ConstraintSettings& constraint) { return constraint.deviations > 0.0; });
+  std::string command = takes_gradients ? "pleuel gradient " : "pleuel simulate ";
   command += quoted(arguments.file.string());
   for (const std::string& assignment : arguments.overrides) {
     command += " --set " + quoted(assignment);
   }
-  if (failed.request != Request::values) {
+  if (takes_gradients) {
     for (const std::string& method : arguments.methods) command += " --method " + method;
   }
   return command + " --design " + quoted((record.folder() / file_name).string());
@@ -46,12 +50,12 @@ void write_failed_design(const RunRecord& record, const Arguments& arguments,
   record.write(file_name, {{"evaluation", failed.evaluation},
                            {"request", to_string(failed.request)},
                            {"failure", failed.failure},
-                           {"command", command_again(record, arguments, failed)},
+                           {"command", command_again(record, arguments, problem, failed)},
                            {"variables", variables_document(problem, failed.x)}});
 }
 
 std::string failed_design_text(const RunRecord& record, const Arguments& arguments,
-                               const History& history) {
+                               const ProblemFile& problem, const History& history) {
   const auto last =
       std::find_if(history.rbegin(), history.rend(), std::mem_fn(&EvaluationRecord::has_failed));
   if (last == history.rend()) return "";
@@ -59,7 +63,7 @@ std::string failed_design_text(const RunRecord& record, const Arguments& argumen
       "{} of {} evaluations failed; the last such design is in {}, and this runs it again:\n"
       "  {}\n",
       count_failures(history), history.size(), (record.folder() / file_name).string(),
-      command_again(record, arguments, *last));
+      command_again(record, arguments, problem, *last));
 }
 
 }  // namespace pleuel

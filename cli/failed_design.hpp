@@ -16,6 +16,6 @@ void write_failed_design(const RunRecord& record, const Arguments& arguments,
 
 /// Says where the last failed design is and how to run it; empty if none failed.
 std::string failed_design_text(const RunRecord& record, const Arguments& arguments,
-                               const History& history);
+                               const ProblemFile& problem, const History& history);
 
 }  // namespace pleuel

@@ -169,10 +169,9 @@ std::string seconds_text(const std::vector<MethodResult>& results, double simula
   return text + "\n";
 }
 
-/// The run folder, with --histories.
-void write_histories(const Arguments& arguments, const ProblemInput& input, Analysis& analysis,
+/// Into the run folder, with --histories.
+void write_histories(RunRecord& record, const ProblemInput& input, Analysis& analysis,
                      Outcome& outcome) {
-  RunRecord record(arguments, input, Json::object());
   record.begin_phase("histories");
   write_trajectory(record.folder() / "trajectory.csv", analysis);
   write_history_gradients(record.folder() / "gradients.csv", input.problem, analysis);
@@ -202,6 +201,8 @@ Outcome run_gradient(const Arguments& arguments) {
   if (problem.variables.empty()) {
     throw InputError("/variables is missing: there is nothing to differentiate for");
   }
+  std::optional<RunRecord> record;  // before the work: the folder may not be free
+  if (arguments.wants_histories) record.emplace(arguments, input, Json::object());
   Findings findings;
   const Stopwatch stopwatch;
   findings.analysis = analyze(problem, input.design);
@@ -211,7 +212,7 @@ Outcome run_gradient(const Arguments& arguments) {
                              {problem.sensitivity.difference_step, arguments.jobs});
   findings.ties = find_ties(*findings.analysis);
   Outcome outcome = make_outcome(arguments, problem, findings);
-  if (arguments.wants_histories) write_histories(arguments, input, *findings.analysis, outcome);
+  if (record) write_histories(*record, input, *findings.analysis, outcome);
   return outcome;
 }
 

@@ -71,7 +71,7 @@ Outcome run_optimize(const Arguments& arguments) {
   }
   const Outcome outcome{exit_code(optimum), optimum_document(optimum),
                         optimum_report(optimum) +
-                            failed_design_text(record, arguments, result.history) +
+                            failed_design_text(record, arguments, input.problem, result.history) +
                             files_text(record, optimum)};
   record.finish(outcome);
   return outcome;

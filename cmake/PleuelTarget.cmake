@@ -51,6 +51,14 @@ function(pleuel_precompile name)
   endif()
 endfunction()
 
+# GCC takes what it includes that way for the project's own: its guesses about overruns in inlined code
+# of the libraries would be told, too. The preset dev still hears those of our files.
+if(PLEUEL_PCH AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(pleuel_warnings INTERFACE
+    -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-free-nonheap-object
+    -Wno-maybe-uninitialized)
+endif()
+
 # ccache takes files with precompiled headers only if told that no macro reaches into them.
 if(PLEUEL_PCH AND CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache$")
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
 #include "core/response/response.hpp"
 #include "optimization/problem.hpp"
 #include "sensitivity/gradients.hpp"

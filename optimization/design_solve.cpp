@@ -1,11 +1,14 @@
 #include "optimization/design_solve.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numeric>
 
 #include "optimization/peak_problem.hpp"
 #include "optimization/robust_problem.hpp"
+#include "optimization/verdict.hpp"
+#include "sensitivity/gradients.hpp"
 
 namespace pleuel {
 
@@ -36,6 +39,7 @@ void continue_from(const Result& before, Result& result) {
 
 /// With the margins that the constraints of the file ask for, if any.
 /// @param constraint_of_row  of a problem made of that of the file
+/// @throws InputError if gradients are differences: those of differences would be noise
 std::unique_ptr<Problem> with_margins(Problem& problem, const DesignProblem& design,
                                       const std::vector<std::size_t>& constraint_of_row) {
   Eigen::VectorXd margins(static_cast<Eigen::Index>(constraint_of_row.size()));
@@ -44,13 +48,18 @@ std::unique_ptr<Problem> with_margins(Problem& problem, const DesignProblem& des
         design.file().constraints[constraint_of_row[row]].deviations;
   }
   if (margins.isZero(0.0)) return nullptr;
+  if (is_difference(design.file().sensitivity.method)) {
+    throw InputError(
+        "/sensitivity/method must be \"auto\", \"direct\" or \"adjoint\" where a constraint has "
+        "\"deviations\": their gradients are differences of gradients");
+  }
   return std::make_unique<RobustProblem>(problem, design.variable_deviations(), margins);
 }
 
 /// On the peaks of windows, beginning where the run on whole constraints ended (if that is within
 /// the limits).
-Result solve_peaks(DesignProblem& design, Problem& problem, const SolveOptions& options,
-                   const Result& before, const Observer& observer) {
+Result solve_peaks(DesignProblem& design, const SolveOptions& options, const Result& before,
+                   const Observer& observer) {
   PeakProblem peaks(design, peak_windows);
   if (before.status == Status::stalled) peaks.start_from(before.x);
   const auto fold = [&](EvaluationRecord record) {
@@ -66,9 +75,26 @@ Result solve_peaks(DesignProblem& design, Problem& problem, const SolveOptions& 
     result.constraint_multipliers = peaks.fold_multipliers(result.constraint_multipliers);
   }
   if (result.evaluation.has_gradients()) {
-    result.evaluation = problem.evaluate(result.x, Request::values_and_gradients);
+    const Eigen::VectorXd rows = result.evaluation.constraints;
+    result.evaluation = design.evaluate(result.x, Request::values_and_gradients);
+    result.evaluation.constraints = peaks.fold_values(rows);
   }
   return result;
+}
+
+/// Whether all peaks keep their margins: a lower one may scatter more than the highest.
+bool keeps_margins(DesignProblem& design, const Eigen::VectorXd& x, double tolerance) {
+  PeakProblem peaks(design, peak_windows);
+  const auto robust = with_margins(peaks, design, peaks.constraint_of_row());
+  const Eigen::VectorXd rows = robust->evaluate(x, Request::values).constraints;
+  const Eigen::VectorXd values = peaks.fold_values(rows);
+  for (std::size_t i = 0; i < design.constraints().size(); ++i) {
+    const Constraint& constraint = design.constraints()[i];
+    const double value = values(static_cast<Eigen::Index>(i));
+    const double excess = std::max(value - constraint.upper, constraint.lower - value);
+    if (excess > tolerance * std::abs(value)) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -84,9 +110,11 @@ Result solve_design(DesignProblem& design, const SolveOptions& options, const Ob
   Result result = solve(problem, plain, observer);
   SolveOptions rest = options;
   rest.max_iterations = options.max_iterations - result.iterations;
-  const bool is_final = result.status == Status::verified || result.status == Status::failed;
+  const bool is_verified = result.status == Status::verified &&
+                           (!robust || keeps_margins(design, result.x, Tolerances().violation));
+  const bool is_final = is_verified || result.status == Status::failed;
   if (is_final || rest.max_iterations < 1) return result;
-  Result on_peaks = solve_peaks(design, problem, rest, result, observer);
+  Result on_peaks = solve_peaks(design, rest, result, observer);
   continue_from(result, on_peaks);
   return on_peaks;
 }

@@ -2,6 +2,9 @@
 
 #include <cassert>
 #include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
 
 namespace pleuel {
 
@@ -40,9 +43,7 @@ Eigen::MatrixXd RobustProblem::deviation_gradients(const Eigen::VectorXd& x,
     Eigen::VectorXd upper = x, lower = x;
     upper(i) += step;
     lower(i) -= step;
-    constexpr Request request = Request::values_and_gradients;
-    const Eigen::MatrixXd change = problem_.evaluate(upper, request).constraint_jacobian -
-                                   problem_.evaluate(lower, request).constraint_jacobian;
+    const Eigen::MatrixXd change = neighbour_jacobian(upper, i) - neighbour_jacobian(lower, i);
     const Eigen::VectorXd weights = deviations_(i) * deviations_(i) * jacobian.col(i);
     sum += weights.asDiagonal() * change / (upper(i) - lower(i));
   }
@@ -52,8 +53,24 @@ Eigen::MatrixXd RobustProblem::deviation_gradients(const Eigen::VectorXd& x,
   return inverse.asDiagonal() * sum;
 }
 
+Eigen::MatrixXd RobustProblem::neighbour_jacobian(const Eigen::VectorXd& x, Eigen::Index changed) {
+  try {
+    return problem_.evaluate(x, Request::values_and_gradients).constraint_jacobian;
+  } catch (const SimulationError& error) {
+    throw EvaluationFailure(fmt::format("with {} = {:.9g}, for the gradient of a margin: {}",
+                                        variables()[static_cast<std::size_t>(changed)].name,
+                                        x(changed), error.what()));
+  }
+}
+
 Evaluation RobustProblem::evaluate(const Eigen::VectorXd& x, Request request) {
-  Evaluation evaluation = problem_.evaluate(x, Request::values_and_gradients);
+  // Backends ask for values first, and often for the gradients of the same design after.
+  if (x_.size() == 0 || x != x_) {
+    x_.resize(0);
+    at_x_ = problem_.evaluate(x, Request::values_and_gradients);
+    x_ = x;
+  }
+  Evaluation evaluation = at_x_;
   const Eigen::VectorXd deviations = constraint_deviations(evaluation);
   if (request == Request::values_and_gradients) {
     const Eigen::MatrixXd gradients = deviation_gradients(x, evaluation, deviations);

@@ -30,9 +30,13 @@ class RobustProblem : public Problem {
   Eigen::MatrixXd deviation_gradients(const Eigen::VectorXd& x, const Evaluation& evaluation,
                                       const Eigen::VectorXd& deviations);
 
+  Eigen::MatrixXd neighbour_jacobian(const Eigen::VectorXd& x, Eigen::Index changed);
+
   Problem& problem_;
   Eigen::VectorXd deviations_;
   Eigen::VectorXd margins_;  ///< of a lower limit with the sign −
+  Eigen::VectorXd x_;        ///< of at_x_; empty before
+  Evaluation at_x_;          ///< of the problem, with gradients
 };
 
 }  // namespace pleuel

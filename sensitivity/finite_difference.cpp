@@ -1,5 +1,8 @@
 #include "sensitivity/finite_difference.hpp"
 
+#include <cmath>
+#include <vector>
+
 #include "core/base/parallel.hpp"
 
 namespace pleuel {

@@ -18,6 +18,8 @@ LeastNorm::LeastNorm(const Mechanism& mechanism)
 // With S the weights of the assembly, S p + Φ_qᵀ c = φ and Φ_q p = 0 have p = 0 for a row φ that
 // follows from the others. The rows of those that are left out say c_i = 0; their columns are φ_i.
 void LeastNorm::set(const State& state) {
+  if (is_set_ && position_.time == state.time && position_.q == state.q) return;
+  is_set_ = false;
   const int n = system_.coordinates(), m = system_.multipliers();
   position_.time = state.time;
   position_.q = state.q;
@@ -40,6 +42,7 @@ void LeastNorm::set(const State& state) {
     forceless_(left_out[i], static_cast<Eigen::Index>(i)) = 1.0;
   }
   weights_.compute(forceless_.transpose() * mechanism_.reaction_weight.asDiagonal() * forceless_);
+  is_set_ = true;
 }
 
 Eigen::VectorXd LeastNorm::share(const Eigen::VectorXd& b) const {

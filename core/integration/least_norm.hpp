@@ -19,7 +19,8 @@ class LeastNorm {
   /// @param mechanism  with constraints that are left out; must outlive this
   explicit LeastNorm(const Mechanism& mechanism);
 
-  /// Goes to an instant. @throws SimulationError if the constraints that are kept are dependent
+  /// Goes to an instant; nothing is done if it is there. @throws SimulationError if the constraints
+  /// that are kept are dependent
   void set(const State& state);
 
   /// λ of the multipliers of the instant.
@@ -48,6 +49,7 @@ class LeastNorm {
   System::Matrix matrix_;
   LinearSolver solver_;
   State position_;
+  bool is_set_ = false;
   Eigen::MatrixXd forceless_;  ///< N, m × left out
   Eigen::LLT<Eigen::MatrixXd> weights_;
 };

@@ -24,7 +24,7 @@ class LinearSolver {
 
   /// rhs ← A⁻¹ rhs, all columns as one block; one step of iterative refinement where the residual
   /// is more than round-off. Not finite if the matrix turns out to be singular. Allocates only if
-  /// the number of columns changes.
+  /// the number of columns changes, or with many columns where new pivots have other fill.
   void solve(Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> rhs);
 
   /// rhs ← A⁻ᵀ rhs, likewise.

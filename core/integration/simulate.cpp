@@ -53,7 +53,7 @@ class CheckpointedLoop : public RepeatedStates {
   }
 
   Trajectory run() {
-    loop_.start(stretch_ + 1);
+    loop_.start(plan_.longest_stretch() + 1);
     checkpoints_.push_back(loop_.checkpoint(0));
     for (int unit = 1; unit <= loop_.units(); ++unit) {
       loop_.advance(unit);

@@ -75,6 +75,8 @@ void TimeLoop::start(Eigen::Index room) {
   // What start_weights() asks for.
   trajectory_.lambda.resize(system_.multipliers(), 0);
   window_.resize(state_, room);
+  start_v_ = state_.v;
+  start_a_ = state_.a;
   residual_.resize(equations_.size());
   store();
 }
@@ -155,7 +157,7 @@ void TimeLoop::restore(const Checkpoint& checkpoint) {
 void TimeLoop::store() {
   const Eigen::Index step = stored_++;
   trajectory_.time(step) = state_.time;
-  if (window_.is_full()) window_.make_room(window_.capacity() + steps_ / 8 + 64);
+  if (window_.is_full()) window_.make_room(window_.capacity() + window_.capacity() / 8 + 64);
   window_.push(state_);
   if (observer_) observer_(static_cast<int>(step), state_);
 }
@@ -256,8 +258,9 @@ void TimeLoop::use_step(double time) {
 void TimeLoop::set_out() {
   const StartWeights weights = trajectory_.start_weights();
   if (weights.are_zero()) return;
-  old_.v = state_.v + weights.v * jerk_;
-  old_.w = state_.a + weights.w * jerk_;
+  // Not of state_, which a first step that failed leaves set out.
+  old_.v = start_v_ + weights.v * jerk_;
+  old_.w = start_a_ + weights.w * jerk_;
 }
 
 void TimeLoop::predict(double time) {
@@ -356,8 +359,7 @@ void TimeLoop::fail(const std::optional<Failure>& failure, double error) const {
   const auto worst = static_cast<std::size_t>(worst_coordinate());
   throw SimulationError(fmt::format(
       "simulation stopped at t = {:.6g} s (step {} of {}): with a step of {:.3g} s the local "
-      "error"
-      "{} is still {:.3g} times what /simulation/local_error allows. Allow more, or a smaller "
+      "error{} is still {:.3g} times what /simulation/local_error allows. Allow more, or a smaller "
       "/simulation/smallest_step; or look for something that jumps there",
       state_.time, step_, steps_, scheme_.step,
       worst < equation_names_.size() ? " of " + equation_names_[worst] : "", error));

@@ -144,7 +144,8 @@ class TimeLoop {
   LinearSolver solver_;
   Eigen::VectorXd correction_, residual_;
   std::optional<Projection> projection_;
-  Eigen::VectorXd jerk_;  ///< that the constraints prescribe at the start
+  Eigen::VectorXd start_v_, start_a_;  ///< of the initial state
+  Eigen::VectorXd jerk_;               ///< that the constraints prescribe there
   double curvature_ = std::numeric_limits<double>::infinity();
   double worst_pivots_ = std::numeric_limits<double>::infinity();
   int finest_level_, level_ = 0;  ///< of the parts of a regular step: 2^-level of it

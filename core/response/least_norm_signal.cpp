@@ -1,12 +1,15 @@
 #include "core/response/least_norm_signal.hpp"
 
+#include <utility>
+
 #include "core/model/body_energy.hpp"
 
 namespace pleuel {
 
-LeastNormSignal::LeastNormSignal(std::unique_ptr<Signal> inner, const Model& model)
+LeastNormSignal::LeastNormSignal(std::unique_ptr<Signal> inner, std::shared_ptr<LeastNorm> norm,
+                                 const Model& model)
     : inner_(std::move(inner)),
-      norm_(model.mechanism),
+      norm_(std::move(norm)),
       joints_(terms_besides_bodies(model).acting, *model.mechanism.system),
       at_rest_(model.mechanism.system->coordinates(), model.mechanism.system->multipliers()),
       local_(model.mechanism.system->coordinates(), model.mechanism.system->multipliers(),
@@ -14,9 +17,9 @@ LeastNormSignal::LeastNormSignal(std::unique_ptr<Signal> inner, const Model& mod
       rows_(Eigen::VectorXd::Zero(model.mechanism.system->size())) {}
 
 void LeastNormSignal::set(const State& state) {
-  norm_.set(state);
+  norm_->set(state);
   least_ = state;
-  least_.lambda = norm_.apply(state.lambda);
+  least_.lambda = norm_->apply(state.lambda);
 }
 
 void LeastNormSignal::observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) {
@@ -31,7 +34,7 @@ void LeastNormSignal::add_gradient(const State& state, int channel, double weigh
     part->setZero();
   }
   inner_->add_gradient(least_, channel, weight, local_);
-  const LeastNorm::Slope slope = norm_.slope(state.lambda, local_.lambda);
+  const LeastNorm::Slope slope = norm_->slope(state.lambda, local_.lambda);
   gradient.v += local_.v;
   gradient.a += local_.a;
   gradient.lambda += slope.lambda;

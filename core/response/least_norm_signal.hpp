@@ -13,8 +13,10 @@ namespace pleuel {
 /// those of the constraints that were kept.
 class LeastNormSignal final : public Signal {
  public:
+  /// @param norm   of the model, shared by its signals: what one has set serves the others
   /// @param model  with redundant constraints; must outlive this
-  LeastNormSignal(std::unique_ptr<Signal> inner, const Model& model);
+  LeastNormSignal(std::unique_ptr<Signal> inner, std::shared_ptr<LeastNorm> norm,
+                  const Model& model);
 
   int channels() const override { return inner_->channels(); }
   std::string describe(int channel) const override { return inner_->describe(channel); }
@@ -29,7 +31,7 @@ class LeastNormSignal final : public Signal {
                             SignalGradient& gradient);
 
   std::unique_ptr<Signal> inner_;
-  LeastNorm norm_;
+  std::shared_ptr<LeastNorm> norm_;
   TermProduct joints_;
   State least_, at_rest_;
   SignalGradient local_;

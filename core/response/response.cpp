@@ -37,8 +37,10 @@ void set_mass(const ResponseSettings& settings, const Model& model, Response& re
 
 class ResponseMaker {
  public:
-  ResponseMaker(const ResponseSettings& settings, const Model& model)
-      : settings_(settings), model_(model) {}
+  /// @param norm  of the model; null without redundant constraints
+  ResponseMaker(const ResponseSettings& settings, const Model& model,
+                std::shared_ptr<LeastNorm> norm)
+      : settings_(settings), model_(model), norm_(std::move(norm)) {}
 
   Response make() {
     response_.name = settings_.name;
@@ -223,15 +225,16 @@ class ResponseMaker {
 
   /// Where constraints are redundant, multipliers are those of least norm.
   void set_multiplier_signal(std::unique_ptr<Signal> signal) {
-    if (model_.mechanism.system->left_out().empty()) {
-      response_.signal = std::move(signal);
+    if (norm_) {
+      response_.signal = std::make_unique<LeastNormSignal>(std::move(signal), norm_, model_);
     } else {
-      response_.signal = std::make_unique<LeastNormSignal>(std::move(signal), model_);
+      response_.signal = std::move(signal);
     }
   }
 
   const ResponseSettings& settings_;
   const Model& model_;
+  std::shared_ptr<LeastNorm> norm_;
   Response response_;
 };
 
@@ -374,9 +377,13 @@ StepRange Response::steps(const Eigen::VectorXd& time) const {
 
 std::vector<Response> make_responses(const std::vector<ResponseSettings>& settings,
                                      const Model& model) {
+  std::shared_ptr<LeastNorm> norm;
+  if (!model.mechanism.system->left_out().empty()) {
+    norm = std::make_shared<LeastNorm>(model.mechanism);
+  }
   std::vector<Response> responses;
   for (const ResponseSettings& setting : settings) {
-    responses.push_back(ResponseMaker(setting, model).make());
+    responses.push_back(ResponseMaker(setting, model, norm).make());
   }
   return responses;
 }

@@ -111,7 +111,7 @@ TEST(Checkpoints, RepeatStepsThatFollowTheLocalError) {
   const auto whole = analyze(problem, start_design(problem));
   ASSERT_GT(whole->trajectory.rejected_steps, 0);
   ASSERT_GT(whole->trajectory.steps(), 300);
-  // A sixth of what all states take.
+  // A third of what all states take.
   const auto& q = whole->trajectory.q;
   const double all = 8.0 * static_cast<double>(q.cols()) *
                      static_cast<double>(3 * q.rows() + 2 * whole->trajectory.lambda.rows());
