@@ -162,6 +162,7 @@ struct LinearSolver::Implementation {
   /// With the scaled rhs in x.
   void solve_and_refine(bool is_transposed, Block x) {
     rhs = x;
+    residual.resizeLike(rhs);  // here, not in the step that first needs it
     solve_scaled(is_transposed, x);
     estimate_backward_error(is_transposed, x);
     if (backward_error <= round_off) return;

@@ -155,8 +155,8 @@ TEST(Checkpoints, GiveTheSameGradientsBitByBit) {
   }
 }
 
-/// The choice works on such a trajectory and counts what both methods simulate again: that brings
-/// the two closer together.
+/// The choice works on such a trajectory, whose steps its measurement takes from the end, and says
+/// that both methods simulate again.
 TEST(Checkpoints, AreKnownToTheChoiceOfTheMethod) {
   std::vector<std::string> overrides = {"/simulation/end_time=20 ms", "/simulation/step=0.1 ms",
                                         "/scene/joints/bearing/drive/ramp=20 ms",

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "sensitivity/direct.hpp"
+#include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_scenes.hpp"
 
 namespace pleuel::test {
@@ -59,6 +60,30 @@ TEST(SplitSteps, AreDifferentiatedAsTheyRan) {
     EXPECT_LE((found - expected).lpNorm<Eigen::Infinity>(),
               1e-5 * found.lpNorm<Eigen::Infinity>() + 1e-9)
         << sample.variables[j];
+  }
+}
+
+/// A mechanism in motion sets out with velocities that belong to the size of the first step. Where
+/// that fails, the halves have to set out from the initial values, not from where it did.
+TEST(SplitSteps, OfTheFirstStepSetOutFromTheInitialValues) {
+  const ProblemFile problem =
+      sample_problem("hard/dead_centres", {"/simulation/step=16 ms", "/simulation/end_time=64 ms",
+                                           "/simulation/max_newton_iterations=4"});
+  const Eigen::VectorXd x = start_design(problem);
+  const auto split = analyze(problem, x);
+  ASSERT_LT(split->trajectory.time(1), 0.01) << "the first step was to be split";
+  ProblemFile patient = with_steps_of(split->trajectory, problem);
+  patient.simulation.instants.assign(split->trajectory.time.begin(), split->trajectory.time.end());
+  patient.simulation.max_newton_iterations = 20;
+  const auto whole = analyze(patient, x);
+  ASSERT_EQ(whole->trajectory.split_steps, 0);
+  ASSERT_EQ(whole->trajectory.steps(), split->trajectory.steps());
+  State found, expected;
+  for (int step = 0; step <= split->trajectory.steps(); ++step) {
+    split->trajectory.load(step, found);
+    whole->trajectory.load(step, expected);
+    // What Newton's method leaves, 1e-10, in another number of iterations.
+    EXPECT_LE((found.v - expected.v).norm(), 1e-7 * expected.v.norm()) << step;
   }
 }
 
