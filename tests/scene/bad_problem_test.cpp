@@ -359,8 +359,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadProblem{
             "/sensitivity/memory", "\"512 kg\"",
             R"(/sensitivity/memory must be an amount of memory [B], got "512 kg": "kg" measures something else)"},
-        BadProblem{"/sensitivity/memory", "0",
-                   "/sensitivity/memory must be positive [B], got 0"},
+        BadProblem{"/sensitivity/memory", "0", "/sensitivity/memory must be positive [B], got 0"},
         BadProblem{"/sensitivity/difference_step", "0",
                    "/sensitivity/difference_step must be greater than 0 and less than 1, got 0"},
         BadProblem{"/optimizer/tolerance", "1",
