@@ -41,19 +41,6 @@ Scene door(const Number& lower, const Number& upper) {
   return scene;
 }
 
-Eigen::Vector3d reaction(const Model& model, const std::string& joint, ResponseType type,
-                         const State& state) {
-  Eigen::Vector3d components;
-  for (int direction : {0, 1, 2}) {
-    ResponseSettings settings;
-    settings.type = type;
-    settings.joint = joint;
-    settings.direction = direction;
-    components(direction) = observed(model, settings, state);
-  }
-  return components;
-}
-
 /// Each hinge of a turning door carries half its weight and half the centripetal force m ω² w/2.
 /// The weight turns it by T = m g w/2 about y; of forces ±F at the hinges and moments M in them
 /// with F d + 2 M = T, 2 F² + 2 M²/ℓ² is least for F = T d/(d² + 4ℓ²), M = 2 T ℓ²/(d² + 4ℓ²).

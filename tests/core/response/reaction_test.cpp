@@ -10,19 +10,6 @@ namespace {
 using namespace pleuel;
 using namespace response_samples;
 
-Eigen::Vector3d reaction(const Model& model, const std::string& joint, ResponseType type,
-                         const State& state) {
-  Eigen::Vector3d components;
-  for (int direction : {0, 1, 2}) {
-    ResponseSettings settings;
-    settings.type = type;
-    settings.joint = joint;
-    settings.direction = direction;
-    components(direction) = observed(model, settings, state);
-  }
-  return components;
-}
-
 class EveryReaction : public testing::TestWithParam<int> {};
 
 /// What the joint's term does to the frame of its second body is the wrench about its origin:

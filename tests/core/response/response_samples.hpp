@@ -153,4 +153,18 @@ inline double observed(const Model& model, const ResponseSettings& settings, con
   return observed(*responses.front().signal, state)(0);
 }
 
+/// The three components of a reaction.
+inline Eigen::Vector3d reaction(const Model& model, const std::string& joint, ResponseType type,
+                                const State& state) {
+  Eigen::Vector3d components;
+  for (int direction : {0, 1, 2}) {
+    ResponseSettings settings;
+    settings.type = type;
+    settings.joint = joint;
+    settings.direction = direction;
+    components(direction) = observed(model, settings, state);
+  }
+  return components;
+}
+
 }  // namespace response_samples
