@@ -165,12 +165,7 @@ SensitivitySettings read_sensitivity(const JsonNode& node, const NumberReader& n
       {"method", "difference_step", "invariant_derivatives", "invariant_step", "memory"});
   SensitivitySettings settings;
   if (const auto method = node.find("method")) {
-    settings.method = read_choice<GradientMethod>(
-        *method, {{"auto", GradientMethod::automatic},
-                  {"direct", GradientMethod::direct},
-                  {"adjoint", GradientMethod::adjoint},
-                  {"forward-difference", GradientMethod::forward_difference},
-                  {"central-difference", GradientMethod::central_difference}});
+    settings.method = read_choice(*method, gradient_methods);
   }
   if (const auto step = node.find("difference_step")) {
     settings.difference_step = read_tolerance(*step);
