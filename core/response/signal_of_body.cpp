@@ -4,6 +4,7 @@
 
 #include "core/response/buckling_signal.hpp"
 #include "core/response/imported_signals.hpp"
+#include "core/response/imported_stress_signal.hpp"
 #include "core/response/motion_signals.hpp"
 #include "core/response/projected_signal.hpp"
 #include "core/response/response.hpp"
