@@ -1,3 +1,5 @@
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "cli/commands.hpp"
@@ -171,9 +173,10 @@ Outcome run_accuracy(const Arguments& arguments) {
   if (!problem.accuracy) throw InputError("/accuracy is missing: it says which steps to try");
   RunRecord record(arguments, input, Json::object());
   record.begin_phase("accuracy");
-  AccuracyCsv csv(record.folder() / "accuracy.csv", problem);
+  std::optional<AccuracyCsv> csv;  // with the first result
   const AccuracyStudy study = accuracy_study(problem, [&](const AccuracyRun& run) {
-    csv.add(run);
+    if (!csv) csv.emplace(record.result("accuracy.csv"), problem);
+    csv->add(run);
     fmt::print(stderr, "  step {:.4g} ms, {} elements: {}\n", 1e3 * run.settings.step,
                run.settings.elements, run.failure.empty() ? duration(run.seconds()) : "failed");
   });

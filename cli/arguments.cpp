@@ -75,7 +75,7 @@ void add_method(CLI::App* command, Arguments& arguments) {
 void add_jobs(CLI::App* command, Arguments& arguments) {
   command->add_option("--jobs", arguments.jobs, "simulations at a time (default: all processors)")
       ->type_name("NUMBER")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 1024));
 }
 
 void add_uncertainty(CLI::App& app, Arguments& arguments) {

@@ -3,6 +3,7 @@
 #include "cli/analysis_report.hpp"
 #include "cli/commands.hpp"
 #include "cli/derivative_report.hpp"
+#include "cli/monitors_report.hpp"
 #include "cli/number_text.hpp"
 #include "cli/problem_input.hpp"
 #include "cli/scene_report.hpp"
@@ -29,6 +30,7 @@ Findings examine(const ProblemFile& problem, const Eigen::VectorXd& x, int threa
   findings.analysis = analyze(problem, x);
   findings.simulation_seconds = simulation.seconds();
   findings.ties = find_ties(*findings.analysis);
+  findings.warnings = doubts(monitor(findings.analysis->model, findings.analysis->trajectory));
   if (problem.variables.empty() || problem.responses.empty()) return findings;
   const Stopwatch gradient;
   direct_gradients(*findings.analysis);
@@ -39,7 +41,10 @@ Findings examine(const ProblemFile& problem, const Eigen::VectorXd& x, int threa
     fmt::print(stderr, "verifying derivatives by central differences, step {:g} …\n", step);
   };
   findings.derivatives = check_derivatives(problem, x, *findings.analysis, options);
-  findings.warnings = noise_warnings(problem, *findings.analysis, findings.derivatives);
+  for (const std::string& warning :
+       noise_warnings(problem, *findings.analysis, findings.derivatives)) {
+    findings.warnings.push_back(warning);
+  }
   return findings;
 }
 
@@ -63,6 +68,7 @@ Json make_document(const ProblemFile& problem, const Findings& findings) {
                    {"bodies", bodies_document(analysis.model)},
                    {"coordinates", analysis.model.mechanism.system->coordinates()},
                    {"multipliers", analysis.model.mechanism.system->multipliers()},
+                   {"rigid_motion", freedoms_document(analysis)},
                    {"steps", analysis.trajectory.steps()},
                    {"effects", effects_document(analysis.model)},
                    {"variables", variables_document(problem)},
@@ -71,12 +77,6 @@ Json make_document(const ProblemFile& problem, const Findings& findings) {
                    {"seconds", {{"simulate", findings.simulation_seconds}}}};
   if (!findings.derivatives.empty()) document["seconds"]["direct"] = findings.gradient_seconds;
   return document;
-}
-
-std::string warnings_text(const std::vector<std::string>& warnings) {
-  std::string text;
-  for (const std::string& warning : warnings) text += fmt::format("\nWarning: {}\n", warning);
-  return text;
 }
 
 std::string time_text(const ProblemFile& problem, const Findings& findings) {
@@ -93,15 +93,17 @@ std::string time_text(const ProblemFile& problem, const Findings& findings) {
 
 std::string make_text(const ProblemFile& problem, const Findings& findings) {
   const Analysis& analysis = *findings.analysis;
-  std::string text =
-      fmt::format("{}: a valid problem\n{}\n\n{}\n{}", problem.name, size_text(analysis),
-                  bodies_text(analysis.model), effects_text(analysis.model));
+  std::string text = fmt::format(
+      "{}: a valid problem\n{}\n\n{}\n{}", problem.name, size_text(analysis),
+      bodies_text(analysis.model) + "\n" + freedoms_text(analysis) + assembly_text(analysis) + "\n",
+      effects_text(analysis.model));
   if (!problem.variables.empty()) text += "\n" + variables_text(problem);
   text += "\n" + (findings.derivatives.empty()
                       ? responses_text(problem, analysis)
                       : derivatives_text(problem, analysis, findings.derivatives));
-  return text + ties_text(findings.ties, analysis) + warnings_text(findings.warnings) +
-         time_text(problem, findings);
+  text += ties_text(findings.ties, analysis);
+  if (!findings.warnings.empty()) text += "\n" + warnings_text(findings.warnings);
+  return text + time_text(problem, findings);
 }
 
 }  // namespace

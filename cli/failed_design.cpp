@@ -45,8 +45,8 @@ std::string command_again(const RunRecord& record, const Arguments& arguments,
 
 }  // namespace
 
-void write_failed_design(const RunRecord& record, const Arguments& arguments,
-                         const ProblemFile& problem, const EvaluationRecord& failed) {
+void write_failed_design(RunRecord& record, const Arguments& arguments, const ProblemFile& problem,
+                         const EvaluationRecord& failed) {
   record.write(file_name, {{"evaluation", failed.evaluation},
                            {"request", to_string(failed.request)},
                            {"failure", failed.failure},

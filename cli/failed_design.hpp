@@ -11,8 +11,8 @@
 namespace pleuel {
 
 /// Writes failed_design.json: design, failure, and the command that evaluates that design again.
-void write_failed_design(const RunRecord& record, const Arguments& arguments,
-                         const ProblemFile& problem, const EvaluationRecord& failed);
+void write_failed_design(RunRecord& record, const Arguments& arguments, const ProblemFile& problem,
+                         const EvaluationRecord& failed);
 
 /// Says where the last failed design is and how to run it; empty if none failed.
 std::string failed_design_text(const RunRecord& record, const Arguments& arguments,

@@ -173,8 +173,8 @@ std::string seconds_text(const std::vector<MethodResult>& results, double simula
 void write_histories(RunRecord& record, const ProblemInput& input, Analysis& analysis,
                      Outcome& outcome) {
   record.begin_phase("histories");
-  write_trajectory(record.folder() / "trajectory.csv", analysis);
-  write_history_gradients(record.folder() / "gradients.csv", input.problem, analysis);
+  write_trajectory(record.result("trajectory.csv"), analysis);
+  write_history_gradients(record.result("gradients.csv"), input.problem, analysis);
   outcome.text +=
       fmt::format("Written to {}: gradients.csv, trajectory.csv, result.json, run_card.json\n",
                   record.folder().string());

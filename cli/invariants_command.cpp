@@ -117,7 +117,7 @@ Outcome run_invariants(const Arguments& arguments) {
   record.begin_phase("write");
   std::vector<fs::path> paths;
   for (const InvariantsFile& file : files) {
-    const fs::path path = record.folder() / file_name(file.body);
+    const fs::path path = record.result(file_name(file.body));
     if (std::find(paths.begin(), paths.end(), path) != paths.end()) {
       throw InputError(fmt::format("two bodies would be written to {}: use --body", path.string()));
     }

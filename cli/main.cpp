@@ -44,6 +44,14 @@ int report_error(ExitCode code, const std::string& message, bool wants_json) {
   return number;
 }
 
+/// @throws InputError if not all of it could be written
+void print_whole(const std::string& text) {
+  const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (std::fflush(stdout) != 0 || !is_written) {
+    throw InputError("standard output cannot be written; results in files are complete");
+  }
+}
+
 int guarded_main(int argc, const char* const* argv) {
   Arguments arguments;
   arguments.wants_json = std::find(argv, argv + argc, std::string_view("--json")) != argv + argc;
@@ -52,7 +60,7 @@ int guarded_main(int argc, const char* const* argv) {
     if (!parsed) return 0;
     arguments = *parsed;
     const Outcome outcome = run(arguments);
-    fmt::print("{}", arguments.wants_json ? to_text(outcome.document) : outcome.text);
+    print_whole(arguments.wants_json ? to_text(outcome.document) : outcome.text);
     return static_cast<int>(outcome.exit_code);
   } catch (const InputError& error) {
     return report_error(ExitCode::bad_input, with_file(error.what(), arguments),

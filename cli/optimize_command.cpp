@@ -1,3 +1,5 @@
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "cli/commands.hpp"
@@ -18,12 +20,12 @@ namespace {
 
 /// Simulates the first and the last design for their trajectory files and for what is reported of
 /// them.
-void examine_designs(const RunRecord& record, Optimum& optimum) {
+void examine_designs(RunRecord& record, Optimum& optimum) {
   const auto start = analyze(optimum.problem, start_design(optimum.problem));
-  write_trajectory(record.folder() / "trajectory-start.csv", *start);
+  write_trajectory(record.result("trajectory-start.csv"), *start);
   optimum.start_responses = values_of(*start);
   const auto end = analyze(optimum.problem, optimum.result.x);
-  write_trajectory(record.folder() / "trajectory-optimum.csv", *end);
+  write_trajectory(record.result("trajectory-optimum.csv"), *end);
   optimum.responses = values_of(*end);
   optimum.monitors = monitor(end->model, end->trajectory);
 }
@@ -33,16 +35,17 @@ ExitCode exit_code(const Optimum& optimum) {
   return optimum.result.status == Status::verified ? ExitCode::done : ExitCode::not_verified;
 }
 
-Result solve_visibly(DesignProblem& problem, const SolveOptions& options,
-                     const RunRecord& run_record, const Arguments& arguments) {
+Result solve_visibly(DesignProblem& problem, const SolveOptions& options, RunRecord& run_record,
+                     const Arguments& arguments) {
   std::FILE* out = arguments.progress();
   fmt::print(out, "{}: minimize {} by {} variables under {} constraints, with {}\n\n",
              problem.file().name, problem.objective_name(), problem.variables().size(),
              problem.constraints().size(), options.backend);
-  HistoryCsv history(run_record.folder() / "history.csv", problem);
+  std::optional<HistoryCsv> history;  // with the first evaluation
   IterationLines lines(out, problem.file());
   return solve_design(problem, options, [&](const EvaluationRecord& record) {
-    history.add(record);
+    if (!history) history.emplace(run_record.result("history.csv"), problem);
+    history->add(record);
     lines.see(record);
     if (!record.has_failed()) return;
     write_failed_design(run_record, arguments, problem.file(), record);

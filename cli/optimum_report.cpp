@@ -129,7 +129,7 @@ std::string optimum_report(const Optimum& optimum) {
   const std::string status = "\n" + status_text(optimum.result) + "\n";
   if (!optimum.has_design()) return status;
   return status + "\n" + objective_text(optimum) + "\n" + variables_text(optimum) +
-         constraints_text(optimum) + "\n" + bending_text(optimum.monitors) +
+         constraints_text(optimum) + "\n" + warnings_text(doubts(optimum.monitors)) +
          residuals_text(optimum.result) + effort_text(optimum);
 }
 

@@ -1,3 +1,5 @@
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "cli/commands.hpp"
@@ -167,9 +169,10 @@ Outcome run_pareto(const Arguments& arguments) {
   const SolveOptions options = solve_options(problem, arguments);
   RunRecord record(arguments, input, options_document(options, problem));
   record.begin_phase("pareto");
-  ParetoCsv csv(record.folder() / "pareto.csv", problem);
+  std::optional<ParetoCsv> csv;  // with the first result
   const auto observer = [&](const ParetoPoint& point) {
-    csv.add(point);
+    if (!csv) csv.emplace(record.result("pareto.csv"), problem);
+    csv->add(point);
     show_progress(stderr, problem, point);
   };
   const auto points = pareto_front(problem, options, observer, arguments.jobs);

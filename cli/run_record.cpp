@@ -17,8 +17,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* card_name = "run_card.json";
 
-/// Everything that a run of any command may leave.
-constexpr std::array<const char*, 12> result_names = {"history.csv",
+/// Everything that a run of any command may leave beside the card.
+constexpr std::array<const char*, 11> result_names = {"history.csv",
                                                       "result.json",
                                                       "trajectory.csv",
                                                       "trajectory-start.csv",
@@ -28,8 +28,7 @@ constexpr std::array<const char*, 12> result_names = {"history.csv",
                                                       "stability.csv",
                                                       "uncertainty.csv",
                                                       "gradients.csv",
-                                                      "failed_design.json",
-                                                      card_name};
+                                                      "failed_design.json"};
 
 fs::path default_folder(const Arguments& arguments) {
   if (arguments.files.size() > 1) return fs::path("runs") / arguments.command;
@@ -37,7 +36,22 @@ fs::path default_folder(const Arguments& arguments) {
   return fs::path("runs") / (file.stem().string() + "-" + arguments.command);
 }
 
-void prepare_folder(const fs::path& folder) {
+/// The command that the card of an older run names; empty if there is none that can be read.
+std::string command_of(const fs::path& folder) {
+  std::ifstream stream(folder / card_name);
+  const Json card = Json::parse(stream, nullptr, /*allow_exceptions=*/false);
+  return card.is_object() ? card.value("command", "") : "";
+}
+
+void check_writable(const fs::path& folder) {
+  const fs::path probe = folder / (std::string(card_name) + ".draft");
+  std::error_code error;
+  const bool is_written = static_cast<bool>(std::ofstream(probe) << '\n' << std::flush);
+  fs::remove(probe, error);
+  if (!is_written) throw InputError(fmt::format("-o {}: cannot be written", folder.string()));
+}
+
+void prepare_folder(const fs::path& folder, const std::string& command) {
   std::error_code error;
   if (fs::exists(folder) && !fs::is_directory(folder)) {
     throw InputError(fmt::format("-o {}: is a file, not a folder", folder.string()));
@@ -53,7 +67,12 @@ void prepare_folder(const fs::path& folder) {
   if (error) {
     throw InputError(fmt::format("-o {}: cannot be created: {}", folder.string(), error.message()));
   }
-  for (const char* name : result_names) fs::remove(folder / name, error);
+  check_writable(folder);
+  const std::string older = command_of(folder);
+  if (!older.empty() && older != command) {
+    throw InputError(fmt::format("-o {}: holds a run of `pleuel {}`; choose another name",
+                                 folder.string(), older));
+  }
 }
 
 /// First beside it, then renamed: readers see the old or the new file, never half of one.
@@ -82,7 +101,7 @@ double seconds_since(Clock::time_point begin) {
 
 RunRecord::RunRecord(const Arguments& arguments, Json options)
     : folder_(arguments.output.value_or(default_folder(arguments))), begin_(Clock::now()) {
-  prepare_folder(folder_);
+  prepare_folder(folder_, arguments.command);
   card_["finished"] = false;
   card_["command"] = arguments.command;
   card_["arguments"] = arguments.words;
@@ -100,7 +119,6 @@ RunRecord::RunRecord(const Arguments& arguments, const ProblemInput& input, Json
     : RunRecord(arguments, std::move(options)) {
   card_["input"] = input_document(input, arguments);
   card_["problem"] = input.effective;
-  write_card();
 }
 
 RunRecord::RunRecord(const Arguments& arguments, const std::vector<ProblemInput>& inputs,
@@ -110,7 +128,6 @@ RunRecord::RunRecord(const Arguments& arguments, const std::vector<ProblemInput>
     card_["inputs"].push_back(input_document(input, arguments));
     card_["problems"].push_back(input.effective);
   }
-  write_card();
 }
 
 void RunRecord::begin_phase(const std::string& name) {
@@ -124,8 +141,13 @@ void RunRecord::end_phase() {
   phase_.clear();
 }
 
-void RunRecord::write(const std::string& name, const Json& document) const {
-  write_whole(folder_ / name, to_text(document));
+fs::path RunRecord::result(const std::string& name) {
+  if (!has_results_) replace_older_run();
+  return folder_ / name;
+}
+
+void RunRecord::write(const std::string& name, const Json& document) {
+  write_whole(result(name), to_text(document));
 }
 
 void RunRecord::finish(const Outcome& outcome) {
@@ -135,11 +157,14 @@ void RunRecord::finish(const Outcome& outcome) {
   card_["finished"] = true;
   card_["exit_code"] = static_cast<int>(outcome.exit_code);
   card_["seconds"] = phases_;
-  write_card();
+  write(card_name, card_);
 }
 
-void RunRecord::write_card() {
-  write(card_name, card_);
+void RunRecord::replace_older_run() {
+  has_results_ = true;
+  write(card_name, card_);  // first: a folder without it would not be ours any more
+  std::error_code error;
+  for (const char* name : result_names) fs::remove(folder_ / name, error);
 }
 
 }  // namespace pleuel

@@ -1,10 +1,13 @@
 #include "cli/scene_report.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "cli/number_text.hpp"
 #include "cli/shown_unit.hpp"
 #include "cli/table.hpp"
+#include "core/integration/freedoms.hpp"
 
 namespace pleuel {
 
@@ -12,6 +15,21 @@ namespace {
 
 int elastic_coordinates(const BodyModel& body) {
   return body.elastic_size();
+}
+
+/// Of the size of a coordinate; assembly itself ends at 1e-10.
+constexpr double visible_shift = 1e-6;
+
+State initial_state_of(const Analysis& analysis) {
+  State state;
+  analysis.trajectory.load(0, state);
+  return state;
+}
+
+int drives(const Model& model) {
+  return static_cast<int>(
+      std::count_if(model.joints.begin(), model.joints.end(),
+                    [](const JointModel& joint) { return joint.drive_row >= 0; }));
 }
 
 }  // namespace
@@ -41,6 +59,44 @@ std::string bodies_text(const Model& model) {
          body.is_elastic || body.is_beam() ? std::to_string(elastic_coordinates(body)) : "–"});
   }
   return table.text();
+}
+
+Json freedoms_document(const Analysis& analysis) {
+  const Freedoms freedoms = rigid_freedoms(analysis.model.mechanism, initial_state_of(analysis));
+  return {{"coordinates", freedoms.coordinates},
+          {"constraints", freedoms.constraints},
+          {"drives", drives(analysis.model)},
+          {"free", freedoms.free()}};
+}
+
+std::string freedoms_text(const Analysis& analysis) {
+  const Freedoms freedoms = rigid_freedoms(analysis.model.mechanism, initial_state_of(analysis));
+  const int driven = drives(analysis.model);
+  std::string text = fmt::format(
+      "Rigid motion: {} coordinates, {} independent constraints ({} of drives): ",
+      freedoms.coordinates, freedoms.constraints, driven == 0 ? "none" : std::to_string(driven));
+  if (freedoms.free() > 0) {
+    return text + fmt::format("{} freedom{} left to the forces\n", freedoms.free(),
+                              freedoms.free() == 1 ? " is" : "s are");
+  }
+  return text + (driven > 0 ? "the drives prescribe it\n" : "nothing can move\n");
+}
+
+std::string assembly_text(const Analysis& analysis) {
+  const Mechanism& mechanism = analysis.model.mechanism;
+  Eigen::VectorXd shift = (initial_state_of(analysis).q - mechanism.guess.q).cwiseAbs();
+  for (const int i : mechanism.elastic) shift(i) = 0.0;
+  Eigen::Index largest = 0;
+  if (shift.size() == 0 ||
+      shift.cwiseQuotient(mechanism.scale).maxCoeff(&largest) <= visible_shift) {
+    return "";
+  }
+  const std::string& name = mechanism.equation_names.at(static_cast<std::size_t>(largest));
+  return fmt::format(
+      "Joints and drives move the mechanism from where the file places it before the start, most "
+      "{}, "
+      "by {} m or rad.\n",
+      name, significant(shift(largest), 3));
 }
 
 Json variables_document(const ProblemFile& problem) {

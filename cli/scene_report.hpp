@@ -3,7 +3,7 @@
 #include <string>
 
 #include "cli/json.hpp"
-#include "core/model/model.hpp"
+#include "core/response/analysis.hpp"
 
 /// What `check` says of bodies and variables.
 namespace pleuel {
@@ -11,6 +11,14 @@ namespace pleuel {
 /// [{"name", "mass", "elements", "coordinates"}]
 Json bodies_document(const Model& model);
 std::string bodies_text(const Model& model);
+
+/// {"coordinates", "constraints", "drives", "free"}: how joints and drives hold the mechanism if
+/// its bodies do not deform, at the start of the simulation.
+Json freedoms_document(const Analysis& analysis);
+std::string freedoms_text(const Analysis& analysis);
+
+/// Says how far assembly moved the mechanism from where the file places it; empty if it did not.
+std::string assembly_text(const Analysis& analysis);
 
 /// {NAME: {"start", "lower", "upper", "unit"}} [SI]
 Json variables_document(const ProblemFile& problem);

@@ -6,6 +6,7 @@
 #include "cli/number_text.hpp"
 #include "cli/problem_input.hpp"
 #include "cli/run_record.hpp"
+#include "cli/scene_report.hpp"
 #include "cli/stopwatch.hpp"
 #include "cli/trajectory_csv.hpp"
 
@@ -24,6 +25,7 @@ Json simulation_document(const Analysis& analysis, const Monitors& monitors, dou
           {"factorizations", trajectory.factorizations},
           {"seconds", seconds},
           {"monitors", monitors_document(monitors)},
+          {"warnings", doubts(monitors)},
           {"effects", effects_document(analysis.model)},
           {"coordinates", system.coordinates()},
           {"multipliers", system.multipliers()}};
@@ -46,7 +48,7 @@ std::string simulation_text(const ProblemFile& problem, const std::string& desig
       fmt::format("{}{}: {}\n\n{}\n{}", problem.name, design, size_text(analysis),
                   responses_text(problem, analysis),
                   monitors_text(monitors, analysis.model.mechanism.system->multipliers()) +
-                      bending_text(monitors));
+                      assembly_text(analysis) + warnings_text(doubts(monitors)));
   if (trajectory.split_steps > 0) {
     text += fmt::format(
         "Newton's method failed in {} steps, which were split; look there with a "
@@ -74,7 +76,7 @@ Outcome run_simulate(const Arguments& arguments) {
   record.begin_phase("monitor");
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
   record.begin_phase("write");
-  write_trajectory(record.folder() / "trajectory.csv", *analysis);
+  write_trajectory(record.result("trajectory.csv"), *analysis);
   const std::string design = arguments.design ? " at " + arguments.design->string() : "";
   Outcome outcome{ExitCode::done, simulation_document(*analysis, monitors, seconds),
                   simulation_text(input.problem, design, *analysis, monitors, seconds)};

@@ -1,5 +1,6 @@
 #include "cli/solve_settings.hpp"
 
+#include "core/base/error.hpp"
 #include "optimization/optimizer.hpp"
 
 namespace pleuel {
@@ -9,7 +10,12 @@ SolveOptions solve_options(const ProblemFile& problem, const Arguments& argument
   options.backend = arguments.backend.value_or(problem.optimizer.backend);
   options.tolerance = problem.optimizer.tolerance;
   options.max_iterations = problem.optimizer.max_iterations;
-  make_optimizer(options.backend, {options.tolerance});  // throws before a folder is touched
+  try {
+    make_optimizer(options.backend, {options.tolerance});
+  } catch (const InputError& error) {
+    throw InputError((arguments.backend ? "--backend: " : "/optimizer/backend: ") +
+                     std::string(error.what()));
+  }
   return options;
 }
 

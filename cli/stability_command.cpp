@@ -1,3 +1,5 @@
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "cli/commands.hpp"
@@ -114,10 +116,11 @@ std::string failures_text(const std::vector<StabilityRun>& runs) {
 Outcome run_stability(const Arguments& arguments) {
   RunRecord record(arguments, read_inputs(arguments), Json::object());
   record.begin_phase("stability");
-  StabilityCsv csv(record.folder() / "stability.csv");
+  std::optional<StabilityCsv> csv;  // with the first result
   const std::vector<StabilityRun> runs =
       stability_study(arguments.files, arguments.overrides, [&](const StabilityRun& run) {
-        csv.add(run);
+        if (!csv) csv.emplace(record.result("stability.csv"));
+        csv->add(run);
         fmt::print(stderr, "  {}, {}: {}\n", case_name(run), run.formulation,
                    run.is_ok() ? duration(run.seconds) : "failed");
       });

@@ -12,7 +12,7 @@ std::string describe(const Tie& tie, const Response& response) {
   const PeakTie& peaks = tie.peaks;
   return fmt::format(
       "{}: peaks within {:.2g} %, at {:.5g} s ({}) and at {:.5g} s ({}); gradients differ by "
-      "{:.2g} %",
+      "{:.3g} %",
       response.name, 100 * peaks.gap, peaks.time, response.signal->describe(peaks.channel),
       peaks.other_time, response.signal->describe(peaks.other_channel), 100 * *tie.kink);
 }

@@ -186,7 +186,7 @@ Outcome run_uncertainty(const Arguments& arguments) {
   const UncertaintyStudy study = uncertainty_study(problem, arguments.jobs, [&](int done) {
     fmt::print(stderr, "  {} of {} samples\n", done, samples);
   });
-  write_histories(record.folder() / "uncertainty.csv", problem, study);
+  write_histories(record.result("uncertainty.csv"), problem, study);
   Outcome outcome{ExitCode::done, make_document(problem, study), study_text(problem, study)};
   outcome.text += fmt::format("\nWritten to {}: uncertainty.csv, result.json, run_card.json\n",
                               record.folder().string());

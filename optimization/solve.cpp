@@ -21,8 +21,8 @@ void check_backend(const Problem& problem, const SolveOptions& options) {
   for (const Constraint& constraint : problem.constraints()) {
     if (constraint.is_equality() && !backend->takes_equalities()) {
       throw InputError(fmt::format(
-          "{} knows no equality constraints, but {} must equal {}; use nlopt-slsqp or ipopt",
-          options.backend, constraint.name, constraint.upper));
+          "/constraints/{} is an equality, which {} does not know; use nlopt-slsqp or ipopt",
+          constraint.name, options.backend));
     }
   }
 }

@@ -10,8 +10,8 @@ StepRange Response::steps(const Eigen::VectorXd& time) const {
   const StepRange range = steps_between(time, from, to);
   if (range.steps() >= 2) return range;
   throw InputError(
-      fmt::format("the response \"{}\" is reduced over a window of time with less than two steps; "
-                  "widen it or shorten the steps",
+      fmt::format("/responses/{} is reduced over a window of time with less than two steps; widen "
+                  "it or shorten the steps",
                   name));
 }
 

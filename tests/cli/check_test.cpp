@@ -36,6 +36,20 @@ TEST(Check, WarnsOfNoiseAboveTheTolerance) {
   EXPECT_FALSE(run.document().at("warnings").empty());
 }
 
+TEST(Check, CountsTheFreedomsThatAreLeft) {
+  const TemporaryFolder folder;
+  const auto rigid_motion = [&](const std::string& name) {
+    return run_program(folder.path(),
+                       {"check", problem(name), "--json", "--set", "/simulation/end_time=4 ms"})
+        .document()
+        .at("rigid_motion");
+  };
+  EXPECT_EQ(rigid_motion("hard/dead_centres").at("free"), 1);
+  const auto driven = rigid_motion("hard/impossible_designs");
+  EXPECT_EQ(driven.at("free"), 0);
+  EXPECT_EQ(driven.at("drives"), 1);
+}
+
 TEST(Check, GivesAReasonForEveryEffect) {
   const TemporaryFolder folder;
   const ProgramRun run = run_program(

@@ -102,6 +102,62 @@ TEST(RunFolder, OfAnOlderRunIsReplaced) {
   EXPECT_FALSE(fs::exists(folder.path() / "one/history.csv"));
 }
 
+/// Errors that are found while reading, at the first evaluation, and by the backend.
+TEST(RunFolder, OfAnOlderRunOutlivesBadInput) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> good =
+      joined({"optimize", problem("slider_crank_round"), "-o", "one"}, quick());
+  ASSERT_EQ(run_program(folder.path(), good).exit_code, 0);
+  const std::vector<std::string> before = files(folder.path() / "one");
+  const std::string result = read_file(folder.path() / "one/result.json");
+  for (
+      const std::string bad :
+      {"/simulation/step=-1", "/responses/crank_stress/from=19.9 ms",
+       R"(/constraints/crank_strength={"response": "crank_stress", "lower": 1e8, "upper": 1e8})"}) {
+    const ProgramRun run = run_program(folder.path(), joined(good, {"--set", bad}));
+    EXPECT_EQ(run.exit_code, 2) << bad << run.err;
+    EXPECT_THAT(files(folder.path() / "one"), ::testing::UnorderedElementsAreArray(before)) << bad;
+    EXPECT_EQ(read_file(folder.path() / "one/result.json"), result) << bad;
+  }
+}
+
+TEST(RunFolder, OfAnotherCommandIsNotTouched) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(simulate_into(folder, "one").exit_code, 0);
+  const ProgramRun run = run_program(
+      folder.path(), joined({"optimize", problem("slider_crank_round"), "-o", "one"}, quick()));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("-o one: holds a run of `pleuel simulate`"));
+  EXPECT_TRUE(fs::exists(folder.path() / "one/trajectory.csv"));
+}
+
+TEST(Simulate, WarnsOfStepsThatAreTooLong) {
+  const TemporaryFolder folder;
+  const auto warnings = [&](const std::string& step) {
+    return run_program(folder.path(), {"simulate", problem("four_bar"), "--json", "--set",
+                                       "/simulation/step=" + step})
+        .document()
+        .at("warnings")
+        .dump();
+  };
+  EXPECT_THAT(warnings("20 ms"), HasSubstr("energy is balanced to"));
+  EXPECT_EQ(warnings("0.5 ms"), "[]");
+}
+
+TEST(Simulate, SaysThatAssemblyMovesTheMechanism) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(run_program(folder.path(), {"simulate", problem("hard/inconsistent_start")}).out,
+              HasSubstr("from where the file places it"));
+  EXPECT_THAT(simulate_into(folder, "one").out,
+              ::testing::Not(HasSubstr("from where the file places it")));
+}
+
+TEST(Output, ThatCannotBeWrittenIsAnError) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP();
+  const TemporaryFolder folder;
+  EXPECT_EQ(run_line(folder.path(), "backends --json >/dev/full; echo $?").out, "2\n");
+}
+
 TEST(RunFolder, WithOtherPeoplesFilesIsNotTouched) {
   const TemporaryFolder folder;
   fs::create_directory(folder.path() / "thesis");

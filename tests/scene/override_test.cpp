@@ -47,6 +47,12 @@ TEST(Override, AddsAKeyToAnObjectThatIsThere) {
   EXPECT_EQ(read_with({"/objective/scale=3"}).objective->scale, 3.0);
 }
 
+TEST(Override, BeginsABlockThatTheFileLeavesOut) {
+  EXPECT_EQ(read_with({"/sensitivity/method=adjoint"}).sensitivity.method, GradientMethod::adjoint);
+  EXPECT_EQ(complaint_with("/sensitivity/metod=adjoint"),
+            "good.json: /sensitivity has the unknown key \"metod\"; did you mean \"method\"?");
+}
+
 TEST(Override, IsAppliedInOrder) {
   EXPECT_EQ(read_with({"/optimizer/backend=a", "/optimizer/backend=b=c"}).optimizer.backend, "b=c");
 }

@@ -1,6 +1,7 @@
 #include "core/scene/reading/override.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <vector>
@@ -12,6 +13,11 @@
 
 namespace pleuel {
 namespace {
+
+/// Objects that a file may leave out, and an override begin.
+constexpr std::array optional_blocks = {"accuracy",   "constraints", "effects",   "objective",
+                                        "optimizer",  "pareto",      "responses", "sensitivity",
+                                        "simulation", "uncertainty", "variables"};
 
 /// One assignment on its way down the document.
 class Override {
@@ -65,6 +71,9 @@ class Override {
     if (parent.is_array()) return parent[index(parent.size(), pointer, key)];
     if (!parent.is_object()) fail(fmt::format("{} has no members", shown(pointer)));
     if (parent.contains(key)) return parent[key];
+    const bool is_block =
+        std::find(optional_blocks.begin(), optional_blocks.end(), key) != optional_blocks.end();
+    if (pointer.empty() && is_block) return parent[key] = Json::object();
     std::vector<std::string> known;
     for (const auto& [name, member] : parent.items()) known.push_back(name);
     fail(fmt::format("{} has no key \"{}\"{}", shown(pointer), key, hint(key, known)));

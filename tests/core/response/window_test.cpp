@@ -106,8 +106,8 @@ TEST(Window, WithLessThanTwoStepsIsAnError) {
   } catch (const InputError& error) {
     EXPECT_STREQ(
         error.what(),
-        "the response \"speed\" is reduced over a window of time with less than two steps; "
-        "widen it or shorten the steps");
+        "/responses/speed is reduced over a window of time with less than two steps; widen it or "
+        "shorten the steps");
   }
 }
 
