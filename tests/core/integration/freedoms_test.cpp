@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/integration/initial_state.hpp"
+#include "core/response/analysis.hpp"
 #include "tests/support/problem_runs.hpp"
 
 namespace pleuel::test {
