@@ -193,8 +193,8 @@ TEST_F(BadCatalogue, UnknownNameIsAnsweredWithASuggestion) {
 
 TEST_F(BadCatalogue, NameIsATextAndStandsAlone) {
   EXPECT_EQ(complaint_with(good_catalogue, R"({"catalogue": 12})"),
-            "bad.json: /scene/bodies/crank/section/catalogue must be a text in quotes, not empty, "
-            "got 12");
+            "bad.json: /scene/bodies/crank/section/catalogue must be the name of a section: "
+            "\"round 10\" or \"round 12\", got 12");
   EXPECT_EQ(complaint_with(good_catalogue, R"({"catalogue": "round 12", "diameter": 0.01})"),
             "bad.json: /scene/bodies/crank/section has the unknown key \"diameter\"; known is "
             "\"catalogue\"");

@@ -131,8 +131,9 @@ void fail_unknown_name(const JsonNode& node, std::string_view kind, const std::s
 std::string read_known_name(const JsonNode& node, std::string_view kind,
                             const std::vector<std::string>& known) {
   if (!node.value().is_string()) {
-    node.fail_with_value(
-        fmt::format("must be the name of a {}: {}", kind, quoted_list(known, "or")));
+    const bool is_short = !known.empty() && known.size() <= 12;  // a catalogue is not
+    node.fail_with_value(fmt::format("must be the name of a {}{}", kind,
+                                     is_short ? ": " + quoted_list(known, "or") : ""));
   }
   const std::string name = node.text();
   if (std::find(known.begin(), known.end(), name) == known.end()) {
