@@ -51,7 +51,8 @@ CLI::Option* add_output(CLI::App* command, Arguments& arguments) {
 void add_design(CLI::App* command, Arguments& arguments) {
   command
       ->add_option("--design", arguments.design,
-                   "at the design of a result.json or failed_design.json of an optimization")
+                   "at the design of a result.json or failed_design.json of an optimization; an "
+                   "optimization begins there")
       ->type_name("FILE");
 }
 
@@ -142,6 +143,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   CLI::App* optimize =
       add_file_command(app, arguments, "optimize", "find the best design and prove it");
   add_output(optimize, arguments);
+  add_design(optimize, arguments);
   add_backend(optimize, arguments);
   add_method(optimize, arguments);
   add_jobs(optimize, arguments);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/command_text.hpp"
 #include "cli/history_csv.hpp"
 #include "cli/scene_report.hpp"
 
@@ -14,16 +15,6 @@ namespace {
 
 constexpr const char* file_name = "failed_design.json";
 
-/// A word as a shell wants it.
-std::string quoted(const std::string& word) {
-  constexpr const char* harmless =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./=:,@%";
-  if (!word.empty() && word.find_first_not_of(harmless) == std::string::npos) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 /// For the folder in which the optimization was called. Where gradients were asked for, they are
 /// what may have failed.
 std::string command_again(const RunRecord& record, const Arguments& arguments,
@@ -32,15 +23,8 @@ std::string command_again(const RunRecord& record, const Arguments& arguments,
       failed.request != Request::values ||
       std::any_of(problem.constraints.begin(), problem.constraints.end(),
                   [](const ConstraintSettings& constraint) { return constraint.deviations > 0.0; });
-  std::string command = takes_gradients ? "pleuel gradient " : "pleuel simulate ";
-  command += quoted(arguments.file.string());
-  for (const std::string& assignment : arguments.overrides) {
-    command += " --set " + quoted(assignment);
-  }
-  if (takes_gradients) {
-    for (const std::string& method : arguments.methods) command += " --method " + method;
-  }
-  return command + " --design " + quoted((record.folder() / file_name).string());
+  return command_at(takes_gradients ? "gradient" : "simulate", arguments,
+                    record.folder() / file_name);
 }
 
 }  // namespace

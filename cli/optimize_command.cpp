@@ -1,10 +1,13 @@
+#include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "cli/command_text.hpp"
 #include "cli/commands.hpp"
 #include "cli/failed_design.hpp"
 #include "cli/history_csv.hpp"
+#include "cli/interruption.hpp"
 #include "cli/iteration_lines.hpp"
 #include "cli/optimum_document.hpp"
 #include "cli/optimum_report.hpp"
@@ -21,7 +24,7 @@ namespace {
 /// Simulates the first and the last design for their trajectory files and for what is reported of
 /// them.
 void examine_designs(RunRecord& record, Optimum& optimum) {
-  const auto start = analyze(optimum.problem, start_design(optimum.problem));
+  const auto start = analyze(optimum.problem, optimum.result.history.front().x);
   write_trajectory(record.result("trajectory-start.csv"), *start);
   optimum.start_responses = values_of(*start);
   const auto end = analyze(optimum.problem, optimum.result.x);
@@ -31,8 +34,34 @@ void examine_designs(RunRecord& record, Optimum& optimum) {
 }
 
 ExitCode exit_code(const Optimum& optimum) {
+  if (optimum.result.status == Status::interrupted) return ExitCode::not_verified;
   if (!optimum.has_design()) return ExitCode::simulation_failed;
   return optimum.result.status == Status::verified ? ExitCode::done : ExitCode::not_verified;
+}
+
+/// The best design so far. Nothing is proven of it.
+Result interrupted_result(const DesignProblem& problem, const SolveOptions& options,
+                          const History& seen) {
+  const EvaluationRecord& best = best_record(seen, options.verdict.violation);
+  Result result;
+  result.status = Status::interrupted;
+  result.message = fmt::format(
+      "{} evaluations were made; the best design among them has {} = {:.6g} and exceeds no limit "
+      "by "
+      "more than {:.1e} (relative)",
+      seen.size(), problem.objective_name(), best.objective, best.max_violation);
+  result.backend = options.backend;
+  result.x = best.x;
+  result.evaluations = seen.back().evaluation;
+  result.iterations = seen.back().iteration;
+  result.gradient_evaluations =
+      static_cast<int>(std::count_if(seen.begin(), seen.end(), [](const EvaluationRecord& record) {
+        return record.request == Request::values_and_gradients;
+      }));
+  result.max_violation = best.max_violation;
+  result.seconds = seen.back().seconds;
+  result.history = seen;
+  return result;
 }
 
 Result solve_visibly(DesignProblem& problem, const SolveOptions& options, RunRecord& run_record,
@@ -43,13 +72,34 @@ Result solve_visibly(DesignProblem& problem, const SolveOptions& options, RunRec
              problem.constraints().size(), options.backend);
   std::optional<HistoryCsv> history;  // with the first evaluation
   IterationLines lines(out, problem.file());
-  return solve_design(problem, options, [&](const EvaluationRecord& record) {
+  const Interruption interruption;
+  History seen;
+  const Observer observer = [&](const EvaluationRecord& record) {
     if (!history) history.emplace(run_record.result("history.csv"), problem);
     history->add(record);
     lines.see(record);
-    if (!record.has_failed()) return;
-    write_failed_design(run_record, arguments, problem.file(), record);
-  });
+    if (record.has_failed()) {
+      write_failed_design(run_record, arguments, problem.file(), record);
+    }
+    seen.push_back(record);
+    if (!seen.front().has_failed()) interruption.check();
+  };
+  try {
+    return solve_design(problem, options, observer, [out](const std::string& notice) {
+      fmt::print(out, "  {}\n", notice);
+      std::fflush(out);
+    });
+  } catch (const Interruption::Asked&) {
+    return interrupted_result(problem, options, seen);
+  }
+}
+
+/// How to go on from an interrupted run.
+std::string resume_text(const RunRecord& record, const Arguments& arguments,
+                        const Optimum& optimum) {
+  if (optimum.result.status != Status::interrupted) return "";
+  return "To go on from there: " +
+         command_at("optimize", arguments, record.folder() / "result.json") + "\n";
 }
 
 std::string files_text(const RunRecord& record, const Optimum& optimum) {
@@ -64,6 +114,7 @@ Outcome run_optimize(const Arguments& arguments) {
   const ProblemInput input = read_input(arguments);
   const SolveOptions options = solve_options(input.problem, arguments);
   DesignProblem problem(input.problem, arguments.jobs);
+  if (arguments.design) problem.start_from(input.design);
   RunRecord record(arguments, input, options_document(options, input.problem));
   record.begin_phase("optimize");
   const Result result = solve_visibly(problem, options, record, arguments);
@@ -75,7 +126,7 @@ Outcome run_optimize(const Arguments& arguments) {
   const Outcome outcome{exit_code(optimum), optimum_document(optimum),
                         optimum_report(optimum) +
                             failed_design_text(record, arguments, input.problem, result.history) +
-                            files_text(record, optimum)};
+                            resume_text(record, arguments, optimum) + files_text(record, optimum)};
   record.finish(outcome);
   return outcome;
 }

@@ -18,6 +18,8 @@ std::string status_text(const Result& result) {
       return "NOT VERIFIED (stalled): " + result.message;
     case Status::infeasible:
       return "NOT VERIFIED (infeasible): " + result.message;
+    case Status::interrupted:
+      return "INTERRUPTED: " + result.message;
     default:
       return "FAILED: " + result.message;
   }

@@ -127,17 +127,4 @@ void EvaluationCache::record(const Entry& entry, const std::string& failure) {
   if (watch_.observer) watch_.observer(history_.back());
 }
 
-const EvaluationRecord& EvaluationCache::best(double allowed_violation) const {
-  const auto is_better = [&](const EvaluationRecord& one, const EvaluationRecord& other) {
-    if (!one.failure.empty()) return false;
-    const bool both_allowed = std::max(one.max_violation, other.max_violation) <= allowed_violation;
-    return both_allowed ? one.objective < other.objective : one.max_violation < other.max_violation;
-  };
-  const EvaluationRecord* best = &history_.front();  // the start, which did not fail
-  for (const EvaluationRecord& record : history_) {
-    if (is_better(record, *best)) best = &record;
-  }
-  return *best;
-}
-
 }  // namespace pleuel

@@ -54,10 +54,6 @@ class EvaluationCache {
   /// once, but not from one that it has already accepted.
   const Evaluation* evaluate(const Eigen::VectorXd& x, Request request);
 
-  /// The best design seen: the lowest objective among those that exceed no limit by more than this
-  /// (relative), or, if there is none, the one with the smallest violation.
-  const EvaluationRecord& best(double allowed_violation) const;
-
   Problem& problem() const { return problem_; }
   const Scales& scales() const { return scales_; }
   const History& history() const { return history_; }

@@ -35,6 +35,11 @@ inline int count_failures(const History& history) {
   return count;
 }
 
+/// The best design seen: the lowest objective among those that exceed no limit by more than this
+/// (relative), or, if there is none, the one with the smallest violation.
+/// @param history  whose first evaluation, that of the start, did not fail
+const EvaluationRecord& best_record(const History& history, double allowed_violation);
+
 /// Sees every evaluation as it happens; may be empty.
 using Observer = std::function<void(const EvaluationRecord&)>;
 

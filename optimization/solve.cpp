@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -65,9 +67,9 @@ class Run {
     double tolerance = options_.tolerance;
     Verdict verdict = improve(start_, tolerance);
     while (may_restart(verdict)) {
-      ++restarts_;
+      const KnownDesign from = start_of_restart(verdict);
       tolerance *= tolerance_factor;
-      Verdict next = improve(verdict.design, tolerance);
+      Verdict next = improve(from, tolerance);
       unchanged_restarts_ = next.design.x == verdict.design.x ? unchanged_restarts_ + 1 : 0;
       verdict = std::move(next);
     }
@@ -76,20 +78,32 @@ class Run {
 
  private:
   static constexpr double tolerance_factor = 0.1;
+  static constexpr int evaluations_per_iteration = 5;
   /// Evaluations without gradients after which a backend is better started anew.
   static constexpr int longest_line_search = 30;
   /// Violation up to which a design is preferred: tighter than what a verdict allows, so that no
   /// tolerance is exploited.
   static constexpr double strict_violation = 1e-6;
 
+  /// A better design beside this one, or this one itself.
+  KnownDesign start_of_restart(const Verdict& verdict) {
+    if (verdict.better_neighbour) {
+      ++escapes_;
+      std::optional<KnownDesign> neighbour = known(*verdict.better_neighbour);
+      if (neighbour) return std::move(*neighbour);
+    }
+    ++restarts_;
+    return verdict.design;
+  }
+
   /// Where the backend comes to from this design, or the best design seen so far if that is better:
   /// a backend may stop slightly outside the limits, or leave a good point.
   Verdict improve(const KnownDesign& from, double tolerance) {
     const Eigen::VectorXd end = run_backend(from, tolerance);
-    const Eigen::VectorXd strictly_best = cache_.best(strict_violation).x;
-    const Eigen::VectorXd best = cache_.best(options_.verdict.violation).x;
+    const Eigen::VectorXd strictly_best = best_record(cache_.history(), strict_violation).x;
+    const Eigen::VectorXd best = best_record(cache_.history(), options_.verdict.violation).x;
 
-    Verdict verdict = judge(cache_, from, start_.evaluation, options_.verdict);
+    Verdict verdict = judged(from);
     for (const Eigen::VectorXd& x : {end, strictly_best, best}) {
       std::optional<Verdict> candidate = audit(x);
       if (candidate && is_better(*candidate, verdict)) verdict = std::move(*candidate);
@@ -113,12 +127,30 @@ class Run {
 
   /// nullopt if the design, or its gradients, cannot be evaluated.
   std::optional<Verdict> audit(const Eigen::VectorXd& x) {
+    for (const Verdict& verdict : verdicts_) {
+      if (verdict.design.x == x) return verdict;
+    }
+    const std::optional<KnownDesign> design = known(x);
+    if (!design) return std::nullopt;
+    return judged(*design);
+  }
+
+  /// nullopt if the design, or its gradients, cannot be evaluated.
+  std::optional<KnownDesign> known(const Eigen::VectorXd& x) {
     const Evaluation* evaluation = cache_.evaluate(x, Request::values_and_gradients);
     if (evaluation == nullptr) return std::nullopt;
-    const KnownDesign design{
+    return KnownDesign{
         x, *evaluation,
         max_violation(cache_.problem(), evaluation->constraints, cache_.scales().constraints)};
-    return judge(cache_, design, start_.evaluation, options_.verdict);
+  }
+
+  /// Judges a design once.
+  Verdict judged(const KnownDesign& design) {
+    for (const Verdict& verdict : verdicts_) {
+      if (verdict.design.x == design.x) return verdict;
+    }
+    verdicts_.push_back(judge(cache_, design, start_.evaluation, options_.verdict));
+    return verdicts_.back();
   }
 
   /// Proven before unproven, within the limits before outside; then the lower objective, or the
@@ -135,7 +167,7 @@ class Run {
                          : one.design.max_violation < other.design.max_violation;
   }
 
-  int max_evaluations() const { return 5 * options_.max_iterations; }
+  int max_evaluations() const { return evaluations_per_iteration * options_.max_iterations; }
 
   bool is_exhausted() const {
     return cache_.iterations() >= options_.max_iterations ||
@@ -144,8 +176,9 @@ class Run {
 
   bool may_restart(const Verdict& verdict) const {
     const bool is_settled = verdict.status == Status::verified || verdict.gradients_are_disproved;
-    return !is_settled && !is_exhausted() && !is_lost_ && unchanged_restarts_ < 2 &&
-           restarts_ < options_.max_restarts;
+    if (is_settled || is_exhausted() || is_lost_) return false;
+    if (verdict.better_neighbour) return escapes_ < options_.max_escapes;
+    return unchanged_restarts_ < 2 && restarts_ < options_.max_restarts;
   }
 
   Result make_result(Verdict verdict) const {
@@ -163,7 +196,7 @@ class Run {
     result.evaluations = cache_.evaluations();
     result.gradient_evaluations = cache_.gradient_evaluations();
     result.iterations = cache_.iterations();
-    result.restarts = restarts_;
+    result.restarts = restarts_ + escapes_;
     result.seconds = cache_.seconds();
     result.history = cache_.history();
     return result;
@@ -173,11 +206,13 @@ class Run {
   void add_reason(Result& result) const {
     if (is_lost_) result.status = Status::failed;
     if (is_exhausted()) {
+      const int iterations = options_.max_iterations + options_.earlier.iterations;
       result.message += fmt::format("; the budget of {} iterations ({} evaluations) is used up",
-                                    options_.max_iterations, max_evaluations());
+                                    iterations, evaluations_per_iteration * iterations);
     } else {
-      result.message += fmt::format("; {} said after {} restarts: {}", options_.backend, restarts_,
-                                    backend_reason_);
+      result.message +=
+          fmt::format("; {} said after {} restarts: {}", options_.backend,
+                      restarts_ + escapes_ + options_.earlier.restarts, backend_reason_);
     }
     result.message += describe_failures();
   }
@@ -196,7 +231,9 @@ class Run {
   EvaluationCache& cache_;
   const SolveOptions& options_;
   const KnownDesign start_;
+  std::vector<Verdict> verdicts_;  ///< of all designs that were judged
   int restarts_ = 0;
+  int escapes_ = 0;
   int unchanged_restarts_ = 0;
   bool is_lost_ = false;
   std::string backend_reason_ = "nothing, since no variable is free";

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -129,6 +130,32 @@ TEST(RunFolder, OfAnotherCommandIsNotTouched) {
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, HasSubstr("-o one: holds a run of `pleuel simulate`"));
   EXPECT_TRUE(fs::exists(folder.path() / "one/trajectory.csv"));
+}
+
+TEST(Optimize, ThatIsInterruptedKeepsItsBestDesignToGoOnFrom) {
+  const TemporaryFolder folder;
+  const std::string line = "optimize " + problem("slider_crank_round") +
+                           " -o one >log & p=$!; while ! [ -f one/history.csv ]; do sleep 0.01; "
+                           "done; kill -TERM $p; wait $p; echo $?";
+  EXPECT_EQ(run_line(folder.path(), line).out, "4\n");
+  const fs::path result = folder.path() / "one/result.json";
+  const auto document = nlohmann::json::parse(read_file(result));
+  EXPECT_EQ(document.at("status"), "interrupted");
+  EXPECT_EQ(nlohmann::json::parse(read_file(folder.path() / "one/run_card.json")).at("finished"),
+            true);
+  EXPECT_THAT(read_file(folder.path() / "log"), HasSubstr("To go on from there: pleuel optimize"));
+  const ProgramRun next = run_program(
+      folder.path(), joined({"optimize", problem("slider_crank_round"), "-o", "two", "--design",
+                             "one/result.json", "--set", "/optimizer/max_iterations=1"},
+                            quick()));
+  const auto history = read_csv(folder.path() / "two/history.csv");
+  for (const auto& [name, variable] : document.at("variables").items()) {
+    const auto column =
+        std::find(history.front().begin(), history.front().end(), "variable:" + name);
+    ASSERT_NE(column, history.front().end());
+    EXPECT_EQ(std::stod(history.at(1).at(std::size_t(column - history.front().begin()))),
+              variable.at("value").get<double>());
+  }
 }
 
 TEST(Simulate, WarnsOfStepsThatAreTooLong) {

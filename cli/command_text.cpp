@@ -1,0 +1,32 @@
+#include "cli/command_text.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// A word as a shell wants it.
+std::string quoted(const std::string& word) {
+  constexpr const char* harmless =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./=:,@%";
+  if (!word.empty() && word.find_first_not_of(harmless) == std::string::npos) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+}  // namespace
+
+std::string command_at(const std::string& command, const Arguments& arguments,
+                       const std::filesystem::path& design) {
+  std::string text = "pleuel " + command + " " + quoted(arguments.file.string());
+  for (const std::string& assignment : arguments.overrides) {
+    text += " --set " + quoted(assignment);
+  }
+  if (command != "simulate") {
+    for (const std::string& method : arguments.methods) text += " --method " + method;
+  }
+  if (command == "optimize" && arguments.backend) text += " --backend " + *arguments.backend;
+  return text + " --design " + quoted(design.string());
+}
+
+}  // namespace pleuel

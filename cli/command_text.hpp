@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "cli/arguments.hpp"
+
+namespace pleuel {
+
+/// The line for a shell that runs a command on the same input at the design of a file. Where the
+/// command takes gradients, they are those of the arguments.
+/// @param command  "simulate", "gradient" or "optimize"
+std::string command_at(const std::string& command, const Arguments& arguments,
+                       const std::filesystem::path& design);
+
+}  // namespace pleuel

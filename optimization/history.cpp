@@ -1,0 +1,20 @@
+#include "optimization/history.hpp"
+
+#include <algorithm>
+
+namespace pleuel {
+
+const EvaluationRecord& best_record(const History& history, double allowed_violation) {
+  const auto is_better = [&](const EvaluationRecord& one, const EvaluationRecord& other) {
+    if (one.has_failed()) return false;
+    const bool both_allowed = std::max(one.max_violation, other.max_violation) <= allowed_violation;
+    return both_allowed ? one.objective < other.objective : one.max_violation < other.max_violation;
+  };
+  const EvaluationRecord* best = &history.front();
+  for (const EvaluationRecord& record : history) {
+    if (is_better(record, *best)) best = &record;
+  }
+  return *best;
+}
+
+}  // namespace pleuel
