@@ -46,7 +46,7 @@ std::string response_verdict(const ProblemFile& problem, const DerivativeCheck& 
     case DerivativeVerdict::noise:
       return fmt::format("differences cannot tell that of {}", problem.variables[worst].name);
     case DerivativeVerdict::kink:
-      return fmt::format("DIFFERS by {}: a kink, see below", magnitude(worst_error));
+      return fmt::format("at a kink, see below ({})", magnitude(worst_error));
     default:
       return "DIFFERS by " + magnitude(worst_error);
   }
