@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "tests/cli/program.hpp"
@@ -134,9 +135,12 @@ TEST(RunFolder, OfAnotherCommandIsNotTouched) {
 
 TEST(Optimize, ThatIsInterruptedKeepsItsBestDesignToGoOnFrom) {
   const TemporaryFolder folder;
-  const std::string line = "optimize " + problem("slider_crank_round") +
-                           " -o one >log & p=$!; while ! [ -f one/history.csv ]; do sleep 0.01; "
-                           "done; kill -TERM $p; wait $p; echo $?";
+  const std::string path = folder.path().string();
+  const std::string line = fmt::format(
+      "optimize {0} -o {1}/one >{1}/log & p=$!; i=0; "
+      "while [ ! -f {1}/one/history.csv ] && [ $i -lt 3000 ]; "
+      "do sleep 0.01; i=$((i + 1)); done; kill -TERM $p; wait $p; echo $?",
+      problem("slider_crank_round"), path);
   EXPECT_EQ(run_line(folder.path(), line).out, "4\n");
   const fs::path result = folder.path() / "one/result.json";
   const auto document = nlohmann::json::parse(read_file(result));
