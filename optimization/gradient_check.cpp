@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "optimization/scaling.hpp"
 
@@ -14,27 +16,78 @@ namespace {
 constexpr double step = 1e-3;
 constexpr double least_magnitude = 1e-2;  ///< part of s that replaces |x| near zero
 
-/// A direction with entries of generic size, the same in every run. The engine's raw numbers are
-/// prescribed by the standard, unlike those of its distributions.
-Eigen::VectorXd generic_direction(const Problem& problem, const Eigen::VectorXd& x,
-                                  double orientation) {
-  std::mt19937 engine;
+/// Numbers of generic size, the same in every run. The engine's raw numbers are prescribed by the
+/// standard, unlike those of its distributions.
+class GenericNumbers {
+ public:
+  /// In [1/2, 1].
+  double size() { return 0.5 + 0.5 * static_cast<double>(engine_()) / std::mt19937::max(); }
+  double sign() { return engine_() % 2 == 0 ? 1.0 : -1.0; }
+
+ private:
+  std::mt19937 engine_;
+};
+
+/// To which sides a variable can go: +1 or −1 at a bound, 0 where both are free or none is.
+struct Room {
+  Eigen::VectorXd sizes;  ///< of a step of relative length 1; 0 for a variable without room
+  Eigen::VectorXd sides;
+};
+
+Room room_around(const Problem& problem, const Eigen::VectorXd& x) {
   const Eigen::VectorXd s = local_scales(problem, x);
-  Eigen::VectorXd direction(x.size());
+  Room room{Eigen::VectorXd::Zero(x.size()), Eigen::VectorXd::Zero(x.size())};
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const double part = 0.5 + 0.5 * static_cast<double>(engine()) / std::mt19937::max();
-    const double sign = engine() % 2 == 0 ? orientation : -orientation;
-    const double size = part * std::clamp(std::abs(x[i]), least_magnitude * s[i], s[i]);
+    const double size = std::clamp(std::abs(x[i]), least_magnitude * s[i], s[i]);
     const Variable& variable = problem.variables()[i];
-    const auto is_inside = [&](double component) {
-      const double far = x[i] + 2.0 * step * component;
-      return far >= variable.lower && far <= variable.upper;
-    };
-    direction[i] = is_inside(sign * size)    ? sign * size
-                   : is_inside(-sign * size) ? -sign * size
-                                             : 0;
+    const bool can_rise = x[i] + 2.0 * step * size <= variable.upper;
+    const bool can_fall = x[i] - 2.0 * step * size >= variable.lower;
+    if (!can_rise && !can_fall) continue;
+    room.sizes[i] = size;
+    if (can_rise != can_fall) room.sides[i] = can_rise ? 1.0 : -1.0;
   }
-  return direction;
+  return room;
+}
+
+/// Relative changes of the variables with room to both sides, no two of the same pattern.
+Eigen::VectorXd generic_changes(const Room& room, GenericNumbers& numbers) {
+  Eigen::VectorXd changes = Eigen::VectorXd::Zero(room.sizes.size());
+  for (Eigen::Index i = 0; i < changes.size(); ++i) {
+    const bool has_both_sides = room.sizes[i] > 0.0 && room.sides[i] == 0.0;
+    if (has_both_sides) changes[i] = numbers.sign() * numbers.size();
+  }
+  return changes;
+}
+
+/// Likewise of those at a bound.
+Eigen::VectorXd generic_changes_inwards(const Room& room, GenericNumbers& numbers) {
+  return room.sides.unaryExpr([&](double side) { return side * numbers.size() * numbers.size(); });
+}
+
+/// d₁, d₂ and d₃ at 120° to each other in relative changes of the variables with room to both
+/// sides: whatever has a slope along their plane is seen from both sides. With one such variable
+/// d₂ = d₃ = −d₁. Variables at a bound go inwards in all of them, each time otherwise.
+std::vector<Eigen::VectorXd> generic_directions(const Problem& problem, const Eigen::VectorXd& x) {
+  const Room room = room_around(problem, x);
+  GenericNumbers numbers;
+  const Eigen::VectorXd first = generic_changes(room, numbers);
+  Eigen::VectorXd across = generic_changes(room, numbers);
+  if ((first.array() != 0.0).count() > 1) {
+    across -= across.dot(first) / first.squaredNorm() * first;
+    across *= first.norm() / across.norm();
+  } else {
+    across.setZero();
+  }
+  const double sine = 0.5 * std::sqrt(3.0);
+  std::vector<Eigen::VectorXd> directions;
+  for (const auto& [a, b] : {std::pair(1.0, 0.0), std::pair(-0.5, sine), std::pair(-0.5, -sine)}) {
+    Eigen::VectorXd changes = a * first + b * across + generic_changes_inwards(room, numbers);
+    const double largest = changes.lpNorm<Eigen::Infinity>();
+    if (largest > 0.0) changes /= largest;
+    const Eigen::VectorXd direction = changes.cwiseProduct(room.sizes);
+    if (directions.empty() || direction != directions.back()) directions.push_back(direction);
+  }
+  return directions;
 }
 
 /// Differences of the objective (first) and of the constraints along the direction.
@@ -72,8 +125,7 @@ GradientCheck check_gradients(EvaluationCache& cache, const KnownDesign& design,
   const Eigen::VectorXd s = local_scales(problem, design.x);
   const double dimension = std::sqrt(static_cast<double>(design.x.size()));
   GradientCheck check;
-  for (const double orientation : {1.0, -1.0}) {
-    const Eigen::VectorXd direction = generic_direction(problem, design.x, orientation);
+  for (const Eigen::VectorXd& direction : generic_directions(problem, design.x)) {
     const double length = direction.cwiseQuotient(s).norm();
     if (length == 0.0) return {true, 0.0, ""};  // every variable is fixed
     const auto difference = differences(cache, design, direction);

@@ -14,14 +14,15 @@ struct GradientCheck {
   std::string worst;         ///< name of the objective or constraint with the largest error
 };
 
-/// Directional derivatives along two generic directions d that point to opposite sides (inwards at
-/// bounds), by the one-sided formula of second order,
+/// Directional derivatives along generic directions d by the one-sided formula of second order,
 ///
-///     ∂f/∂d ≈ (−3 f(x) + 4 f(x + h d) − f(x + 2 h d)) / 2h,   h |dᵢ| ≈ 10⁻³ |xᵢ|
+///     ∂f/∂d ≈ (−3 f(x) + 4 f(x + h d) − f(x + 2 h d)) / 2h,   h |dᵢ| ≤ 10⁻³ |xᵢ|
 ///
 /// against the gradients of the objective and of every constraint that has a multiplier, weighted
-/// with it: what an optimum found with wrong gradients, or at a kink, cannot pass. Four evaluations
-/// of values. The error estimates ‖s ∘ (error of ∇f)‖₂: a generic direction sees 1/√n of it.
+/// with it: what an optimum found with wrong gradients, or at a kink, cannot pass. Three directions
+/// at 120° to each other in one plane (inwards at bounds), so that both sides of a kink are seen;
+/// opposite ones if there is one variable. Six evaluations of values. Errors across that plane are
+/// not seen. The error estimates ‖s ∘ (error of ∇f)‖₂: a generic direction sees 1/√n of it.
 GradientCheck check_gradients(EvaluationCache& cache, const KnownDesign& design,
                               const KktAudit& audit);
 
