@@ -14,6 +14,9 @@ namespace {
 
 /// Slack, relative to the magnitude of the limit, beyond which a limit holds nothing.
 constexpr double near_limit = 0.1;
+/// Slope, relative to |f|, with respect to which all slopes are small: 1e-3 of it would change the
+/// objective by 1e-4 across the whole range of a variable.
+constexpr double flat = 1e-3;
 
 /// One side of a constraint or of a variable: g = sign · (c − limit) / magnitude ≤ 0.
 struct Limit {
@@ -92,9 +95,11 @@ double objective_value_scale(const KnownDesign& design, const Evaluation& start)
 double gradient_scale(const Problem& problem, const KnownDesign& design, const Evaluation& start,
                       const Eigen::VectorXd& scales) {
   const double here = scaled_objective_gradient(problem, design.evaluation, scales).norm();
-  const double at_start = scaled_objective_gradient(problem, start, scales).norm();
-  return std::max({here, std::min(at_start, 0.1 * objective_value_scale(design, start)),
-                   std::numeric_limits<double>::min()});
+  const double at_start = std::max(scaled_objective_gradient(problem, start, scales).norm(),
+                                   std::abs(start.objective - design.evaluation.objective));
+  const double value = objective_value_scale(design, start);
+  return std::max(
+      {here, std::min(at_start, 0.1 * value), flat * value, std::numeric_limits<double>::min()});
 }
 
 }  // namespace

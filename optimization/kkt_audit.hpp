@@ -30,7 +30,9 @@ struct KktAudit {
 /// row λ · slack, so that no activity tolerance decides.
 ///
 /// gradient_scale is ‖s ∘ ∇f‖₂. Near an optimum without active limits this vanishes with the
-/// residual: it is therefore at least min(‖s ∘ ∇f(start)‖₂, |f| / 10), with the same floor of |f|.
+/// residual: it is therefore at least min(G, |f| / 10), with the same floor of |f|, where G is the
+/// larger one of ‖s ∘ ∇f(start)‖₂ and |f(start) − f|, since a start may be stationary; and at least
+/// |f| / 1000.
 /// @param design  with gradients of the true, un-aggregated constraints.
 /// @param start   evaluation of the first design, with gradients.
 /// @param scales  magnitudes C of the constraints.

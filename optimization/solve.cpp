@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -65,9 +67,9 @@ class Run {
     double tolerance = options_.tolerance;
     Verdict verdict = improve(start_, tolerance);
     while (may_restart(verdict)) {
-      ++restarts_;
+      const KnownDesign from = start_of_restart(verdict);
       tolerance *= tolerance_factor;
-      Verdict next = improve(verdict.design, tolerance);
+      Verdict next = improve(from, tolerance);
       unchanged_restarts_ = next.design.x == verdict.design.x ? unchanged_restarts_ + 1 : 0;
       verdict = std::move(next);
     }
@@ -82,6 +84,17 @@ class Run {
   /// tolerance is exploited.
   static constexpr double strict_violation = 1e-6;
 
+  /// A better design beside this one, or this one itself.
+  KnownDesign start_of_restart(const Verdict& verdict) {
+    if (verdict.better_neighbour) {
+      ++escapes_;
+      std::optional<KnownDesign> neighbour = known(*verdict.better_neighbour);
+      if (neighbour) return std::move(*neighbour);
+    }
+    ++restarts_;
+    return verdict.design;
+  }
+
   /// Where the backend comes to from this design, or the best design seen so far if that is better:
   /// a backend may stop slightly outside the limits, or leave a good point.
   Verdict improve(const KnownDesign& from, double tolerance) {
@@ -89,7 +102,7 @@ class Run {
     const Eigen::VectorXd strictly_best = cache_.best(strict_violation).x;
     const Eigen::VectorXd best = cache_.best(options_.verdict.violation).x;
 
-    Verdict verdict = judge(cache_, from, start_.evaluation, options_.verdict);
+    Verdict verdict = judged(from);
     for (const Eigen::VectorXd& x : {end, strictly_best, best}) {
       std::optional<Verdict> candidate = audit(x);
       if (candidate && is_better(*candidate, verdict)) verdict = std::move(*candidate);
@@ -113,12 +126,30 @@ class Run {
 
   /// nullopt if the design, or its gradients, cannot be evaluated.
   std::optional<Verdict> audit(const Eigen::VectorXd& x) {
+    for (const Verdict& verdict : verdicts_) {
+      if (verdict.design.x == x) return verdict;
+    }
+    const std::optional<KnownDesign> design = known(x);
+    if (!design) return std::nullopt;
+    return judged(*design);
+  }
+
+  /// nullopt if the design, or its gradients, cannot be evaluated.
+  std::optional<KnownDesign> known(const Eigen::VectorXd& x) {
     const Evaluation* evaluation = cache_.evaluate(x, Request::values_and_gradients);
     if (evaluation == nullptr) return std::nullopt;
-    const KnownDesign design{
+    return KnownDesign{
         x, *evaluation,
         max_violation(cache_.problem(), evaluation->constraints, cache_.scales().constraints)};
-    return judge(cache_, design, start_.evaluation, options_.verdict);
+  }
+
+  /// Judges a design once.
+  Verdict judged(const KnownDesign& design) {
+    for (const Verdict& verdict : verdicts_) {
+      if (verdict.design.x == design.x) return verdict;
+    }
+    verdicts_.push_back(judge(cache_, design, start_.evaluation, options_.verdict));
+    return verdicts_.back();
   }
 
   /// Proven before unproven, within the limits before outside; then the lower objective, or the
@@ -144,8 +175,9 @@ class Run {
 
   bool may_restart(const Verdict& verdict) const {
     const bool is_settled = verdict.status == Status::verified || verdict.gradients_are_disproved;
-    return !is_settled && !is_exhausted() && !is_lost_ && unchanged_restarts_ < 2 &&
-           restarts_ < options_.max_restarts;
+    if (is_settled || is_exhausted() || is_lost_) return false;
+    if (verdict.better_neighbour) return escapes_ < options_.max_escapes;
+    return unchanged_restarts_ < 2 && restarts_ < options_.max_restarts;
   }
 
   Result make_result(Verdict verdict) const {
@@ -163,7 +195,7 @@ class Run {
     result.evaluations = cache_.evaluations();
     result.gradient_evaluations = cache_.gradient_evaluations();
     result.iterations = cache_.iterations();
-    result.restarts = restarts_;
+    result.restarts = restarts_ + escapes_;
     result.seconds = cache_.seconds();
     result.history = cache_.history();
     return result;
@@ -176,8 +208,8 @@ class Run {
       result.message += fmt::format("; the budget of {} iterations ({} evaluations) is used up",
                                     options_.max_iterations, max_evaluations());
     } else {
-      result.message += fmt::format("; {} said after {} restarts: {}", options_.backend, restarts_,
-                                    backend_reason_);
+      result.message += fmt::format("; {} said after {} restarts: {}", options_.backend,
+                                    restarts_ + escapes_, backend_reason_);
     }
     result.message += describe_failures();
   }
@@ -196,7 +228,9 @@ class Run {
   EvaluationCache& cache_;
   const SolveOptions& options_;
   const KnownDesign start_;
+  std::vector<Verdict> verdicts_;  ///< of all designs that were judged
   int restarts_ = 0;
+  int escapes_ = 0;
   int unchanged_restarts_ = 0;
   bool is_lost_ = false;
   std::string backend_reason_ = "nothing, since no variable is free";

@@ -22,6 +22,8 @@ struct SolveOptions {
   /// How often a backend that ended at an unproven design starts anew from there, with fresh
   /// scaling and approximations and a tenth of the tolerance; 0 takes its first answer.
   int max_restarts = 6;
+  /// How often it starts anew from a better design beside a maximum or a saddle; not counted above.
+  int max_escapes = 4;
   /// Failed evaluations in a row after which the run is given up, at least 1.
   int max_consecutive_failures = 20;
   /// What the verdict asks for.
@@ -48,8 +50,8 @@ struct Result {
 };
 
 /// Optimizes from the start values of the problem with one backend, and proves or doubts the
-/// answer: check the start → backend → audit → restart from there if the design is unproven →
-/// result.
+/// answer: check the start → backend → audit → restart from there if the design is unproven,
+/// from its better neighbour if it is no minimum → result.
 /// @throws InputError if the backend is unknown or cannot take the constraints, or if the start
 /// lies
 ///         outside its bounds. A start that cannot be evaluated is not thrown but `failed`.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "optimization/gradient_check.hpp"
+#include "optimization/neighbourhood.hpp"
 
 namespace pleuel {
 
@@ -45,6 +46,28 @@ void judge_gradients(Verdict& verdict, EvaluationCache& cache, const Tolerances&
   }
 }
 
+void judge_neighbourhood(Verdict& verdict, EvaluationCache& cache, const Evaluation& start,
+                         const Tolerances& tolerances) {
+  const Neighbourhood around =
+      explore_neighbourhood(cache, verdict.design, verdict.audit, start, tolerances.gain);
+  if (around.better) {
+    verdict.status = Status::stalled;
+    verdict.better_neighbour = around.better;
+    verdict.message = fmt::format(
+        "the conditions of first order hold, but not at a minimum: within the limits {} is lower "
+        "by {:.2g} (relative) at {}",
+        cache.problem().objective_name(), around.gain,
+        describe_design(cache.problem(), *around.better));
+  } else if (around.dimension == 0) {
+    verdict.message += "; its limits leave no direction open";
+  } else {
+    verdict.message += fmt::format(
+        "; no better design nearby, along {} of the {} directions that its limits "
+        "leave open",
+        around.directions, around.dimension);
+  }
+}
+
 }  // namespace
 
 std::string to_string(Status status) {
@@ -69,6 +92,7 @@ Verdict judge(EvaluationCache& cache, const KnownDesign& design, const Evaluatio
   } else {
     judge_gradients(verdict, cache, tolerances);
   }
+  if (verdict.status == Status::verified) judge_neighbourhood(verdict, cache, start, tolerances);
   return verdict;
 }
 

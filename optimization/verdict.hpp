@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "optimization/evaluation_cache.hpp"
@@ -27,6 +28,9 @@ struct Tolerances {
   /// Largest relative difference between gradients and differences of values; more than the
   /// residual, because differences carry the noise of the simulation.
   double gradient = 5e-3;
+  /// Largest gain, relative to the objective, that a design nearby may offer; as small as the
+  /// violation that is allowed, and above the noise of simulations.
+  double gain = 1e-4;
 };
 
 /// A design and what our audit says of it.
@@ -36,11 +40,14 @@ struct Verdict {
   KnownDesign design;   ///< with gradients
   KktAudit audit;
   bool gradients_are_disproved = false;  ///< by differences, where all else is well
+  /// A better design nearby: the conditions of first order hold, but at no minimum.
+  std::optional<Eigen::VectorXd> better_neighbour;
 };
 
 /// Audits a design on the true values of the problem, in this order: limits, KKT conditions,
-/// gradients against differences (the last only if all else is well). The conditions are of first
-/// order: a start exactly on a saddle that no backend leaves would pass.
+/// gradients against differences, and whether a design nearby is better (neighbourhood.hpp); each
+/// only if all before is well. `verified` is a local optimum as far as these can see: not a proof,
+/// and no word on other optima further away.
 /// @param design  with gradients.
 /// @param start   evaluation of the first design, with gradients.
 Verdict judge(EvaluationCache& cache, const KnownDesign& design, const Evaluation& start,

@@ -1,0 +1,268 @@
+#include "optimization/neighbourhood.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "optimization/lowest_curvature.hpp"
+#include "optimization/scaling.hpp"
+
+namespace pleuel {
+
+namespace {
+
+constexpr double distance = 0.02;    ///< h
+constexpr int doublings = 5;         ///< of h, at most
+constexpr int most_directions = 6;   ///< whose Hessian product is computed
+constexpr double held = 1e-3;        ///< part of the gradient scale that makes a multiplier count
+constexpr double noise = 1e-8;       ///< of the objective
+constexpr double far_enough = 1e-2;  ///< relative gain: a backend finds on from there
+/// Relative distance from its limit that a restored constraint may keep.
+constexpr double restored = 1e-5;
+/// Relative violation beyond which a neighbour does not count as within the limits.
+constexpr double tolerated = 1e-3;
+
+/// Lengths by which variables are moved: those of the backends, and where there are no bounds those
+/// of the audit, which do not vanish with the variable.
+Eigen::VectorXd lengths(const Problem& problem, const Eigen::VectorXd& x) {
+  return variable_scales(problem, x).cwiseMax(local_scales(problem, x));
+}
+
+Eigen::VectorXd clamped(const Problem& problem, Eigen::VectorXd x) {
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const Variable& variable = problem.variables()[static_cast<std::size_t>(i)];
+    x[i] = std::clamp(x[i], variable.lower, variable.upper);
+  }
+  return x;
+}
+
+/// The limits that hold a design, in variables divided by s.
+struct Holding {
+  std::vector<bool> variables;  ///< at a bound with multiplier, or fixed
+  std::vector<bool> constraints;
+};
+
+Holding holding_limits(const Problem& problem, const KnownDesign& design, const KktAudit& audit,
+                       const Eigen::VectorXd& s) {
+  const double threshold = held * audit.gradient_scale;
+  Holding holding;
+  for (Eigen::Index i = 0; i < s.size(); ++i) {
+    const bool has_price = std::abs(audit.bound_multipliers[i]) * s[i] > threshold;
+    const bool is_fixed = problem.variables()[static_cast<std::size_t>(i)].is_fixed();
+    holding.variables.push_back(has_price || is_fixed);
+  }
+  for (Eigen::Index j = 0; j < design.evaluation.constraints.size(); ++j) {
+    const double slope =
+        design.evaluation.constraint_jacobian.row(j).transpose().cwiseProduct(s).norm();
+    const bool has_price = std::abs(audit.constraint_multipliers[j]) * slope > threshold;
+    const bool is_equality = problem.constraints()[static_cast<std::size_t>(j)].is_equality();
+    holding.constraints.push_back(has_price || is_equality);
+  }
+  return holding;
+}
+
+/// Gradients of some constraints with respect to the variables that no bound holds, the rows of
+/// length 1 (or 0).
+class Rows {
+ public:
+  Rows(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& s, const Holding& holding,
+       const std::vector<bool>& chosen)
+      : lengths_(0) {
+    for (Eigen::Index j = 0; j < jacobian.rows(); ++j) {
+      if (!chosen[static_cast<std::size_t>(j)]) continue;
+      Eigen::VectorXd row = jacobian.row(j).transpose().cwiseProduct(s);
+      for (Eigen::Index i = 0; i < s.size(); ++i) {
+        if (holding.variables[static_cast<std::size_t>(i)]) row[i] = 0.0;
+      }
+      const double length = row.norm();
+      if (length == 0.0) continue;
+      indices_.push_back(j);
+      const auto count = static_cast<Eigen::Index>(indices_.size());
+      matrix_.conservativeResize(count, s.size());
+      lengths_.conservativeResize(count);
+      matrix_.row(count - 1) = row.transpose() / length;
+      lengths_[count - 1] = length;
+    }
+  }
+
+  const Eigen::MatrixXd& matrix() const { return matrix_; }
+
+  /// The shortest step, in variables divided by s, that changes the constraints by −excess.
+  Eigen::VectorXd step_against(const Eigen::VectorXd& excess) const {
+    const Eigen::VectorXd right = excess(indices_).cwiseQuotient(lengths_);
+    return -matrix_.completeOrthogonalDecomposition().solve(right);
+  }
+
+ private:
+  std::vector<Eigen::Index> indices_;
+  Eigen::MatrixXd matrix_;
+  Eigen::VectorXd lengths_;
+};
+
+/// Orthonormal, variables × dimension.
+Eigen::MatrixXd tangent_basis(const Eigen::MatrixXd& rows, const Holding& holding) {
+  std::vector<Eigen::Index> free;
+  for (std::size_t i = 0; i < holding.variables.size(); ++i) {
+    if (!holding.variables[i]) free.push_back(static_cast<Eigen::Index>(i));
+  }
+  const auto variables = static_cast<Eigen::Index>(holding.variables.size());
+  const auto count = static_cast<Eigen::Index>(free.size());
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(variables, count);
+  for (Eigen::Index k = 0; k < count; ++k) basis(free[static_cast<std::size_t>(k)], k) = 1.0;
+  if (rows.rows() == 0 || count == 0) return basis;
+  const Eigen::MatrixXd columns = (rows * basis).transpose();
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(1e-6);
+  qr.compute(columns);
+  const Eigen::MatrixXd q = qr.householderQ();
+  return basis * q.rightCols(count - qr.rank());
+}
+
+class Exploration {
+ public:
+  Exploration(EvaluationCache& cache, const KnownDesign& design, const KktAudit& audit)
+      : cache_(cache),
+        design_(design),
+        multipliers_(audit.constraint_multipliers),
+        s_(lengths(cache.problem(), design.x)),
+        holding_(holding_limits(cache.problem(), design, audit, s_)),
+        basis_(tangent_basis(rows(holding_.constraints).matrix(), holding_)) {}
+
+  Neighbourhood explore(double value_scale, double least_gain) {
+    Neighbourhood result;
+    result.dimension = static_cast<int>(basis_.cols());
+    if (result.dimension == 0) return result;
+    const LowestCurvature lowest = find_lowest_curvature();
+    result.directions = lowest.products;
+    if (lowest.products == 0) return result;
+    for (const double sign : {1.0, -1.0}) {
+      const Neighbour neighbour = follow(sign * lowest.direction, value_scale);
+      if (neighbour.gain <= std::max(result.gain, least_gain) * value_scale) continue;
+      result.gain = neighbour.gain / value_scale;
+      result.better = neighbour.x;
+    }
+    return result;
+  }
+
+ private:
+  struct Neighbour {
+    Eigen::VectorXd x;
+    double gain = 0.0;
+  };
+
+  Rows rows(const std::vector<bool>& chosen) const {
+    return Rows(design_.evaluation.constraint_jacobian, s_, holding_, chosen);
+  }
+
+  /// s ∘ ∇L
+  std::optional<Eigen::VectorXd> lagrangian_gradient(const Eigen::VectorXd& x) {
+    const Evaluation* evaluation = cache_.evaluate(x, Request::values_and_gradients);
+    if (evaluation == nullptr) return std::nullopt;
+    return s_.cwiseProduct(evaluation->objective_gradient +
+                           evaluation->constraint_jacobian.transpose() * multipliers_);
+  }
+
+  /// The design, moved off bounds that do not hold it: so far that a step to any side stays within.
+  Eigen::VectorXd moved_off_bounds() const {
+    Eigen::VectorXd x = design_.x;
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      if (holding_.variables[static_cast<std::size_t>(i)]) continue;
+      const Variable& variable = cache_.problem().variables()[static_cast<std::size_t>(i)];
+      const double room = distance * s_[i];
+      x[i] = std::clamp(x[i], variable.lower + room, variable.upper - room);
+    }
+    return x;
+  }
+
+  LowestCurvature find_lowest_curvature() {
+    const Eigen::VectorXd base = moved_off_bounds();
+    const auto at_base = lagrangian_gradient(base);
+    if (!at_base) return {};
+    const HessianProduct product =
+        [&](const Eigen::VectorXd& direction) -> std::optional<Eigen::VectorXd> {
+      for (const double h : {distance, -distance}) {
+        const Eigen::VectorXd moved = base + h * s_.cwiseProduct(direction);
+        const auto gradient = lagrangian_gradient(clamped(cache_.problem(), moved));
+        if (gradient) return (*gradient - *at_base) / h;
+      }
+      return std::nullopt;
+    };
+    return lowest_curvature(product, basis_, most_directions);
+  }
+
+  /// The best design on the way, for as long as it gets better.
+  Neighbour follow(const Eigen::VectorXd& direction, double value_scale) {
+    Neighbour best{design_.x, 0.0};
+    for (int k = 0; k <= doublings; ++k) {
+      const double length = distance * std::pow(2.0, k);
+      const auto neighbour = neighbour_at(design_.x + length * s_.cwiseProduct(direction));
+      if (!neighbour || neighbour->x == best.x) break;
+      if (neighbour->gain <= best.gain + noise * value_scale) break;
+      best = *neighbour;
+      if (best.gain > far_enough * value_scale) break;
+    }
+    return best;
+  }
+
+  /// The design beside x that keeps the limits, to the accuracy of one Newton step.
+  std::optional<Neighbour> neighbour_at(const Eigen::VectorXd& x) {
+    Eigen::VectorXd moved = clamped(cache_.problem(), x);
+    const Evaluation* evaluation = cache_.evaluate(moved, Request::values);
+    if (evaluation == nullptr) return std::nullopt;
+    const Eigen::VectorXd excess = excess_of(evaluation->constraints);
+    const Eigen::VectorXd relative = excess.cwiseQuotient(cache_.scales().constraints);
+    if (relative.size() > 0 && relative.lpNorm<Eigen::Infinity>() > restored) {
+      const Eigen::VectorXd back = rows(exceeded(excess)).step_against(excess);
+      moved = clamped(cache_.problem(), moved + s_.cwiseProduct(back));
+      evaluation = cache_.evaluate(moved, Request::values);
+      if (evaluation == nullptr) return std::nullopt;
+    }
+    const double violation =
+        max_violation(cache_.problem(), evaluation->constraints, cache_.scales().constraints);
+    if (violation > std::max(tolerated, design_.max_violation)) return std::nullopt;
+    // What is still missing to the limits, or has been gained by leaving them, at its price.
+    const double correction =
+        multipliers_.dot(evaluation->constraints - design_.evaluation.constraints);
+    return Neighbour{moved, design_.evaluation.objective - evaluation->objective - correction};
+  }
+
+  /// How far constraints are off: those that hold the design from their values there, others from
+  /// the limit that they exceed.
+  Eigen::VectorXd excess_of(const Eigen::VectorXd& constraints) const {
+    Eigen::VectorXd excess = constraints - design_.evaluation.constraints;
+    for (Eigen::Index j = 0; j < excess.size(); ++j) {
+      if (holding_.constraints[static_cast<std::size_t>(j)]) continue;
+      const Constraint& limits = cache_.problem().constraints()[static_cast<std::size_t>(j)];
+      excess[j] = std::max(0.0, constraints[j] - limits.upper) -
+                  std::max(0.0, limits.lower - constraints[j]);
+    }
+    return excess;
+  }
+
+  std::vector<bool> exceeded(const Eigen::VectorXd& excess) const {
+    std::vector<bool> chosen = holding_.constraints;
+    for (Eigen::Index j = 0; j < excess.size(); ++j) {
+      if (excess[j] != 0.0) chosen[static_cast<std::size_t>(j)] = true;
+    }
+    return chosen;
+  }
+
+  EvaluationCache& cache_;
+  const KnownDesign& design_;
+  const Eigen::VectorXd multipliers_;
+  const Eigen::VectorXd s_;
+  const Holding holding_;
+  const Eigen::MatrixXd basis_;
+};
+
+}  // namespace
+
+Neighbourhood explore_neighbourhood(EvaluationCache& cache, const KnownDesign& design,
+                                    const KktAudit& audit, const Evaluation& start,
+                                    double least_gain) {
+  const double value_scale =
+      std::max(std::abs(design.evaluation.objective), 1e-3 * std::abs(start.objective));
+  return Exploration(cache, design, audit).explore(value_scale, least_gain);
+}
+
+}  // namespace pleuel

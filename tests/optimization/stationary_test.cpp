@@ -1,0 +1,220 @@
+/// Problems that start at designs which fulfil the conditions of Karush, Kuhn & Tucker and are no
+/// minima: every gradient-based method likes to stay there.
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "backend_names.hpp"
+#include "complex_step.hpp"
+#include "known_problems.hpp"
+#include "optimization/lowest_curvature.hpp"
+#include "optimization/optimizer.hpp"
+#include "optimization/solve.hpp"
+
+namespace pleuel::test {
+namespace {
+
+template <typename V, typename... Entries>
+auto column(const V&, const Entries&... entries) {
+  Vector<typename V::Scalar> result(sizeof...(entries));
+  Eigen::Index row = 0;
+  ((result[row++] = entries), ...);
+  return result;
+}
+
+/// cos(phi) of an arm of length 1: its maximum, with a minimum at a bound or at ±π.
+KnownProblem arm(double range) {
+  const double optimum = range > std::acos(-1.0) ? -1.0 : std::cos(range);
+  return {"arm",
+          {{{"phi", 0.0, -range, range}}, {}, by_complex_step([](const auto& x) {
+             return column(x, cos(x[0]));
+           })},
+          optimum};
+}
+
+/// 1 + x² + (y² − 1)²: a saddle between two minima.
+KnownProblem saddle() {
+  return {"saddle",
+          {{{"x", 1.0, -3.0, 3.0}, {"y", 0.0, -3.0, 3.0}}, {}, by_complex_step([](const auto& x) {
+             const auto gap = x[1] * x[1] - 1.0;
+             return column(x, 1.0 + x[0] * x[0] + gap * gap);
+           })},
+          1.0};
+}
+
+/// 5 + a² + b² − 3 ab + (a⁴ + b⁴)/2: rises along both axes, falls between them. Along a = b = r it
+/// is 5 − r² + r⁴, least at r² = 1/2.
+KnownProblem rotated_saddle() {
+  return {"rotated saddle",
+          {{{"a", 0.0, -2.0, 3.0}, {"b", 0.0, -2.0, 3.0}}, {}, by_complex_step([](const auto& x) {
+             const auto a = x[0] * x[0], b = x[1] * x[1];
+             return column(x, 5.0 + a + b - 3.0 * x[0] * x[1] + 0.5 * (a * a + b * b));
+           })},
+          4.75};
+}
+
+/// x² + 4 y² outside the unit circle: at (0, 1) it rises along every way off the circle and falls
+/// along the circle; least at (±1, 0).
+KnownProblem circle(double upper) {
+  return {upper < infinity ? "on the circle" : "outside the circle",
+          {{{"x", 0.0, -2.0, 2.0}, {"y", 1.0, -2.0, 2.0}},
+           {{"circle", 1.0, upper}},
+           by_complex_step([](const auto& x) {
+             const auto a = x[0] * x[0], b = x[1] * x[1];
+             return column(x, a + 4.0 * b, a + b);
+           })},
+          1.0};
+}
+
+/// 2 − x² − y from a bound of x that holds nothing; y is held by its own. Least at (1, 1).
+KnownProblem bulge_at_a_bound() {
+  return {"bulge at a bound",
+          {{{"x", 0.0, 0.0, 1.0}, {"y", 1.0, 0.0, 1.0}}, {}, by_complex_step([](const auto& x) {
+             return column(x, 2.0 - x[0] * x[0] - x[1]);
+           })},
+          0.0};
+}
+
+/// 2 + x³: neither maximum nor minimum.
+KnownProblem inflection() {
+  return {"inflection",
+          {{{"x", 0.0, -1.0, 1.0}}, {}, by_complex_step([](const auto& x) {
+             return column(x, 2.0 + x[0] * x[0] * x[0]);
+           })},
+          1.0};
+}
+
+std::vector<KnownProblem> stationary_starts() {
+  return {arm(1.0),    arm(4.0),         saddle(),           rotated_saddle(),
+          circle(1.0), circle(infinity), bulge_at_a_bound(), inflection()};
+}
+
+class StationaryStart : public testing::TestWithParam<std::string> {};
+
+TEST_P(StationaryStart, IsLeftForTheMinimum) {
+  for (KnownProblem& known : stationary_starts()) {
+    const auto& constraints = known.problem.constraints();
+    const bool has_equality = !constraints.empty() && constraints.front().is_equality();
+    if (has_equality && !make_optimizer(GetParam(), {})->takes_equalities()) continue;
+    const Result result = solve(known.problem, {.backend = GetParam()});
+    EXPECT_EQ(result.status, Status::verified) << known.name << ": " << result.message;
+    EXPECT_NEAR(result.evaluation.objective, known.optimum, 1e-3) << known.name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, StationaryStart, testing::ValuesIn(optimizer_names()),
+                         name_of_backend);
+
+TEST(StationaryDesign, ThatIsNoMinimumIsNotVerified) {
+  for (KnownProblem& known : stationary_starts()) {
+    Eigen::VectorXd start = checked_start(known.problem);
+    Eigen::VectorXd x = start;
+    if (known.name == "saddle") x[0] = 0.0;
+    const Verdict verdict = judge_anew(known.problem, start, x);
+    EXPECT_EQ(verdict.status, Status::stalled) << known.name;
+    EXPECT_LE(verdict.audit.residual, 1e-3) << known.name;
+    ASSERT_TRUE(verdict.better_neighbour) << known.name << ": " << verdict.message;
+    const double here = verdict.design.evaluation.objective;
+    const double there =
+        known.problem.evaluate(*verdict.better_neighbour, Request::values).objective;
+    EXPECT_LT(there, here - 1e-4 * here) << known.name;
+    EXPECT_THAT(verdict.message, testing::HasSubstr("not at a minimum"));
+  }
+}
+
+/// Where a backend may not start anew, the answer says what it found.
+TEST(StationaryDesign, IsNamedWithItsBetterNeighbour) {
+  KnownProblem known = arm(1.0);
+  const Result result = solve(known.problem, {.max_escapes = 0});
+  EXPECT_EQ(result.status, Status::stalled);
+  EXPECT_THAT(result.message, testing::HasSubstr("objective is lower by"));
+  EXPECT_THAT(result.message, testing::HasSubstr("at phi = "));
+}
+
+/// x⁴: as flat as a minimum can be.
+TEST(StationaryDesign, ThatIsAFlatMinimumIsVerified) {
+  FunctionProblem problem({{"x", 0.0, -1.0, 1.0}, {"y", 0.0, -1.0, 1.0}}, {},
+                          by_complex_step([](const auto& x) {
+                            const auto a = x[0] * x[0], b = x[1] * x[1];
+                            return column(x, 1.0 + a * a + 1e-4 * b);
+                          }));
+  const Eigen::VectorXd x = checked_start(problem);
+  const Verdict verdict = judge_anew(problem, x, x);
+  EXPECT_EQ(verdict.status, Status::verified) << verdict.message;
+}
+
+/// ½ Σ λᵢ zᵢ² + Σ zᵢ⁴ in twenty rotated variables, one λ negative: six products of forty that
+/// differences of all gradients would take.
+TEST(StationaryDesign, WithOneWayDownAmongTwentyIsNotVerified) {
+  constexpr int n = 20;
+  Eigen::MatrixXd generic(n, n);
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) generic(i, j) = std::sin(1.0 + 3.0 * i * i + 7.0 * j + i * j);
+  }
+  const Eigen::MatrixXd rotation = generic.householderQr().householderQ();
+  std::vector<Variable> variables;
+  for (int i = 0; i < n; ++i) variables.push_back({"x" + std::to_string(i), 0.0, -1.0, 1.0});
+  FunctionProblem problem(variables, {}, by_complex_step([&](const auto& x) {
+                            using Scalar = std::decay_t<decltype(x[0])>;
+                            const Vector<Scalar> z = rotation.transpose().cast<Scalar>() * x;
+                            Scalar sum = 1.0;
+                            for (int i = 0; i < n; ++i) {
+                              const double lambda = i == 0 ? -1.0 : 0.1 * i;
+                              sum += 0.5 * lambda * z[i] * z[i] + z[i] * z[i] * z[i] * z[i];
+                            }
+                            return column(x, sum);
+                          }));
+  const Eigen::VectorXd x = checked_start(problem);
+  EXPECT_TRUE(judge_anew(problem, x, x).better_neighbour);
+}
+
+/// At most six gradients and four values for the neighbourhood, six values for the gradients.
+TEST(StationaryDesign, IsJudgedAtFewEvaluations) {
+  int values = 0, gradients = 0;
+  KnownProblem known = hs035();
+  FunctionProblem counted(known.problem.variables(), {{"g1", -infinity, 3.0}},
+                          [&](const Eigen::VectorXd& x, Request request) {
+                            ++(request == Request::values ? values : gradients);
+                            return known.problem.evaluate(x, request);
+                          });
+  // HS035: (4/3, 7/9, 4/9), g1 active: two directions are open.
+  const Eigen::VectorXd x = Eigen::Vector3d(4.0, 7.0 / 3.0, 4.0 / 3.0) / 3.0;
+  const Verdict verdict = judge_anew(counted, checked_start(counted), x);
+  EXPECT_EQ(verdict.status, Status::verified) << verdict.message;
+  EXPECT_THAT(verdict.message, testing::HasSubstr("along 2 of the 2 directions"));
+  EXPECT_LE(gradients, 2 + 1 + 2);  // start, design, that design in the cache, products
+  EXPECT_LE(values, 6 + 4);
+}
+
+/// Against a dense eigensolver.
+TEST(LowestCurvature, IsTheSmallestEigenvalueInTheSubspace) {
+  Eigen::MatrixXd matrix(6, 6);
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) matrix(i, j) = std::cos(1.0 + i + j) + (i == j ? 0.3 * i : 0.0);
+  }
+  Eigen::MatrixXd generic(6, 4);
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 4; ++j) generic(i, j) = std::sin(1.0 + 2.0 * i * j + i);
+  }
+  const Eigen::MatrixXd basis = Eigen::MatrixXd(generic.householderQr().householderQ()).leftCols(4);
+  const HessianProduct product = [&](const Eigen::VectorXd& d) { return matrix * d; };
+  const LowestCurvature found = lowest_curvature(product, basis, 6);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> exact(basis.transpose() * matrix * basis);
+  EXPECT_EQ(found.products, 4);
+  EXPECT_NEAR(found.curvature, exact.eigenvalues()[0], 1e-12);
+  EXPECT_NEAR(found.direction.dot(matrix * found.direction), found.curvature, 1e-12);
+  EXPECT_NEAR((found.direction - basis * (basis.transpose() * found.direction)).norm(), 0, 1e-12);
+}
+
+/// Every direction of a multiple of 1 is an eigenvector: Lanczos' method breaks down at once.
+TEST(LowestCurvature, IsFoundWhereAllDirectionsAreAlike) {
+  const HessianProduct product = [](const Eigen::VectorXd& d) { return Eigen::VectorXd(-2.0 * d); };
+  const LowestCurvature found = lowest_curvature(product, Eigen::MatrixXd::Identity(3, 3), 6);
+  EXPECT_EQ(found.products, 3);
+  EXPECT_NEAR(found.curvature, -2.0, 1e-14);
+}
+
+}  // namespace
+}  // namespace pleuel::test
