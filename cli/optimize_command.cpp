@@ -41,11 +41,15 @@ Result solve_visibly(DesignProblem& problem, const SolveOptions& options,
              problem.constraints().size(), options.backend);
   HistoryCsv history(run_record.folder() / "history.csv", problem);
   IterationLines lines(out, problem.file());
-  return solve_design(problem, options, [&](const EvaluationRecord& record) {
+  const Observer observer = [&](const EvaluationRecord& record) {
     history.add(record);
     lines.see(record);
     if (!record.has_failed()) return;
     write_failed_design(run_record, arguments, problem.file(), record);
+  };
+  return solve_design(problem, options, observer, [out](const std::string& notice) {
+    fmt::print(out, "  {}\n", notice);
+    std::fflush(out);
   });
 }
 

@@ -52,29 +52,32 @@ Evaluation DesignProblem::evaluate(const Eigen::VectorXd& x, Request request) {
   });
 }
 
+std::optional<std::size_t> DesignProblem::response_of(const ConstraintRow& row) const {
+  if (!row.constraint) return response_index(file_.objective->response);
+  const std::string& name = file_.constraints[*row.constraint].response;
+  if (name.empty()) return std::nullopt;
+  return response_index(name);
+}
+
 double DesignProblem::row_value(const Analysis& analysis, const ConstraintRow& row) const {
   if (row.peak) return row.peak->value;
-  const ConstraintSettings& constraint = file_.constraints[row.constraint];
-  if (!constraint.response.empty()) {
-    return analysis.reductions[response_index(constraint.response)].value;
-  }
+  if (const auto response = response_of(row)) return analysis.reductions[*response].value;
   double sum = 0.0;
-  for (const auto& [variable, factor] : constraint.linear) sum += factor * x_(variable);
+  for (const auto& [variable, factor] : file_.constraints[*row.constraint].linear) {
+    sum += factor * x_(variable);
+  }
   return sum;
 }
 
 /// Of the objective, then of the rows that limit a response.
 Eigen::MatrixXd DesignProblem::gradients_of(Analysis& analysis, const RowsOf& rows_of) {
   const std::size_t objective = response_index(file_.objective->response);
-  const auto is_response = [this](const ConstraintRow& row) {
-    return !file_.constraints[row.constraint].response.empty();
-  };
   std::vector<SampledValue> values{{objective, analysis.reductions[objective].samples}};
   for (const ConstraintRow& row : rows_of(analysis)) {
-    if (!is_response(row)) continue;
-    const std::size_t response = response_index(file_.constraints[row.constraint].response);
+    const auto response = response_of(row);
+    if (!response) continue;
     values.push_back(
-        {response, row.peak ? row.peak->samples : analysis.reductions[response].samples});
+        {*response, row.peak ? row.peak->samples : analysis.reductions[*response].samples});
   }
   if (!choice_) choice_ = choose_gradients(file_.sensitivity.method, analysis, values);
   if (!is_difference(choice_->method)) {
@@ -83,7 +86,7 @@ Eigen::MatrixXd DesignProblem::gradients_of(Analysis& analysis, const RowsOf& ro
   const ValuesOf numbers = [&](const Analysis& at) {
     std::vector<double> all{at.reductions[objective].value};
     for (const ConstraintRow& row : rows_of(at)) {
-      if (is_response(row)) all.push_back(row_value(at, row));
+      if (response_of(row)) all.push_back(row_value(at, row));
     }
     return Eigen::VectorXd(
         Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size())));
@@ -111,11 +114,12 @@ Evaluation DesignProblem::evaluate_rows(const Eigen::VectorXd& x, Request reques
   evaluation.constraint_jacobian = Eigen::MatrixXd::Zero(count, x.size());
   Eigen::Index next = 1;
   for (Eigen::Index i = 0; i < count; ++i) {
-    const auto& constraint = file_.constraints[rows[static_cast<std::size_t>(i)].constraint];
-    if (!constraint.response.empty()) {
+    const ConstraintRow& row = rows[static_cast<std::size_t>(i)];
+    if (response_of(row)) {
       evaluation.constraint_jacobian.row(i) = gradients.row(next++);
+      continue;
     }
-    for (const auto& [variable, factor] : constraint.linear) {
+    for (const auto& [variable, factor] : file_.constraints[*row.constraint].linear) {
       evaluation.constraint_jacobian(i, variable) += factor;
     }
   }

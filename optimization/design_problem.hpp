@@ -11,9 +11,10 @@
 
 namespace pleuel {
 
-/// A constraint of the file, or one peak of the response that it limits.
+/// A constraint of the file, or one peak of the response that it limits; without a constraint the
+/// same of the objective.
 struct ConstraintRow {
-  std::size_t constraint;
+  std::optional<std::size_t> constraint;
   std::optional<Reduction> peak;
 };
 
@@ -50,6 +51,9 @@ class DesignProblem : public Problem {
   /// The simulation of a design; kept until another one is asked for.
   /// @throws SimulationError
   Analysis& analysis_at(const Eigen::VectorXd& x);
+
+  /// Index of the response of a row; none for a sum of variables.
+  std::optional<std::size_t> response_of(const ConstraintRow& row) const;
 
   /// Index of a response of the file. @throws InputError if there is none of this name
   std::size_t response_index(const std::string& name) const;

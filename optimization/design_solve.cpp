@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
+#include <optional>
+
+#include <fmt/format.h>
 
 #include "optimization/peak_problem.hpp"
 #include "optimization/robust_problem.hpp"
+#include "optimization/scaling.hpp"
 #include "optimization/verdict.hpp"
 #include "sensitivity/gradients.hpp"
+#include "sensitivity/kinks.hpp"
 
 namespace pleuel {
 
@@ -19,14 +23,6 @@ constexpr int peak_windows = 16;
 /// Iterations after which a run on the constraints of the file is taken for one that does not end:
 /// on a smooth optimum all backends need fewer.
 constexpr int plain_iterations = 40;
-
-/// Counts on from an earlier run.
-EvaluationRecord continued(EvaluationRecord record, const Result& before) {
-  record.evaluation += before.evaluations;
-  record.iteration += before.iterations;
-  record.seconds += before.seconds;
-  return record;
-}
 
 void continue_from(const Result& before, Result& result) {
   result.evaluations += before.evaluations;
@@ -40,12 +36,14 @@ void continue_from(const Result& before, Result& result) {
 /// With the margins that the constraints of the file ask for, if any.
 /// @param constraint_of_row  of a problem made of that of the file
 /// @throws InputError if gradients are differences: those of differences would be noise
-std::unique_ptr<Problem> with_margins(Problem& problem, const DesignProblem& design,
-                                      const std::vector<std::size_t>& constraint_of_row) {
-  Eigen::VectorXd margins(static_cast<Eigen::Index>(constraint_of_row.size()));
+std::unique_ptr<Problem> with_margins(
+    Problem& problem, const DesignProblem& design,
+    const std::vector<std::optional<std::size_t>>& constraint_of_row) {
+  Eigen::VectorXd margins = Eigen::VectorXd::Zero(Eigen::Index(constraint_of_row.size()));
   for (std::size_t row = 0; row < constraint_of_row.size(); ++row) {
+    if (!constraint_of_row[row]) continue;
     margins(static_cast<Eigen::Index>(row)) =
-        design.file().constraints[constraint_of_row[row]].deviations;
+        design.file().constraints[*constraint_of_row[row]].deviations;
   }
   if (margins.isZero(0.0)) return nullptr;
   if (is_difference(design.file().sensitivity.method)) {
@@ -53,40 +51,86 @@ std::unique_ptr<Problem> with_margins(Problem& problem, const DesignProblem& des
         "/sensitivity/method must be \"auto\", \"direct\" or \"adjoint\" where a constraint has "
         "\"deviations\": their gradients are differences of gradients");
   }
-  return std::make_unique<RobustProblem>(problem, design.variable_deviations(), margins);
+  Eigen::VectorXd deviations = Eigen::VectorXd::Zero(Eigen::Index(problem.variables().size()));
+  deviations.head(Eigen::Index(design.variables().size())) = design.variable_deviations();
+  return std::make_unique<RobustProblem>(problem, deviations, margins);
+}
+
+/// Records of a run on windows as records of the file, counted on from the run before.
+class Folding {
+ public:
+  Folding(const PeakProblem& peaks, const DesignProblem& design, const Result& before)
+      : peaks_(peaks), design_(design), before_(before), last_(before.history.back().x) {
+    const Eigen::VectorXd& first = before.history.front().x;
+    variable_scales_ = variable_scales(design, first);
+    constraint_scales_ = constraint_scales(design, before.evaluation, variable_scales_);
+  }
+
+  EvaluationRecord operator()(EvaluationRecord record) {
+    record.x = peaks_.design_of(record.x);
+    record.step = (record.x - last_).cwiseQuotient(variable_scales_).lpNorm<Eigen::Infinity>();
+    last_ = record.x;
+    if (!record.has_failed()) {
+      record.objective = peaks_.fold_objective(record.objective, record.constraints);
+      record.constraints = peaks_.fold_values(record.constraints);
+      record.max_violation = max_violation(design_, record.constraints, constraint_scales_);
+    }
+    record.evaluation += before_.evaluations;
+    record.iteration += before_.iterations;
+    record.seconds += before_.seconds;
+    return record;
+  }
+
+  /// Of the constraints of the file.
+  double violation(const Eigen::VectorXd& constraints) const {
+    return max_violation(design_, constraints, constraint_scales_);
+  }
+
+ private:
+  const PeakProblem& peaks_;
+  const DesignProblem& design_;
+  const Result& before_;
+  Eigen::VectorXd last_, variable_scales_, constraint_scales_;
+};
+
+void fold_result(const PeakProblem& peaks, const Folding& folding, DesignProblem& design,
+                 Result& result) {
+  result.x = peaks.design_of(result.x);
+  if (!result.evaluation.has_gradients()) return;
+  const Eigen::VectorXd rows = result.evaluation.constraints;
+  result.evaluation = design.evaluate(result.x, Request::values_and_gradients);
+  result.evaluation.constraints = peaks.fold_values(rows);
+  result.max_violation = folding.violation(result.evaluation.constraints);
+  result.constraint_multipliers = peaks.fold_multipliers(result.constraint_multipliers);
+  result.bound_multipliers = peaks.design_of(result.bound_multipliers);
 }
 
 /// On the peaks of windows, beginning where the run on whole constraints ended (if that is within
 /// the limits).
 Result solve_peaks(DesignProblem& design, const SolveOptions& options, const Result& before,
                    const Observer& observer) {
-  PeakProblem peaks(design, peak_windows);
-  if (before.status == Status::stalled) peaks.start_from(before.x);
-  const auto fold = [&](EvaluationRecord record) {
-    if (record.constraints.size() > 0) record.constraints = peaks.fold_values(record.constraints);
-    return continued(std::move(record), before);
-  };
-  Observer folding;
-  if (observer) folding = [&](const EvaluationRecord& record) { observer(fold(record)); };
+  PeakProblem peaks = before.status == Status::stalled ? PeakProblem(design, peak_windows, before.x)
+                                                       : PeakProblem(design, peak_windows);
+  Folding folding(peaks, design, before);
+  Observer observe_folded;
+  if (observer) {
+    observe_folded = [&](const EvaluationRecord& record) { observer(folding(record)); };
+  }
   const auto robust = with_margins(peaks, design, peaks.constraint_of_row());
-  Result result = solve(robust ? *robust : peaks, options, folding);
-  for (EvaluationRecord& record : result.history) record = fold(std::move(record));
-  if (result.constraint_multipliers.size() > 0) {
-    result.constraint_multipliers = peaks.fold_multipliers(result.constraint_multipliers);
-  }
-  if (result.evaluation.has_gradients()) {
-    const Eigen::VectorXd rows = result.evaluation.constraints;
-    result.evaluation = design.evaluate(result.x, Request::values_and_gradients);
-    result.evaluation.constraints = peaks.fold_values(rows);
-  }
+  Result result = solve(robust ? *robust : peaks, options, observe_folded);
+  Folding history_folding(peaks, design, before);
+  for (EvaluationRecord& record : result.history) record = history_folding(std::move(record));
+  fold_result(peaks, folding, design, result);
+  result.message += fmt::format("; peaks over time were told apart by {} windows", peak_windows);
   return result;
 }
 
 /// Whether all peaks keep their margins: a lower one may scatter more than the highest.
 bool keeps_margins(DesignProblem& design, const Eigen::VectorXd& x, double tolerance) {
-  PeakProblem peaks(design, peak_windows);
+  PeakProblem peaks(design, peak_windows, x);
   const auto robust = with_margins(peaks, design, peaks.constraint_of_row());
-  const Eigen::VectorXd rows = robust->evaluate(x, Request::values).constraints;
+  const Eigen::VectorXd rows =
+      robust->evaluate(checked_start(*robust), Request::values).constraints;
   const Eigen::VectorXd values = peaks.fold_values(rows);
   for (std::size_t i = 0; i < design.constraints().size(); ++i) {
     const Constraint& constraint = design.constraints()[i];
@@ -97,11 +141,55 @@ bool keeps_margins(DesignProblem& design, const Eigen::VectorXd& x, double toler
   return true;
 }
 
+std::vector<std::size_t> optimized_responses(const DesignProblem& design) {
+  std::vector<std::size_t> responses = {*design.response_of({})};
+  for (std::size_t i = 0; i < design.constraints().size(); ++i) {
+    if (const auto response = design.response_of({i, std::nullopt})) {
+      responses.push_back(*response);
+    }
+  }
+  return responses;
+}
+
+/// The peaks that tie at a design, of the objective and of what is limited; empty if there are none
+/// or if the design cannot be simulated.
+std::string describe_kinks(DesignProblem& design, const Eigen::VectorXd& x) {
+  const std::vector<std::size_t> optimized = optimized_responses(design);
+  std::vector<std::string> kinks;
+  try {
+    Analysis& analysis = design.analysis_at(x);
+    for (const Kink& kink : find_kinks(analysis)) {
+      const Response& response = analysis.responses[kink.response];
+      const bool is_named = !kinks.empty() && kinks.back().starts_with(response.name + " (");
+      if (is_named ||
+          std::find(optimized.begin(), optimized.end(), kink.response) == optimized.end()) {
+        continue;
+      }
+      kinks.push_back(
+          fmt::format("{} (at {:.5g} s, {}, and at {:.5g} s, {}; gradients differ by "
+                      "{:.2g} %)",
+                      response.name, kink.tie.time, response.signal->describe(kink.tie.channel),
+                      kink.tie.other_time, response.signal->describe(kink.tie.other_channel),
+                      100.0 * kink.difference));
+    }
+  } catch (const SimulationError&) {
+    return "";
+  }
+  return kinks.empty() ? "" : fmt::format("two peaks tie in {}", fmt::join(kinks, " and in "));
+}
+
+/// Why the run on the file as it is does not do.
+std::string reason_to_go_on(const Result& result, const std::string& kinks) {
+  if (result.status == Status::verified) return "other peaks do not keep their margins";
+  return kinks.empty() ? "no optimum is verified so far" : kinks;
+}
+
 }  // namespace
 
-Result solve_design(DesignProblem& design, const SolveOptions& options, const Observer& observer) {
-  std::vector<std::size_t> all(design.constraints().size());
-  std::iota(all.begin(), all.end(), 0u);
+Result solve_design(DesignProblem& design, const SolveOptions& options, const Observer& observer,
+                    const Notice& notice) {
+  std::vector<std::optional<std::size_t>> all;
+  for (std::size_t i = 0; i < design.constraints().size(); ++i) all.emplace_back(i);
   const auto robust = with_margins(design, design, all);
   Problem& problem = robust ? *robust : design;
   SolveOptions plain = options;
@@ -110,13 +198,24 @@ Result solve_design(DesignProblem& design, const SolveOptions& options, const Ob
   Result result = solve(problem, plain, observer);
   SolveOptions rest = options;
   rest.max_iterations = options.max_iterations - result.iterations;
+  rest.earlier = {result.iterations, result.restarts + 1};
   const bool is_verified = result.status == Status::verified &&
                            (!robust || keeps_margins(design, result.x, Tolerances().violation));
-  const bool is_final = is_verified || result.status == Status::failed;
-  if (is_final || rest.max_iterations < 1) return result;
-  Result on_peaks = solve_peaks(design, rest, result, observer);
-  continue_from(result, on_peaks);
-  return on_peaks;
+  if (is_verified || result.status == Status::failed) return result;
+  if (rest.max_iterations >= 1) {
+    if (notice) {
+      notice(fmt::format("{}: from here on the peaks of {} windows of time count one by one",
+                         reason_to_go_on(result, describe_kinks(design, result.x)), peak_windows));
+    }
+    Result on_peaks = solve_peaks(design, rest, result, observer);
+    continue_from(result, on_peaks);
+    result = std::move(on_peaks);
+  }
+  if (result.status == Status::stalled) {
+    const std::string kinks = describe_kinks(design, result.x);
+    if (!kinks.empty()) result.message += "; " + kinks;
+  }
+  return result;
 }
 
 }  // namespace pleuel

@@ -13,7 +13,8 @@ namespace pleuel {
 
 namespace {
 
-constexpr double step = 1e-3;
+constexpr double step = 1e-3;             ///< h
+constexpr double short_step = 1e-4;       ///< the second attempt
 constexpr double least_magnitude = 1e-2;  ///< part of s that replaces |x| near zero
 
 /// Numbers of generic size, the same in every run. The engine's raw numbers are prescribed by the
@@ -92,18 +93,18 @@ std::vector<Eigen::VectorXd> generic_directions(const Problem& problem, const Ei
 
 /// Differences of the objective (first) and of the constraints along the direction.
 std::optional<Eigen::VectorXd> differences(EvaluationCache& cache, const KnownDesign& design,
-                                           const Eigen::VectorXd& direction) {
+                                           const Eigen::VectorXd& direction, double h) {
   const auto values = [](const Evaluation& evaluation) {
     Eigen::VectorXd all(1 + evaluation.constraints.size());
     all << evaluation.objective, evaluation.constraints;
     return all;
   };
-  const Evaluation* near = cache.evaluate(design.x + step * direction, Request::values);
+  const Evaluation* near = cache.evaluate(design.x + h * direction, Request::values);
   if (near == nullptr) return std::nullopt;
   const Eigen::VectorXd near_values = values(*near);
-  const Evaluation* far = cache.evaluate(design.x + 2.0 * step * direction, Request::values);
+  const Evaluation* far = cache.evaluate(design.x + 2.0 * h * direction, Request::values);
   if (far == nullptr) return std::nullopt;
-  return (-3.0 * values(design.evaluation) + 4.0 * near_values - values(*far)) / (2.0 * step);
+  return (-3.0 * values(design.evaluation) + 4.0 * near_values - values(*far)) / (2.0 * h);
 }
 
 /// |error| of the directional derivatives, each weighted with its multiplier (1 for the objective).
@@ -117,26 +118,44 @@ Eigen::VectorXd weighted_errors(const Eigen::VectorXd& difference, const KnownDe
   return (difference - derivative).cwiseProduct(weights).cwiseAbs();
 }
 
+struct DirectionError {
+  double error;
+  Eigen::Index row;  ///< of the worst: 0 for the objective
+};
+
+/// The largest error along a direction; nullopt if it cannot be had.
+std::optional<DirectionError> error_along(EvaluationCache& cache, const KnownDesign& design,
+                                          const KktAudit& audit, const Eigen::VectorXd& direction,
+                                          double h) {
+  const auto difference = differences(cache, design, direction, h);
+  if (!difference) return std::nullopt;
+  const Eigen::VectorXd s = local_scales(cache.problem(), design.x);
+  const double length = direction.cwiseQuotient(s).norm();
+  const double dimension = std::sqrt(static_cast<double>(design.x.size()));
+  Eigen::Index row = 0;
+  const double largest = weighted_errors(*difference, design, audit, direction).maxCoeff(&row);
+  return DirectionError{dimension * largest / (length * audit.gradient_scale), row};
+}
+
 }  // namespace
 
 GradientCheck check_gradients(EvaluationCache& cache, const KnownDesign& design,
-                              const KktAudit& audit) {
+                              const KktAudit& audit, double good_enough) {
   const Problem& problem = cache.problem();
-  const Eigen::VectorXd s = local_scales(problem, design.x);
-  const double dimension = std::sqrt(static_cast<double>(design.x.size()));
   GradientCheck check;
   for (const Eigen::VectorXd& direction : generic_directions(problem, design.x)) {
-    const double length = direction.cwiseQuotient(s).norm();
-    if (length == 0.0) return {true, 0.0, ""};  // every variable is fixed
-    const auto difference = differences(cache, design, direction);
-    if (!difference) continue;
+    if (direction.isZero(0.0)) return {true, 0.0, ""};  // every variable is fixed
+    auto found = error_along(cache, design, audit, direction, step);
+    if (!found || found->error > good_enough) {
+      const auto closer = error_along(cache, design, audit, direction, short_step);
+      if (closer && (!found || closer->error < found->error)) found = closer;
+    }
+    if (!found) continue;
     check.is_possible = true;
-    Eigen::Index worst = 0;
-    const double largest = weighted_errors(*difference, design, audit, direction).maxCoeff(&worst);
-    const double error = dimension * largest / (length * audit.gradient_scale);
-    if (error < check.error) continue;
-    check.error = error;
-    check.worst = worst == 0 ? problem.objective_name() : problem.constraints()[worst - 1].name;
+    if (found->error < check.error) continue;
+    check.error = found->error;
+    check.worst =
+        found->row == 0 ? problem.objective_name() : problem.constraints()[found->row - 1].name;
   }
   return check;
 }

@@ -1,8 +1,11 @@
 #include "optimization/peak_problem.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
+
+#include "optimization/scaling.hpp"
 
 namespace pleuel {
 
@@ -20,63 +23,117 @@ double excess(const Constraint& constraint, double value) {
   return std::max(value - constraint.upper, constraint.lower - value);
 }
 
+/// By how much of its peak the objective is taken to depend on the design at least.
+constexpr double least_dependence = 1e-2;
+
+Eigen::VectorXd starts_of(const DesignProblem& problem) {
+  Eigen::VectorXd start(static_cast<Eigen::Index>(problem.variables().size()));
+  for (Eigen::Index i = 0; i < start.size(); ++i) start(i) = problem.variables()[i].start;
+  return start;
+}
+
 }  // namespace
 
 PeakProblem::PeakProblem(DesignProblem& problem, int windows)
+    : PeakProblem(problem, windows, starts_of(problem)) {}
+
+PeakProblem::PeakProblem(DesignProblem& problem, int windows, const Eigen::VectorXd& start)
     : problem_(problem), windows_(windows), variables_(problem.variables()) {
   const ProblemFile& file = problem.file();
   const SimulationSettings& settings = file.simulation;
   const int samples = step_count({.end_time = settings.end_time, .step = settings.step}) + 1;
   windows_ = std::min(windows_, samples);
+  for (std::size_t i = 0; i < variables_.size(); ++i) {
+    Variable& variable = variables_[i];
+    variable.start =
+        std::clamp(start(static_cast<Eigen::Index>(i)), variable.lower, variable.upper);
+  }
   for (std::size_t i = 0; i < file.constraints.size(); ++i) {
     const Constraint& constraint = problem.constraints()[i];
-    const std::string& name = file.constraints[i].response;
-    const bool is_split = !name.empty() && !constraint.is_equality() &&
-                          has_peaks(file.responses[problem.response_index(name)]);
-    is_split_.push_back(is_split);
-    for (int window = 0; window < (is_split ? windows_ : 1); ++window) {
+    const auto response = problem.response_of({i, std::nullopt});
+    is_split_.push_back(response && !constraint.is_equality() &&
+                        has_peaks(file.responses[*response]));
+    if (is_split_.back()) {
+      add_rows(i, constraint, file.responses[*response]);
+    } else {
       rows_.push_back(constraint);
-      if (is_split) {
-        const ResponseSettings& response = file.responses[problem.response_index(name)];
-        const double from = response.from.value_or(0.0);
-        const double duration = response.to.value_or(settings.end_time) - from;
-        rows_.back().name +=
-            fmt::format(" between {:.4g} and {:.4g} s", from + duration * window / windows_,
-                        from + duration * (window + 1) / windows_);
-      }
-      constraint_of_row_.push_back(i);
+      constraint_of_row_.emplace_back(i);
     }
+  }
+  bound_objective();
+}
+
+void PeakProblem::add_rows(std::optional<std::size_t> constraint, const Constraint& limits,
+                           const ResponseSettings& response) {
+  const double from = response.from.value_or(0.0);
+  const double to = response.to.value_or(problem_.file().simulation.end_time);
+  for (int window = 0; window < windows_; ++window) {
+    rows_.push_back(limits);
+    rows_.back().name +=
+        fmt::format(" between {:.4g} and {:.4g} s", from + (to - from) * window / windows_,
+                    from + (to - from) * (window + 1) / windows_);
+    constraint_of_row_.push_back(constraint);
   }
 }
 
-void PeakProblem::start_from(const Eigen::VectorXd& x) {
-  for (std::size_t i = 0; i < variables_.size(); ++i) {
-    Variable& variable = variables_[i];
-    variable.start = std::clamp(x(static_cast<Eigen::Index>(i)), variable.lower, variable.upper);
-  }
+void PeakProblem::bound_objective() {
+  const std::size_t objective = *problem_.response_of({});
+  const ResponseSettings& response = problem_.file().responses[objective];
+  has_bound_ = has_peaks(response) && response.over_time != OverTime::min;
+  if (!has_bound_) return;
+  add_rows(std::nullopt, {response.name, -infinity, 0.0}, response);
+  Eigen::VectorXd start(static_cast<Eigen::Index>(variables_.size()));
+  for (Eigen::Index i = 0; i < start.size(); ++i) start(i) = variables_[i].start;
+  const Evaluation at_start = problem_.evaluate(start, Request::values_and_gradients);
+  const double change =
+      scaled_objective_gradient(problem_, at_start, variable_scales(problem_, start)).norm();
+  const double magnitude = std::max(change, least_dependence * std::abs(at_start.objective));
+  variables_.push_back({"bound of " + response.name, at_start.objective, -infinity, infinity,
+                        magnitude > 0.0 ? magnitude : 1.0});
 }
 
 Evaluation PeakProblem::evaluate(const Eigen::VectorXd& x, Request request) {
-  return problem_.evaluate_rows(x, request,
-                                [this](const Analysis& analysis) { return rows_of(analysis); });
+  Evaluation evaluation = problem_.evaluate_rows(
+      design_of(x), request, [this](const Analysis& analysis) { return rows_of(analysis); });
+  if (!has_bound_) return evaluation;
+  evaluation.objective = x(x.size() - 1);
+  evaluation.constraints.tail(windows_).array() -= evaluation.objective;
+  if (request == Request::values) return evaluation;
+  evaluation.objective_gradient = Eigen::VectorXd::Unit(x.size(), x.size() - 1);
+  evaluation.constraint_jacobian.conservativeResize(Eigen::NoChange, x.size());
+  evaluation.constraint_jacobian.rightCols(1).setZero();
+  evaluation.constraint_jacobian.rightCols(1).bottomRows(windows_).setConstant(-1.0);
+  return evaluation;
 }
 
 std::vector<ConstraintRow> PeakProblem::rows_of(const Analysis& analysis) const {
   std::vector<ConstraintRow> rows;
-  for (std::size_t i = 0; i < is_split_.size(); ++i) {
-    if (!is_split_[i]) {
-      rows.push_back({i, std::nullopt});
-      continue;
-    }
-    const std::size_t response = problem_.response_index(problem_.file().constraints[i].response);
+  const auto add_windows = [&](std::optional<std::size_t> constraint) {
+    const std::size_t response = *problem_.response_of({constraint, std::nullopt});
     const Response& observed = analysis.responses[response];
     const Eigen::VectorXd& time = analysis.trajectory.time;
     for (Reduction& peak : reduce_windows(observed.over_time, time, analysis.histories[response],
                                           windows_, observed.steps(time))) {
-      rows.push_back({i, std::move(peak)});
+      rows.push_back({constraint, std::move(peak)});
+    }
+  };
+  for (std::size_t i = 0; i < is_split_.size(); ++i) {
+    if (is_split_[i]) {
+      add_windows(i);
+    } else {
+      rows.push_back({i, std::nullopt});
     }
   }
+  if (has_bound_) add_windows(std::nullopt);
   return rows;
+}
+
+Eigen::VectorXd PeakProblem::design_of(const Eigen::VectorXd& x) const {
+  return x.head(static_cast<Eigen::Index>(problem_.variables().size()));
+}
+
+double PeakProblem::fold_objective(double objective, const Eigen::VectorXd& rows) const {
+  return has_bound_ ? objective + rows.tail(windows_).maxCoeff() : objective;
 }
 
 Eigen::VectorXd PeakProblem::fold_values(const Eigen::VectorXd& rows) const {
@@ -84,7 +141,8 @@ Eigen::VectorXd PeakProblem::fold_values(const Eigen::VectorXd& rows) const {
   Eigen::VectorXd values(static_cast<Eigen::Index>(constraints.size()));
   std::vector<bool> is_set(constraints.size(), false);
   for (std::size_t row = 0; row < rows_.size(); ++row) {
-    const std::size_t i = constraint_of_row_[row];
+    if (!constraint_of_row_[row]) continue;
+    const std::size_t i = *constraint_of_row_[row];
     const double value = rows(static_cast<Eigen::Index>(row));
     double& worst = values(static_cast<Eigen::Index>(i));
     if (!is_set[i] || excess(constraints[i], value) > excess(constraints[i], worst)) worst = value;
@@ -97,7 +155,8 @@ Eigen::VectorXd PeakProblem::fold_multipliers(const Eigen::VectorXd& rows) const
   Eigen::VectorXd sums =
       Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem_.constraints().size()));
   for (std::size_t row = 0; row < rows_.size(); ++row) {
-    sums(static_cast<Eigen::Index>(constraint_of_row_[row])) +=
+    if (!constraint_of_row_[row]) continue;
+    sums(static_cast<Eigen::Index>(*constraint_of_row_[row])) +=
         rows(static_cast<Eigen::Index>(row));
   }
   return sums;

@@ -8,28 +8,44 @@ namespace pleuel {
 /// several windows of time. The maximum over the whole time has a kink wherever two peaks tie, and
 /// optimizers drive designs right onto such ties (both peaks reach the limit); the peaks of the
 /// windows are smooth, and the optimum is an ordinary point with two active rows.
+///
+/// An objective that is itself a peak becomes a variable t more, in the form
+///
+///     minimize t   subject to   peak of each window ≤ t
+///
+/// A design of this problem is (x, t) then, and the rows peak − t ≤ 0 follow those of the limits.
 class PeakProblem : public Problem {
  public:
   /// @param windows  of equal length, at least 1
+  /// @param start    of the design, moved into the bounds; by default that of the file. Where the
+  ///                 objective is a peak it is evaluated, with gradients.
   PeakProblem(DesignProblem& problem, int windows);
-
-  /// Begins at another design, moved into the bounds.
-  void start_from(const Eigen::VectorXd& x);
+  PeakProblem(DesignProblem& problem, int windows, const Eigen::VectorXd& start);
 
   const std::vector<Variable>& variables() const override { return variables_; }
   const std::vector<Constraint>& constraints() const override { return rows_; }
   std::string objective_name() const override { return problem_.objective_name(); }
   Evaluation evaluate(const Eigen::VectorXd& x, Request request) override;
 
-  /// The constraint of the file that each row is of.
-  const std::vector<std::size_t>& constraint_of_row() const { return constraint_of_row_; }
+  /// The constraint of the file that each row is of; none for those of the objective.
+  const std::vector<std::optional<std::size_t>>& constraint_of_row() const {
+    return constraint_of_row_;
+  }
 
+  /// x without t.
+  Eigen::VectorXd design_of(const Eigen::VectorXd& x) const;
+  /// The objective of the file: with t, its highest window.
+  double fold_objective(double objective, const Eigen::VectorXd& rows) const;
   /// Values of the rows as values of the constraints: the worst of each.
   Eigen::VectorXd fold_values(const Eigen::VectorXd& rows) const;
   /// Multipliers of the rows as those of the constraints: their sums.
   Eigen::VectorXd fold_multipliers(const Eigen::VectorXd& rows) const;
 
  private:
+  void add_rows(std::optional<std::size_t> constraint, const Constraint& limits,
+                const ResponseSettings& response);
+  void bound_objective();
+
   /// The constraints, those on peaks window by window.
   std::vector<ConstraintRow> rows_of(const Analysis& analysis) const;
 
@@ -37,8 +53,9 @@ class PeakProblem : public Problem {
   int windows_;
   std::vector<Variable> variables_;
   std::vector<Constraint> rows_;
-  std::vector<std::size_t> constraint_of_row_;
+  std::vector<std::optional<std::size_t>> constraint_of_row_;
   std::vector<bool> is_split_;  ///< constraint by constraint
+  bool has_bound_ = false;      ///< t is a variable
 };
 
 }  // namespace pleuel

@@ -25,7 +25,13 @@ bool has_range(const Variable& variable) {
   return is_limited(variable.lower) && is_limited(variable.upper);
 }
 
+/// Whether its value alone has to say what is much of it.
+bool has_no_scale(const Variable& variable) {
+  return !has_range(variable) && variable.magnitude == 0.0;
+}
+
 double variable_scale(const Variable& variable, double x, double part_of_range) {
+  if (variable.magnitude > 0.0) return variable.magnitude;
   if (variable.is_fixed()) return positive_or(std::abs(x), 1.0);
   if (!has_range(variable))
     return positive_or(std::max(std::abs(x), std::abs(variable.start)), 1.0);
@@ -60,10 +66,10 @@ Eigen::VectorXd local_scales(const Problem& problem, const Eigen::VectorXd& x) {
   Eigen::VectorXd scales = scales_with(part_of_range_for_audit, problem, x);
   double largest = 0.0;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    if (!has_range(problem.variables()[i])) largest = std::max(largest, scales[i]);
+    if (has_no_scale(problem.variables()[i])) largest = std::max(largest, scales[i]);
   }
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    if (!has_range(problem.variables()[i])) scales[i] = largest;
+    if (has_no_scale(problem.variables()[i])) scales[i] = largest;
   }
   return scales;
 }

@@ -78,6 +78,7 @@ class Run {
 
  private:
   static constexpr double tolerance_factor = 0.1;
+  static constexpr int evaluations_per_iteration = 5;
   /// Evaluations without gradients after which a backend is better started anew.
   static constexpr int longest_line_search = 30;
   /// Violation up to which a design is preferred: tighter than what a verdict allows, so that no
@@ -166,7 +167,7 @@ class Run {
                          : one.design.max_violation < other.design.max_violation;
   }
 
-  int max_evaluations() const { return 5 * options_.max_iterations; }
+  int max_evaluations() const { return evaluations_per_iteration * options_.max_iterations; }
 
   bool is_exhausted() const {
     return cache_.iterations() >= options_.max_iterations ||
@@ -205,11 +206,13 @@ class Run {
   void add_reason(Result& result) const {
     if (is_lost_) result.status = Status::failed;
     if (is_exhausted()) {
+      const int iterations = options_.max_iterations + options_.earlier.iterations;
       result.message += fmt::format("; the budget of {} iterations ({} evaluations) is used up",
-                                    options_.max_iterations, max_evaluations());
+                                    iterations, evaluations_per_iteration * iterations);
     } else {
-      result.message += fmt::format("; {} said after {} restarts: {}", options_.backend,
-                                    restarts_ + escapes_, backend_reason_);
+      result.message +=
+          fmt::format("; {} said after {} restarts: {}", options_.backend,
+                      restarts_ + escapes_ + options_.earlier.restarts, backend_reason_);
     }
     result.message += describe_failures();
   }

@@ -28,6 +28,11 @@ struct SolveOptions {
   int max_consecutive_failures = 20;
   /// What the verdict asks for.
   Tolerances verdict{};
+  /// What an earlier part of the same run has used already, for messages.
+  struct Used {
+    int iterations = 0;
+    int restarts = 0;
+  } earlier{};
 };
 
 struct Result {
