@@ -26,10 +26,38 @@ constexpr double row_tolerance = 1e-6;
 /// multipliers of any sensibly limited design, so that z ends at 0 (exact penalty).
 constexpr double elastic_price = 100.0;
 
+/// Steps in a row below the tolerance after which there is nothing left to be gained. One or two
+/// may be cautious ones that longer steps follow.
+constexpr int most_tiny_steps = 3;
+
+/// Watches for steps that are too short to matter. NLopt's MMA and CCSAQ ask for the tolerance only
+/// after a conservative step, and near an optimum the noise of values lets none look conservative:
+/// they shorten it down to rounding.
+class TinySteps {
+ public:
+  /// @param tolerance  of ‖Δy‖∞
+  explicit TinySteps(double tolerance) : tolerance_(tolerance) {}
+
+  void see(const Eigen::VectorXd& y) {
+    if (y.size() == last_.size() && y == last_) return;  // another question about the same design
+    const bool is_tiny =
+        y.size() == last_.size() && (y - last_).lpNorm<Eigen::Infinity>() < tolerance_;
+    count_ = is_tiny ? count_ + 1 : 0;
+    last_ = y;
+  }
+  bool are_too_many() const { return count_ >= most_tiny_steps; }
+
+ private:
+  double tolerance_;
+  Eigen::VectorXd last_;
+  int count_ = 0;
+};
+
 /// What the C callbacks of one run share. The variables of NLopt are y or, if elastic, (y, z).
 struct Bridge {
   ScaledProblem& problem;
   nlopt_opt handle;
+  TinySteps tiny_steps;
   Eigen::Index elastic_variables = 0;  ///< 0 or 1
   double worst_objective = 0.0;
   double worst_row = 0.0;
@@ -38,7 +66,8 @@ struct Bridge {
     const Request request = gradient == nullptr ? Request::values : Request::values_and_gradients;
     const Eigen::Map<const Eigen::VectorXd> design(y, static_cast<int>(n) - elastic_variables);
     auto evaluation = problem.evaluate(design, request);
-    if (problem.should_stop()) nlopt_force_stop(handle);
+    tiny_steps.see(design);
+    if (problem.should_stop() || tiny_steps.are_too_many()) nlopt_force_stop(handle);
     return evaluation;
   }
 
@@ -138,7 +167,8 @@ class NloptOptimizer : public Optimizer {
       append(y, violation);
     }
     const Handle handle(nlopt_create(algorithm_, static_cast<unsigned>(y.size())), &nlopt_destroy);
-    Bridge bridge{problem, handle.get(), y.size() - problem.variables()};
+    const double tiny = takes_equalities() ? 0.0 : options_.tolerance;
+    Bridge bridge{problem, handle.get(), TinySteps(tiny), y.size() - problem.variables()};
     nlopt_set_min_objective(handle.get(), evaluate_objective, &bridge);
     nlopt_set_lower_bounds(handle.get(), lower.data());
     nlopt_set_upper_bounds(handle.get(), upper.data());
@@ -148,7 +178,9 @@ class NloptOptimizer : public Optimizer {
 
     double objective = 0.0;
     const nlopt_result result = nlopt_optimize(handle.get(), y.data(), &objective);
-    return {y.head(problem.variables()), describe(result)};
+    const bool is_idle = bridge.tiny_steps.are_too_many();
+    return {y.head(problem.variables()),
+            is_idle ? "its steps have become too short to matter" : describe(result)};
   }
 
  private:
