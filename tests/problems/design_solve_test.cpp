@@ -1,0 +1,151 @@
+/// What solve_design() makes of designs that are stationary and no optima, and of peaks that tie.
+
+#include "optimization/design_solve.hpp"
+
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/scene/problem_reader.hpp"
+#include "optimization/optimizer.hpp"
+#include "optimization/peak_problem.hpp"
+#include "tests/optimization/backend_names.hpp"
+
+namespace pleuel::test {
+namespace {
+
+/// An arm of 100 mm, held at the angle phi: the place of its tip is 100 mm · cos phi, most at the
+/// start.
+const char* const arm = R"({
+  "scene": {
+    "bodies": {"arm": {"type": "beam", "from": [0, 0, 0], "to": ["100 mm", 0, 0], "rigid": true,
+      "material": "steel", "elements": 2, "section": {"type": "circle", "diameter": "10 mm"}}},
+    "joints": {"bearing": {"type": "revolute", "bodies": ["ground", "arm"], "at": [0, 0, 0],
+      "drive": {"type": "constant", "value": {"variable": "phi"}}}}},
+  "simulation": {"end_time": "2 ms", "step": "1 ms"},
+  "variables": {"phi": {"start": 0, "lower": -1, "upper": 1}},
+  "responses": {"x": {"type": "position", "body": "arm", "at": 1, "direction": "x",
+    "over_time": "final"}},
+  "objective": {"minimize": "x"}})";
+
+/// A block that swings by 100 mm about 20 mm + a: its greatest distance from the origin is
+/// |20 mm + a| + 100 mm, where two peaks tie at a = −20 mm.
+const char* const block = R"({
+  "scene": {
+    "bodies": {"block": {"type": "rigid", "at": ["20 mm", 0, 0], "mass": 1,
+      "inertia": [1, 1, 1, 0, 0, 0]}},
+    "joints": {"guide": {"type": "prismatic", "bodies": ["ground", "block"], "at": ["20 mm", 0, 0],
+      "axis": [1, 0, 0], "drive": {"type": "harmonic", "amplitude": "100 mm",
+        "frequency": "628.3185307179586 rad/s", "offset": {"variable": "a"}}}}},
+  "simulation": {"end_time": "10 ms", "step": "0.05 ms"},
+  "variables": {"a": {"start": 0, "lower": "-50 mm", "upper": "50 mm"}},
+  "responses": {"reach": {"type": "position", "body": "block", "direction": "x",
+    "over_time": "max-abs"}},
+  "objective": {"minimize": "reach"}})";
+
+class SolveDesign : public testing::TestWithParam<std::string> {};
+
+TEST_P(SolveDesign, LeavesTheMaximumItStartsAt) {
+  DesignProblem problem(read_problem_text(arm, "arm.json"));
+  const Result result = solve_design(problem, {.backend = GetParam()});
+  EXPECT_EQ(to_string(result.status), "verified") << result.message;
+  EXPECT_NEAR(result.evaluation.objective, 0.1 * std::cos(1.0), 1e-9);
+}
+
+TEST_P(SolveDesign, MinimizesTheHigherOneOfTwoPeaks) {
+  DesignProblem problem(read_problem_text(block, "block.json"));
+  const Result result = solve_design(problem, {.backend = GetParam()});
+  EXPECT_EQ(to_string(result.status), "verified") << result.message;
+  // Peaks of the parabola through three samples, 200 a period: (2π/200)⁴/64 · 100 mm at most.
+  EXPECT_NEAR(result.evaluation.objective, 0.1, 1e-6);
+  EXPECT_NEAR(result.x(0), -0.02, 1e-6);
+  EXPECT_EQ(result.x.size(), 1);
+  EXPECT_EQ(result.bound_multipliers.size(), 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, SolveDesign, testing::ValuesIn(optimizer_names()),
+                         name_of_backend);
+
+TEST(SolveDesign, SaysWhenAndWhyItTellsPeaksApart) {
+  DesignProblem problem(read_problem_text(block, "block.json"));
+  std::vector<std::string> notices;
+  int seen = 0;
+  const Result result = solve_design(
+      problem, {.backend = "nlopt-slsqp"},
+      [&](const EvaluationRecord& record) {
+        EXPECT_EQ(record.evaluation, ++seen);
+        EXPECT_EQ(record.x.size(), 1);
+        EXPECT_EQ(record.constraints.size(), 0);
+        // The objective of the file, not its bound; samples 1.8° apart.
+        EXPECT_NEAR(record.objective, std::abs(0.02 + record.x(0)) + 0.1, 1e-6);
+        EXPECT_EQ(record.max_violation, 0.0);
+      },
+      [&](const std::string& notice) { notices.push_back(notice); });
+  ASSERT_EQ(notices.size(), 1u);
+  EXPECT_THAT(notices[0], testing::HasSubstr("two peaks tie in reach"));
+  EXPECT_THAT(notices[0], testing::HasSubstr("windows of time"));
+  EXPECT_EQ(seen, result.evaluations);
+  EXPECT_EQ(result.history.back().evaluation, seen);
+  EXPECT_EQ(result.history.back().x.size(), 1);
+}
+
+/// No residual is below −1: nothing is verified, and the run ends at the kink. Budget and restarts
+/// of the message are those of the whole run, whether it ends on the budget or before.
+TEST(SolveDesign, NamesThePeaksThatTieWhereNothingIsVerified) {
+  SolveOptions options{.backend = "nlopt-slsqp"};
+  options.verdict.kkt_residual = -1.0;
+  int used_up = 0, not_used_up = 0;
+  for (options.max_iterations = 8; options.max_iterations < 64; options.max_iterations += 2) {
+    DesignProblem problem(read_problem_text(block, "block.json"));
+    bool goes_on = false;
+    const Result result =
+        solve_design(problem, options, {}, [&](const std::string&) { goes_on = true; });
+    if (!goes_on || std::abs(result.x(0) + 0.02) > 1e-5) continue;
+    EXPECT_EQ(to_string(result.status), "stalled");
+    EXPECT_THAT(result.message, testing::HasSubstr("two peaks tie in reach (at 0.00"));
+    const bool is_used_up = result.iterations >= options.max_iterations;
+    ++(is_used_up ? used_up : not_used_up);
+    EXPECT_THAT(
+        result.message,
+        testing::HasSubstr(is_used_up ? fmt::format("budget of {} iter", options.max_iterations)
+                                      : fmt::format("after {} restarts", result.restarts)));
+  }
+  EXPECT_GT(used_up, 0);
+  EXPECT_GT(not_used_up, 0);
+}
+
+/// 6.78248 N m by all three backends; what makes it an optimum is the audit.
+TEST(SolveDesign, MinimizesTheDriveTorqueOfTheFourBar) {
+  const auto path = std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems" / "four_bar.json";
+  DesignProblem problem(read_problem(path, {"/objective/minimize=torque_peak"}));
+  const Result result = solve_design(problem, {.backend = "nlopt-slsqp"});
+  EXPECT_EQ(to_string(result.status), "verified") << result.message;
+  EXPECT_NEAR(result.evaluation.objective, 6.78248, 1e-3 * 6.78248);
+}
+
+/// The rows of the objective and t have the gradients of their windows.
+TEST(PeakProblem, BoundsAnObjectiveThatIsAPeak) {
+  DesignProblem problem(read_problem_text(block, "block.json"));
+  PeakProblem peaks(problem, 4, Eigen::VectorXd::Constant(1, -0.01));
+  ASSERT_EQ(peaks.variables().size(), 2u);
+  EXPECT_NEAR(peaks.variables()[1].start, 0.11, 1e-6);
+  const Eigen::Vector2d x(-0.01, 0.15);
+  const Evaluation evaluation = peaks.evaluate(x, Request::values_and_gradients);
+  EXPECT_EQ(evaluation.objective, 0.15);
+  EXPECT_EQ(evaluation.objective_gradient, Eigen::Vector2d(0.0, 1.0));
+  ASSERT_EQ(evaluation.constraints.size(), 4);
+  // First quarter up to 0.01 + 0.1, last but one down to 0.01 − 0.1; below t = 0.15.
+  EXPECT_NEAR(evaluation.constraints.maxCoeff(), -0.04, 1e-6);
+  EXPECT_NEAR(evaluation.constraints.minCoeff(), -0.06, 1e-3);
+  for (int row = 0; row < 4; ++row) {
+    EXPECT_NEAR(std::abs(evaluation.constraint_jacobian(row, 0)), 1.0, 1e-9);
+    EXPECT_EQ(evaluation.constraint_jacobian(row, 1), -1.0);
+  }
+  EXPECT_NEAR(peaks.fold_objective(0.15, evaluation.constraints), 0.11, 1e-6);
+}
+
+}  // namespace
+}  // namespace pleuel::test
