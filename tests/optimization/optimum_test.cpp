@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "backend_names.hpp"
 #include "known_problems.hpp"
 #include "optimization/optimizer.hpp"
 #include "optimization/solve.hpp"
@@ -72,24 +73,6 @@ TEST_P(KnownOptimum, NoOtherDesignOnTheWayIsVerified) {
   EXPECT_GT(wrong_designs, 0);
 }
 
-TEST_P(KnownOptimum, TheFirstAnswerOfABackendIsRightOrNotVerified) {
-  options_.max_restarts = 0;
-  const Result result = solve(known_.problem, options_);
-  if (result.status == Status::verified) {
-    EXPECT_NEAR(result.evaluation.objective, known_.optimum, 1e-3 * std::abs(known_.optimum));
-  }
-}
-
-// With a loose tolerance the backends stop early: the verdict must not depend on it.
-TEST_P(KnownOptimum, ALooseBackendIsRightOrNotVerified) {
-  options_.max_restarts = 0;
-  options_.tolerance = 1e-2;
-  const Result result = solve(known_.problem, options_);
-  if (result.status == Status::verified) {
-    EXPECT_NEAR(result.evaluation.objective, known_.optimum, 1e-3 * std::abs(known_.optimum));
-  }
-}
-
 TEST_P(KnownOptimum, TheSameRunTwiceHasTheSameHistory) {
   const Result first = solve(known_.problem, options_);
   const Result second = solve(known_.problem, options_);
@@ -119,6 +102,34 @@ TEST(ThreeBarTruss, NoDesignAlongTheActiveLimitButTheOptimumIsVerified) {
   }
 }
 
+/// How many of all cases end verified with such options; those must be right.
+int verified_cases(SolveOptions options) {
+  int verified = 0;
+  for (const auto& [index, backend] : possible_cases()) {
+    KnownProblem known = all_known_problems()[index];
+    options.backend = backend;
+    const Result result = solve(known.problem, options);
+    if (result.status != Status::verified) continue;
+    ++verified;
+    EXPECT_NEAR(result.evaluation.objective, known.optimum, 1e-3 * std::abs(known.optimum))
+        << known.name << " with " << backend;
+  }
+  return verified;
+}
+
+// 28 of 30 are.
+TEST(Verdict, OnTheFirstAnswerOfABackendIsRightAndMostlyGiven) {
+  const int verified = verified_cases({.max_restarts = 0});
+  EXPECT_GE(verified, 25);
+}
+
+// With a loose tolerance the backends stop early: the verdict must not depend on it. 8 of 30 are
+// verified.
+TEST(Verdict, OnTheAnswerOfALooseBackendIsRightWhereItIsGiven) {
+  const int verified = verified_cases({.tolerance = 1e-2, .max_restarts = 0});
+  EXPECT_GE(verified, 5);
+}
+
 TEST(HS071, AnEqualityIsRefusedByBackendsThatKnowNone) {
   KnownProblem known = hs071();
   for (const std::string backend : {"nlopt-mma", "nlopt-ccsaq"}) {
@@ -131,6 +142,35 @@ TEST(HS071, AnEqualityIsRefusedByBackendsThatKnowNone) {
     }
   }
 }
+
+class Noise : public testing::TestWithParam<std::string> {};
+
+// Values with a noise of 1e-8, relative, as those of simulations: left alone, MMA and CCSAQ find no
+// step conservative and make 20 of their 40 steps below the tolerance, down to rounding.
+TEST_P(Noise, IsNotChased) {
+  KnownProblem known = ten_bar_truss();
+  FunctionProblem problem(known.problem.variables(), known.problem.constraints(),
+                          [&](const Eigen::VectorXd& x, Request request) {
+                            Evaluation evaluation = known.problem.evaluate(x, request);
+                            const double noise = 1e-8 * std::sin(1e9 * x.sum());
+                            evaluation.objective *= 1.0 + noise;
+                            evaluation.constraints *= 1.0 - noise;
+                            return evaluation;
+                          });
+  SolveOptions options{.backend = GetParam()};
+  const Result result = solve(problem, options);
+  EXPECT_EQ(result.status, Status::verified) << result.message;
+  EXPECT_NEAR(result.evaluation.objective, known.optimum, 1e-5 * known.optimum);
+  int tiny_steps = 0;
+  for (const EvaluationRecord& record : result.history) {
+    const bool is_tiny = record.step > 0.0 && record.step < options.tolerance;
+    if (is_tiny && record.request == Request::values_and_gradients) ++tiny_steps;
+  }
+  EXPECT_LE(tiny_steps, 3 * (1 + result.restarts));
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, Noise, testing::Values("nlopt-mma", "nlopt-ccsaq"),
+                         name_of_backend);
 
 }  // namespace
 }  // namespace pleuel::test
