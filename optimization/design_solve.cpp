@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "optimization/peak_problem.hpp"
+#include "optimization/peak_windows.hpp"
 #include "optimization/robust_problem.hpp"
 #include "optimization/scaling.hpp"
 #include "optimization/verdict.hpp"
@@ -107,16 +108,6 @@ void fold_result(const PeakProblem& peaks, const Folding& folding, DesignProblem
   result.bound_multipliers = peaks.design_of(result.bound_multipliers);
 }
 
-std::vector<std::size_t> optimized_responses(const DesignProblem& design) {
-  std::vector<std::size_t> responses = {*design.response_of({})};
-  for (std::size_t i = 0; i < design.constraints().size(); ++i) {
-    if (const auto response = design.response_of({i, std::nullopt})) {
-      responses.push_back(*response);
-    }
-  }
-  return responses;
-}
-
 /// Of the objective and of what is limited, at a design; none if it cannot be simulated.
 std::vector<Kink> optimized_kinks(DesignProblem& design, const Eigen::VectorXd& x) {
   const std::vector<std::size_t> optimized = optimized_responses(design);
@@ -145,28 +136,6 @@ std::string describe(const std::vector<Kink>& kinks, const Analysis& analysis) {
         response.signal->describe(kink.tie.other_channel), 100.0 * kink.difference));
   }
   return texts.empty() ? "" : fmt::format("two peaks tie in {}", fmt::join(texts, " and in "));
-}
-
-/// Whether each two peaks that tie, at different times, fall into different windows.
-bool are_apart(const DesignProblem& design, const std::vector<Kink>& kinks, int windows) {
-  return std::all_of(kinks.begin(), kinks.end(), [&](const Kink& kink) {
-    const ResponseSettings& response = design.file().responses[kink.response];
-    const double from = response.from.value_or(0.0);
-    const double to = response.to.value_or(design.file().simulation.end_time);
-    const auto window = [&](double time) {
-      return std::floor((time - from) / (to - from) * windows);
-    };
-    return kink.tie.time == kink.tie.other_time ||
-           window(kink.tie.time) != window(kink.tie.other_time);
-  });
-}
-
-/// So many windows as part the peaks that tie.
-int windows_for(const DesignProblem& design, const std::vector<Kink>& kinks) {
-  for (int windows = peak_windows; windows < most_windows; windows *= 2) {
-    if (are_apart(design, kinks, windows)) return windows;
-  }
-  return most_windows;
 }
 
 /// On the peaks of windows, beginning where the run on whole constraints ended (if that is within
@@ -233,7 +202,7 @@ Result solve_design(DesignProblem& design, const SolveOptions& options, const Ob
   if (is_verified || result.status == Status::failed) return result;
   if (rest.max_iterations >= 1) {
     const std::vector<Kink> kinks = optimized_kinks(design, result.x);
-    const int windows = windows_for(design, kinks);
+    const int windows = windows_that_part_peaks(design, result.x, peak_windows, most_windows);
     if (notice) {
       notice(fmt::format("{}: from here on the peaks of {} windows of time count one by one",
                          reason_to_go_on(result, kinks, design), windows));
