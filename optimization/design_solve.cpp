@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "optimization/peak_problem.hpp"
+#include "optimization/peak_windows.hpp"
 #include "optimization/robust_problem.hpp"
 #include "optimization/scaling.hpp"
 #include "optimization/verdict.hpp"
@@ -18,8 +19,10 @@ namespace pleuel {
 
 namespace {
 
-/// Windows of time for each limit on a peak: short enough to part the peaks of one motion.
+/// Windows of time for each limit on a peak: short enough to part the peaks of one motion; and if
+/// they are not, as the simulation takes in many periods.
 constexpr int peak_windows = 16;
+constexpr int most_windows = 128;
 /// Iterations after which a run on the constraints of the file is taken for one that does not end:
 /// on a smooth optimum all backends need fewer.
 constexpr int plain_iterations = 40;
@@ -105,12 +108,42 @@ void fold_result(const PeakProblem& peaks, const Folding& folding, DesignProblem
   result.bound_multipliers = peaks.design_of(result.bound_multipliers);
 }
 
+/// Of the objective and of what is limited, at a design; none if it cannot be simulated.
+std::vector<Kink> optimized_kinks(DesignProblem& design, const Eigen::VectorXd& x) {
+  const std::vector<std::size_t> optimized = optimized_responses(design);
+  try {
+    std::vector<Kink> kinks = find_kinks(design.analysis_at(x));
+    std::erase_if(kinks, [&](const Kink& kink) {
+      return std::find(optimized.begin(), optimized.end(), kink.response) == optimized.end();
+    });
+    return kinks;
+  } catch (const SimulationError&) {
+    return {};
+  }
+}
+
+/// The peaks that tie: the closest two of each response. Empty if there are none.
+std::string describe(const std::vector<Kink>& kinks, const Analysis& analysis) {
+  std::vector<std::string> texts;
+  std::optional<std::size_t> last;
+  for (const Kink& kink : kinks) {
+    if (last == kink.response) continue;
+    last = kink.response;
+    const Response& response = analysis.responses[kink.response];
+    texts.push_back(fmt::format(
+        "{} (at {:.5g} s, {}, and at {:.5g} s, {}; gradients differ by {:.3g} %)", response.name,
+        kink.tie.time, response.signal->describe(kink.tie.channel), kink.tie.other_time,
+        response.signal->describe(kink.tie.other_channel), 100.0 * kink.difference));
+  }
+  return texts.empty() ? "" : fmt::format("two peaks tie in {}", fmt::join(texts, " and in "));
+}
+
 /// On the peaks of windows, beginning where the run on whole constraints ended (if that is within
 /// the limits).
-Result solve_peaks(DesignProblem& design, const SolveOptions& options, const Result& before,
-                   const Observer& observer) {
-  PeakProblem peaks = before.status == Status::stalled ? PeakProblem(design, peak_windows, before.x)
-                                                       : PeakProblem(design, peak_windows);
+Result solve_peaks(DesignProblem& design, int windows, const SolveOptions& options,
+                   const Result& before, const Observer& observer) {
+  PeakProblem peaks = before.status == Status::stalled ? PeakProblem(design, windows, before.x)
+                                                       : PeakProblem(design, windows);
   Folding folding(peaks, design, before);
   Observer observe_folded;
   if (observer) {
@@ -121,7 +154,7 @@ Result solve_peaks(DesignProblem& design, const SolveOptions& options, const Res
   Folding history_folding(peaks, design, before);
   for (EvaluationRecord& record : result.history) record = history_folding(std::move(record));
   fold_result(peaks, folding, design, result);
-  result.message += fmt::format("; peaks over time were told apart by {} windows", peak_windows);
+  result.message += fmt::format("; peaks over time were told apart by {} windows", windows);
   return result;
 }
 
@@ -141,47 +174,12 @@ bool keeps_margins(DesignProblem& design, const Eigen::VectorXd& x, double toler
   return true;
 }
 
-std::vector<std::size_t> optimized_responses(const DesignProblem& design) {
-  std::vector<std::size_t> responses = {*design.response_of({})};
-  for (std::size_t i = 0; i < design.constraints().size(); ++i) {
-    if (const auto response = design.response_of({i, std::nullopt})) {
-      responses.push_back(*response);
-    }
-  }
-  return responses;
-}
-
-/// The peaks that tie at a design, of the objective and of what is limited; empty if there are none
-/// or if the design cannot be simulated.
-std::string describe_kinks(DesignProblem& design, const Eigen::VectorXd& x) {
-  const std::vector<std::size_t> optimized = optimized_responses(design);
-  std::vector<std::string> kinks;
-  try {
-    Analysis& analysis = design.analysis_at(x);
-    for (const Kink& kink : find_kinks(analysis)) {
-      const Response& response = analysis.responses[kink.response];
-      const bool is_named = !kinks.empty() && kinks.back().starts_with(response.name + " (");
-      if (is_named ||
-          std::find(optimized.begin(), optimized.end(), kink.response) == optimized.end()) {
-        continue;
-      }
-      kinks.push_back(
-          fmt::format("{} (at {:.5g} s, {}, and at {:.5g} s, {}; gradients differ by "
-                      "{:.2g} %)",
-                      response.name, kink.tie.time, response.signal->describe(kink.tie.channel),
-                      kink.tie.other_time, response.signal->describe(kink.tie.other_channel),
-                      100.0 * kink.difference));
-    }
-  } catch (const SimulationError&) {
-    return "";
-  }
-  return kinks.empty() ? "" : fmt::format("two peaks tie in {}", fmt::join(kinks, " and in "));
-}
-
 /// Why the run on the file as it is does not do.
-std::string reason_to_go_on(const Result& result, const std::string& kinks) {
+std::string reason_to_go_on(const Result& result, const std::vector<Kink>& kinks,
+                            DesignProblem& design) {
   if (result.status == Status::verified) return "other peaks do not keep their margins";
-  return kinks.empty() ? "no optimum is verified so far" : kinks;
+  if (kinks.empty()) return "no optimum is verified so far";
+  return describe(kinks, design.analysis_at(result.x));
 }
 
 }  // namespace
@@ -203,17 +201,19 @@ Result solve_design(DesignProblem& design, const SolveOptions& options, const Ob
                            (!robust || keeps_margins(design, result.x, Tolerances().violation));
   if (is_verified || result.status == Status::failed) return result;
   if (rest.max_iterations >= 1) {
+    const std::vector<Kink> kinks = optimized_kinks(design, result.x);
+    const int windows = windows_that_part_peaks(design, result.x, peak_windows, most_windows);
     if (notice) {
       notice(fmt::format("{}: from here on the peaks of {} windows of time count one by one",
-                         reason_to_go_on(result, describe_kinks(design, result.x)), peak_windows));
+                         reason_to_go_on(result, kinks, design), windows));
     }
-    Result on_peaks = solve_peaks(design, rest, result, observer);
+    Result on_peaks = solve_peaks(design, windows, rest, result, observer);
     continue_from(result, on_peaks);
     result = std::move(on_peaks);
   }
   if (result.status == Status::stalled) {
-    const std::string kinks = describe_kinks(design, result.x);
-    if (!kinks.empty()) result.message += "; " + kinks;
+    const std::vector<Kink> kinks = optimized_kinks(design, result.x);
+    if (!kinks.empty()) result.message += "; " + describe(kinks, design.analysis_at(result.x));
   }
   return result;
 }

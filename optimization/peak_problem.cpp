@@ -5,18 +5,12 @@
 
 #include <fmt/format.h>
 
+#include "optimization/peak_windows.hpp"
 #include "optimization/scaling.hpp"
 
 namespace pleuel {
 
 namespace {
-
-/// Whether a response is the height of a peak of a history.
-bool has_peaks(const ResponseSettings& response) {
-  const bool is_constant =
-      response.type == ResponseType::mass || response.type == ResponseType::frequency;
-  return !is_constant && is_peak(response.over_time);
-}
 
 /// How much of a limit is used: larger is worse, above 0 is a violation.
 double excess(const Constraint& constraint, double value) {
@@ -110,10 +104,7 @@ std::vector<ConstraintRow> PeakProblem::rows_of(const Analysis& analysis) const 
   std::vector<ConstraintRow> rows;
   const auto add_windows = [&](std::optional<std::size_t> constraint) {
     const std::size_t response = *problem_.response_of({constraint, std::nullopt});
-    const Response& observed = analysis.responses[response];
-    const Eigen::VectorXd& time = analysis.trajectory.time;
-    for (Reduction& peak : reduce_windows(observed.over_time, time, analysis.histories[response],
-                                          windows_, observed.steps(time))) {
+    for (Reduction& peak : peaks_of_windows(analysis, response, windows_)) {
       rows.push_back({constraint, std::move(peak)});
     }
   };

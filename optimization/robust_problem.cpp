@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "optimization/scaling.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -37,9 +39,10 @@ Eigen::MatrixXd RobustProblem::deviation_gradients(const Eigen::VectorXd& x,
                                                    const Eigen::VectorXd& deviations) {
   const Eigen::MatrixXd& jacobian = evaluation.constraint_jacobian;
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(jacobian.rows(), jacobian.cols());
+  const Eigen::VectorXd sizes = x.cwiseAbs().cwiseMax(local_scales(problem_, x));
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     if (deviations_(i) == 0.0) continue;
-    const double step = relative_step * (x(i) == 0.0 ? 1.0 : std::abs(x(i)));
+    const double step = relative_step * sizes(i);
     Eigen::VectorXd upper = x, lower = x;
     upper(i) += step;
     lower(i) -= step;

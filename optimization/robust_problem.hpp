@@ -8,7 +8,8 @@ namespace pleuel {
 /// deviations σ_i, the value c of a constraint is c with, to first order,
 ///     σ_c² = Σ_i (σ_i ∂c/∂x_i)²,
 /// and limited is c + k σ_c (of an upper limit; c − k σ_c of a lower one). Its gradient takes
-/// second derivatives, those of direction i by central differences of gradients over ±1e-4 |x_i|:
+/// second derivatives, those of direction i by central differences of gradients over ±1e-4 |x_i|
+/// (or of a hundredth of the range, if that is more):
 ///     ∂σ_c/∂x = 1/σ_c Σ_i σ_i² ∂c/∂x_i ∂(∂c/∂x)/∂x_i
 /// Values cost a gradient, gradients 1 + 2 · (number of uncertain variables) of them.
 /// The sensitivities of c that make σ_c are those of this design only: see `uncertainty` with

@@ -1,5 +1,6 @@
 #include "sensitivity/finite_difference.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -9,14 +10,14 @@ namespace pleuel {
 
 namespace {
 
-double step_of(double x, double step) {
-  return x == 0.0 ? step : step * std::abs(x);
-}
-
 Eigen::VectorXd values_at(const ProblemFile& problem, Eigen::VectorXd x, Eigen::Index j,
                           double value, const ValuesOf& values) {
   x(j) = value;
   return values(*analyze(problem, x));
+}
+
+const DesignVariable& variable(const ProblemFile& problem, Eigen::Index j) {
+  return problem.variables[static_cast<std::size_t>(j)];
 }
 
 /// One column a variable. @param column  called in several threads
@@ -32,12 +33,18 @@ Eigen::MatrixXd collect(Eigen::Index variables, int threads,
 
 }  // namespace
 
+double step_scale(const DesignVariable& variable, double x) {
+  constexpr double part_of_range = 0.01;
+  const double scale = std::max(std::abs(x), part_of_range * (variable.upper - variable.lower));
+  return scale > 0.0 ? scale : 1.0;
+}
+
 Eigen::MatrixXd forward_differences(const ProblemFile& problem, const Eigen::VectorXd& x,
                                     const Analysis& at_x, double step, int threads,
                                     const ValuesOf& values) {
   const Eigen::VectorXd base = values(at_x);
   return collect(x.size(), threads, [&](Eigen::Index j) -> Eigen::VectorXd {
-    const double upper = x(j) + step_of(x(j), step);
+    const double upper = x(j) + step * step_scale(variable(problem, j), x(j));
     return (values_at(problem, x, j, upper, values) - base) / (upper - x(j));
   });
 }
@@ -45,7 +52,8 @@ Eigen::MatrixXd forward_differences(const ProblemFile& problem, const Eigen::Vec
 Eigen::MatrixXd central_differences(const ProblemFile& problem, const Eigen::VectorXd& x,
                                     double step, int threads, const ValuesOf& values) {
   return collect(x.size(), threads, [&](Eigen::Index j) -> Eigen::VectorXd {
-    const double upper = x(j) + step_of(x(j), step), lower = x(j) - step_of(x(j), step);
+    const double change = step * step_scale(variable(problem, j), x(j));
+    const double upper = x(j) + change, lower = x(j) - change;
     return (values_at(problem, x, j, upper, values) - values_at(problem, x, j, lower, values)) /
            (upper - lower);
   });

@@ -9,7 +9,7 @@
 namespace pleuel {
 
 struct GradientOptions {
-  /// Relative step of finite differences, Δx = step · |x|.
+  /// Relative step of finite differences, Δx = step · step_scale().
   double difference_step = 1e-5;
   /// Simulations at a time, of finite differences.
   int threads = 1;

@@ -95,7 +95,7 @@ class Check {
   }
 
   JudgedDerivative judge(Eigen::Index i, Eigen::Index j) const {
-    const double size = x_(j) == 0.0 ? 1.0 : std::abs(x_(j));
+    const double size = step_scale(problem_.variables[static_cast<std::size_t>(j)], x_(j));
     std::vector<CentralDifference> curve;
     for (const Step& step : steps_) curve.push_back({step.step, step.differences(i, j)});
     return judge_derivative({direct_(i, j), size, magnitudes_(i), noise_.scatter(i),

@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/base/parallel.hpp"
 #include "core/response/analysis.hpp"
+#include "sensitivity/finite_difference.hpp"
 
 namespace pleuel {
 
@@ -37,15 +38,15 @@ std::vector<Level> difference_table(Eigen::VectorXd differences) {
   return levels;
 }
 
-/// Entries of generic size and sign relative to |x|, the same in every run. The engine's raw
-/// numbers are prescribed by the standard, unlike those of its distributions.
-Eigen::VectorXd generic_direction(const Eigen::VectorXd& x) {
+/// Entries of generic size and sign relative to the variables, the same in every run. The engine's
+/// raw numbers are prescribed by the standard, unlike those of its distributions.
+Eigen::VectorXd generic_direction(const ProblemFile& problem, const Eigen::VectorXd& x) {
   std::mt19937 engine;
   Eigen::VectorXd direction(x.size());
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const double size = 0.5 + 0.5 * static_cast<double>(engine()) / std::mt19937::max();
     const double sign = engine() % 2 == 0 ? 1.0 : -1.0;
-    direction(i) = sign * size * (x(i) == 0.0 ? 1.0 : std::abs(x(i)));
+    direction(i) = sign * size * step_scale(problem.variables[static_cast<std::size_t>(i)], x(i));
   }
   return direction;
 }
@@ -63,7 +64,7 @@ Eigen::VectorXd values_at(const ProblemFile& problem, const Eigen::VectorXd& x) 
 /// responses × points of a line through x, which lies in its middle between two points.
 Eigen::MatrixXd values_on_line(const ProblemFile& problem, const Eigen::VectorXd& x, double spacing,
                                int threads) {
-  const Eigen::VectorXd direction = generic_direction(x);
+  const Eigen::VectorXd direction = generic_direction(problem, x);
   Eigen::MatrixXd values(static_cast<Eigen::Index>(problem.responses.size()), line_points);
   for_each_in_parallel(line_points, threads, [&](int i) {
     const double place = spacing * (i - 0.5 * (line_points - 1));

@@ -128,7 +128,6 @@ struct ResponseSettings {
 
 struct Objective {
   std::string response;
-  double scale = 0.0;  ///< 0 = chosen automatically from the start value
 };
 
 /// lower ≤ response ≤ upper, or lower ≤ Σ coefficient · variable ≤ upper; SI.

@@ -71,7 +71,7 @@ ProblemFile read_document(const JsonNode& root, const UnitSystem& units) {
     problem.responses = read_responses(*responses, {problem.scene, problem.simulation, numbers});
   }
   if (const auto objective = root.find("objective")) {
-    problem.objective = read_objective(*objective, problem.responses, numbers);
+    problem.objective = read_objective(*objective, problem.responses);
   }
   if (const auto constraints = root.find("constraints")) {
     problem.constraints = read_constraints(*constraints, problem.responses, numbers);

@@ -69,6 +69,26 @@ TEST(RobustProblem, HasTheGradientOfTheDeviation) {
   EXPECT_EQ(found.row(2), plain.row(2));
 }
 
+/// A variable at 0 whose whole range is a micrometre: c = sin(10⁶ x + 1) + 10⁶ y, σ = a 10⁶ |cos|.
+TEST(RobustProblem, HasTheGradientOfTheDeviationOfASmallVariableAtZero) {
+  const double large = 1e6, small = 1e-8;
+  FunctionProblem problem({{"x", 0.0, -5e-7, 5e-7}, {"y", 0.0, -5e-7, 5e-7}},
+                          {{"limit", -infinity, 3.0}}, [&](const Eigen::VectorXd& x, Request) {
+                            Evaluation evaluation;
+                            evaluation.objective_gradient = Vector2d(0.0, 0.0);
+                            evaluation.constraints = Eigen::VectorXd::Constant(
+                                1, std::sin(large * x(0) + 1.0) + large * x(1));
+                            evaluation.constraint_jacobian.resize(1, 2);
+                            evaluation.constraint_jacobian << large * std::cos(large * x(0) + 1.0),
+                                large;
+                            return evaluation;
+                          });
+  RobustProblem robust(problem, Vector2d(small, 0.0), Eigen::VectorXd::Constant(1, 2.0));
+  const Evaluation found = robust.evaluate(Vector2d(0.0, 0.0), Request::values_and_gradients);
+  const double expected = large * std::cos(1.0) - 2.0 * small * large * large * std::sin(1.0);
+  EXPECT_NEAR(found.constraint_jacobian(0, 0), expected, 1e-6 * std::abs(expected));
+}
+
 class RobustOptimum : public testing::TestWithParam<std::string> {};
 
 /// minimize x  subject to  1/x ≤ 1 with two deviations of x: 1/x + 2 s/x² = 1.

@@ -69,6 +69,16 @@ TEST_P(SolveDesign, MinimizesTheHigherOneOfTwoPeaks) {
 INSTANTIATE_TEST_SUITE_P(Backends, SolveDesign, testing::ValuesIn(optimizer_names()),
                          name_of_backend);
 
+/// Thirty-three periods: each of sixteen windows holds peaks of both sides.
+TEST(SolveDesign, PartsTheTwoPeaksOfOnePeriod) {
+  DesignProblem problem(read_problem_text(
+      block, "block.json", {"/simulation/end_time=330 ms", "/simulation/step=0.1 ms"}));
+  const Result result = solve_design(problem, {.backend = "nlopt-slsqp"});
+  EXPECT_EQ(to_string(result.status), "verified") << result.message;
+  EXPECT_NEAR(result.x(0), -0.02, 1e-5);
+  EXPECT_THAT(result.message, testing::HasSubstr("told apart by 128 windows"));
+}
+
 TEST(SolveDesign, SaysWhenAndWhyItTellsPeaksApart) {
   DesignProblem problem(read_problem_text(block, "block.json"));
   std::vector<std::string> notices;

@@ -119,7 +119,7 @@ Json good_mechanism() {
     "drift": {"type": "constraint-drift", "over_time": "max-abs"},
     "speed_drift": {"type": "constraint-drift", "level": "velocity", "over_time": "rms"}
   },
-  "objective": {"minimize": "energy", "scale": "2 J"},
+  "objective": {"minimize": "energy"},
   "constraints": {
     "resonance": {"response": "tone", "lower": "600 rpm"},
     "strength": {"response": "use", "upper": "80 %"},

@@ -218,7 +218,6 @@ TEST_F(Mechanism, HasResponsesInWindowsOfTime) {
 
 TEST_F(Mechanism, HasLimitsInTheUnitsOfItsResponses) {
   EXPECT_EQ(quantity_of(response("energy")).unit, "J");
-  EXPECT_EQ(problem_.objective->scale, 2.0);
   EXPECT_DOUBLE_EQ(*problem_.constraints[0].lower, 20.0 * pi);
   EXPECT_DOUBLE_EQ(*problem_.constraints[1].upper, 0.8);
   EXPECT_EQ(quantity_of(response("thrust")).unit, "N");

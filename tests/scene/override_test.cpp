@@ -44,7 +44,7 @@ TEST(Override, ReachesIntoAList) {
 }
 
 TEST(Override, AddsAKeyToAnObjectThatIsThere) {
-  EXPECT_EQ(read_with({"/objective/scale=3"}).objective->scale, 3.0);
+  EXPECT_EQ(read_with({"/responses/stress/from=0.02"}).responses[1].from, 0.02);
 }
 
 TEST(Override, BeginsABlockThatTheFileLeavesOut) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/scene/problem_reader.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/support/problem_runs.hpp"
@@ -77,5 +78,32 @@ INSTANTIATE_TEST_SUITE_P(
                          {"/scene/bodies/crank/elements=3", "/scene/bodies/rod/elements=4"}},
                     Case{"slider_crank_tapered", {"/simulation/end_time=0.06 s"}}),
     case_name);
+
+/// A variable at 0 with a range of 2 mrad: y = 100 mm · sin(1000 p). A step of 1e-5 without regard
+/// of the range would turn the arm by 0.01 rad and err by 0.01² / 6.
+TEST(Differences, OfAVariableAtZeroTakeTheirStepFromItsRange) {
+  const ProblemFile problem = read_problem_text(R"({
+    "scene": {
+      "bodies": {"arm": {"type": "beam", "from": [0, 0, 0], "to": ["100 mm", 0, 0], "rigid": true,
+        "material": "steel", "elements": 2, "section": {"type": "circle", "diameter": "10 mm"}}},
+      "joints": {"bearing": {"type": "revolute", "bodies": ["ground", "arm"], "at": [0, 0, 0],
+        "drive": {"type": "constant", "value": {"variable": "p", "factor": 1000}}}}},
+    "simulation": {"end_time": "2 ms", "step": "1 ms"},
+    "variables": {"p": {"start": 0, "lower": -0.001, "upper": 0.001}},
+    "responses": {"y": {"type": "position", "body": "arm", "at": 1, "direction": "y",
+      "over_time": "final"}}})",
+                                                "arm.json");
+  const Eigen::VectorXd x = start_design(problem);
+  EXPECT_NEAR(central_differences(problem, x, 1e-5)(0, 0), 100.0, 1e-5);
+  EXPECT_NEAR(forward_differences(problem, x, *analyze(problem, x), 1e-5)(0, 0), 100.0, 1e-5);
+}
+
+/// Beyond a hundredth of the range the value counts.
+TEST(Differences, TakeTheirStepFromTheValueElsewhere) {
+  const DesignVariable variable{"x", 1.0, -2.0, 8.0, ""};
+  EXPECT_EQ(step_scale(variable, -1.5), 1.5);
+  EXPECT_DOUBLE_EQ(step_scale(variable, 0.01), 0.1);
+  EXPECT_EQ(step_scale({"x", 0.0, 0.0, 0.0, ""}, 0.0), 1.0);
+}
 
 }  // namespace

@@ -97,16 +97,9 @@ Quantity quantity_of(const ConstraintSettings& constraint, const ProblemFile& pr
 
 }  // namespace
 
-Objective read_objective(const JsonNode& node, const std::vector<ResponseSettings>& responses,
-                         const NumberReader& numbers) {
-  node.allow_keys({"minimize", "scale"});
-  Objective objective;
-  const ResponseSettings& response = read_response_name(node.at("minimize"), responses);
-  objective.response = response.name;
-  if (const auto scale = node.find("scale")) {
-    objective.scale = numbers.fixed(*scale, quantity_of(response), Range::positive);
-  }
-  return objective;
+Objective read_objective(const JsonNode& node, const std::vector<ResponseSettings>& responses) {
+  node.allow_keys({"minimize"});
+  return {read_response_name(node.at("minimize"), responses).name};
 }
 
 std::vector<ConstraintSettings> read_constraints(const JsonNode& node,

@@ -11,8 +11,7 @@
 namespace pleuel {
 
 /// @throws InputError
-Objective read_objective(const JsonNode& node, const std::vector<ResponseSettings>& responses,
-                         const NumberReader& numbers);
+Objective read_objective(const JsonNode& node, const std::vector<ResponseSettings>& responses);
 
 /// Limits have the unit of the response, or of the variables in a linear constraint.
 /// @throws InputError

@@ -79,7 +79,7 @@ const std::map<std::string, Names>& permitted() {
 
 /// The storey of optimization that knows mechanics: the target pleuel_design_problem.
 bool is_of_design_problem(const std::string& path) {
-  for (const char* name : {"design_problem.", "design_solve.", "peak_problem."}) {
+  for (const char* name : {"design_problem.", "design_solve.", "peak_problem.", "peak_windows."}) {
     if (path.starts_with(std::string("optimization/") + name)) return true;
   }
   return false;
