@@ -8,6 +8,7 @@
 #include "cli/scene_report.hpp"
 #include "cli/stopwatch.hpp"
 #include "cli/ties.hpp"
+#include "core/scene/body_rules.hpp"
 #include "sensitivity/gradients.hpp"
 #include "studies/derivative_check.hpp"
 
@@ -25,6 +26,7 @@ struct Findings {
 
 Findings examine(const ProblemFile& problem, const Eigen::VectorXd& x, int threads) {
   Findings findings;
+  findings.warnings = impossible_corners(problem);
   const Stopwatch simulation;
   findings.analysis = analyze(problem, x);
   findings.simulation_seconds = simulation.seconds();
@@ -39,7 +41,9 @@ Findings examine(const ProblemFile& problem, const Eigen::VectorXd& x, int threa
     fmt::print(stderr, "verifying derivatives by central differences, step {:g} …\n", step);
   };
   findings.derivatives = check_derivatives(problem, x, *findings.analysis, options);
-  findings.warnings = noise_warnings(problem, *findings.analysis, findings.derivatives);
+  for (std::string& noise : noise_warnings(problem, *findings.analysis, findings.derivatives)) {
+    findings.warnings.push_back(std::move(noise));
+  }
   return findings;
 }
 
