@@ -33,6 +33,11 @@ enum class InvariantDerivatives {
   central,       ///< differences of the invariants of two changed designs
   forward        ///< of one changed design and this one
 };
+inline constexpr Choice<InvariantDerivatives> invariant_derivatives[] = {
+    {"exact", InvariantDerivatives::exact},
+    {"complex-step", InvariantDerivatives::complex_step},
+    {"central", InvariantDerivatives::central},
+    {"forward", InvariantDerivatives::forward}};
 
 struct InvariantDifferentiation {
   InvariantDerivatives derivatives = InvariantDerivatives::exact;

@@ -144,11 +144,7 @@ namespace {
 void read_invariant_derivatives(const JsonNode& node, InvariantDifferentiation& invariants) {
   using enum InvariantDerivatives;
   if (const auto derivatives = node.find("invariant_derivatives")) {
-    invariants.derivatives =
-        read_choice<InvariantDerivatives>(*derivatives, {{"exact", exact},
-                                                         {"complex-step", complex_step},
-                                                         {"central", central},
-                                                         {"forward", forward}});
+    invariants.derivatives = read_choice(*derivatives, invariant_derivatives);
   }
   const auto step = node.find("invariant_step");
   if (!step) return;
