@@ -14,6 +14,8 @@ namespace {
 constexpr double tie_gap = 1e-3;
 /// So many ties are remembered.
 constexpr std::size_t max_ties = 16;
+/// Chosen from so many candidates: noise about a constant has a peak at every other step.
+constexpr std::size_t max_candidates = 2000;
 
 struct Peak {
   double height, time;
@@ -121,6 +123,21 @@ std::vector<Peak> choose_ties(const Eigen::MatrixXd& values, const Peak& best,
   return chosen;
 }
 
+/// Every so-manieth, at distances that are in step with no period (multiples of the golden ratio).
+std::vector<Peak> thin_out(const std::vector<Peak>& tied) {
+  if (tied.size() <= max_candidates) return tied;
+  std::vector<std::size_t> indices;
+  for (std::size_t k = 0; k < max_candidates; ++k) {
+    const double share = std::fmod(static_cast<double>(k) * 0.6180339887498949, 1.0);
+    indices.push_back(static_cast<std::size_t>(share * static_cast<double>(tied.size())));
+  }
+  std::sort(indices.begin(), indices.end());
+  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+  std::vector<Peak> kept;
+  for (std::size_t index : indices) kept.push_back(tied[index]);
+  return kept;
+}
+
 void note_ties(const Search& search, const std::vector<Peak>& peaks, const Peak& best,
                Reduction& reduction) {
   const auto gap_of = [&](const Peak& peak) {
@@ -131,7 +148,7 @@ void note_ties(const Search& search, const std::vector<Peak>& peaks, const Peak&
     const bool is_other = peak.channel != best.channel || std::abs(peak.step - best.step) > 1;
     if (is_other && gap_of(peak) <= tie_gap) tied.push_back(peak);
   }
-  for (const Peak& peak : choose_ties(search.values, best, tied)) {
+  for (const Peak& peak : choose_ties(search.values, best, thin_out(tied))) {
     reduction.ties.push_back(
         {best.time, peak.time, best.channel, peak.channel, gap_of(peak), samples_of(peak)});
   }

@@ -113,7 +113,7 @@ TEST(Reduction, TellsPeaksOfNearlyTheSameHeight) {
 /// Every period has a broad peak of height 1 and a sharp one that is lower by 0.05 %: between them
 /// the maximum has a kink. The more periods, the more repetitions of the broad one are closer.
 TEST(Reduction, TellsTheOtherPeakOfAPeriodHoweverManyPeriodsThereAre) {
-  for (const int periods : {2, 5, 20, 200}) {
+  for (const int periods : {2, 5, 20, 200, 3000}) {
     constexpr int steps_of_period = 100;
     const int last = periods * steps_of_period;
     const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(last + 1, 0.0, periods);
