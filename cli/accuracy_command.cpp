@@ -53,6 +53,9 @@ Json make_document(const ProblemFile& problem, const AccuracyStudy& study) {
   document["reference"] = settings_document(study.reference);
   document["reference"]["seconds"] = study.reference.seconds();
   document["reference"]["values"] = errors_document(problem, study.reference.values);
+  document["reference"]["errors"] = errors_document(problem, study.reference.errors);
+  document["reference"]["gradient_errors"] =
+      errors_document(problem, study.reference.gradient_errors);
   return document;
 }
 
@@ -101,23 +104,28 @@ class AccuracyCsv {
   std::size_t responses_;
 };
 
-/// The largest of some errors and whose it is: "3.1e-04 rod_stress".
-std::string worst(const ProblemFile& problem, const Eigen::VectorXd& errors) {
+/// The largest of some errors and whose it is: "3.1e-04 rod_stress"; with "≤" if it is below that
+/// of the reference, which then stands there.
+std::string worst(const ProblemFile& problem, const Eigen::VectorXd& errors,
+                  const Eigen::VectorXd& of_reference) {
   if (errors.size() == 0) return "–";
   Eigen::Index index = 0;
   const double largest = errors.maxCoeff(&index);
-  return fmt::format("{} {}", magnitude(largest),
+  const bool is_bound = largest > 0.0 && largest <= of_reference(index);
+  return fmt::format("{}{} {}", is_bound ? "≤ " : "", magnitude(largest),
                      problem.responses[static_cast<std::size_t>(index)].name);
 }
 
-std::vector<std::string> row(const ProblemFile& problem, const AccuracyRun& run) {
+std::vector<std::string> row(const ProblemFile& problem, const AccuracyRun& run,
+                             const AccuracyRun& reference) {
   std::vector<std::string> cells = {fmt::format("{:.4g}", 1e3 * run.settings.step),
                                     std::to_string(run.settings.elements)};
   if (!run.failure.empty()) {
     cells.insert(cells.end(), {"failed", run.failure.substr(0, run.failure.find(". "))});
     return cells;
   }
-  cells.insert(cells.end(), {worst(problem, run.errors), worst(problem, run.gradient_errors),
+  cells.insert(cells.end(), {worst(problem, run.errors, reference.errors),
+                             worst(problem, run.gradient_errors, reference.gradient_errors),
                              fmt::format("{:.1f}", 1e3 * run.simulation_seconds),
                              fmt::format("{:.1f}", 1e3 * run.gradient_seconds),
                              std::to_string(run.steps), std::to_string(run.factorizations)});
@@ -135,7 +143,7 @@ std::string runs_text(const ProblemFile& problem, const AccuracyStudy& study) {
                {"factorizations"},
                {"", Table::Align::left}});
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
-    std::vector<std::string> cells = row(problem, study.runs[i]);
+    std::vector<std::string> cells = row(problem, study.runs[i], study.reference);
     if (study.recommended == i) cells.push_back("← recommended");
     table.add_row(std::move(cells));
   }
@@ -156,12 +164,18 @@ std::string recommendation_text(const ProblemFile& problem, const AccuracyStudy&
       1e3 * run.settings.step, run.settings.elements, problem.accuracy->error);
 }
 
+std::string largest_of(const Eigen::VectorXd& errors) {
+  return errors.size() == 0 ? "–" : magnitude(errors.maxCoeff());
+}
+
 std::string study_text(const ProblemFile& problem, const AccuracyStudy& study) {
   return fmt::format(
-      "{}: errors relative to a reference with step {:.4g} ms and {} elements a segment ({})\n\n"
+      "{}: errors relative to a reference with step {:.4g} ms and {} elements a segment ({})\n"
+      "Its own error is estimated at {}, of gradients {}; ≤: below the reference's own error\n\n"
       "{}\n{}",
       problem.name, 1e3 * study.reference.settings.step, study.reference.settings.elements,
-      duration(study.reference.seconds()), runs_text(problem, study),
+      duration(study.reference.seconds()), largest_of(study.reference.errors),
+      largest_of(study.reference.gradient_errors), runs_text(problem, study),
       recommendation_text(problem, study));
 }
 

@@ -9,6 +9,7 @@
 #include "cli/scene_report.hpp"
 #include "cli/stopwatch.hpp"
 #include "cli/ties.hpp"
+#include "core/scene/body_rules.hpp"
 #include "sensitivity/gradients.hpp"
 #include "studies/derivative_check.hpp"
 
@@ -26,11 +27,15 @@ struct Findings {
 
 Findings examine(const ProblemFile& problem, const Eigen::VectorXd& x, int threads) {
   Findings findings;
+  const auto warn = [&](const std::vector<std::string>& sentences) {
+    findings.warnings.insert(findings.warnings.end(), sentences.begin(), sentences.end());
+  };
+  warn(impossible_corners(problem));
   const Stopwatch simulation;
   findings.analysis = analyze(problem, x);
   findings.simulation_seconds = simulation.seconds();
   findings.ties = find_ties(*findings.analysis);
-  findings.warnings = doubts(monitor(findings.analysis->model, findings.analysis->trajectory));
+  warn(doubts(monitor(findings.analysis->model, findings.analysis->trajectory)));
   if (problem.variables.empty() || problem.responses.empty()) return findings;
   const Stopwatch gradient;
   direct_gradients(*findings.analysis);
@@ -41,10 +46,7 @@ Findings examine(const ProblemFile& problem, const Eigen::VectorXd& x, int threa
     fmt::print(stderr, "verifying derivatives by central differences, step {:g} …\n", step);
   };
   findings.derivatives = check_derivatives(problem, x, *findings.analysis, options);
-  for (const std::string& warning :
-       noise_warnings(problem, *findings.analysis, findings.derivatives)) {
-    findings.warnings.push_back(warning);
-  }
+  warn(noise_warnings(problem, *findings.analysis, findings.derivatives));
   return findings;
 }
 

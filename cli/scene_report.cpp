@@ -39,7 +39,7 @@ Json bodies_document(const Model& model) {
   for (const BodyModel& body : model.bodies) {
     document.push_back({{"name", body.name},
                         {"mass", body.mass},
-                        {"elements", body.segment_of_element.size()},
+                        {"elements", body.beam.elements.size()},
                         {"coordinates", body.frame.size() + elastic_coordinates(body)}});
   }
   return document;
@@ -54,7 +54,7 @@ std::string bodies_text(const Model& model) {
   for (const BodyModel& body : model.bodies) {
     table.add_row(
         {body.name, significant(body.mass),
-         body.is_beam() ? std::to_string(body.segment_of_element.size()) : "–",
+         body.is_beam() ? std::to_string(body.beam.elements.size()) : "–",
          std::to_string(body.frame.size()),
          body.is_elastic || body.is_beam() ? std::to_string(elastic_coordinates(body)) : "–"});
   }

@@ -71,6 +71,11 @@ class AdjointRun {
       throw SimulationError(
           fmt::format("the adjoint is not finite at t = {:.6g} s (step {})", state_.time, step));
     }
+    if (!solver_.is_accurate()) {
+      throw SimulationError(fmt::format(
+          "the equations of the adjoint at t = {:.6g} s (step {}) are met to {:.1e} only",
+          state_.time, step, solver_.backward_error()));
+    }
     const auto of = [this](Eigen::MatrixXd& all) { return all.leftCols(active_); };
     before_.q.setZero();
     equations_.pull_back(state_, of(y_), of(adjoint_.v), of(adjoint_.a), of(before_.q), of(sums_));

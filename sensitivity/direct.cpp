@@ -86,6 +86,11 @@ class DirectDifferentiation {
       throw SimulationError(fmt::format(
           "the sensitivities are not finite at t = {:.6g} s (step {})", state_.time, step));
     }
+    if (!solver_.is_accurate()) {
+      throw SimulationError(fmt::format(
+          "the equations of the sensitivities at t = {:.6g} s (step {}) are met to {:.1e} only",
+          state_.time, step, solver_.backward_error()));
+    }
     sensitivity_.q = rhs_.topRows(n);
     sensitivity_.lambda = rhs_.middleRows(n, m) / scheme_.dynamic_scale();
     sensitivity_.v += b(1) / b(0) * sensitivity_.q;

@@ -1,5 +1,7 @@
 #include "sensitivity/initial_sensitivity.hpp"
 
+#include <fmt/format.h>
+
 #include "core/base/error.hpp"
 #include "core/base/rotation_vector.hpp"
 #include "core/integration/configuration.hpp"
@@ -62,6 +64,11 @@ class InitialDifferentiation {
       throw SimulationError("the derivatives of the initial state are singular");
     }
     solver_.solve(rhs);
+    if (!solver_.is_accurate()) {
+      throw SimulationError(fmt::format(
+          "the equations of the derivatives of the initial state are met to {:.1e} only",
+          solver_.backward_error()));
+    }
   }
 
   void differentiate_positions() {

@@ -22,9 +22,10 @@ struct AccuracyRun {
   Discretization settings;
   std::string failure;  ///< empty: it succeeded; else nothing below is known
   Eigen::VectorXd values;
-  Eigen::MatrixXd gradients;        ///< responses × variables [SI]
-  Eigen::VectorXd magnitudes;       ///< largest absolute value of each response's history
-  Eigen::VectorXd errors;           ///< of each response, relative to the reference
+  Eigen::MatrixXd gradients;   ///< responses × variables [SI]
+  Eigen::VectorXd magnitudes;  ///< largest absolute value of each response's history
+  /// Of each response, relative to the reference, and never below the reference's own error.
+  Eigen::VectorXd errors;
   Eigen::VectorXd gradient_errors;  ///< empty without variables
   double simulation_seconds = 0.0;  ///< the fastest of a few, one thread
   double gradient_seconds = 0.0;    ///< direct differentiation of all responses, on top
@@ -35,7 +36,8 @@ struct AccuracyRun {
 };
 
 struct AccuracyStudy {
-  AccuracyRun reference;  ///< half the finest step, twice the most elements
+  /// Half the finest step, twice the most elements; its errors are estimates.
+  AccuracyRun reference;
   std::vector<AccuracyRun> runs;
   std::optional<std::size_t> recommended;  ///< the fastest whose errors are all small enough
 };
@@ -45,7 +47,9 @@ using AccuracyObserver = std::function<void(const AccuracyRun&)>;
 
 /// Work–precision study at the start design: every step with every number of elements against a
 /// finer reference, values and gradients; see relative_error.hpp. The error of the reference itself
-/// stays in the differences: errors far below (finest step / 2)² of the coarsest are not resolved.
+/// is estimated from another run with 4/3 of its step and 3/4 of its elements (Richardson, order 2:
+/// difference / ((4/3)² − 1)). What is sampled in space converges unevenly: a run may be closer to
+/// the reference than that by luck, and is not called better.
 /// @throws InputError if the problem has no accuracy settings
 /// @throws SimulationError if the reference fails; a failing run is only marked
 AccuracyStudy accuracy_study(const ProblemFile& problem, const AccuracyObserver& observer = {});

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <random>
 
 #include "core/base/error.hpp"
 #include "core/base/parallel.hpp"
 #include "core/scene/sample_extent.hpp"
 #include "sensitivity/history_gradients.hpp"
 #include "sensitivity/method_choice.hpp"
+#include "studies/random_numbers.hpp"
 
 namespace pleuel {
 
@@ -162,16 +162,14 @@ class Study {
 
   /// All samples at once, so that they do not depend on the threads.
   std::vector<Eigen::VectorXd> draw() const {
-    std::mt19937_64 generator(settings_.seed);
-    std::normal_distribution<double> normal;
-    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    RandomNumbers numbers(settings_.seed);
     std::vector<Eigen::VectorXd> designs(static_cast<std::size_t>(settings_.samples), x_);
     for (Eigen::VectorXd& design : designs) {
       for (const UncertainParameter& parameter : settings_.parameters) {
         double change = 0.0;
         do {
-          change = parameter.deviation > 0.0 ? parameter.deviation * normal(generator)
-                                             : parameter.interval * uniform(generator);
+          change = parameter.deviation > 0.0 ? parameter.deviation * numbers.normal()
+                                             : parameter.interval * (2.0 * numbers.uniform() - 1.0);
         } while (std::abs(change) > sample_extent(parameter));
         design(parameter.variable) += change;
       }

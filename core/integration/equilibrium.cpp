@@ -29,7 +29,7 @@ void add_block(const System::Matrix& matrix, const Block& block, Triplets& entri
   for (int col = block.from_col; col < block.from_col + block.cols; ++col) {
     for (System::Matrix::InnerIterator it(matrix, col); it; ++it) {
       const int row = static_cast<int>(it.row()) - block.from_row;
-      if (row < 0 || row >= block.rows || it.value() == 0.0) continue;
+      if (row < 0 || row >= block.rows) continue;
       entries.emplace_back(block.to_row + row, block.to_col + col - block.from_col, it.value());
     }
   }

@@ -26,9 +26,12 @@ class Equilibrium {
   };
   Derivatives differentiate(const InitialState& solution);
 
+  /// Of the equations, 3 (coordinates + multipliers) square. Its pattern is the same at all states:
+  /// what is zero before members are deformed is stored, too.
+  Eigen::SparseMatrix<double> jacobian(const InitialState& at) const;
+
  private:
   Eigen::VectorXd residual(const InitialState& at) const;
-  Eigen::SparseMatrix<double> jacobian(const InitialState& at) const;
   Eigen::MatrixXd design_derivative(const InitialState& at) const;
   void advance_by(const Eigen::VectorXd& step, InitialState& at) const;
 

@@ -16,6 +16,9 @@ namespace {
 constexpr double round_off = 1e-14;
 /// Where refinement leaves more than this, the pivots are no good.
 constexpr double poor = 1e-10;
+/// A diagonal pivot may be smaller than the largest entry of its column by this factor, for the
+/// sake of fill (KLU's own choice). Where that makes entries grow, the largest one is the pivot.
+constexpr double usual_threshold = 1e-3, full_threshold = 1.0;
 
 /// With so many right-hand sides the factors are copied for all of them at once.
 constexpr Eigen::Index least_columns = 16;
@@ -111,6 +114,9 @@ struct LinearSolver::Implementation {
     return std::isfinite(common.rcond) && common.rcond > 0.0;
   }
 
+  /// Also false if it is not a number.
+  bool is_accurate() const { return backward_error <= poor; }
+
   void copy_factors() {
     BlockFactors& to = factors;
     to.resize(symbolic->n, numeric->lnz, numeric->unz, numeric->nzoff, symbolic->nblocks);
@@ -171,7 +177,11 @@ struct LinearSolver::Implementation {
     solve_scaled(is_transposed, residual);
     x += residual;
     estimate_backward_error(is_transposed, x);
-    if (backward_error <= poor || has_new_pivots) return;
+    if (is_accurate()) return;
+    if (has_new_pivots) {
+      if (common.tol == full_threshold) return;  // is_accurate() says so
+      common.tol = full_threshold;
+    }
     if (choose_pivots()) {
       x = rhs;
       solve_and_refine(is_transposed, x);
@@ -188,6 +198,7 @@ LinearSolver::LinearSolver(const Matrix& pattern)
   klu.pivoted_values.resize(pattern.nonZeros());
   klu_defaults(&klu.common);
   klu.common.scale = 0;  // done here
+  klu.common.tol = usual_threshold;
   klu.symbolic =
       klu_analyze(static_cast<int>(pattern.rows()), klu.starts(), klu.rows(), &klu.common);
   assert(klu.symbolic != nullptr);
@@ -222,6 +233,10 @@ void LinearSolver::solve_transposed(Block rhs) {
   rhs.array().colwise() *= klu.row_scale.array();
 }
 
+bool LinearSolver::is_accurate() const {
+  return implementation_->is_accurate();
+}
+
 double LinearSolver::backward_error() const {
   return implementation_->backward_error;
 }
@@ -242,12 +257,13 @@ int LinearSolver::factorizations() const {
 
 LinearSolver::Pivots LinearSolver::pivots() const {
   const Implementation& klu = *implementation_;
-  if (klu.numeric == nullptr) return {};
-  return {klu.row_scale, klu.column_scale, klu.pivoted_values};
+  if (klu.numeric == nullptr) return {{}, {}, {}, klu.common.tol};
+  return {klu.row_scale, klu.column_scale, klu.pivoted_values, klu.common.tol};
 }
 
 void LinearSolver::use_pivots(const Pivots& pivots) {
   Implementation& klu = *implementation_;
+  klu.common.tol = pivots.threshold;
   if (pivots.values.size() == 0) {
     klu_free_numeric(&klu.numeric, &klu.common);
     return;

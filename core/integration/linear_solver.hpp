@@ -9,8 +9,8 @@ namespace pleuel {
 /// Sparse LU of matrices with one fixed pattern (KLU: Davis & Palamadai Natarajan 2010): the
 /// ordering once, then numeric refactorisation with the old pivots. Rows and columns are scaled by
 /// powers of two. Pivots and scales are chosen anew where the condition has become worse by a lot,
-/// pivots also where the residual of a solution shows that they are poor. Many right-hand sides are
-/// solved for by rows (block_factors.hpp).
+/// pivots also where the residual of a solution shows that they are poor: first anew, then without
+/// regard to fill. Many right-hand sides are solved for by rows (block_factors.hpp).
 class LinearSolver {
  public:
   using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
@@ -30,6 +30,10 @@ class LinearSolver {
   /// rhs ← A⁻ᵀ rhs, likewise.
   void solve_transposed(Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> rhs);
 
+  /// Whether backward_error() is below 1e-10. If not, no choice of pivots helped: Newton's method
+  /// may correct that, but nothing else will.
+  bool is_accurate() const;
+
   /// max |b − A x| / (max |a_ij| Σ|x| + max |b|) of the scaled equations in the last solution; of
   /// several columns that of their sum, each divided by the denominator.
   double backward_error() const;
@@ -43,10 +47,12 @@ class LinearSolver {
 
   int factorizations() const;
 
-  /// All that past factorisations leave behind: the scaled matrix whose pivots are in use, and its
-  /// scales. With the pivots of another solver, factorisations repeat those of that one bit by bit.
+  /// All that past factorisations leave behind: the scaled matrix whose pivots are in use, its
+  /// scales, and how they were chosen. With the pivots of another solver, factorisations repeat
+  /// those of that one bit by bit.
   struct Pivots {
     Eigen::VectorXd row_scale, column_scale, values;
+    double threshold = 1e-3;  ///< of pivots on the diagonal
   };
   Pivots pivots() const;
   void use_pivots(const Pivots& pivots);

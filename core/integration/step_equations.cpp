@@ -159,6 +159,8 @@ void StepEquations::write_residual(const StepState& state, Eigen::VectorXd& resi
   residual.resize(size());
   residual.head(n) = dynamic_scale_ * residual_.head(n);
   residual.segment(n, m) = constraint_scale_ * residual_.tail(m);
+  // Rows that are left out say s λ_i = 0, or round-off at the start would grow in each step.
+  for (int i : system_.left_out()) residual(n + i) = dynamic_scale_ * state.lambda(i);
   if (!is_stabilized()) return;
   residual.segment(n + m, n) = mechanism_.assembly_weight.cwiseProduct(state.shift);
   for_each_entry(old_constraints_, [&](std::size_t k, int row, int col) {
@@ -167,6 +169,7 @@ void StepEquations::write_residual(const StepState& state, Eigen::VectorXd& resi
   });
   system_.residual(state, ConstraintLevel::position, other_residual_);
   residual.tail(m) = other_residual_.tail(m);
+  for (int i : system_.left_out()) residual(2 * n + m + i) = state.eta(i);
 }
 
 void StepEquations::residual(const StepState& state, Eigen::VectorXd& residual) {

@@ -34,7 +34,7 @@ class Attachment {
     if (is_ground()) return resolve_point(at_, design);
     if (model_->is_imported()) return imported_point(design);
     if (is_elastic()) {
-      const Beam<Scalar> beam = resolve_beam(beam_body(), context_.scene, design);
+      const Beam<Scalar> beam = resolve_beam(beam_body(), model_->mesh, context_.scene, design);
       return {position_of(beam, place_), Scalar(0), Scalar(0)};
     }
     const Pose<Scalar> pose = body_pose(*body_, design);

@@ -5,6 +5,7 @@
 #include "core/beam/beam_place.hpp"
 #include "core/beam/elastic_basis.hpp"
 #include "core/model/attached_points.hpp"
+#include "core/model/beam_mesh.hpp"
 #include "core/model/invariant_derivatives.hpp"
 
 namespace pleuel {
@@ -38,9 +39,9 @@ ElasticCoordinates clamped_coordinates(ReferenceCondition condition, int nodes,
   }
 }
 
-/// Nodes of a beam that joints and loads act on.
-std::vector<int> attached_nodes(const BeamBody& beam, const Body& body, const BuildContext& context,
-                                const Beam<double>& elements) {
+/// Nodes of a beam that joints and loads act on, or next to which they do.
+std::vector<int> held_nodes(const BeamBody& beam, const Body& body, const BuildContext& context,
+                            const Beam<double>& elements) {
   std::vector<int> nodes;
   for (const AttachedPoint& point : attached_points(context.scene)) {
     if (point.body != body.name) continue;
@@ -168,7 +169,7 @@ class BasisBuilder {
   /// member everywhere, and few axial modes would lock it. The number of modes is decided at the
   /// start design.
   KeptCoordinates kept_coordinates() const {
-    const std::vector<int> attached = attached_nodes(beam_, body_, context_, model_.beam);
+    const std::vector<int> attached = held_nodes(beam_, body_, context_, model_.beam);
     KeptCoordinates kept;
     for (int node = 0; node < clamped_.node_count(); ++node) {
       const bool is_attached = std::find(attached.begin(), attached.end(), node) != attached.end();
@@ -178,7 +179,7 @@ class BasisBuilder {
         if (index >= 0 && is_kept) kept.boundary.push_back(index);
       }
     }
-    const Beam<double> at_start = resolve_beam(beam_, context_.scene, context_.start);
+    const Beam<double> at_start = resolve_beam(beam_, model_.mesh, context_.scene, context_.start);
     const Invariants<double> start = beam_invariants(at_start, clamped_);
     NodalMatrices matrices;
     matrices.mass = dense_matrix(start.pattern, start.mass_matrix);
@@ -233,7 +234,7 @@ void set_nodal_view(BodyModel& model) {
   view->coordinates = model.coordinates;
   view->beam = model.beam;
   view->beam_x = model.beam_x;
-  view->segment_of_element = model.segment_of_element;
+  view->mesh = model.mesh;
   view->has_stiffening = model.has_stiffening;
   view->is_elastic = true;
   model.nodal = std::move(view);
@@ -251,24 +252,15 @@ void set_nodal_view(BodyModel& model) {
 
 }  // namespace
 
-double share_along(const BeamBody& beam, const Point& point, const Design<double>& start) {
-  const Eigen::Vector3d from = resolve_point(beam.from, start), to = resolve_point(beam.to, start);
-  return (resolve_point(point, start) - from).dot(to - from) / (to - from).squaredNorm();
-}
-
 void set_beam(const BeamBody& beam, const Body& body, const BuildContext& context,
               BodyModel& model) {
-  model.beam = resolve_beam(beam, context.scene, context.design);
-  for (int variable : variables_of(body, context.scene)) {
-    model.beam_x.emplace_back(variable,
-                              resolve_beam(beam, context.scene, context.seeded(variable)));
-  }
-  for (std::size_t s = 0; s < beam.segments.size(); ++s) {
-    model.segment_of_element.insert(model.segment_of_element.end(),
-                                    static_cast<std::size_t>(beam.segments[s].elements),
-                                    static_cast<int>(s));
-  }
   const BeamEffects& effects = context.effects_of(body.name);
+  model.mesh = make_mesh(body, context.scene, context.start, effects.elasticity);
+  model.beam = resolve_beam(beam, model.mesh, context.scene, context.design);
+  for (int variable : variables_of(body, context.scene)) {
+    model.beam_x.emplace_back(
+        variable, resolve_beam(beam, model.mesh, context.scene, context.seeded(variable)));
+  }
   model.is_elastic = effects.elasticity;
   model.has_stiffening = effects.elasticity && effects.geometric_stiffening;
   NodalFlags active{};
@@ -287,8 +279,8 @@ void set_beam(const BeamBody& beam, const Body& body, const BuildContext& contex
   for (int variable : variables_of(body, context.scene)) {
     nodal_x.push_back(
         {variable, differentiate_invariants(context, variable, [&](const auto& design) {
-           return beam_invariants(resolve_beam(beam, context.scene, design), *model.coordinates,
-                                  rotary);
+           return beam_invariants(resolve_beam(beam, model.mesh, context.scene, design),
+                                  *model.coordinates, rotary);
          })});
   }
   if (effects.elasticity && (is_mean_axis || beam.reduction)) {

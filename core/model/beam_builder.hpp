@@ -9,7 +9,4 @@ namespace pleuel {
 void set_beam(const BeamBody& beam, const Body& body, const BuildContext& context,
               BodyModel& model);
 
-/// Share of the length at which a point of the scene lies on a beam.
-double share_along(const BeamBody& beam, const Point& point, const Design<double>& start);
-
 }  // namespace pleuel

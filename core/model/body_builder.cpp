@@ -1,10 +1,14 @@
 #include "core/model/body_builder.hpp"
 
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
 #include "core/effects/floating_frame_body.hpp"
 #include "core/model/beam_builder.hpp"
 #include "core/model/imported_builder.hpp"
 #include "core/model/invariant_derivatives.hpp"
 #include "core/model/stiffening_builder.hpp"
+#include "core/scene/body_rules.hpp"
 
 namespace pleuel {
 
@@ -75,6 +79,9 @@ Invariants<double> derivative_of(const Invariants<Dual>& invariants) {
 }
 
 BodyModel make_body_model(const Body& body, const BuildContext& context, int offset) {
+  if (const auto broken = find_impossible(body, context.design)) {
+    throw SimulationError(fmt::format("the body \"{}\" is impossible: {}", body.name, *broken));
+  }
   BodyModel model;
   model.name = body.name;
   model.frame = make_frame(body, context, offset);

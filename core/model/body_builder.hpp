@@ -27,6 +27,7 @@ struct BuildContext {
 };
 
 /// Frame and elastic coordinates of a body, beginning at `offset`.
+/// @throws SimulationError if there is no such body at this design (core/scene/body_rules.hpp)
 BodyModel make_body_model(const Body& body, const BuildContext& context, int offset);
 
 /// Inertia, elasticity and, for beams, geometric stiffening.

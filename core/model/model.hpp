@@ -8,6 +8,7 @@
 #include "core/frame/body_frame.hpp"
 #include "core/integration/mechanism.hpp"
 #include "core/joints/joint.hpp"
+#include "core/model/beam_mesh.hpp"
 #include "core/model/motion_plane.hpp"
 #include "core/scene/problem_file.hpp"
 #include "core/system/coordinate_map.hpp"
@@ -32,7 +33,7 @@ struct BodyModel {
   std::optional<ElasticCoordinates> coordinates;  ///< nodal
   Beam<double> beam;
   std::vector<std::pair<int, Beam<Dual>>> beam_x;  ///< for each variable the beam depends on
-  std::vector<int> segment_of_element;
+  BeamMesh mesh;
 
   // Imported bodies only: their constants at the present design.
   std::optional<BodyConstants> constants;

@@ -7,6 +7,7 @@
 #include "core/base/time_law.hpp"
 #include "core/beam/beam.hpp"
 #include "core/frame/body_frame.hpp"
+#include "core/model/beam_mesh.hpp"
 #include "core/scene/body_axes.hpp"
 #include "core/scene/scene.hpp"
 #include "core/section/box_section.hpp"
@@ -126,22 +127,26 @@ inline std::vector<double> length_fractions(const BeamBody& body) {
 }
 
 template <class Scalar>
-Beam<Scalar> resolve_beam(const BeamBody& body, const Scene& scene, const Design<Scalar>& design) {
+Beam<Scalar> resolve_beam(const BeamBody& body, const BeamMesh& mesh, const Scene& scene,
+                          const Design<Scalar>& design) {
   const Material& material = find_material(scene, body.material);
   const Scalar length =
       length_of<Scalar>(resolve_point(body.to, design) - resolve_point(body.from, design));
-  const std::vector<double> fractions = length_fractions(body);
+  BeamElement<Scalar> element;
+  element.young = resolve(material.young, design);
+  element.shear = element.young / (2.0 * (1.0 + resolve(material.poisson, design)));
+  element.density = resolve(material.density, design);
+  if (material.strength) element.strength = resolve(*material.strength, design);
   Beam<Scalar> beam;
-  for (std::size_t i = 0; i < body.segments.size(); ++i) {
-    const Segment& segment = body.segments[i];
-    BeamElement<Scalar> element;
-    element.length = length * (fractions[i] / segment.elements);
-    element.young = resolve(material.young, design);
-    element.shear = element.young / (2.0 * (1.0 + resolve(material.poisson, design)));
-    element.density = resolve(material.density, design);
-    element.section = resolve_section(segment.section, design);
-    if (material.strength) element.strength = resolve(*material.strength, design);
-    beam.elements.insert(beam.elements.end(), static_cast<std::size_t>(segment.elements), element);
+  int segment = -1;
+  for (const MeshElement& part : mesh.elements) {
+    if (part.segment != segment) {
+      segment = part.segment;
+      element.section =
+          resolve_section(body.segments[static_cast<std::size_t>(segment)].section, design);
+    }
+    element.length = length * part.share;
+    beam.elements.push_back(element);
   }
   beam.mass_damping = resolve(body.damping.mass, design);
   beam.stiffness_damping = resolve(body.damping.stiffness, design);

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/model/attached_points.hpp"
-#include "core/model/beam_builder.hpp"
+#include "core/model/beam_mesh.hpp"
 
 namespace pleuel {
 

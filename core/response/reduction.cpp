@@ -13,13 +13,16 @@ namespace {
 /// Peaks within this relative distance of the highest are called tied.
 constexpr double tie_gap = 1e-3;
 /// So many ties are remembered.
-constexpr std::size_t max_ties = 8;
+constexpr std::size_t max_ties = 16;
+/// Chosen from so many candidates: noise about a constant has a peak at every other step.
+constexpr std::size_t max_candidates = 2000;
 
 struct Peak {
   double height, time;
   int channel, step;
   double sign;
   std::array<double, 3> weights;  ///< of the samples before, at and after `step`
+  double bend;                    ///< half the second derivative over time, 0 at the ends
 };
 
 /// Vertex of the parabola through (−before, a), (0, b), (after, c), b ≥ a, c. By the envelope
@@ -33,6 +36,7 @@ Peak interpolate(double a, double b, double c, double before, double after) {
                   s * (s + before) / (after * width)};
   peak.height = peak.weights[0] * a + peak.weights[1] * b + peak.weights[2] * c;
   peak.time = s;
+  peak.bend = bend;
   return peak;
 }
 
@@ -56,13 +60,14 @@ void add_peaks(const Search& search, double sign, double threshold, std::vector<
       if (b < a || b <= c) {
         if (!(step == whole.last && b >= a)) continue;
       }
-      Peak peak{b, 0.0, channel, step, sign, {0.0, 1.0, 0.0}};
+      Peak peak{b, 0.0, channel, step, sign, {0.0, 1.0, 0.0}, 0.0};
       if (step > whole.first && step < whole.last) {
         const Peak vertex =
             interpolate(a, b, c, time(step) - time(step - 1), time(step + 1) - time(step));
         peak.height = vertex.height;
         peak.time = vertex.time;
         peak.weights = vertex.weights;
+        peak.bend = vertex.bend;
       }
       peak.time += time(step);
       peaks.push_back(peak);
@@ -79,17 +84,76 @@ std::vector<Sample> samples_of(const Peak& peak) {
   return samples;
 }
 
-void note_ties(const std::vector<Peak>& peaks, const Peak& best, Reduction& reduction) {
+/// How different two peaks are, without a unit: in all that is observed at their instants, and in
+/// their sharpness. Repetitions in a periodic motion are alike but for where the steps hit them.
+double difference(const Eigen::MatrixXd& values, const Peak& one, const Peak& other) {
+  constexpr double of_channels = 0.1;  // at one instant neighbours move alike, more often than not
+  const double height = std::abs(one.height), bend = std::abs(one.bend) + std::abs(other.bend);
+  const double state =
+      (values.col(one.step) - values.col(other.step)).lpNorm<Eigen::Infinity>() / height;
+  const double sharpness = bend > 0.0 ? std::abs(one.bend - other.bend) / bend : 0.0;
+  return state + sharpness + (one.channel != other.channel ? of_channels : 0.0);
+}
+
+/// The closest tie, then those that differ most from the highest peak and from the ties before: of
+/// a periodic motion one of each kind comes first, however many revolutions are simulated.
+std::vector<Peak> choose_ties(const Eigen::MatrixXd& values, const Peak& best,
+                              const std::vector<Peak>& tied) {
+  const auto is_lower = [](const Peak& a, const Peak& b) { return a.height < b.height; };
+  std::vector<Peak> chosen;
+  std::vector<double> distances(tied.size(), std::numeric_limits<double>::infinity());
+  const auto move_away_from = [&](const Peak& peak) {
+    for (std::size_t i = 0; i < tied.size(); ++i) {
+      distances[i] = std::min(distances[i], difference(values, tied[i], peak));
+    }
+  };
+  const auto choose = [&](std::size_t i) {
+    chosen.push_back(tied[i]);
+    move_away_from(tied[i]);
+    distances[i] = -1.0;
+  };
+  if (tied.empty()) return chosen;
+  move_away_from(best);
+  choose(static_cast<std::size_t>(std::max_element(tied.begin(), tied.end(), is_lower) -
+                                  tied.begin()));
+  while (chosen.size() < std::min(max_ties, tied.size())) {
+    choose(static_cast<std::size_t>(std::max_element(distances.begin(), distances.end()) -
+                                    distances.begin()));
+  }
+  return chosen;
+}
+
+/// Every so-manieth, at distances that are in step with no period (multiples of the golden ratio).
+std::vector<Peak> thin_out(const std::vector<Peak>& tied) {
+  if (tied.size() <= max_candidates) return tied;
+  std::vector<std::size_t> indices;
+  for (std::size_t k = 0; k < max_candidates; ++k) {
+    const double share = std::fmod(static_cast<double>(k) * 0.6180339887498949, 1.0);
+    indices.push_back(static_cast<std::size_t>(share * static_cast<double>(tied.size())));
+  }
+  std::sort(indices.begin(), indices.end());
+  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+  std::vector<Peak> kept;
+  for (std::size_t index : indices) kept.push_back(tied[index]);
+  return kept;
+}
+
+void note_ties(const Search& search, const std::vector<Peak>& peaks, const Peak& best,
+               Reduction& reduction) {
+  const auto gap_of = [&](const Peak& peak) {
+    return (best.height - peak.height) / std::abs(best.height);
+  };
+  std::vector<Peak> tied;
   for (const Peak& peak : peaks) {
     const bool is_other = peak.channel != best.channel || std::abs(peak.step - best.step) > 1;
-    const double gap = (best.height - peak.height) / std::abs(best.height);
-    if (!is_other || !(gap <= tie_gap)) continue;
+    if (is_other && gap_of(peak) <= tie_gap) tied.push_back(peak);
+  }
+  for (const Peak& peak : choose_ties(search.values, best, thin_out(tied))) {
     reduction.ties.push_back(
-        {best.time, peak.time, best.channel, peak.channel, gap, samples_of(peak)});
+        {best.time, peak.time, best.channel, peak.channel, gap_of(peak), samples_of(peak)});
   }
   std::sort(reduction.ties.begin(), reduction.ties.end(),
-            [](const PeakTie& a, const PeakTie& b) { return a.gap < b.gap; });
-  if (reduction.ties.size() > max_ties) reduction.ties.resize(max_ties);
+            [](const PeakTie& one, const PeakTie& other) { return one.gap < other.gap; });
   if (!reduction.ties.empty()) reduction.tie = reduction.ties.front();
 }
 
@@ -122,7 +186,7 @@ Reduction reduce_peaks(const Search& search, const std::vector<double>& signs) {
   if (best == peaks.end() || best->height < reduction.value) return reduction;
   reduction.value = best->height;
   reduction.samples = samples_of(*best);
-  note_ties(peaks, *best, reduction);
+  note_ties(search, peaks, *best, reduction);
   return reduction;
 }
 

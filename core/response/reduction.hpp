@@ -31,7 +31,7 @@ struct Reduction {
   double value = 0.0;
   std::vector<Sample> samples;
   std::optional<PeakTie> tie;  ///< the closest one
-  std::vector<PeakTie> ties;   ///< the closest few
+  std::vector<PeakTie> ties;   ///< of many those that differ most, by gap
 };
 
 /// Steps first … last of a history.

@@ -1,5 +1,7 @@
 #include "core/response/station.hpp"
 
+#include <algorithm>
+
 #include "core/beam/beam_place.hpp"
 
 namespace pleuel {
@@ -37,9 +39,13 @@ class StationFinder {
 
  private:
   int elements() const { return static_cast<int>(body_.beam.elements.size()); }
-  int segment_of(int e) const { return body_.segment_of_element[static_cast<std::size_t>(e)]; }
-  /// Whether an element continues the segment of the one before.
-  bool continues(int e) const { return e > 0 && segment_of(e - 1) == segment_of(e); }
+  int segment_of(int e) const { return body_.mesh.elements[static_cast<std::size_t>(e)].segment; }
+  /// Whether an element continues the segment of the one before, and nothing acts between them.
+  bool continues(int e) const {
+    const std::vector<int>& attached = body_.mesh.attached_nodes;
+    return e > 0 && segment_of(e - 1) == segment_of(e) &&
+           std::find(attached.begin(), attached.end(), e) == attached.end();
+  }
 
   const BodyModel& body_;
 };

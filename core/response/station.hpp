@@ -21,7 +21,8 @@ struct Station {
 };
 
 /// By default every node and quarter point of the elements. Nodes between two elements of one
-/// segment are one station; between two segments, one for each.
+/// segment are one station; between two segments, and where a joint or load acts, one for each:
+/// section forces may jump there.
 std::vector<Station> find_stations(const BodyModel& body, const StationChoice& choice);
 
 }  // namespace pleuel

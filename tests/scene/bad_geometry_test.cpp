@@ -33,6 +33,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{"/scene/bodies/wheel/inertia", "[1, 1, 1, 2, 0, 0]",
                 "/scene/bodies/wheel/inertia must have no negative principal moment (xx, yy, "
                 "zz, xy, xz, yz), got [1,1,1,2,0,0]"},
+        BadEdit{"/scene/bodies/wheel/inertia", "[1e-2, 1e-6, 1e-6, 0, 0, 0]",
+                "/scene/bodies/wheel/inertia must have no principal moment above the sum of the "
+                "other two (0.01 > 1e-06 + 1e-06 kg m^2), got [0.01,1e-06,1e-06,0,0,0]"},
+        // [1.5 ± 1, 2.6]: the principal moments are 0.5, 2.5 and 2.6, which is allowed; 3.1 is not.
+        BadEdit{"/scene/bodies/wheel/inertia", "[1.5, 1.5, 3.1, 1, 0, 0]",
+                "/scene/bodies/wheel/inertia must have no principal moment above the sum of the "
+                "other two (3.1 > 0.5 + 2.5 kg m^2), got [1.5,1.5,3.1,1,0,0]"},
         BadEdit{"/scene/bodies/wheel/inertia/0", "-1",
                 "/scene/bodies/wheel/inertia/0 must not be negative [kg m^2], got -1"},
         BadEdit{

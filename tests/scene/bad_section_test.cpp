@@ -102,8 +102,9 @@ INSTANTIATE_TEST_SUITE_P(
                    "/points/0/y must be a length [m]: a number in SI units or a text with unit, "
                    R"(got {"variable":"diameter"})"},
         BadSection{R"({"type": "box", "width": 0.01, "height": 0.02, "thickness": "5.1 mm"})",
-                   "/thickness must not exceed half the shorter side 0.005 [m] of the box, got "
-                   "0.0051"},
+                   "/thickness must not exceed half the width 0.005 [m] of the box, got 0.0051"},
+        BadSection{R"({"type": "box", "width": 0.02, "height": 0.01, "thickness": "5.1 mm"})",
+                   "/thickness must not exceed half the height 0.005 [m] of the box, got 0.0051"},
         BadSection{
             R"({"type": "i", "width": 0.1, "height": 0.02, "flange_thickness": 0.011, "web_thickness": 0.01})",
             "/flange_thickness must not exceed half the height 0.01 [m], got 0.011"},

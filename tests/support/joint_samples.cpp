@@ -17,7 +17,7 @@ RigidBody planar_body(const Point& at, const Number& mass, const Number& inertia
   RigidBody body;
   body.at = at;
   body.mass = mass;
-  body.inertia = {0.01, 0.012, inertia, 0.002, 0.0, 0.0};
+  body.inertia = {0.012, 0.012, inertia, 4e-5, 0.0, 0.0};
   return body;
 }
 
@@ -31,7 +31,7 @@ SampleScene spatial_joints_sample() {
   scene.materials.push_back({"steel", write.variable("young", 3e9), 0.3, 2100.0});
   const Number tip_x = write.variable("tip_x", 0.32), tip_y = write.variable("tip_y", 0.14);
   const Point root = {0.12, 0.04, 0.03}, tip = {tip_x, tip_y, 0.10};
-  // A third of the way: in the first of the two elements.
+  // A third of the way: there the first of the two elements is divided.
   const Point between = {SceneWriter::shifted(0.08, tip_x, 1.0 / 3.0),
                          SceneWriter::shifted(0.08 / 3.0, tip_y, 1.0 / 3.0), 0.16 / 3.0};
   BeamBody boom = beam(root, tip, {{CircleSection{write.variable("diameter", 0.016)}, 2, {}}},
@@ -120,7 +120,8 @@ SampleScene planar_joints_sample() {
   scene.materials.push_back({"steel", write.variable("young", 3e9), 0.3, 2100.0});
   const Number end_x = write.variable("end_x", 0.36), inertia = write.variable("inertia", 0.002);
   const Point start = {0.15, 0.1, 0.0}, end = {end_x, 0.13, 0.0};
-  const Point between = {SceneWriter::shifted(0.105, end_x, 0.3), 0.109, 0.0};
+  // In the first of the two elements, too near its end for a node of its own.
+  const Point between = {SceneWriter::shifted(0.07515, end_x, 0.499), 0.11497, 0.0};
   const Point ram_at = {0.3, write.variable("ram_y", 0.015), 0.0}, fork_at = {0.38, 0.16, 0.0};
   const Point puck_at = {0.42, 0.2, 0.0}, ball_at = {0.22, 0.17, 0.0};
   const Point sled_from = {0.5, 0.0, 0.0}, sled_to = {write.variable("sled_x", 0.6), 0.03, 0.0};

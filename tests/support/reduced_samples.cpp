@@ -16,11 +16,11 @@ SampleScene reduced_sample() {
   const Point origin = {0.0, 0.0, 0.0}, pin = {pin_x, pin_y, 0.0}, slider_from = {reach, 0.0, 0.0};
   const Point slider_to = {SceneWriter::shifted(0.05, reach), 0.0, 0.0};
   const Point flag_to = {SceneWriter::shifted(0.05, reach), write.variable("flag_y", 0.12), 0.0};
-  // 0.3 of the way along the rod: in the second of its four elements.
+  // In the second of the four elements of the rod, too near its start for a node of its own.
   Point between = pin;
-  between[0] = Number::bound(pin_x.variable, 0.7);
-  between[0].constant = 0.3 * 0.32;
-  between[1] = SceneWriter::shifted(0.0, pin_y, 0.7);
+  between[0] = Number::bound(pin_x.variable, 0.7495);
+  between[0].constant = 0.2505 * 0.32;
+  between[1] = SceneWriter::shifted(0.0, pin_y, 0.7495);
   BeamBody crank =
       beam(origin, pin, {{CircleSection{diameter}, 3, {}}}, ReferenceCondition::tangent);
   crank.reduction = CraigBampton{3, {}};
@@ -38,7 +38,7 @@ SampleScene reduced_sample() {
   flag.damping = {1.0, 1e-4};
   const Number arm_x = write.variable("arm_x", 0.3);
   const Point arm_from = {0.1, -0.15, 0.0}, arm_to = {arm_x, -0.1, 0.0};
-  const Point arm_hinge = {SceneWriter::shifted(0.075, arm_x, 0.25), -0.1375, 0.0};
+  const Point arm_hinge = {SceneWriter::shifted(0.0502, arm_x, 0.498), -0.1251, 0.0};
   BeamBody arm_beam =
       beam(arm_from, arm_to, {{CircleSection{diameter}, 2, {}}}, ReferenceCondition::mean_axis);
   arm_beam.damping = {0.0, 1e-4};

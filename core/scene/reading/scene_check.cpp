@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "core/scene/body_rules.hpp"
 #include "core/scene/reading/geometry.hpp"
 #include "core/scene/reading/mechanism_check.hpp"
 #include "core/scene/reading/placement_check.hpp"
@@ -14,7 +14,7 @@
 namespace pleuel {
 namespace {
 
-/// Directions closer than this, and inertia less than zero by no more than this, are rounding.
+/// Directions closer than this are rounding.
 constexpr double rounding_tolerance = 1e-9;
 
 /// A beam, or a body that lies as one.
@@ -43,17 +43,12 @@ void check_sections(const JsonNode& node, const BeamBody& beam, const Design<dou
 }
 
 void check_inertia(const JsonNode& node, const RigidBody& body, const Design<double>& start) {
-  const auto entry = [&](std::size_t i) { return resolve(body.inertia[i], start); };
-  Eigen::Matrix3d inertia;
-  inertia << entry(0), entry(3), entry(4), entry(3), entry(1), entry(5), entry(4), entry(5),
-      entry(2);
   const JsonNode list = node.at("inertia");
-  if (inertia.trace() == 0.0)
+  const auto is_zero = [&](const Number& entry) { return resolve(entry, start) == 0.0; };
+  if (std::all_of(body.inertia.begin(), body.inertia.begin() + 3, is_zero)) {
     list.fail_with_value("must not be all zero (a body without inertia is a point-mass)");
-  const Eigen::Vector3d principal = inertia.selfadjointView<Eigen::Lower>().eigenvalues();
-  if (principal.minCoeff() < -rounding_tolerance * inertia.trace()) {
-    list.fail_with_value("must have no negative principal moment (xx, yy, zz, xy, xz, yz)");
   }
+  if (const auto broken = inertia_complaint(body, start)) list.fail_with_value(*broken);
 }
 
 /// Derivatives belong to the design at which they were made.

@@ -7,7 +7,8 @@ namespace pleuel {
 
 /// What only the scene as a whole can tell: the mechanism makes sense, beams have a length, walls
 /// of tubes fit, joints and loads sit on their bodies. Where a design variable moves something,
-/// this must hold at the start design and with each variable at either bound (tubes: at the start).
+/// this must hold at the start design and with each variable at either bound (walls of sections and
+/// inertia tensors: at the start).
 /// @param node  the scene in the document, to say where it is wrong.
 /// @throws InputError
 void check_scene(const JsonNode& node, const ProblemFile& problem);

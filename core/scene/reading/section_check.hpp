@@ -5,8 +5,8 @@
 
 namespace pleuel {
 
-/// That walls fit into the outline. Only for the start: bounds that let walls and outlines cross
-/// may have a linear constraint between them.
+/// That walls fit into the outline (core/scene/body_rules.hpp), at the start. At other designs
+/// build_model() looks.
 /// @param node  of the section. @throws InputError
 void check_section(const JsonNode& node, const Section& section, const Design<double>& start);
 

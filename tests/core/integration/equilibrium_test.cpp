@@ -1,5 +1,6 @@
 #include "core/integration/equilibrium.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -149,6 +150,23 @@ TEST_P(EquilibriumOfASample, IsDifferentiated) {
     expect_part(2 * n, initial.state.lambda.size(), initial.state.lambda.lpNorm<Eigen::Infinity>(),
                 "lambda");
   }
+}
+
+/// The pattern is analysed at the first iteration, where nothing is deformed, moves or is loaded.
+TEST_P(EquilibriumOfASample, HasOnePatternOfItsJacobian) {
+  Model model = build_at(sample_.design);
+  Mechanism& mechanism = model.mechanism;
+  const int n = mechanism.system->coordinates(), m = mechanism.system->multipliers();
+  const InitialState rest{State(n, m), Eigen::VectorXd::Zero(m), Eigen::VectorXd::Zero(m)};
+  const Equilibrium equilibrium(mechanism);
+  const Eigen::SparseMatrix<double> at_rest = equilibrium.jacobian(rest),
+                                    loaded = equilibrium.jacobian(initial_state(mechanism));
+  ASSERT_EQ(at_rest.nonZeros(), loaded.nonZeros());
+  const auto same = [&](const int* a, const int* b, Eigen::Index size) {
+    return std::equal(a, a + size, b);
+  };
+  EXPECT_TRUE(same(at_rest.outerIndexPtr(), loaded.outerIndexPtr(), at_rest.outerSize() + 1));
+  EXPECT_TRUE(same(at_rest.innerIndexPtr(), loaded.innerIndexPtr(), at_rest.nonZeros()));
 }
 
 std::string sample_name(const testing::TestParamInfo<int>& info) {

@@ -176,4 +176,35 @@ TEST(LinearSolver, SolvesForManyColumnsAsForEach) {
   }
 }
 
+/// Wilkinson's matrix, −1 below the diagonal and 1 in the last column, with a small diagonal d:
+/// elimination with pivots on the diagonal multiplies entries by 1/d in each column.
+Eigen::MatrixXd growing_matrix(double diagonal) {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
+  for (int i = 0; i < size; ++i) {
+    for (int j = 0; j < i; ++j) matrix(i, j) = -1.0;
+    matrix(i, i) = diagonal;
+    matrix(i, size - 1) = 1.0;
+  }
+  return matrix;
+}
+
+TEST(LinearSolver, TakesTheLargestPivotsWhereThoseOfTheDiagonalMakeEntriesGrow) {
+  const Eigen::MatrixXd matrix = growing_matrix(0.01);
+  LinearSolver solver(matrix.sparseView());
+  ASSERT_TRUE(solver.factorize(matrix.sparseView()));
+  Eigen::MatrixXd x = matrix * Eigen::MatrixXd::Ones(size, 1);
+  solver.solve(x);
+  EXPECT_TRUE(solver.is_accurate());
+  const Eigen::VectorXd expected = matrix.fullPivLu().solve(matrix * Eigen::VectorXd::Ones(size));
+  EXPECT_LE((matrix * (x - expected)).lpNorm<Eigen::Infinity>(), 1e-10 * size);
+  // Another solver goes on from there with the same pivots.
+  LinearSolver again(matrix.sparseView());
+  again.use_pivots(solver.pivots());
+  ASSERT_TRUE(again.factorize(matrix.sparseView()));
+  Eigen::MatrixXd y = matrix * Eigen::MatrixXd::Ones(size, 1);
+  again.solve(y);
+  EXPECT_EQ(again.pivot_choices(), 1);
+  EXPECT_EQ(x, y);
+}
+
 }  // namespace

@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/integration/initial_state.hpp"
+#include "core/integration/linear_solver.hpp"
 #include "core/integration/simulate.hpp"
+#include "core/integration/step_equations.hpp"
 #include "tests/support/sample_scenes.hpp"
 
 namespace pleuel::test {
@@ -100,6 +103,38 @@ TEST(RedundantConstraints, OfADoubledJointAreThoseOfOne) {
   const Trajectory found = simulate(twice.mechanism, {0.1, 1e-3}),
                    expected = simulate(once.mechanism, {0.1, 1e-3});
   EXPECT_LE((found.q - expected.q).lpNorm<Eigen::Infinity>(), 1e-12);
+}
+
+/// Newton's method sets their multipliers to zero, whatever they were: with a wrong factor
+/// round-off would grow from step to step.
+TEST(RedundantConstraints, HaveNoMultipliersAfterAStepOfNewtonsMethod) {
+  Model model = in_space(four_bar({0.2, 0.3, 0.0}, {1.1, 0.6, 0.0}));
+  Mechanism& mechanism = model.mechanism;
+  const State start = initial_state(mechanism).state;
+  for (const Formulation formulation :
+       {Formulation{ConstraintForm::index_3}, Formulation{ConstraintForm::stabilized_index_2},
+        Formulation{ConstraintForm::index_1, 50.0}}) {
+    StepEquations equations(mechanism, generalized_alpha(1e-3, 0.8), formulation);
+    equations.begin(start);
+    StepState state = equations.make_state(start);
+    for (int i : mechanism.system->left_out()) {
+      state.lambda(i) = 1.0;
+      if (state.eta.size() > 0) state.eta(i) = 1.0;
+    }
+    System::Matrix matrix = equations.make_matrix();
+    Eigen::VectorXd residual;
+    equations.linearize(state, residual, matrix);
+    LinearSolver solver(matrix);
+    ASSERT_TRUE(solver.factorize(matrix));
+    Eigen::MatrixXd correction = -residual;
+    solver.solve(correction);
+    equations.apply(correction, state);
+    for (int i : mechanism.system->left_out()) {
+      EXPECT_NEAR(state.lambda(i), 0.0, 1e-12);
+      if (state.eta.size() == 0) continue;
+      EXPECT_NEAR(state.eta(i), 0.0, 1e-12);
+    }
+  }
 }
 
 }  // namespace

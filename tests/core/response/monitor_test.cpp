@@ -97,13 +97,15 @@ std::vector<Run> motions() {
   const std::vector<double> steps = {1e-3, 5e-4, 2.5e-4};
   // For loads that act at once on beams without damping, which vibrate at up to 3e4 rad/s.
   const std::vector<double> fine = {3.2e-5, 1.6e-5, 8e-6};
+  // For a boom of short elements: where its vibration is met by the steps shifts the largest drift.
+  const std::vector<double> wide = {1e-3, 2.5e-4, 6.25e-5};
   SampleScene smooth = smooth_planar_sample();
   smooth.name = "DrivenSliderCrank";
   return {{smooth, 0.1, steps},
           {planar_sample(), 0.1, steps},
           {planar_sample_in_space(), 0.1, steps},
           {spatial_sample(), 0.1, steps},
-          {spatial_joints_sample(), 0.1, steps},
+          {spatial_joints_sample(), 0.1, wide},
           {reduced_sample(), 0.1, steps},
           {reduced_sample_in_space(), 0.1, steps},
           {planar_joints_sample(), 0.02, fine}};

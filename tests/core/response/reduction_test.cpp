@@ -1,5 +1,6 @@
 #include "core/response/reduction.hpp"
 
+#include <algorithm>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -107,6 +108,32 @@ TEST(Reduction, TellsPeaksOfNearlyTheSameHeight) {
   const auto damped =
       sampled([](double t) { return std::exp(-t) * std::sin(2 * std::numbers::pi * t / 0.1); });
   EXPECT_FALSE(reduce(OverTime::max, grid, damped).tie.has_value());
+}
+
+/// Every period has a broad peak of height 1 and a sharp one that is lower by 0.05 %: between them
+/// the maximum has a kink. The more periods, the more repetitions of the broad one are closer.
+TEST(Reduction, TellsTheOtherPeakOfAPeriodHoweverManyPeriodsThereAre) {
+  for (const int periods : {2, 5, 20, 200, 3000}) {
+    constexpr int steps_of_period = 100;
+    const int last = periods * steps_of_period;
+    const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(last + 1, 0.0, periods);
+    Eigen::MatrixXd y(1, last + 1);
+    for (int i = 0; i <= last; ++i) {
+      // The steps hit each period elsewhere.
+      const double phase = time(i) + 0.37e-2 * std::floor(time(i)) / periods;
+      const double t = phase - std::floor(phase);
+      const double broad = 1.0 - 20.0 * std::pow(t - 0.3, 2);
+      const double sharp = 0.9995 - 300.0 * std::pow(t - 0.7, 2);
+      y(0, i) = std::max({0.0, broad, sharp});
+    }
+    const Reduction reduction = reduce(OverTime::max, time, y);
+    const auto is_sharp = [](const PeakTie& tie) {
+      return std::abs(tie.other_time - std::floor(tie.other_time) - 0.7) < 0.01;
+    };
+    EXPECT_TRUE(std::any_of(reduction.ties.begin(), reduction.ties.end(), is_sharp)) << periods;
+    ASSERT_TRUE(reduction.tie.has_value());
+    EXPECT_FALSE(is_sharp(*reduction.tie)) << periods;  // the closest one is a repetition
+  }
 }
 
 }  // namespace

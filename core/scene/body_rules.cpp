@@ -1,0 +1,219 @@
+#include "core/scene/body_rules.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include "core/scene/visit_numbers.hpp"
+
+namespace pleuel {
+namespace {
+
+/// Of a dimension: see find_impossible().
+constexpr double design_tolerance = 1e-3;
+/// Of the sum of the moments of inertia: numbers of three digits.
+constexpr double inertia_tolerance = 1e-3;
+/// Moments smaller than this share of their sum are not given.
+constexpr double not_given = 1e-9;
+
+struct RulesOfSection {
+  using Rules = std::vector<SectionRule>;
+  Rules operator()(const RectangleSection&) const { return {}; }
+  Rules operator()(const CircleSection&) const { return {}; }
+  Rules operator()(const EllipseSection&) const { return {}; }
+  Rules operator()(const GeneralSection&) const { return {}; }
+  Rules operator()(const TubeSection& tube) const {
+    return {{"thickness", tube.thickness, "the radius", tube.outer_diameter, 0.5, " of the tube"}};
+  }
+  Rules operator()(const BoxSection& box) const {
+    return {{"thickness", box.thickness, "half the width", box.width, 0.5, " of the box"},
+            {"thickness", box.thickness, "half the height", box.height, 0.5, " of the box"}};
+  }
+  /// The torsion constant of an I is known up to a web of three times the flange.
+  Rules operator()(const ISection& i) const {
+    return {{"flange_thickness", i.flange_thickness, "half the height", i.height, 0.5, ""},
+            {"web_thickness", i.web_thickness, "the width", i.width, 1.0, ""},
+            {"web_thickness", i.web_thickness, "three times the flange thickness",
+             i.flange_thickness, 3.0, ""}};
+  }
+};
+
+Eigen::Vector3d principal_moments(const RigidBody& body, const Design<double>& design) {
+  const auto entry = [&](std::size_t i) { return resolve(body.inertia[i], design); };
+  Eigen::Matrix3d inertia;
+  inertia << entry(0), entry(3), entry(4), entry(3), entry(1), entry(5), entry(4), entry(5),
+      entry(2);
+  return inertia.selfadjointView<Eigen::Lower>().eigenvalues();
+}
+
+/// Coefficients of size − share · limit, by variable.
+std::map<int, double> coefficients_of(const SectionRule& rule) {
+  std::map<int, double> coefficients;
+  if (rule.size.is_bound()) coefficients[rule.size.variable] += rule.size.factor;
+  if (rule.of.is_bound()) coefficients[rule.of.variable] -= rule.share * rule.of.factor;
+  return coefficients;
+}
+
+class Corners {
+ public:
+  explicit Corners(const ProblemFile& problem) : problem_(problem) {
+    for (const DesignVariable& variable : problem.variables) start_.push_back(variable.start);
+  }
+
+  std::vector<std::string> find() && {
+    for (const Body& body : problem_.scene.bodies) {
+      if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
+        for (const Segment& segment : beam->segments) {
+          for (const SectionRule& rule : section_rules(segment.section)) look_at(body, rule);
+        }
+      } else if (const auto* rigid = std::get_if<RigidBody>(&body.shape)) {
+        look_at(body, *rigid);
+      }
+    }
+    return std::move(sentences_);
+  }
+
+ private:
+  const DesignVariable& variable(int index) const {
+    return problem_.variables[static_cast<std::size_t>(index)];
+  }
+
+  /// The rule is linear: it is broken most where each variable is at one certain bound.
+  void look_at(const Body& body, const SectionRule& rule) {
+    const std::map<int, double> coefficients = coefficients_of(rule);
+    Corner corner;
+    for (const auto& [index, coefficient] : coefficients) {
+      corner[index] = coefficient > 0.0 ? variable(index).upper : variable(index).lower;
+    }
+    const auto broken = complaint(rule, at(corner), design_tolerance);
+    if (!broken || is_excluded(corner)) return;
+    std::string terms;
+    for (const auto& [index, coefficient] : coefficients) {
+      if (coefficient == 0.0) continue;
+      terms += fmt::format("{}\"{}\": {:g}", terms.empty() ? "" : ", ", variable(index).name,
+                           coefficient);
+    }
+    const double limit = rule.share * rule.of.constant - rule.size.constant;
+    add(body, "section's " + std::string(rule.key), *broken, corner,
+        fmt::format("other bounds, or a constraint {{\"linear\": {{{}}}, \"upper\": {:g}}}", terms,
+                    limit));
+  }
+
+  void look_at(const Body& body, const RigidBody& rigid) {
+    std::vector<int> bound;
+    for (const Number& number : rigid.inertia) {
+      const bool is_new = std::find(bound.begin(), bound.end(), number.variable) == bound.end();
+      if (number.is_bound() && is_new) bound.push_back(number.variable);
+    }
+    for (unsigned bits = 0; bits < (1U << bound.size()); ++bits) {
+      Corner corner;
+      for (std::size_t i = 0; i < bound.size(); ++i) {
+        const DesignVariable& of = variable(bound[i]);
+        corner[bound[i]] = (bits >> i) % 2 == 1 ? of.upper : of.lower;
+      }
+      const auto broken = inertia_complaint(rigid, at(corner));
+      if (!broken || is_excluded(corner)) continue;
+      add(body, "inertia", *broken, corner, "other bounds");
+      return;
+    }
+  }
+
+  using Corner = std::map<int, double>;  ///< by variable
+
+  Design<double> at(const Corner& corner) const {
+    Design<double> design = start_;
+    for (const auto& [index, value] : corner) design[static_cast<std::size_t>(index)] = value;
+    return design;
+  }
+
+  /// Whether a linear constraint cannot hold there, whatever the other variables are.
+  bool is_excluded(const Corner& corner) const {
+    const auto excludes = [&](const ConstraintSettings& constraint) {
+      double least = 0.0, most = 0.0;
+      for (const auto& [index, coefficient] : constraint.linear) {
+        const auto fixed = corner.find(index);
+        const double one =
+            coefficient * (fixed == corner.end() ? variable(index).lower : fixed->second);
+        const double other =
+            coefficient * (fixed == corner.end() ? variable(index).upper : fixed->second);
+        least += std::min(one, other);
+        most += std::max(one, other);
+      }
+      return (constraint.upper && least > *constraint.upper) ||
+             (constraint.lower && most < *constraint.lower);
+    };
+    return std::any_of(problem_.constraints.begin(), problem_.constraints.end(),
+                       [&](const ConstraintSettings& constraint) {
+                         return !constraint.linear.empty() && excludes(constraint);
+                       });
+  }
+
+  void add(const Body& body, const std::string& what, const std::string& broken,
+           const Corner& corner, const std::string& remedy) {
+    std::string place;
+    for (const auto& [index, value] : corner) {
+      place += fmt::format("{}{} = {:g}", place.empty() ? "" : ", ", variable(index).name, value);
+    }
+    sentences_.push_back(
+        fmt::format("the bounds allow an impossible body \"{}\" (its {} {}, at {}); such designs "
+                    "cannot be evaluated: give {}",
+                    body.name, what, broken, place, remedy));
+  }
+
+  const ProblemFile& problem_;
+  Design<double> start_;
+  std::vector<std::string> sentences_;
+};
+
+}  // namespace
+
+std::vector<SectionRule> section_rules(const Section& section) {
+  return std::visit(RulesOfSection{}, section);
+}
+
+std::optional<std::string> complaint(const SectionRule& rule, const Design<double>& design,
+                                     double tolerance) {
+  const double value = resolve(rule.size, design), limit = rule.share * resolve(rule.of, design);
+  if (value <= limit * (1.0 + tolerance)) return std::nullopt;
+  return fmt::format("must not exceed {} {:g} [m]{}, got {:g}", rule.limit, limit, rule.owner,
+                     value);
+}
+
+std::optional<std::string> inertia_complaint(const RigidBody& body, const Design<double>& design) {
+  const Eigen::Vector3d moments = principal_moments(body, design);  // in increasing order
+  const double sum = moments.cwiseAbs().sum();
+  if (moments(0) < -not_given * sum) {
+    return "must have no negative principal moment (xx, yy, zz, xy, xz, yz)";
+  }
+  const bool about_one_axis = moments(1) <= not_given * sum;
+  if (about_one_axis || moments(2) <= moments(0) + moments(1) + inertia_tolerance * sum) {
+    return std::nullopt;
+  }
+  return fmt::format(
+      "must have no principal moment above the sum of the other two ({:g} > {:g} + {:g} kg m^2)",
+      moments(2), moments(0), moments(1));
+}
+
+std::optional<std::string> find_impossible(const Body& body, const Design<double>& design) {
+  if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
+    for (const Segment& segment : beam->segments) {
+      for (const SectionRule& rule : section_rules(segment.section)) {
+        const auto broken = complaint(rule, design, design_tolerance);
+        if (broken) return fmt::format("its section's {} {}", rule.key, *broken);
+      }
+    }
+  } else if (const auto* rigid = std::get_if<RigidBody>(&body.shape)) {
+    const auto broken = inertia_complaint(*rigid, design);
+    if (broken) return "its inertia " + *broken;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> impossible_corners(const ProblemFile& problem) {
+  return Corners(problem).find();
+}
+
+}  // namespace pleuel
