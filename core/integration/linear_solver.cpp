@@ -187,7 +187,7 @@ LinearSolver::LinearSolver(const Matrix& pattern)
   klu.matrix = pattern;
   klu.pivoted_values.resize(pattern.nonZeros());
   klu_defaults(&klu.common);
-  klu.common.scale = 0;  // done here
+  klu.common.scale = -1;  // done here; the pattern needs no check in each factorisation
   klu.symbolic =
       klu_analyze(static_cast<int>(pattern.rows()), klu.starts(), klu.rows(), &klu.common);
   assert(klu.symbolic != nullptr);
