@@ -1,5 +1,7 @@
 #include "core/effects/floating_frame_body.hpp"
 
+#include <array>
+
 #include "core/effects/invariant_sums.hpp"
 
 namespace pleuel {
@@ -9,18 +11,28 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// out = left · right, column by column; `Rows` of `left` where the compiler may know them.
+/// With all pairs (k, l), see CouplingRows.
+constexpr std::size_t most_coupling_rows = 12 + 2 * 9;
+
+/// out = left · right, column by column, without columns of `left` that are zero (most are in a
+/// plane); `Rows` of it where the compiler may know them.
 template <int Rows>
 void multiply_columns(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right, double* out) {
   constexpr int most = Rows == Eigen::Dynamic ? 12 : Rows;
   using Column = Eigen::Matrix<double, Rows, 1, 0, most, 1>;
   const Eigen::Index rows = left.rows();
+  const auto column = [&](Eigen::Index k) {
+    return Eigen::Map<const Column>(left.data() + k * rows, rows);
+  };
+  std::array<Eigen::Index, most_coupling_rows> used;
+  std::size_t count = 0;
+  for (Eigen::Index k = 0; k < left.cols(); ++k) {
+    if (!column(k).isZero(0.0)) used[count++] = k;
+  }
   for (Eigen::Index i = 0; i < right.cols(); ++i) {
     const double* factor = right.col(i).data();
     Column sum = Column::Zero(rows);
-    for (Eigen::Index k = 0; k < left.cols(); ++k) {
-      sum += factor[k] * Eigen::Map<const Column>(left.data() + k * rows, rows);
-    }
+    for (std::size_t k = 0; k < count; ++k) sum += factor[used[k]] * column(used[k]);
     Eigen::Map<Column>(out + i * rows, rows) = sum;
   }
 }

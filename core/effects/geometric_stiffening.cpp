@@ -29,20 +29,36 @@ void GeometricStiffening::declare_entries(EntryList& entries) const {
 }
 
 void GeometricStiffening::evaluate(const StiffeningElement& element, const State& state) {
-  const auto size = static_cast<Eigen::Index>(element.coordinates.size());
-  strain_.q.resize(size);
-  strain_.v.resize(size);
-  for (Eigen::Index i = 0; i < size; ++i) {
-    strain_.q(i) = state.q(element.coordinates[static_cast<std::size_t>(i)]);
-    strain_.v(i) = state.v(element.coordinates[static_cast<std::size_t>(i)]);
+  if (element.coordinates.size() == 6) {
+    evaluate<6>(element, state);  // planar motion
+  } else {
+    evaluate<Eigen::Dynamic>(element, state);
   }
-  strain_.gradient = element.slopes.lazyProduct(strain_.q);
-  strain_.slope_v = element.slopes.lazyProduct(strain_.v);
-  strain_.linear = element.elongation.dot(strain_.q);
-  strain_.linear_rate = element.elongation.dot(strain_.v);
-  strain_.total = strain_.linear + 0.5 * strain_.q.dot(strain_.gradient);
-  strain_.total_rate = strain_.linear_rate + strain_.v.dot(strain_.gradient);
-  strain_.gradient += element.elongation;
+}
+
+/// `Size` is the number of coordinates where the compiler may know it.
+template <int Size>
+void GeometricStiffening::evaluate(const StiffeningElement& element, const State& state) {
+  constexpr int most = Size == Eigen::Dynamic ? 12 : Size;
+  using Vector = Eigen::Matrix<double, Size, 1, 0, most, 1>;
+  const auto size = static_cast<Eigen::Index>(element.coordinates.size());
+  Vector q(size), v(size), slope_q = Vector::Zero(size), slope_v = slope_q;
+  for (Eigen::Index i = 0; i < size; ++i) {
+    q(i) = state.q(element.coordinates[static_cast<std::size_t>(i)]);
+    v(i) = state.v(element.coordinates[static_cast<std::size_t>(i)]);
+    const Eigen::Map<const Vector> slopes(element.slopes.data() + i * size, size);
+    slope_q += q(i) * slopes;
+    slope_v += v(i) * slopes;
+  }
+  const Vector elongation = element.elongation;
+  strain_.linear = elongation.dot(q);
+  strain_.linear_rate = elongation.dot(v);
+  strain_.total = strain_.linear + 0.5 * q.dot(slope_q);
+  strain_.total_rate = strain_.linear_rate + v.dot(slope_q);
+  strain_.q = q;
+  strain_.v = v;
+  strain_.gradient = elongation + slope_q;
+  strain_.slope_v = slope_v;
 }
 
 /// f/κ
@@ -87,7 +103,6 @@ void GeometricStiffening::linearize(const State& state, const WeightList& weight
   }
 }
 
-/// `Size` is the number of coordinates where the compiler may know it.
 template <int Size>
 void GeometricStiffening::write_element(const StiffeningElement& element, const Weights& weights,
                                         double* entries) const {

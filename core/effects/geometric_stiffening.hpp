@@ -65,6 +65,8 @@ class GeometricStiffening : public Term {
     bool is_of_shape;  ///< not of κ alone
   };
   void evaluate(const StiffeningElement& element, const State& state);
+  template <int Size>
+  void evaluate(const StiffeningElement& element, const State& state);
   /// Sums of an element: those of κ, of β, of Ĝ.
   static Eigen::Index sum_count(const StiffeningElement& element) {
     return 2 + element.slopes.size();

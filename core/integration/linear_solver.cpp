@@ -44,6 +44,7 @@ struct LinearSolver::Implementation {
   Matrix matrix;         ///< pattern and the scaled values factorised last
   double largest = 0.0;  ///< of their magnitudes
   Eigen::VectorXd row_scale, column_scale;
+  Eigen::ArrayXd scales;           ///< of the values: row times column
   Eigen::VectorXd pivoted_values;  ///< scaled, for which pivots were last chosen
   int pivot_choices = 0;
   Eigen::MatrixXd rhs, residual;              ///< scratch
@@ -72,17 +73,22 @@ struct LinearSolver::Implementation {
     };
     note(row_scale, true);
     note(column_scale, false);
+    set_scales();
+  }
+
+  /// What scaled values are multiplied with.
+  void set_scales() {
+    scales.resize(matrix.nonZeros());
+    for (int col = 0; col < matrix.cols(); ++col) {
+      for (int k = starts()[col]; k < starts()[col + 1]; ++k) {
+        scales(k) = row_scale(rows()[k]) * column_scale(col);
+      }
+    }
   }
 
   void take(const Matrix& unscaled) {
-    largest = 0.0;
-    for (int col = 0; col < matrix.cols(); ++col) {
-      for (int k = starts()[col]; k < starts()[col + 1]; ++k) {
-        const double value = row_scale(rows()[k]) * column_scale(col) * unscaled.valuePtr()[k];
-        values()[k] = value;
-        largest = std::max(largest, std::abs(value));
-      }
-    }
+    matrix.coeffs() = scales * unscaled.coeffs();
+    largest = matrix.coeffs().abs().maxCoeff();
   }
 
   bool refactorize(const Matrix& unscaled) {
@@ -260,6 +266,7 @@ void LinearSolver::use_pivots(const Pivots& pivots) {
   }
   klu.row_scale = pivots.row_scale;
   klu.column_scale = pivots.column_scale;
+  klu.set_scales();
   Eigen::Map<Eigen::VectorXd>(klu.values(), klu.matrix.nonZeros()) = pivots.values;
   klu.choose_pivots();
 }
