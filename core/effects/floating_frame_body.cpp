@@ -1,6 +1,7 @@
 #include "core/effects/floating_frame_body.hpp"
 
 #include <array>
+#include <limits>
 
 #include "core/effects/invariant_sums.hpp"
 
@@ -58,6 +59,8 @@ FloatingFrameBody::FloatingFrameBody(
       invariants_(std::move(invariants)),
       layout_(invariants_),
       gravity_(gravity) {
+  evaluated_.setConstant(frame_.size() + invariants_.size(), 3,
+                         std::numeric_limits<double>::quiet_NaN());
   frame_block_.resize(frame_.size(), frame_.size());
   coupling_.resize(2 * frame_.size(), CouplingRows(invariants_).count);
   elastic_.resize(invariants_.pattern.nonzeros(), 3 + invariants_.moments.cols());
@@ -96,20 +99,23 @@ void FloatingFrameBody::declare_entries(EntryList& entries) const {
   }
 }
 
+/// Nothing is left to do at the state evaluated last.
 void FloatingFrameBody::evaluate(const State& state) {
-  const int m = frame_.size(), n = invariants_.size();
-  motion_ =
-      frame_motion<double>(frame_, state.q.segment(frame_.offset, m),
-                           state.v.segment(frame_.offset, m), state.a.segment(frame_.offset, m));
-  products_.q = state.q.segment(frame_.offset + m, n);
-  products_.v = state.v.segment(frame_.offset + m, n);
-  products_.a = state.a.segment(frame_.offset + m, n);
+  const int m = frame_.size(), n = invariants_.size(), first = frame_.offset;
+  const auto q = state.q.segment(first, m + n), v = state.v.segment(first, m + n),
+             a = state.a.segment(first, m + n);
+  if (evaluated_.col(0) == q && evaluated_.col(1) == v && evaluated_.col(2) == a) return;
+  evaluated_ << q, v, a;
+  motion_ = frame_motion<double>(frame_, q.head(m), v.head(m), a.head(m));
+  products_.q = q.tail(n);
+  products_.v = v.tail(n);
+  products_.a = a.tail(n);
+  evaluate_body(invariants_, motion_, gravity_, products_);
 }
 
 void FloatingFrameBody::add_residual(const State& state, ConstraintLevel,
                                      Eigen::VectorXd& residual) {
   evaluate(state);
-  evaluate_body(invariants_, motion_, gravity_, products_);
   add_body_forces(invariants_, frame_, motion_, products_, frame_.offset, residual);
 }
 
@@ -143,7 +149,6 @@ void FloatingFrameBody::add_design_sums(const State& state, ConstraintLevel, con
                                         Columns sums) {
   if (!is_designed()) return;
   evaluate(state);
-  evaluate_body(invariants_, motion_, gravity_, products_);
   const int k = frame_.translations(), rotations = frame_.rotations();
   for (Eigen::Index i = 0; i < mu.cols(); ++i) {
     const auto of_body = mu.col(i).segment(frame_.offset, frame_.size() + invariants_.size());

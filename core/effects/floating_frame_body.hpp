@@ -67,6 +67,7 @@ class FloatingFrameBody : public Term {
   Eigen::Vector3d gravity_;
 
   // Scratch of one evaluation.
+  Eigen::MatrixXd evaluated_;  ///< q, v, a of all coordinates where it was
   FrameMotion<double> motion_;
   BodyProducts products_;
   Eigen::MatrixXd frame_block_;  ///< m × m

@@ -10,11 +10,11 @@ namespace {
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using Vector9 = Eigen::Matrix<double, 9, 1>;
 
-/// Sums over the elastic coordinates; S̄ and W times q_f, q̇_f, q̈_f.
+/// S̄, H and W times q_f, q̇_f, q̈_f.
 struct ElasticSums {
   Vector3d shape_q = Vector3d::Zero(), shape_v = Vector3d::Zero(), shape_a = Vector3d::Zero();
-  Vector9 mixed_q = Vector9::Zero();
-  Vector9 weighted_q = Vector9::Zero(), weighted_v = Vector9::Zero(), weighted_a = Vector9::Zero();
+  Vector9 mixed_q = Vector9::Zero(), mixed_v = Vector9::Zero(), mixed_a = Vector9::Zero();
+  Vector9 weighted_q, weighted_v, weighted_a;
 };
 
 Matrix3d square(const Vector9& rows) {
@@ -36,6 +36,7 @@ ElasticSums multiply_elastic(const Invariants<double>& body, BodyProducts& out) 
     transposed[p] = 3 * body.pairs[p].second + body.pairs[p].first;
   }
   ElasticSums sums;
+  Column q_of_q = Column::Zero(pairs), v_of_q = q_of_q, a_of_q = q_of_q;
   for (int row = 0; row < n; ++row) {
     Column of_q = Column::Zero(pairs), of_v = of_q, of_a = of_q;
     double force = 0.0;
@@ -52,13 +53,12 @@ ElasticSums multiply_elastic(const Invariants<double>& body, BodyProducts& out) 
     out.forces(row) = force;
     const Eigen::Map<const Vector3d> shape(body.shape.data() + 3 * row);
     const Eigen::Map<const Vector9> mixed(body.mixed.data() + 9 * row);
-    Vector9 weighted = mixed;
-    for (Eigen::Index p = 0; p < of_q.size(); ++p) {
-      weighted(transposed[static_cast<std::size_t>(p)]) += of_q(p);
-    }
     auto column = out.coupling.col(row);
     column.head<3>() = shape;
-    column.segment<9>(CouplingRows::weighted) = weighted;
+    column.segment<9>(CouplingRows::weighted) = mixed;
+    for (Eigen::Index p = 0; p < of_q.size(); ++p) {
+      column(CouplingRows::weighted + transposed[static_cast<std::size_t>(p)]) += of_q(p);
+    }
     column.segment<Pairs>(CouplingRows::rate, pairs) = of_v;
     column.segment<Pairs>(rows.acceleration, pairs) = of_a;
     const double q = out.q(row), v = out.v(row), a = out.a(row);
@@ -66,9 +66,20 @@ ElasticSums multiply_elastic(const Invariants<double>& body, BodyProducts& out) 
     sums.shape_v += v * shape;
     sums.shape_a += a * shape;
     sums.mixed_q += q * mixed;
-    sums.weighted_q += q * weighted;
-    sums.weighted_v += v * weighted;
-    sums.weighted_a += a * weighted;
+    sums.mixed_v += v * mixed;
+    sums.mixed_a += a * mixed;
+    q_of_q += q * of_q;
+    v_of_q += v * of_q;
+    a_of_q += a * of_q;
+  }
+  sums.weighted_q = sums.mixed_q;
+  sums.weighted_v = sums.mixed_v;
+  sums.weighted_a = sums.mixed_a;
+  for (Eigen::Index p = 0; p < q_of_q.size(); ++p) {
+    const int place = transposed[static_cast<std::size_t>(p)];
+    sums.weighted_q(place) += q_of_q(p);
+    sums.weighted_v(place) += v_of_q(p);
+    sums.weighted_a(place) += a_of_q(p);
   }
   return sums;
 }
