@@ -22,8 +22,8 @@ constexpr double poor = 1e-10;
 /// refined; with 0.1 hardly any has, at about the same fill.
 constexpr double least_pivot = 0.1;
 
-/// With so many right-hand sides the factors are copied for all of them at once.
-constexpr Eigen::Index least_columns = 16;
+/// With so many right-hand sides, more than KLU takes at a time, the factors are copied for all.
+constexpr Eigen::Index least_columns = 5;
 
 using Block = Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
