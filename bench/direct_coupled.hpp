@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/response/response.hpp"
+#include "core/response/analysis.hpp"
 #include "sensitivity/sampled_gradients.hpp"
 
 namespace pleuel::bench {

@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include "core/response/response.hpp"
+#include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "sensitivity/direct.hpp"
 #include "studies/stability.hpp"

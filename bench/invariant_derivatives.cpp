@@ -50,7 +50,8 @@ void print_table(double end_time) {
   for (const InvariantDerivatives choice : {central, forward}) {
     for (const double step : {1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 0.0}) {
       const std::string text = step > 0.0 ? fmt::format("{:.0e}", step) : "default";
-      fmt::print("| {} | {} | {:.0e} |\n", to_string(choice), text, error({choice, step}));
+      fmt::print("| {} | {} | {:.0e} |\n", word_of(invariant_derivatives, choice), text,
+                 error({choice, step}));
     }
   }
 }

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "cli/json.hpp"
-#include "core/response/response.hpp"
+#include "core/response/analysis.hpp"
 
 /// What simulate, gradient and check have in common to say of one simulated design.
 namespace pleuel {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cli/json.hpp"
-#include "core/response/response.hpp"
+#include "core/response/analysis.hpp"
 #include "studies/derivative_check.hpp"
 
 /// What check has to say of values and derivatives.

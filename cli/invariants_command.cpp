@@ -9,8 +9,8 @@
 #include "cli/table.hpp"
 #include "cli/variable_quantity.hpp"
 #include "core/base/error.hpp"
+#include "core/response/analysis.hpp"
 #include "core/response/body_export.hpp"
-#include "core/response/response.hpp"
 #include "core/scene/invariants_file.hpp"
 
 namespace pleuel {

@@ -9,7 +9,7 @@
 
 #include "cli/design_file.hpp"
 #include "core/model/effect_estimates.hpp"
-#include "core/response/response.hpp"
+#include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/scene/reading/override.hpp"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/json.hpp"
-#include "core/response/response.hpp"
+#include "core/response/analysis.hpp"
 
 /// Maxima that two peaks share. If the peaks move alike with the design that is no harm; if not,
 /// the response has a kink there, and its gradient is that of the higher peak only.

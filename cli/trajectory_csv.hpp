@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "core/response/response.hpp"
+#include "core/response/analysis.hpp"
 
 namespace pleuel {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/response/response.hpp"
+#include "core/response/analysis.hpp"
 #include "optimization/problem.hpp"
 #include "sensitivity/gradients.hpp"
 

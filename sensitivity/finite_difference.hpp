@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "core/response/response.hpp"
+#include "core/response/analysis.hpp"
 
 namespace pleuel {
 

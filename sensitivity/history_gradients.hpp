@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/response/response.hpp"
+#include "core/response/analysis.hpp"
 
 namespace pleuel {
 

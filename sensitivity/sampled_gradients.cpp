@@ -34,8 +34,7 @@ class SampledGradients {
         gradients_(Gradients::Zero(static_cast<Eigen::Index>(values.size()),
                                    mechanism_.system->variables())),
         part_(mechanism_.system->coordinates(), mechanism_.system->multipliers(),
-              mechanism_.system->variables()),
-        zero_(part_) {
+              mechanism_.system->variables()) {
     for (std::size_t i = 0; i < values.size(); ++i) add_value(i, values[i]);
   }
 
@@ -109,7 +108,7 @@ class SampledGradients {
     const auto found = uses_.find(step);
     if (found == uses_.end()) return;
     for (const Use& use : found->second) {
-      part_ = zero_;
+      part_.set_zero();
       use.signal->add_gradient(state, use.channel, use.weight, part_);
       visit(use);
     }
@@ -134,7 +133,6 @@ class SampledGradients {
   Gradients gradients_;
   std::map<int, std::vector<Use>> uses_;  ///< by step
   SignalGradient part_;                   ///< scratch
-  const SignalGradient zero_;
 };
 
 /// What is measured in the mechanism without elasticity, and which of the values it is taken from.

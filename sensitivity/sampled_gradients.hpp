@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/response/response.hpp"
+#include "core/response/analysis.hpp"
 
 namespace pleuel {
 

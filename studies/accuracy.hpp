@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/response/response.hpp"
+#include <Eigen/Core>
+
+#include "core/scene/problem_file.hpp"
 
 namespace pleuel {
 

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/response/response.hpp"
+#include "core/response/analysis.hpp"
 #include "studies/derivative_verdict.hpp"
 
 namespace pleuel {

@@ -8,7 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/parallel.hpp"
-#include "core/response/response.hpp"
+#include "core/response/analysis.hpp"
 
 namespace pleuel {
 

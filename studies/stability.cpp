@@ -4,8 +4,8 @@
 
 #include "core/base/error.hpp"
 #include "core/model/effect_estimates.hpp"
+#include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"
-#include "core/response/response.hpp"
 #include "core/scene/problem_reader.hpp"
 
 namespace pleuel {

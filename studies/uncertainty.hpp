@@ -3,7 +3,9 @@
 #include <functional>
 #include <optional>
 
-#include "core/response/response.hpp"
+#include <Eigen/Core>
+
+#include "core/scene/problem_file.hpp"
 
 namespace pleuel {
 

@@ -167,19 +167,6 @@ std::vector<std::string> coordinate_names(const BodyModel& body) {
   return names;
 }
 
-std::string condition_name(ReferenceCondition condition) {
-  switch (condition) {
-    case ReferenceCondition::tangent:
-      return "tangent";
-    case ReferenceCondition::tangent_end:
-      return "tangent-end";
-    case ReferenceCondition::chord:
-      return "chord";
-    default:
-      return "mean-axis";
-  }
-}
-
 /// An imported body goes on as it came, at the design of the model.
 InvariantsFile pass_on(const ImportedBody& imported, const BodyModel& model) {
   InvariantsFile file = *imported.file;
@@ -205,7 +192,7 @@ InvariantsFile export_body(const ProblemFile& problem, const Model& model, const
   InvariantsFile file;
   file.body = name;
   file.description = fmt::format("of the problem {}", problem.name);
-  file.reference_condition = condition_name(std::get<BeamBody>(source->shape).frame);
+  file.reference_condition = word_of(reference_conditions, std::get<BeamBody>(source->shape).frame);
   file.coordinates = coordinate_names(body);
   file.constants = beam.constants();
   for (std::size_t k = 0; k < body.beam_x.size(); ++k) {

@@ -5,7 +5,6 @@
 #include "core/model/model.hpp"
 #include "core/response/place_kinematics.hpp"
 #include "core/response/signal.hpp"
-#include "core/scene/problem_file.hpp"
 
 /// What can be observed of bodies that are known by their invariants. The model must outlive the
 /// signals.
@@ -20,11 +19,5 @@ std::unique_ptr<Signal> make_imported_motion_signal(const BodyModel& body, const
 /// @param direction  0 … 2, local axes
 std::unique_ptr<Signal> make_imported_deflection_signal(const BodyModel& body,
                                                         const std::string& place, int direction);
-
-/// Stress at the points of the file [Pa]: von Mises, σ_xx (normal), or von Mises over the strength
-/// (utilization).
-std::unique_ptr<Signal> make_imported_stress_signal(const BodyModel& body,
-                                                    const Eigen::Vector3d& gravity,
-                                                    StressPart part);
 
 }  // namespace pleuel

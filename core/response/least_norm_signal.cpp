@@ -30,9 +30,7 @@ void LeastNormSignal::observe(const State& state, Eigen::Ref<Eigen::VectorXd> va
 void LeastNormSignal::add_gradient(const State& state, int channel, double weight,
                                    SignalGradient& gradient) {
   set(state);
-  for (auto* part : {&local_.q, &local_.v, &local_.a, &local_.lambda, &local_.design}) {
-    part->setZero();
-  }
+  local_.set_zero();
   inner_->add_gradient(least_, channel, weight, local_);
   const LeastNorm::Slope slope = norm_->slope(state.lambda, local_.lambda);
   gradient.v += local_.v;

@@ -23,9 +23,7 @@ void ProjectedSignal::scatter(const Eigen::VectorXd& local, Eigen::VectorXd& all
 void ProjectedSignal::add_gradient(const State& state, int channel, double weight,
                                    SignalGradient& gradient) {
   state_.set(map_, state);
-  for (auto* part : {&local_.q, &local_.v, &local_.a, &local_.lambda, &local_.design}) {
-    part->setZero();
-  }
+  local_.set_zero();
   inner_->add_gradient(state_.local, channel, weight, local_);
   scatter(local_.q, gradient.q);
   scatter(local_.v, gradient.v);

@@ -1,11 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
-#include <vector>
 
-#include "core/integration/simulate.hpp"
-#include "core/model/model.hpp"
 #include "core/response/reduction.hpp"
 #include "core/response/signal.hpp"
 
@@ -32,37 +30,7 @@ struct Response {
   StepRange steps(const Eigen::VectorXd& time) const;
 };
 
-/// Builds the responses of a model, which must outlive them.
-std::vector<Response> make_responses(const std::vector<ResponseSettings>& settings,
-                                     const Model& model);
-
-/// The history of a signal, channels × (steps + 1).
-Eigen::MatrixXd observe(Signal& signal, const Trajectory& trajectory);
-
-/// One simulated design: everything that values and gradients are made from.
-struct Analysis {
-  Model model;
-  Trajectory trajectory;
-  std::vector<Response> responses;
-  std::vector<Reduction> reductions;       ///< one a response
-  std::vector<Eigen::MatrixXd> histories;  ///< one a response; empty for constants
-  /// The same without elasticity, where a response is measured against it; else null.
-  std::unique_ptr<Analysis> rigid;
-};
-
-/// One a response [SI].
-Eigen::VectorXd values_of(const Analysis& analysis);
-
-/// Builds and simulates the mechanism of a problem at a design, and reduces its responses.
-/// @param x  design variables [SI]
-/// @throws SimulationError
-std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::VectorXd& x);
-
-/// The problem with the steps of a trajectory in place of those that the control of the local error
-/// would find: so that values at neighbouring designs differ smoothly. Without control, as it is.
-ProblemFile with_steps_of(const Trajectory& trajectory, ProblemFile problem);
-
-/// The start values of the design variables.
-Eigen::VectorXd start_design(const ProblemFile& problem);
+/// @throws InputError `the response "…" cannot be computed: …`
+[[noreturn]] void refuse_response(const std::string& name, const std::string& why);
 
 }  // namespace pleuel

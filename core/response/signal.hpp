@@ -17,6 +17,10 @@ struct SignalGradient {
         a(Eigen::VectorXd::Zero(coordinates)),
         lambda(Eigen::VectorXd::Zero(multipliers)),
         design(Eigen::VectorXd::Zero(variables)) {}
+
+  void set_zero() {
+    for (auto* part : {&q, &v, &a, &lambda, &design}) part->setZero();
+  }
 };
 
 /// Something that is observed at every instant: one or several numbers (channels), each a smooth

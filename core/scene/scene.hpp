@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/scene/body_constants.hpp"
+#include "core/scene/choices.hpp"
 #include "core/scene/time_function.hpp"
 
 /// What the user asked for: plain structs, no mathematics. Order is the order of the file.
@@ -85,6 +86,11 @@ enum class ReferenceCondition {
   chord,        ///< frame through both end nodes: rods between joints
   mean_axis     ///< no momentum relative to the frame (Tisserand)
 };
+inline constexpr Choice<ReferenceCondition> reference_conditions[] = {
+    {"tangent", ReferenceCondition::tangent},
+    {"tangent-end", ReferenceCondition::tangent_end},
+    {"chord", ReferenceCondition::chord},
+    {"mean-axis", ReferenceCondition::mean_axis}};
 
 /// Rayleigh damping of a body, D = mass · S_ff + stiffness · K, or modal damping of its elastic
 /// modes.

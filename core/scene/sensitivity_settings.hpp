@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "core/scene/choices.hpp"
+
 namespace pleuel {
 
 enum class GradientMethod {
@@ -12,7 +14,13 @@ enum class GradientMethod {
   central_difference
 };
 
-/// "auto", "direct", "adjoint", "forward-difference", "central-difference".
+inline constexpr Choice<GradientMethod> gradient_methods[] = {
+    {"auto", GradientMethod::automatic},
+    {"direct", GradientMethod::direct},
+    {"adjoint", GradientMethod::adjoint},
+    {"forward-difference", GradientMethod::forward_difference},
+    {"central-difference", GradientMethod::central_difference}};
+
 std::string to_string(GradientMethod method);
 
 /// @throws InputError for an unknown name; the message lists the names there are.
@@ -25,9 +33,11 @@ enum class InvariantDerivatives {
   central,       ///< differences of the invariants of two changed designs
   forward        ///< of one changed design and this one
 };
-
-/// "exact", "complex-step", "central", "forward".
-std::string to_string(InvariantDerivatives derivatives);
+inline constexpr Choice<InvariantDerivatives> invariant_derivatives[] = {
+    {"exact", InvariantDerivatives::exact},
+    {"complex-step", InvariantDerivatives::complex_step},
+    {"central", InvariantDerivatives::central},
+    {"forward", InvariantDerivatives::forward}};
 
 struct InvariantDifferentiation {
   InvariantDerivatives derivatives = InvariantDerivatives::exact;

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"
-#include "core/response/response.hpp"
 #include "tests/support/problem_runs.hpp"
 
 /// What the tests of hard cases share: the formulations that all of them run with, and short ways

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/response/analysis.hpp"
 #include "sensitivity/direct.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_scenes.hpp"

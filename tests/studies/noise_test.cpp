@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/response/response.hpp"
+#include "core/response/analysis.hpp"
 #include "tests/studies/quick_problem.hpp"
 
 namespace pleuel {

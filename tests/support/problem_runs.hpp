@@ -1,6 +1,7 @@
 #pragma once
 
-#include "core/response/response.hpp"
+#include <Eigen/Core>
+
 #include "core/scene/problem_reader.hpp"
 
 /// A problem file of the repository, with overrides.

@@ -117,11 +117,7 @@ BeamBody read_beam(const JsonNode& node, const std::vector<std::string>& materia
   beam.material = read_known_name(node.at("material"), "material", materials);
   beam.segments = read_segments(node, numbers);
   if (const auto frame = node.find("frame")) {
-    beam.frame =
-        read_choice<ReferenceCondition>(*frame, {{"tangent", ReferenceCondition::tangent},
-                                                 {"tangent-end", ReferenceCondition::tangent_end},
-                                                 {"chord", ReferenceCondition::chord},
-                                                 {"mean-axis", ReferenceCondition::mean_axis}});
+    beam.frame = read_choice(*frame, reference_conditions);
   }
   read_elasticity(node, beam, numbers);
   if (const auto reference = node.find("reference")) {

@@ -7,31 +7,27 @@
 namespace pleuel {
 namespace {
 
-const Choices<JointType> joint_types = {{"revolute", JointType::revolute},
-                                        {"prismatic", JointType::prismatic},
-                                        {"fixed", JointType::fixed},
-                                        {"point-on-line", JointType::point_on_line},
-                                        {"cylindrical", JointType::cylindrical},
-                                        {"universal", JointType::universal},
-                                        {"spherical", JointType::spherical},
-                                        {"planar", JointType::planar},
-                                        {"distance", JointType::distance}};
+constexpr Choice<JointType> joint_types[] = {{"revolute", JointType::revolute},
+                                             {"prismatic", JointType::prismatic},
+                                             {"fixed", JointType::fixed},
+                                             {"point-on-line", JointType::point_on_line},
+                                             {"cylindrical", JointType::cylindrical},
+                                             {"universal", JointType::universal},
+                                             {"spherical", JointType::spherical},
+                                             {"planar", JointType::planar},
+                                             {"distance", JointType::distance}};
 
-std::string name_of(DrivenCoordinate coordinate) {
-  return coordinate == DrivenCoordinate::angle ? "angle" : "displacement";
-}
+constexpr Choice<DrivenCoordinate> coordinates[] = {
+    {"angle", DrivenCoordinate::angle}, {"displacement", DrivenCoordinate::displacement}};
 
 }  // namespace
 
 JointType read_joint_type(const JsonNode& node) {
-  return read_choice<JointType>(node, joint_types);
+  return read_choice(node, joint_types);
 }
 
 std::string name_of(JointType type) {
-  for (const auto& [word, meaning] : joint_types) {
-    if (meaning == type) return std::string(word);
-  }
-  return "";
+  return word_of(joint_types, type);
 }
 
 std::vector<DrivenCoordinate> drivable_coordinates(JointType type) {
@@ -58,12 +54,11 @@ DrivenCoordinate read_coordinate(const JsonNode& node, const Joint& joint) {
   const std::optional<JsonNode> key = node.find("coordinate");
   if (!key && possible.size() == 1) return possible.front();
   const JsonNode coordinate = node.at("coordinate");
-  const auto chosen = read_choice<DrivenCoordinate>(
-      coordinate,
-      {{"angle", DrivenCoordinate::angle}, {"displacement", DrivenCoordinate::displacement}});
+  const auto chosen = read_choice(coordinate, coordinates);
   if (possible.size() == 1 && chosen != possible.front()) {
     coordinate.fail_with_value(fmt::format("must be \"{}\" for a joint of the type \"{}\"",
-                                           name_of(possible.front()), name_of(joint.type)));
+                                           word_of(coordinates, possible.front()),
+                                           name_of(joint.type)));
   }
   return chosen;
 }

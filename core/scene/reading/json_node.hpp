@@ -1,12 +1,12 @@
 #pragma once
 
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "core/scene/choices.hpp"
 #include "core/scene/reading/json_text.hpp"
 
 namespace pleuel {
@@ -57,15 +57,12 @@ class JsonNode {
   std::string place_;
 };
 
-/// Words a user can choose from, and what they mean here.
-template <class Meaning>
-using Choices = std::initializer_list<std::pair<std::string_view, Meaning>>;
-
 /// Ends the reading: the node's text is none of the words.
 [[noreturn]] void fail_choice(const JsonNode& node, const std::vector<std::string>& words);
 
-template <class Meaning>
-Meaning read_choice(const JsonNode& node, Choices<Meaning> choices) {
+/// What the node's text, which must be one of the words, means.
+template <class Meaning, std::size_t count>
+Meaning read_choice(const JsonNode& node, const Choice<Meaning> (&choices)[count]) {
   std::vector<std::string> words;
   for (const auto& [word, meaning] : choices) {
     if (node.value().is_string() && node.value().get_ref<const std::string&>() == word) {

@@ -144,11 +144,7 @@ namespace {
 void read_invariant_derivatives(const JsonNode& node, InvariantDifferentiation& invariants) {
   using enum InvariantDerivatives;
   if (const auto derivatives = node.find("invariant_derivatives")) {
-    invariants.derivatives =
-        read_choice<InvariantDerivatives>(*derivatives, {{"exact", exact},
-                                                         {"complex-step", complex_step},
-                                                         {"central", central},
-                                                         {"forward", forward}});
+    invariants.derivatives = read_choice(*derivatives, invariant_derivatives);
   }
   const auto step = node.find("invariant_step");
   if (!step) return;
@@ -165,12 +161,7 @@ SensitivitySettings read_sensitivity(const JsonNode& node, const NumberReader& n
       {"method", "difference_step", "invariant_derivatives", "invariant_step", "memory"});
   SensitivitySettings settings;
   if (const auto method = node.find("method")) {
-    settings.method = read_choice<GradientMethod>(
-        *method, {{"auto", GradientMethod::automatic},
-                  {"direct", GradientMethod::direct},
-                  {"adjoint", GradientMethod::adjoint},
-                  {"forward-difference", GradientMethod::forward_difference},
-                  {"central-difference", GradientMethod::central_difference}});
+    settings.method = read_choice(*method, gradient_methods);
   }
   if (const auto step = node.find("difference_step")) {
     settings.difference_step = read_tolerance(*step);

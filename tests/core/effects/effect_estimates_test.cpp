@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/response/analysis.hpp"
 #include "tests/support/problem_runs.hpp"
 
 namespace {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/response/analysis.hpp"
 #include "tests/support/problem_runs.hpp"
 
 namespace {

@@ -2,6 +2,7 @@
 
 #include "core/base/error.hpp"
 #include "core/integration/initial_state.hpp"
+#include "core/response/analysis.hpp"
 #include "core/response/body_frequency.hpp"
 #include "core/response/mechanism_modes.hpp"
 #include "tests/core/response/response_samples.hpp"

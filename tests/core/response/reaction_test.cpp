@@ -2,6 +2,7 @@
 
 #include "core/integration/initial_state.hpp"
 #include "core/joints/joint_term.hpp"
+#include "core/response/analysis.hpp"
 #include "tests/core/response/response_samples.hpp"
 #include "tests/support/dense.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "core/response/response.hpp"
+#include "core/response/make_responses.hpp"
 #include "tests/support/random_state.hpp"
 #include "tests/support/sample_scenes.hpp"
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
+#include "core/response/analysis.hpp"
 #include "tests/core/response/response_samples.hpp"
 
 namespace {

@@ -1,0 +1,159 @@
+#include "core/response/analysis.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "core/response/make_responses.hpp"
+#include "core/response/mechanism_modes.hpp"
+#include "core/response/recorder.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// The whole mechanism's frequencies at the initial state.
+void set_mechanism_frequencies(Analysis& analysis) {
+  Eigen::VectorXd frequencies;
+  for (Response& response : analysis.responses) {
+    if (!response.mechanism_mode) continue;
+    if (frequencies.size() == 0) {
+      State initial;
+      analysis.trajectory.load(0, initial);
+      frequencies = mechanism_frequencies(analysis.model.mechanism, initial);
+    }
+    if (*response.mechanism_mode >= frequencies.size()) {
+      refuse_response(response.name, fmt::format("the mechanism has {} natural frequencies, not {}",
+                                                 frequencies.size(), *response.mechanism_mode + 1));
+    }
+    response.constant = frequencies(*response.mechanism_mode);
+  }
+}
+
+/// The problem without elasticity, for the positions that deflections are measured against.
+ProblemFile without_elasticity(const ProblemFile& problem) {
+  ProblemFile rigid = problem;
+  rigid.effects.elasticity = EffectChoice::off;
+  rigid.simulation.quasi_static_start = false;
+  std::erase_if(rigid.responses, [](const ResponseSettings& response) {
+    return response.against != DeflectionReference::rigid_mechanism;
+  });
+  for (ResponseSettings& response : rigid.responses) {
+    response.type = ResponseType::position;
+    response.against = DeflectionReference::frame;
+  }
+  return rigid;
+}
+
+/// Simulates the mechanism without elasticity where a response needs it.
+void set_rigid_mechanism(const ProblemFile& problem, const Eigen::VectorXd& x, Analysis& analysis) {
+  const ProblemFile rigid = without_elasticity(with_steps_of(analysis.trajectory, problem));
+  if (rigid.responses.empty()) return;
+  try {
+    analysis.rigid = analyze(rigid, x);
+  } catch (const SimulationError& error) {
+    throw SimulationError(
+        fmt::format("the mechanism without elasticity, which a deflection is measured against: {}",
+                    error.what()));
+  }
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < problem.responses.size(); ++i) {
+    if (problem.responses[i].against == DeflectionReference::rigid_mechanism) {
+      analysis.responses[i].rigid_response = next++;
+    }
+  }
+}
+
+/// Reduces a history over time; that of a balance becomes the error at each instant.
+Reduction reduce_history(const Response& response, const Eigen::VectorXd& time,
+                         Eigen::MatrixXd& history) {
+  const StepRange range = response.steps(time);
+  if (!response.is_balance) return reduce(response.over_time, time, history, range);
+  Reduction reduction = reduce_balance(time, history, range);
+  history = balance_history(time, history, range);
+  return reduction;
+}
+
+SimulationOptions options_of(const ProblemFile& problem) {
+  const SimulationSettings& settings = problem.simulation;
+  return {settings.end_time,
+          settings.step,
+          settings.spectral_radius,
+          settings.newton_tolerance,
+          settings.max_newton_iterations,
+          settings.scheme,
+          settings.formulation,
+          settings.local_error,
+          settings.smallest_step,
+          settings.instants,
+          problem.sensitivity.memory};
+}
+
+/// The history of a response, measured against the rigid mechanism if need be.
+Eigen::MatrixXd against_rigid(const Response& response, Eigen::MatrixXd history,
+                              const Analysis& analysis) {
+  if (!response.rigid_response) return history;
+  const Eigen::MatrixXd& rigid = analysis.rigid->histories[*response.rigid_response];
+  if (rigid.cols() != history.cols()) {
+    throw SimulationError(fmt::format(
+        "the deflection \"{}\" cannot be compared with the mechanism without elasticity: steps had "
+        "to be split in one of the two. Try a smaller /simulation/step",
+        response.name));
+  }
+  return history - rigid;
+}
+
+}  // namespace
+
+Eigen::VectorXd start_design(const ProblemFile& problem) {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(problem.variables.size()));
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    x(static_cast<Eigen::Index>(i)) = problem.variables[i].start;
+  }
+  return x;
+}
+
+ProblemFile with_steps_of(const Trajectory& trajectory, ProblemFile problem) {
+  if (problem.simulation.local_error == 0.0) return problem;
+  problem.simulation.instants.assign(trajectory.time.begin(), trajectory.time.end());
+  return problem;
+}
+
+Eigen::VectorXd values_of(const Analysis& analysis) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(analysis.reductions.size()));
+  for (std::size_t i = 0; i < analysis.reductions.size(); ++i) {
+    values(static_cast<Eigen::Index>(i)) = analysis.reductions[i].value;
+  }
+  return values;
+}
+
+std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::VectorXd& x) {
+  const Eigen::VectorXd start = start_design(problem);
+  const Design<double> design(x.begin(), x.end()), start_values(start.begin(), start.end());
+  auto analysis = std::make_unique<Analysis>();
+  analysis->model = build_model(problem.scene, problem.effects, start_values, design,
+                                problem.sensitivity.invariants);
+  analysis->model.mechanism.starts_in_equilibrium = problem.simulation.quasi_static_start;
+  analysis->responses = make_responses(problem.responses, analysis->model);
+  const SimulationOptions options = options_of(problem);
+  Recorder recorder(analysis->responses, step_count(options) + 1);
+  analysis->trajectory = simulate(analysis->model.mechanism, options,
+                                  [&](int step, const State& state) { recorder.see(step, state); });
+  analysis->histories = recorder.take(analysis->trajectory.steps() + 1);
+  set_mechanism_frequencies(*analysis);
+  set_rigid_mechanism(problem, x, *analysis);
+  for (std::size_t i = 0; i < analysis->responses.size(); ++i) {
+    const Response& response = analysis->responses[i];
+    Reduction reduction;
+    if (response.signal) {
+      Eigen::MatrixXd& history = analysis->histories[i];
+      history = against_rigid(response, std::move(history), *analysis);
+      reduction = reduce_history(response, analysis->trajectory.time, history);
+    } else {
+      reduction.value = response.constant;
+    }
+    analysis->reductions.push_back(std::move(reduction));
+  }
+  return analysis;
+}
+
+}  // namespace pleuel

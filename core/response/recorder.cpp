@@ -1,0 +1,29 @@
+#include "core/response/recorder.hpp"
+
+namespace pleuel {
+
+Recorder::Recorder(const std::vector<Response>& responses, int instants) : responses_(responses) {
+  for (const Response& response : responses) {
+    histories_.emplace_back(response.signal ? response.signal->channels() : 0,
+                            response.signal ? instants : 0);
+  }
+}
+
+void Recorder::see(int step, const State& state) {
+  for (std::size_t i = 0; i < responses_.size(); ++i) {
+    if (!responses_[i].signal) continue;
+    if (step == histories_[i].cols()) {
+      histories_[i].conservativeResize(Eigen::NoChange, step + step / 8 + 64);
+    }
+    responses_[i].signal->observe(state, histories_[i].col(step));
+  }
+}
+
+std::vector<Eigen::MatrixXd> Recorder::take(int instants) {
+  for (Eigen::MatrixXd& history : histories_) {
+    if (history.cols() > instants) history.conservativeResize(Eigen::NoChange, instants);
+  }
+  return std::move(histories_);
+}
+
+}  // namespace pleuel

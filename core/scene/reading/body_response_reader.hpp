@@ -1,0 +1,20 @@
+#pragma once
+
+#include "core/scene/reading/response_keys.hpp"
+
+/// Responses that are observed at one body: what each asks of a beam, another body or one of a
+/// file. Everything throws InputError.
+namespace pleuel {
+
+void read_stress(const JsonNode& node, const ResponseContext& context, ResponseSettings& response);
+
+void read_deflection(const JsonNode& node, const ResponseContext& context,
+                     ResponseSettings& response);
+
+void read_buckling(const JsonNode& node, const ResponseContext& context,
+                   ResponseSettings& response);
+
+/// Position, velocity or acceleration. The magnitude of a position would depend on the origin.
+void read_motion(const JsonNode& node, const ResponseContext& context, ResponseSettings& response);
+
+}  // namespace pleuel

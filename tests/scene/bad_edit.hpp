@@ -1,0 +1,25 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace pleuel::test {
+
+/// An edit of a good document and what the reader must say of it, after the name of the file.
+struct BadEdit {
+  std::string pointer;
+  std::string value;  ///< JSON, or "remove"
+  std::string message;
+};
+
+void PrintTo(const BadEdit& bad, std::ostream* stream);
+
+/// Of good_json(): every kind of mistake.
+class BadProblemFile : public testing::TestWithParam<BadEdit> {};
+
+/// Of good_mechanism(): what else bodies, joints, loads and responses can get wrong.
+class BadMechanismFile : public testing::TestWithParam<BadEdit> {};
+
+}  // namespace pleuel::test
