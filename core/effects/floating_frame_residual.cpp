@@ -1,5 +1,7 @@
 #include "core/effects/floating_frame_residual.hpp"
 
+#include <array>
+
 namespace pleuel {
 
 using Eigen::Matrix3d;
