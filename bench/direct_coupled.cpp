@@ -68,7 +68,7 @@ class CoupledBody final : public BorrowedTerm {
   FloatingFrameBody& body_;
   const BodyModel& model_;
   Eigen::Vector3d gravity_;
-  BodyProducts<double> products_;
+  BodyProducts products_;
 };
 
 const BodyModel* beam_of(const Model& model, const FloatingFrameBody& term) {

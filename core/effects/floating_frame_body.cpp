@@ -1,11 +1,55 @@
 #include "core/effects/floating_frame_body.hpp"
 
+#include <array>
+#include <limits>
+
 #include "core/effects/invariant_sums.hpp"
 
 namespace pleuel {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+
+namespace {
+
+/// With all pairs (k, l), see CouplingRows.
+constexpr std::size_t most_coupling_rows = 12 + 2 * 9;
+
+/// out = left · right, column by column, without columns of `left` that are zero (most are in a
+/// plane); `Rows` of it where the compiler may know them.
+template <int Rows>
+void multiply_columns(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right, double* out) {
+  constexpr int most = Rows == Eigen::Dynamic ? 12 : Rows;
+  using Column = Eigen::Matrix<double, Rows, 1, 0, most, 1>;
+  const Eigen::Index rows = left.rows();
+  const auto column = [&](Eigen::Index k) {
+    return Eigen::Map<const Column>(left.data() + k * rows, rows);
+  };
+  std::array<Eigen::Index, most_coupling_rows> used;
+  std::size_t count = 0;
+  for (Eigen::Index k = 0; k < left.cols(); ++k) {
+    if (!column(k).isZero(0.0)) used[count++] = k;
+  }
+  for (Eigen::Index i = 0; i < right.cols(); ++i) {
+    const double* factor = right.col(i).data();
+    Column sum = Column::Zero(rows);
+    for (std::size_t k = 0; k < count; ++k) sum += factor[used[k]] * column(used[k]);
+    Eigen::Map<Column>(out + i * rows, rows) = sum;
+  }
+}
+
+void multiply_columns(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right, double* out) {
+  switch (left.rows()) {
+    case 6:
+      return multiply_columns<6>(left, right, out);  // planar motion
+    case 12:
+      return multiply_columns<12>(left, right, out);  // spatial motion
+    default:
+      return multiply_columns<Eigen::Dynamic>(left, right, out);
+  }
+}
+
+}  // namespace
 
 FloatingFrameBody::FloatingFrameBody(
     std::string name, BodyFrame frame, Invariants<double> invariants,
@@ -15,8 +59,15 @@ FloatingFrameBody::FloatingFrameBody(
       invariants_(std::move(invariants)),
       layout_(invariants_),
       gravity_(gravity) {
-  rigid_elastic_.resize(6, invariants_.size());
-  elastic_rigid_.resize(invariants_.size(), 6);
+  evaluated_.setConstant(frame_.size() + invariants_.size(), 3,
+                         std::numeric_limits<double>::quiet_NaN());
+  frame_block_.resize(frame_.size(), frame_.size());
+  coupling_.resize(2 * frame_.size(), CouplingRows(invariants_).count);
+  elastic_.resize(invariants_.pattern.nonzeros(), 3 + invariants_.moments.cols());
+  if (elastic_.rows() > 0) {
+    elastic_ << invariants_.stiffness, invariants_.damping, invariants_.mass_matrix,
+        invariants_.moments;
+  }
   flat_derivatives_.resize(layout_.size(), static_cast<Eigen::Index>(derivatives.size()));
   derivatives_.reserve(derivatives.size());
   for (const auto& [variable, data] : derivatives) {
@@ -48,20 +99,23 @@ void FloatingFrameBody::declare_entries(EntryList& entries) const {
   }
 }
 
+/// Nothing is left to do at the state evaluated last.
 void FloatingFrameBody::evaluate(const State& state) {
-  const int m = frame_.size(), n = invariants_.size();
-  motion_ =
-      frame_motion<double>(frame_, state.q.segment(frame_.offset, m),
-                           state.v.segment(frame_.offset, m), state.a.segment(frame_.offset, m));
-  products_.q = state.q.segment(frame_.offset + m, n);
-  products_.v = state.v.segment(frame_.offset + m, n);
-  products_.a = state.a.segment(frame_.offset + m, n);
+  const int m = frame_.size(), n = invariants_.size(), first = frame_.offset;
+  const auto q = state.q.segment(first, m + n), v = state.v.segment(first, m + n),
+             a = state.a.segment(first, m + n);
+  if (evaluated_.col(0) == q && evaluated_.col(1) == v && evaluated_.col(2) == a) return;
+  evaluated_ << q, v, a;
+  motion_ = frame_motion<double>(frame_, q.head(m), v.head(m), a.head(m));
+  products_.q = q.tail(n);
+  products_.v = v.tail(n);
+  products_.a = a.tail(n);
+  evaluate_body(invariants_, motion_, gravity_, products_);
 }
 
 void FloatingFrameBody::add_residual(const State& state, ConstraintLevel,
                                      Eigen::VectorXd& residual) {
   evaluate(state);
-  evaluate_body(invariants_, motion_, gravity_, products_);
   add_body_forces(invariants_, frame_, motion_, products_, frame_.offset, residual);
 }
 
@@ -95,7 +149,6 @@ void FloatingFrameBody::add_design_sums(const State& state, ConstraintLevel, con
                                         Columns sums) {
   if (!is_designed()) return;
   evaluate(state);
-  evaluate_body(invariants_, motion_, gravity_, products_);
   const int k = frame_.translations(), rotations = frame_.rotations();
   for (Eigen::Index i = 0; i < mu.cols(); ++i) {
     const auto of_body = mu.col(i).segment(frame_.offset, frame_.size() + invariants_.size());
@@ -124,106 +177,96 @@ void FloatingFrameBody::linearize(const State& state, const WeightList& weights,
 
 /// From the products of the last evaluation.
 void FloatingFrameBody::write_tangent_of(const Weights& weights, double* entries) {
-  set_rigid_columns(weights);
-  set_elastic_columns(weights);
   const int m = frame_.size(), n = invariants_.size();
+  set_frame_columns(weights);
+  set_elastic_columns(weights);
   for (int i = 0; i < m; ++i) {
-    for (int j = 0; j < m; ++j) *entries++ = rigid_rigid_(i, j);
+    for (int j = 0; j < m; ++j) *entries++ = frame_block_(i, j);
   }
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < m; ++j) *entries++ = rigid_elastic_(j, i);
-    for (int j = 0; j < m; ++j) *entries++ = elastic_rigid_(i, j);
-  }
-  write_elastic_block(weights, entries);
+  multiply_columns(coupling_, products_.coupling, entries);
+  write_elastic_block(weights, entries + 2 * m * n);
 }
 
 /// Columns of the frame coordinates: the chain rule through a₀, ω and α.
-void FloatingFrameBody::set_rigid_columns(const Weights& weights) {
+void FloatingFrameBody::set_frame_columns(const Weights& weights) {
   const int k = frame_.translations(), m = frame_.size();
-  const BodyProducts<double>& p = products_;
+  const BodyProducts& p = products_;
+  const CouplingRows rows(invariants_);
   const Matrix3d omega = skew<double>(motion_.omega);
-  for (int j = 0; j < m; ++j) {
-    const bool turns = j >= k;
-    const int rotation = j - k;
-    Vector3d d_a0, d_omega = Vector3d::Zero(), d_alpha = Vector3d::Zero();
-    Matrix3d d_A = Matrix3d::Zero();
-    if (turns) {
-      d_A = weights.q * motion_.A_p[static_cast<std::size_t>(rotation)];
-      d_a0 = d_A.transpose() * (motion_.r_ddot - gravity_);
-      d_omega = weights.v * motion_.G.col(rotation);
-      d_alpha = weights.a * motion_.G.col(rotation);
-    } else {
-      d_a0 = weights.a * (motion_.A.transpose() * frame_.basis.col(j));
-    }
-    const Matrix3d d_w = skew<double>(d_omega);
-    const Matrix3d d_X = skew<double>(d_alpha) + d_w * omega + omega * d_w;
+  coupling_.bottomRows(m).setZero();
+  const auto set_column = [&](int j, const Vector3d& d_global, const Vector3d& d_moment,
+                              const Vector3d& d_a0) {
+    for (int i = 0; i < k; ++i) frame_block_(i, j) = frame_.basis.col(i).dot(d_global);
+    for (int i = 0; i < m - k; ++i) frame_block_(k + i, j) = motion_.G.col(i).dot(d_moment);
+    coupling_.row(m + j).head<3>() = d_a0;
+  };
+  for (int j = 0; j < k; ++j) {
+    const Vector3d d_a0 = weights.a * (motion_.A.transpose() * frame_.basis.col(j));
+    set_column(j, invariants_.mass * (motion_.A * d_a0), p.c.cross(d_a0), d_a0);
+  }
+  for (int j = k; j < m; ++j) {
+    const Vector3d turn = motion_.G.col(j - k);
+    const Matrix3d d_A = weights.q * motion_.A_p[static_cast<std::size_t>(j - k)];
+    const Vector3d d_a0 = d_A.transpose() * (motion_.r_ddot - gravity_);
+    const Matrix3d d_w = weights.v * skew<double>(turn);
+    const Matrix3d d_X = weights.a * skew<double>(turn) + d_w * omega + omega * d_w;
     const Matrix3d d_Y = 2.0 * d_w;
     const Vector3d d_force = invariants_.mass * d_a0 + d_X * p.c + d_Y * p.shape_v;
     const Matrix3d d_N = p.c * d_a0.transpose() + p.M * d_X.transpose() + p.B * d_Y.transpose();
-    const Vector3d d_global = motion_.A * d_force + d_A * p.force;
-    const Vector3d d_moment = axial<double>(d_N);
-    for (int i = 0; i < k; ++i) rigid_rigid_(i, j) = frame_.basis.col(i).dot(d_global);
-    for (int i = 0; i < m - k; ++i) rigid_rigid_(k + i, j) = motion_.G.col(i).dot(d_moment);
-    auto column = elastic_rigid_.col(j);
-    column.noalias() = invariants_.shape.transpose() * d_a0;
-    if (!turns) continue;
-    for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c < 3; ++c) {
-        if (d_X(r, c) != 0.0) column += d_X(r, c) * p.weighted.row(3 * c + r).transpose();
-      }
-    }
-    for (std::size_t i = 0; i < invariants_.pairs.size(); ++i) {
-      const auto [r, c] = invariants_.pairs[i];
-      column += d_Y(r, c) * p.moment_v.row(static_cast<int>(i)).transpose();
+    set_column(j, motion_.A * d_force + d_A * p.force, axial(d_N), d_a0);
+    // W_lk meets X_kl.
+    auto factors = coupling_.row(m + j);
+    factors.segment<9>(CouplingRows::weighted) = d_X.reshaped().transpose();
+    for (std::size_t pair = 0; pair < invariants_.pairs.size(); ++pair) {
+      const auto [r, c] = invariants_.pairs[pair];
+      factors(CouplingRows::rate + static_cast<Eigen::Index>(pair)) = d_Y(r, c);
     }
   }
 }
 
-/// Columns of the elastic coordinates in the rows of the frame.
+/// Columns of the elastic coordinates in the rows of the frame. With Q = w_q X + w_v Y + w_a I the
+/// change of f is Q S̄, and that of N is w_q (S̄ a₀ᵀ + Wᵀ Xᵀ + (S_kl q̇) Yᵀ + S_kl q̈) + W Qᵀ, of
+/// which g · axial N = Z : N takes Z = −g̃.
 void FloatingFrameBody::set_elastic_columns(const Weights& weights) {
   const int k = frame_.translations(), rotations = frame_.rotations();
-  const BodyProducts<double>& p = products_;
+  const BodyProducts& p = products_;
+  const CouplingRows rows(invariants_);
   Matrix3d Q = weights.q * p.X + weights.v * p.Y;
   Q.diagonal().array() += weights.a;
-  const Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> to_global =
-      (motion_.A.transpose() * frame_.basis);
-  for (int i = 0; i < invariants_.size(); ++i) {
-    const Vector3d d_force = Q * invariants_.shape.col(i);
-    for (int r = 0; r < k; ++r) rigid_elastic_(r, i) = to_global.col(r).dot(d_force);
-    if (rotations == 0) continue;
-    Matrix3d W;  // ∫ρ p_k S_l,i
-    for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c < 3; ++c) W(r, c) = p.weighted(3 * r + c, i);
-    }
-    // L_kl = ∫ρ S_k,i a_l
-    Matrix3d L = invariants_.shape.col(i) * p.a0.transpose() + W.transpose() * p.X.transpose();
+  coupling_.topRows(k).setZero();
+  for (int i = 0; i < k; ++i) {
+    coupling_.row(i).head<3>() = frame_.basis.col(i).transpose() * motion_.A * Q;
+  }
+  for (int i = 0; i < rotations; ++i) {
+    const Matrix3d Z = -skew<double>(motion_.G.col(i));
+    const Matrix3d ZY = weights.q * (Z * p.Y);
+    const Matrix3d of_W = weights.q * (Z * p.X).transpose() + Z * Q;
+    auto factors = coupling_.row(k + i);
+    factors.head<3>() = weights.q * (Z * p.a0);
+    factors.segment<9>(CouplingRows::weighted) = of_W.reshaped<Eigen::RowMajor>().transpose();
     for (std::size_t pair = 0; pair < invariants_.pairs.size(); ++pair) {
       const auto [r, c] = invariants_.pairs[pair];
-      const int row = static_cast<int>(pair);
-      L.row(r) += p.moment_v(row, i) * p.Y.col(c).transpose();
-      L(r, c) += p.moment_a(row, i);
-    }
-    const Vector3d d_moment = axial<double>(weights.q * L + W * Q.transpose());
-    for (int r = 0; r < rotations; ++r) {
-      rigid_elastic_(k + r, i) = motion_.G.col(r).dot(d_moment);
+      factors(CouplingRows::rate + static_cast<Eigen::Index>(pair)) = ZY(r, c);
+      factors(rows.acceleration + static_cast<Eigen::Index>(pair)) = weights.q * Z(r, c);
     }
   }
 }
 
 /// w_q (Σ X_kl S_kl + K) + w_v (Σ Y_kl S_kl + D) + w_a S_ff on the pattern of the body.
-void FloatingFrameBody::write_elastic_block(const Weights& weights, double*& entries) const {
+void FloatingFrameBody::write_elastic_block(const Weights& weights, double* entries) const {
+  Eigen::Map<Eigen::VectorXd> block(entries, elastic_.rows());
+  if (weights.q == 0.0 && weights.v == 0.0) {
+    block = weights.a * elastic_.col(2);
+    return;
+  }
   const Matrix3d moments = weights.q * products_.X + weights.v * products_.Y;
-  Eigen::Matrix<double, 9, 1> factor;
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 12, 1> factors(elastic_.cols());
+  factors.head<3>() << weights.q, weights.v, weights.a;
   for (std::size_t p = 0; p < invariants_.pairs.size(); ++p) {
-    factor(static_cast<int>(p)) = moments(invariants_.pairs[p].first, invariants_.pairs[p].second);
+    factors(3 + static_cast<Eigen::Index>(p)) =
+        moments(invariants_.pairs[p].first, invariants_.pairs[p].second);
   }
-  const auto pairs = static_cast<Eigen::Index>(invariants_.pairs.size());
-  for (int i = 0; i < invariants_.pattern.nonzeros(); ++i) {
-    double entry = weights.q * invariants_.stiffness(i) + weights.v * invariants_.damping(i) +
-                   weights.a * invariants_.mass_matrix(i);
-    for (Eigen::Index p = 0; p < pairs; ++p) entry += factor(p) * invariants_.moments(i, p);
-    *entries++ = entry;
-  }
+  block.noalias() = elastic_ * factors;
 }
 
 }  // namespace pleuel

@@ -44,33 +44,36 @@ class FloatingFrameBody : public Term {
   struct Derivative {
     int variable = 0;
     PartialInvariants invariants;
-    Eigen::VectorXd forces;         ///< scratch: frame, then those coordinates
-    BodyProducts<double> products;  ///< scratch
+    Eigen::VectorXd forces;  ///< scratch: frame, then those coordinates
+    BodyProducts products;   ///< scratch
   };
 
   bool is_designed() const { return !derivatives_.empty(); }
   void evaluate(const State& state);
   void evaluate(Derivative& derivative);
   void write_tangent_of(const Weights& weights, double* entries);
-  void set_rigid_columns(const Weights& weights);
+  void set_frame_columns(const Weights& weights);
   void set_elastic_columns(const Weights& weights);
-  void write_elastic_block(const Weights& weights, double*& entries) const;
+  void write_elastic_block(const Weights& weights, double* entries) const;
 
   std::string name_;
   BodyFrame frame_;
   Invariants<double> invariants_;
   std::vector<Derivative> derivatives_;
   InvariantLayout layout_;
+  Eigen::MatrixXd elastic_;  ///< K, D, S_ff and S_kl, a column of non-zeros each
   Eigen::SparseMatrix<double> flat_derivatives_;  ///< numbers of the invariants × variables
   std::vector<int> variables_;                    ///< of its columns
   Eigen::Vector3d gravity_;
 
   // Scratch of one evaluation.
+  Eigen::MatrixXd evaluated_;  ///< q, v, a of all coordinates where it was
   FrameMotion<double> motion_;
-  BodyProducts<double> products_;
-  Eigen::Matrix<double, 7, 7> rigid_rigid_;
-  Eigen::MatrixXd rigid_elastic_;  ///< 7 × n
-  Eigen::MatrixXd elastic_rigid_;  ///< n × 7
+  BodyProducts products_;
+  Eigen::MatrixXd frame_block_;  ///< m × m
+  /// The coupling of m frame coordinates with elastic coordinate i is this times column i of
+  /// BodyProducts::coupling: entries (frame, i), then (i, frame); 2m × its rows.
+  Eigen::MatrixXd coupling_;
 };
 
 }  // namespace pleuel

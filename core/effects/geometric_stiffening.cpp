@@ -1,14 +1,24 @@
 #include "core/effects/geometric_stiffening.hpp"
 
+#include <algorithm>
+
 namespace pleuel {
 
 GeometricStiffening::GeometricStiffening(
     std::string body, std::vector<StiffeningElement> elements, double damping,
-    std::vector<DesignDerivative<std::vector<StiffeningDerivative>>> derivatives)
+    const std::vector<DesignDerivative<std::vector<StiffeningDerivative>>>& derivatives)
     : body_(std::move(body)),
       elements_(std::move(elements)),
       damping_(damping),
-      derivatives_(std::move(derivatives)) {}
+      changes_(elements_.size()),
+      is_designed_(!derivatives.empty()) {
+  for (const auto& [variable, changes] : derivatives) {
+    for (const StiffeningDerivative& change : changes) {
+      changes_[static_cast<std::size_t>(change.element)].push_back(
+          {variable, change, change.damping != 0.0 || !change.slopes.isZero(0.0)});
+    }
+  }
+}
 
 void GeometricStiffening::declare_entries(EntryList& entries) const {
   for (const StiffeningElement& element : elements_) {
@@ -19,30 +29,49 @@ void GeometricStiffening::declare_entries(EntryList& entries) const {
 }
 
 void GeometricStiffening::evaluate(const StiffeningElement& element, const State& state) {
-  const auto size = static_cast<Eigen::Index>(element.coordinates.size());
-  strain_.q.resize(size);
-  strain_.v.resize(size);
-  for (Eigen::Index i = 0; i < size; ++i) {
-    strain_.q(i) = state.q(element.coordinates[static_cast<std::size_t>(i)]);
-    strain_.v(i) = state.v(element.coordinates[static_cast<std::size_t>(i)]);
+  if (element.coordinates.size() == 6) {
+    evaluate<6>(element, state);  // planar motion
+  } else {
+    evaluate<Eigen::Dynamic>(element, state);
   }
-  strain_.gradient.noalias() = element.slopes * strain_.q;
-  strain_.slope_v.noalias() = element.slopes * strain_.v;
-  strain_.linear = element.elongation.dot(strain_.q);
-  strain_.linear_rate = element.elongation.dot(strain_.v);
-  strain_.total = strain_.linear + 0.5 * strain_.q.dot(strain_.gradient);
-  strain_.total_rate = strain_.linear_rate + strain_.v.dot(strain_.gradient);
-  strain_.gradient += element.elongation;
+}
+
+/// `Size` is the number of coordinates where the compiler may know it.
+template <int Size>
+void GeometricStiffening::evaluate(const StiffeningElement& element, const State& state) {
+  constexpr int most = Size == Eigen::Dynamic ? 12 : Size;
+  using Vector = Eigen::Matrix<double, Size, 1, 0, most, 1>;
+  const auto size = static_cast<Eigen::Index>(element.coordinates.size());
+  Vector q(size), v(size), slope_q = Vector::Zero(size), slope_v = slope_q;
+  for (Eigen::Index i = 0; i < size; ++i) {
+    q(i) = state.q(element.coordinates[static_cast<std::size_t>(i)]);
+    v(i) = state.v(element.coordinates[static_cast<std::size_t>(i)]);
+    const Eigen::Map<const Vector> slopes(element.slopes.data() + i * size, size);
+    slope_q += q(i) * slopes;
+    slope_v += v(i) * slopes;
+  }
+  const Vector elongation = element.elongation;
+  strain_.linear = elongation.dot(q);
+  strain_.linear_rate = elongation.dot(v);
+  strain_.total = strain_.linear + 0.5 * q.dot(slope_q);
+  strain_.total_rate = strain_.linear_rate + v.dot(slope_q);
+  strain_.q = q;
+  strain_.v = v;
+  strain_.gradient = elongation + slope_q;
+  strain_.slope_v = slope_v;
+}
+
+/// f/κ
+ElementVector GeometricStiffening::unit_forces(const StiffeningElement& element) const {
+  return (strain_.total + damping_ * strain_.total_rate) * strain_.gradient -
+         (strain_.linear + damping_ * strain_.linear_rate) * element.elongation;
 }
 
 void GeometricStiffening::add_forces(const StiffeningElement& element,
                                      Eigen::VectorXd& residual) const {
-  const double total = element.axial_stiffness * (strain_.total + damping_ * strain_.total_rate);
-  const double linear = element.axial_stiffness * (strain_.linear + damping_ * strain_.linear_rate);
+  const ElementVector forces = element.axial_stiffness * unit_forces(element);
   for (std::size_t i = 0; i < element.coordinates.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    residual(element.coordinates[i]) +=
-        total * strain_.gradient(k) - linear * element.elongation(k);
+    residual(element.coordinates[i]) += forces(static_cast<Eigen::Index>(i));
   }
 }
 
@@ -61,55 +90,67 @@ void GeometricStiffening::linearize(const State& state, const WeightList& weight
     evaluate(element, state);
     add_forces(element, residual);
     for (std::size_t i = 0; i < weights.size(); ++i) {
-      write_element(element, weights[i], entries.block(i) + first);
+      double* block = entries.block(i) + first;
+      if (weights[i].q == 0.0 && weights[i].v == 0.0) {
+        std::fill_n(block, element.slopes.size(), 0.0);
+      } else if (element.coordinates.size() == 6) {
+        write_element<6>(element, weights[i], block);  // planar motion
+      } else {
+        write_element<Eigen::Dynamic>(element, weights[i], block);
+      }
     }
     first += element.slopes.size();
   }
 }
 
+template <int Size>
 void GeometricStiffening::write_element(const StiffeningElement& element, const Weights& weights,
                                         double* entries) const {
+  using Vector = Eigen::Matrix<double, Size, 1, 0, Size == Eigen::Dynamic ? 12 : Size, 1>;
   const double kappa = element.axial_stiffness;
   const double material = kappa * (weights.q + weights.v * damping_);
   const double geometric = weights.q * kappa * (strain_.total + damping_ * strain_.total_rate);
   const double rate = weights.q * kappa * damping_;
-  const auto size = static_cast<Eigen::Index>(element.coordinates.size());
-  for (Eigen::Index i = 0; i < size; ++i) {
-    for (Eigen::Index j = 0; j < size; ++j) {
-      *entries++ = material * (strain_.gradient(i) * strain_.gradient(j) -
-                               element.elongation(i) * element.elongation(j)) +
-                   rate * strain_.gradient(i) * strain_.slope_v(j) +
-                   geometric * element.slopes(i, j);
-    }
+  const Eigen::Index size = element.slopes.rows();
+  const Vector row = material * strain_.gradient + rate * strain_.slope_v;
+  const Vector elongation = element.elongation;
+  for (Eigen::Index i = 0; i < size; ++i) {  // Ĝ is symmetric
+    Eigen::Map<Vector>(entries + i * size, size) =
+        strain_.gradient(i) * row - (material * elongation(i)) * elongation +
+        geometric * Eigen::Map<const Vector>(element.slopes.data() + i * size, size);
   }
 }
 
 void GeometricStiffening::add_design_derivative(const State& state, ConstraintLevel,
                                                 Eigen::MatrixXd& columns) {
-  for (const auto& [variable, changes] : derivatives_) {
-    for (const StiffeningDerivative& change : changes) {
-      const StiffeningElement& element = elements_[static_cast<std::size_t>(change.element)];
-      evaluate(element, state);
-      const double kappa = element.axial_stiffness, d_kappa = change.axial_stiffness;
-      const ElementVector d_slope_q = change.slopes * strain_.q;
-      const double total = strain_.total + damping_ * strain_.total_rate;
-      const double linear = strain_.linear + damping_ * strain_.linear_rate;
-      const double d_total = 0.5 * strain_.q.dot(d_slope_q) + damping_ * strain_.v.dot(d_slope_q) +
-                             change.damping * strain_.total_rate;
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    if (changes_[e].empty()) continue;
+    const StiffeningElement& element = elements_[e];
+    evaluate(element, state);
+    const ElementVector unit = unit_forces(element);
+    for (const Change& change : changes_[e]) {
+      ElementVector forces = change.derivative.axial_stiffness * unit;
+      if (change.is_of_shape) forces += element.axial_stiffness * unit_change(element, change);
       for (std::size_t i = 0; i < element.coordinates.size(); ++i) {
-        const auto k = static_cast<Eigen::Index>(i);
-        const double b = element.elongation(k);
-        columns(element.coordinates[i], variable) +=
-            d_kappa * (total * strain_.gradient(k) - linear * b) +
-            kappa * (d_total * strain_.gradient(k) + total * d_slope_q(k) -
-                     change.damping * strain_.linear_rate * b);
+        columns(element.coordinates[i], change.variable) += forces(static_cast<Eigen::Index>(i));
       }
     }
   }
 }
 
+/// The derivative of f/κ.
+ElementVector GeometricStiffening::unit_change(const StiffeningElement& element,
+                                               const Change& change) const {
+  const StiffeningDerivative& d = change.derivative;
+  const ElementVector d_slope_q = d.slopes.lazyProduct(strain_.q);
+  const double d_total = 0.5 * strain_.q.dot(d_slope_q) + damping_ * strain_.v.dot(d_slope_q) +
+                         d.damping * strain_.total_rate;
+  return d_total * strain_.gradient + (strain_.total + damping_ * strain_.total_rate) * d_slope_q -
+         (d.damping * strain_.linear_rate) * element.elongation;
+}
+
 int GeometricStiffening::design_sum_count() const {
-  if (derivatives_.empty()) return 0;
+  if (!is_designed_) return 0;
   Eigen::Index count = 0;
   for (const StiffeningElement& element : elements_) count += sum_count(element);
   return static_cast<int>(count);
@@ -118,7 +159,7 @@ int GeometricStiffening::design_sum_count() const {
 /// With m = μᵀ (b + Ĝ q), the force in add_design_derivative() read as a function of κ', β', Ĝ'.
 void GeometricStiffening::add_design_sums(const State& state, ConstraintLevel,
                                           const ConstColumns& mu, Columns sums) {
-  if (derivatives_.empty()) return;
+  if (!is_designed_) return;
   Eigen::Index first = 0;
   for (const StiffeningElement& element : elements_) {
     evaluate(element, state);
@@ -145,18 +186,16 @@ void GeometricStiffening::add_design_sums(const State& state, ConstraintLevel,
 
 void GeometricStiffening::add_design_gradients(const ConstColumns& sums,
                                                Eigen::MatrixXd& gradients) const {
-  std::vector<Eigen::Index> first{0};
-  for (const StiffeningElement& element : elements_) {
-    first.push_back(first.back() + sum_count(element));
-  }
-  for (const auto& [variable, changes] : derivatives_) {
-    for (const StiffeningDerivative& change : changes) {
-      const Eigen::Index at = first[static_cast<std::size_t>(change.element)];
-      const Eigen::Map<const Eigen::VectorXd> slopes(change.slopes.data(), change.slopes.size());
-      gradients.row(variable) += change.axial_stiffness * sums.row(at) +
-                                 change.damping * sums.row(at + 1) +
-                                 slopes.transpose() * sums.middleRows(at + 2, slopes.size());
+  Eigen::Index first = 0;
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    for (const Change& change : changes_[e]) {
+      const StiffeningDerivative& d = change.derivative;
+      const Eigen::Map<const Eigen::VectorXd> slopes(d.slopes.data(), d.slopes.size());
+      gradients.row(change.variable) +=
+          d.axial_stiffness * sums.row(first) + d.damping * sums.row(first + 1) +
+          slopes.transpose() * sums.middleRows(first + 2, slopes.size());
     }
+    first += sum_count(elements_[e]);
   }
 }
 

@@ -36,8 +36,9 @@ struct StiffeningDerivative {
 /// has centrifugal softening only and diverges (Simo & Vu-Quoc 1987; Wallrapp & Schwertassek 1991).
 class GeometricStiffening : public Term {
  public:
-  GeometricStiffening(std::string body, std::vector<StiffeningElement> elements, double damping,
-                      std::vector<DesignDerivative<std::vector<StiffeningDerivative>>> derivatives);
+  GeometricStiffening(
+      std::string body, std::vector<StiffeningElement> elements, double damping,
+      const std::vector<DesignDerivative<std::vector<StiffeningDerivative>>>& derivatives);
 
   std::string name() const override { return "geometric stiffening of " + body_; }
   void declare_entries(EntryList& entries) const override;
@@ -57,20 +58,32 @@ class GeometricStiffening : public Term {
     ElementVector q, v, gradient, slope_v;          ///< gradient = b + Ĝ q, slope_v = Ĝ q̇
     double linear, linear_rate, total, total_rate;  ///< Δu, Δu̇, g, ġ
   };
+  /// What a variable changes of one element.
+  struct Change {
+    int variable;
+    StiffeningDerivative derivative;
+    bool is_of_shape;  ///< not of κ alone
+  };
+  void evaluate(const StiffeningElement& element, const State& state);
+  template <int Size>
   void evaluate(const StiffeningElement& element, const State& state);
   /// Sums of an element: those of κ, of β, of Ĝ.
   static Eigen::Index sum_count(const StiffeningElement& element) {
     return 2 + element.slopes.size();
   }
-  /// From the strain of the last evaluation.
+  // From the strain of the last evaluation.
+  template <int Size>
   void write_element(const StiffeningElement& element, const Weights& weights,
                      double* entries) const;
+  ElementVector unit_forces(const StiffeningElement& element) const;
+  ElementVector unit_change(const StiffeningElement& element, const Change& change) const;
   void add_forces(const StiffeningElement& element, Eigen::VectorXd& residual) const;
 
   std::string body_;
   std::vector<StiffeningElement> elements_;
   double damping_;
-  std::vector<DesignDerivative<std::vector<StiffeningDerivative>>> derivatives_;
+  std::vector<std::vector<Change>> changes_;  ///< one list an element
+  bool is_designed_;
   Strain strain_;  ///< scratch
 };
 

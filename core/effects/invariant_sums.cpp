@@ -13,7 +13,7 @@ struct BodyAdjoint {
   Vector3d c, shape_v;
 
   // The adjoint of axial() is −skew().
-  BodyAdjoint(const BodyProducts<double>& p, const BodyMultipliers& mu)
+  BodyAdjoint(const BodyProducts& p, const BodyMultipliers& mu)
       : N(-skew<double>(mu.moment)),
         M(N * p.X),
         B(N * p.Y),
@@ -23,8 +23,8 @@ struct BodyAdjoint {
 
 /// `Pairs` is the number of pairs (k, l) where the compiler may know it.
 template <int Pairs>
-void add_sums(const Invariants<double>& body, const InvariantLayout& layout,
-              const BodyProducts<double>& p, const BodyMultipliers& mu, double* sums) {
+void add_sums(const Invariants<double>& body, const InvariantLayout& layout, const BodyProducts& p,
+              const BodyMultipliers& mu, double* sums) {
   using Row = Eigen::Matrix<double, Pairs, 1, 0, Pairs == Eigen::Dynamic ? 9 : Pairs, 1>;
   const BodyAdjoint of(p, mu);
   const auto pairs = static_cast<Eigen::Index>(body.pairs.size());
@@ -65,8 +65,7 @@ void add_sums(const Invariants<double>& body, const InvariantLayout& layout,
 }  // namespace
 
 void add_invariant_sums(const Invariants<double>& body, const InvariantLayout& layout,
-                        const BodyProducts<double>& products, const BodyMultipliers& mu,
-                        double* sums) {
+                        const BodyProducts& products, const BodyMultipliers& mu, double* sums) {
   switch (body.pairs.size()) {
     case 4:
       return add_sums<4>(body, layout, products, mu, sums);  // planar motion

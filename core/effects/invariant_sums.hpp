@@ -17,7 +17,6 @@ struct BodyMultipliers {
 /// @param layout    of the body's invariants; `sums` has so many entries
 /// @param products  of evaluate_body() for those invariants
 void add_invariant_sums(const Invariants<double>& body, const InvariantLayout& layout,
-                        const BodyProducts<double>& products, const BodyMultipliers& mu,
-                        double* sums);
+                        const BodyProducts& products, const BodyMultipliers& mu, double* sums);
 
 }  // namespace pleuel

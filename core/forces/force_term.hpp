@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <utility>
 
 #include "core/forces/force_data.hpp"
@@ -22,8 +23,8 @@ namespace pleuel {
 ///     };
 ///
 /// The tangent comes from dual numbers that carry the weights of the scheme, one evaluation for
-/// positions and velocities together; the design derivative from dual data. Nothing is allocated
-/// after construction.
+/// positions and velocities together and up to twelve coordinates that matter; the design
+/// derivative from dual data. Nothing is allocated after construction.
 template <class Law>
 class ForceTerm : public Term {
  public:
@@ -42,9 +43,15 @@ class ForceTerm : public Term {
     for (const auto& [variable, derivative] : derivatives) {
       derivatives_.push_back({variable, seed_data(data_, derivative)});
     }
+    std::vector<int> slots(coordinates_.size(), -1);
     for (std::size_t row = 0; row < coordinates_.size(); ++row) {
       for (std::size_t col = 0; col < coordinates_.size(); ++col) {
-        if (law_.couples(coordinates_[row], coordinates_[col])) pattern_.emplace_back(row, col);
+        if (!law_.couples(coordinates_[row], coordinates_[col])) continue;
+        if (slots[col] < 0) {
+          slots[col] = static_cast<int>(columns_.size());
+          columns_.push_back(col);
+        }
+        pattern_.emplace_back(row, slots[col]);
       }
     }
   }
@@ -52,8 +59,9 @@ class ForceTerm : public Term {
   std::string name() const override { return law_.name; }
 
   void declare_entries(EntryList& entries) const override {
-    for (const auto& [row, col] : pattern_) {
-      entries.emplace_back(coordinates_[row].index, coordinates_[col].index);
+    for (const auto& [row, slot] : pattern_) {
+      entries.emplace_back(coordinates_[row].index,
+                           coordinates_[columns_[static_cast<std::size_t>(slot)]].index);
     }
   }
 
@@ -110,7 +118,9 @@ class ForceTerm : public Term {
  private:
   template <class Scalar>
   using Local = typename MarkerForces<Scalar, marker_count>::Coordinates;
-  using Wide = DualOf<MarkerForces<double, marker_count>::max_size>;
+  /// Columns at a time: few forces in joints and springs depend on more.
+  static constexpr int width = max_marker_size;
+  using Wide = DualOf<width>;
 
   template <class Scalar>
   void load(const State& state, Local<Scalar>& q, Local<Scalar>& v) const {
@@ -129,15 +139,28 @@ class ForceTerm : public Term {
   }
 
   void write_entries(const State& state, const Weights& weights, double* entries) const {
+    std::fill_n(entries, pattern_.size(), 0.0);
+    if (weights.q == 0.0 && weights.v == 0.0) return;
+    const auto count = static_cast<int>(columns_.size());
+    for (int first = 0; first < count; first += width)
+      write_columns(state, weights, first, entries);
+  }
+
+  /// Of the columns from `first` on.
+  void write_columns(const State& state, const Weights& weights, int first, double* entries) const {
     Local<Wide> q, v;
     load<Wide>(state, q, v);
-    for (std::size_t i = 0; i < coordinates_.size(); ++i) {
-      q[i].derivatives()[static_cast<Eigen::Index>(i)] = weights.q;
-      v[i].derivatives()[static_cast<Eigen::Index>(i)] = weights.v;
+    const int count = std::min(width, static_cast<int>(columns_.size()) - first);
+    for (int i = 0; i < count; ++i) {
+      const std::size_t column = columns_[static_cast<std::size_t>(first + i)];
+      q[column].derivatives()[i] = weights.q;
+      v[column].derivatives()[i] = weights.v;
     }
     const Local<Wide> forces = evaluate(wide_data_, state.time, q, v);
-    for (const auto& [row, col] : pattern_) {
-      *entries++ = -derivative_of(forces[row], static_cast<int>(col));
+    for (const auto& [row, slot] : pattern_) {
+      const int i = slot - first;
+      if (i >= 0 && i < count) *entries = -derivative_of(forces[row], i);
+      ++entries;
     }
   }
 
@@ -147,7 +170,8 @@ class ForceTerm : public Term {
   Data<Wide> wide_data_;
   std::vector<DesignDerivative<Data<Dual>>> derivatives_;
   std::vector<LocalCoordinate> coordinates_;
-  std::vector<std::pair<std::size_t, std::size_t>> pattern_;  ///< local (row, column)
+  std::vector<std::size_t> columns_;  ///< local coordinates that the forces depend on
+  std::vector<std::pair<std::size_t, int>> pattern_;  ///< (local row, place in columns_)
 };
 
 }  // namespace pleuel

@@ -1,13 +1,78 @@
 #include "core/integration/block_factors.hpp"
 
+#include <algorithm>
+
 namespace pleuel {
 
 namespace {
+
+constexpr int full_width = 8, half_width = 4;
 
 void resize_factor(ColumnFactor& factor, int columns, int entries) {
   factor.starts.resize(static_cast<std::size_t>(columns) + 1);
   factor.rows.resize(static_cast<std::size_t>(entries));
   factor.values.resize(static_cast<std::size_t>(entries));
+}
+
+int at(const std::vector<int>& list, int i) {
+  return list[static_cast<std::size_t>(i)];
+}
+
+/// Rows of right-hand sides, `Width` numbers each.
+template <int Width>
+class Rows {
+ public:
+  using Row = Eigen::Matrix<double, Width, 1>;
+
+  explicit Rows(std::vector<double>& numbers) : numbers_(numbers.data()) {}
+
+  Eigen::Map<Row> operator()(int k) const { return Eigen::Map<Row>(numbers_ + k * Width); }
+
+  /// Row k −= Σ entry i of the factor · row rows(i), for i in a range.
+  void subtract_from(int k, const ColumnFactor& factor, int begin, int end) const {
+    Row sum = (*this)(k);
+    for (int i = begin; i < end; ++i) sum -= value(factor, i) * (*this)(at(factor.rows, i));
+    (*this)(k) = sum;
+  }
+  /// Row rows(i) −= entry i of the factor · row k.
+  void subtract_row(int k, const ColumnFactor& factor, int begin, int end) const {
+    const Row row = (*this)(k);
+    for (int i = begin; i < end; ++i) (*this)(at(factor.rows, i)) -= value(factor, i) * row;
+  }
+
+  static double value(const ColumnFactor& factor, int i) {
+    return factor.values[static_cast<std::size_t>(i)];
+  }
+
+  /// Row k from row order(k) of x, with zeros in what x lacks.
+  template <class Columns>
+  void take(const std::vector<int>& order, const Columns& x) const {
+    const Eigen::Index count = x.cols();
+    for (int k = 0; k < static_cast<int>(order.size()); ++k) {
+      Row row = Row::Zero();
+      for (Eigen::Index j = 0; j < count; ++j) row(j) = x(at(order, k), j);
+      (*this)(k) = row;
+    }
+  }
+  template <class Columns>
+  void give(const std::vector<int>& order, Columns& x) const {
+    const Eigen::Index count = x.cols();
+    for (int k = 0; k < static_cast<int>(order.size()); ++k) {
+      const auto row = (*this)(k);
+      for (Eigen::Index j = 0; j < count; ++j) x(at(order, k), j) = row(j);
+    }
+  }
+
+ private:
+  double* numbers_;
+};
+
+/// Calls visit(columns) for groups of columns.
+template <class Visit>
+void for_each_group(Eigen::Index columns, Visit visit) {
+  for (Eigen::Index first = 0; first < columns; first += full_width) {
+    visit(first, std::min<Eigen::Index>(full_width, columns - first));
+  }
 }
 
 }  // namespace
@@ -20,63 +85,62 @@ void BlockFactors::resize(int size, int lower_entries, int upper_entries, int en
   row_order.resize(static_cast<std::size_t>(size));
   column_order.resize(static_cast<std::size_t>(size));
   blocks.resize(static_cast<std::size_t>(block_count) + 1);
-}
-
-/// Row `to` −= entry · row `from`.
-void BlockFactors::subtract(const ColumnFactor& factor, int entry, int from, int to) {
-  row(to) -= factor.values[static_cast<std::size_t>(entry)] * row(from);
+  rows_.resize(static_cast<std::size_t>(size) * full_width);
 }
 
 void BlockFactors::solve(Block x) {
-  rows_.resize(size(), x.cols());
-  for (int k = 0; k < size(); ++k) row(k) = x.row(row_order[static_cast<std::size_t>(k)]);
-  const auto at = [](const std::vector<int>& list, int i) {
-    return list[static_cast<std::size_t>(i)];
-  };
-  for (int block = static_cast<int>(blocks.size()) - 2; block >= 0; --block) {
-    const int begin = at(blocks, block), end = at(blocks, block + 1);
-    for (int k = begin; k < end; ++k) {
-      for (int i = at(lower.starts, k) + 1; i < at(lower.starts, k + 1); ++i) {
-        subtract(lower, i, k, at(lower.rows, i));
-      }
-    }
-    for (int k = end - 1; k >= begin; --k) {
-      const int diagonal = at(upper.starts, k + 1) - 1;
-      row(k) /= upper.values[static_cast<std::size_t>(diagonal)];
-      for (int i = at(upper.starts, k); i < diagonal; ++i) subtract(upper, i, k, at(upper.rows, i));
-    }
-    for (int k = begin; k < end; ++k) {
-      for (int i = at(above.starts, k); i < at(above.starts, k + 1); ++i) {
-        subtract(above, i, k, at(above.rows, i));
-      }
-    }
-  }
-  for (int k = 0; k < size(); ++k) x.row(at(column_order, k)) = row(k);
+  for_each_group(x.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    auto group = x.middleCols(first, count);
+    count <= half_width ? solve_group<half_width>(group) : solve_group<full_width>(group);
+  });
 }
 
 void BlockFactors::solve_transposed(Block x) {
-  rows_.resize(size(), x.cols());
-  for (int k = 0; k < size(); ++k) row(k) = x.row(column_order[static_cast<std::size_t>(k)]);
-  const auto at = [](const std::vector<int>& list, int i) {
-    return list[static_cast<std::size_t>(i)];
-  };
+  for_each_group(x.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    auto group = x.middleCols(first, count);
+    count <= half_width ? solve_group_transposed<half_width>(group)
+                        : solve_group_transposed<full_width>(group);
+  });
+}
+
+template <int Width>
+void BlockFactors::solve_group(Block x) {
+  const Rows<Width> rows(rows_);
+  rows.take(row_order, x);
+  for (int block = static_cast<int>(blocks.size()) - 2; block >= 0; --block) {
+    const int begin = at(blocks, block), end = at(blocks, block + 1);
+    for (int k = begin; k < end; ++k) {
+      rows.subtract_row(k, lower, at(lower.starts, k) + 1, at(lower.starts, k + 1));
+    }
+    for (int k = end - 1; k >= begin; --k) {
+      const int diagonal = at(upper.starts, k + 1) - 1;
+      rows(k) /= rows.value(upper, diagonal);
+      rows.subtract_row(k, upper, at(upper.starts, k), diagonal);
+    }
+    for (int k = begin; k < end; ++k) {
+      rows.subtract_row(k, above, at(above.starts, k), at(above.starts, k + 1));
+    }
+  }
+  rows.give(column_order, x);
+}
+
+template <int Width>
+void BlockFactors::solve_group_transposed(Block x) {
+  const Rows<Width> rows(rows_);
+  rows.take(column_order, x);
   for (std::size_t block = 0; block + 1 < blocks.size(); ++block) {
     const int begin = blocks[block], end = blocks[block + 1];
     for (int k = begin; k < end; ++k) {
-      for (int i = at(above.starts, k); i < at(above.starts, k + 1); ++i) {
-        subtract(above, i, at(above.rows, i), k);
-      }
+      rows.subtract_from(k, above, at(above.starts, k), at(above.starts, k + 1));
       const int diagonal = at(upper.starts, k + 1) - 1;
-      for (int i = at(upper.starts, k); i < diagonal; ++i) subtract(upper, i, at(upper.rows, i), k);
-      row(k) /= upper.values[static_cast<std::size_t>(diagonal)];
+      rows.subtract_from(k, upper, at(upper.starts, k), diagonal);
+      rows(k) /= rows.value(upper, diagonal);
     }
     for (int k = end - 1; k >= begin; --k) {
-      for (int i = at(lower.starts, k) + 1; i < at(lower.starts, k + 1); ++i) {
-        subtract(lower, i, at(lower.rows, i), k);
-      }
+      rows.subtract_from(k, lower, at(lower.starts, k) + 1, at(lower.starts, k + 1));
     }
   }
-  for (int k = 0; k < size(); ++k) x.row(at(row_order, k)) = row(k);
+  rows.give(row_order, x);
 }
 
 }  // namespace pleuel

@@ -13,8 +13,8 @@ struct ColumnFactor {
 };
 
 /// Factors P A Q = L U + F of a sparse matrix, with F above the diagonal blocks, for many
-/// right-hand sides at once: an entry of a factor meets a whole row of them, which the processor
-/// does in vectors, while KLU takes them by four. Pays from a dozen columns on, with what it costs
+/// right-hand sides at once: an entry of a factor meets a row of eight (or four) of them, which the
+/// processor does in vectors. Pays from five columns on (KLU itself takes four), with what it costs
 /// to copy the factors.
 struct BlockFactors {
   using Block = Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
@@ -35,10 +35,13 @@ struct BlockFactors {
 
  private:
   int size() const { return static_cast<int>(row_order.size()); }
-  auto row(int k) { return rows_.row(k); }
-  void subtract(const ColumnFactor& factor, int entry, int from, int to);
+  // Of up to `Width` columns, with rows in rows_.
+  template <int Width>
+  void solve_group(Block x);
+  template <int Width>
+  void solve_group_transposed(Block x);
 
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows_;  ///< permuted
+  std::vector<double> rows_;  ///< permuted
 };
 
 }  // namespace pleuel

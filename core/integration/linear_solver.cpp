@@ -16,12 +16,14 @@ namespace {
 constexpr double round_off = 1e-14;
 /// Where refinement leaves more than this, the pivots are no good.
 constexpr double poor = 1e-10;
-/// A diagonal pivot may be smaller than the largest entry of its column by this factor, for the
-/// sake of fill (KLU's own choice). Where that makes entries grow, the largest one is the pivot.
-constexpr double usual_threshold = 1e-3, full_threshold = 1.0;
+/// Diagonal entries are pivots if they are as large as this part of the largest in their column.
+/// KLU's own 0.001 leaves backward errors of 1e-14 and more, so that many solutions have to be
+/// refined; with 0.1 hardly any has, at about the same fill. Where that makes entries grow all the
+/// same, the largest one is the pivot.
+constexpr double usual_threshold = 0.1, full_threshold = 1.0;
 
-/// With so many right-hand sides the factors are copied for all of them at once.
-constexpr Eigen::Index least_columns = 16;
+/// With so many right-hand sides, more than KLU takes at a time, the factors are copied for all.
+constexpr Eigen::Index least_columns = 5;
 
 using Block = Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
@@ -42,6 +44,7 @@ struct LinearSolver::Implementation {
   Matrix matrix;         ///< pattern and the scaled values factorised last
   double largest = 0.0;  ///< of their magnitudes
   Eigen::VectorXd row_scale, column_scale;
+  Eigen::ArrayXd scales;           ///< of the values: row times column
   Eigen::VectorXd pivoted_values;  ///< scaled, for which pivots were last chosen
   int pivot_choices = 0;
   Eigen::MatrixXd rhs, residual;              ///< scratch
@@ -70,17 +73,22 @@ struct LinearSolver::Implementation {
     };
     note(row_scale, true);
     note(column_scale, false);
+    set_scales();
+  }
+
+  /// What scaled values are multiplied with.
+  void set_scales() {
+    scales.resize(matrix.nonZeros());
+    for (int col = 0; col < matrix.cols(); ++col) {
+      for (int k = starts()[col]; k < starts()[col + 1]; ++k) {
+        scales(k) = row_scale(rows()[k]) * column_scale(col);
+      }
+    }
   }
 
   void take(const Matrix& unscaled) {
-    largest = 0.0;
-    for (int col = 0; col < matrix.cols(); ++col) {
-      for (int k = starts()[col]; k < starts()[col + 1]; ++k) {
-        const double value = row_scale(rows()[k]) * column_scale(col) * unscaled.valuePtr()[k];
-        values()[k] = value;
-        largest = std::max(largest, std::abs(value));
-      }
-    }
+    matrix.coeffs() = scales * unscaled.coeffs();
+    largest = matrix.coeffs().abs().maxCoeff();
   }
 
   bool refactorize(const Matrix& unscaled) {
@@ -197,7 +205,7 @@ LinearSolver::LinearSolver(const Matrix& pattern)
   klu.matrix = pattern;
   klu.pivoted_values.resize(pattern.nonZeros());
   klu_defaults(&klu.common);
-  klu.common.scale = 0;  // done here
+  klu.common.scale = -1;  // done here; the pattern needs no check in each factorisation
   klu.common.tol = usual_threshold;
   klu.symbolic =
       klu_analyze(static_cast<int>(pattern.rows()), klu.starts(), klu.rows(), &klu.common);
@@ -270,6 +278,7 @@ void LinearSolver::use_pivots(const Pivots& pivots) {
   }
   klu.row_scale = pivots.row_scale;
   klu.column_scale = pivots.column_scale;
+  klu.set_scales();
   Eigen::Map<Eigen::VectorXd>(klu.values(), klu.matrix.nonZeros()) = pivots.values;
   klu.choose_pivots();
 }

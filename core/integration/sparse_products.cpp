@@ -7,15 +7,11 @@ namespace pleuel {
 
 namespace {
 
-/// Columns of a group.
-constexpr int width = 8;
-using Group = Eigen::Matrix<double, Eigen::Dynamic, width, Eigen::RowMajor>;
-
-}  // namespace
-
-void add_products(const System::Matrix& a, const Eigen::MatrixXd& x, const System::Matrix& b,
-                  const Eigen::MatrixXd& y, Eigen::MatrixXd& out) {
-  assert(a.nonZeros() == b.nonZeros() && x.rows() == y.rows() && x.cols() == out.cols());
+/// Columns in groups of `width`.
+template <int width>
+void add_groups(const System::Matrix& a, const Eigen::MatrixXd& x, const System::Matrix& b,
+                const Eigen::MatrixXd& y, Eigen::MatrixXd& out) {
+  using Group = Eigen::Matrix<double, Eigen::Dynamic, width, Eigen::RowMajor>;
   thread_local Group packed_x, packed_y, sum;
   const Eigen::Index n = x.rows();
   packed_x.resize(n, width);
@@ -34,6 +30,18 @@ void add_products(const System::Matrix& a, const Eigen::MatrixXd& x, const Syste
       }
     }
     out.middleCols(first, count) += sum.leftCols(count);
+  }
+}
+
+}  // namespace
+
+void add_products(const System::Matrix& a, const Eigen::MatrixXd& x, const System::Matrix& b,
+                  const Eigen::MatrixXd& y, Eigen::MatrixXd& out) {
+  assert(a.nonZeros() == b.nonZeros() && x.rows() == y.rows() && x.cols() == out.cols());
+  if (out.cols() <= 4) {
+    add_groups<4>(a, x, b, y, out);
+  } else {
+    add_groups<8>(a, x, b, y, out);
   }
 }
 

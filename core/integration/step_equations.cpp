@@ -80,8 +80,16 @@ StepEquations::StepEquations(Mechanism& mechanism, const Scheme& scheme,
 
 void StepEquations::set_scheme(const Scheme& scheme) {
   scheme_ = scheme;
-  dynamic_scale_ = scheme.dynamic_scale();
-  constraint_scale_ = scale_of(level_.level, scheme);
+  const double dynamic = scheme.dynamic_scale(), constraint = scale_of(level_.level, scheme);
+  if (dynamic == dynamic_scale_ && constraint == constraint_scale_) return;
+  dynamic_scale_ = dynamic;
+  constraint_scale_ = constraint;
+  const int n = system_.coordinates();
+  const System::Matrix& matrix = matrices_.front();
+  scales_.resize(matrix.outerIndexPtr()[n]);
+  for (Eigen::Index k = 0; k < scales_.size(); ++k) {
+    scales_(k) = matrix.innerIndexPtr()[k] < n ? dynamic_scale_ : constraint_scale_;
+  }
 }
 
 void StepEquations::build_pattern() {
@@ -137,13 +145,13 @@ void StepEquations::begin(const State& old) {
   }
 }
 
-/// The system's residual and tangents for the weights into residual_ and matrices_, constraints on
-/// the levels of the formulation.
-void StepEquations::evaluate(const StepState& state, WeightList weights) {
-  const std::span<System::Matrix> matrices(matrices_.data(), weights.size());
+/// The system's residual and tangents for the weights into residual_ and matrices_ from the first
+/// on, constraints on the levels of the formulation.
+void StepEquations::evaluate(const StepState& state, WeightList weights, std::size_t first) {
+  const std::span<System::Matrix> matrices(matrices_.data() + first, weights.size());
   system_.linearize(state, weights, level_.level, residual_, matrices);
   for (const Level& other : other_levels_) {
-    const std::span<System::Matrix> others(other_matrices_.data(), weights.size());
+    const std::span<System::Matrix> others(other_matrices_.data() + first, weights.size());
     system_.linearize(state, weights, other.level, other_residual_, others);
     residual_.tail(system_.multipliers()) +=
         other.factor * other_residual_.tail(system_.multipliers());
@@ -187,7 +195,7 @@ void StepEquations::linearize(const StepState& state, Eigen::VectorXd& residual,
   const Eigen::Vector4d& b = scheme_.correction;
   const std::array<Weights, 3> weights{{{b(0), b(1), b(2)}, {.q = 1.0}, {.v = 1.0}}};
   const bool turns = !mechanism_.rotations.empty();
-  evaluate(state, WeightList(weights.data(), is_stabilized() ? 3u : turns ? 2u : 1u));
+  evaluate(state, WeightList(weights.data(), is_stabilized() ? 3u : turns ? 2u : 1u), 0);
   write_residual(state, residual);
   write_matrix(state, 1, 2, matrix);
 }
@@ -201,11 +209,9 @@ void StepEquations::write_matrix(const StepState& state, std::size_t q, std::siz
   if (!rotations.empty()) {
     add_increment_tangent(rotations, state.increment, matrices_[q], scheme_.correction(0), step);
   }
-  for_each_entry(step, [&](std::size_t k, int row, int col) {
-    if (col < n) step.valuePtr()[k] *= row < n ? dynamic_scale_ : constraint_scale_;
-  });
+  step.coeffs().head(scales_.size()) *= scales_;
   if (!is_stabilized()) {
-    std::copy(step.valuePtr(), step.valuePtr() + step.nonZeros(), matrix.valuePtr());
+    matrix.coeffs() = step.coeffs();
     return;
   }
   System::Matrix &with_q = matrices_[q], &with_v = turned_;
@@ -249,11 +255,21 @@ void StepEquations::apply(const Eigen::VectorXd& correction, StepState& state) c
 }
 
 void StepEquations::linearize_sensitivities(const StepState& state, System::Matrix& matrix) {
-  const Eigen::Vector4d& b = scheme_.correction;
-  const std::array<Weights, 4> weights{{{b(0), b(1), b(2)}, {.v = 1.0}, {.a = 1.0}, {.q = 1.0}}};
-  const bool needs_q = is_stabilized() || !mechanism_.rotations.empty();
-  evaluate(state, WeightList(weights.data(), needs_q ? 4u : 3u));
+  const std::array<Weights, 3> weights{{{.v = 1.0}, {.a = 1.0}, {.q = 1.0}}};
+  evaluate(state, weights, 1);
+  combine_tangents();
   write_matrix(state, 3, 1, matrix);
+}
+
+/// The step's tangent from those with weights one.
+void StepEquations::combine_tangents() {
+  const Eigen::Vector4d& b = scheme_.correction;
+  const System::Matrix &by_v = matrices_[1], &by_a = matrices_[2], &by_q = matrices_[3];
+  matrices_[0].coeffs() = b(0) * by_q.coeffs() + b(1) * by_v.coeffs() + b(2) * by_a.coeffs();
+  // R_λ stands in each of them.
+  const Eigen::Index first = by_q.outerIndexPtr()[system_.coordinates()];
+  const Eigen::Index count = by_q.nonZeros() - first;
+  matrices_[0].coeffs().tail(count) = by_q.coeffs().tail(count);
 }
 
 void StepEquations::differentiate(const StepState& state, const Eigen::MatrixXd& v,

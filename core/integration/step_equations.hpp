@@ -80,7 +80,8 @@ class StepEquations {
     return formulation_.constraints == ConstraintForm::stabilized_index_2;
   }
   void build_pattern();
-  void evaluate(const StepState& state, WeightList weights);
+  void evaluate(const StepState& state, WeightList weights, std::size_t first);
+  void combine_tangents();
   void write_residual(const StepState& state, Eigen::VectorXd& residual);
   void write_matrix(const StepState& state, std::size_t q, std::size_t v, System::Matrix& matrix);
   void differentiate_old_constraints(const StepState& state, const Eigen::MatrixXd& old_q,
@@ -94,8 +95,9 @@ class StepEquations {
   Formulation formulation_;
   Level level_;                      ///< factor one
   std::vector<Level> other_levels_;  ///< of Baumgarte's terms
-  double dynamic_scale_, constraint_scale_;
+  double dynamic_scale_ = 0.0, constraint_scale_ = 0.0;
   State old_;
+  Eigen::ArrayXd scales_;  ///< of the entries in coordinate columns
   System::Matrix pattern_;
   System::Matrix old_constraints_;  ///< Φ_q(q)ᵀ of the old state, in the columns of λ
   /// Where entries of the system's pattern stand in the four blocks of the pattern (−1: nowhere).

@@ -47,9 +47,7 @@ class JointTerm : public Term {
     const int size = local_size(), count = equations();
     const Local<double> local = load<double>(state);
     JointLinearization joint(topology_, data_, state.time, local.q.data(), size);
-    for (std::size_t k = 0; k < weights.size(); ++k) {
-      std::fill_n(entries.block(k), size * (size + count) + count * size, 0.0);
-    }
+    curvature_.setZero(size, size);
     const bool is_position = level == ConstraintLevel::position;
     const auto first = topology_.multiplier - state.q.size();
     for (int i = 0; i < count; ++i) {
@@ -59,11 +57,13 @@ class JointTerm : public Term {
       for (int row = 0; row < size; ++row) {
         residual(coordinate(row)) += lambda * joint.gradient()(row);
       }
+      curvature_ += lambda * joint.hessian();
       const EquationTangent tangent = tangent_of(joint, local, level);
       for (std::size_t k = 0; k < weights.size(); ++k) {
-        add_equation(joint, tangent, i, weights[k], lambda, entries.block(k));
+        write_equation(joint, tangent, i, weights[k], entries.block(k));
       }
     }
+    for (std::size_t k = 0; k < weights.size(); ++k) write_curvature(weights[k], entries.block(k));
     if (is_position) return;
     const Result<double> result = evaluate(data_, local, state.time, level);
     for (int i = 0; i < count; ++i)
@@ -141,16 +141,22 @@ class JointTerm : public Term {
     return {zero, by_q + joint.hessian() * v + joint.gradient_rate(), joint.gradient()};
   }
 
-  void add_equation(const JointLinearization& joint, const EquationTangent& tangent, int equation,
-                    const Weights& weights, double lambda, double* entries) const {
+  void write_equation(const JointLinearization& joint, const EquationTangent& tangent, int equation,
+                      const Weights& weights, double* entries) const {
     const int size = local_size(), stride = size + equations();
     for (int row = 0; row < size; ++row) {
       entries[row * stride + size + equation] = joint.gradient()(row);
       entries[size * stride + equation * size + row] =
           weights.q * tangent.q(row) + weights.v * tangent.v(row) + weights.a * tangent.a(row);
-      if (weights.q == 0.0) continue;
+    }
+  }
+
+  /// Of all equations together.
+  void write_curvature(const Weights& weights, double* entries) const {
+    const int size = local_size(), stride = size + equations();
+    for (int row = 0; row < size; ++row) {
       for (int col = 0; col < size; ++col) {
-        entries[row * stride + col] += weights.q * lambda * joint.hessian()(row, col);
+        entries[row * stride + col] = weights.q * curvature_(row, col);
       }
     }
   }
@@ -203,6 +209,7 @@ class JointTerm : public Term {
   JointData<WideDual> dual_data_;
   std::vector<DesignDerivative<JointData<Dual>>> derivatives_;
   std::vector<int> coordinates_;
+  JointLinearization::Hessian curvature_;  ///< scratch: (Φ_qᵀ λ)_q
 };
 
 }  // namespace

@@ -289,7 +289,7 @@ std::unique_ptr<Term> make_imported_stiffening(const BodyModel& model, int coord
     if (!changes.empty()) derivatives.push_back({variable, std::move(changes)});
   }
   auto term = std::make_unique<GeometricStiffening>(model.name, std::move(elements),
-                                                    stretching.damping, std::move(derivatives));
+                                                    stretching.damping, derivatives);
   if (direct) return term;
   return std::make_unique<ProjectedTerm>(std::move(term), map_of(model), coordinates);
 }

@@ -49,8 +49,8 @@ std::unique_ptr<Term> make_nodal_stiffening(const BodyModel& model) {
     }
     if (!changes.empty()) derivatives.push_back({variable, std::move(changes)});
   }
-  return std::make_unique<GeometricStiffening>(
-      model.name, std::move(elements), model.beam.stiffness_damping, std::move(derivatives));
+  return std::make_unique<GeometricStiffening>(model.name, std::move(elements),
+                                               model.beam.stiffness_damping, derivatives);
 }
 
 }  // namespace

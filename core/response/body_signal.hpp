@@ -28,7 +28,9 @@ struct LocalPlace {
 ///     template <class Scalar> Scalar evaluate(const Beam<Scalar>&, const LocalMotion<Scalar>&, int
 ///     channel) const; LocalPlace place(int channel) const;
 /// The model must outlive the signal.
-template <class Derived>
+/// @tparam Orders  which of positions, velocities and accelerations it depends on: the first so
+/// many
+template <class Derived, int Orders = 3>
 class BodySignal : public Signal {
  public:
   explicit BodySignal(const BodyModel& body) : body_(body) {}
@@ -68,7 +70,7 @@ class BodySignal : public Signal {
 
  private:
   static constexpr int size = LocalMotion<double>::max_size;
-  using WideDual = DualOf<3 * size>;
+  using WideDual = DualOf<Orders * size>;
 
   const Derived& derived() const { return static_cast<const Derived&>(*this); }
 
@@ -104,8 +106,8 @@ class BodySignal : public Signal {
     for (int i = 0; i < size; ++i) {
       const auto k = static_cast<std::size_t>(i);
       motion.q[k].derivatives()[i] = 1.0;
-      motion.v[k].derivatives()[size + i] = 1.0;
-      motion.a[k].derivatives()[2 * size + i] = 1.0;
+      if constexpr (Orders > 1) motion.v[k].derivatives()[size + i] = 1.0;
+      if constexpr (Orders > 2) motion.a[k].derivatives()[2 * size + i] = 1.0;
     }
     const WideDual y = derived().template evaluate<WideDual>(wide_beam(), motion, channel);
     const LocalPlace place = derived().place(channel);
@@ -113,8 +115,8 @@ class BodySignal : public Signal {
       const int index = global(place, i);
       if (index < 0) continue;
       gradient.q(index) += weight * y.derivatives()[i];
-      gradient.v(index) += weight * y.derivatives()[size + i];
-      gradient.a(index) += weight * y.derivatives()[2 * size + i];
+      if constexpr (Orders > 1) gradient.v(index) += weight * y.derivatives()[size + i];
+      if constexpr (Orders > 2) gradient.a(index) += weight * y.derivatives()[2 * size + i];
     }
   }
 
@@ -150,8 +152,9 @@ Beam<To> cast_beam(const Beam<double>& beam) {
   return cast;
 }
 
-template <class Derived>
-const Beam<typename BodySignal<Derived>::WideDual>& BodySignal<Derived>::wide_beam() {
+template <class Derived, int Orders>
+const Beam<typename BodySignal<Derived, Orders>::WideDual>&
+BodySignal<Derived, Orders>::wide_beam() {
   if (!wide_beam_) {
     wide_beam_ = std::make_unique<const Beam<WideDual>>(cast_beam<WideDual>(body_.beam));
   }

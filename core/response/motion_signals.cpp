@@ -21,7 +21,7 @@ Vector3<Scalar> displacement(const Beam<Scalar>& beam, const BeamPlace& place, N
   return axis_shape(place.xi, length) * q;
 }
 
-class DeflectionSignal final : public BodySignal<DeflectionSignal> {
+class DeflectionSignal final : public BodySignal<DeflectionSignal, 1> {
  public:
   DeflectionSignal(const BodyModel& body, double at, int direction)
       : BodySignal(body), at_(at), place_(find_place(body.beam, at)), direction_(direction) {}

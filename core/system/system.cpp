@@ -22,7 +22,6 @@ void System::leave_out(const std::vector<int>& multipliers) {
 void System::build_pattern() {
   EntryList entries;
   first_entry_.clear();
-  slots_.clear();
   for (const auto& term : terms_) {
     first_entry_.push_back(entries.size());
     term->declare_entries(entries);
@@ -35,12 +34,23 @@ void System::build_pattern() {
   pattern_.resize(size(), size());
   pattern_.setFromTriplets(triplets.begin(), triplets.end());
   pattern_.makeCompressed();
-  for (const auto& [row, col] : entries) {
+  entry_count_ = entries.size();
+  const auto none = static_cast<int>(entries.size());
+  first_of_value_.assign(static_cast<std::size_t>(pattern_.nonZeros()), none);
+  more_of_values_.clear();
+  for (int entry = 0; entry < none; ++entry) {
+    const auto [row, col] = entries[static_cast<std::size_t>(entry)];
     const int* begin = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[col];
     const int* end = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[col + 1];
     const int* found = std::lower_bound(begin, end, row);
     assert(found != end && *found == row);
-    slots_.push_back(static_cast<int>(found - pattern_.innerIndexPtr()));
+    const auto value = static_cast<int>(found - pattern_.innerIndexPtr());
+    int& first = first_of_value_[static_cast<std::size_t>(value)];
+    if (first == none) {
+      first = entry;
+    } else {
+      more_of_values_.emplace_back(value, entry);
+    }
   }
 }
 
@@ -79,20 +89,24 @@ void System::linearize(const State& state, const Weights& weights, ConstraintLev
 void System::linearize(const State& state, const WeightList& weights, ConstraintLevel level,
                        Eigen::VectorXd& residual, std::span<Matrix> matrices) {
   residual.setZero(size());
-  const std::size_t count = slots_.size();
-  if (entries_.size() < count * weights.size()) entries_.resize(count * weights.size());
+  const std::size_t stride = entry_count_ + 1;
+  if (entries_.size() < stride * weights.size()) entries_.resize(stride * weights.size());
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     terms_[i]->linearize(state, weights, level, residual,
-                         {entries_.data() + first_entry_[i], static_cast<std::ptrdiff_t>(count)});
+                         {entries_.data() + first_entry_[i], static_cast<std::ptrdiff_t>(stride)});
   }
   for (std::size_t k = 0; k < matrices.size(); ++k) {
-    double* values = matrices[k].valuePtr();
-    const double* entries = entries_.data() + k * count;
-    std::fill(values, values + matrices[k].nonZeros(), 0.0);
-    for (std::size_t i = 0; i < count; ++i) values[slots_[i]] += entries[i];
+    double* entries = entries_.data() + k * stride;
+    entries[entry_count_] = 0.0;
+    write_values(entries, matrices[k].valuePtr());
     replace_left_out(matrices[k]);
   }
   replace_left_out(state, residual);
+}
+
+void System::write_values(const double* entries, double* values) const {
+  for (std::size_t i = 0; i < first_of_value_.size(); ++i) values[i] = entries[first_of_value_[i]];
+  for (const auto& [value, entry] : more_of_values_) values[value] += entries[entry];
 }
 
 void System::design_derivative(const State& state, ConstraintLevel level,

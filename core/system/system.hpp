@@ -62,6 +62,8 @@ class System {
 
  private:
   void build_pattern();
+  /// Sums of entries.
+  void write_values(const double* entries, double* values) const;
   /// Rows of what is left out: zero, and one on the diagonal.
   void replace_left_out(const State& state, Eigen::VectorXd& residual) const;
   void replace_left_out(Matrix& matrix) const;
@@ -70,8 +72,12 @@ class System {
   std::vector<std::unique_ptr<Term>> terms_;
   std::vector<int> left_out_;
   Matrix pattern_;
-  std::vector<int> slots_;       ///< value index of each declared entry, terms in order
-  std::vector<double> entries_;  ///< scratch, same order, a block for each of the weights
+  /// Of each value of the matrix, which of the declared entries (terms in order) comes first; one
+  /// past the last, which is zero, where there is none.
+  std::vector<int> first_of_value_;
+  std::vector<std::pair<int, int>> more_of_values_;  ///< the others: (value, entry)
+  std::size_t entry_count_ = 0;
+  std::vector<double> entries_;  ///< scratch, a block of entries and a zero for each of the weights
   Eigen::VectorXd unused_;       ///< scratch, where only the tangent is asked for
   std::vector<std::size_t> first_entry_;
   Eigen::MatrixXd kept_mu_;  ///< scratch, without the rows of what is left out
