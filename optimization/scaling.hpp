@@ -8,9 +8,9 @@
 /// mean in this folder.
 namespace pleuel {
 
-/// Magnitude s of each variable near the design x, for the backends: its own, or else |xᵢ|, but at least a tenth of
-/// the range between its bounds and at most all of it; without finite bounds at least |start|, or 1
-/// if both are 0. Always positive.
+/// Magnitude s of each variable near the design x, for the backends: its own, or else |xᵢ|, but at
+/// least a tenth of the range between its bounds and at most all of it; without finite bounds at
+/// least |start|, or 1 if both are 0. Always positive.
 Eigen::VectorXd variable_scales(const Problem& problem, const Eigen::VectorXd& x);
 
 /// The same for the audit, with at least a hundredth of the range: a step of s is a change of a

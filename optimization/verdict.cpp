@@ -28,7 +28,8 @@ std::string worst_constraint(const EvaluationCache& cache, const KnownDesign& de
 }
 
 void judge_gradients(Verdict& verdict, EvaluationCache& cache, const Tolerances& tolerances) {
-  const GradientCheck check = check_gradients(cache, verdict.design, verdict.audit, tolerances.gradient);
+  const GradientCheck check =
+      check_gradients(cache, verdict.design, verdict.audit, tolerances.gradient);
   if (!check.is_possible) {
     verdict.message = "the designs beside this one cannot be evaluated: its gradients are unproven";
   } else if (check.error > tolerances.gradient) {

@@ -27,10 +27,10 @@ auto second_derivative_at_zero(Function&& f, double h) {
 }
 
 /// df/ds at s = 0 of the polynomial through f at the degree + 1 Chebyshev points of [from, to], in
-/// which 0 lies. For values with noise: it is amplified by no more than 2 degree²/(to − from), which
-/// is reached at an end (Markov's inequality), and intervals may be wide, since the truncation of an
-/// analytic f falls by a factor with each degree (Trefethen, Approximation Theory and Approximation
-/// Practice, SIAM 2013, ch. 8).
+/// which 0 lies. For values with noise: it is amplified by no more than 2 degree²/(to − from),
+/// which is reached at an end (Markov's inequality), and intervals may be wide, since the
+/// truncation of an analytic f falls by a factor with each degree (Trefethen, Approximation Theory
+/// and Approximation Practice, SIAM 2013, ch. 8).
 template <class Function>
 auto derivative_in_interval(Function&& f, double from, double to, int degree) {
   using Value = decltype(f(from));
