@@ -25,11 +25,13 @@ Json options_document(const SolveOptions& options, const ProblemFile& problem) {
           {"tolerance", options.tolerance},
           {"max_iterations", options.max_iterations},
           {"max_restarts", options.max_restarts},
+          {"max_escapes", options.max_escapes},
           {"max_consecutive_failures", options.max_consecutive_failures},
           {"verdict",
            {{"kkt_residual", options.verdict.kkt_residual},
             {"violation", options.verdict.violation},
-            {"gradient", options.verdict.gradient}}}};
+            {"gradient", options.verdict.gradient},
+            {"gain", options.verdict.gain}}}};
 }
 
 }  // namespace pleuel
