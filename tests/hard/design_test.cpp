@@ -163,12 +163,13 @@ std::string corner_name(const testing::TestParamInfo<Corner>& info) {
   return name;
 }
 
-/// Limits: measured times ten, as in gradient_test.cpp.
+/// Limits: measured times ten, as in gradient_test.cpp; up to round-off, which is not the same in
+/// every build.
 INSTANTIATE_TEST_SUITE_P(
     Problems, HardCorner,
     testing::Values(
         Corner{
-            "impossible_designs", {"/variables/crank_length/upper=99.9 mm"}, {false, false}, 2e-11},
+            "impossible_designs", {"/variables/crank_length/upper=99.9 mm"}, {false, false}, 3e-10},
         Corner{
             "impossible_designs", {"/variables/crank_length/upper=99.9 mm"}, {false, true}, 8e-9},
         Corner{
@@ -176,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(
         Corner{"impossible_designs", {"/variables/crank_length/upper=99.9 mm"}, {true, true}, 7e-8},
         Corner{"fast_crank", {"/simulation/end_time=0.01"}, {false}, 5e-7},
         Corner{"flyball_governor", {"/simulation/end_time=1"}, {true}, 4e-8},
-        Corner{"light_slider", {}, {false}, 4e-7}, Corner{"soft_rod", {}, {true}, 1e-7},
+        Corner{"light_slider", {}, {false}, 4e-7}, Corner{"soft_rod", {}, {true}, 2e-7},
         Corner{"sudden_load", {"/simulation/end_time=0.05"}, {false}, 2e-9}),
     corner_name);
 
