@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "core/base/error.hpp"
+#include "core/response/analysis.hpp"
 #include "tests/studies/quick_problem.hpp"
 
 namespace pleuel {
@@ -54,6 +55,32 @@ TEST(Accuracy, ReferenceIsFinerThanEveryRun) {
   const AccuracyStudy result = study(1e-3);
   EXPECT_DOUBLE_EQ(result.reference.settings.step, 0.5e-4);
   EXPECT_EQ(result.reference.settings.elements, 8);
+}
+
+/// Against a run with a quarter of its step and twice its elements, which is nearly exact beside
+/// it.
+TEST(Accuracy, EstimatesTheErrorOfItsReference) {
+  const AccuracyStudy result = study(1e-3);
+  ProblemFile finer = test::quick_problem();
+  finer.simulation.step = result.reference.settings.step / 4;
+  for (Body& body : finer.scene.bodies) {
+    auto* beam = std::get_if<BeamBody>(&body.shape);
+    if (beam) beam->segments.front().elements = 2 * result.reference.settings.elements;
+  }
+  const Eigen::VectorXd exact = values_of(*analyze(finer, start_design(finer)));
+  const Eigen::Index torque = 6;  // torque_rms: smooth in the step, unlike a maximum
+  const double error = std::abs(result.reference.values(torque) / exact(torque) - 1.0);
+  EXPECT_GT(result.reference.errors(torque), 0.5 * error);
+  EXPECT_LT(result.reference.errors(torque), 2.0 * error);
+}
+
+TEST(Accuracy, SaysNoErrorBelowThatOfItsReference) {
+  const AccuracyStudy result = study(1e-3);
+  for (const AccuracyRun& run : result.runs) {
+    EXPECT_GE((run.errors - result.reference.errors).minCoeff(), 0.0);
+    EXPECT_GE((run.gradient_errors - result.reference.gradient_errors).minCoeff(), 0.0);
+  }
+  EXPECT_GT(result.reference.errors.maxCoeff(), 0.0);
 }
 
 TEST(Accuracy, AFailingRunIsMarkedAndTheOthersGoOn) {
