@@ -16,11 +16,8 @@ namespace {
 constexpr double round_off = 1e-14;
 /// Where refinement leaves more than this, the pivots are no good.
 constexpr double poor = 1e-10;
-/// Diagonal entries are pivots if they are as large as this part of the largest in their column.
-/// KLU's own 0.001 leaves backward errors of 1e-14 and more, so that many solutions have to be
-/// refined; with 0.1 hardly any has, at about the same fill. Where that makes entries grow all the
-/// same, the largest one is the pivot.
-constexpr double usual_threshold = 0.1, full_threshold = 1.0;
+/// Where pivots on the diagonal make entries grow all the same, the largest one is the pivot.
+constexpr double full_threshold = 1.0;
 
 /// With so many right-hand sides, more than KLU takes at a time, the factors are copied for all.
 constexpr Eigen::Index least_columns = 5;
