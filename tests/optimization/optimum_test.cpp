@@ -137,8 +137,9 @@ TEST(HS071, AnEqualityIsRefusedByBackendsThatKnowNone) {
       solve(known.problem, {.backend = backend});
       ADD_FAILURE() << backend << " took an equality";
     } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr(backend),
-                                               testing::HasSubstr("/constraints/sphere is an equality")));
+      EXPECT_THAT(error.what(),
+                  testing::AllOf(testing::HasSubstr(backend),
+                                 testing::HasSubstr("/constraints/sphere is an equality")));
     }
   }
 }
