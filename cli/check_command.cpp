@@ -97,7 +97,7 @@ std::string make_text(const ProblemFile& problem, const Findings& findings) {
   const Analysis& analysis = *findings.analysis;
   std::string text = fmt::format(
       "{}: a valid problem\n{}\n\n{}\n{}", problem.name, size_text(analysis),
-      bodies_text(analysis.model) + "\n" + freedoms_text(analysis) + assembly_text(analysis) + "\n",
+      bodies_text(analysis.model) + "\n" + freedoms_text(analysis) + assembly_text(analysis),
       effects_text(analysis.model));
   if (!problem.variables.empty()) text += "\n" + variables_text(problem);
   text += "\n" + (findings.derivatives.empty()

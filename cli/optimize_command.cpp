@@ -9,11 +9,13 @@
 #include "cli/history_csv.hpp"
 #include "cli/interruption.hpp"
 #include "cli/iteration_lines.hpp"
+#include "cli/monitors_report.hpp"
 #include "cli/optimum_document.hpp"
 #include "cli/optimum_report.hpp"
 #include "cli/run_record.hpp"
 #include "cli/solve_settings.hpp"
 #include "cli/trajectory_csv.hpp"
+#include "core/scene/body_rules.hpp"
 #include "optimization/design_problem.hpp"
 #include "optimization/design_solve.hpp"
 
@@ -70,6 +72,7 @@ Result solve_visibly(DesignProblem& problem, const SolveOptions& options, RunRec
   fmt::print(out, "{}: minimize {} by {} variables under {} constraints, with {}\n\n",
              problem.file().name, problem.objective_name(), problem.variables().size(),
              problem.constraints().size(), options.backend);
+  fmt::print(out, "{}", warnings_text(impossible_corners(problem.file())));
   std::optional<HistoryCsv> history;  // with the first evaluation
   IterationLines lines(out, problem.file());
   const Interruption interruption;
