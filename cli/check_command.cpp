@@ -19,6 +19,7 @@ namespace {
 
 struct Findings {
   std::unique_ptr<Analysis> analysis;
+  Freedoms freedoms;
   double simulation_seconds = 0.0, gradient_seconds = 0.0;
   Ties ties;
   std::vector<DerivativeCheck> derivatives;  ///< empty without variables
@@ -34,6 +35,9 @@ Findings examine(const ProblemFile& problem, const Eigen::VectorXd& x, int threa
   const Stopwatch simulation;
   findings.analysis = analyze(problem, x);
   findings.simulation_seconds = simulation.seconds();
+  State initial;
+  findings.analysis->trajectory.load(0, initial);
+  findings.freedoms = rigid_freedoms(findings.analysis->model.mechanism, initial);
   findings.ties = find_ties(*findings.analysis);
   warn(doubts(monitor(findings.analysis->model, findings.analysis->trajectory)));
   if (problem.variables.empty() || problem.responses.empty()) return findings;
@@ -70,7 +74,7 @@ Json make_document(const ProblemFile& problem, const Findings& findings) {
                    {"bodies", bodies_document(analysis.model)},
                    {"coordinates", analysis.model.mechanism.system->coordinates()},
                    {"multipliers", analysis.model.mechanism.system->multipliers()},
-                   {"rigid_motion", freedoms_document(analysis)},
+                   {"rigid_motion", freedoms_document(findings.freedoms, analysis.model)},
                    {"steps", analysis.trajectory.steps()},
                    {"effects", effects_document(analysis.model)},
                    {"variables", variables_document(problem)},
@@ -95,10 +99,11 @@ std::string time_text(const ProblemFile& problem, const Findings& findings) {
 
 std::string make_text(const ProblemFile& problem, const Findings& findings) {
   const Analysis& analysis = *findings.analysis;
-  std::string text = fmt::format(
-      "{}: a valid problem\n{}\n\n{}\n{}", problem.name, size_text(analysis),
-      bodies_text(analysis.model) + "\n" + freedoms_text(analysis) + assembly_text(analysis),
-      effects_text(analysis.model));
+  std::string text =
+      fmt::format("{}: a valid problem\n{}\n\n{}\n{}", problem.name, size_text(analysis),
+                  bodies_text(analysis.model) + "\n" +
+                      freedoms_text(findings.freedoms, analysis.model) + assembly_text(analysis),
+                  effects_text(analysis.model));
   if (!problem.variables.empty()) text += "\n" + variables_text(problem);
   text += "\n" + (findings.derivatives.empty()
                       ? responses_text(problem, analysis)

@@ -40,7 +40,8 @@ fs::path default_folder(const Arguments& arguments) {
 std::string command_of(const fs::path& folder) {
   std::ifstream stream(folder / card_name);
   const Json card = Json::parse(stream, nullptr, /*allow_exceptions=*/false);
-  return card.is_object() ? card.value("command", "") : "";
+  const bool is_named = card.is_object() && card.contains("command") && card["command"].is_string();
+  return is_named ? card["command"].get<std::string>() : "";
 }
 
 void check_writable(const fs::path& folder) {

@@ -7,7 +7,7 @@
 #include "cli/number_text.hpp"
 #include "cli/shown_unit.hpp"
 #include "cli/table.hpp"
-#include "core/integration/freedoms.hpp"
+#include "core/integration/configuration.hpp"
 
 namespace pleuel {
 
@@ -19,12 +19,6 @@ int elastic_coordinates(const BodyModel& body) {
 
 /// Of the size of a coordinate; assembly itself ends at 1e-10.
 constexpr double visible_shift = 1e-6;
-
-State initial_state_of(const Analysis& analysis) {
-  State state;
-  analysis.trajectory.load(0, state);
-  return state;
-}
 
 int drives(const Model& model) {
   return static_cast<int>(
@@ -61,17 +55,15 @@ std::string bodies_text(const Model& model) {
   return table.text();
 }
 
-Json freedoms_document(const Analysis& analysis) {
-  const Freedoms freedoms = rigid_freedoms(analysis.model.mechanism, initial_state_of(analysis));
+Json freedoms_document(const Freedoms& freedoms, const Model& model) {
   return {{"coordinates", freedoms.coordinates},
           {"constraints", freedoms.constraints},
-          {"drives", drives(analysis.model)},
+          {"drives", drives(model)},
           {"free", freedoms.free()}};
 }
 
-std::string freedoms_text(const Analysis& analysis) {
-  const Freedoms freedoms = rigid_freedoms(analysis.model.mechanism, initial_state_of(analysis));
-  const int driven = drives(analysis.model);
+std::string freedoms_text(const Freedoms& freedoms, const Model& model) {
+  const int driven = drives(model);
   std::string text = fmt::format(
       "Rigid motion: {} coordinates, {} independent constraints ({} of drives): ",
       freedoms.coordinates, freedoms.constraints, driven == 0 ? "none" : std::to_string(driven));
@@ -84,7 +76,9 @@ std::string freedoms_text(const Analysis& analysis) {
 
 std::string assembly_text(const Analysis& analysis) {
   const Mechanism& mechanism = analysis.model.mechanism;
-  Eigen::VectorXd shift = (initial_state_of(analysis).q - mechanism.guess.q).cwiseAbs();
+  State initial;
+  analysis.trajectory.load(0, initial);
+  Eigen::VectorXd shift = difference(mechanism.rotations, initial.q, mechanism.guess.q).cwiseAbs();
   for (const int i : mechanism.elastic) shift(i) = 0.0;
   Eigen::Index largest = 0;
   if (shift.size() == 0 ||
@@ -93,9 +87,8 @@ std::string assembly_text(const Analysis& analysis) {
   }
   const std::string& name = mechanism.equation_names.at(static_cast<std::size_t>(largest));
   return fmt::format(
-      "Joints and drives move the mechanism from where the file places it before the start, most "
-      "{}, "
-      "by {} m or rad.\n",
+      "Joints and drives move the mechanism from where the file places it before the start, "
+      "most {}, by {} m or rad.\n",
       name, significant(shift(largest), 3));
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/response/describe_tie.hpp"
 #include "sensitivity/kinks.hpp"
 
 namespace pleuel {
@@ -10,11 +11,8 @@ namespace {
 
 std::string describe(const Tie& tie, const Response& response) {
   const PeakTie& peaks = tie.peaks;
-  return fmt::format(
-      "{}: peaks within {:.2g} %, at {:.5g} s ({}) and at {:.5g} s ({}); gradients differ by "
-      "{:.3g} %",
-      response.name, 100 * peaks.gap, peaks.time, response.signal->describe(peaks.channel),
-      peaks.other_time, response.signal->describe(peaks.other_channel), 100 * *tie.kink);
+  return fmt::format("{}: peaks within {:.2g} %, {}; gradients differ by {:.3g} %", response.name,
+                     100 * peaks.gap, describe_tie(peaks, response), 100 * *tie.kink);
 }
 
 }  // namespace

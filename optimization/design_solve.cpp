@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/response/describe_tie.hpp"
 #include "optimization/peak_problem.hpp"
 #include "optimization/peak_windows.hpp"
 #include "optimization/robust_problem.hpp"
@@ -130,10 +131,8 @@ std::string describe(const std::vector<Kink>& kinks, const Analysis& analysis) {
     if (last == kink.response) continue;
     last = kink.response;
     const Response& response = analysis.responses[kink.response];
-    texts.push_back(fmt::format(
-        "{} (at {:.5g} s, {}, and at {:.5g} s, {}; gradients differ by {:.3g} %)", response.name,
-        kink.tie.time, response.signal->describe(kink.tie.channel), kink.tie.other_time,
-        response.signal->describe(kink.tie.other_channel), 100.0 * kink.difference));
+    texts.push_back(fmt::format("{} ({}; gradients differ by {:.3g} %)", response.name,
+                                describe_tie(kink.tie, response), 100.0 * kink.difference));
   }
   return texts.empty() ? "" : fmt::format("two peaks tie in {}", fmt::join(texts, " and in "));
 }

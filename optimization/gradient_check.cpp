@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <random>
 #include <utility>
 #include <vector>
 
+#include "optimization/generic_numbers.hpp"
 #include "optimization/scaling.hpp"
 
 namespace pleuel {
@@ -16,18 +16,6 @@ namespace {
 constexpr double step = 1e-3;             ///< h
 constexpr double short_step = 1e-4;       ///< the second attempt
 constexpr double least_magnitude = 1e-2;  ///< part of s that replaces |x| near zero
-
-/// Numbers of generic size, the same in every run. The engine's raw numbers are prescribed by the
-/// standard, unlike those of its distributions.
-class GenericNumbers {
- public:
-  /// In [1/2, 1].
-  double size() { return 0.5 + 0.5 * static_cast<double>(engine_()) / std::mt19937::max(); }
-  double sign() { return engine_() % 2 == 0 ? 1.0 : -1.0; }
-
- private:
-  std::mt19937 engine_;
-};
 
 /// To which sides a variable can go: +1 or −1 at a bound, 0 where both are free or none is.
 struct Room {

@@ -1,7 +1,8 @@
 #include "optimization/lowest_curvature.hpp"
 
 #include <algorithm>
-#include <random>
+
+#include "optimization/generic_numbers.hpp"
 
 namespace pleuel {
 
@@ -17,13 +18,13 @@ Eigen::VectorXd across(const Eigen::MatrixXd& columns, Eigen::VectorXd vector) {
 }
 
 /// A vector with entries of generic size, as far as it lies in the subspace and across the others.
-Eigen::VectorXd generic_direction(std::mt19937& engine, const Eigen::MatrixXd& basis,
+Eigen::VectorXd generic_direction(GenericNumbers& numbers, const Eigen::MatrixXd& basis,
                                   const Eigen::MatrixXd& others) {
   Eigen::VectorXd direction;
   do {
     Eigen::VectorXd parts(basis.cols());
     for (double& part : parts) {
-      part = static_cast<double>(engine()) / std::mt19937::max() - 0.5;
+      part = numbers.part() - 0.5;
     }
     direction = across(others, basis * parts);
   } while (direction.norm() < dependent);
@@ -34,10 +35,10 @@ Eigen::VectorXd generic_direction(std::mt19937& engine, const Eigen::MatrixXd& b
 
 LowestCurvature lowest_curvature(const HessianProduct& product, const Eigen::MatrixXd& basis,
                                  int max_products) {
-  std::mt19937 engine;
+  GenericNumbers numbers;
   const Eigen::Index most = std::min<Eigen::Index>(max_products, basis.cols());
   Eigen::MatrixXd directions(basis.rows(), 0), images(basis.rows(), 0);
-  Eigen::VectorXd next = generic_direction(engine, basis, directions);
+  Eigen::VectorXd next = generic_direction(numbers, basis, directions);
   while (true) {
     const auto image = product(next);
     if (!image) break;
@@ -49,7 +50,7 @@ LowestCurvature lowest_curvature(const HessianProduct& product, const Eigen::Mat
     if (count == most) break;
     next = across(directions, images.col(count - 1));
     const bool is_invariant = next.norm() <= dependent * images.col(count - 1).norm();
-    next = is_invariant ? generic_direction(engine, basis, directions) : next.normalized();
+    next = is_invariant ? generic_direction(numbers, basis, directions) : next.normalized();
   }
   LowestCurvature lowest;
   lowest.products = static_cast<int>(directions.cols());

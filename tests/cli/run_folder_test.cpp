@@ -153,6 +153,7 @@ TEST(Optimize, ThatIsInterruptedKeepsItsBestDesignToGoOnFrom) {
                              "one/result.json", "--set", "/optimizer/max_iterations=1"},
                             quick()));
   const auto history = read_csv(folder.path() / "two/history.csv");
+  ASSERT_EQ(document.at("variables").size(), 2u);
   for (const auto& [name, variable] : document.at("variables").items()) {
     const auto column =
         std::find(history.front().begin(), history.front().end(), "variable:" + name);
@@ -184,7 +185,6 @@ TEST(Simulate, SaysThatAssemblyMovesTheMechanism) {
 }
 
 TEST(Output, ThatCannotBeWrittenIsAnError) {
-  if (!fs::exists("/dev/full")) GTEST_SKIP();
   const TemporaryFolder folder;
   EXPECT_EQ(run_line(folder.path(), "backends --json >/dev/full; echo $?").out, "2\n");
 }

@@ -1,0 +1,13 @@
+#include "core/response/describe_tie.hpp"
+
+#include <fmt/format.h>
+
+namespace pleuel {
+
+std::string describe_tie(const PeakTie& tie, const Response& response) {
+  return fmt::format("at {:.5g} s ({}) and at {:.5g} s ({})", tie.time,
+                     response.signal->describe(tie.channel), tie.other_time,
+                     response.signal->describe(tie.other_channel));
+}
+
+}  // namespace pleuel

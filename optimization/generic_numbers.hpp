@@ -1,0 +1,21 @@
+#pragma once
+
+#include <random>
+
+namespace pleuel {
+
+/// Numbers of generic size, the same in every run. The engine's raw numbers are prescribed by the
+/// standard, unlike those of its distributions.
+class GenericNumbers {
+ public:
+  /// In [0, 1].
+  double part() { return static_cast<double>(engine_()) / std::mt19937::max(); }
+  /// In [1/2, 1].
+  double size() { return 0.5 + 0.5 * part(); }
+  double sign() { return engine_() % 2 == 0 ? 1.0 : -1.0; }
+
+ private:
+  std::mt19937 engine_;
+};
+
+}  // namespace pleuel
