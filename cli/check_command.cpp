@@ -10,6 +10,7 @@
 #include "cli/stopwatch.hpp"
 #include "cli/ties.hpp"
 #include "core/scene/body_rules.hpp"
+#include "core/trust/doubts.hpp"
 #include "sensitivity/gradients.hpp"
 #include "studies/derivative_check.hpp"
 
@@ -39,7 +40,7 @@ Findings examine(const ProblemFile& problem, const Eigen::VectorXd& x, int threa
   findings.analysis->trajectory.load(0, initial);
   findings.freedoms = rigid_freedoms(findings.analysis->model.mechanism, initial);
   findings.ties = find_ties(*findings.analysis);
-  warn(doubts(monitor(findings.analysis->model, findings.analysis->trajectory)));
+  warn(texts_of(find_doubts(problem, x, *findings.analysis)));
   if (problem.variables.empty() || problem.responses.empty()) return findings;
   const Stopwatch gradient;
   direct_gradients(*findings.analysis);

@@ -6,16 +6,6 @@
 
 namespace pleuel {
 
-namespace {
-
-/// Elastic rotations [rad] beyond which deformation is not small.
-constexpr double small_rotation = 0.2;
-/// Share of the energy in motion. Errors of order h² are a few times larger in peaks than in
-/// energy.
-constexpr double small_energy_error = 1e-2;
-
-}  // namespace
-
 Json monitors_document(const Monitors& monitors) {
   return {{"position_drift", monitors.position_drift},
           {"velocity_drift", monitors.velocity_drift},
@@ -32,23 +22,6 @@ std::string monitors_text(const Monitors& monitors, int multipliers) {
   }
   return text + fmt::format("Energy is balanced to {} of the largest energy in the motion.\n",
                             magnitude(monitors.energy_error));
-}
-
-std::vector<std::string> doubts(const Monitors& monitors) {
-  std::vector<std::string> sentences;
-  if (monitors.elastic_rotation > small_rotation) {
-    sentences.push_back(fmt::format(
-        "\"{}\" bends until it has turned by {} rad against its frame: too far for linear "
-        "elasticity, which is good for some {:g} rad. Do not trust these numbers.",
-        monitors.most_bent, significant(monitors.elastic_rotation), small_rotation));
-  }
-  if (monitors.energy_error > small_energy_error) {
-    sentences.push_back(fmt::format(
-        "energy is balanced to {} of the largest in the motion only: steps are too long for what "
-        "moves here, or a drive jumps. Compare with a smaller /simulation/step.",
-        percent(monitors.energy_error)));
-  }
-  return sentences;
 }
 
 std::string warnings_text(const std::vector<std::string>& warnings) {

@@ -15,10 +15,6 @@ Json monitors_document(const Monitors& monitors);
 /// Sentences about constraints (if there are multipliers) and energy.
 std::string monitors_text(const Monitors& monitors, int multipliers);
 
-/// Sentences on why these numbers should not be trusted: a beam bends beyond linear elasticity, or
-/// energy comes from nowhere. Empty if nothing speaks against them.
-std::vector<std::string> doubts(const Monitors& monitors);
-
 /// "Warning: …" of each, in lines of their own.
 std::string warnings_text(const std::vector<std::string>& warnings);
 

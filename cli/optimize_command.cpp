@@ -16,6 +16,7 @@
 #include "cli/solve_settings.hpp"
 #include "cli/trajectory_csv.hpp"
 #include "core/scene/body_rules.hpp"
+#include "core/trust/doubts.hpp"
 #include "optimization/design_problem.hpp"
 #include "optimization/design_solve.hpp"
 
@@ -33,6 +34,8 @@ void examine_designs(RunRecord& record, Optimum& optimum) {
   write_trajectory(record.result("trajectory-optimum.csv"), *end);
   optimum.responses = values_of(*end);
   optimum.monitors = monitor(end->model, end->trajectory);
+  optimum.warnings =
+      texts_of(find_doubts(TrustedRun{optimum.problem, optimum.result.x, *end, optimum.monitors}));
 }
 
 ExitCode exit_code(const Optimum& optimum) {
@@ -121,7 +124,7 @@ Outcome run_optimize(const Arguments& arguments) {
   RunRecord record(arguments, input, options_document(options, input.problem));
   record.begin_phase("optimize");
   const Result result = solve_visibly(problem, options, record, arguments);
-  Optimum optimum{input.problem, result, {}, {}, {}, problem.method()};
+  Optimum optimum{input.problem, result, {}, {}, {}, {}, problem.method()};
   if (optimum.has_design()) {
     record.begin_phase("trajectories");
     examine_designs(record, optimum);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "cli/shown_unit.hpp"
@@ -17,6 +18,7 @@ struct Optimum {
   /// Values of all responses; empty if the start cannot be simulated.
   Eigen::VectorXd start_responses, responses;
   Monitors monitors;                     ///< of the last design; likewise
+  std::vector<std::string> warnings;     ///< likewise: what speaks against its numbers
   std::optional<GradientChoice> method;  ///< of the gradients; none if there was none
 
   bool has_design() const { return result.evaluation.has_gradients(); }

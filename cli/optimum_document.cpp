@@ -61,7 +61,7 @@ Json optimum_document(const Optimum& optimum) {
     }
     document["responses"] = responses_document(optimum);
     document["monitors"] = monitors_document(optimum.monitors);
-    document["warnings"] = doubts(optimum.monitors);
+    document["warnings"] = optimum.warnings;
   }
   document["kkt_residual"] = result.kkt_residual;
   document["max_violation"] = result.max_violation;

@@ -16,6 +16,8 @@ std::string status_text(const Result& result) {
       return "VERIFIED: " + result.message;
     case Status::stalled:
       return "NOT VERIFIED (stalled): " + result.message;
+    case Status::unresolved:
+      return "NOT VERIFIED (unresolved): " + result.message;
     case Status::infeasible:
       return "NOT VERIFIED (infeasible): " + result.message;
     case Status::interrupted:
@@ -131,7 +133,7 @@ std::string optimum_report(const Optimum& optimum) {
   const std::string status = "\n" + status_text(optimum.result) + "\n";
   if (!optimum.has_design()) return status;
   return status + "\n" + objective_text(optimum) + "\n" + variables_text(optimum) +
-         constraints_text(optimum) + "\n" + warnings_text(doubts(optimum.monitors)) +
+         constraints_text(optimum) + "\n" + warnings_text(optimum.warnings) +
          residuals_text(optimum.result) + effort_text(optimum);
 }
 

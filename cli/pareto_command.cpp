@@ -68,6 +68,7 @@ Json point_document(const ProblemFile& problem, const ParetoPoint& point) {
                    {"objectives", Json::object()},
                    {"variables", Json::object()}};
   if (point.has_design()) {
+    document["warnings"] = point.result.warnings;
     document["objectives"] = {{problem.objective->response, point.result.evaluation.objective},
                               {limited_name(varied_constraint(problem)), point.limited_value}};
     document["multiplier"] = point.multiplier;

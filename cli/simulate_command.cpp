@@ -9,12 +9,22 @@
 #include "cli/scene_report.hpp"
 #include "cli/stopwatch.hpp"
 #include "cli/trajectory_csv.hpp"
+#include "core/trust/doubts.hpp"
 
 namespace pleuel {
 
 namespace {
 
-Json simulation_document(const Analysis& analysis, const Monitors& monitors, double seconds) {
+/// A simulated design, and what is to be said of it.
+struct Simulated {
+  const Analysis& analysis;
+  Monitors monitors;
+  std::vector<std::string> warnings;
+  double seconds = 0.0;
+};
+
+Json simulation_document(const Simulated& run) {
+  const Analysis& analysis = run.analysis;
   const Trajectory& trajectory = analysis.trajectory;
   const System& system = *analysis.model.mechanism.system;
   return {{"responses", responses_document(analysis)},
@@ -23,9 +33,9 @@ Json simulation_document(const Analysis& analysis, const Monitors& monitors, dou
           {"rejected_steps", trajectory.rejected_steps},
           {"newton_iterations", trajectory.newton_iterations},
           {"factorizations", trajectory.factorizations},
-          {"seconds", seconds},
-          {"monitors", monitors_document(monitors)},
-          {"warnings", doubts(monitors)},
+          {"seconds", run.seconds},
+          {"monitors", monitors_document(run.monitors)},
+          {"warnings", run.warnings},
           {"effects", effects_document(analysis.model)},
           {"coordinates", system.coordinates()},
           {"multipliers", system.multipliers()}};
@@ -42,13 +52,14 @@ double largest_step(const Trajectory& trajectory) {
 
 /// @param design  where it comes from, if it is not the start
 std::string simulation_text(const ProblemFile& problem, const std::string& design,
-                            const Analysis& analysis, const Monitors& monitors, double seconds) {
+                            const Simulated& run) {
+  const Analysis& analysis = run.analysis;
   const Trajectory& trajectory = analysis.trajectory;
   std::string text =
       fmt::format("{}{}: {}\n\n{}\n{}", problem.name, design, size_text(analysis),
                   responses_text(problem, analysis),
-                  monitors_text(monitors, analysis.model.mechanism.system->multipliers()) +
-                      assembly_text(analysis) + warnings_text(doubts(monitors)));
+                  monitors_text(run.monitors, analysis.model.mechanism.system->multipliers()) +
+                      assembly_text(analysis) + warnings_text(run.warnings));
   if (trajectory.split_steps > 0) {
     text += fmt::format(
         "Newton's method failed in {} steps, which were split; look there with a "
@@ -60,7 +71,7 @@ std::string simulation_text(const ProblemFile& problem, const std::string& desig
                         duration(smallest_step(trajectory)), duration(largest_step(trajectory)),
                         trajectory.rejected_steps);
   }
-  return text + fmt::format("{}, {} Newton iterations, {} factorizations\n", duration(seconds),
+  return text + fmt::format("{}, {} Newton iterations, {} factorizations\n", duration(run.seconds),
                             trajectory.newton_iterations, trajectory.factorizations);
 }
 
@@ -74,12 +85,14 @@ Outcome run_simulate(const Arguments& arguments) {
   const auto analysis = analyze(input.problem, input.design);
   const double seconds = stopwatch.seconds();
   record.begin_phase("monitor");
-  const Monitors monitors = monitor(analysis->model, analysis->trajectory);
+  Simulated run{*analysis, monitor(analysis->model, analysis->trajectory), {}, seconds};
+  run.warnings =
+      texts_of(find_doubts(TrustedRun{input.problem, input.design, *analysis, run.monitors}));
   record.begin_phase("write");
   write_trajectory(record.result("trajectory.csv"), *analysis);
   const std::string design = arguments.design ? " at " + arguments.design->string() : "";
-  Outcome outcome{ExitCode::done, simulation_document(*analysis, monitors, seconds),
-                  simulation_text(input.problem, design, *analysis, monitors, seconds)};
+  Outcome outcome{ExitCode::done, simulation_document(run),
+                  simulation_text(input.problem, design, run)};
   outcome.text += fmt::format("Written to {}: trajectory.csv, result.json, run_card.json\n",
                               record.folder().string());
   record.finish(outcome);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/response/describe_tie.hpp"
+#include "core/trust/doubts.hpp"
 #include "optimization/peak_problem.hpp"
 #include "optimization/peak_windows.hpp"
 #include "optimization/robust_problem.hpp"
@@ -181,9 +182,7 @@ std::string reason_to_go_on(const Result& result, const std::vector<Kink>& kinks
   return describe(kinks, design.analysis_at(result.x));
 }
 
-}  // namespace
-
-Result solve_design(DesignProblem& design, const SolveOptions& options, const Observer& observer,
+Result find_optimum(DesignProblem& design, const SolveOptions& options, const Observer& observer,
                     const Notice& notice) {
   std::vector<std::optional<std::size_t>> all;
   for (std::size_t i = 0; i < design.constraints().size(); ++i) all.emplace_back(i);
@@ -214,6 +213,27 @@ Result solve_design(DesignProblem& design, const SolveOptions& options, const Ob
     const std::vector<Kink> kinks = optimized_kinks(design, result.x);
     if (!kinks.empty()) result.message += "; " + describe(kinks, design.analysis_at(result.x));
   }
+  return result;
+}
+
+/// Doubts about the numbers of the last design: no optimum that rests on them is verified.
+void judge_numbers(DesignProblem& design, Result& result) {
+  if (!result.evaluation.has_gradients()) return;
+  const std::vector<Doubt> doubts =
+      find_doubts(design.file(), result.x, design.analysis_at(result.x));
+  result.warnings = texts_of(doubts);
+  if (result.status != Status::verified || !has_serious(doubts)) return;
+  result.status = Status::unresolved;
+  result.message =
+      "optimal by its numbers, but these are not to be trusted: " + doubts.front().text;
+}
+
+}  // namespace
+
+Result solve_design(DesignProblem& design, const SolveOptions& options, const Observer& observer,
+                    const Notice& notice) {
+  Result result = find_optimum(design, options, observer, notice);
+  judge_numbers(design, result);
   return result;
 }
 

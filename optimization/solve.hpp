@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <Eigen/Dense>
 
@@ -38,6 +39,8 @@ struct SolveOptions {
 struct Result {
   Status status = Status::failed;
   std::string message;  ///< a sentence: why this status
+  /// Sentences: what speaks against the numbers of the last design.
+  std::vector<std::string> warnings;
   std::string backend;
   Eigen::VectorXd x;  ///< [SI]
   /// At x, with gradients. Without any entry if the start already failed.

@@ -72,8 +72,8 @@ void judge_neighbourhood(Verdict& verdict, EvaluationCache& cache, const Evaluat
 }  // namespace
 
 std::string to_string(Status status) {
-  constexpr std::array<const char*, 5> names = {"verified", "stalled", "infeasible", "failed",
-                                                "interrupted"};
+  constexpr std::array<const char*, 6> names = {"verified",   "unresolved", "stalled",
+                                                "infeasible", "failed",     "interrupted"};
   return names[static_cast<std::size_t>(status)];
 }
 

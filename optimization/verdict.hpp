@@ -10,13 +10,14 @@ namespace pleuel {
 
 enum class Status {
   verified,    ///< a local optimum by our own audit, whatever the backend says
+  unresolved,  ///< a local optimum of these numbers, but they are not to be trusted
   stalled,     ///< limits are kept, but the design is not proven optimal
   infeasible,  ///< no design that keeps the limits was found
   failed,      ///< the evaluations fail: at the start, or too often in a row
   interrupted  ///< by the user, before anything was proven
 };
 
-/// "verified", "stalled", "infeasible", "failed" or "interrupted".
+/// "verified", "unresolved", "stalled", "infeasible", "failed" or "interrupted".
 std::string to_string(Status status);
 
 /// What separates right answers from wrong ones.

@@ -51,7 +51,8 @@ ParetoPoint find_point(const ProblemFile& problem, Eigen::Index row, double limi
 }
 
 bool is_within_limits(const ParetoPoint& point) {
-  return point.result.status == Status::verified || point.result.status == Status::stalled;
+  const Status status = point.result.status;
+  return status == Status::verified || status == Status::unresolved || status == Status::stalled;
 }
 
 /// @param sign  1 if a small limited value is good (upper limit), −1 if a large one is

@@ -62,9 +62,10 @@ const std::map<std::string, Names>& permitted() {
          {"core/scene", "core/beam", "core/frame", "core/integration", "core/effects",
           "core/joints", "core/forces"}},
         {"core/response", {"core/model", "core/scene", "core/beam", "core/integration"}},
+        {"core/trust", {"core/response"}},
         {"sensitivity", {"core/response"}},
         {"optimization", {"core/base"}},
-        {"studies", {"optimization", "sensitivity"}},
+        {"studies", {"optimization", "sensitivity", "core/trust"}},
         {"cli", {"studies"}}};
     for (int i = 0; i < 12; ++i) {  // what lies below what lies below …
       for (auto& [floor, names] : below) {

@@ -1,0 +1,38 @@
+#include "core/trust/doubts.hpp"
+
+#include <algorithm>
+
+#include "core/trust/bending_range.hpp"
+#include "core/trust/energy_balance.hpp"
+
+namespace pleuel {
+
+std::vector<Doubt> find_doubts(const TrustedRun& run) {
+  std::vector<Doubt> doubts;
+  for (const auto find : {doubt_bending_range, doubt_energy_balance}) {
+    const std::vector<Doubt> found = find(run);
+    doubts.insert(doubts.end(), found.begin(), found.end());
+  }
+  std::stable_partition(doubts.begin(), doubts.end(),
+                        [](const Doubt& doubt) { return doubt.is_serious; });
+  return doubts;
+}
+
+std::vector<Doubt> find_doubts(const ProblemFile& problem, const Eigen::VectorXd& x,
+                               const Analysis& analysis) {
+  const Monitors monitors = monitor(analysis.model, analysis.trajectory);
+  return find_doubts(TrustedRun{problem, x, analysis, monitors});
+}
+
+std::vector<std::string> texts_of(const std::vector<Doubt>& doubts) {
+  std::vector<std::string> texts;
+  for (const Doubt& doubt : doubts) texts.push_back(doubt.text);
+  return texts;
+}
+
+bool has_serious(const std::vector<Doubt>& doubts) {
+  return std::any_of(doubts.begin(), doubts.end(),
+                     [](const Doubt& doubt) { return doubt.is_serious; });
+}
+
+}  // namespace pleuel

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/response/analysis.hpp"
+#include "core/response/monitors.hpp"
+#include "core/trust/doubt.hpp"
+
+namespace pleuel {
+
+/// A simulated design, and what its doubts are made from.
+struct TrustedRun {
+  const ProblemFile& problem;
+  const Eigen::VectorXd& x;  ///< design variables [SI]
+  const Analysis& analysis;
+  const Monitors& monitors;  ///< of the analysis
+};
+
+/// All doubts about a simulated design, the serious ones first; every command that shows numbers
+/// shows them. Each kind of doubt has a file of its own beside this one.
+std::vector<Doubt> find_doubts(const TrustedRun& run);
+
+/// The same with monitors of its own.
+std::vector<Doubt> find_doubts(const ProblemFile& problem, const Eigen::VectorXd& x,
+                               const Analysis& analysis);
+
+/// Their sentences.
+std::vector<std::string> texts_of(const std::vector<Doubt>& doubts);
+
+/// Whether one of them is serious.
+bool has_serious(const std::vector<Doubt>& doubts);
+
+}  // namespace pleuel
