@@ -7,12 +7,21 @@
 #include "cli/number_text.hpp"
 #include "cli/run_record.hpp"
 #include "cli/table.hpp"
+#include "cli/warnings.hpp"
 #include "core/base/error.hpp"
+#include "core/trust/doubts.hpp"
 #include "studies/accuracy.hpp"
 
 namespace pleuel {
 
 namespace {
+
+/// Of the reference, and of the setting that is recommended.
+std::vector<std::string> warnings_of(const AccuracyStudy& study) {
+  std::vector<std::string> warnings = texts_of(study.reference.doubts);
+  if (study.recommended) add_new(warnings, texts_of(study.runs[*study.recommended].doubts));
+  return warnings;
+}
 
 Json settings_document(const AccuracyRun& run) {
   return {{"step", run.settings.step}, {"elements", run.settings.elements}};
@@ -32,6 +41,7 @@ Json run_document(const ProblemFile& problem, const AccuracyRun& run) {
     document["failure"] = run.failure;
     return document;
   }
+  document["warnings"] = texts_of(run.doubts);
   document["errors"] = errors_document(problem, run.errors);
   document["gradient_errors"] = errors_document(problem, run.gradient_errors);
   document["seconds"] = run.seconds();
@@ -52,6 +62,7 @@ Json make_document(const ProblemFile& problem, const AccuracyStudy& study) {
       study.recommended ? settings_document(study.runs[*study.recommended]) : Json(nullptr);
   document["reference"] = settings_document(study.reference);
   document["reference"]["seconds"] = study.reference.seconds();
+  document["warnings"] = warnings_of(study);
   document["reference"]["values"] = errors_document(problem, study.reference.values);
   document["reference"]["errors"] = errors_document(problem, study.reference.errors);
   document["reference"]["gradient_errors"] =
@@ -172,11 +183,11 @@ std::string study_text(const ProblemFile& problem, const AccuracyStudy& study) {
   return fmt::format(
       "{}: errors relative to a reference with step {:.4g} ms and {} elements a segment ({})\n"
       "Its own error is estimated at {}, of gradients {}; ≤: below the reference's own error\n\n"
-      "{}\n{}",
+      "{}\n{}{}",
       problem.name, 1e3 * study.reference.settings.step, study.reference.settings.elements,
       duration(study.reference.seconds()), largest_of(study.reference.errors),
       largest_of(study.reference.gradient_errors), runs_text(problem, study),
-      recommendation_text(problem, study));
+      recommendation_text(problem, study), warnings_text(warnings_of(study)));
 }
 
 }  // namespace
@@ -186,6 +197,7 @@ Outcome run_accuracy(const Arguments& arguments) {
   const ProblemFile& problem = input.problem;
   if (!problem.accuracy) throw InputError("/accuracy is missing: it says which steps to try");
   RunRecord record(arguments, input, Json::object());
+  show_warnings_before(problem);
   record.begin_phase("accuracy");
   std::optional<AccuracyCsv> csv;  // with the first result
   const AccuracyStudy study = accuracy_study(problem, [&](const AccuracyRun& run) {

@@ -9,6 +9,7 @@
 #include "cli/scene_report.hpp"
 #include "cli/stopwatch.hpp"
 #include "cli/ties.hpp"
+#include "cli/warnings.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/trust/doubts.hpp"
 #include "sensitivity/gradients.hpp"
@@ -119,6 +120,7 @@ std::string make_text(const ProblemFile& problem, const Findings& findings) {
 Outcome run_check(const Arguments& arguments) {
   const ProblemInput input = read_input(arguments);
   const ProblemFile& problem = input.problem;
+  show_warnings_before(problem);
   const Findings findings = examine(problem, input.design, arguments.jobs);
   return {ExitCode::done, make_document(problem, findings), make_text(problem, findings)};
 }

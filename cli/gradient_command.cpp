@@ -12,7 +12,9 @@
 #include "cli/table.hpp"
 #include "cli/ties.hpp"
 #include "cli/trajectory_csv.hpp"
+#include "cli/warnings.hpp"
 #include "core/base/error.hpp"
+#include "core/trust/doubts.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/method_choice.hpp"
 
@@ -77,6 +79,7 @@ struct Findings {
   std::optional<MethodChoice> choice;  ///< if it was left to the program
   std::vector<MethodResult> results;
   Ties ties;
+  std::vector<std::string> warnings;
 };
 
 Json choice_document(const MethodChoice& choice) {
@@ -94,6 +97,7 @@ Json make_document(const ProblemFile& problem, const Findings& findings) {
     if (findings.ties[i]) response["tie"] = tie_document(*findings.ties[i], analysis.responses[i]);
   }
   if (findings.choice) document["choice"] = choice_document(*findings.choice);
+  document["warnings"] = findings.warnings;
   for (const MethodResult& result : findings.results) {
     document["seconds"][to_string(result.method)] = result.seconds;
   }
@@ -184,11 +188,12 @@ void write_histories(RunRecord& record, const ProblemInput& input, Analysis& ana
 Outcome make_outcome(const Arguments& arguments, const ProblemFile& problem,
                      const Findings& findings) {
   return {ExitCode::done, make_document(problem, findings),
-          fmt::format("Gradients at {} of {}\n\n{}{}{}{}{}",
+          fmt::format("Gradients at {} of {}\n\n{}{}{}{}{}{}",
                       arguments.design ? "the design" : "the start", problem.name,
                       gradients_text(problem, findings.results),
-                      ties_text(findings.ties, *findings.analysis), choice_text(findings.choice),
-                      memory_text(findings.analysis->trajectory),
+                      ties_text(findings.ties, *findings.analysis),
+                      findings.warnings.empty() ? "" : "\n" + warnings_text(findings.warnings),
+                      choice_text(findings.choice), memory_text(findings.analysis->trajectory),
                       seconds_text(findings.results, findings.simulation_seconds))};
 }
 
@@ -211,6 +216,7 @@ Outcome run_gradient(const Arguments& arguments) {
   findings.results = compute(input, *findings.analysis, methods,
                              {problem.sensitivity.difference_step, arguments.jobs});
   findings.ties = find_ties(*findings.analysis);
+  findings.warnings = texts_of(find_doubts(problem, input.design, *findings.analysis));
   Outcome outcome = make_outcome(arguments, problem, findings);
   if (record) write_histories(*record, input, *findings.analysis, outcome);
   return outcome;

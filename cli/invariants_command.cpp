@@ -8,10 +8,12 @@
 #include "cli/run_record.hpp"
 #include "cli/table.hpp"
 #include "cli/variable_quantity.hpp"
+#include "cli/warnings.hpp"
 #include "core/base/error.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/body_export.hpp"
 #include "core/scene/invariants_file.hpp"
+#include "core/trust/doubts.hpp"
 
 namespace pleuel {
 
@@ -76,8 +78,10 @@ Json file_document(const InvariantsFile& file, const fs::path& path) {
           {"variables", std::move(variables)}};
 }
 
-Outcome report(const std::vector<InvariantsFile>& files, const std::vector<fs::path>& paths) {
-  Outcome outcome{ExitCode::done, {{"bodies", Json::array()}}, ""};
+Outcome report(const ProblemFile& problem, const std::vector<InvariantsFile>& files,
+               const std::vector<fs::path>& paths) {
+  const std::vector<std::string> warnings = texts_of(find_doubts_before(problem));
+  Outcome outcome{ExitCode::done, {{"bodies", Json::array()}, {"warnings", warnings}}, ""};
   Table table({{"body", Table::Align::left},
                {"coordinates"},
                {"places"},
@@ -89,11 +93,12 @@ Outcome report(const std::vector<InvariantsFile>& files, const std::vector<fs::p
                    std::to_string(files[i].constants.places.size()),
                    std::to_string(files[i].design.size()), paths[i].string()});
   }
-  outcome.text = table.text();
+  outcome.text = table.text() + warnings_text(warnings);
   return outcome;
 }
 
-Outcome write_one(const fs::path& path, const std::vector<InvariantsFile>& files) {
+Outcome write_one(const fs::path& path, const ProblemFile& problem,
+                  const std::vector<InvariantsFile>& files) {
   if (files.size() != 1) {
     throw InputError(
         fmt::format("-o {}: is one file, but {} bodies are elastic; choose one with "
@@ -101,7 +106,7 @@ Outcome write_one(const fs::path& path, const std::vector<InvariantsFile>& files
                     path.string(), files.size()));
   }
   write_file(path, files.front());
-  return report(files, {path});
+  return report(problem, files, {path});
 }
 
 }  // namespace
@@ -109,7 +114,7 @@ Outcome write_one(const fs::path& path, const std::vector<InvariantsFile>& files
 Outcome run_invariants(const Arguments& arguments) {
   const ProblemInput input = read_input(arguments);
   if (arguments.output && arguments.output->extension() == ".json") {
-    return write_one(*arguments.output, export_bodies(arguments, input.problem));
+    return write_one(*arguments.output, input.problem, export_bodies(arguments, input.problem));
   }
   RunRecord record(arguments, input, Json::object());
   record.begin_phase("export");
@@ -124,7 +129,7 @@ Outcome run_invariants(const Arguments& arguments) {
     paths.push_back(path);
     write_file(paths.back(), file);
   }
-  const Outcome outcome = report(files, paths);
+  const Outcome outcome = report(input.problem, files, paths);
   record.finish(outcome);
   return outcome;
 }

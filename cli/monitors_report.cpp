@@ -24,10 +24,4 @@ std::string monitors_text(const Monitors& monitors, int multipliers) {
                             magnitude(monitors.energy_error));
 }
 
-std::string warnings_text(const std::vector<std::string>& warnings) {
-  std::string text;
-  for (const std::string& warning : warnings) text += fmt::format("Warning: {}\n", warning);
-  return text;
-}
-
 }  // namespace pleuel

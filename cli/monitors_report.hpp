@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "cli/json.hpp"
 #include "core/response/monitors.hpp"
@@ -14,8 +13,5 @@ Json monitors_document(const Monitors& monitors);
 
 /// Sentences about constraints (if there are multipliers) and energy.
 std::string monitors_text(const Monitors& monitors, int multipliers);
-
-/// "Warning: …" of each, in lines of their own.
-std::string warnings_text(const std::vector<std::string>& warnings);
 
 }  // namespace pleuel

@@ -15,6 +15,7 @@
 #include "cli/run_record.hpp"
 #include "cli/solve_settings.hpp"
 #include "cli/trajectory_csv.hpp"
+#include "cli/warnings.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/trust/doubts.hpp"
 #include "optimization/design_problem.hpp"
@@ -122,6 +123,7 @@ Outcome run_optimize(const Arguments& arguments) {
   DesignProblem problem(input.problem, arguments.jobs);
   if (arguments.design) problem.start_from(input.design);
   RunRecord record(arguments, input, options_document(options, input.problem));
+  show_warnings_before(input.problem);
   record.begin_phase("optimize");
   const Result result = solve_visibly(problem, options, record, arguments);
   Optimum optimum{input.problem, result, {}, {}, {}, {}, problem.method()};

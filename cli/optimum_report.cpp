@@ -5,6 +5,8 @@
 #include "cli/monitors_report.hpp"
 #include "cli/number_text.hpp"
 #include "cli/table.hpp"
+#include "cli/warnings.hpp"
+#include "cli/wrapped_text.hpp"
 
 namespace pleuel {
 
@@ -130,7 +132,7 @@ std::string effort_text(const Optimum& optimum) {
 }  // namespace
 
 std::string optimum_report(const Optimum& optimum) {
-  const std::string status = "\n" + status_text(optimum.result) + "\n";
+  const std::string status = "\n" + wrapped(status_text(optimum.result)) + "\n";
   if (!optimum.has_design()) return status;
   return status + "\n" + objective_text(optimum) + "\n" + variables_text(optimum) +
          constraints_text(optimum) + "\n" + warnings_text(optimum.warnings) +

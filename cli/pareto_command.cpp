@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
@@ -9,6 +10,8 @@
 #include "cli/shown_unit.hpp"
 #include "cli/solve_settings.hpp"
 #include "cli/table.hpp"
+#include "cli/warnings.hpp"
+#include "cli/wrapped_text.hpp"
 #include "core/base/error.hpp"
 #include "studies/pareto.hpp"
 
@@ -147,10 +150,23 @@ std::string doubts_text(const ProblemFile& problem, const std::vector<ParetoPoin
   std::string text;
   for (const ParetoPoint& point : points) {
     if (point.result.status == Status::verified) continue;
-    text += fmt::format("  limit {} {}: {}: {}\n", significant(unit.shown(point.limit)), unit.name,
-                        to_string(point.result.status), point.result.message);
+    text += wrapped(fmt::format("  limit {} {}: {}: {}", significant(unit.shown(point.limit)),
+                                unit.name, to_string(point.result.status), point.result.message),
+                    "    ") +
+            "\n";
   }
   return text.empty() ? "" : "\nNOT VERIFIED:\n" + text;
+}
+
+std::string warnings_of_points(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
+  const ShownUnit unit = unit_of(problem, varied_constraint(problem));
+  SharedWarnings warnings;
+  for (const ParetoPoint& point : points) {
+    warnings.add(point.result.warnings,
+                 fmt::format("limit {} {}", significant(unit.shown(point.limit)), unit.name));
+  }
+  const std::string text = warnings_text(warnings.sentences());
+  return text.empty() ? "" : "\n" + text;
 }
 
 void show_progress(std::FILE* out, const ProblemFile& problem, const ParetoPoint& point) {
@@ -169,6 +185,7 @@ Outcome run_pareto(const Arguments& arguments) {
   if (!problem.pareto) throw InputError("/pareto is missing: it says which limit to vary");
   const SolveOptions options = solve_options(problem, arguments);
   RunRecord record(arguments, input, options_document(options, problem));
+  show_warnings_before(problem);
   record.begin_phase("pareto");
   std::optional<ParetoCsv> csv;  // with the first result
   const auto observer = [&](const ParetoPoint& point) {
@@ -184,7 +201,8 @@ Outcome run_pareto(const Arguments& arguments) {
                   "Written to {}: pareto.csv, result.json, run_card.json\n",
                   problem.name, problem.objective->response, problem.pareto->constraint,
                   verified_points(points), points.size(), points_text(problem, points),
-                  doubts_text(problem, points), record.folder().string())};
+                  doubts_text(problem, points) + warnings_of_points(problem, points),
+                  record.folder().string())};
   record.finish(outcome);
   return outcome;
 }

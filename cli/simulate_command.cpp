@@ -9,6 +9,8 @@
 #include "cli/scene_report.hpp"
 #include "cli/stopwatch.hpp"
 #include "cli/trajectory_csv.hpp"
+#include "cli/warnings.hpp"
+#include "cli/wrapped_text.hpp"
 #include "core/trust/doubts.hpp"
 
 namespace pleuel {
@@ -61,10 +63,10 @@ std::string simulation_text(const ProblemFile& problem, const std::string& desig
                   monitors_text(run.monitors, analysis.model.mechanism.system->multipliers()) +
                       assembly_text(analysis) + warnings_text(run.warnings));
   if (trajectory.split_steps > 0) {
-    text += fmt::format(
-        "Newton's method failed in {} steps, which were split; look there with a "
-        "smaller /simulation/step.\n",
-        trajectory.split_steps);
+    text += wrapped(
+        fmt::format("Newton's method failed in {} steps, which were split; look there with a "
+                    "smaller /simulation/step.\n",
+                    trajectory.split_steps));
   }
   if (problem.simulation.local_error > 0.0) {
     text += fmt::format("Steps from {} to {}, {} of them made again.\n",

@@ -7,6 +7,7 @@
 #include "cli/number_text.hpp"
 #include "cli/run_record.hpp"
 #include "cli/table.hpp"
+#include "cli/warnings.hpp"
 #include "studies/stability.hpp"
 
 namespace pleuel {
@@ -29,6 +30,7 @@ Json run_document(const StabilityRun& run) {
   document["energy_error"] = run.energy_error;
   document["condition"] = run.condition;
   document["seconds"] = run.seconds;
+  document["warnings"] = run.warnings;
   document["work"] = {{"steps", run.steps},
                       {"newton_iterations", run.newton_iterations},
                       {"factorizations", run.factorizations}};
@@ -111,12 +113,23 @@ std::string failures_text(const std::vector<StabilityRun>& runs) {
   return text.empty() ? text : "\n" + text;
 }
 
+std::string doubts_text(const std::vector<StabilityRun>& runs) {
+  SharedWarnings warnings;
+  for (const StabilityRun& run : runs) {
+    warnings.add(run.warnings, case_name(run) + ", " + run.formulation);
+  }
+  const std::string text = warnings_text(warnings.sentences());
+  return text.empty() ? "" : "\n" + text;
+}
+
 }  // namespace
 
 Outcome run_stability(const Arguments& arguments) {
-  RunRecord record(arguments, read_inputs(arguments), Json::object());
+  const std::vector<ProblemInput> inputs = read_inputs(arguments);
+  RunRecord record(arguments, inputs, Json::object());
   record.begin_phase("stability");
   std::optional<StabilityCsv> csv;  // with the first result
+  for (const ProblemInput& input : inputs) show_warnings_before(input.problem);
   const std::vector<StabilityRun> runs =
       stability_study(arguments.files, arguments.overrides, [&](const StabilityRun& run) {
         if (!csv) csv.emplace(record.result("stability.csv"));
@@ -124,7 +137,8 @@ Outcome run_stability(const Arguments& arguments) {
         fmt::print(stderr, "  {}, {}: {}\n", case_name(run), run.formulation,
                    run.is_ok() ? duration(run.seconds) : "failed");
       });
-  Outcome outcome{ExitCode::done, make_document(runs), runs_text(runs) + failures_text(runs)};
+  Outcome outcome{ExitCode::done, make_document(runs),
+                  runs_text(runs) + failures_text(runs) + doubts_text(runs)};
   outcome.text += fmt::format("\nWritten to {}: stability.csv, result.json, run_card.json\n",
                               record.folder().string());
   record.finish(outcome);

@@ -8,7 +8,9 @@
 #include "cli/run_record.hpp"
 #include "cli/shown_unit.hpp"
 #include "cli/table.hpp"
+#include "cli/warnings.hpp"
 #include "core/base/error.hpp"
+#include "core/trust/doubts.hpp"
 #include "studies/uncertainty.hpp"
 
 namespace pleuel {
@@ -48,6 +50,7 @@ Json make_document(const ProblemFile& problem, const UncertaintyStudy& study) {
       {"responses", Json::object()},
       {"samples", study.samples},
       {"failures", study.failures},
+      {"warnings", texts_of(study.doubts)},
       {"seconds", {{"gradients", study.gradient_seconds}, {"samples", study.sampling_seconds}}}};
   for (const UncertainParameter& parameter : problem.uncertainty->parameters) {
     const auto& variable = problem.variables[static_cast<std::size_t>(parameter.variable)];
@@ -165,7 +168,7 @@ std::string study_text(const ProblemFile& problem, const UncertaintyStudy& study
     text += fmt::format("; {} samples {}", study.samples + study.failures,
                         duration(study.sampling_seconds));
   }
-  text += "\n";
+  text += "\n" + warnings_text(texts_of(study.doubts));
   if (study.failures > 0) {
     text += fmt::format("{} samples could not be simulated and are left out\n", study.failures);
   }
@@ -181,6 +184,7 @@ Outcome run_uncertainty(const Arguments& arguments) {
     throw InputError("/uncertainty is missing: it says which parameters are uncertain");
   }
   RunRecord record(arguments, input, {{"jobs", arguments.jobs}});
+  show_warnings_before(problem);
   record.begin_phase("uncertainty");
   const int samples = problem.uncertainty->samples;
   const UncertaintyStudy study = uncertainty_study(problem, arguments.jobs, [&](int done) {

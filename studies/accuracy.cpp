@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "core/base/error.hpp"
+#include "core/trust/doubts.hpp"
 #include "sensitivity/gradients.hpp"
 #include "studies/relative_error.hpp"
 
@@ -55,6 +56,7 @@ AccuracyRun measure(const ProblemFile& problem, const Discretization& settings) 
   std::unique_ptr<Analysis> analysis;
   run.simulation_seconds = least_seconds([&] { analysis = analyze(discrete, x); });
   keep_values(*analysis, run);
+  run.doubts = find_doubts(discrete, x, *analysis);
   if (x.size() == 0) return run;
   run.gradient_seconds = least_seconds([&] { run.gradients = direct_gradients(*analysis); });
   return run;

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "core/scene/problem_file.hpp"
+#include "core/trust/doubt.hpp"
 
 namespace pleuel {
 
@@ -30,6 +31,7 @@ struct AccuracyRun {
   double simulation_seconds = 0.0;  ///< the fastest of a few, one thread
   double gradient_seconds = 0.0;    ///< direct differentiation of all responses, on top
   int steps = 0, newton_iterations = 0, factorizations = 0;
+  std::vector<Doubt> doubts;  ///< about the values
 
   double seconds() const { return simulation_seconds + gradient_seconds; }
   double largest_error() const;

@@ -7,6 +7,7 @@
 #include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/problem_reader.hpp"
+#include "core/trust/doubts.hpp"
 
 namespace pleuel {
 
@@ -21,7 +22,8 @@ ProblemFile read_with(const std::filesystem::path& file, std::vector<std::string
 void measure(ProblemFile problem, StabilityRun& run) {
   estimate_effects(problem);
   const auto begin = std::chrono::steady_clock::now();
-  const auto analysis = analyze(problem, start_design(problem));
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const Trajectory& trajectory = analysis->trajectory;
   run.steps = trajectory.steps();
@@ -32,6 +34,7 @@ void measure(ProblemFile problem, StabilityRun& run) {
   run.position_drift = monitors.position_drift;
   run.velocity_drift = monitors.velocity_drift;
   run.energy_error = monitors.energy_error;
+  run.warnings = texts_of(find_doubts(TrustedRun{problem, x, *analysis, monitors}));
 }
 
 /// Overrides that set a formulation, without a projection unless that follows.

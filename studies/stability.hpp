@@ -16,8 +16,9 @@ struct StabilityRun {
   int steps = 0, newton_iterations = 0, factorizations = 0;
   double position_drift = 0.0, velocity_drift = 0.0;  ///< largest |Φ| and |dΦ/dt|: see Monitors
   double energy_error = 0.0;                          ///< relative
-  double condition = 0.0;  ///< largest of a step matrix, scaled: see LinearSolver
-  double seconds = 0.0;    ///< wall time of the simulation, one thread
+  double condition = 0.0;             ///< largest of a step matrix, scaled: see LinearSolver
+  std::vector<std::string> warnings;  ///< what speaks against the numbers of its responses
+  double seconds = 0.0;               ///< wall time of the simulation, one thread
 
   bool is_ok() const { return failure.empty(); }
   double iterations_per_step() const { return static_cast<double>(newton_iterations) / steps; }

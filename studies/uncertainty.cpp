@@ -7,6 +7,7 @@
 #include "core/base/error.hpp"
 #include "core/base/parallel.hpp"
 #include "core/scene/sample_extent.hpp"
+#include "core/trust/doubts.hpp"
 #include "sensitivity/history_gradients.hpp"
 #include "sensitivity/method_choice.hpp"
 #include "studies/random_numbers.hpp"
@@ -78,7 +79,9 @@ class Study {
         x_(start_design(problem)),
         deviations_(deviations_of(settings.parameters)),
         analysis_(analyze(problem, x_)),
-        with_same_steps_(with_steps_of(analysis_->trajectory, problem)) {}
+        with_same_steps_(with_steps_of(analysis_->trajectory, problem)) {
+    study_.doubts = find_doubts(problem, x_, *analysis_);
+  }
 
   void linearize() {
     const auto begin = Clock::now();

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "core/scene/problem_file.hpp"
+#include "core/trust/doubt.hpp"
 
 namespace pleuel {
 
@@ -39,6 +40,7 @@ struct UncertaintyStudy {
   std::vector<UncertainHistory> histories;   ///< of those that have one
   int samples = 0;                           ///< that could be simulated
   int failures = 0;                          ///< that could not
+  std::vector<Doubt> doubts;                 ///< about the values at the design
   double gradient_seconds = 0.0, sampling_seconds = 0.0;
 };
 

@@ -1,0 +1,64 @@
+#include <sstream>
+
+#include <gmock/gmock.h>
+
+#include "tests/cli/program.hpp"
+
+/// Every command that shows numbers shows what speaks against them.
+namespace pleuel::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Rubber at 30 rad/s: bends by far more than linear elasticity describes.
+const std::vector<std::string> too_soft = {problem("hard/soft_rod"), "--set",
+                                           "/scene/joints/bearing/drive/speed=30",
+                                           "--set", "/simulation/end_time=0.6 s"};
+
+std::vector<std::string> words(const std::string& command, const std::vector<std::string>& more) {
+  return joined(joined({command}, too_soft), more);
+}
+
+void expect_warned(const std::string& command, const std::vector<std::string>& more) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> line = joined(words(command, more), {"-o", "run"});
+  const bool has_folder = command != "check" && command != "gradient";
+  const ProgramRun run = run_program(folder.path(), has_folder ? line : words(command, more));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("Warning: "), HasSubstr("rad against its")))
+      << command << run.err;
+}
+
+TEST(Warnings, OfADesignThatBendsTooFarAreShownByEveryCommandWithNumbers) {
+  expect_warned("simulate", {});
+  expect_warned("check", {});
+  expect_warned("gradient", {});
+  expect_warned("stability", {});
+  expect_warned("uncertainty", {"--set", R"(/uncertainty={"parameters": {"rod_diameter":
+                                             {"deviation": "0.1 mm"}}})"});
+  expect_warned("accuracy", {"--set", R"(/accuracy={"steps": ["1 ms"], "elements": [2]})"});
+}
+
+/// The sentence is in the documents, too.
+TEST(Warnings, AreAListOfEveryDocument) {
+  const TemporaryFolder folder;
+  for (const std::string command : {"simulate", "gradient", "check"}) {
+    const ProgramRun run = run_program(folder.path(), words(command, {"--json"}));
+    EXPECT_FALSE(run.document().at("warnings").empty()) << command;
+    const ProgramRun sound = run_program(
+        folder.path(), joined({command, problem("slider_crank_round"), "--json"}, quick()));
+    EXPECT_EQ(sound.document().at("warnings").dump(), "[]") << command;
+  }
+}
+
+/// The words of a report stay within a hundred columns; only what a shell is to read is not broken.
+TEST(Warnings, FitIntoAHundredColumns) {
+  const TemporaryFolder folder;
+  const std::string text = run_program(folder.path(), words("simulate", {})).out;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 110u) << line;
+}
+
+}  // namespace
+}  // namespace pleuel::test
