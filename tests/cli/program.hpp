@@ -36,6 +36,9 @@ std::vector<std::string> quick();
 std::vector<std::string> joined(std::vector<std::string> words,
                                 const std::vector<std::string>& more);
 
+/// The text with every run of spaces and line breaks as one space: sentences are broken into lines.
+std::string unwrapped(const std::string& text);
+
 std::string read_file(const std::filesystem::path& path);
 
 /// The lines of a file, split at commas; good for files without quotes.
