@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include "core/base/rotation_series.hpp"
+
 namespace pleuel {
 
 using Eigen::Matrix3d;
@@ -57,16 +59,9 @@ Vector3d compose(const Vector3d& psi, const Vector3d& delta) {
 }
 
 Matrix3d tangent_operator(const Vector3d& delta) {
-  const double f2 = delta.squaredNorm(), f = std::sqrt(f2);
-  double a = 0.5 * (1.0 - f2 / 12.0 * (1.0 - f2 / 30.0 * (1.0 - f2 / 56.0)));
-  double b = 1.0 / 6.0 * (1.0 - f2 / 20.0 * (1.0 - f2 / 42.0 * (1.0 - f2 / 72.0)));
-  if (f > small_angle) {
-    const double sine = std::sin(0.5 * f);
-    a = 2.0 * sine * sine / f2;
-    if (f > 0.1) b = (f - std::sin(f)) / (f2 * f);
-  }
+  const RotationSeries<double> series(delta.squaredNorm());
   const Matrix3d d = tilde(delta);
-  return Matrix3d::Identity() - a * d + b * d * d;
+  return Matrix3d::Identity() - series.c2 * d + series.c3 * d * d;
 }
 
 Matrix3d inverse_tangent_operator(const Vector3d& delta) {

@@ -26,9 +26,9 @@ std::vector<int> interior_of(Eigen::Index size, const std::vector<int>& boundary
   return interior;
 }
 
-/// All modes of the interior, mass-normalised, λ ascending.
-NaturalModes interior_modes(const NodalMatrices& matrices, const std::vector<int>& interior) {
-  return natural_modes(matrices.stiffness(interior, interior), matrices.mass(interior, interior));
+/// All modes of a family, mass-normalised, λ ascending.
+NaturalModes modes_of(const NodalMatrices& matrices, const std::vector<int>& family) {
+  return natural_modes(matrices.stiffness(family, family), matrices.mass(family, family));
 }
 
 /// Change of the span of the first modes: only towards the modes that are left out,
@@ -45,6 +45,26 @@ MatrixXd differentiate_modes(const MatrixXd& modes, const VectorXd& lambda, Eige
   return outer * shares;
 }
 
+/// Writes the kept modes of a family, and their derivatives, from column `first` on.
+void add_modes(const NodalMatrices& matrices, const std::vector<NodalMatrices>& derivatives,
+               const ModeFamily& family, Eigen::Index first, BasisWithDerivatives& result) {
+  if (family.modes == 0) return;
+  const std::vector<int>& rows = family.coordinates;
+  const NaturalModes solved = modes_of(matrices, rows);
+  const Eigen::Index modes = family.modes;
+  const auto columns = Eigen::seqN(first, modes);
+  const VectorXd scale =
+      solved.shapes.leftCols(modes).cwiseAbs().colwise().maxCoeff().cwiseInverse();
+  result.basis(rows, columns) = solved.shapes.leftCols(modes) * scale.asDiagonal();
+  for (std::size_t k = 0; k < derivatives.size(); ++k) {
+    const NodalMatrices& d = derivatives[k];
+    result.derivatives[k](rows, columns) =
+        differentiate_modes(solved.shapes, solved.lambda, modes, MatrixXd(d.mass(rows, rows)),
+                            MatrixXd(d.stiffness(rows, rows))) *
+        scale.asDiagonal();
+  }
+}
+
 }  // namespace
 
 BasisWithDerivatives craig_bampton_basis(const NodalMatrices& matrices,
@@ -53,54 +73,42 @@ BasisWithDerivatives craig_bampton_basis(const NodalMatrices& matrices,
   const std::vector<int>& b = kept.boundary;
   const std::vector<int> i = interior_of(matrices.mass.rows(), b);
   const auto boundary = static_cast<Eigen::Index>(b.size());
-  const auto interior = static_cast<Eigen::Index>(i.size());
-  const Eigen::Index modes = std::min<Eigen::Index>(kept.modes, interior);
+  Eigen::Index size = boundary;
+  for (const ModeFamily& family : kept.families) size += family.modes;
   const Eigen::LLT<MatrixXd> factors(MatrixXd(matrices.stiffness(i, i)));
   const MatrixXd constraint = -factors.solve(MatrixXd(matrices.stiffness(i, b)));
-  MatrixXd all_modes(interior, 0);
-  VectorXd lambda(0), scale(0);
-  if (modes > 0) {
-    const NaturalModes solved = interior_modes(matrices, i);
-    all_modes = solved.shapes;
-    lambda = solved.lambda;
-    scale = all_modes.leftCols(modes).cwiseAbs().colwise().maxCoeff().cwiseInverse();
-  }
   BasisWithDerivatives result;
-  result.basis.setZero(matrices.mass.rows(), boundary + modes);
+  result.basis.setZero(matrices.mass.rows(), size);
   for (Eigen::Index k = 0; k < boundary; ++k) result.basis(b[static_cast<std::size_t>(k)], k) = 1.0;
   result.basis(i, Eigen::seqN(0, boundary)) = constraint;
-  result.basis(i, Eigen::seqN(boundary, modes)) = all_modes.leftCols(modes) * scale.asDiagonal();
   for (const NodalMatrices& d : derivatives) {
     MatrixXd change = MatrixXd::Zero(result.basis.rows(), result.basis.cols());
     change(i, Eigen::seqN(0, boundary)) = -factors.solve(
         MatrixXd(MatrixXd(d.stiffness(i, b)) + MatrixXd(d.stiffness(i, i)) * constraint));
-    if (modes > 0) {
-      change(i, Eigen::seqN(boundary, modes)) =
-          differentiate_modes(all_modes, lambda, modes, MatrixXd(d.mass(i, i)),
-                              MatrixXd(d.stiffness(i, i))) *
-          scale.asDiagonal();
-    }
     result.derivatives.push_back(std::move(change));
+  }
+  Eigen::Index first = boundary;
+  for (const ModeFamily& family : kept.families) {
+    add_modes(matrices, derivatives, family, first, result);
+    first += family.modes;
   }
   return result;
 }
 
-int complete_modes(const NodalMatrices& matrices, const std::vector<int>& boundary, int modes) {
-  const std::vector<int> interior = interior_of(matrices.mass.rows(), boundary);
-  const int all = static_cast<int>(interior.size());
+int complete_modes(const NodalMatrices& matrices, const std::vector<int>& family, int modes) {
+  const int all = static_cast<int>(family.size());
   if (modes <= 0 || modes >= all) return std::clamp(modes, 0, all);
-  const VectorXd lambda = interior_modes(matrices, interior).lambda;
+  const VectorXd lambda = modes_of(matrices, family).lambda;
   while (modes < all && lambda(modes) - lambda(modes - 1) < cluster_gap * lambda(modes)) ++modes;
   return modes;
 }
 
-int count_fixed_interface_modes(const NodalMatrices& matrices, const std::vector<int>& boundary,
+int count_fixed_interface_modes(const NodalMatrices& matrices, const std::vector<int>& family,
                                 double frequency) {
-  const std::vector<int> interior = interior_of(matrices.mass.rows(), boundary);
-  if (interior.empty()) return 0;
-  const VectorXd lambda = interior_modes(matrices, interior).lambda;
+  if (family.empty()) return 0;
+  const VectorXd lambda = modes_of(matrices, family).lambda;
   const auto below = (lambda.array() < frequency * frequency).count();
-  return complete_modes(matrices, boundary, static_cast<int>(below));
+  return complete_modes(matrices, family, static_cast<int>(below));
 }
 
 BasisWithDerivatives mean_axis_basis(const NodalMatrices& matrices,

@@ -25,25 +25,34 @@ struct BasisWithDerivatives {
   std::vector<Eigen::MatrixXd> derivatives;  ///< one for each derivative of the matrices
 };
 
+/// Interior coordinates that vibrate without the others, as bending in one plane does.
+struct ModeFamily {
+  std::vector<int> coordinates;  ///< ascending
+  int modes = 0;                 ///< how many of its fixed-interface modes are kept, the lowest
+};
+
 /// What a Craig–Bampton basis keeps.
 struct KeptCoordinates {
-  std::vector<int> boundary;  ///< nodal coordinates that stay as they are (ascending)
-  int modes = 0;              ///< fixed-interface modes
+  std::vector<int> boundary;         ///< nodal coordinates that stay as they are (ascending)
+  std::vector<ModeFamily> families;  ///< of all others, each in one family
 };
 
 /// Craig & Bampton 1968: with i the interior and b the boundary,
-///     Z = [ I 0 ; −K_ii⁻¹ K_ib  Φ ],   K_ii Φ = M_ii Φ Λ,  the lowest `modes`
-/// Modes are scaled to a largest entry of one.
+///     Z = [ I 0 ; −K_ii⁻¹ K_ib  Φ ],   K_ii Φ = M_ii Φ Λ  for each family
+/// Modes are counted family by family, so that a beam that moves in a plane has the same modes of
+/// bending there as in space. They are scaled to a largest entry of one.
 BasisWithDerivatives craig_bampton_basis(const NodalMatrices& matrices,
                                          const std::vector<NodalMatrices>& derivatives,
                                          const KeptCoordinates& kept);
 
-/// Number of fixed-interface modes below a frequency [rad/s]; modes of one frequency stay together.
-int count_fixed_interface_modes(const NodalMatrices& matrices, const std::vector<int>& boundary,
+/// Number of fixed-interface modes of a family below a frequency [rad/s]; modes of one frequency
+/// stay together.
+int count_fixed_interface_modes(const NodalMatrices& matrices, const std::vector<int>& family,
                                 double frequency);
 
-/// Completes a number of modes so that modes of (nearly) one frequency are not torn apart.
-int complete_modes(const NodalMatrices& matrices, const std::vector<int>& boundary, int modes);
+/// Completes a number of modes of a family so that modes of (nearly) one frequency are not torn
+/// apart.
+int complete_modes(const NodalMatrices& matrices, const std::vector<int>& family, int modes);
 
 /// Mean axis (Tisserand; Agrawal & Shabana 1985): takes from each given deformation D the rigid
 /// motion that has its momentum,

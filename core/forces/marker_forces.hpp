@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "core/frame/elastic_rotation.hpp"
 #include "core/frame/marker.hpp"
 
 namespace pleuel {
@@ -44,8 +45,8 @@ std::vector<LocalCoordinate> local_coordinates(const std::array<Marker, Count>& 
 /// Kinematics of the markers of a force element, and the generalized forces of what acts on them.
 ///
 /// Points and directions are attached to a marker by their undeformed local vectors p and s, with
-/// the small elastic displacement u and rotation ψ of the marker:
-///     P = r + A (p + u),      d = A (s + ψ × s)
+/// the elastic displacement u and rotation ψ of the marker, R = exp(ψ̃) (elastic_rotation.hpp):
+///     P = r + A (p + u),      d = A R s
 /// Forces enter by their virtual work, so that they are the exact gradients of what was computed
 /// from P and d.
 template <class Scalar, std::size_t Count>
@@ -77,16 +78,15 @@ class MarkerForces {
     return state.frame.r_dot + state.frame.A_dot * (p + state.u) + state.frame.A * state.u_dot;
   }
 
-  /// s + ψ × s
-  Vector local_direction(std::size_t m, const Vector& s) const {
-    return s + states_[m].psi.cross(s);
-  }
+  /// R s
+  Vector local_direction(std::size_t m, const Vector& s) const { return states_[m].turn.turned(s); }
   Vector direction(std::size_t m, const Vector& s) const {
     return states_[m].frame.A * local_direction(m, s);
   }
   Vector direction_rate(std::size_t m, const Vector& s) const {
     const MarkerState& state = states_[m];
-    return state.frame.A_dot * local_direction(m, s) + state.frame.A * state.psi_dot.cross(s);
+    const Vector turned = local_direction(m, s);
+    return state.frame.A_dot * turned + state.frame.A * state.spin.cross(turned);
   }
 
   /// φ + nᵀψ of a body that moves in a plane with normal n (local axes), counting whole turns; zero
@@ -113,20 +113,19 @@ class MarkerForces {
 
   /// What does the work g · δd on the direction d of s: Q += (∂d/∂q)ᵀ g. Global axes.
   void add_to_direction(std::size_t m, const Vector& g, const Vector& s) {
-    add_lever(m, g, local_direction(m, s));
+    const Vector turned = local_direction(m, s);
+    add_lever(m, g, turned);
     const Vector local = states_[m].frame.A.transpose() * g;
-    add_elastic(m, CoordinatePart::turn, s.cross(local));
+    add_elastic(m, CoordinatePart::turn, states_[m].turn.generalized(turned.cross(local)));
   }
 
-  /// Torque T in body axes. The virtual rotation of the marker is taken as δπ + δψ: exact in the
-  /// rotation of the frame, and for the elastic one neglecting ψ against 1 (the true one is
-  /// δπ + (I + ½ψ̃ + …) δψ for a rotation vector ψ).
-  void add_torque(std::size_t m, const Vector& T) {
+  /// Torque M in axes of the frame, on the virtual rotation δπ + T δψ of the marker.
+  void add_torque(std::size_t m, const Vector& M) {
     const BodyFrame& frame = markers_[m].frame;
     for (int i = 0; i < frame.rotations(); ++i) {
-      force(start_[m] + frame.translations() + i) += states_[m].frame.G.col(i).dot(T);
+      force(start_[m] + frame.translations() + i) += states_[m].frame.G.col(i).dot(M);
     }
-    add_elastic(m, CoordinatePart::turn, T);
+    add_elastic(m, CoordinatePart::turn, states_[m].turn.generalized(M));
   }
 
   /// Moment about the normal of the plane, positive as planar_angle() is.
@@ -141,6 +140,8 @@ class MarkerForces {
   struct MarkerState {
     FrameMotion<Scalar> frame;
     Vector u, u_dot, psi, psi_dot;
+    ElasticRotation<Scalar> turn;               ///< by ψ
+    Vector spin = Vector::Constant(Scalar(0));  ///< of that turn against the frame, local axes
     Scalar angle = Scalar(0), angle_rate = Scalar(0);
   };
 
@@ -162,6 +163,9 @@ class MarkerForces {
       (i < 3 ? state.u_dot : state.psi_dot)(i % 3) = is_active ? v[next] : Scalar(0);
       if (is_active) ++next;
     }
+    if (!marker.turns()) return next;
+    state.turn = ElasticRotation<Scalar>(state.psi);
+    state.spin = state.turn.spin(state.psi_dot);
     return next;
   }
 

@@ -32,8 +32,8 @@ struct PointForceTopology {
   LoadDirection direction = LoadDirection::space;
 };
 
-/// A force f(t) d on a point of a body: d fixed in space, or d = A (s + ψ × s), which has no
-/// potential.
+/// A force f(t) d on a point of a body: d fixed in space, or d = A R s, turning with the marker,
+/// which has no potential.
 /// @param derivatives  of the numbers with respect to the variables they depend on
 std::unique_ptr<Term> make_point_force_term(
     PointForceTopology topology, PointForceData<double> data,

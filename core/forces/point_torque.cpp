@@ -6,7 +6,7 @@ namespace pleuel {
 
 namespace {
 
-/// T = m(t) Aᵀ d (fixed in space) or m(t) (s + ψ × s), body axes;   δW = T · (δπ + δψ)
+/// M = m(t) Aᵀ d (fixed in space) or m(t) R s, axes of the frame;   δW = M · (δπ + T δψ)
 struct PointTorqueLaw {
   static constexpr std::size_t marker_count = 1;
   template <class Scalar>
@@ -28,7 +28,9 @@ struct PointTorqueLaw {
   bool couples(const LocalCoordinate& row, const LocalCoordinate& col) const {
     using enum CoordinatePart;
     if (row.part != rotation && row.part != turn) return false;
-    return col.part == (load_direction == LoadDirection::body ? turn : rotation);
+    // M depends on one of the two, T on ψ.
+    if (load_direction == LoadDirection::body) return col.part == turn;
+    return col.part == rotation || (col.part == turn && row.part == turn);
   }
 };
 

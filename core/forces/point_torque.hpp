@@ -30,9 +30,9 @@ struct PointTorqueTopology {
   LoadDirection direction = LoadDirection::space;
 };
 
-/// A torque m(t) d on a marker: d fixed in space, or d = A (s + ψ × s). It does work on the
-/// rotation of the frame and on the elastic rotation of the marker; a point mass does not notice.
-/// Its virtual work T · (δπ + δψ) neglects ψ against 1 in the elastic part.
+/// A torque m(t) d on a marker: d fixed in space, or d = A R s, turning with the marker. It does
+/// work on the rotation of the frame and on the elastic rotation of the marker; a point mass does
+/// not notice.
 /// @param derivatives  of the numbers with respect to the variables they depend on
 std::unique_ptr<Term> make_point_torque_term(
     PointTorqueTopology topology, PointTorqueData<double> data,

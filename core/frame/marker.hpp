@@ -14,6 +14,9 @@ struct Marker {
   BodyFrame frame;
   /// Indices in q of the local displacements u v w and rotations θx θy θz; −1 where they are zero.
   std::array<int, 6> elastic = {-1, -1, -1, -1, -1, -1};
+
+  /// Whether it has an elastic rotation.
+  bool turns() const { return elastic[3] >= 0 || elastic[4] >= 0 || elastic[5] >= 0; }
 };
 
 /// Compiled once, for tangents with respect to all coordinates of one marker or of two.

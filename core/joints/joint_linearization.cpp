@@ -59,6 +59,10 @@ void JointLinearization::set_marker(std::size_t m, const double* q) {
     if (marker.elastic[static_cast<std::size_t>(i)] < 0) continue;
     (i < 3 ? state.u : state.psi)(i % 3) += q[next++];
   }
+  if (marker.turns()) {
+    state.turn = ElasticRotation<double>(state.psi);
+    state.turn_tangent = state.turn.tangent();
+  }
   state.size = next;
 }
 
@@ -78,7 +82,11 @@ void JointLinearization::add_rotations(Attached& attached) const {
 JointLinearization::Attached JointLinearization::point(std::size_t m) const {
   const MarkerState& state = markers_[m];
   const Marker& marker = topology_.markers[m];
-  Attached attached{m, state.u, state.r + state.A * state.u, Jacobian(3, state.size),
+  Attached attached{AttachedKind::point,
+                    m,
+                    state.u,
+                    state.r + state.A * state.u,
+                    Jacobian(3, state.size),
                     Jacobian::Zero(3, state.size - state.frame)};
   int next = 0;
   for (int i = 0; i < 6; ++i) {
@@ -97,13 +105,17 @@ JointLinearization::Attached JointLinearization::direction(std::size_t m,
                                                            const Vector3d& local) const {
   const MarkerState& state = markers_[m];
   const Marker& marker = topology_.markers[m];
-  const Vector3d s = local + state.psi.cross(local);
-  Attached attached{m, s, state.A * s, Jacobian::Zero(3, state.size),
+  const Vector3d s = marker.turns() ? state.turn.turned(local) : local;
+  Attached attached{AttachedKind::direction,
+                    m,
+                    s,
+                    state.A * s,
+                    Jacobian::Zero(3, state.size),
                     Jacobian::Zero(3, state.size - state.frame)};
   int next = 0;
   for (int i = 0; i < 6; ++i) {
     if (marker.elastic[static_cast<std::size_t>(i)] < 0) continue;
-    if (i >= 3) attached.elastic.col(next) = Vector3d::Unit(i - 3).cross(local);
+    if (i >= 3) attached.elastic.col(next) = state.turn_tangent.col(i - 3).cross(s);
     ++next;
   }
   add_rotations(attached);
@@ -116,11 +128,12 @@ void JointLinearization::add_to(Vector& gradient, const Attached& a, const Vecto
   gradient.segment(state.start, state.size).noalias() += a.jacobian.transpose() * g;
 }
 
-/// hessian += H(g): second derivatives with respect to two rotations, or a rotation and an elastic
-/// coordinate.
+/// hessian += H(g): second derivatives with respect to two rotations, a rotation and an elastic
+/// coordinate, or two elastic rotations.
 void JointLinearization::add_curvature(const Attached& a, const Vector3d& g) {
   const MarkerState& state = markers_[a.marker];
   const BodyFrame& frame = topology_.markers[a.marker].frame;
+  if (a.kind == AttachedKind::direction) add_elastic_curvature(a, state.A.transpose() * g);
   const int first = state.start + frame.translations();
   for (int i = 0; i < frame.rotations(); ++i) {
     const Vector3d turned = state.A_p[static_cast<std::size_t>(i)].transpose() * g;
@@ -140,6 +153,27 @@ void JointLinearization::add_curvature(const Attached& a, const Vector3d& g) {
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) hessian_(first + i, first + j) += local(i) * a.s(j);
       hessian_(first + i, first + i) -= local.dot(a.s);
+    }
+  }
+}
+
+/// Of two elastic rotations; g in local axes.
+void JointLinearization::add_elastic_curvature(const Attached& a, const Vector3d& local) {
+  const MarkerState& state = markers_[a.marker];
+  const Marker& marker = topology_.markers[a.marker];
+  if (!marker.turns()) return;
+  const Matrix3d curvature = state.turn.curvature(state.turn_tangent, a.s, local);
+  std::array<int, 3> index{-1, -1, -1};
+  int next = state.start + state.frame;
+  for (std::size_t i = 0; i < 6; ++i) {
+    if (marker.elastic[i] < 0) continue;
+    if (i >= 3) index[i - 3] = next;
+    ++next;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (index[i] < 0 || index[j] < 0) continue;
+      hessian_(index[i], index[j]) += curvature(static_cast<int>(i), static_cast<int>(j));
     }
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/frame/elastic_rotation.hpp"
 #include "core/joints/joint.hpp"
 
 namespace pleuel {
@@ -10,7 +11,8 @@ namespace pleuel {
 ///     dΦ/dt = gᵀv + Φ_t:         ∂/∂v = g,              ∂/∂q = Hᵀ v + g_t
 ///     d²Φ/dt²:       ∂/∂a = g,   ∂/∂v = (H + Hᵀ) v + 2 g_t
 ///
-/// With vectors y = σ r + A s attached to a marker, J = ∂y/∂q and H(g) = ∂²(gᵀy)/∂q²,
+/// With points y = r + A s and directions y = A s attached to a marker, J = ∂y/∂q and
+/// H(g) = ∂²(gᵀy)/∂q²,
 ///     Φ = a · b  ⇒  Φ_q = Jₐᵀ b + J_bᵀ a,   Φ_qq = Hₐ(b) + H_b(a) + Jₐᵀ J_b + J_bᵀ Jₐ
 class JointLinearization {
  public:
@@ -43,13 +45,18 @@ class JointLinearization {
     Eigen::Matrix3d A;
     std::array<Eigen::Matrix3d, 3> A_p;
     Eigen::Vector3d u, psi;
+    ElasticRotation<double> turn;  ///< by ψ
+    Eigen::Matrix3d turn_tangent;  ///< T of it
     double angle = 0.0;
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of planar motion, local axes
   };
 
+  enum class AttachedKind { point, direction };
+
   /// An attached vector: value and J; `elastic` are the columns ∂s/∂(elastic coordinate), local
   /// axes.
   struct Attached {
+    AttachedKind kind;
     std::size_t marker;
     Eigen::Vector3d s;
     Eigen::Vector3d y;
@@ -67,6 +74,7 @@ class JointLinearization {
   void add_gradient(const Attached& a, const Eigen::Vector3d& g) { add_to(gradient_, a, g); }
   void add_to(Vector& gradient, const Attached& a, const Eigen::Vector3d& g) const;
   void add_curvature(const Attached& a, const Eigen::Vector3d& g);
+  void add_elastic_curvature(const Attached& a, const Eigen::Vector3d& local);
   void add_product(const Attached& a, const Attached& b, double sign);
   void evaluate_coincident(const Eigen::Vector3d& e);
   void evaluate_on_plane(const JointEquation& equation);

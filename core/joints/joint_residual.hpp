@@ -1,15 +1,15 @@
 #pragma once
 
+#include "core/frame/elastic_rotation.hpp"
 #include "core/joints/joint.hpp"
 #include "core/system/term.hpp"
 
 /// The equations of a joint in any scalar type: value, tangent and design derivative are one text.
 ///
 /// All equations are linear or bilinear in vectors attached to a marker,
-///     y = σ r + A (s + ψ × s + u)        points: σ = 1, s = p₀, ψ unused;  directions: σ = 0, u
-///     unused
-/// (u, ψ: elastic displacement and rotation), so that Φ̇ and Φ̈ follow by Leibniz' rule, and the
-/// generalized forces Φ_qᵀ λ by the transposed derivatives of y.
+///     points: y = r + A (p₀ + u),    directions: y = A R(ψ) s
+/// (u, ψ: elastic displacement and rotation, R: elastic_rotation.hpp), so that Φ̇ and Φ̈ follow by
+/// Leibniz' rule, and the generalized forces Φ_qᵀ λ by the transposed derivatives of y.
 namespace pleuel {
 
 /// Coordinates of one marker: frame coordinates, then its active elastic ones.
@@ -17,6 +17,9 @@ template <class Scalar>
 struct MarkerMotion {
   FrameMotion<Scalar> frame;
   std::array<Vector3<Scalar>, 3> u, psi;  ///< value, rate, acceleration
+  ElasticRotation<Scalar> turn;           ///< by ψ
+  /// Of that turn against the frame, local axes.
+  Vector3<Scalar> spin = Vector3<Scalar>::Constant(Scalar(0)), spin_rate = spin;
 };
 
 /// A vector with its first two time derivatives.
@@ -78,6 +81,10 @@ class JointEvaluation {
       target[2](i % 3) = is_active ? a[next] : Scalar(0);
       if (is_active) ++next;
     }
+    if (!marker.turns()) return next;
+    motion.turn = ElasticRotation<Scalar>(motion.psi[0]);
+    motion.spin = motion.turn.spin(motion.psi[1]);
+    motion.spin_rate = motion.turn.spin_rate(motion.psi[1], motion.psi[2]);
     return next;
   }
 
@@ -101,13 +108,15 @@ class JointEvaluation {
     return y;
   }
 
-  /// s + ψ × s with its time derivatives, s moving in the undeformed marker.
+  /// R s with its time derivatives, s moving in the undeformed marker.
   Motion<Scalar> local_direction(std::size_t m, const Motion<Scalar>& s) const {
-    const auto& psi = markers_[m].psi;
-    return {
-        Vector3<Scalar>(s[0] + psi[0].cross(s[0])),
-        Vector3<Scalar>(s[1] + psi[1].cross(s[0]) + psi[0].cross(s[1])),
-        Vector3<Scalar>(s[2] + psi[2].cross(s[0]) + 2.0 * psi[1].cross(s[1]) + psi[0].cross(s[2]))};
+    const MarkerMotion<Scalar>& motion = markers_[m];
+    const Vector3<Scalar> turned = motion.turn.turned(s[0]), moved = motion.turn.turned(s[1]);
+    const Vector3<Scalar> carried = motion.spin.cross(turned);
+    return {turned, Vector3<Scalar>(carried + moved),
+            Vector3<Scalar>(motion.spin_rate.cross(turned) +
+                            motion.spin.cross(Vector3<Scalar>(carried + 2.0 * moved)) +
+                            motion.turn.turned(s[2]))};
   }
 
   Motion<Scalar> fixed_direction(int index) const {
@@ -139,12 +148,14 @@ class JointEvaluation {
     apply_to_elastic(m, 0, markers_[m].frame.A.transpose() * g);
   }
 
-  /// … of g = ∂(…)/∂d on the direction d = A (s + ψ × s) of a marker.
+  /// … of g = ∂(…)/∂d on the direction d = A R s of a marker.
   void apply_to_direction(std::size_t m, const Vector3<Scalar>& g, const Vector3<Scalar>& s) {
-    const Vector3<Scalar> turned = s + markers_[m].psi[0].cross(s);
+    const MarkerMotion<Scalar>& motion = markers_[m];
+    const Vector3<Scalar> turned = motion.turn.turned(s);
     apply_to_frame(m, g, turned);
-    if (m == 1) wrench_.moment -= Vector3<Scalar>(markers_[m].frame.A * turned).cross(g);
-    apply_to_elastic(m, 3, s.cross(Vector3<Scalar>(markers_[m].frame.A.transpose() * g)));
+    if (m == 1) wrench_.moment -= Vector3<Scalar>(motion.frame.A * turned).cross(g);
+    const Vector3<Scalar> local = motion.frame.A.transpose() * g;
+    apply_to_elastic(m, 3, motion.turn.generalized(turned.cross(local)));
   }
 
   void apply_to_frame(std::size_t m, const Vector3<Scalar>& g, const Vector3<Scalar>& s) {

@@ -1,6 +1,7 @@
 #include "core/model/beam_builder.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "core/beam/beam_place.hpp"
 #include "core/beam/elastic_basis.hpp"
@@ -166,28 +167,40 @@ class BasisBuilder {
   }
 
   /// Nodes of joints and loads; with stiffening all axial displacements, too: bending shortens a
-  /// member everywhere, and few axial modes would lock it. The number of modes is decided at the
+  /// member everywhere, and few axial modes would lock it. The numbers of modes are decided at the
   /// start design.
   KeptCoordinates kept_coordinates() const {
-    const std::vector<int> attached = held_nodes(beam_, body_, context_, model_.beam);
-    KeptCoordinates kept;
-    for (int node = 0; node < clamped_.node_count(); ++node) {
-      const bool is_attached = std::find(attached.begin(), attached.end(), node) != attached.end();
-      for (int i = 0; i < 6; ++i) {
-        const int index = clamped_.index(node, i);
-        const bool is_kept = is_attached || (i == 0 && model_.has_stiffening);
-        if (index >= 0 && is_kept) kept.boundary.push_back(index);
-      }
-    }
+    KeptCoordinates kept = boundary_and_families();
     const Beam<double> at_start = resolve_beam(beam_, model_.mesh, context_.scene, context_.start);
     const Invariants<double> start = beam_invariants(at_start, clamped_);
     NodalMatrices matrices;
     matrices.mass = dense_matrix(start.pattern, start.mass_matrix);
     matrices.stiffness = dense_matrix(start.pattern, start.stiffness);
-    kept.modes =
-        beam_.reduction->modes
-            ? complete_modes(matrices, kept.boundary, *beam_.reduction->modes)
-            : count_fixed_interface_modes(matrices, kept.boundary, *beam_.reduction->frequency);
+    for (ModeFamily& family : kept.families) {
+      family.modes = beam_.reduction->modes
+                         ? complete_modes(matrices, family.coordinates, *beam_.reduction->modes)
+                         : count_fixed_interface_modes(matrices, family.coordinates,
+                                                       *beam_.reduction->frequency);
+    }
+    return kept;
+  }
+
+  /// The families are axial vibration, torsion, and bending in each plane of symmetry.
+  KeptCoordinates boundary_and_families() const {
+    constexpr std::array<std::size_t, 6> family_of = {0, 1, 2, 3, 2, 1};  // u v w θx θy θz
+    const std::vector<int> attached = held_nodes(beam_, body_, context_, model_.beam);
+    KeptCoordinates kept;
+    kept.families.resize(4);
+    for (int node = 0; node < clamped_.node_count(); ++node) {
+      const bool is_attached = std::find(attached.begin(), attached.end(), node) != attached.end();
+      for (int i = 0; i < 6; ++i) {
+        const int index = clamped_.index(node, i);
+        const bool is_kept = is_attached || (i == 0 && model_.has_stiffening);
+        if (index < 0) continue;
+        ModeFamily& family = kept.families[family_of[static_cast<std::size_t>(i)]];
+        (is_kept ? kept.boundary : family.coordinates).push_back(index);
+      }
+    }
     return kept;
   }
 

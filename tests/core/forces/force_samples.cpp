@@ -70,7 +70,7 @@ struct Place {
     }
   }
   Vector3d point(const Vector3d& p) const { return r + A * (p + u); }
-  Vector3d direction(const Vector3d& s) const { return A * (s + psi.cross(s)); }
+  Vector3d direction(const Vector3d& s) const { return A * (rotation_of(psi) * s); }
 };
 
 template <template <class> class Data>
@@ -246,8 +246,9 @@ State ForceSample::random_state() const {
     for (double& entry : *part) entry = uniform(random);
   }
   for (const Marker& marker : mount.markers) {
-    for (int index : marker.elastic) {
-      if (index >= 0) state.q(index) = 0.05 * uniform(random);
+    for (std::size_t i = 0; i < 6; ++i) {
+      const int index = marker.elastic[i];
+      if (index >= 0) state.q(index) = (i < 3 ? 0.05 : 0.4) * uniform(random);
     }
   }
   return state;

@@ -38,7 +38,8 @@ struct ForceSample {
 
   std::unique_ptr<pleuel::Term> make() const { return make_shifted(0, 0.0); }
 
-  /// The same at every call: lengths of 1 m, rotations of 1 rad, small elastic displacements.
+  /// The same at every call: lengths of 1 m, rotations of 1 rad, elastic displacements of 0.05 m
+  /// and rotations of 0.4 rad.
   pleuel::State random_state() const;
   /// q ⊕ increment.
   Eigen::VectorXd advanced(const Eigen::VectorXd& q, const Eigen::VectorXd& increment) const;

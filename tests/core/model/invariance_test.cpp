@@ -152,9 +152,9 @@ TEST(Mechanisms, InATiltedPlaneAreKnownToStayThere) {
 }
 
 /// A planar mechanism on the coordinates of space makes the same motion: rotations about one axis
-/// add their angles there, too. (A number of modes is another choice in space.)
+/// add their angles there, too, and a number of modes has the same modes in the plane.
 TEST(Mechanisms, OfAPlaneMoveInSpaceAsInThePlane) {
-  for (SampleScene sample : {planar_sample(), planar_joints_sample()}) {
+  for (SampleScene sample : {planar_sample(), planar_joints_sample(), reduced_sample()}) {
     const End plane = end_of(sample, sample.scene);
     sample.effects.spatial_motion = EffectChoice::on;
     const End space = end_of(sample, sample.scene);

@@ -1,0 +1,117 @@
+#include "core/joints/joint_linearization.hpp"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "core/joints/joint_numbers.hpp"
+#include "core/joints/joint_residual.hpp"
+#include "tests/support/differences.hpp"
+
+namespace {
+
+using namespace pleuel;
+
+constexpr int size = JointLinearization::max_size;
+using Wide = DualOf<size>;
+
+/// Between two bodies in space whose places have all elastic coordinates.
+JointTopology topology_with(const JointEquation& equation) {
+  JointTopology topology;
+  for (int m = 0; m < 2; ++m) {
+    Marker& marker = topology.markers[static_cast<std::size_t>(m)];
+    marker.frame.offset = 12 * m;
+    marker.frame.rotation = RotationCoordinates::rotation_vector;
+    for (int i = 0; i < 6; ++i) marker.elastic[static_cast<std::size_t>(i)] = 12 * m + 6 + i;
+  }
+  topology.equations = {equation};
+  topology.is_driven = true;
+  topology.multiplier = size;
+  return topology;
+}
+
+JointData<double> data() {
+  JointData<double> data;
+  data.points = {Eigen::Vector3d(0.3, -0.2, 0.5), Eigen::Vector3d(-0.7, 0.1, 0.4)};
+  data.directions = {Eigen::Vector3d(0.8, 0.6, 0.0), Eigen::Vector3d(-0.48, 0.64, 0.6),
+                     Eigen::Vector3d(0.36, -0.48, 0.8)};
+  data.length = 0.9;
+  data.drive = {TimeLaw<double>::Kind::harmonic, {0.3, 5.0, 0.4, 0.2}, {}};
+  return data;
+}
+
+JointEquation equation_of(EquationKind kind) {
+  JointEquation equation{kind};
+  equation.fixed = Eigen::Vector3d(0.6, 0.0, 0.8);
+  equation.first = 0;
+  equation.second = 1;
+  equation.third = 2;
+  return equation;
+}
+
+/// Lengths, rotations of frames and elastic rotations of up to one.
+std::array<double, size> random_coordinates() {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  std::array<double, size> q{};
+  for (double& entry : q) entry = uniform(random);
+  return q;
+}
+
+class JointEquations : public testing::TestWithParam<EquationKind> {
+ protected:
+  static constexpr double time_ = 0.13;
+  JointEquation equation_ = equation_of(GetParam());
+  JointTopology topology_ = topology_with(equation_);
+  JointData<double> data_ = data();
+  std::array<double, size> q_ = random_coordinates();
+};
+
+/// Value and gradient are those of the template, and gradient and Hessian its derivatives in dual
+/// numbers. Rounding of sums of some ten products of order one.
+TEST_P(JointEquations, ByHandAreThoseOfTheTemplate) {
+  JointLinearization joint(topology_, data_, time_, q_.data(), size);
+  joint.evaluate(equation_);
+  std::array<Wide, size> q, rest, forces;
+  for (std::size_t i = 0; i < size; ++i) {
+    q[i] = Wide(q_[i]);
+    q[i].derivatives()[static_cast<int>(i)] = 1.0;
+    rest[i] = forces[i] = Wide(0.0);
+  }
+  const JointData<Wide> wide_data = cast_data<Wide>(data_);
+  JointEvaluation<Wide> evaluation(topology_, wide_data, time_);
+  evaluation.set_state(q.data(), rest.data(), rest.data());
+  const Wide one(1.0);
+  Wide value;
+  evaluation.evaluate(ConstraintLevel::position, &one, forces.data(), &value);
+  EXPECT_NEAR(value.value(), joint.value(), 1e-14);
+  EXPECT_LE((value.derivatives() - joint.gradient()).lpNorm<Eigen::Infinity>(), 1e-13);
+  for (int i = 0; i < size; ++i) {
+    const Wide& force = forces[static_cast<std::size_t>(i)];
+    EXPECT_NEAR(force.value(), joint.gradient()(i), 1e-13) << i;
+    EXPECT_LE((force.derivatives().transpose() - joint.hessian().row(i)).lpNorm<Eigen::Infinity>(),
+              1e-13)
+        << i;
+  }
+}
+
+TEST_P(JointEquations, HaveTheRateOfTheirGradient) {
+  JointLinearization joint(topology_, data_, time_, q_.data(), size);
+  joint.evaluate(equation_);
+  const Eigen::VectorXd expected = derivative_at_zero(
+      [&](double t) -> Eigen::VectorXd {
+        JointLinearization later(topology_, data_, time_ + t, q_.data(), size);
+        later.evaluate(equation_);
+        return later.gradient();
+      },
+      1e-3);
+  // (1e-3)⁴ of fifth derivatives of some 5⁵ · 0.3.
+  EXPECT_LE((joint.gradient_rate() - expected).lpNorm<Eigen::Infinity>(), 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, JointEquations,
+                         testing::Values(EquationKind::coincident, EquationKind::on_plane,
+                                         EquationKind::perpendicular, EquationKind::drive,
+                                         EquationKind::slide, EquationKind::distance));
+
+}  // namespace
