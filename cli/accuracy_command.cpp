@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.hpp"
+#include "cli/console.hpp"
 #include "cli/csv_file.hpp"
 #include "cli/number_text.hpp"
 #include "cli/run_record.hpp"
@@ -54,7 +55,9 @@ Json run_document(const ProblemFile& problem, const AccuracyRun& run) {
 }
 
 Json make_document(const ProblemFile& problem, const AccuracyStudy& study) {
-  Json document = {{"error", problem.accuracy->error}, {"runs", Json::array()}};
+  Json document = {{"status", study_status(!study.is_interrupted)},
+                   {"error", problem.accuracy->error},
+                   {"runs", Json::array()}};
   for (const AccuracyRun& run : study.runs) {
     document["runs"].push_back(run_document(problem, run));
   }
@@ -73,8 +76,8 @@ Json make_document(const ProblemFile& problem, const AccuracyStudy& study) {
 /// accuracy.csv: a line for each run as it is done [SI].
 class AccuracyCsv {
  public:
-  AccuracyCsv(const std::filesystem::path& path, const ProblemFile& problem)
-      : csv_(path, header(problem)), responses_(problem.responses.size()) {}
+  AccuracyCsv(const ResultFile& file, const ProblemFile& problem)
+      : csv_(file, header(problem)), responses_(problem.responses.size()) {}
 
   void add(const AccuracyRun& run) {
     csv_.add(run.settings.step).add(run.settings.elements);
@@ -152,7 +155,8 @@ std::string runs_text(const ProblemFile& problem, const AccuracyStudy& study) {
                {"gradient [ms]"},
                {"steps"},
                {"factorizations"},
-               {"", Table::Align::left}});
+               {"", Table::Align::left}},
+              2);
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
     std::vector<std::string> cells = row(problem, study.runs[i], study.reference);
     if (study.recommended == i) cells.push_back("← recommended");
@@ -162,6 +166,7 @@ std::string runs_text(const ProblemFile& problem, const AccuracyStudy& study) {
 }
 
 std::string recommendation_text(const ProblemFile& problem, const AccuracyStudy& study) {
+  if (study.is_interrupted) return "Nothing is recommended before all runs are done.\n";
   if (!study.recommended) {
     return fmt::format(
         "No setting keeps all errors below {:g}: add smaller steps or more elements to "
@@ -180,11 +185,13 @@ std::string largest_of(const Eigen::VectorXd& errors) {
 }
 
 std::string study_text(const ProblemFile& problem, const AccuracyStudy& study) {
+  const std::size_t all = problem.accuracy->steps.size() * problem.accuracy->elements.size();
   return fmt::format(
-      "{}: errors relative to a reference with step {:.4g} ms and {} elements a segment ({})\n"
+      "{}{}: errors relative to a reference with step {:.4g} ms and {} elements a segment ({})\n"
       "Its own error is estimated at {}, of gradients {}; ≤: below the reference's own error\n\n"
       "{}\n{}{}",
-      problem.name, 1e3 * study.reference.settings.step, study.reference.settings.elements,
+      study.is_interrupted ? interrupted_text(study.runs.size(), all, "runs") : "", problem.name,
+      1e3 * study.reference.settings.step, study.reference.settings.elements,
       duration(study.reference.seconds()), largest_of(study.reference.errors),
       largest_of(study.reference.gradient_errors), runs_text(problem, study),
       recommendation_text(problem, study), warnings_text(warnings_of(study)));
@@ -203,10 +210,12 @@ Outcome run_accuracy(const Arguments& arguments) {
   const AccuracyStudy study = accuracy_study(problem, [&](const AccuracyRun& run) {
     if (!csv) csv.emplace(record.result("accuracy.csv"), problem);
     csv->add(run);
-    fmt::print(stderr, "  step {:.4g} ms, {} elements: {}\n", 1e3 * run.settings.step,
-               run.settings.elements, run.failure.empty() ? duration(run.seconds()) : "failed");
+    show(stderr, fmt::format("  step {:.4g} ms, {} elements: {}\n", 1e3 * run.settings.step,
+                             run.settings.elements,
+                             run.failure.empty() ? duration(run.seconds()) : "failed"));
   });
-  Outcome outcome{ExitCode::done, make_document(problem, study), study_text(problem, study)};
+  Outcome outcome{study.is_interrupted ? ExitCode::not_verified : ExitCode::done,
+                  make_document(problem, study), study_text(problem, study)};
   outcome.text += fmt::format("\nWritten to {}: accuracy.csv, result.json, run_card.json\n",
                               record.folder().string());
   record.finish(outcome);

@@ -14,8 +14,8 @@ namespace {
 
 constexpr const char* footer = R"(
 Every command that takes FILE also takes --set (repeatable) and --json.
-Exit codes: 0 done, 2 bad input, 3 simulation failed, 4 ended without a verified optimum,
-1 a fault of the program.)";
+Exit codes: 0 done, 2 bad input, 3 simulation failed, 4 ended without a verified optimum or
+interrupted, 1 a result that could not be written, or a fault of the program.)";
 
 CLI::App* add_command(CLI::App& app, Arguments& arguments, const std::string& name,
                       const std::string& description) {
@@ -41,10 +41,17 @@ CLI::App* add_file_command(CLI::App& app, Arguments& arguments, const std::strin
   return command;
 }
 
+void add_overwrite(CLI::App* command, Arguments& arguments) {
+  command->add_flag("--overwrite", arguments.overwrites,
+                    "replace an older run of this command in the same place");
+}
+
 CLI::Option* add_output(CLI::App* command, Arguments& arguments) {
+  add_overwrite(command, arguments);
   return command
       ->add_option("-o,--output", arguments.output,
-                   "run folder (default: runs/<file>-" + command->get_name() + ")")
+                   "run folder (default: the first of runs/<file>-" + command->get_name() +
+                       ", …-2, …-3 that is not there)")
       ->type_name("DIR");
 }
 
@@ -59,7 +66,7 @@ void add_design(CLI::App* command, Arguments& arguments) {
 void add_backend(CLI::App* command, Arguments& arguments) {
   command
       ->add_option("--backend", arguments.backend,
-                   "optimizer instead of the file's; see `pleuel backends`")
+                   "optimizer instead of the file's; see the command backends")
       ->type_name("NAME");
 }
 
@@ -126,6 +133,7 @@ void add_invariants(CLI::App& app, Arguments& arguments) {
       ->add_option("-o,--output", arguments.output,
                    "a file NAME.json, or a run folder (default: runs/<file>-invariants)")
       ->type_name("PATH");
+  add_overwrite(invariants, arguments);
 }
 
 void add_commands(CLI::App& app, Arguments& arguments) {
@@ -175,8 +183,10 @@ void check_command_name(const CLI::App& app, const std::vector<std::string>& wor
 
 std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
   Arguments arguments;
-  arguments.words.assign(argv + 1, argv + argc);
-  CLI::App app("Pleuel: gradient-based design optimization of flexible mechanisms", "pleuel");
+  arguments.program = argc > 0 ? argv[0] : "pleuel";
+  arguments.words.assign(argv + std::min(argc, 1), argv + argc);
+  CLI::App app("Pleuel: gradient-based design optimization of flexible mechanisms",
+               arguments.program);
   app.footer(footer);
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("pleuel ") + versions::pleuel);
@@ -188,7 +198,7 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
     app.exit(help);
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
-    throw InputError(std::string(error.what()) + "; see pleuel --help");
+    throw InputError(fmt::format("{}; see {} --help", error.what(), arguments.program));
   }
   const double step = arguments.difference_step.value_or(0.5);
   if (!(step > 0.0 && step < 1.0)) {

@@ -12,6 +12,7 @@ namespace pleuel {
 
 /// What the user typed.
 struct Arguments {
+  std::string program;  ///< as it was called: for commands to be typed next
   std::string command;
   std::filesystem::path file;                   ///< of a command that takes one
   std::vector<std::filesystem::path> files;     ///< of a command that takes several
@@ -25,6 +26,7 @@ struct Arguments {
   int jobs = available_threads();         ///< simulations at a time
   bool wants_histories = false;           ///< with their derivatives
   bool wants_json = false;
+  bool overwrites = false;         ///< an older run of the same command in the folder
   std::vector<std::string> words;  ///< the command line as it was
 
   /// Where lines appear while the work goes on: standard output belongs to JSON if that is wanted.

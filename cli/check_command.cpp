@@ -2,6 +2,7 @@
 
 #include "cli/analysis_report.hpp"
 #include "cli/commands.hpp"
+#include "cli/console.hpp"
 #include "cli/derivative_report.hpp"
 #include "cli/monitors_report.hpp"
 #include "cli/number_text.hpp"
@@ -10,6 +11,7 @@
 #include "cli/stopwatch.hpp"
 #include "cli/ties.hpp"
 #include "cli/warnings.hpp"
+#include "core/base/stop.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/trust/doubts.hpp"
 #include "sensitivity/gradients.hpp"
@@ -25,6 +27,7 @@ struct Findings {
   double simulation_seconds = 0.0, gradient_seconds = 0.0;
   Ties ties;
   std::vector<DerivativeCheck> derivatives;  ///< empty without variables
+  bool is_interrupted = false;               ///< before the derivatives were verified
   std::vector<std::string> warnings;
 };
 
@@ -49,9 +52,13 @@ Findings examine(const ProblemFile& problem, const Eigen::VectorXd& x, int threa
   DerivativeCheckOptions options;
   options.threads = threads;
   options.see_step = [](double step) {
-    fmt::print(stderr, "verifying derivatives by central differences, step {:g} …\n", step);
+    show(stderr, fmt::format("verifying derivatives by central differences, step {:g} …\n", step));
   };
-  findings.derivatives = check_derivatives(problem, x, *findings.analysis, options);
+  try {
+    findings.derivatives = check_derivatives(problem, x, *findings.analysis, options);
+  } catch (const Stopped&) {
+    findings.is_interrupted = true;
+  }
   warn(noise_warnings(problem, *findings.analysis, findings.derivatives));
   return findings;
 }
@@ -72,7 +79,8 @@ Json responses_with_verdicts(const ProblemFile& problem, const Findings& finding
 
 Json make_document(const ProblemFile& problem, const Findings& findings) {
   const Analysis& analysis = *findings.analysis;
-  Json document = {{"name", problem.name},
+  Json document = {{"status", study_status(!findings.is_interrupted)},
+                   {"name", problem.name},
                    {"bodies", bodies_document(analysis.model)},
                    {"coordinates", analysis.model.mechanism.system->coordinates()},
                    {"multipliers", analysis.model.mechanism.system->multipliers()},
@@ -102,6 +110,8 @@ std::string time_text(const ProblemFile& problem, const Findings& findings) {
 std::string make_text(const ProblemFile& problem, const Findings& findings) {
   const Analysis& analysis = *findings.analysis;
   std::string text =
+      findings.is_interrupted ? "INTERRUPTED before the derivatives were verified\n\n" : "";
+  text +=
       fmt::format("{}: a valid problem\n{}\n\n{}\n{}", problem.name, size_text(analysis),
                   bodies_text(analysis.model) + "\n" +
                       freedoms_text(findings.freedoms, analysis.model) + assembly_text(analysis),
@@ -122,7 +132,8 @@ Outcome run_check(const Arguments& arguments) {
   const ProblemFile& problem = input.problem;
   show_warnings_before(problem);
   const Findings findings = examine(problem, input.design, arguments.jobs);
-  return {ExitCode::done, make_document(problem, findings), make_text(problem, findings)};
+  return {findings.is_interrupted ? ExitCode::not_verified : ExitCode::done,
+          make_document(problem, findings), make_text(problem, findings)};
 }
 
 }  // namespace pleuel

@@ -1,5 +1,7 @@
 #include "cli/command_text.hpp"
 
+#include "cli/run_folder.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -18,7 +20,8 @@ std::string quoted(const std::string& word) {
 
 std::string command_at(const std::string& command, const Arguments& arguments,
                        const std::filesystem::path& design) {
-  std::string text = "pleuel " + command + " " + quoted(arguments.file.string());
+  std::string text =
+      quoted(arguments.program) + " " + command + " " + quoted(arguments.file.string());
   for (const std::string& assignment : arguments.overrides) {
     text += " --set " + quoted(assignment);
   }
@@ -26,6 +29,9 @@ std::string command_at(const std::string& command, const Arguments& arguments,
     for (const std::string& method : arguments.methods) text += " --method " + method;
   }
   if (command == "optimize" && arguments.backend) text += " --backend " + *arguments.backend;
+  if (command == "optimize" && arguments.output) {
+    text += " -o " + quoted(free_folder(*arguments.output).string());
+  }
   return text + " --design " + quoted(design.string());
 }
 

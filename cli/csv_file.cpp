@@ -2,48 +2,47 @@
 
 #include <fmt/format.h>
 
-#include "core/base/error.hpp"
-
 namespace pleuel {
 
-CsvFile::CsvFile(const std::filesystem::path& path, const std::vector<std::string>& header)
-    : stream_(path) {
-  if (!stream_) throw InputError(fmt::format("{} cannot be written", path.string()));
+CsvFile::CsvFile(const ResultFile& file, const std::vector<std::string>& header) : file_(file) {
   for (const std::string& title : header) add(title);
   end_row();
 }
 
 CsvFile& CsvFile::add(double value) {
   separate();
-  stream_ << fmt::format("{}", value);
+  row_ += fmt::format("{}", value);
   return *this;
 }
 
 CsvFile& CsvFile::add(int value) {
   separate();
-  stream_ << value;
+  row_ += std::to_string(value);
   return *this;
 }
 
 CsvFile& CsvFile::add(const std::string& text) {
   separate();
-  if (text.find_first_of(",\"\r\n") == std::string::npos) {
-    stream_ << text;
+  const bool is_formula = text.find_first_of("=+-@\t") == 0;
+  const std::string cell = is_formula ? "'" + text : text;
+  if (cell.find_first_of(",\"\r\n") == std::string::npos) {
+    row_ += cell;
     return *this;
   }
-  stream_ << '"';
-  for (const char c : text) stream_ << (c == '"' ? "\"\"" : std::string(1, c));
-  stream_ << '"';
+  row_ += '"';
+  for (const char c : cell) row_ += c == '"' ? "\"\"" : std::string(1, c);
+  row_ += '"';
   return *this;
 }
 
 void CsvFile::end_row() {
-  stream_ << '\n' << std::flush;
+  file_.write(row_ + "\n");
+  row_.clear();
   is_row_begun_ = false;
 }
 
 void CsvFile::separate() {
-  if (is_row_begun_) stream_ << ',';
+  if (is_row_begun_) row_ += ',';
   is_row_begun_ = true;
 }
 

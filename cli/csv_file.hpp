@@ -1,17 +1,18 @@
 #pragma once
 
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
+#include "cli/output_file.hpp"
+
 namespace pleuel {
 
-/// Comma-separated values (RFC 4180), each line flushed: whoever kills the run keeps them.
+/// Comma-separated values (RFC 4180), written line by line: whoever kills the run keeps them.
+/// Spreadsheets run texts that begin with = + - or @ as formulas: such a text begins with an
+/// apostrophe here.
 class CsvFile {
  public:
-  /// @throws InputError if the file cannot be written
-  CsvFile(const std::filesystem::path& path, const std::vector<std::string>& header);
+  CsvFile(const ResultFile& file, const std::vector<std::string>& header);
 
   CsvFile& add(double value);  ///< shortest text that reads back exactly
   CsvFile& add(int value);
@@ -21,7 +22,8 @@ class CsvFile {
  private:
   void separate();
 
-  std::ofstream stream_;
+  OutputFile file_;
+  std::string row_;
   bool is_row_begun_ = false;
 };
 

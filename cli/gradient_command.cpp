@@ -130,7 +130,7 @@ double spread(const std::vector<MethodResult>& results, Eigen::Index i, Eigen::I
 
 std::string gradients_text(const ProblemFile& problem, const std::vector<MethodResult>& results) {
   const std::vector<ShownUnit> variable_unit = variable_units(problem);
-  Table table(columns(results));
+  Table table(columns(results), 2);
   for (std::size_t i = 0; i < problem.responses.size(); ++i) {
     const ShownUnit value_unit = unit_of(problem.responses[i]);
     for (std::size_t j = 0; j < problem.variables.size(); ++j) {
@@ -177,6 +177,7 @@ std::string seconds_text(const std::vector<MethodResult>& results, double simula
 void write_histories(RunRecord& record, const ProblemInput& input, Analysis& analysis,
                      Outcome& outcome) {
   record.begin_phase("histories");
+  record.write("result.json", outcome.document);
   write_trajectory(record.result("trajectory.csv"), analysis);
   write_history_gradients(record.result("gradients.csv"), input.problem, analysis);
   outcome.text +=

@@ -5,7 +5,7 @@
 
 namespace pleuel {
 
-void write_history_gradients(const std::filesystem::path& path, const ProblemFile& problem,
+void write_history_gradients(const ResultFile& file, const ProblemFile& problem,
                              Analysis& analysis) {
   const std::vector<HistoryGradients> histories = history_gradients(analysis);
   std::vector<std::string> header = {"time"};
@@ -16,7 +16,7 @@ void write_history_gradients(const std::filesystem::path& path, const ProblemFil
       header.push_back(name + ":" + variable.name);
     }
   }
-  CsvFile csv(path, header);
+  CsvFile csv(file, header);
   for (Eigen::Index instant = 0; instant < analysis.trajectory.time.size(); ++instant) {
     csv.add(analysis.trajectory.time(instant));
     for (const HistoryGradients& history : histories) {

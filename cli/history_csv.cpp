@@ -23,8 +23,8 @@ std::string to_string(Request request) {
   return request == Request::values ? "values" : "gradients";
 }
 
-HistoryCsv::HistoryCsv(const std::filesystem::path& path, const Problem& problem)
-    : constraints_(problem.constraints().size()), csv_(path, header(problem)) {}
+HistoryCsv::HistoryCsv(const ResultFile& file, const Problem& problem)
+    : constraints_(problem.constraints().size()), csv_(file, header(problem)) {}
 
 void HistoryCsv::add(const EvaluationRecord& record) {
   const bool has_failed = record.has_failed();

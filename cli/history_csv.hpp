@@ -1,7 +1,5 @@
 #pragma once
 
-#include <filesystem>
-
 #include "cli/csv_file.hpp"
 #include "optimization/history.hpp"
 #include "optimization/problem.hpp"
@@ -14,7 +12,7 @@ std::string to_string(Request request);
 /// history.csv: a line for every evaluation as it happens [SI].
 class HistoryCsv {
  public:
-  HistoryCsv(const std::filesystem::path& path, const Problem& problem);
+  HistoryCsv(const ResultFile& file, const Problem& problem);
   void add(const EvaluationRecord& record);
 
  private:

@@ -2,21 +2,20 @@
 
 #include <csignal>
 
+#include "core/base/stop.hpp"
+
 namespace pleuel {
 
 namespace {
 
-volatile std::sig_atomic_t is_asked = 0;
-
 extern "C" void note_interruption(int signal) {
-  is_asked = 1;
+  request_stop();
   std::signal(signal, SIG_DFL);
 }
 
 }  // namespace
 
 Interruption::Interruption() {
-  is_asked = 0;
   before_interrupt_ = std::signal(SIGINT, note_interruption);
   before_end_ = std::signal(SIGTERM, note_interruption);
   // A program started in the background ignores interrupts, and shall go on doing so.
@@ -26,10 +25,6 @@ Interruption::Interruption() {
 Interruption::~Interruption() {
   std::signal(SIGINT, before_interrupt_);
   std::signal(SIGTERM, before_end_);
-}
-
-void Interruption::check() const {
-  if (is_asked != 0) throw Asked{};
 }
 
 }  // namespace pleuel

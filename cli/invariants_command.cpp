@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <fstream>
 
 #include <fmt/format.h>
 
@@ -51,14 +50,8 @@ std::vector<InvariantsFile> export_bodies(const Arguments& arguments, const Prob
   return files;
 }
 
-void write_file(const fs::path& path, const InvariantsFile& file) {
-  std::ofstream stream(path, std::ios::binary);
-  stream << write_invariants(file);
-  stream.close();
-  if (!stream) throw InputError(fmt::format("{} cannot be written", path.string()));
-}
-
-/// Names of bodies may hold what names of files cannot.
+/// In a folder of their own, where no name of a body can be that of another result. Names of bodies
+/// may hold what names of files cannot.
 std::string file_name(const std::string& body) {
   std::string name = body + ".json";
   std::replace(name.begin(), name.end(), '/', '_');
@@ -97,6 +90,20 @@ Outcome report(const ProblemFile& problem, const std::vector<InvariantsFile>& fi
   return outcome;
 }
 
+void check_free(const fs::path& path, const Arguments& arguments) {
+  const fs::file_status status = fs::symlink_status(path);
+  if (!fs::exists(status)) return;
+  if (!fs::is_regular_file(status)) {
+    throw InputError(fmt::format("-o {}: is there already, and no ordinary file", path.string()));
+  }
+  if (!arguments.overwrites) {
+    throw InputError(
+        fmt::format("-o {}: is there already; choose another name, or replace it with "
+                    "--overwrite",
+                    path.string()));
+  }
+}
+
 Outcome write_one(const fs::path& path, const ProblemFile& problem,
                   const std::vector<InvariantsFile>& files) {
   if (files.size() != 1) {
@@ -105,8 +112,11 @@ Outcome write_one(const fs::path& path, const ProblemFile& problem,
                     "--body, or a folder",
                     path.string(), files.size()));
   }
-  write_file(path, files.front());
-  return report(problem, files, {path});
+  WriteFailures failures;
+  write_file({path, &failures}, write_invariants(files.front()));
+  Outcome outcome = report(problem, files, {path});
+  outcome.unwritten = failures.files();
+  return outcome;
 }
 
 }  // namespace
@@ -114,6 +124,7 @@ Outcome write_one(const fs::path& path, const ProblemFile& problem,
 Outcome run_invariants(const Arguments& arguments) {
   const ProblemInput input = read_input(arguments);
   if (arguments.output && arguments.output->extension() == ".json") {
+    check_free(*arguments.output, arguments);
     return write_one(*arguments.output, input.problem, export_bodies(arguments, input.problem));
   }
   RunRecord record(arguments, input, Json::object());
@@ -122,14 +133,15 @@ Outcome run_invariants(const Arguments& arguments) {
   record.begin_phase("write");
   std::vector<fs::path> paths;
   for (const InvariantsFile& file : files) {
-    const fs::path path = record.result(file_name(file.body));
+    const ResultFile written = record.result(fs::path("bodies") / file_name(file.body));
+    const fs::path& path = written.path;
     if (std::find(paths.begin(), paths.end(), path) != paths.end()) {
       throw InputError(fmt::format("two bodies would be written to {}: use --body", path.string()));
     }
     paths.push_back(path);
-    write_file(paths.back(), file);
+    write_file(written, write_invariants(file));
   }
-  const Outcome outcome = report(input.problem, files, paths);
+  Outcome outcome = report(input.problem, files, paths);
   record.finish(outcome);
   return outcome;
 }

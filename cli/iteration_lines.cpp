@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/console.hpp"
 #include "cli/number_text.hpp"
 
 namespace pleuel {
@@ -21,24 +22,22 @@ std::string first_clause(const std::string& message) {
 
 IterationLines::IterationLines(std::FILE* out, const ProblemFile& problem)
     : out_(out), unit_(unit_of(find_response(problem, problem.objective->response))) {
-  fmt::print(out_, columns, "iteration", fmt::format("objective [{}]", unit_.name), "max violation",
-             "step", "seconds");
-  std::fflush(out_);
+  show(out_, fmt::format(columns, "iteration", fmt::format("objective [{}]", unit_.name),
+                         "max violation", "step", "seconds"));
 }
 
 void IterationLines::see(const EvaluationRecord& record) {
   step_ = std::max(step_, record.step);
   if (record.has_failed()) {
-    fmt::print(out_, "  evaluation {} failed: {}\n", record.evaluation,
-               first_clause(record.failure));
+    show(out_, fmt::format("  evaluation {} failed: {}\n", record.evaluation,
+                           first_clause(record.failure)));
   } else if (record.iteration > iteration_) {
-    fmt::print(out_, columns, record.iteration, significant(unit_.shown(record.objective), 6),
-               magnitude(record.max_violation), magnitude(step_),
-               fmt::format("{:.1f}", record.seconds));
+    show(out_, fmt::format(columns, record.iteration, significant(unit_.shown(record.objective), 6),
+                           magnitude(record.max_violation), magnitude(step_),
+                           fmt::format("{:.1f}", record.seconds)));
     iteration_ = record.iteration;
     step_ = 0.0;
   }
-  std::fflush(out_);
 }
 
 }  // namespace pleuel

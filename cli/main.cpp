@@ -6,7 +6,10 @@
 #include <fmt/format.h>
 
 #include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "cli/interruption.hpp"
 #include "core/base/error.hpp"
+#include "core/base/stop.hpp"
 
 namespace pleuel {
 
@@ -35,42 +38,50 @@ std::string with_file(const std::string& message, const Arguments& arguments) {
 }
 
 int report_error(ExitCode code, const std::string& message, bool wants_json) {
-  fmt::print(stderr, "pleuel: {}\n", message);
+  show(stderr, fmt::format("pleuel: {}\n", message));
   const int number = static_cast<int>(code);
   if (wants_json) {
     const Json document = {{"error", {{"exit_code", number}, {"message", message}}}};
-    fmt::print("{}", to_text(document));
+    write_all(stdout, to_text(document));
   }
   return number;
 }
 
-/// @throws InputError if not all of it could be written
-void print_whole(const std::string& text) {
-  const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-  if (std::fflush(stdout) != 0 || !is_written) {
-    throw InputError("standard output cannot be written; results in files are complete");
+/// Results in files are complete by then, or have been told of.
+int print(const Outcome& outcome, bool wants_json) {
+  const std::string failure =
+      write_all(stdout, wants_json ? to_text(outcome.document) : outcome.text);
+  if (!failure.empty()) {
+    return report_error(ExitCode::fault, "standard output cannot be written: " + failure, false);
   }
+  if (!outcome.unwritten.empty()) {
+    show(stderr, fmt::format("pleuel: results that are not whole: {}\n",
+                             fmt::join(outcome.unwritten, ", ")));
+  }
+  return outcome.final_code();
 }
 
 int guarded_main(int argc, const char* const* argv) {
   Arguments arguments;
   arguments.wants_json = std::find(argv, argv + argc, std::string_view("--json")) != argv + argc;
+  const auto report = [&](ExitCode code, const std::string& message) {
+    return report_error(code, message, arguments.wants_json);
+  };
   try {
     const std::optional<Arguments> parsed = parse_arguments(argc, argv);
     if (!parsed) return 0;
     arguments = *parsed;
-    const Outcome outcome = run(arguments);
-    print_whole(arguments.wants_json ? to_text(outcome.document) : outcome.text);
-    return static_cast<int>(outcome.exit_code);
+    const Interruption interruption;
+    return print(run(arguments), arguments.wants_json);
   } catch (const InputError& error) {
-    return report_error(ExitCode::bad_input, with_file(error.what(), arguments),
-                        arguments.wants_json);
+    return report(ExitCode::bad_input, with_file(error.what(), arguments));
   } catch (const SimulationError& error) {
-    return report_error(ExitCode::simulation_failed, error.what(), arguments.wants_json);
+    return report(ExitCode::simulation_failed, error.what());
+  } catch (const Stopped&) {
+    return report(ExitCode::not_verified, "interrupted before there was any result");
   } catch (const std::exception& error) {
-    return report_error(ExitCode::fault,
-                        fmt::format("{} (this is a fault of the program)", error.what()),
-                        arguments.wants_json);
+    return report(ExitCode::fault,
+                  fmt::format("{} (this is a fault of the program)", error.what()));
   }
 }
 
@@ -79,5 +90,6 @@ int guarded_main(int argc, const char* const* argv) {
 }  // namespace pleuel
 
 int main(int argc, char** argv) {
+  pleuel::prepare_streams();
   return pleuel::guarded_main(argc, argv);
 }

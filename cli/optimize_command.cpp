@@ -5,9 +5,9 @@
 
 #include "cli/command_text.hpp"
 #include "cli/commands.hpp"
+#include "cli/console.hpp"
 #include "cli/failed_design.hpp"
 #include "cli/history_csv.hpp"
-#include "cli/interruption.hpp"
 #include "cli/iteration_lines.hpp"
 #include "cli/monitors_report.hpp"
 #include "cli/optimum_document.hpp"
@@ -16,6 +16,8 @@
 #include "cli/solve_settings.hpp"
 #include "cli/trajectory_csv.hpp"
 #include "cli/warnings.hpp"
+#include "cli/wrapped_text.hpp"
+#include "core/base/stop.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/trust/doubts.hpp"
 #include "optimization/design_problem.hpp"
@@ -73,13 +75,13 @@ Result interrupted_result(const DesignProblem& problem, const SolveOptions& opti
 Result solve_visibly(DesignProblem& problem, const SolveOptions& options, RunRecord& run_record,
                      const Arguments& arguments) {
   std::FILE* out = arguments.progress();
-  fmt::print(out, "{}: minimize {} by {} variables under {} constraints, with {}\n\n",
-             problem.file().name, problem.objective_name(), problem.variables().size(),
-             problem.constraints().size(), options.backend);
-  fmt::print(out, "{}", warnings_text(impossible_corners(problem.file())));
+  show(out, wrapped(fmt::format("{}: minimize {} by {} variables under {} constraints, with {}\n\n",
+                                problem.file().name, problem.objective_name(),
+                                problem.variables().size(), problem.constraints().size(),
+                                options.backend)));
+  show(out, warnings_text(impossible_corners(problem.file())));
   std::optional<HistoryCsv> history;  // with the first evaluation
   IterationLines lines(out, problem.file());
-  const Interruption interruption;
   History seen;
   const Observer observer = [&](const EvaluationRecord& record) {
     if (!history) history.emplace(run_record.result("history.csv"), problem);
@@ -89,19 +91,18 @@ Result solve_visibly(DesignProblem& problem, const SolveOptions& options, RunRec
       write_failed_design(run_record, arguments, problem.file(), record);
     }
     seen.push_back(record);
-    if (!seen.front().has_failed()) interruption.check();
   };
   try {
     return solve_design(problem, options, observer, [out](const std::string& notice) {
-      fmt::print(out, "  {}\n", notice);
-      std::fflush(out);
+      show(out, wrapped("  " + notice, "  ") + "\n");
     });
-  } catch (const Interruption::Asked&) {
+  } catch (const Stopped&) {
+    if (seen.empty() || seen.front().has_failed()) throw;
     return interrupted_result(problem, options, seen);
   }
 }
 
-/// How to go on from an interrupted run.
+/// How to go on from an interrupted run, in a folder of its own.
 std::string resume_text(const RunRecord& record, const Arguments& arguments,
                         const Optimum& optimum) {
   if (optimum.result.status != Status::interrupted) return "";
@@ -126,15 +127,17 @@ Outcome run_optimize(const Arguments& arguments) {
   show_warnings_before(input.problem);
   record.begin_phase("optimize");
   const Result result = solve_visibly(problem, options, record, arguments);
-  Optimum optimum{input.problem, result, {}, {}, {}, {}, problem.method()};
+  Optimum optimum{input.problem, result, {}, {}, {}, result.warnings, problem.method()};
+  // What has been found is told and written first: the rest is made from it at any time.
+  show(arguments.progress(), optimum_report(optimum));
+  record.write("result.json", optimum_document(optimum));
   if (optimum.has_design()) {
     record.begin_phase("trajectories");
     examine_designs(record, optimum);
   }
-  const Outcome outcome{exit_code(optimum), optimum_document(optimum),
-                        optimum_report(optimum) +
-                            failed_design_text(record, arguments, input.problem, result.history) +
-                            resume_text(record, arguments, optimum) + files_text(record, optimum)};
+  Outcome outcome{exit_code(optimum), optimum_document(optimum),
+                  failed_design_text(record, arguments, input.problem, result.history) +
+                      resume_text(record, arguments, optimum) + files_text(record, optimum)};
   record.finish(outcome);
   return outcome;
 }

@@ -59,7 +59,7 @@ Json optimum_document(const Optimum& optimum) {
       document["constraints"][optimum.problem.constraints[i].name] =
           constraint_document(optimum, i);
     }
-    document["responses"] = responses_document(optimum);
+    if (optimum.responses.size() > 0) document["responses"] = responses_document(optimum);
     document["monitors"] = monitors_document(optimum.monitors);
     document["warnings"] = optimum.warnings;
   }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.hpp"
+#include "cli/console.hpp"
 #include "cli/csv_file.hpp"
 #include "cli/number_text.hpp"
 #include "cli/run_record.hpp"
@@ -34,8 +35,8 @@ std::string limited_name(const ConstraintSettings& constraint) {
 /// pareto.csv: a line for each point as it is found [SI].
 class ParetoCsv {
  public:
-  ParetoCsv(const std::filesystem::path& path, const ProblemFile& problem)
-      : csv_(path, header(problem)), variables_(problem.variables.size()) {}
+  ParetoCsv(const ResultFile& file, const ProblemFile& problem)
+      : csv_(file, header(problem)), variables_(problem.variables.size()) {}
 
   void add(const ParetoPoint& point) {
     csv_.add(to_string(point.result.status)).add(point.limit);
@@ -87,7 +88,9 @@ Json point_document(const ProblemFile& problem, const ParetoPoint& point) {
 
 Json make_document(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
   const ConstraintSettings& constraint = varied_constraint(problem);
-  Json document = {{"constraint", constraint.name},
+  const bool is_whole = points.size() == static_cast<std::size_t>(problem.pareto->points);
+  Json document = {{"status", study_status(is_whole)},
+                   {"constraint", constraint.name},
                    {"units",
                     {{problem.objective->response,
                       unit_of(find_response(problem, problem.objective->response)).si},
@@ -171,10 +174,10 @@ std::string warnings_of_points(const ProblemFile& problem, const std::vector<Par
 
 void show_progress(std::FILE* out, const ProblemFile& problem, const ParetoPoint& point) {
   const ShownUnit unit = unit_of(problem, varied_constraint(problem));
-  fmt::print(out, "  limit {} {}: {} after {} evaluations, {}\n",
-             significant(unit.shown(point.limit)), unit.name, to_string(point.result.status),
-             point.result.evaluations, duration(point.result.seconds));
-  std::fflush(out);
+  show(out,
+       fmt::format("  limit {} {}: {} after {} evaluations, {}\n",
+                   significant(unit.shown(point.limit)), unit.name, to_string(point.result.status),
+                   point.result.evaluations, duration(point.result.seconds)));
 }
 
 }  // namespace
@@ -194,15 +197,20 @@ Outcome run_pareto(const Arguments& arguments) {
     show_progress(stderr, problem, point);
   };
   const auto points = pareto_front(problem, options, observer, arguments.jobs);
-  const bool is_verified = verified_points(points) == points.size();
-  const Outcome outcome{
+  const bool is_whole = points.size() == static_cast<std::size_t>(problem.pareto->points);
+  const bool is_verified = is_whole && verified_points(points) == points.size();
+  Outcome outcome{
       is_verified ? ExitCode::done : ExitCode::not_verified, make_document(problem, points),
-      fmt::format("{}: {} against the limit of {}; {} of {} points verified\n\n{}{}\n"
-                  "Written to {}: pareto.csv, result.json, run_card.json\n",
-                  problem.name, problem.objective->response, problem.pareto->constraint,
-                  verified_points(points), points.size(), points_text(problem, points),
-                  doubts_text(problem, points) + warnings_of_points(problem, points),
-                  record.folder().string())};
+      fmt::format(
+          "{}{}: {} against the limit of {}; {} of {} points verified\n\n{}{}\n"
+          "Written to {}: pareto.csv, result.json, run_card.json\n",
+          is_whole ? ""
+                   : interrupted_text(points.size(),
+                                      static_cast<std::size_t>(problem.pareto->points), "points"),
+          problem.name, problem.objective->response, problem.pareto->constraint,
+          verified_points(points), problem.pareto->points, points_text(problem, points),
+          doubts_text(problem, points) + warnings_of_points(problem, points),
+          record.folder().string())};
   record.finish(outcome);
   return outcome;
 }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/console.hpp"
 #include "cli/design_file.hpp"
 #include "core/model/effect_estimates.hpp"
 #include "core/response/analysis.hpp"
@@ -44,10 +45,10 @@ void note_unstable_scheme(const ProblemInput& input) {
       settings.formulation.constraints != ConstraintForm::index_3) {
     return;
   }
-  fmt::print(stderr,
-             "{}: note: with the spectral radius 1 the forces in joints are unstable in the "
-             "formulation \"index-3\"; take a radius below 1, or \"stabilized-index-2\"\n",
-             input.file.string());
+  show(stderr,
+       fmt::format("{}: note: with the spectral radius 1 the forces in joints are unstable in the "
+                   "formulation \"index-3\"; take a radius below 1, or \"stabilized-index-2\"\n",
+                   input.file.string()));
 }
 
 ProblemInput read_file(const std::filesystem::path& file, const Arguments& arguments) {

@@ -91,12 +91,13 @@ Outcome run_simulate(const Arguments& arguments) {
   run.warnings =
       texts_of(find_doubts(TrustedRun{input.problem, input.design, *analysis, run.monitors}));
   record.begin_phase("write");
-  write_trajectory(record.result("trajectory.csv"), *analysis);
   const std::string design = arguments.design ? " at " + arguments.design->string() : "";
   Outcome outcome{ExitCode::done, simulation_document(run),
                   simulation_text(input.problem, design, run)};
   outcome.text += fmt::format("Written to {}: trajectory.csv, result.json, run_card.json\n",
                               record.folder().string());
+  record.write("result.json", outcome.document);
+  write_trajectory(record.result("trajectory.csv"), *analysis);
   record.finish(outcome);
   return outcome;
 }

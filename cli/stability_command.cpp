@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.hpp"
+#include "cli/console.hpp"
 #include "cli/csv_file.hpp"
 #include "cli/number_text.hpp"
 #include "cli/run_record.hpp"
@@ -37,8 +38,9 @@ Json run_document(const StabilityRun& run) {
   return document;
 }
 
-Json make_document(const std::vector<StabilityRun>& runs) {
-  Json document = {{"formulations", Json::array()}, {"runs", Json::array()}};
+Json make_document(const std::vector<StabilityRun>& runs, bool is_whole) {
+  Json document = {
+      {"status", study_status(is_whole)}, {"formulations", Json::array()}, {"runs", Json::array()}};
   for (const auto* compared : {&compared_formulations(), &compared_schemes()}) {
     for (const ComparedFormulation& formulation : *compared) {
       document["formulations"].push_back(formulation.name);
@@ -51,8 +53,8 @@ Json make_document(const std::vector<StabilityRun>& runs) {
 /// stability.csv: a line for each run as it is done [SI].
 class StabilityCsv {
  public:
-  explicit StabilityCsv(const std::filesystem::path& path)
-      : csv_(path, {"file", "formulation", "steps", "newton_iterations", "factorizations",
+  explicit StabilityCsv(const ResultFile& file)
+      : csv_(file, {"file", "formulation", "steps", "newton_iterations", "factorizations",
                     "position_drift", "velocity_drift", "energy_error", "condition", "seconds",
                     "failure"}) {}
 
@@ -99,7 +101,8 @@ std::string runs_text(const std::vector<StabilityRun>& runs) {
                {"steps"},
                {"iterations a step"},
                {"condition"},
-               {"time"}});
+               {"time"}},
+              2);
   for (const StabilityRun& run : runs) table.add_row(row(run));
   return table.text();
 }
@@ -134,11 +137,15 @@ Outcome run_stability(const Arguments& arguments) {
       stability_study(arguments.files, arguments.overrides, [&](const StabilityRun& run) {
         if (!csv) csv.emplace(record.result("stability.csv"));
         csv->add(run);
-        fmt::print(stderr, "  {}, {}: {}\n", case_name(run), run.formulation,
-                   run.is_ok() ? duration(run.seconds) : "failed");
+        show(stderr, fmt::format("  {}, {}: {}\n", case_name(run), run.formulation,
+                                 run.is_ok() ? duration(run.seconds) : "failed"));
       });
-  Outcome outcome{ExitCode::done, make_document(runs),
-                  runs_text(runs) + failures_text(runs) + doubts_text(runs)};
+  const std::size_t all =
+      inputs.size() * (compared_formulations().size() + compared_schemes().size());
+  const bool is_whole = runs.size() == all;
+  Outcome outcome{is_whole ? ExitCode::done : ExitCode::not_verified, make_document(runs, is_whole),
+                  (is_whole ? "" : interrupted_text(runs.size(), all, "runs")) + runs_text(runs) +
+                      failures_text(runs) + doubts_text(runs)};
   outcome.text += fmt::format("\nWritten to {}: stability.csv, result.json, run_card.json\n",
                               record.folder().string());
   record.finish(outcome);

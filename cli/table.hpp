@@ -14,20 +14,28 @@ class Table {
     Align align = Align::right;
   };
 
-  explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
+  /// @param keys  so many of the first columns tell the rows apart
+  explicit Table(std::vector<Column> columns, std::size_t keys = 1)
+      : columns_(std::move(columns)), keys_(keys) {}
 
   /// @param cells  one a column; missing ones are empty
   void add_row(std::vector<std::string> cells);
   bool is_empty() const { return rows_.empty(); }
 
-  /// Title line and rows, each indented by two spaces and ended by a newline.
+  /// Title line and rows, each indented by two spaces and ended by a newline. What is wider than a
+  /// line has the texts of its last column broken, if that is enough, or is divided: into tables
+  /// one below the other, each with the keys.
   std::string text() const;
 
  private:
-  std::string line(const std::vector<std::string>& cells,
+  std::vector<std::size_t> widths() const;
+  /// The tables that it is divided into, by their columns.
+  std::vector<std::vector<std::size_t>> blocks(const std::vector<std::size_t>& widths) const;
+  std::string line(const std::vector<std::string>& cells, const std::vector<std::size_t>& shown,
                    const std::vector<std::size_t>& widths) const;
 
   std::vector<Column> columns_;
+  std::size_t keys_;
   std::vector<std::vector<std::string>> rows_;
 };
 

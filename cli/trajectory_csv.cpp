@@ -15,7 +15,7 @@ Eigen::VectorXd largest_channel(const Response& response, const Eigen::MatrixXd&
 
 }  // namespace
 
-void write_trajectory(const std::filesystem::path& path, const Analysis& analysis) {
+void write_trajectory(const ResultFile& file, const Analysis& analysis) {
   std::vector<std::string> header = {"time"};
   std::vector<Eigen::VectorXd> columns = {analysis.trajectory.time};
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
@@ -23,7 +23,7 @@ void write_trajectory(const std::filesystem::path& path, const Analysis& analysi
     header.push_back(analysis.responses[i].name);
     columns.emplace_back(largest_channel(analysis.responses[i], analysis.histories[i]));
   }
-  CsvFile csv(path, header);
+  CsvFile csv(file, header);
   for (Eigen::Index instant = 0; instant < columns.front().size(); ++instant) {
     for (const Eigen::VectorXd& column : columns) csv.add(column(instant));
     csv.end_row();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.hpp"
+#include "cli/console.hpp"
 #include "cli/csv_file.hpp"
 #include "cli/number_text.hpp"
 #include "cli/run_record.hpp"
@@ -46,6 +47,7 @@ Json response_document(const ProblemFile& problem, const UncertainResponse& resp
 
 Json make_document(const ProblemFile& problem, const UncertaintyStudy& study) {
   Json document = {
+      {"status", study_status(!study.is_interrupted)},
       {"parameters", Json::object()},
       {"responses", Json::object()},
       {"samples", study.samples},
@@ -67,7 +69,7 @@ Json make_document(const ProblemFile& problem, const UncertaintyStudy& study) {
 }
 
 /// uncertainty.csv: every history with its deviation [SI].
-void write_histories(const std::filesystem::path& path, const ProblemFile& problem,
+void write_histories(const ResultFile& file, const ProblemFile& problem,
                      const UncertaintyStudy& study) {
   std::vector<std::string> header = {"time"};
   for (const UncertainHistory& history : study.histories) {
@@ -76,7 +78,7 @@ void write_histories(const std::filesystem::path& path, const ProblemFile& probl
     header.push_back(name + ":deviation");
     if (history.sampled_deviations.size() > 0) header.push_back(name + ":sampled_deviation");
   }
-  CsvFile csv(path, header);
+  CsvFile csv(file, header);
   for (Eigen::Index i = 0; i < study.time.size(); ++i) {
     csv.add(study.time(i));
     for (const UncertainHistory& history : study.histories) {
@@ -133,7 +135,8 @@ std::string responses_text(const ProblemFile& problem, const UncertaintyStudy& s
                                         {"from", Table::Align::left}};
   const bool is_sampled = study.samples > 1;
   if (is_sampled) {
-    columns.insert(columns.end(), {{"sampled mean"}, {"deviation"}, {"lowest"}, {"highest"}});
+    columns.insert(columns.end(),
+                   {{"sampled mean"}, {"sampled deviation"}, {"lowest"}, {"highest"}});
   }
   Table table(columns);
   for (std::size_t i = 0; i < study.responses.size(); ++i) {
@@ -159,14 +162,16 @@ std::string responses_text(const ProblemFile& problem, const UncertaintyStudy& s
 }
 
 std::string study_text(const ProblemFile& problem, const UncertaintyStudy& study) {
-  std::string text = fmt::format(
+  const auto samples = static_cast<std::size_t>(study.samples + study.failures);
+  const auto all = static_cast<std::size_t>(problem.uncertainty->samples);
+  std::string text = study.is_interrupted ? interrupted_text(samples, all, "samples") : "";
+  text += fmt::format(
       "{}: what uncertain parameters make of the responses, to first order\n\n{}\n{}\n"
       "Time: gradients {}",
       problem.name, parameters_text(problem), responses_text(problem, study),
       duration(study.gradient_seconds));
-  if (study.samples + study.failures > 0) {
-    text += fmt::format("; {} samples {}", study.samples + study.failures,
-                        duration(study.sampling_seconds));
+  if (samples > 0) {
+    text += fmt::format("; {} samples {}", samples, duration(study.sampling_seconds));
   }
   text += "\n" + warnings_text(texts_of(study.doubts));
   if (study.failures > 0) {
@@ -188,12 +193,14 @@ Outcome run_uncertainty(const Arguments& arguments) {
   record.begin_phase("uncertainty");
   const int samples = problem.uncertainty->samples;
   const UncertaintyStudy study = uncertainty_study(problem, arguments.jobs, [&](int done) {
-    fmt::print(stderr, "  {} of {} samples\n", done, samples);
+    show(stderr, fmt::format("  {} of {} samples\n", done, samples));
   });
-  write_histories(record.result("uncertainty.csv"), problem, study);
-  Outcome outcome{ExitCode::done, make_document(problem, study), study_text(problem, study)};
+  Outcome outcome{study.is_interrupted ? ExitCode::not_verified : ExitCode::done,
+                  make_document(problem, study), study_text(problem, study)};
   outcome.text += fmt::format("\nWritten to {}: uncertainty.csv, result.json, run_card.json\n",
                               record.folder().string());
+  record.write("result.json", outcome.document);
+  write_histories(record.result("uncertainty.csv"), problem, study);
   record.finish(outcome);
   return outcome;
 }

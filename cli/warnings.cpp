@@ -1,10 +1,10 @@
 #include "cli/warnings.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 #include <fmt/format.h>
 
+#include "cli/console.hpp"
 #include "cli/wrapped_text.hpp"
 #include "core/trust/doubts.hpp"
 
@@ -17,8 +17,7 @@ std::string warnings_text(const std::vector<std::string>& warnings) {
 }
 
 void show_warnings_before(const ProblemFile& problem) {
-  const std::string text = warnings_text(texts_of(find_doubts_before(problem)));
-  std::fputs(text.c_str(), stderr);
+  show(stderr, warnings_text(texts_of(find_doubts_before(problem))));
 }
 
 void SharedWarnings::add(const std::vector<std::string>& warnings, const std::string& whose) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/stop.hpp"
 #include "core/integration/configuration.hpp"
 #include "core/integration/linear_solver.hpp"
 #include "core/integration/projection.hpp"
@@ -42,6 +43,7 @@ class AdjointRun {
   Eigen::MatrixXd run(const FunctionDerivatives& derivatives) {
     trajectory_.load(trajectory_.steps(), state_);
     for (int step = trajectory_.steps(); step > 0; --step) {
+      check_stop();
       active_ = derivatives(step, state_, adjoint_);
       trajectory_.load(step - 1, old_);
       if (active_ > 0) go_back(step);

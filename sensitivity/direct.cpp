@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/stop.hpp"
 #include "core/integration/configuration.hpp"
 #include "core/integration/linear_solver.hpp"
 #include "core/integration/projection.hpp"
@@ -37,6 +38,7 @@ class DirectDifferentiation {
     observer(0, state_, sensitivity_);
     sensitivity_ = first_step_sensitivity(mechanism_, trajectory_, state_, std::move(sensitivity_));
     for (int step = 1; step <= trajectory_.steps(); ++step) {
+      check_stop();
       scheme_ = trajectory_.scheme_of(step);
       equations_.set_scheme(scheme_);
       equations_.begin(state_);

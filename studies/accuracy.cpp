@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "core/base/error.hpp"
+#include "core/base/stop.hpp"
 #include "core/trust/doubts.hpp"
 #include "sensitivity/gradients.hpp"
 #include "studies/relative_error.hpp"
@@ -137,7 +138,12 @@ AccuracyStudy accuracy_study(const ProblemFile& problem, const AccuracyObserver&
   if (observer) observer(study.reference);
   for (const int elements : settings.elements) {
     for (const double step : settings.steps) {
-      study.runs.push_back(try_to_measure(problem, {step, elements}));
+      try {
+        study.runs.push_back(try_to_measure(problem, {step, elements}));
+      } catch (const Stopped&) {
+        study.is_interrupted = true;
+        return study;
+      }
       compare(study.runs.back(), study.reference, start_design(problem));
       raise_to_errors_of(study.reference, study.runs.back());
       if (observer) observer(study.runs.back());

@@ -42,6 +42,7 @@ struct AccuracyStudy {
   AccuracyRun reference;
   std::vector<AccuracyRun> runs;
   std::optional<std::size_t> recommended;  ///< the fastest whose errors are all small enough
+  bool is_interrupted = false;             ///< some runs are missing; then nothing is recommended
 };
 
 /// Sees the reference first, then each run as it is done.
@@ -54,6 +55,7 @@ using AccuracyObserver = std::function<void(const AccuracyRun&)>;
 /// the reference than that by luck, and is not called better.
 /// @throws InputError if the problem has no accuracy settings
 /// @throws SimulationError if the reference fails; a failing run is only marked
+/// @throws Stopped if a stop was asked for before the reference was done
 AccuracyStudy accuracy_study(const ProblemFile& problem, const AccuracyObserver& observer = {});
 
 }  // namespace pleuel

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/base/stop.hpp"
 #include "optimization/design_problem.hpp"
 #include "optimization/design_solve.hpp"
 
@@ -88,7 +89,12 @@ std::vector<ParetoPoint> pareto_front(const ProblemFile& problem, const SolveOpt
     const double limit = std::lerp(settings.from, settings.to,
                                    static_cast<double>(i) / std::max(settings.points - 1, 1));
     set_limit(constraint, limit);
-    points.push_back(find_point(varied, row, limit, options, threads));
+    try {
+      points.push_back(find_point(varied, row, limit, options, threads));
+    } catch (const Stopped&) {
+      if (points.empty()) throw;
+      break;
+    }
     if (is_within_limits(points.back())) start_from(points.back().result.x, varied.variables);
     if (observer) observer(points.back());
   }

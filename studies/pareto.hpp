@@ -27,6 +27,8 @@ using ParetoObserver = std::function<void(const ParetoPoint&)>;
 /// from the optimum before, the first from the start values. Every point is audited like any
 /// optimum.
 /// @param threads  simulations at a time, of gradients by differences
+/// @returns the points that were found before a stop, if one was asked for
+/// @throws Stopped before the first
 /// @throws InputError if the problem has no pareto settings, variables or objective
 std::vector<ParetoPoint> pareto_front(const ProblemFile& problem, const SolveOptions& options,
                                       const ParetoObserver& observer = {}, int threads = 1);

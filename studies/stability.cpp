@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "core/base/error.hpp"
+#include "core/base/stop.hpp"
 #include "core/model/effect_estimates.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"
@@ -95,7 +96,12 @@ std::vector<StabilityRun> stability_study(const std::vector<std::filesystem::pat
     for (const auto* compared : {&compared_formulations(), &compared_schemes()}) {
       for (const ComparedFormulation& formulation : *compared) {
         const ProblemFile problem = read_with(file, overrides, formulation);
-        runs.push_back(try_to_measure(file, problem, formulation.name));
+        try {
+          runs.push_back(try_to_measure(file, problem, formulation.name));
+        } catch (const Stopped&) {
+          if (runs.empty()) throw;
+          return runs;
+        }
         if (observer) observer(runs.back());
       }
     }

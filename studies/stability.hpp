@@ -46,6 +46,8 @@ using StabilityObserver = std::function<void(const StabilityRun&)>;
 /// @param overrides  of all files, as in read_problem()
 /// @throws InputError for a file that cannot be read, before any is simulated; a failing simulation
 ///         is only marked
+/// @throws Stopped if a stop was asked for before the first run was done; later, the runs that were
+///         done are returned
 std::vector<StabilityRun> stability_study(const std::vector<std::filesystem::path>& files,
                                           const std::vector<std::string>& overrides,
                                           const StabilityObserver& observer = {});

@@ -6,6 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/parallel.hpp"
+#include "core/base/stop.hpp"
 #include "core/scene/sample_extent.hpp"
 #include "core/trust/doubts.hpp"
 #include "sensitivity/history_gradients.hpp"
@@ -113,9 +114,15 @@ class Study {
     for (int first = 0; first < settings_.samples; first += batch_size) {
       const int count = std::min(batch_size, settings_.samples - first);
       std::vector<Sample> batch(static_cast<std::size_t>(count));
-      for_each_in_parallel(count, threads, [&](int i) {
-        batch[static_cast<std::size_t>(i)] = simulate(designs[static_cast<std::size_t>(first + i)]);
-      });
+      try {
+        for_each_in_parallel(count, threads, [&](int i) {
+          batch[static_cast<std::size_t>(i)] =
+              simulate(designs[static_cast<std::size_t>(first + i)]);
+        });
+      } catch (const Stopped&) {
+        study_.is_interrupted = true;  // whole batches only: so the numbers can be made again
+        break;
+      }
       for (const Sample& sample : batch) {
         if (!sample.values.allFinite() || sample.values.size() == 0) {
           ++study_.failures;

@@ -40,6 +40,7 @@ struct UncertaintyStudy {
   std::vector<UncertainHistory> histories;   ///< of those that have one
   int samples = 0;                           ///< that could be simulated
   int failures = 0;                          ///< that could not
+  bool is_interrupted = false;               ///< before all samples were simulated
   std::vector<Doubt> doubts;                 ///< about the values at the design
   double gradient_seconds = 0.0, sampling_seconds = 0.0;
 };
@@ -52,6 +53,7 @@ using SampleObserver = std::function<void(int done)>;
 /// @param threads  for the samples
 /// @throws InputError if the problem has no uncertainty settings
 /// @throws SimulationError if the design itself cannot be simulated
+/// @throws Stopped if a stop was asked for before the first-order results were there
 UncertaintyStudy uncertainty_study(const ProblemFile& problem, int threads,
                                    const SampleObserver& observer = {});
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/stop.hpp"
 #include "core/integration/initial_state.hpp"
 #include "core/integration/jerk.hpp"
 
@@ -82,6 +83,7 @@ void TimeLoop::start(Eigen::Index room) {
 }
 
 void TimeLoop::advance(int unit) {
+  check_stop();
   if (options_.instants.empty()) {
     step_ = unit;
     advance_step(options_.end_time * unit / steps_);

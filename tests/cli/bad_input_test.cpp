@@ -59,7 +59,7 @@ TEST(BadInput, UnknownOptionIsNamed) {
 }
 
 TEST(BadInput, NoCommandAtAllIsBadInput) {
-  expect_complaint({}, "see pleuel --help");
+  expect_complaint({}, " --help");
 }
 
 TEST(BadInput, OptimizingWithoutVariablesNamesFileAndPointer) {

@@ -17,7 +17,7 @@ nlohmann::json read_json(const fs::path& path) {
 
 /// The words of a command behind the name of the program.
 std::string without_program(const std::string& command) {
-  EXPECT_THAT(command, ::testing::StartsWith("pleuel "));
+  EXPECT_THAT(command, ::testing::StartsWith(PLEUEL_PROGRAM));  // as it was called
   return command.substr(command.find(' ') + 1);
 }
 
@@ -54,7 +54,7 @@ TEST_F(FailedDesign, OfASearchIsTheLastOneOfItsHistory) {
   int failures = 0;
   std::vector<std::string> last;
   for (const auto& row : history) {
-    const bool is_failure = row != history.front() && row.size() >= history.front().size();
+    const bool is_failure = row != history.front() && !row.back().empty();
     failures += is_failure ? 1 : 0;
     if (is_failure) last = row;
   }

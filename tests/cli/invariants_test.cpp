@@ -31,7 +31,8 @@ TEST(Invariants, OfAllElasticBodiesAreARunFolder) {
   const TemporaryFolder folder;
   const ProgramRun run = run_program(folder.path(), {"invariants", problem("slider_crank")});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  for (const char* name : {"crank.json", "rod.json", "run_card.json", "result.json"}) {
+  for (const char* name :
+       {"bodies/crank.json", "bodies/rod.json", "run_card.json", "result.json"}) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "runs" / "slider_crank-invariants" / name))
         << name;
   }

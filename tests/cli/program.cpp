@@ -38,8 +38,8 @@ ProgramRun run_line(const fs::path& folder, const std::string& line) {
   const TemporaryFolder streams;
   const fs::path out = streams.path() / "out", err = streams.path() / "err";
   const std::string command =
-      fmt::format("cd {} && {} {} >{} 2>{}", quoted(folder.string()), quoted(PLEUEL_PROGRAM), line,
-                  quoted(out.string()), quoted(err.string()));
+      fmt::format("cd {} && {{ {} {}\n}} >{} 2>{}", quoted(folder.string()), quoted(PLEUEL_PROGRAM),
+                  line, quoted(out.string()), quoted(err.string()));
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
 }
@@ -73,15 +73,8 @@ std::string read_file(const fs::path& path) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-std::vector<std::vector<std::string>> read_csv(const fs::path& path) {
-  std::ifstream stream(path);
-  std::vector<std::vector<std::string>> rows;
-  for (std::string line; std::getline(stream, line);) {
-    std::istringstream cells(line);
-    rows.emplace_back();
-    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
-  }
-  return rows;
+CsvRows read_csv(const fs::path& path) {
+  return parse_csv(read_file(path));
 }
 
 }  // namespace pleuel::test

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/support/csv_text.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 /// The built program as a subprocess, in a folder of its own.
@@ -23,7 +24,7 @@ struct ProgramRun {
 /// Runs `pleuel words…` with this folder as the current one.
 ProgramRun run_program(const std::filesystem::path& folder, const std::vector<std::string>& words);
 
-/// The same with the words as a line for the shell.
+/// The same with the words as a line for the shell, and whatever it shall do afterwards.
 ProgramRun run_line(const std::filesystem::path& folder, const std::string& line);
 
 /// A problem file of the repository.
@@ -41,7 +42,7 @@ std::string unwrapped(const std::string& text);
 
 std::string read_file(const std::filesystem::path& path);
 
-/// The lines of a file, split at commas; good for files without quotes.
-std::vector<std::vector<std::string>> read_csv(const std::filesystem::path& path);
+/// The cells of a CSV file.
+CsvRows read_csv(const std::filesystem::path& path);
 
 }  // namespace pleuel::test

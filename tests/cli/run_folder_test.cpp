@@ -10,6 +10,7 @@ namespace pleuel::test {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 std::vector<std::string> files(const fs::path& folder) {
@@ -96,19 +97,51 @@ TEST(RunFolder, TrajectoryHasALineAnInstantAndAColumnAResponse) {
   EXPECT_NEAR(std::stod(rows.back().front()), 0.02, 1e-15);
 }
 
-TEST(RunFolder, OfAnOlderRunIsReplaced) {
+TEST(RunFolder, OfAnOlderRunIsReplacedOnlyIfAskedFor) {
   const TemporaryFolder folder;
   ASSERT_EQ(simulate_into(folder, "one").exit_code, 0);
   std::ofstream(folder.path() / "one/history.csv") << "old\n";
-  ASSERT_EQ(simulate_into(folder, "one").exit_code, 0);
+  const ProgramRun refused = simulate_into(folder, "one");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, ::testing::AllOf(HasSubstr("-o one: "), HasSubstr("--overwrite")));
+  EXPECT_TRUE(fs::exists(folder.path() / "one/history.csv"));
+  ASSERT_EQ(
+      run_program(
+          folder.path(),
+          joined({"simulate", problem("slider_crank_round"), "-o", "one", "--overwrite"}, quick()))
+          .exit_code,
+      0);
   EXPECT_FALSE(fs::exists(folder.path() / "one/history.csv"));
+}
+
+/// Neither the overrides nor the folder of the file are in its name.
+TEST(RunFolder, WithoutANameIsAnotherOneEachTime) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> words =
+      joined({"simulate", problem("slider_crank_round")}, quick());
+  for (const std::string name : {"", "-2", "-3"}) {
+    const ProgramRun run = run_program(folder.path(), words);
+    EXPECT_THAT(run.out, HasSubstr("Written to runs/slider_crank_round-simulate" + name + ":"));
+    EXPECT_TRUE(
+        fs::exists(folder.path() / ("runs/slider_crank_round-simulate" + name) / "result.json"));
+  }
+}
+
+TEST(RunFolder, OfASimulationThatFailsIsNotLeftBehind) {
+  const TemporaryFolder folder;
+  const ProgramRun run =
+      run_program(folder.path(), joined({"simulate", problem("slider_crank_round"), "--set",
+                                         "/simulation/max_newton_iterations=1"},
+                                        quick()));
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
 /// Errors that are found while reading, at the first evaluation, and by the backend.
 TEST(RunFolder, OfAnOlderRunOutlivesBadInput) {
   const TemporaryFolder folder;
   const std::vector<std::string> good =
-      joined({"optimize", problem("slider_crank_round"), "-o", "one"}, quick());
+      joined({"optimize", problem("slider_crank_round"), "-o", "one", "--overwrite"}, quick());
   ASSERT_EQ(run_program(folder.path(), good).exit_code, 0);
   const std::vector<std::string> before = files(folder.path() / "one");
   const std::string result = read_file(folder.path() / "one/result.json");
@@ -147,7 +180,8 @@ TEST(Optimize, ThatIsInterruptedKeepsItsBestDesignToGoOnFrom) {
   EXPECT_EQ(document.at("status"), "interrupted");
   EXPECT_EQ(nlohmann::json::parse(read_file(folder.path() / "one/run_card.json")).at("finished"),
             true);
-  EXPECT_THAT(read_file(folder.path() / "log"), HasSubstr("To go on from there: pleuel optimize"));
+  EXPECT_THAT(read_file(folder.path() / "log"),
+              AllOf(HasSubstr("To go on from there: "), HasSubstr(" -o ")));
   const ProgramRun next = run_program(
       folder.path(), joined({"optimize", problem("slider_crank_round"), "-o", "two", "--design",
                              "one/result.json", "--set", "/optimizer/max_iterations=1"},
@@ -186,7 +220,7 @@ TEST(Simulate, SaysThatAssemblyMovesTheMechanism) {
 
 TEST(Output, ThatCannotBeWrittenIsAnError) {
   const TemporaryFolder folder;
-  EXPECT_EQ(run_line(folder.path(), "backends --json >/dev/full; echo $?").out, "2\n");
+  EXPECT_EQ(run_line(folder.path(), "backends --json >/dev/full; echo $?").out, "1\n");
 }
 
 TEST(RunFolder, WithOtherPeoplesFilesIsNotTouched) {

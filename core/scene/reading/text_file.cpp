@@ -24,6 +24,10 @@ std::string read_text_file(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(status)) {
     throw InputError(fmt::format("{}: is a directory, not a problem file", path.string()));
   }
+  // A pipe has no second reader, and one without a writer would wait for ever.
+  if (!std::filesystem::is_regular_file(status)) {
+    throw InputError(fmt::format("{}: is no ordinary file", path.string()));
+  }
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw InputError(fmt::format("{}: cannot be read", path.string()));
   std::string text;

@@ -1,0 +1,115 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "tests/cli/program.hpp"
+
+/// Long commands end in good order when they are asked to, with what they know by then.
+namespace pleuel::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class Interrupted : public testing::Test {
+ protected:
+  /// Asks a command to end as soon as its first result is there; exit code and standard error.
+  ProgramRun run_until(const std::string& result, const std::string& words) const {
+    const std::string path = folder_.path().string();
+    return run_line(
+        folder_.path(),
+        fmt::format("{0} -o {1}/run >{1}/out & p=$!; i=0; "
+                    "while [ ! -s {1}/{2} ] && [ $i -lt 3000 ]; "
+                    "do sleep 0.01; i=$((i + 1)); done; kill -TERM $p; wait $p; echo $?",
+                    words, path, result));
+  }
+  nlohmann::json result() const {
+    return nlohmann::json::parse(read_file(folder_.path() / "run/result.json"));
+  }
+  std::string out() const { return read_file(folder_.path() / "out"); }
+
+  const TemporaryFolder folder_;
+};
+
+TEST_F(Interrupted, ParetoKeepsItsPoints) {
+  const ProgramRun run =
+      run_until("run/pareto.csv", "pareto " + problem("slider_crank_round") +
+                                      " --set '/simulation/end_time=60 ms' --set "
+                                      "/pareto/points=200 --set '/simulation/step=0.1 ms'");
+  EXPECT_EQ(run.out, "4\n");
+  EXPECT_EQ(result().at("status"), "interrupted");
+  const auto rows = read_csv(folder_.path() / "run/pareto.csv");
+  ASSERT_GE(rows.size(), 2u);
+  EXPECT_EQ(result().at("points").size(), rows.size() - 1);
+  EXPECT_THAT(out(), HasSubstr("INTERRUPTED: "));
+}
+
+TEST_F(Interrupted, AccuracyKeepsItsRunsAndRecommendsNone) {
+  const ProgramRun run = run_until(
+      "run/accuracy.csv", "accuracy " + problem("slider_crank_round") +
+                              " --set '/accuracy={\"steps\": [\"50 us\", \"51 us\", \"52 us\"], "
+                              "\"elements\": [2, 4, 6]}'");
+  EXPECT_EQ(run.out, "4\n");
+  EXPECT_EQ(result().at("status"), "interrupted");
+  EXPECT_EQ(result().at("runs").size() + 2, read_csv(folder_.path() / "run/accuracy.csv").size());
+  EXPECT_TRUE(result().at("recommended").is_null());
+}
+
+TEST_F(Interrupted, StabilityKeepsItsRuns) {
+  const ProgramRun run =
+      run_until("run/stability.csv", "stability " + problem("slider_crank_round"));
+  EXPECT_EQ(run.out, "4\n");
+  EXPECT_EQ(result().at("status"), "interrupted");
+  EXPECT_EQ(result().at("runs").size() + 1, read_csv(folder_.path() / "run/stability.csv").size());
+}
+
+/// Samples are told after each batch of 64.
+TEST_F(Interrupted, UncertaintyKeepsItsSamples) {
+  const std::string path = folder_.path().string();
+  const ProgramRun run = run_line(
+      folder_.path(),
+      fmt::format("uncertainty {0} -o {1}/run --set '/simulation/step=0.2 ms' --set "
+                  "'/simulation/end_time=20 ms' --set '/uncertainty={{\"parameters\": "
+                  "{{\"rod_diameter\": {{\"deviation\": \"0.1 mm\"}}}}, \"samples\": 100000}}' "
+                  ">{1}/out 2>{1}/err & p=$!; i=0; while [ ! -s {1}/err ] && [ $i -lt 3000 ]; "
+                  "do sleep 0.01; i=$((i + 1)); done; kill -TERM $p; wait $p; echo $?",
+                  problem("slider_crank_round"), path));
+  EXPECT_EQ(run.out, "4\n");
+  EXPECT_EQ(result().at("status"), "interrupted");
+  const int samples = result().at("samples");
+  EXPECT_GE(samples, 64);
+  EXPECT_LT(samples, 100000);
+  EXPECT_EQ(samples % 64, 0);
+  EXPECT_GT(result().at("responses").at("rod_bow").at("sampled").at("deviation"), 0.0);
+}
+
+/// The derivatives are not verified then; what is known before them is told.
+TEST_F(Interrupted, CheckTellsTheDesign) {
+  const std::string path = folder_.path().string();
+  const ProgramRun run = run_line(
+      folder_.path(),
+      fmt::format("check {0} --json >{1}/out 2>{1}/err & p=$!; i=0; while [ ! -s {1}/err ] && "
+                  "[ $i -lt 3000 ]; do sleep 0.01; i=$((i + 1)); done; kill -TERM $p; wait $p; "
+                  "echo $?",
+                  problem("slider_crank_round"), path));
+  EXPECT_EQ(run.out, "4\n");
+  const nlohmann::json document = nlohmann::json::parse(out());
+  EXPECT_EQ(document.at("status"), "interrupted");
+  EXPECT_TRUE(document.at("responses").at("rod_bow").contains("value"));
+}
+
+/// Nothing is known of a motion that has not ended; no folder stays.
+TEST_F(Interrupted, SimulationLeavesNothing) {
+  const std::string path = folder_.path().string();
+  const ProgramRun run = run_line(
+      folder_.path(),
+      fmt::format("simulate {0} -o {1}/run --set '/simulation/step=1 us' & p=$!; i=0; "
+                  "while [ ! -d {1}/run ] && [ $i -lt 3000 ]; do sleep 0.01; i=$((i + 1)); done; "
+                  "kill -TERM $p; wait $p; echo $?",
+                  problem("slider_crank_round"), path));
+  EXPECT_EQ(run.out, "4\n");
+  EXPECT_THAT(run.err, HasSubstr("pleuel: interrupted"));
+  EXPECT_FALSE(fs::exists(folder_.path() / "run"));
+}
+
+}  // namespace
+}  // namespace pleuel::test

@@ -1,0 +1,477 @@
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "tests/cli/program.hpp"
+#include "tests/cli/text_table.hpp"
+
+/// What people read: every number of tables and CSV files is read back and compared with the
+/// document, in millimetres and megapascals. Units are converted by factors of the test.
+namespace pleuel::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// One run of a command, with all that it leaves.
+struct Report {
+  std::string text;
+  json document;
+  std::map<std::string, CsvRows> files;
+
+  /// The numbers of a column; empty cells are NaN.
+  std::vector<double> column(const std::string& file, const std::string& title) const {
+    const CsvRows& rows = files.at(file);
+    const auto found = std::find(rows[0].begin(), rows[0].end(), title);
+    EXPECT_NE(found, rows[0].end()) << file << " has no column " << title;
+    std::vector<double> numbers;
+    if (found == rows[0].end()) return numbers;
+    const auto i = static_cast<std::size_t>(found - rows[0].begin());
+    for (std::size_t row = 1; row < rows.size(); ++row) {
+      EXPECT_EQ(rows[row].size(), rows[0].size());
+      numbers.push_back(rows[row][i].empty() ? std::nan("") : std::stod(rows[row][i]));
+    }
+    return numbers;
+  }
+};
+
+Report run(const std::vector<std::string>& words, int exit_code = 0) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(folder.path(), joined(joined(words, {"-o", "run"}), quick()));
+  EXPECT_EQ(run.exit_code, exit_code) << run.err;
+  Report report;
+  report.text = run.out;
+  report.document = json::parse(read_file(folder.path() / "run/result.json"), nullptr, false);
+  for (const auto& entry : fs::directory_iterator(folder.path() / "run")) {
+    if (entry.path().extension() != ".csv") continue;
+    report.files[entry.path().filename().string()] = read_csv(entry.path());
+  }
+  return report;
+}
+
+const std::string file = problem("slider_crank_round");
+
+/// A number of a table against one of the document [SI].
+void expect_shown(const std::string& shown, const std::string& unit, double si) {
+  const double value = number_in(shown) * si_of(unit);
+  EXPECT_NEAR(value, si, 1.001 * resolution_of(shown) * si_of(unit) + 1e-12 * std::abs(si))
+      << shown << " " << unit;
+}
+
+double largest(const std::vector<double>& values) {
+  double most = 0.0;
+  for (const double value : values) most = std::max(most, std::abs(value));
+  return most;
+}
+
+TEST(ReadBack, OfSimulate) {
+  const Report report = run({"simulate", file});
+  const TextTable table(report.text, "response");
+  const json& responses = report.document.at("responses");
+  ASSERT_EQ(table.rows(), responses.size());
+  for (const auto& [name, response] : responses.items()) {
+    const std::size_t row = table.row_of(name);
+    expect_shown(table.text(row, "value"), table.text(row, "unit"), response.at("value"));
+  }
+  EXPECT_EQ(table.text(table.row_of("rod_stress"), "unit"), "MPa");
+  EXPECT_EQ(table.text(table.row_of("rod_bow"), "unit"), "mm");
+  const auto value = [&](const char* name) -> double { return responses.at(name).at("value"); };
+  const auto column = [&](const char* name) { return report.column("trajectory.csv", name); };
+  // Peaks lie between the instants: of second order in the step, here up to 1e-3.
+  for (const char* name : {"rod_stress", "rod_bow", "torque_peak"}) {
+    EXPECT_NEAR(largest(column(name)) / value(name), 1.0, 3e-3) << name;
+  }
+  EXPECT_EQ(column("slider_end").back(), value("slider_end"));
+  const std::vector<double> time = column("time");
+  for (std::size_t i = 0; i < time.size(); ++i) EXPECT_NEAR(time[i], 2e-4 * double(i), 1e-15);
+}
+
+/// Units of a derivative are those of its response by those of its variable.
+TEST(ReadBack, OfGradient) {
+  const Report report = run({"gradient", file, "--histories", "--method", "direct", "--method",
+                             "central-difference", "--step", "1e-3"});
+  const TextTable table(report.text, "response");
+  const json& responses = report.document.at("responses");
+  ASSERT_EQ(table.rows(), 2 * responses.size());
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const json& gradients = responses.at(table.text(row, "response")).at("gradients");
+    const std::string variable = table.text(row, "variable");
+    std::vector<double> values;
+    for (const char* method : {"direct", "central-difference"}) {
+      values.push_back(gradients.at(method).at(variable));
+      expect_shown(table.text(row, method), table.text(row, "unit"), values.back());
+    }
+    const double spread = std::abs(values[0] - values[1]) / largest(values);
+    expect_shown(table.text(row, "largest difference"), "1", spread);
+  }
+  EXPECT_EQ(table.text(table.row_of("rod_stress"), "unit"), "MPa/mm");
+  // A final value has the derivative of its history's end.
+  EXPECT_EQ(report.column("gradients.csv", "slider_end").back(),
+            responses.at("slider_end").at("value"));
+  for (const char* variable : {"crank_diameter", "rod_diameter"}) {
+    const double expected = responses.at("slider_end").at("gradients").at("direct").at(variable);
+    const double read =
+        report.column("gradients.csv", fmt::format("slider_end:{}", variable)).back();
+    EXPECT_NEAR(read, expected, 1e-9 * std::abs(expected)) << variable;
+  }
+}
+
+class ReadBackOptimum : public testing::Test {
+ protected:
+  const Report report_ = run({"optimize", file});
+  const json& document_ = report_.document;
+};
+
+TEST_F(ReadBackOptimum, Variables) {
+  const TextTable table(report_.text, "variable");
+  ASSERT_EQ(table.rows(), document_.at("variables").size());
+  for (const auto& [name, variable] : document_.at("variables").items()) {
+    const std::size_t row = table.row_of(name);
+    EXPECT_EQ(table.text(row, "unit"), "mm");
+    expect_shown(table.text(row, "optimum"), "mm", variable.at("value"));
+    for (const char* key : {"start", "lower", "upper"}) {
+      expect_shown(table.text(row, key), "mm", variable.at(key));
+    }
+  }
+}
+
+TEST_F(ReadBackOptimum, Objective) {
+  const json& objective = document_.at("objective");
+  const std::size_t begin = report_.text.find("\ncrank_and_rod: ") + 1;
+  const std::string line = report_.text.substr(begin, report_.text.find('\n', begin) - begin);
+  const std::string start = line.substr(line.find(':')), end = line.substr(line.find("→"));
+  expect_shown(start.substr(0, start.find("→")), "kg", objective.at("start"));
+  expect_shown(end.substr(0, end.find("kg")), "kg", objective.at("value"));
+  const double change =
+      objective.at("value").get<double>() / objective.at("start").get<double>() - 1;
+  expect_shown(line.substr(line.find('(')), "1", 100 * change);
+}
+
+TEST_F(ReadBackOptimum, Constraints) {
+  const TextTable table(report_.text, "constraint");
+  const double objective = document_.at("objective").at("value");
+  ASSERT_EQ(table.rows(), document_.at("constraints").size());
+  int active = 0;
+  for (const auto& [name, constraint] : document_.at("constraints").items()) {
+    const std::size_t row = table.row_of(name);
+    const std::string unit = table.text(row, "unit");
+    EXPECT_EQ(unit, constraint.at("unit") == "Pa" ? "MPa" : "mm");
+    const double value = constraint.at("value"), limit = constraint.at("limit");
+    const double multiplier = constraint.at("multiplier");
+    expect_shown(table.text(row, "value"), unit, value);
+    expect_shown(table.text(row, "limit"), unit, limit);
+    EXPECT_THAT(table.text(row, "limit"), testing::StartsWith("≤"));
+    expect_shown(table.text(row, "used"), "1", 100 * value / limit);
+    EXPECT_NEAR(constraint.at("utilisation"), value / limit, 1e-12);
+    if (multiplier == 0.0) continue;
+    ++active;
+    EXPECT_GT(multiplier, 0.0);
+    expect_shown(table.text(row, "multiplier [kg/unit]"), "kg/" + unit, multiplier);
+    // More room makes the best design lighter.
+    expect_shown(table.text(row, "objective at +1 % limit"), "1",
+                 -multiplier * 0.01 * limit / objective * 100);
+  }
+  EXPECT_GE(active, 1);
+}
+
+/// A lower limit: raising it costs.
+TEST(ReadBack, OfALowerLimit) {
+  const Report report =
+      run({"optimize", file, "--set",
+           R"(/constraints={"least": {"response": "crank_and_rod", "lower": "1000 g"}})", "--set",
+           R"(/pareto={"constraint": "least", "from": "1 kg", "to": "2 kg"})"});
+  const TextTable table(report.text, "constraint");
+  EXPECT_THAT(table.text(0, "limit"), testing::StartsWith("≥"));
+  expect_shown(table.text(0, "limit"), table.text(0, "unit"), 1.0);
+  const json& constraint = report.document.at("constraints").at("least");
+  EXPECT_EQ(constraint.at("side"), "lower");
+  // The mass is its own limit: a multiplier of −1, and one percent more costs one percent.
+  EXPECT_NEAR(constraint.at("multiplier"), -1.0, 1e-4);
+  EXPECT_EQ(table.text(0, "objective at +1 % limit"), "+1.00 %");
+  const double value = constraint.at("value");
+  EXPECT_NEAR(constraint.at("utilisation"), 1.0 / value, 1e-9);
+  expect_shown(table.text(0, "used"), "1", 100.0 / value);
+}
+
+TEST_F(ReadBackOptimum, History) {
+  const auto column = [&](const std::string& title) {
+    return report_.column("history.csv", title);
+  };
+  const std::vector<double> objective = column("objective"), step = column("step");
+  const std::vector<double> violation = column("max_violation");
+  ASSERT_EQ(objective.size(), document_.at("evaluations").get<std::size_t>());
+  const std::vector<std::pair<std::string, double>> limits = {{"crank_strength", 200e6},
+                                                              {"rod_strength", 200e6},
+                                                              {"rod_stiffness", 0.2e-3},
+                                                              {"crank_stiffness", 0.5e-3}};
+  const std::vector<double> crank = column("variable:crank_diameter");
+  const std::vector<double> rod = column("variable:rod_diameter");
+  for (std::size_t i = 0; i < objective.size(); ++i) {
+    EXPECT_EQ(column("evaluation")[i], double(i + 1));
+    // ρ π d² L / 4 of both, 7850 kg/m³, 120 and 180 mm.
+    const double mass = 7850 * M_PI / 4 * (0.12 * crank[i] * crank[i] + 0.18 * rod[i] * rod[i]);
+    EXPECT_NEAR(objective[i], mass, 1e-12);
+    double worst = 0.0;
+    for (const auto& [name, limit] : limits) {
+      worst = std::max(worst, column("constraint:" + name)[i] / limit - 1);
+    }
+    EXPECT_NEAR(violation[i], worst, 1e-12);
+    if (i == 0) continue;
+    // Variables are scaled by their start, 30 mm.
+    const double change =
+        std::max(std::abs(crank[i] - crank[i - 1]), std::abs(rod[i] - rod[i - 1]));
+    EXPECT_NEAR(step[i], change / 0.03, 1e-12);
+  }
+  const double optimum = document_.at("objective").at("value");
+  EXPECT_TRUE(std::find(objective.begin(), objective.end(), optimum) != objective.end());
+}
+
+/// The lines while it works, in the unit of the objective.
+TEST_F(ReadBackOptimum, Iterations) {
+  const TextTable table(report_.text, "iteration");
+  ASSERT_EQ(table.rows(), document_.at("iterations").get<std::size_t>());
+  const std::vector<double> iterations = report_.column("history.csv", "iteration");
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const auto found = std::find(iterations.begin(), iterations.end(), double(row + 1));
+    const auto i = static_cast<std::size_t>(found - iterations.begin());
+    expect_shown(table.text(row, "objective [kg]"), "kg",
+                 report_.column("history.csv", "objective")[i]);
+    expect_shown(table.text(row, "max violation"), "1",
+                 report_.column("history.csv", "max_violation")[i]);
+  }
+}
+
+TEST(ReadBack, OfPareto) {
+  const Report report = run({"pareto", file, "--set", "/pareto/points=3"});
+  const TextTable table(report.text, "limit [mm]");
+  const json& points = report.document.at("points");
+  ASSERT_EQ(table.rows(), 3u);
+  const auto column = [&](const char* title) { return report.column("pareto.csv", title); };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const json& point = points.at(i);
+    const double limit = point.at("limit"), multiplier = point.at("multiplier");
+    EXPECT_NEAR(limit, (0.1 + 0.15 * double(i)) * 1e-3, 1e-12);
+    const double bow = point.at("objectives").at("rod_bow");
+    const double mass = point.at("objectives").at("crank_and_rod");
+    EXPECT_LT(bow, 0.5e-3);  // [m]
+    EXPECT_GT(mass, 0.1);    // [kg]
+    expect_shown(table.text(i, "limit [mm]"), "mm", limit);
+    expect_shown(table.text(i, "rod_bow [mm]"), "mm", bow);
+    expect_shown(table.text(i, "crank_and_rod [kg]"), "kg", mass);
+    expect_shown(table.text(i, "multiplier [kg/mm]"), "kg/mm", multiplier);
+    EXPECT_EQ(table.text(i, "status"), point.at("status"));
+    EXPECT_EQ(report.files.at("pareto.csv")[i + 1][0], point.at("status"));
+    EXPECT_EQ(column("limit")[i], limit);
+    EXPECT_EQ(column("objective")[i], mass);
+    EXPECT_EQ(column("limited")[i], bow);
+    EXPECT_EQ(column("multiplier")[i], multiplier);
+    for (const auto& [name, value] : point.at("variables").items()) {
+      expect_shown(table.text(i, name + " [mm]"), "mm", value);
+      EXPECT_EQ(column(("variable:" + name).c_str())[i], value);
+    }
+    for (const char* key : {"kkt_residual", "evaluations", "seconds"}) {
+      EXPECT_EQ(column(key)[i], point.at(key)) << key;
+    }
+  }
+}
+
+TEST(ReadBack, OfAccuracy) {
+  const Report report = run({"accuracy", file, "--set",
+                             R"(/accuracy={"steps": ["0.4 ms", "0.2 ms"], "elements": [2, 4]})"});
+  const TextTable table(report.text, "step [ms]");
+  const json& runs = report.document.at("runs");
+  ASSERT_EQ(table.rows(), runs.size());
+  const auto expect_worst = [](const std::string& shown, const json& errors) {
+    double most = 0.0;
+    std::string name;
+    for (const auto& [response, error] : errors.items()) {
+      if (error > most) name = response;
+      most = std::max(most, error.get<double>());
+    }
+    expect_shown(shown, "1", most);
+    EXPECT_THAT(shown, testing::EndsWith(" " + name));
+  };
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const json& study_run = runs.at(i);
+    expect_shown(table.text(i, "step [ms]"), "ms", study_run.at("settings").at("step"));
+    EXPECT_EQ(table.number(i, "elements"), study_run.at("settings").at("elements"));
+    expect_worst(table.text(i, "largest error"), study_run.at("errors"));
+    expect_worst(table.text(i, "of a gradient"), study_run.at("gradient_errors"));
+    expect_shown(table.text(i, "simulation [ms]"), "ms", study_run.at("simulation_seconds"));
+    expect_shown(table.text(i, "gradient [ms]"), "ms", study_run.at("gradient_seconds"));
+    EXPECT_EQ(table.number(i, "steps"), study_run.at("work").at("steps"));
+    EXPECT_EQ(table.number(i, "factorizations"), study_run.at("work").at("factorizations"));
+    const auto cell = [&](const std::string& title) {  // the reference is the first line
+      return report.column("accuracy.csv", title).at(i + 1);
+    };
+    for (const char* key : {"step", "elements"}) {
+      EXPECT_EQ(cell(key), study_run.at("settings").at(key));
+    }
+    for (const char* key : {"steps", "newton_iterations", "factorizations"}) {
+      EXPECT_EQ(cell(key), study_run.at("work").at(key));
+    }
+    for (const char* key : {"simulation_seconds", "gradient_seconds"}) {
+      EXPECT_EQ(cell(key), study_run.at(key));
+    }
+    for (const auto& [name, error] : study_run.at("errors").items()) {
+      EXPECT_EQ(cell("error:" + name), error);
+      EXPECT_EQ(cell("gradient_error:" + name), study_run.at("gradient_errors").at(name));
+    }
+  }
+}
+
+/// Deviations and bounds are made again from gradients of another command.
+TEST(ReadBack, OfUncertainty) {
+  const Report report = run({"uncertainty", file, "--set",
+                             R"(/uncertainty={"parameters": {"rod_diameter":
+                                  {"deviation": "0.1 mm"}, "crank_diameter":
+                                  {"interval": "0.2 mm"}}, "samples": 8})"});
+  const json gradients =
+      run({"gradient", file, "--histories", "--method", "direct"}).document.at("responses");
+  const TextTable table(report.text, "response"), parameters(report.text, "parameter");
+  for (const auto& [name, response] : report.document.at("responses").items()) {
+    const json& of = gradients.at(name).at("gradients").at("direct");
+    const double rod = of.at("rod_diameter"), crank = of.at("crank_diameter");
+    const double value = response.at("value");
+    const double parts[] = {rod * 1e-4, crank * 2e-4 / std::sqrt(3.0)};
+    const double deviation = std::hypot(parts[0], parts[1]);
+    const double bound = std::abs(rod) * 3e-4 + std::abs(crank) * 2e-4;
+    EXPECT_NEAR(response.at("deviation"), deviation, 1e-6 * deviation) << name;
+    EXPECT_NEAR(response.at("bounds").at(0), value - bound, 1e-6 * bound) << name;
+    EXPECT_NEAR(response.at("bounds").at(1), value + bound, 1e-6 * bound) << name;
+    EXPECT_NEAR(response.at("shares").at("rod_diameter"),
+                parts[0] * parts[0] / (deviation * deviation), 1e-6);
+    const std::size_t row = table.row_of(name);
+    const std::string unit = table.text(row, "unit");
+    expect_shown(table.text(row, "value"), unit, value);
+    expect_shown(table.text(row, "deviation"), unit, response.at("deviation"));
+    expect_shown(table.text(row, "bounds ±"), unit, bound);
+    const json& sampled = response.at("sampled");
+    expect_shown(table.text(row, "sampled mean"), unit, sampled.at("mean"));
+    expect_shown(table.text(row, "sampled deviation"), unit, sampled.at("deviation"));
+    expect_shown(table.text(row, "lowest"), unit, sampled.at("lowest"));
+    expect_shown(table.text(row, "highest"), unit, sampled.at("highest"));
+    const bool is_rod = parts[0] * parts[0] > parts[1] * parts[1];
+    EXPECT_THAT(table.text(row, "from"),
+                testing::StartsWith(is_rod ? "rod_diameter " : "crank_diameter "));
+    const double share = response.at("shares").at(is_rod ? "rod_diameter" : "crank_diameter");
+    expect_shown(table.text(row, "from"), "1", 100 * share);
+  }
+  for (const auto& [name, parameter] : report.document.at("parameters").items()) {
+    const std::size_t row = parameters.row_of(name);
+    expect_shown(parameters.text(row, "value"), "mm", parameter.at("value"));
+    expect_shown(parameters.text(row, "deviation"), "mm", parameter.at("deviation"));
+    expect_shown(parameters.text(row, "half width"), "mm", parameter.at("interval"));
+    EXPECT_EQ(parameters.text(row, "unit"), "mm");
+  }
+  EXPECT_EQ(parameters.text(parameters.row_of("rod_diameter"), "sampled as"), "normal");
+  EXPECT_EQ(parameters.text(parameters.row_of("crank_diameter"), "sampled as"), "uniform");
+  // Of the position, whose response is the end of its history.
+  const json& end = report.document.at("responses").at("slider_end");
+  const auto last = [&](const char* title) {
+    return report.column("uncertainty.csv", title).back();
+  };
+  EXPECT_EQ(last("slider_end"), end.at("value"));
+  EXPECT_NEAR(last("slider_end:deviation"), end.at("deviation"),
+              1e-9 * end.at("deviation").get<double>());
+  EXPECT_NEAR(last("slider_end:sampled_deviation"), end.at("sampled").at("deviation"), 1e-12);
+  EXPECT_NEAR(last("time"), 0.02, 1e-15);
+}
+
+TEST(ReadBack, OfStability) {
+  const Report report = run({"stability", file});
+  const TextTable table(report.text, "case");
+  const json& runs = report.document.at("runs");
+  ASSERT_EQ(table.rows(), runs.size());
+  const std::vector<std::pair<std::string, std::string>> shown = {
+      {"position drift", "position_drift"},
+      {"velocity drift", "velocity_drift"},
+      {"energy error", "energy_error"},
+      {"condition", "condition"}};
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const json& study_run = runs.at(i);
+    EXPECT_EQ(table.text(i, "case"), "slider_crank_round");
+    EXPECT_EQ(table.text(i, "formulation"), study_run.at("formulation"));
+    EXPECT_EQ(report.files.at("stability.csv")[i + 1][1], study_run.at("formulation"));
+    for (const auto& [title, key] : shown) {
+      expect_shown(table.text(i, title), "1", study_run.at(key));
+      EXPECT_EQ(report.column("stability.csv", key)[i], study_run.at(key));
+    }
+    const json& work = study_run.at("work");
+    EXPECT_EQ(table.number(i, "steps"), work.at("steps"));
+    expect_shown(table.text(i, "iterations a step"), "1",
+                 work.at("newton_iterations").get<double>() / work.at("steps").get<double>());
+    for (const char* key : {"steps", "newton_iterations", "factorizations"}) {
+      EXPECT_EQ(report.column("stability.csv", key)[i], work.at(key));
+    }
+    expect_shown(table.text(i, "time"), "s", study_run.at("seconds"));
+    EXPECT_EQ(report.column("stability.csv", "seconds")[i], study_run.at("seconds"));
+  }
+}
+
+TEST(ReadBack, OfCheck) {
+  const TemporaryFolder folder;
+  const auto checked = [&](const std::vector<std::string>& more) {
+    return run_program(folder.path(),
+                       joined(joined({"check", file, "--jobs", "1"}, quick()), more));
+  };
+  const std::string text = checked({}).out;
+  const json document = checked({"--json"}).document();
+  const TextTable table(text, "response"), variables(text, "variable"), bodies(text, "body");
+  for (const auto& [name, response] : document.at("responses").items()) {
+    const std::size_t row = table.row_of(name);
+    const json& derivatives = response.at("derivatives");
+    expect_shown(table.text(row, "value"), table.text(row, "unit"), response.at("value"));
+    if (derivatives.at("error") > 0) {
+      expect_shown(table.text(row, "derivative"), "1", derivatives.at("error"));
+    }
+    EXPECT_THAT(table.text(row, "derivative"), testing::StartsWith("agrees"));
+    if (derivatives.at("adjoint_error") > 0) {
+      expect_shown(table.text(row, "adjoint"), "1", derivatives.at("adjoint_error"));
+    }
+    expect_shown(table.text(row, "noise"), "1", derivatives.at("noise"));
+    EXPECT_EQ(table.text(row, "digits"),
+              fmt::format("{} / {}", derivatives.at("digits").at("value").get<int>(),
+                          derivatives.at("digits").at("gradient").get<int>()));
+  }
+  for (const auto& [name, variable] : document.at("variables").items()) {
+    for (const char* key : {"start", "lower", "upper"}) {
+      expect_shown(variables.text(variables.row_of(name), key), "mm", variable.at(key));
+    }
+  }
+  for (const auto& body : document.at("bodies")) {
+    expect_shown(bodies.text(bodies.row_of(body.at("name")), "mass [kg]"), "kg", body.at("mass"));
+  }
+}
+
+/// Commas, quotes and line breaks stay in their cell; what a spreadsheet would run does not.
+TEST(ReadBack, OfNamesThatCsvCannotHoldAsTheyAre) {
+  auto document = json::parse(read_file(file));
+  json responses;
+  const std::vector<std::string> names = {"a \"quoted\", name", "=1+1", "+1", "-1", "@SUM(A1)"};
+  for (const std::string& name : names) {
+    responses[name] = {
+        {"type", "position"}, {"body", "slider"}, {"direction", "x"}, {"over_time", "final"}};
+  }
+  document["responses"] = responses;
+  for (const char* block : {"objective", "constraints", "pareto", "accuracy"})
+    document.erase(block);
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "named.json") << document;
+  const ProgramRun run =
+      run_program(folder.path(), joined({"simulate", "named.json", "-o", "run"}, quick()));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string text = read_file(folder.path() / "run/trajectory.csv");
+  EXPECT_THAT(text, testing::HasSubstr("\"a \"\"quoted\"\", name\""));
+  EXPECT_THAT(parse_csv(text).front(),
+              testing::UnorderedElementsAre("time", names[0], "'=1+1", "'+1", "'-1", "'@SUM(A1)"));
+  // Numbers stay numbers.
+  EXPECT_EQ(parse_csv(text)[1].front(), "0");
+}
+
+}  // namespace
+}  // namespace pleuel::test

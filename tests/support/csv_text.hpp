@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pleuel::test {
+
+using CsvRows = std::vector<std::vector<std::string>>;
+
+/// Comma-separated values by RFC 4180: cells in quotes hold commas, line breaks, and quotes as two.
+inline CsvRows parse_csv(const std::string& text) {
+  CsvRows rows;
+  std::string cell;
+  bool is_quoted = false, has_row = false;
+  const auto end_cell = [&] {
+    if (!has_row) rows.emplace_back();
+    has_row = true;
+    rows.back().push_back(cell);
+    cell.clear();
+  };
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (is_quoted) {
+      if (c != '"') {
+        cell += c;
+      } else if (i + 1 < text.size() && text[i + 1] == '"') {
+        cell += text[++i];
+      } else {
+        is_quoted = false;
+      }
+    } else if (c == '"') {
+      is_quoted = true;
+    } else if (c == ',') {
+      end_cell();
+    } else if (c == '\n') {
+      end_cell();
+      has_row = false;
+    } else {
+      cell += c;
+    }
+  }
+  return rows;
+}
+
+}  // namespace pleuel::test
