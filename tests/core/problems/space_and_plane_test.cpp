@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/response/monitors.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/support/differences.hpp"
@@ -306,6 +307,65 @@ TEST(ElasticRotation, HasTheGradientsOfDifferencesAndOfBothMethods) {
       EXPECT_NEAR(direct(i, j) * x(j), differences(i), 1e-6 * scale) << i << ", " << j;
     }
   }
+}
+
+/// In space for good: the wrist is inclined, has a spring and a motor, and a torque follows the tip
+/// of the boom. What is asked does not depend on the global axes.
+Json inclined_wrist() {
+  Json document = swung_arm();
+  Json& scene = document["scene"];
+  for (Json& body : scene["bodies"]) {
+    body["reference"] = {0.0, 0.0, 1.0};
+    body.erase("damping");
+  }
+  scene["joints"]["wrist"]["axis"] = {0.36, 0.48, 0.8};
+  scene["joints"]["shoulder"]["axis"] = {0.0, 0.0, 1.0};
+  scene["joints"]["shoulder"]["drive"]["amplitude"] = 0.16;
+  scene["loads"]["wrist spring"] = Json::parse(hinge_spring);
+  scene["loads"]["couple"] = Json::parse(R"({"type": "torque", "body": "boom",
+      "at": [0.48, 0.36, 0], "direction": [0.6, 0.48, 0.64], "follows": true, "value": 0.3})");
+  document["responses"].erase("x");
+  document["responses"].erase("y");
+  document["responses"]["moment"]["direction"] = "magnitude";
+  return document;
+}
+
+/// Turns all vectors of a document.
+void turn(Json& node, const Eigen::Matrix3d& by) {
+  if (node.is_array() && node.size() == 3 && node[0].is_number()) {
+    const Eigen::Vector3d turned = by * Eigen::Vector3d(node[0], node[1], node[2]);
+    node = {turned(0), turned(1), turned(2)};
+  } else if (node.is_structured()) {
+    for (Json& child : node) turn(child, by);
+  }
+}
+
+TEST(ElasticRotation, DoesNotDependOnHowTheSceneStands) {
+  const Json here = inclined_wrist();
+  Json there = here;
+  turn(there["scene"],
+       Eigen::AngleAxisd(1.1, Eigen::Vector3d(0.48, -0.6, 0.64)).toRotationMatrix());
+  const ProblemFile problem = problem_of(here, "auto");
+  const auto expected = analyze(problem, start_design(problem));
+  EXPECT_GE(largest_rotation(*expected), 0.1);
+  const auto found = analyze(problem_of(there, "auto"), start_design(problem));
+  expect_same_histories(problem, *expected, *found);
+}
+
+/// Joints do no work, springs and torques theirs: what is missing falls with the square of the
+/// step.
+TEST(ElasticRotation, KeepsTheBalanceOfEnergy) {
+  const auto error_with = [](double step) {
+    Json document = inclined_wrist();
+    document["simulation"]["step"] = step;
+    document["simulation"]["spectral_radius"] = 1.0;
+    const ProblemFile problem = problem_of(document, "auto");
+    const auto analysis = analyze(problem, start_design(problem));
+    return monitor(analysis->model, analysis->trajectory).energy_error;
+  };
+  const double coarse = error_with(2e-4), fine = error_with(1e-4);
+  EXPECT_LE(fine, 1e-3);
+  EXPECT_NEAR(coarse / fine, 4.0, 1.0);
 }
 
 }  // namespace
