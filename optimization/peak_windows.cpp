@@ -59,7 +59,7 @@ std::vector<Reduction> peaks_of_windows(const Analysis& analysis, std::size_t re
   const Response& observed = analysis.responses[response];
   const Eigen::VectorXd& time = analysis.trajectory.time;
   return reduce_windows(observed.over_time, time, analysis.histories[response], windows,
-                        observed.steps(time));
+                        observed.steps(time), analysis.breaks);
 }
 
 int windows_that_part_peaks(DesignProblem& problem, const Eigen::VectorXd& x, int fewest,

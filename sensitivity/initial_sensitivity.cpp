@@ -5,8 +5,8 @@
 #include "core/base/error.hpp"
 #include "core/base/rotation_vector.hpp"
 #include "core/integration/configuration.hpp"
+#include "core/integration/damped_start.hpp"
 #include "core/integration/equilibrium.hpp"
-#include "core/integration/jerk.hpp"
 #include "core/integration/linear_solver.hpp"
 
 namespace pleuel {
@@ -26,8 +26,7 @@ class InitialDifferentiation {
 
   StateSensitivity run() {
     if (mechanism_.starts_in_equilibrium) {
-      auto z = Equilibrium(mechanism_).differentiate(initial_);
-      return {std::move(z.q), std::move(z.v), z.a, z.a, std::move(z.lambda)};
+      return of_equilibrium();
     }
     differentiate_positions();
     differentiate_velocities();
@@ -37,6 +36,24 @@ class InitialDifferentiation {
   }
 
  private:
+  StateSensitivity of_equilibrium() {
+    Equilibrium equilibrium(mechanism_);
+    if (!jumps_at_start(mechanism_, initial_.state)) {
+      auto z = equilibrium.differentiate(initial_);
+      return {std::move(z.q), std::move(z.v), z.a, z.a, std::move(z.lambda)};
+    }
+    // Equilibrium before t = 0; accelerations after.
+    InitialState settled = initial_;
+    settled.state.time = just_before_start;
+    settled = equilibrium.solve(std::move(settled));
+    auto z = equilibrium.differentiate(settled);
+    sensitivity_.q = std::move(z.q);
+    sensitivity_.v = std::move(z.v);
+    differentiate_accelerations();
+    sensitivity_.w = sensitivity_.a;
+    return std::move(sensitivity_);
+  }
+
   /// The part of R_q and R_x that is linear in the multipliers: (Φ_qᵀ μ)_q and (Φ_qᵀ μ)_x.
   struct Curvature {
     System::Matrix q;
@@ -147,12 +164,11 @@ StateSensitivity initial_sensitivity(Mechanism& mechanism, const InitialState& i
 
 StateSensitivity first_step_sensitivity(Mechanism& mechanism, const Trajectory& trajectory,
                                         const State& start, StateSensitivity initial) {
-  const StartWeights weights = trajectory.start_weights();
-  if (weights.are_zero()) return initial;
-  const ConstrainedJerk jerk(mechanism, start, trajectory.scheme.step);
-  const Eigen::MatrixXd j = jerk.differentiate(initial.q, initial.v, initial.a);
-  initial.v += weights.v * j;
-  initial.w += weights.w * j;
+  DampedStart damped(mechanism, start, trajectory.scheme_of(1), trajectory.weight_of_start_jerk());
+  auto derivatives = damped.differentiate(initial.q, initial.v, initial.a);
+  initial.v = std::move(derivatives.v);
+  initial.a = std::move(derivatives.a);
+  initial.w = std::move(derivatives.w);
   return initial;
 }
 

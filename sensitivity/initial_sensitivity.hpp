@@ -11,8 +11,8 @@ namespace pleuel {
 /// of the constraints included.
 StateSensitivity initial_sensitivity(Mechanism& mechanism, const InitialState& initial);
 
-/// Derivatives of the values from which the first step sets out: generalized-α shifts those above
-/// along the constrained jerk (core/integration/jerk.hpp).
+/// Derivatives of the values from which the first step sets out
+/// (core/integration/damped_start.hpp).
 StateSensitivity first_step_sensitivity(Mechanism& mechanism, const Trajectory& trajectory,
                                         const State& start, StateSensitivity initial);
 

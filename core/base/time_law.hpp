@@ -23,11 +23,15 @@ struct TimeLaw {
     polynomial,  ///< parameters cᵢ: Σ cᵢ tⁱ
     ramp,        ///< Ω, T: from rest to the rate Ω within T
     harmonic,    ///< amplitude, frequency ω [rad/s], phase, offset
-    spline       ///< values at the knots, then second derivatives there
+    // Through points; before the first and after the last of them the values there hold.
+    step,    ///< values at the knots, each from its knot on
+    linear,  ///< values at the knots
+    cubic,   ///< values at the knots, then rates there
+    quintic  ///< the same; accelerations at the knots are zero
   };
   Kind kind = Kind::polynomial;
   std::vector<Scalar> parameters;
-  std::vector<double> knots;  ///< of a spline [s], ascending
+  std::vector<double> knots;  ///< of what goes through points [s], ascending
 
   TimeValue<Scalar> at(double time) const {
     switch (kind) {
@@ -37,8 +41,10 @@ struct TimeLaw {
         return ramp_at(time);
       case Kind::harmonic:
         return harmonic_at(time);
+      case Kind::step:
+        return step_at(time);
       default:
-        return spline_at(time);
+        return between_knots_at(time);
     }
   }
 
@@ -88,51 +94,41 @@ struct TimeLaw {
             Scalar(-frequency * frequency * oscillation)};
   }
 
-  TimeValue<Scalar> spline_at(double time) const {
-    const std::size_t last = knots.size() - 1;
+  /// At a jump the mean of both sides, so that schemes of second order stay so where an instant
+  /// lies on it; at t = 0, from where on there is only one, the side that follows.
+  TimeValue<Scalar> step_at(double time) const {
     const auto above = std::upper_bound(knots.begin(), knots.end(), time);
-    const auto interval = static_cast<std::ptrdiff_t>(above - knots.begin()) - 1;
-    const auto i = static_cast<std::size_t>(
-        std::clamp<std::ptrdiff_t>(interval, 0, static_cast<std::ptrdiff_t>(last) - 1));
-    const double h = knots[i + 1] - knots[i];
-    const double inside = std::clamp(time, knots.front(), knots.back());
-    const double b = (inside - knots[i]) / h, a = 1.0 - b;
-    const Scalar &y0 = parameters[i], &y1 = parameters[i + 1];
-    const Scalar &m0 = parameters[last + 1 + i], &m1 = parameters[last + 2 + i];
-    TimeValue<Scalar> result;
-    result.value = a * y0 + b * y1 + (h * h / 6.0) * ((a * a * a - a) * m0 + (b * b * b - b) * m1);
-    result.rate = (y1 - y0) / h + (h / 6.0) * ((1.0 - 3.0 * a * a) * m0 + (3.0 * b * b - 1.0) * m1);
-    result.acceleration = a * m0 + b * m1;
-    result.value += (time - inside) * result.rate;
-    return result;
+    const auto after = static_cast<std::size_t>(std::max<std::ptrdiff_t>(above - knots.begin(), 1));
+    const std::size_t now = after - 1;
+    Scalar value = parameters[now];
+    if (now > 0 && knots[now] == time && time != 0.0) value = 0.5 * (parameters[now - 1] + value);
+    return {value, Scalar(0), Scalar(0)};
+  }
+
+  TimeValue<Scalar> between_knots_at(double time) const {
+    const std::size_t last = knots.size() - 1;
+    if (time < knots.front()) return {parameters[0], Scalar(0), Scalar(0)};
+    if (time >= knots.back()) return {parameters[last], Scalar(0), Scalar(0)};
+    const auto above = std::upper_bound(knots.begin(), knots.end(), time);
+    const std::size_t i = static_cast<std::size_t>(above - knots.begin()) - 1;
+    const double h = knots[i + 1] - knots[i], s = (time - knots[i]) / h;
+    const Scalar &y = parameters[i], rise = parameters[i + 1] - y;
+    if (kind == Kind::linear) return {Scalar(y + s * rise), Scalar(rise / h), Scalar(0)};
+    const Scalar before = h * parameters[last + 1 + i], after = h * parameters[last + 2 + i];
+    // y + before s + c₂ s² + … ; the quintic has no c₂
+    if (kind == Kind::cubic) {
+      const Scalar c2 = 3.0 * rise - 2.0 * before - after, c3 = before + after - 2.0 * rise;
+      return {Scalar(y + s * (before + s * (c2 + s * c3))),
+              Scalar((before + s * (2.0 * c2 + 3.0 * s * c3)) / h),
+              Scalar((2.0 * c2 + 6.0 * s * c3) / (h * h))};
+    }
+    const Scalar c3 = 10.0 * rise - 6.0 * before - 4.0 * after,
+                 c4 = 8.0 * before + 7.0 * after - 15.0 * rise,
+                 c5 = 6.0 * rise - 3.0 * (before + after);
+    return {Scalar(y + s * (before + s * s * (c3 + s * (c4 + s * c5)))),
+            Scalar((before + s * s * (3.0 * c3 + s * (4.0 * c4 + 5.0 * s * c5))) / h),
+            Scalar(s * (6.0 * c3 + s * (12.0 * c4 + 20.0 * s * c5)) / (h * h))};
   }
 };
-
-/// Cubic spline through points with zero second derivative at both ends; beyond them it goes on
-/// along the tangent. The second derivatives mᵢ solve
-///     hᵢ₋₁ mᵢ₋₁ + 2(hᵢ₋₁ + hᵢ) mᵢ + hᵢ mᵢ₊₁ = 6 ((yᵢ₊₁ − yᵢ)/hᵢ − (yᵢ − yᵢ₋₁)/hᵢ₋₁)
-template <class Scalar>
-TimeLaw<Scalar> natural_spline(std::vector<double> knots, std::vector<Scalar> values) {
-  const std::size_t n = knots.size();
-  std::vector<Scalar> moments(n, Scalar(0)), right(n, Scalar(0));
-  std::vector<double> pivot(n, 1.0);
-  for (std::size_t i = 1; i + 1 < n; ++i) {  // elimination downwards
-    const double before = knots[i] - knots[i - 1], after = knots[i + 1] - knots[i];
-    const double factor = i > 1 ? before / pivot[i - 1] : 0.0;
-    pivot[i] = 2.0 * (before + after) - (i > 1 ? factor * before : 0.0);
-    right[i] = 6.0 * ((values[i + 1] - values[i]) / after - (values[i] - values[i - 1]) / before) -
-               factor * right[i - 1];
-  }
-  for (std::size_t i = n - 1; i-- > 1;) {
-    const double after = knots[i + 1] - knots[i];
-    moments[i] = (right[i] - after * moments[i + 1]) / pivot[i];
-  }
-  TimeLaw<Scalar> law;
-  law.kind = TimeLaw<Scalar>::Kind::spline;
-  law.knots = std::move(knots);
-  law.parameters = std::move(values);
-  law.parameters.insert(law.parameters.end(), moments.begin(), moments.end());
-  return law;
-}
 
 }  // namespace pleuel

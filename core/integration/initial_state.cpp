@@ -161,6 +161,14 @@ void projection_matrix(const Mechanism& mechanism, const State& state, System::M
   for (int i = 0; i < n; ++i) matrix.coeffRef(i, i) = mechanism.assembly_weight(i);
 }
 
+bool jumps_at_start(Mechanism& mechanism, State state) {
+  Eigen::VectorXd before, after;
+  mechanism.system->residual(state, ConstraintLevel::acceleration, after);
+  state.time = just_before_start;
+  mechanism.system->residual(state, ConstraintLevel::acceleration, before);
+  return before != after;
+}
+
 InitialState initial_state(Mechanism& mechanism) {
   InitialState initial;
   initial.state = mechanism.guess;
@@ -172,7 +180,13 @@ InitialState initial_state(Mechanism& mechanism) {
   project_velocities(mechanism, solver, matrix, initial);
   solve_accelerations(mechanism, solver, matrix, initial.state);
   if (!mechanism.starts_in_equilibrium) return initial;
-  return Equilibrium(mechanism).solve(std::move(initial));
+  initial.state.time = just_before_start;
+  initial = Equilibrium(mechanism).solve(std::move(initial));
+  initial.state.time = 0.0;
+  if (jumps_at_start(mechanism, initial.state)) {
+    solve_accelerations(mechanism, solver, matrix, initial.state);
+  }
+  return initial;
 }
 
 }  // namespace pleuel

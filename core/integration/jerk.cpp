@@ -55,7 +55,7 @@ Eigen::MatrixXd ConstrainedJerk::differentiate(const Eigen::MatrixXd& q, const E
   System::Matrix matrix = system_.make_matrix();
   Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(n + m, system_.variables()), columns;
 
-  // Dx, where the start is consistent with any design
+  // Dx
   const State later = moved();
   const Eigen::VectorXd increment = interval_ * start_.v;
   Eigen::MatrixXd later_q = q;
@@ -70,6 +70,14 @@ Eigen::MatrixXd ConstrainedJerk::differentiate(const Eigen::MatrixXd& q, const E
   system_.tangent(later, {.a = 1.0}, level, matrix);
   columns += matrix.leftCols(n) * a;
   rhs.bottomRows(m) = columns.bottomRows(m) / -interval_;
+  system_.design_derivative(start_, level, columns);
+  system_.tangent(start_, {.q = 1.0}, level, matrix);
+  columns += matrix.leftCols(n) * q;
+  system_.tangent(start_, {.v = 1.0}, level, matrix);
+  columns += matrix.leftCols(n) * v;
+  system_.tangent(start_, {.a = 1.0}, level, matrix);
+  columns += matrix.leftCols(n) * a;
+  rhs.bottomRows(m) += columns.bottomRows(m) / interval_;
 
   // The change of M j + Φ_qᵀ μ and Φ_q j: what of R is linear in a and λ
   State at = start_;

@@ -4,15 +4,13 @@
 
 namespace pleuel {
 
-/// The part j of the jerk q⃛ at consistent initial values that the constraints prescribe,
+/// The part j of the jerk q⃛ at initial values that the constraints prescribe,
 ///     M j + Φ_qᵀ μ = 0,   Φ_q j + D = 0
 /// with D what the motion makes of Φ̈ while a stays as it is, by a difference over an interval τ:
 ///     D = (Φ̈(q ⊕ τv, v + τa, a, t + τ) − Φ̈(q, v, a, t)) / τ
-/// The start of generalized-α needs it for multipliers without a transient of O(h): w₀ = a(t₀ + δh)
-/// across the constraints (Jay & Negrut 2007); and as q⁺ errs by c h³ q⃛ in a step, Φ(q⁺) = 0 of
-/// index 3 keeps the velocities off the other constraints by −c h² j all the time, so that they
-/// have to start there (Arnold, Brüls & Cardona 2015). Motion along the constraints is left as it
-/// is.
+/// As q⁺ errs by c h³ q⃛ in a step, Φ(q⁺) = 0 of index 3 keeps the velocities off the other
+/// constraints by −c h² j all the time, so that they have to start there for multipliers without a
+/// transient of O(h) (Arnold, Brüls & Cardona 2015). Motion along the constraints is left as it is.
 class ConstrainedJerk {
  public:
   /// @param step  of the scheme [s]; τ is a thousandth of it

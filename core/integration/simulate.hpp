@@ -24,6 +24,8 @@ struct SimulationOptions {
   /// Generalized-α only, and not index 3.
   double local_error = 0.0;
   double smallest_step = 0.0;  ///< of those halves [s]; 0: a 1024th of the step
+  /// Where something that acts jumps or has a kink [s], in any order: steps end there.
+  std::vector<double> breaks = {};
   /// To repeat a sequence of steps: the instants of another simulation, in place of control.
   std::vector<double> instants = {};
   /// What the states of the trajectory may take [byte]. Where they do not fit, some are kept as
@@ -52,15 +54,8 @@ class RepeatedStates {
   virtual int repeated_steps() const = 0;
 };
 
-/// With the jerk j that the constraints prescribe, the first step has v₀ + v j and a₀ + w j in
-/// place of v₀ and w₀ = a₀.
-struct StartWeights {
-  double v = 0.0, w = 0.0;
-  bool are_zero() const { return v == 0.0 && w == 0.0; }
-};
-
-/// All steps of a simulation; column i belongs to time(i). Steps are equal, but for those that had
-/// to be split or were made smaller by the control of the local error.
+/// All steps of a simulation; column i belongs to time(i). Steps are equal, but for breaks, for
+/// those that had to be split and those that were made smaller by the control of the local error.
 struct Trajectory {
   Eigen::VectorXd time;
   // Where the states did not fit into the memory, these matrices are empty and `repeated` has them.
@@ -93,12 +88,19 @@ struct Trajectory {
   double step_size(int step) const;
   /// The scheme that made a step, from 1.
   Scheme scheme_of(int step) const;
-  /// What the first step adds to the initial values (jerk.hpp).
-  StartWeights start_weights() const;
+  /// What the first step adds to the initial velocities, as a multiple of the jerk that the
+  /// constraints prescribe (jerk.hpp) [s²].
+  double weight_of_start_jerk() const;
 };
 
-/// Number of regular steps of a simulation: the last time is end_time exactly.
+/// Number of equal steps of a simulation without breaks: the last time is end_time exactly.
 int step_count(const SimulationOptions& options);
+
+/// The instants of a simulation without control and splits. Between two breaks steps are equal, as
+/// few as are no longer than asked for, so that their size changes little from one stretch to the
+/// next: a change of the size leaves a transient in the multipliers of index 3. Breaks closer than
+/// a quarter of a step to the one before, or to the start or the end, have no instant.
+std::vector<double> regular_instants(const SimulationOptions& options);
 
 /// Integrates M a − Q + Φ_qᵀ λ = 0 with the constraints in the form that is asked for
 /// (step_equations.hpp; for index 3 Arnold & Brüls 2007). Each step is solved by Newton's method

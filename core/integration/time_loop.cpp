@@ -9,7 +9,6 @@
 #include "core/base/error.hpp"
 #include "core/base/stop.hpp"
 #include "core/integration/initial_state.hpp"
-#include "core/integration/jerk.hpp"
 
 namespace pleuel {
 
@@ -48,7 +47,9 @@ TimeLoop::TimeLoop(Mechanism& mechanism, const SimulationOptions& options, Insta
       equation_names_(mechanism.equation_names),
       options_(options),
       observer_(std::move(observer)),
+      mechanism_(mechanism),
       steps_(step_count(options)),
+      grid_(options.instants.empty() ? regular_instants(options) : options.instants),
       scheme_(make_scheme(options.scheme, regular_step(), options.spectral_radius)),
       equations_(mechanism, scheme_, options.formulation),
       state_(equations_.make_state(initial_state(mechanism).state)),
@@ -58,13 +59,6 @@ TimeLoop::TimeLoop(Mechanism& mechanism, const SimulationOptions& options, Insta
       correction_(equations_.size()),
       finest_level_(halvings(options, regular_step())) {
   if (options.formulation.is_projected) projection_.emplace(mechanism);
-  if (system_.multipliers() > 0) {
-    jerk_ = ConstrainedJerk(mechanism, state_, regular_step()).value();
-  }
-}
-
-int TimeLoop::units() const {
-  return options_.instants.empty() ? steps_ : static_cast<int>(options_.instants.size()) - 1;
 }
 
 void TimeLoop::start(Eigen::Index room) {
@@ -73,22 +67,21 @@ void TimeLoop::start(Eigen::Index room) {
   trajectory_.spectral_radius = options_.spectral_radius;
   trajectory_.formulation = options_.formulation;
   trajectory_.time.resize(steps_ + 1);
-  // What start_weights() asks for.
+  // What weight_of_start_jerk() asks for.
   trajectory_.lambda.resize(system_.multipliers(), 0);
   window_.resize(state_, room);
-  start_v_ = state_.v;
-  start_a_ = state_.a;
+  start_ = state_;
   residual_.resize(equations_.size());
   store();
 }
 
 void TimeLoop::advance(int unit) {
   check_stop();
+  const double instant = grid_[static_cast<std::size_t>(unit)];
   if (options_.instants.empty()) {
     step_ = unit;
-    advance_step(options_.end_time * unit / steps_);
+    advance_step(instant);
   } else {
-    const double instant = options_.instants[static_cast<std::size_t>(unit)];
     step_ = static_cast<int>(std::ceil(instant / regular_step() * (1 - 1e-12)));
     advance_to(instant, 0);
   }
@@ -258,11 +251,14 @@ void TimeLoop::use_step(double time) {
 }
 
 void TimeLoop::set_out() {
-  const StartWeights weights = trajectory_.start_weights();
-  if (weights.are_zero()) return;
+  if (!set_out_ || set_out_for_ != scheme_.step) {
+    set_out_.emplace(mechanism_, start_, scheme_, trajectory_.weight_of_start_jerk());
+    set_out_for_ = scheme_.step;
+  }
   // Not of state_, which a first step that failed leaves set out.
-  old_.v = start_v_ + weights.v * jerk_;
-  old_.w = start_a_ + weights.w * jerk_;
+  old_.v = set_out_->v();
+  old_.a = set_out_->a();
+  old_.w = set_out_->w();
 }
 
 void TimeLoop::predict(double time) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/integration/damped_start.hpp"
 #include "core/integration/linear_solver.hpp"
 #include "core/integration/projection.hpp"
 #include "core/integration/simulate.hpp"
@@ -20,7 +21,7 @@ class TimeLoop {
   TimeLoop(Mechanism& mechanism, const SimulationOptions& options, InstantObserver observer);
 
   /// Regular steps, or instants to be repeated: what the loop can be stopped after.
-  int units() const;
+  int units() const { return static_cast<int>(grid_.size()) - 1; }
 
   /// Stores the initial state. To be called once, first. @param room  for so many states
   void start(Eigen::Index room);
@@ -94,7 +95,8 @@ class TimeLoop {
   /// The scheme for a step to an instant.
   void use_step(double time);
 
-  /// So that multipliers have their order from the first step on.
+  /// So that the first step makes no more of the initial values than it can resolve, and
+  /// multipliers have their order from it on.
   void set_out();
 
   /// y⁺ = history · y (for q as q ⊕ increment), then the correction that keeps the acceleration.
@@ -136,7 +138,9 @@ class TimeLoop {
   const std::vector<std::string>& equation_names_;
   SimulationOptions options_;
   InstantObserver observer_;
+  Mechanism& mechanism_;
   int steps_;
+  std::vector<double> grid_;  ///< the instants between which units are made
   Scheme scheme_;
   StepEquations equations_;
   StepState state_, old_;
@@ -144,8 +148,9 @@ class TimeLoop {
   LinearSolver solver_;
   Eigen::VectorXd correction_, residual_;
   std::optional<Projection> projection_;
-  Eigen::VectorXd start_v_, start_a_;  ///< of the initial state
-  Eigen::VectorXd jerk_;               ///< that the constraints prescribe there
+  State start_;                         ///< consistent initial values
+  std::optional<DampedStart> set_out_;  ///< for a first step of this size:
+  double set_out_for_ = 0.0;            ///< [s]
   double curvature_ = std::numeric_limits<double>::infinity();
   double worst_pivots_ = std::numeric_limits<double>::infinity();
   int finest_level_, level_ = 0;  ///< of the parts of a regular step: 2^-level of it

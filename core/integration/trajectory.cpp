@@ -57,11 +57,9 @@ Scheme Trajectory::scheme_of(int step) const {
                       : make_restarting_scheme(scheme_type, h, spectral_radius);
 }
 
-StartWeights Trajectory::start_weights() const {
-  if (lambda.rows() == 0) return {};
-  const Scheme first = scheme_of(1);
-  if (formulation.constraints != ConstraintForm::index_3) return {0.0, first.delay};
-  return {-first.local_error / step_size(1), first.delay};
+double Trajectory::weight_of_start_jerk() const {
+  if (lambda.rows() == 0 || formulation.constraints != ConstraintForm::index_3) return 0.0;
+  return -scheme_of(1).local_error / step_size(1);
 }
 
 }  // namespace pleuel

@@ -256,7 +256,7 @@ class JointBuilder {
           Vector3<Scalar>(resolve_point(joint_.to, design) - resolve_point(joint_.at, design))
               .norm();
     }
-    if (joint_.drive) data.drive = resolve_time_law(joint_.drive->motion, design);
+    if (joint_.drive) data.drive = resolve_time_law(joint_.drive->motion, design, LawOf::motion);
     return data;
   }
 

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cassert>
 #include <set>
+#include <utility>
+#include <vector>
 
+#include "core/base/table_law.hpp"
 #include "core/base/time_law.hpp"
 #include "core/beam/beam.hpp"
 #include "core/frame/body_frame.hpp"
@@ -75,11 +78,35 @@ SectionProperties<Scalar> resolve_section(const Section& section, const Design<S
   return std::visit(Visitor{design}, section);
 }
 
+/// Motions need accelerations, loads do not.
+enum class LawOf { load, motion };
+
 template <class Scalar>
-TimeLaw<Scalar> resolve_time_law(const TimeFunction& function, const Design<Scalar>& design) {
+TimeLaw<Scalar> resolve_table(const TableFunction& table, std::vector<Scalar> values,
+                              LawOf purpose) {
+  using Kind = typename TimeLaw<Scalar>::Kind;
+  const bool is_motion = purpose == LawOf::motion;
+  switch (table.interpolation) {
+    case Interpolation::step:
+      return {Kind::step, std::move(values), table.times};
+    case Interpolation::linear:
+      return {Kind::linear, std::move(values), table.times};
+    case Interpolation::monotone:
+      return is_motion ? monotone_quintic(table.times, std::move(values))
+                       : monotone_cubic(table.times, std::move(values));
+    default:
+      return cubic_spline(table.times, std::move(values),
+                          is_motion ? SplineEnds::clamped : SplineEnds::natural);
+  }
+}
+
+template <class Scalar>
+TimeLaw<Scalar> resolve_time_law(const TimeFunction& function, const Design<Scalar>& design,
+                                 LawOf purpose = LawOf::load) {
   using Law = TimeLaw<Scalar>;
   struct Visitor {
     const Design<Scalar>& design;
+    LawOf purpose;
     Scalar of(const Number& number) const { return resolve(number, design); }
     Law operator()(const ConstantFunction& f) const {
       return {Law::Kind::polynomial, {of(f.value)}, {}};
@@ -102,10 +129,10 @@ TimeLaw<Scalar> resolve_time_law(const TimeFunction& function, const Design<Scal
     Law operator()(const TableFunction& f) const {
       std::vector<Scalar> values;
       for (const Number& number : f.values) values.push_back(of(number));
-      return natural_spline(f.times, std::move(values));
+      return resolve_table(f, std::move(values), purpose);
     }
   };
-  return std::visit(Visitor{design}, function);
+  return std::visit(Visitor{design, purpose}, function);
 }
 
 inline const Material& find_material(const Scene& scene, const std::string& name) {

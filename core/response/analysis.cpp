@@ -6,6 +6,7 @@
 #include "core/response/make_responses.hpp"
 #include "core/response/mechanism_modes.hpp"
 #include "core/response/recorder.hpp"
+#include "core/scene/time_breaks.hpp"
 
 namespace pleuel {
 
@@ -65,9 +66,9 @@ void set_rigid_mechanism(const ProblemFile& problem, const Eigen::VectorXd& x, A
 
 /// Reduces a history over time; that of a balance becomes the error at each instant.
 Reduction reduce_history(const Response& response, const Eigen::VectorXd& time,
-                         Eigen::MatrixXd& history) {
+                         const BrokenInstants& breaks, Eigen::MatrixXd& history) {
   const StepRange range = response.steps(time);
-  if (!response.is_balance) return reduce(response.over_time, time, history, range);
+  if (!response.is_balance) return reduce(response.over_time, time, history, range, breaks);
   Reduction reduction = reduce_balance(time, history, range);
   history = balance_history(time, history, range);
   return reduction;
@@ -84,6 +85,7 @@ SimulationOptions options_of(const ProblemFile& problem) {
           settings.formulation,
           settings.local_error,
           settings.smallest_step,
+          time_breaks(problem.scene, settings.step),
           settings.instants,
           problem.sensitivity.memory};
 }
@@ -138,6 +140,7 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   Recorder recorder(analysis->responses, step_count(options) + 1);
   analysis->trajectory = simulate(analysis->model.mechanism, options,
                                   [&](int step, const State& state) { recorder.see(step, state); });
+  analysis->breaks = instants_at(options.breaks, analysis->trajectory.time);
   analysis->histories = recorder.take(analysis->trajectory.steps() + 1);
   set_mechanism_frequencies(*analysis);
   set_rigid_mechanism(problem, x, *analysis);
@@ -147,7 +150,7 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
     if (response.signal) {
       Eigen::MatrixXd& history = analysis->histories[i];
       history = against_rigid(response, std::move(history), *analysis);
-      reduction = reduce_history(response, analysis->trajectory.time, history);
+      reduction = reduce_history(response, analysis->trajectory.time, analysis->breaks, history);
     } else {
       reduction.value = response.constant;
     }

@@ -13,6 +13,7 @@ namespace pleuel {
 struct Analysis {
   Model model;
   Trajectory trajectory;
+  BrokenInstants breaks;  ///< of the trajectory, where something that acts jumps or has a kink
   std::vector<Response> responses;
   std::vector<Reduction> reductions;       ///< one a response
   std::vector<Eigen::MatrixXd> histories;  ///< one a response; empty for constants

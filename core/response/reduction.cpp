@@ -45,12 +45,20 @@ struct Search {
   const Eigen::VectorXd& time;
   const Eigen::MatrixXd& values;
   StepRange whole, range;
+  const BrokenInstants& breaks;
+
+  /// Whether something breaks at a step or beside it.
+  bool is_broken(int step) const {
+    if (breaks.empty()) return false;
+    const auto i = static_cast<std::size_t>(step);
+    return breaks[i] || (i > 0 && breaks[i - 1]) || (i + 1 < breaks.size() && breaks[i + 1]);
+  }
 };
 
 /// All local maxima of sign · y in a range that can reach the highest sample. At the edges of the
 /// whole they are samples.
 void add_peaks(const Search& search, double sign, double threshold, std::vector<Peak>& peaks) {
-  const auto& [time, values, whole, range] = search;
+  const auto& [time, values, whole, range, breaks] = search;
   for (int step = range.first; step <= range.last; ++step) {
     for (int channel = 0; channel < values.rows(); ++channel) {
       const double b = sign * values(channel, step);
@@ -61,7 +69,7 @@ void add_peaks(const Search& search, double sign, double threshold, std::vector<
         if (!(step == whole.last && b >= a)) continue;
       }
       Peak peak{b, 0.0, channel, step, sign, {0.0, 1.0, 0.0}, 0.0};
-      if (step > whole.first && step < whole.last) {
+      if (step > whole.first && step < whole.last && !search.is_broken(step)) {
         const Peak vertex =
             interpolate(a, b, c, time(step) - time(step - 1), time(step + 1) - time(step));
         peak.height = vertex.height;
@@ -159,7 +167,7 @@ void note_ties(const Search& search, const std::vector<Peak>& peaks, const Peak&
 
 /// The highest sample of a range, where no local maximum lies in it.
 Reduction highest_sample(const Search& search, const std::vector<double>& signs) {
-  const auto& [time, values, whole, range] = search;
+  const auto& [time, values, whole, range, breaks] = search;
   Reduction reduction;
   reduction.value = -std::numeric_limits<double>::infinity();
   for (double sign : signs) {
@@ -247,6 +255,16 @@ bool is_peak(OverTime kind) {
   return kind == OverTime::max || kind == OverTime::min || kind == OverTime::max_abs;
 }
 
+BrokenInstants instants_at(const std::vector<double>& breaks, const Eigen::VectorXd& time) {
+  if (breaks.empty()) return {};
+  BrokenInstants broken(static_cast<std::size_t>(time.size()), false);
+  for (const double at : breaks) {
+    const auto found = std::find(time.begin(), time.end(), at);
+    if (found != time.end()) broken[static_cast<std::size_t>(found - time.begin())] = true;
+  }
+  return broken;
+}
+
 StepRange whole_range(const Eigen::VectorXd& time) {
   return {0, static_cast<int>(time.size()) - 1};
 }
@@ -265,8 +283,8 @@ Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::Matrix
 }
 
 Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
-                 const StepRange& range) {
-  if (is_peak(kind)) return reduce_stretch(kind, {time, values, range, range});
+                 const StepRange& range, const BrokenInstants& breaks) {
+  if (is_peak(kind)) return reduce_stretch(kind, {time, values, range, range, breaks});
   const double duration = time(range.last) - time(range.first);
   switch (kind) {
     case OverTime::rms:
@@ -309,7 +327,7 @@ std::vector<Reduction> reduce_windows(OverTime kind, const Eigen::VectorXd& time
 
 std::vector<Reduction> reduce_windows(OverTime kind, const Eigen::VectorXd& time,
                                       const Eigen::MatrixXd& values, int windows,
-                                      const StepRange& range) {
+                                      const StepRange& range, const BrokenInstants& breaks) {
   assert(is_peak(kind));
   std::vector<Reduction> reductions;
   const auto start_of = [&](int window) {
@@ -317,7 +335,7 @@ std::vector<Reduction> reduce_windows(OverTime kind, const Eigen::VectorXd& time
   };
   for (int i = 0; i < windows; ++i) {
     const int first = start_of(i), last = std::max(first, start_of(i + 1) - 1);
-    reductions.push_back(reduce_stretch(kind, {time, values, range, {first, last}}));
+    reductions.push_back(reduce_stretch(kind, {time, values, range, {first, last}, breaks}));
   }
   return reductions;
 }

@@ -40,6 +40,13 @@ struct StepRange {
   int steps() const { return last - first + 1; }
 };
 
+/// Whether signals may jump or have a kink at an instant, one an instant; empty: nowhere. Peaks
+/// there and beside are samples: no parabola goes through.
+using BrokenInstants = std::vector<bool>;
+
+/// The instants that lie on breaks [s].
+BrokenInstants instants_at(const std::vector<double>& breaks, const Eigen::VectorXd& time);
+
 /// All steps.
 StepRange whole_range(const Eigen::VectorXd& time);
 
@@ -54,7 +61,7 @@ StepRange steps_between(const Eigen::VectorXd& time, std::optional<double> from,
 /// @param values  channels × (steps + 1)
 /// @param range   at least two steps; by default all
 Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
-                 const StepRange& range);
+                 const StepRange& range, const BrokenInstants& breaks = {});
 Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::MatrixXd& values);
 
 /// What is missing in a balance of an amount and its rate: amount(t₁) − amount(t₀) − ∫ rate dt over
@@ -76,7 +83,7 @@ bool is_peak(OverTime kind);
 /// @param kind  for which is_peak() holds
 std::vector<Reduction> reduce_windows(OverTime kind, const Eigen::VectorXd& time,
                                       const Eigen::MatrixXd& values, int windows,
-                                      const StepRange& range);
+                                      const StepRange& range, const BrokenInstants& breaks = {});
 std::vector<Reduction> reduce_windows(OverTime kind, const Eigen::VectorXd& time,
                                       const Eigen::MatrixXd& values, int windows);
 

@@ -34,11 +34,20 @@ struct HarmonicFunction {
   Number phase, offset;         ///< phase [rad]
 };
 
-/// Cubic spline through points, natural at both ends (zero second derivative); beyond them it goes
-/// on along the tangent.
+/// How a table goes from point to point.
+enum class Interpolation {
+  step,      ///< each value holds until the next time; not for drives
+  linear,    ///< straight lines
+  monotone,  ///< smooth, and never beyond the values on either side
+  spline     ///< cubic spline: smoother, but it overshoots where the values turn
+};
+
+/// Through points; before the first and after the last of them the values there hold. That of a
+/// drive starts and ends at rest, but for straight lines (core/base/table_law.hpp).
 struct TableFunction {
   std::vector<double> times;   ///< [s], ascending, at least two
   std::vector<Number> values;  ///< as many
+  Interpolation interpolation = Interpolation::monotone;
 };
 
 using TimeFunction = std::variant<ConstantFunction, ConstantSpeedDrive, RampToSpeedDrive,

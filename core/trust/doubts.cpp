@@ -5,6 +5,7 @@
 
 #include "core/trust/bending_range.hpp"
 #include "core/trust/energy_balance.hpp"
+#include "core/trust/fast_laws.hpp"
 
 namespace pleuel {
 
@@ -21,7 +22,7 @@ std::vector<Doubt> find_doubts_before(const ProblemFile& problem) {
 
 std::vector<Doubt> find_doubts(const TrustedRun& run) {
   std::vector<Doubt> doubts = find_doubts_before(run.problem);
-  for (const auto find : {doubt_bending_range, doubt_energy_balance}) {
+  for (const auto find : {doubt_bending_range, doubt_energy_balance, doubt_fast_laws}) {
     const std::vector<Doubt> found = find(run);
     doubts.insert(doubts.end(), found.begin(), found.end());
   }

@@ -9,10 +9,13 @@ constexpr std::size_t most_coefficients = 11;  // per_time() knows ten derivativ
 
 enum class FunctionType { constant, constant_speed, ramp_to_speed, polynomial, harmonic, table };
 
+enum class Purpose { drive, load };
+
 /// A function in the document and what it measures.
 struct Source {
   JsonNode node;
   Quantity value;
+  Purpose purpose;
   std::vector<std::string_view> other_keys;  ///< that are not the function's
 };
 
@@ -85,12 +88,33 @@ std::vector<double> read_ascending_times(const JsonNode& node, const NumberReade
   return times;
 }
 
+Interpolation read_interpolation(const JsonNode& node, Purpose purpose) {
+  if (purpose == Purpose::load) {
+    return read_choice<Interpolation>(node, {{"linear", Interpolation::linear},
+                                             {"step", Interpolation::step},
+                                             {"monotone", Interpolation::monotone},
+                                             {"spline", Interpolation::spline}});
+  }
+  if (node.value() == "step") {
+    node.fail_with_value(
+        "would move a drive in no time; take \"monotone\", \"spline\" or \"linear\"");
+  }
+  return read_choice<Interpolation>(node, {{"monotone", Interpolation::monotone},
+                                           {"spline", Interpolation::spline},
+                                           {"linear", Interpolation::linear}});
+}
+
 TableFunction read_table(const Source& source, NumberReader& numbers) {
-  allow_keys(source, {"times", "values"});
+  allow_keys(source, {"times", "values", "interpolation"});
   TableFunction table;
   table.times = read_ascending_times(source.node.at("times"), numbers);
   for (const JsonNode& value : source.node.at("values").items(table.times.size())) {
     table.values.push_back(numbers.designable(value, source.value));
+  }
+  table.interpolation =
+      source.purpose == Purpose::load ? Interpolation::linear : Interpolation::monotone;
+  if (const auto interpolation = source.node.find("interpolation")) {
+    table.interpolation = read_interpolation(*interpolation, source.purpose);
   }
   return table;
 }
@@ -124,7 +148,7 @@ TimeFunction read_drive_function(const JsonNode& node, const Quantity& value,
                                                   {"polynomial", FunctionType::polynomial},
                                                   {"harmonic", FunctionType::harmonic},
                                                   {"table", FunctionType::table}});
-  return read_function(type, {node, value, {"coordinate"}}, numbers);
+  return read_function(type, {node, value, Purpose::drive, {"coordinate"}}, numbers);
 }
 
 TimeFunction read_load_function(const JsonNode& node, const Quantity& value,
@@ -138,7 +162,7 @@ TimeFunction read_load_function(const JsonNode& node, const Quantity& value,
                                                   {"polynomial", FunctionType::polynomial},
                                                   {"harmonic", FunctionType::harmonic},
                                                   {"table", FunctionType::table}});
-  return read_function(type, {node, value, {}}, numbers);
+  return read_function(type, {node, value, Purpose::load, {}}, numbers);
 }
 
 }  // namespace pleuel

@@ -1,0 +1,158 @@
+#include "core/integration/damped_start.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "core/base/error.hpp"
+#include "core/integration/configuration.hpp"
+#include "core/integration/jerk.hpp"
+#include "core/integration/linear_solver.hpp"
+
+namespace pleuel {
+
+namespace {
+
+constexpr int max_iterations = 20;
+/// Newton's method ends at this change of scaled coordinates, or where it no longer shrinks.
+constexpr double tolerance = 1e-15, round_off = 1e-9;
+/// Probes that do not converge are made so often half as long.
+constexpr int max_halvings = 6;
+/// Of the first step: loads may jump at its end.
+constexpr double just_before_the_end = 1.0 - 1e-9;
+
+constexpr Formulation on_acceleration_level{ConstraintForm::index_1, 0.0, false};
+
+/// Whether a scheme makes anything of old accelerations.
+bool uses_accelerations(const Scheme& scheme) {
+  return !scheme.history.rightCols(2).isZero(0.0);
+}
+
+}  // namespace
+
+DampedStart::DampedStart(Mechanism& mechanism, const State& start, const Scheme& first_step,
+                         double weight_of_jerk)
+    : mechanism_(mechanism),
+      start_(start),
+      step_(first_step.step),
+      delay_(first_step.delay),
+      weight_of_jerk_(weight_of_jerk),
+      is_needed_(uses_accelerations(first_step)),
+      v_(start.v),
+      a_(start.a),
+      w_(start.a) {
+  if (!is_needed_) return;
+  double step = first_step.step * just_before_the_end;
+  for (int halvings = 0;; ++halvings, step *= 0.5) {
+    probes_[0].step = 0.5 * step;
+    probes_[1].step = step;
+    if (make_probe(probes_[0]) && make_probe(probes_[1])) break;
+    if (halvings == max_halvings) {
+      throw SimulationError(
+          "the first step is too long: the equations of motion cannot be solved within it. Try a "
+          "smaller /simulation/step");
+    }
+  }
+  const auto at = [this](double time) -> Eigen::VectorXd {
+    const auto [first, second] = weights_at(time);
+    return first * probes_[0].a + second * probes_[1].a;
+  };
+  a_ = at(0.0);
+  w_ = at(delay_);
+  if (weight_of_jerk_ == 0.0) return;
+  State filtered = start_;
+  filtered.a = a_;
+  v_ += weight_of_jerk_ * ConstrainedJerk(mechanism_, filtered, step_).value();
+}
+
+std::array<double, 2> DampedStart::weights_at(double time) const {
+  const double width = probes_[1].step - probes_[0].step;
+  return {(probes_[1].step - time) / width, (time - probes_[0].step) / width};
+}
+
+bool DampedStart::make_probe(Probe& probe) {
+  const int n = mechanism_.system->coordinates();
+  StepEquations equations(mechanism_, implicit_euler(probe.step), on_acceleration_level);
+  equations.begin(start_);
+  StepState state = equations.make_state(start_);
+  System::Matrix matrix = equations.make_matrix();
+  LinearSolver solver(matrix);
+  state.time = start_.time + probe.step;
+  state.a.setZero();
+  Eigen::VectorXd correction = Eigen::VectorXd::Zero(equations.size());
+  correction.head(n) = probe.step * start_.v;
+  state.increment = correction.head(n);
+  correction.setZero();
+  equations.apply(correction, state);
+  double previous = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    equations.linearize(state, correction, matrix);
+    if (!solver.factorize(matrix)) return false;
+    correction *= -1.0;
+    solver.solve(correction);
+    equations.apply(correction, state);
+    const double size =
+        correction.head(n).cwiseQuotient(mechanism_.scale).lpNorm<Eigen::Infinity>();
+    if (!std::isfinite(size)) return false;
+    if (size < tolerance || (size < round_off && size > 0.3 * previous)) {
+      probe.increment = state.increment;
+      probe.v = state.v;
+      probe.a = state.a;
+      probe.lambda = state.lambda;
+      return true;
+    }
+    previous = size;
+  }
+  return false;
+}
+
+Eigen::MatrixXd DampedStart::differentiate(const Probe& probe, const Eigen::MatrixXd& q,
+                                           const Eigen::MatrixXd& v) {
+  const double h = probe.step;
+  StepEquations equations(mechanism_, implicit_euler(h), on_acceleration_level);
+  equations.begin(start_);
+  StepState state = equations.make_state(start_);
+  state.time = start_.time + h;
+  state.increment = probe.increment;
+  advance(mechanism_.rotations, start_.q, probe.increment, state.q);
+  state.v = probe.v;
+  state.a = probe.a;
+  state.lambda = probe.lambda;
+  System::Matrix matrix = equations.make_matrix();
+  equations.linearize_sensitivities(state, matrix);
+  // Unknown is the derivative s of the new q, turned back: v⁺ and a⁺ follow from it by
+  // v⁺ = (q⁺ − q)/h, a⁺ = (v⁺ − v)/h.
+  Eigen::MatrixXd old_q = q, rhs;
+  pull_back(mechanism_.rotations, probe.increment, old_q);
+  const Eigen::MatrixXd of_v = -old_q / h, of_a = (of_v - v) / h;
+  equations.differentiate(state, of_v, of_a, q, rhs);
+  LinearSolver solver(matrix);
+  if (!solver.factorize(matrix)) {
+    throw SimulationError("the derivatives of the first step's start are singular");
+  }
+  solver.solve(rhs);
+  if (!solver.is_accurate()) {
+    throw SimulationError("the derivatives of the first step's start are inaccurate");
+  }
+  return of_a + rhs.topRows(mechanism_.system->coordinates()) / (h * h);
+}
+
+DampedStart::Derivatives DampedStart::differentiate(const Eigen::MatrixXd& q,
+                                                    const Eigen::MatrixXd& v,
+                                                    const Eigen::MatrixXd& a) {
+  if (!is_needed_) return {v, a, a};
+  const Eigen::MatrixXd one = differentiate(probes_[0], q, v),
+                        other = differentiate(probes_[1], q, v);
+  const auto at = [&](double time) -> Eigen::MatrixXd {
+    const auto [first, second] = weights_at(time);
+    return first * one + second * other;
+  };
+  Derivatives derivatives{v, at(0.0), at(delay_)};
+  if (weight_of_jerk_ == 0.0) return derivatives;
+  State filtered = start_;
+  filtered.a = a_;
+  const ConstrainedJerk jerk(mechanism_, filtered, step_);
+  derivatives.v += weight_of_jerk_ * jerk.differentiate(q, v, derivatives.a);
+  return derivatives;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,163 @@
+#include "core/trust/fast_laws.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/model/scene_geometry.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Share of the largest value that may be missed between two instants. Of an oscillation of n steps
+/// a period that is (2π/n)²/8, and the schemes' errors are about as large: 22 steps.
+constexpr double most_missed = 1e-2;
+/// Samples of each step, at distances that are in step with no period.
+constexpr int samples = 5;
+constexpr double golden_ratio = 0.6180339887498949;
+/// A jump at an instant belongs to neither side [steps].
+constexpr double beside = 1e-6;
+
+using Values = std::array<double, 2>;
+using Observed = std::function<Values(double time)>;
+
+double distance(const Values& one, const Values& other) {
+  return std::hypot(one[0] - other[0], one[1] - other[1]);
+}
+
+/// How far a function of time is from the straight lines between the instants, and where most.
+struct Missed {
+  double largest = 0.0, time = 0.0, step = 0.0;
+  double scale = 0.0;  ///< largest distance from a value
+};
+
+Missed missed_by(const Eigen::VectorXd& time, const Observed& value, const Values& origin) {
+  Missed missed;
+  double place = 0.0;
+  for (Eigen::Index i = 0; i + 1 < time.size(); ++i) {
+    const double h = time(i + 1) - time(i);
+    const Values begin = value(time(i) + beside * h), end = value(time(i + 1) - beside * h);
+    missed.scale = std::max({missed.scale, distance(begin, origin), distance(end, origin)});
+    for (int k = 0; k < samples; ++k) {
+      place = std::fmod(place + golden_ratio, 1.0);
+      const double share = beside + (1.0 - 2.0 * beside) * place;
+      const Values here = value(time(i) + share * h);
+      const Values line = {begin[0] + place * (end[0] - begin[0]),
+                           begin[1] + place * (end[1] - begin[1])};
+      missed.scale = std::max(missed.scale, distance(here, origin));
+      if (distance(here, line) <= missed.largest) continue;
+      missed.largest = distance(here, line);
+      missed.time = time(i) + share * h;
+      missed.step = h;
+    }
+  }
+  return missed;
+}
+
+/// What is said of a law: who, and what of it.
+struct Subject {
+  std::string who;   ///< `the load "push"`
+  std::string what;  ///< "value"
+};
+
+void add_missed(const Subject& subject, const Missed& missed, double scale,
+                std::vector<Doubt>& doubts) {
+  if (!(missed.largest > most_missed * scale)) return;
+  doubts.push_back(
+      {fmt::format("{} changes faster than the steps can follow: within the step of {:.3g} s at "
+                   "t = {:.4g} s its {} is {:.2g} % of the largest away from what the steps see. "
+                   "Give an oscillation or a revolution some 22 steps or more: a smaller "
+                   "/simulation/step.",
+                   subject.who, missed.step, missed.time, subject.what,
+                   100.0 * missed.largest / scale),
+       true});
+}
+
+void add_load(const std::string& name, const TimeLaw<double>& law, const Eigen::VectorXd& time,
+              std::vector<Doubt>& doubts) {
+  const Missed missed = missed_by(time,
+                                  [&](double t) -> Values {
+                                    return {law.at(t).value, 0.0};
+                                  },
+                                  {0.0, 0.0});
+  add_missed({fmt::format("the load \"{}\"", name), "value"}, missed, missed.scale, doubts);
+}
+
+/// The first time within the simulation at which the speed of straight lines jumps.
+std::optional<double> speed_jump(const TimeFunction& motion, const TimeLaw<double>& law,
+                                 double end) {
+  const auto* table = std::get_if<TableFunction>(&motion);
+  if (!table || table->interpolation != Interpolation::linear) return std::nullopt;
+  constexpr double small = 1e-9;
+  double fastest = 0.0;
+  for (const double time : table->times) fastest = std::max(fastest, std::abs(law.at(time).rate));
+  for (std::size_t i = 0; i < table->times.size(); ++i) {
+    const double time = table->times[i];
+    if (time <= 0.0 || time >= end) continue;
+    const double before = i > 0 ? law.at(table->times[i - 1]).rate : 0.0;
+    if (std::abs(law.at(time).rate - before) > small * fastest) return time;
+  }
+  return std::nullopt;
+}
+
+void add_drive(const Joint& joint, const TimeLaw<double>& law, const Eigen::VectorXd& time,
+               std::vector<Doubt>& doubts) {
+  const std::string who = fmt::format("the drive of the joint \"{}\"", joint.name);
+  if (const auto jump = speed_jump(joint.drive->motion, law, time(time.size() - 1))) {
+    doubts.push_back(
+        {fmt::format("{} follows straight lines: its speed jumps at t = {:.4g} s, where forces "
+                     "would be infinite; what is shown depends on the step. Take the "
+                     "\"interpolation\" \"monotone\" or \"spline\".",
+                     who, *jump),
+         true});
+    return;
+  }
+  if (joint.drive->coordinate == DrivenCoordinate::angle) {
+    const Missed turned = missed_by(time,
+                                    [&](double t) -> Values {
+                                      const double angle = law.at(t).value;
+                                      return {std::cos(angle), std::sin(angle)};
+                                    },
+                                    {0.0, 0.0});
+    add_missed({who, "direction"}, turned, 1.0, doubts);
+    if (turned.largest > most_missed) return;
+  }
+  const Missed moved = missed_by(time,
+                                 [&](double t) -> Values {
+                                   return {law.at(t).acceleration, 0.0};
+                                 },
+                                 {0.0, 0.0});
+  add_missed({who, "acceleration"}, moved, moved.scale, doubts);
+}
+
+}  // namespace
+
+std::vector<Doubt> doubt_fast_laws(const TrustedRun& run) {
+  const Design<double> design(run.x.begin(), run.x.end());
+  const Eigen::VectorXd& time = run.analysis.trajectory.time;
+  std::vector<Doubt> doubts;
+  for (const Joint& joint : run.problem.scene.joints) {
+    if (!joint.drive) continue;
+    add_drive(joint, resolve_time_law(joint.drive->motion, design, LawOf::motion), time, doubts);
+  }
+  const auto add = [&](const std::string& name, const TimeFunction& function) {
+    add_load(name, resolve_time_law(function, design), time, doubts);
+  };
+  for (const Load& load : run.problem.scene.loads) {
+    if (const auto* force = std::get_if<PointForce>(&load.element)) {
+      add(load.name, force->value);
+    } else if (const auto* torque = std::get_if<PointTorque>(&load.element)) {
+      add(load.name, torque->value);
+    } else if (const auto* joint = std::get_if<JointForce>(&load.element)) {
+      if (joint->motor) add(load.name, *joint->motor);
+    }
+  }
+  return doubts;
+}
+
+}  // namespace pleuel
