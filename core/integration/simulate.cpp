@@ -25,6 +25,7 @@ std::vector<double> regular_instants(const SimulationOptions& options) {
   std::sort(breaks.begin(), breaks.end());
   std::erase_if(breaks, [&](double time) { return !(end - time >= least_distance * h); });
   breaks.push_back(end);
+  instants.reserve(static_cast<std::size_t>(steps) + 2 * breaks.size());
   double last = 0.0;
   for (const double time : breaks) {
     if (time - last < least_distance * h && time < end) continue;

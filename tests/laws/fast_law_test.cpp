@@ -1,0 +1,96 @@
+#include <gmock/gmock.h>
+
+#include "core/response/monitors.hpp"
+#include "core/trust/fast_laws.hpp"
+#include "tests/laws/law_problems.hpp"
+
+namespace pleuel::test {
+namespace {
+
+std::vector<Doubt> doubts_about(const ProblemFile& problem) {
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const Monitors monitors = monitor(analysis->model, analysis->trajectory);
+  return doubt_fast_laws(TrustedRun{problem, x, *analysis, monitors});
+}
+
+std::string harmonic(double steps_a_period) {
+  return R"({"type": "harmonic", "amplitude": 4, "frequency": )" +
+         std::to_string(2 * 3.14159265358979 / (steps_a_period * 1e-3)) + "}";
+}
+
+/// A share of 1 − cos(π/n) of its amplitude is missed between two of n steps a period.
+TEST(FastLoad, IsDoubtedFromTwentyTwoStepsAPeriodOn) {
+  EXPECT_TRUE(doubts_about(pushed_block(harmonic(23))).empty());
+  for (const double steps : {21.0, 10.0, 2.0, 1.0, 0.5, 0.25, 0.1}) {
+    const std::vector<Doubt> doubts = doubts_about(pushed_block(harmonic(steps)));
+    ASSERT_EQ(doubts.size(), 2U) << steps;
+    EXPECT_TRUE(doubts[0].is_serious);
+    EXPECT_THAT(doubts[0].text, testing::HasSubstr("the load \"push\""));
+  }
+}
+
+TEST(FastLoad, IsDoubtedWhereATableIsFinerThanTheSteps) {
+  const auto pulse = [](double width) {
+    const auto at = [&](int i) { return std::to_string(0.0503 + i * width); };
+    return R"({"type": "table", "times": [)" + at(0) + "," + at(1) + "," + at(2) +
+           R"(], "values": [0, 1, 0]})";
+  };
+  EXPECT_TRUE(doubts_about(pushed_block(pulse(5e-3))).empty());
+  EXPECT_EQ(doubts_about(pushed_block(pulse(3e-4))).size(), 2U);
+}
+
+TEST(FastLoad, IsNotDoubtedWhereItJumpsOnAnInstant) {
+  EXPECT_TRUE(doubts_about(pushed_block(R"({"type": "table", "times": [0, 0.0313],
+                                            "values": [0, 6], "interpolation": "step"})"))
+                  .empty());
+}
+
+/// A disc on a bearing.
+ProblemFile driven_disc(const std::string& drive) {
+  return read_problem_text(
+      R"({"scene": {
+    "bodies": {"disc": {"type": "rigid", "at": [0, 0, 0], "mass": 2, "inertia": [1, 1, 1, 0, 0, 0]}},
+    "joints": {"bearing": {"type": "revolute", "bodies": ["ground", "disc"], "at": [0, 0, 0], "drive": )" +
+          drive + R"(}}},
+  "simulation": {"end_time": 0.1, "step": 1e-3},
+  "responses": {"torque": {"type": "drive-torque", "joint": "bearing", "over_time": "max-abs"}}})",
+      "disc.json");
+}
+
+/// 32 steps a revolution of 1 ms each are 196 rad/s; 1 − cos(π/32) is 0.5 %.
+TEST(FastDrive, IsDoubtedBelowThirtyTwoStepsARevolution) {
+  EXPECT_TRUE(doubts_about(driven_disc(R"({"type": "constant-speed", "speed": 190})")).empty());
+  for (const char* speed : {"205", "3000", "6283.185"}) {
+    const std::vector<Doubt> doubts = doubts_about(
+        driven_disc(std::string(R"({"type": "constant-speed", "speed": )") + speed + "}"));
+    ASSERT_EQ(doubts.size(), 1U) << speed;
+    EXPECT_THAT(doubts[0].text, testing::HasSubstr("the drive of the joint \"bearing\""));
+  }
+}
+
+TEST(FastDrive, IsDoubtedWhereItsRampIsAFewSteps) {
+  const auto ramp = [](const char* time) {
+    return driven_disc(std::string(R"({"type": "ramp-to-speed", "speed": 10, "ramp": )") + time +
+                       "}");
+  };
+  EXPECT_TRUE(doubts_about(ramp("0.03")).empty());
+  EXPECT_EQ(doubts_about(ramp("0.008")).size(), 1U);
+  EXPECT_EQ(doubts_about(ramp("0.0005")).size(), 1U);
+}
+
+TEST(DriveOfStraightLines, IsDoubtedWhereItsSpeedJumps) {
+  const auto lines = [](const char* values) {
+    return driven_disc(std::string(R"({"type": "table", "times": [0, 0.05, 0.1],
+                                       "interpolation": "linear", "values": )") +
+                       values + "}");
+  };
+  EXPECT_TRUE(doubts_about(lines("[0, 0.1, 0.2]")).empty());
+  const std::vector<Doubt> doubts = doubts_about(lines("[0, 0.1, 0.1]"));
+  ASSERT_EQ(doubts.size(), 1U);
+  EXPECT_TRUE(doubts[0].is_serious);
+  EXPECT_THAT(doubts[0].text, testing::HasSubstr("its speed jumps at t = 0.05 s"));
+}
+
+}  // namespace
+}  // namespace pleuel::test
