@@ -8,6 +8,10 @@ namespace {
 
 /// Steps that differ by less, relatively, are equal.
 constexpr double round_off_of_steps = 1e-6;
+/// Where steps change by less, relatively, the scheme goes on with its w: that belongs to an
+/// instant which is off by δ times the change, once. To drop w forgets part of what acted, to first
+/// order where that jumped.
+constexpr double small_change = 0.3;
 
 }  // namespace
 
@@ -51,8 +55,7 @@ double Trajectory::step_size(int step) const {
 
 Scheme Trajectory::scheme_of(int step) const {
   const double h = step_size(step);
-  const bool is_as_before =
-      step == 1 || std::abs(h - step_size(step - 1)) <= round_off_of_steps * h;
+  const bool is_as_before = step == 1 || std::abs(h - step_size(step - 1)) <= small_change * h;
   return is_as_before ? make_scheme(scheme_type, h, spectral_radius)
                       : make_restarting_scheme(scheme_type, h, spectral_radius);
 }

@@ -22,7 +22,7 @@ ProblemFile released_rod(const std::vector<std::string>& overrides = {}) {
   return read_problem_text(R"({
   "scene": {
     "gravity": [0, -9.81, 0],
-    "bodies": {"rod": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": {"young": 2.1e11, "poisson": 0.3, "density": 7850},
+    "bodies": {"rod": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
       "section": {"type": "rectangle", "width": 0.02, "height": {"variable": "height"}}, "elements": 8, "frame": "chord", "damping": {"stiffness": 1e-3}}},
     "joints": {"hinge": {"type": "revolute", "bodies": ["ground", "rod"], "at": [0, 0, 0]}}
   },

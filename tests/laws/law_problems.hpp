@@ -41,7 +41,7 @@ inline ProblemFile loaded_cantilever(const std::string& value,
   return read_problem_text(R"({
   "scene": {
     "gravity": [0, -9.81, 0],
-    "bodies": {"beam": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": {"young": 2.1e11, "poisson": 0.3, "density": 7850},
+    "bodies": {"beam": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
       "section": {"type": "rectangle", "width": 0.02, "height": {"variable": "height"}}, "elements": 4, "damping": {"stiffness": 1e-3}}},
     "joints": {"clamp": {"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}},
     "loads": {"push": {"type": "force", "body": "beam", "at": [1, 0, 0], "direction": [0, -1, 0], "value": )" +
