@@ -21,11 +21,11 @@ const std::string sudden = R"({"type": "table", "times": [-1, 0],
                                "values": [0, {"variable": "force"}], "interpolation": "step"})";
 
 TEST(QuasiStaticStart, IsInEquilibriumWithWhatActsBeforeIt) {
-  const ProblemFile problem = loaded_cantilever(sudden);
+  const ProblemFile problem = loaded_cantilever(sudden, {"/simulation/end_time=0.6"});
   const auto analysis = analyze(problem, start_design(problem));
   const Eigen::MatrixXd& deflection = analysis->histories[0];
   EXPECT_NEAR(deflection(0, 0), sag, 1e-5 * std::abs(sag));
-  // One bar of the first frequency, 3.516² √(EI/ρA) a second: settled after some of its periods.
+  // The first vibration has 25 periods a second and loses 40 % in each.
   const double loaded = sag - 50.0 / (3 * stiffness);
   EXPECT_NEAR(values_of(*analysis)(response_index(problem, "end")), loaded,
               0.02 * std::abs(loaded));
@@ -36,8 +36,8 @@ TEST(QuasiStaticStart, IsInEquilibriumWithWhatActsBeforeIt) {
 }
 
 TEST(QuasiStaticStart, StaysWhereItIsUnderALoadThatActsAlready) {
-  const ProblemFile problem =
-      loaded_cantilever(R"({"type": "table", "times": [0, 1], "values": [50, 50]})");
+  const ProblemFile problem = loaded_cantilever(
+      R"({"type": "table", "times": [0, 1], "values": [{"variable": "force"}, {"variable": "force"}]})");
   const auto analysis = analyze(problem, start_design(problem));
   const double loaded = sag - 50.0 / (3 * stiffness);
   for (const char* name : {"sag", "end"}) {
@@ -65,7 +65,7 @@ TEST(SuddenLoad, HasTheGradientOfItsSimulation) {
     const Eigen::MatrixXd expected = (4 * narrow - wide) / 3;
     for (Eigen::Index i = 0; i < expected.rows(); ++i) {
       for (Eigen::Index j = 0; j < expected.cols(); ++j) {
-        EXPECT_NEAR(direct(i, j), expected(i, j), 1e-6 * expected.row(i).norm() * 1e-2 / 1e-2)
+        EXPECT_NEAR(direct(i, j), expected(i, j), 1e-6 * expected.row(i).norm())
             << formulation << " " << i << " " << j;
       }
     }
