@@ -39,7 +39,7 @@ ProblemFile released_rod(const std::vector<std::string>& overrides = {}) {
 }
 
 /// The stress is that of steps four times as short, whatever the mesh and the scheme: 27 steps for
-/// a period of the first vibration take up to 0.7 % for themselves. What a step makes of
+/// a period of the first vibration take up to 1 % for themselves. What a step makes of
 /// accelerations that last for far less gave up to sixty times as much.
 TEST(DampedStart, DoesNotRingWhateverTheMeshAndTheDampingOfTheScheme) {
   const double fine = value_at_start(released_rod({"/simulation/step=0.125 ms"}), "stress");
