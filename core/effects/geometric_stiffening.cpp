@@ -199,4 +199,13 @@ void GeometricStiffening::add_design_gradients(const ConstColumns& sums,
   }
 }
 
+std::vector<QuadraticStrain> GeometricStiffening::strains() const {
+  std::vector<QuadraticStrain> strains;
+  for (const StiffeningElement& element : elements_) {
+    strains.push_back(
+        {element.coordinates, element.elongation, element.slopes, element.axial_stiffness});
+  }
+  return strains;
+}
+
 }  // namespace pleuel

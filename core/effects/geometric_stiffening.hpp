@@ -3,6 +3,7 @@
 #include "core/beam/beam.hpp"
 #include "core/beam/beam_shape.hpp"
 #include "core/beam/elastic_coordinates.hpp"
+#include "core/system/quadratic_strain.hpp"
 #include "core/system/term.hpp"
 
 namespace pleuel {
@@ -34,7 +35,7 @@ struct StiffeningDerivative {
 ///     f = κ (g + β ġ)(b + Ĝ q) − κ (Δu + β Δu̇) b
 /// The linear part is in K and D; this term is what is missing there. Without it a rotating beam
 /// has centrifugal softening only and diverges (Simo & Vu-Quoc 1987; Wallrapp & Schwertassek 1991).
-class GeometricStiffening : public Term {
+class GeometricStiffening : public Term, public StrainSource {
  public:
   GeometricStiffening(
       std::string body, std::vector<StiffeningElement> elements, double damping,
@@ -51,6 +52,7 @@ class GeometricStiffening : public Term {
   void add_design_sums(const State& state, ConstraintLevel level, const ConstColumns& mu,
                        Columns sums) override;
   void add_design_gradients(const ConstColumns& sums, Eigen::MatrixXd& gradients) const override;
+  std::vector<QuadraticStrain> strains() const override;
 
  private:
   /// Strain measures of one element in one state.

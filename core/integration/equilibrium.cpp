@@ -1,13 +1,17 @@
 #include "core/integration/equilibrium.hpp"
 
-#include <cassert>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
+#include <Eigen/QR>
 #include <Eigen/SparseLU>
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
 #include "core/base/rotation_vector.hpp"
 #include "core/integration/configuration.hpp"
+#include "core/integration/elastic_stability.hpp"
 
 namespace pleuel {
 
@@ -15,9 +19,18 @@ namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-constexpr int max_iterations = 30;
+constexpr int max_iterations = 25;
 /// Newton's method ends at this change of scaled coordinates.
 constexpr double tolerance = 1e-13;
+/// Or where it gets no further and each equation is met to this share of its terms. Stiff elements
+/// leave such changes of the coordinates as round-off makes of it, some n⁴ of it for n elements.
+constexpr double round_off = 1e-12;
+/// Where the whole load is too much for Newton's method it comes in parts, down to this one.
+constexpr double smallest_part = 1.0 / 1024;
+/// The share of the loads from which their effect on the stiffness is taken.
+constexpr double small_load = 1e-3;
+/// Rows of Φ_q of the frames that depend on the others by less than this are closed by deformation.
+constexpr double rank_tolerance = 1e-9;
 
 /// A block of the Jacobian: some rows and columns of a tangent of the system.
 struct Block {
@@ -43,15 +56,75 @@ State with_multipliers(State state, const Eigen::VectorXd& multipliers) {
   return state;
 }
 
+/// Constraints that the frames alone cannot meet, as others hold them: combinations y of the rows
+/// of Φ_q in which the coordinates of the frames cancel. For each, one of its constraints, that on
+/// which the elastic coordinates act most.
+std::vector<bool> closed_by_deformation(Mechanism& mechanism) {
+  System& system = *mechanism.system;
+  const int n = system.coordinates(), m = system.multipliers();
+  std::vector<bool> is_closed(static_cast<std::size_t>(m), false);
+  if (m == 0) return is_closed;
+  System::Matrix matrix = system.make_matrix();
+  system.tangent(mechanism.guess, {.q = 1.0}, ConstraintLevel::position, matrix);
+  const Eigen::MatrixXd phi =
+      Eigen::MatrixXd(matrix).bottomLeftCorner(m, n) * mechanism.scale.asDiagonal();
+  std::vector<bool> is_left_out(static_cast<std::size_t>(m), false);
+  for (int i : system.left_out()) is_left_out[static_cast<std::size_t>(i)] = true;
+  std::vector<int> rows;
+  for (int i = 0; i < m; ++i) {
+    if (!is_left_out[static_cast<std::size_t>(i)]) rows.push_back(i);
+  }
+  Eigen::MatrixXd of_frames = phi(rows, Eigen::all);
+  const Eigen::VectorXd elastic = of_frames(Eigen::all, mechanism.elastic).rowwise().norm();
+  of_frames(Eigen::all, mechanism.elastic).setZero();
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(of_frames);
+  qr.setThreshold(rank_tolerance);
+  const Eigen::Index count = of_frames.rows() - qr.rank();
+  if (count == 0) return is_closed;
+  const Eigen::MatrixXd q = qr.householderQ();
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> choice(q.rightCols(count).transpose() *
+                                                           elastic.asDiagonal());
+  for (Eigen::Index i = 0; i < choice.rank(); ++i) {
+    const Eigen::Index row = choice.colsPermutation().indices()(i);
+    is_closed[static_cast<std::size_t>(rows[static_cast<std::size_t>(row)])] = true;
+  }
+  return is_closed;
+}
+
+/// The largest |r_i| / Σ_j |J_ij x_j|: how well equations are met against their terms (Oettli &
+/// Prager 1964).
+double backward_error(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& unknowns,
+                      const Eigen::VectorXd& residual) {
+  const Eigen::VectorXd terms = matrix.cwiseAbs() * unknowns.cwiseAbs();
+  double worst = 0.0;
+  for (Eigen::Index i = 0; i < residual.size(); ++i) {
+    if (residual(i) != 0.0) worst = std::max(worst, std::abs(residual(i)) / terms(i));
+  }
+  return worst;
+}
+
 }  // namespace
 
 Equilibrium::Equilibrium(Mechanism& mechanism)
     : mechanism_(mechanism),
       system_(*mechanism.system),
       n_(system_.coordinates()),
-      m_(system_.multipliers()) {}
+      m_(system_.multipliers()),
+      strains_(system_),
+      is_closed_by_deformation_(closed_by_deformation(mechanism)) {}
 
-// Rows: motion n, Φ̈ m, position n (a_e = 0 for elastic coordinates), Φ m, velocity n, Φ̇ m. Rows of
+Eigen::VectorXd Equilibrium::of_frames(Eigen::VectorXd multipliers) const {
+  for (int i = 0; i < m_; ++i) {
+    if (is_closed_by_deformation_[static_cast<std::size_t>(i)]) multipliers(i) = 0.0;
+  }
+  return multipliers;
+}
+
+Eigen::VectorXd Equilibrium::of_deformation(const Eigen::VectorXd& multipliers) const {
+  return multipliers - of_frames(multipliers);
+}
+
+// Rows: motion n, Φ̈ m, position n (that of elastic coordinates), Φ m, velocity n, Φ̇ m. Rows of
 // constraints that are left out say λ_i = μ_i = ν_i = 0.
 // Columns: q n, v n, a n, λ m, μ m, ν m.
 
@@ -69,8 +142,9 @@ Eigen::VectorXd Equilibrium::residual(const InitialState& at) const {
     return (with - without).head(n_);
   };
   const Eigen::VectorXd d = difference(mechanism_.rotations, state.q, mechanism_.guess.q);
-  Eigen::VectorXd position = weight.cwiseProduct(d) + forces(at.position_multipliers);
-  for (int i : mechanism_.elastic) position(i) = state.a(i);
+  Eigen::VectorXd position = weight.cwiseProduct(d) + forces(of_frames(at.position_multipliers));
+  const Eigen::VectorXd needed = forces(of_deformation(at.position_multipliers));
+  for (int i : mechanism_.elastic) position(i) = state.a(i) + needed(i);
   all.segment(n_ + m_, n_) = position;
   system_.residual(state, ConstraintLevel::position, part);
   all.segment(2 * n_ + m_, m_) = part.tail(m_);
@@ -105,17 +179,17 @@ Eigen::SparseMatrix<double> Equilibrium::jacobian(const InitialState& at) const 
   add({.q = 1.0}, ConstraintLevel::position, {n, m, 0, n, velocity + n, n});  // Φ̇_v = Φ_q
 
   // Φ_qᵀ μ, Φ_qᵀ ν and their derivatives
-  const auto add_forces = [&](const Eigen::VectorXd& multipliers, int row, int column) {
+  const auto add_forces = [&](const Eigen::VectorXd& multipliers, int row, int column,
+                              Triplets& to) {
     State moved = with_multipliers(state, multipliers);
     system_.tangent(moved, {.q = 1.0}, ConstraintLevel::position, matrix);
     moved.lambda.setZero();
     system_.tangent(moved, {.q = 1.0}, ConstraintLevel::position, without);
-    add_block(matrix, {0, n, n, m, row, column}, entries);
+    add_block(matrix, {0, n, n, m, row, column}, to);
     matrix -= without;
-    add_block(matrix, {0, n, 0, n, row, 0}, entries);
+    add_block(matrix, {0, n, 0, n, row, 0}, to);
   };
-  add_forces(at.position_multipliers, position, mu);
-  add_forces(at.velocity_multipliers, velocity, nu);
+  add_forces(at.velocity_multipliers, velocity, nu, entries);
   for (int i : system_.left_out()) {
     entries.emplace_back(n + i, lambda + i, 1.0);
     entries.emplace_back(position + n + i, mu + i, 1.0);
@@ -140,13 +214,32 @@ Eigen::SparseMatrix<double> Equilibrium::jacobian(const InitialState& at) const 
     if (is_plain[static_cast<std::size_t>(i)]) entries.emplace_back(position + i, i, weight(i));
   }
 
-  // Elastic rows say a_e = 0 instead.
+  // Φ_qᵀ μ: in the rows of frames that of the constraints which frames meet, in those of elastic
+  // coordinates, which say a_e + Φ_qᵀ μ = 0 instead, that of the others.
   std::vector<bool> is_elastic(static_cast<std::size_t>(n), false);
   for (int i : mechanism_.elastic) is_elastic[static_cast<std::size_t>(i)] = true;
-  std::erase_if(entries, [&](const auto& entry) {
-    const int row = entry.row() - position;
-    return row >= 0 && row < n && is_elastic[static_cast<std::size_t>(row)];
-  });
+  const auto drop_rows = [&](bool elastic, Triplets& from) {
+    std::erase_if(from, [&](const auto& entry) {
+      const int row = entry.row() - position;
+      return row >= 0 && row < n && is_elastic[static_cast<std::size_t>(row)] == elastic;
+    });
+  };
+  const auto drop_columns = [&](bool of_deformation, Triplets& from) {
+    std::erase_if(from, [&](const auto& entry) {
+      const int column = entry.col() - mu;
+      return column >= 0 && column < m &&
+             is_closed_by_deformation_[static_cast<std::size_t>(column)] == of_deformation;
+    });
+  };
+  Triplets of_rigid, of_elastic;
+  add_forces(of_frames(at.position_multipliers), position, mu, of_rigid);
+  add_forces(of_deformation(at.position_multipliers), position, mu, of_elastic);
+  drop_columns(true, of_rigid);
+  drop_columns(false, of_elastic);
+  entries.insert(entries.end(), of_rigid.begin(), of_rigid.end());
+  drop_rows(true, entries);
+  drop_rows(false, of_elastic);
+  entries.insert(entries.end(), of_elastic.begin(), of_elastic.end());
   for (int i : mechanism_.elastic) entries.emplace_back(position + i, 2 * n + i, 1.0);
 
   Eigen::SparseMatrix<double> result(3 * n + 3 * m, 3 * n + 3 * m);
@@ -175,8 +268,9 @@ Eigen::MatrixXd Equilibrium::design_derivative(const InitialState& at) const {
   Eigen::MatrixXd guess_x = mechanism_.guess_q_x;
   pull_back(mechanism_.rotations, d, guess_x);
   const auto weight = mechanism_.assembly_weight.asDiagonal();
-  all.middleRows(position, n) = forces(at.position_multipliers) - weight * guess_x;
-  for (int i : mechanism_.elastic) all.row(position + i).setZero();
+  all.middleRows(position, n) = forces(of_frames(at.position_multipliers)) - weight * guess_x;
+  const Eigen::MatrixXd needed = forces(of_deformation(at.position_multipliers));
+  for (int i : mechanism_.elastic) all.row(position + i) = needed.row(i);
   all.middleRows(velocity, n) = forces(at.velocity_multipliers) - weight * mechanism_.guess_v_x;
   return all;
 }
@@ -192,24 +286,96 @@ void Equilibrium::advance_by(const Eigen::VectorXd& step, InitialState& at) cons
   at.velocity_multipliers += step.tail(m_);
 }
 
-InitialState Equilibrium::solve(InitialState start) {
+Eigen::VectorXd Equilibrium::unknowns(const InitialState& at) const {
+  Eigen::VectorXd all(3 * n_ + 3 * m_);
+  all << at.state.q, at.state.v, at.state.a, at.state.lambda, at.position_multipliers,
+      at.velocity_multipliers;
+  return all;
+}
+
+Eigen::SparseMatrix<double> Equilibrium::mixed_jacobian(const InitialState& at,
+                                                        const Eigen::VectorXd& strains) const {
+  Eigen::SparseMatrix<double> matrix = jacobian(at);
+  if (strains_.are_none()) return matrix;
+  Triplets entries;
+  strains_.add_stress_stiffness(strains - strains_.at(at.state.q), entries);
+  Eigen::SparseMatrix<double> change(matrix.rows(), matrix.cols());
+  change.setFromTriplets(entries.begin(), entries.end());
+  return matrix + change;
+}
+
+bool Equilibrium::solve_from(const Eigen::VectorXd& target, InitialState& at) {
   Eigen::SparseLU<Eigen::SparseMatrix<double>> factors;
+  Eigen::VectorXd strains = strains_.at(at.state.q);
   double previous = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
-    const Eigen::SparseMatrix<double> matrix = jacobian(start);
+    const Eigen::SparseMatrix<double> matrix = mixed_jacobian(at, strains);
     if (iteration == 0) factors.analyzePattern(matrix);
     factors.factorize(matrix);
-    if (factors.info() != Eigen::Success) break;
-    const Eigen::VectorXd step = -factors.solve(residual(start));
-    if (!step.allFinite()) break;
-    advance_by(step, start);
+    if (factors.info() != Eigen::Success) return false;
+    const Eigen::VectorXd left = target - residual(at);
+    const Eigen::VectorXd step = factors.solve(left);
+    if (!step.allFinite()) return false;
     const double size = step.head(n_).cwiseQuotient(mechanism_.scale).lpNorm<Eigen::Infinity>();
-    if (size < tolerance || (size < 1e-9 && size > 0.3 * previous)) return start;
+    const bool is_stuck = size > 0.3 * previous;
+    const bool is_met = is_stuck && backward_error(matrix, unknowns(at), left) < round_off;
+    strains = strains_.predicted(at.state.q, step.head(n_));
+    advance_by(step, at);
+    if (size < tolerance || (size < 1e-9 && is_stuck) || is_met) return true;
     previous = size;
   }
+  return false;
+}
+
+InitialState Equilibrium::solve(InitialState start) {
+  start.position_multipliers = of_frames(start.position_multipliers);
+  const Eigen::VectorXd unloaded = residual(start);
+  InitialState reached = start;
+  double share = 0.0, part = 1.0;
+  while (share < 1.0) {
+    const double next = std::min(1.0, share + part);
+    InitialState trial = reached;
+    if (solve_from((1.0 - next) * unloaded, trial)) {
+      reached = std::move(trial);
+      share = next;
+      part *= 2.0;
+    } else {
+      part /= 2.0;
+      if (part < smallest_part) fail(start, share);
+    }
+  }
+  refuse_unstable(start, reached);
+  return reached;
+}
+
+double Equilibrium::load_factor(const InitialState& start) {
+  InitialState loaded = start;
+  const Eigen::VectorXd unloaded = residual(start);
+  if (!solve_from((1.0 - small_load) * unloaded, loaded)) return std::nan("");
+  return buckling_load_factor(mechanism_, start.state, loaded.state, small_load);
+}
+
+void Equilibrium::fail(const InitialState& start, double share) {
+  const double factor = load_factor(start);
+  const std::string why =
+      factor < 1.0 ? fmt::format("members buckle at some {:.3g} of these loads", factor)
+                   : "the deformation may be too large, or the mechanism at a dead point";
   throw SimulationError(
-      "no elastic equilibrium was found to start from (/simulation/initial_state is "
-      "\"quasi-static\"): a member may buckle under the loads at t = 0");
+      fmt::format("no elastic equilibrium was found to start from (/simulation/initial_state is "
+                  "\"quasi-static\"), only up to {:.3g} of the loads at t = 0: {}",
+                  share, why));
+}
+
+void Equilibrium::refuse_unstable(const InitialState& start, const InitialState& found) {
+  const ElasticStability stability = elastic_stability(mechanism_, found.state);
+  if (stability.is_stable) return;
+  const double factor = load_factor(start);
+  const std::string at =
+      factor <= 1.0 ? fmt::format(", at some {:.3g} of these loads", factor) : "";
+  throw SimulationError(
+      fmt::format("the elastic equilibrium under the loads at t = 0 is unstable "
+                  "(/simulation/initial_state is \"quasi-static\"): {} buckles{}",
+                  stability.where, at));
 }
 
 Equilibrium::Derivatives Equilibrium::differentiate(const InitialState& solution) {

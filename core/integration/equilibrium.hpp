@@ -1,5 +1,10 @@
 #pragma once
 
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+#include "core/integration/axial_strains.hpp"
 #include "core/integration/initial_state.hpp"
 
 namespace pleuel {
@@ -9,15 +14,22 @@ namespace pleuel {
 /// Unknowns z = (q, v, a, λ, μ, ν); with e the elastic and r the other coordinates, W the weights
 /// of the assembly:
 ///     R(q, v, a, λ) = 0,  Φ̈ = 0                  equations of motion
-///     a_e = 0                                     no elastic acceleration
-///     Φ(q) = 0,  W_r (q ⊖ q̂)_r + (Φ_qᵀ μ)_r = 0    the nearest frames that close the joints
+///     a_e + (Φ_qᵀ μ_d)_e = 0                      no elastic acceleration that joints do not need
+///     Φ(q) = 0,  W_r (q ⊖ q̂)_r + (Φ_qᵀ μ_r)_r = 0  the nearest frames that close the joints
 ///     Φ̇ = 0,     W (v − v̂) + Φ_qᵀ ν = 0            the nearest velocities
-/// Newton's method and the derivatives with respect to the design use one and the same Jacobian.
+/// μ_d are the multipliers of constraints that only deformation can meet, since others hold the
+/// frames (two clamped members coupled at their tips), μ_r all others. As a rule there is no μ_d.
+///
+/// Newton's method for F(z) = 0 treats axial forces as unknowns (axial_strains.hpp). Where it does
+/// not converge, loads come in parts,
+/// F(z) = (1 − s) F(z₀), s → 1. An equilibrium that is unstable is refused, with the load factor
+/// (elastic_stability.hpp). The derivatives with respect to the design use the same Jacobian.
 class Equilibrium {
  public:
   explicit Equilibrium(Mechanism& mechanism);
 
-  /// Starts from consistent initial values. @throws SimulationError if Newton's method fails
+  /// Starts from consistent initial values.
+  /// @throws SimulationError if Newton's method fails or the equilibrium is unstable
   InitialState solve(InitialState start);
 
   /// ∂z/∂x at a solution.
@@ -34,10 +46,27 @@ class Equilibrium {
   Eigen::VectorXd residual(const InitialState& at) const;
   Eigen::MatrixXd design_derivative(const InitialState& at) const;
   void advance_by(const Eigen::VectorXd& step, InitialState& at) const;
+  Eigen::VectorXd unknowns(const InitialState& at) const;
+
+  /// The multipliers μ_r, μ_d: zero for the others.
+  Eigen::VectorXd of_frames(Eigen::VectorXd multipliers) const;
+  Eigen::VectorXd of_deformation(const Eigen::VectorXd& multipliers) const;
+
+  /// The Jacobian with axial forces of these strains.
+  Eigen::SparseMatrix<double> mixed_jacobian(const InitialState& at,
+                                             const Eigen::VectorXd& strains) const;
+  /// Newton's method for F(z) = target. @returns whether it converged; if not, z is anything
+  bool solve_from(const Eigen::VectorXd& target, InitialState& at);
+  /// At what share of the loads members buckle; not a number if that cannot be said.
+  double load_factor(const InitialState& start);
+  [[noreturn]] void fail(const InitialState& start, double share);
+  void refuse_unstable(const InitialState& start, const InitialState& found);
 
   Mechanism& mechanism_;
   System& system_;
   int n_, m_;
+  AxialStrains strains_;
+  std::vector<bool> is_closed_by_deformation_;
 };
 
 }  // namespace pleuel
