@@ -54,14 +54,15 @@ class FrequencySensitivity {
       const auto column = static_cast<Eigen::Index>(j);
       changes[j] += change_along({sensitivity.q.col(column), sensitivity.v.col(column),
                                   sensitivity.a.col(column), sensitivity.lambda.col(column)});
-      result(column) = -solver.solve(changes[j]).trace().imag() / static_cast<double>(count);
+      const Complex change = -solver.solve(changes[j]).trace() / static_cast<double>(count);
+      result(column) = frequency_of(s) > 0.0 ? change.imag() : -change.real();
     }
     return result;
   }
 
  private:
   void find_vectors(int mode) {
-    const Eigen::VectorXcd all = vibrations_of(frozen_);
+    const Eigen::VectorXcd all = modes_of(frozen_);
     vectors_.s = all(mode);
     const Eigen::Index count =
         ((all.array() - vectors_.s).abs() < coincidence * std::abs(vectors_.s)).count();

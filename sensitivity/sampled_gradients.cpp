@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "sensitivity/adjoint.hpp"
 #include "sensitivity/direct.hpp"
@@ -96,10 +97,13 @@ class SampledGradients {
   }
 
   Eigen::RowVectorXd frequency_gradient(int mode) {
-    State state;
-    analysis_.trajectory.load(0, state);
-    const StateSensitivity start = initial_sensitivity(mechanism_, initial_state(mechanism_));
-    return frequency_sensitivity(mechanism_, state, start, mode).transpose();
+    if (gradients_.cols() == 0) return Eigen::RowVectorXd(0);
+    Mechanism& mechanism = analysis_.full ? analysis_.full->model.mechanism : mechanism_;
+    if (!start_) {
+      start_ = analysis_.full ? *analysis_.full->initial : initial_state(mechanism);
+      start_sensitivity_ = initial_sensitivity(mechanism, *start_);
+    }
+    return frequency_sensitivity(mechanism, start_->state, start_sensitivity_, mode).transpose();
   }
 
   /// Calls visit(use) for what is sampled at a step, with its derivatives in part_.
@@ -133,6 +137,9 @@ class SampledGradients {
   Gradients gradients_;
   std::map<int, std::vector<Use>> uses_;  ///< by step
   SignalGradient part_;                   ///< scratch
+  // Of the mechanism that frequencies are of, where there are any.
+  std::optional<InitialState> start_;
+  StateSensitivity start_sensitivity_;
 };
 
 /// What is measured in the mechanism without elasticity, and which of the values it is taken from.

@@ -1,5 +1,7 @@
 #include "core/response/analysis.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
@@ -12,12 +14,31 @@ namespace pleuel {
 
 namespace {
 
+bool asks_for_modes(const ProblemFile& problem) {
+  return std::any_of(problem.responses.begin(), problem.responses.end(),
+                     [](const auto& response) { return response.type == ResponseType::frequency; });
+}
+
+/// What the model leaves out of the motion is part of its frequencies.
+void set_full_mechanism(const ProblemFile& problem, const Design<double>& start,
+                        const Design<double>& design, Analysis& analysis) {
+  if (!asks_for_modes(problem) || has_all_modes(problem, analysis.model)) return;
+  try {
+    analysis.full = make_full_mechanism(problem, start, design);
+  } catch (const SimulationError& error) {
+    analysis.modes_left_out = error.what();
+  }
+}
+
 /// The whole mechanism's frequencies at the initial state.
 void set_mechanism_frequencies(Analysis& analysis) {
-  Eigen::VectorXd frequencies;
+  Eigen::VectorXd& frequencies = analysis.mechanism_frequencies;
   for (Response& response : analysis.responses) {
     if (!response.mechanism_mode) continue;
-    if (frequencies.size() == 0) {
+    if (frequencies.size() == 0 && analysis.full) {
+      frequencies =
+          mechanism_frequencies(analysis.full->model.mechanism, analysis.full->initial->state);
+    } else if (frequencies.size() == 0) {
       State initial;
       analysis.trajectory.load(0, initial);
       frequencies = mechanism_frequencies(analysis.model.mechanism, initial);
@@ -135,7 +156,9 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   analysis->model = build_model(problem.scene, problem.effects, start_values, design,
                                 problem.sensitivity.invariants);
   analysis->model.mechanism.starts_in_equilibrium = problem.simulation.quasi_static_start;
-  analysis->responses = make_responses(problem.responses, analysis->model);
+  set_full_mechanism(problem, start_values, design, *analysis);
+  analysis->responses = make_responses(problem.responses, analysis->model,
+                                       analysis->full ? analysis->full->model : analysis->model);
   const SimulationOptions options = options_of(problem);
   Recorder recorder(analysis->responses, step_count(options) + 1);
   analysis->trajectory = simulate(analysis->model.mechanism, options,

@@ -5,6 +5,7 @@
 
 #include "core/integration/simulate.hpp"
 #include "core/model/model.hpp"
+#include "core/response/full_mechanism.hpp"
 #include "core/response/response.hpp"
 
 namespace pleuel {
@@ -17,6 +18,14 @@ struct Analysis {
   std::vector<Response> responses;
   std::vector<Reduction> reductions;       ///< one a response
   std::vector<Eigen::MatrixXd> histories;  ///< one a response; empty for constants
+  /// With all modes, where natural frequencies are asked for and the model leaves some out; else
+  /// null.
+  std::unique_ptr<FullMechanism> full;
+  /// Why natural frequencies are those of the model, though it leaves modes out; else empty.
+  std::string modes_left_out;
+  /// Natural frequencies of the whole mechanism, where a response asks for one
+  /// (mechanism_modes.hpp).
+  Eigen::VectorXd mechanism_frequencies;
   /// The same without elasticity, where a response is measured against it; else null.
   std::unique_ptr<Analysis> rigid;
 };

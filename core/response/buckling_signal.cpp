@@ -1,7 +1,10 @@
 #include "core/response/buckling_signal.hpp"
 
+#include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "core/response/section_signal.hpp"
 
@@ -9,44 +12,70 @@ namespace pleuel {
 
 namespace {
 
+/// Bending in the local x–y plane and in the x–z plane, whether the motion has both or not.
+constexpr int in_y = -1, in_z = -2;
+
+template <class Scalar>
+Scalar inertia(const SectionProperties<Scalar>& section, int plane) {
+  return plane == in_y ? section.inertia_z : section.inertia_y;
+}
+
+/// Whether all sections are as stiff about one axis as about the other, at neighbouring designs,
+/// too.
+bool is_equal_in_both(const BodyModel& body) {
+  constexpr double round_off = 1e-12;
+  const auto differs = [](double a, double b, double size) {
+    return std::abs(a - b) > round_off * std::abs(size);
+  };
+  for (const BeamElement<double>& element : body.beam.elements) {
+    const SectionProperties<double>& s = element.section;
+    if (differs(s.inertia_y, s.inertia_z, s.inertia_z)) return false;
+  }
+  for (const auto& [variable, beam] : body.beam_x) {
+    for (const BeamElement<Dual>& element : beam.elements) {
+      const double y = derivative_of(element.section.inertia_y),
+                   z = derivative_of(element.section.inertia_z);
+      if (differs(y, z, z)) return false;
+    }
+  }
+  return true;
+}
+
 class BucklingQuantity {
  public:
-  explicit BucklingQuantity(const BodyModel& body) {
-    if (body.frame.rotation != RotationCoordinates::angle) return;
-    const Eigen::Vector3d normal = body.frame.reference.transpose() * body.frame.axis;
-    bends_in_y_ = std::abs(normal.z()) > 0.5;
-    bends_in_z_ = !bends_in_y_;
-  }
+  explicit BucklingQuantity(const BodyModel& body)
+      : planes_(is_equal_in_both(body) ? std::vector<int>{in_y} : std::vector<int>{in_y, in_z}) {}
 
   std::vector<int> points(const BodyModel&, const SectionProperties<double>&) const {
-    constexpr int whole = -1;
-    return {whole};
+    return planes_;
+  }
+
+  std::string name(int plane) const {
+    if (planes_.size() == 1) return "";
+    return plane == in_y ? ", bending along y" : ", bending along z";
   }
 
   template <class Scalar>
   Scalar evaluate(const Beam<Scalar>& beam, const SectionProperties<Scalar>&,
-                  const SectionForces<Scalar>& forces, int) const {
+                  const SectionForces<Scalar>& forces, int plane) const {
     constexpr double pi = std::numbers::pi;
     const Scalar length = beam.node_position(beam.node_count() - 1);
-    const Scalar euler = pi * pi * least_stiffness(beam) / (length * length);
+    const Scalar euler = pi * pi * least_stiffness(beam, plane) / (length * length);
     return -forces.axial / euler;
   }
 
  private:
   template <class Scalar>
-  Scalar least_stiffness(const Beam<Scalar>& beam) const {
+  static Scalar least_stiffness(const Beam<Scalar>& beam, int plane) {
     Scalar least(std::numeric_limits<double>::infinity());
-    const auto take = [&](const Scalar& stiffness) {
-      if (value_of(stiffness) < value_of(least)) least = stiffness;
-    };
     for (const BeamElement<Scalar>& element : beam.elements) {
-      if (bends_in_y_) take(Scalar(element.young * element.section.inertia_z));
-      if (bends_in_z_) take(Scalar(element.young * element.section.inertia_y));
+      const Scalar stiffness = element.young * inertia(element.section, plane);
+      if (value_of(stiffness) < value_of(least)) least = stiffness;
     }
     return least;
   }
 
-  bool bends_in_y_ = true, bends_in_z_ = true;
+  std::vector<int> planes_;
 };
 
 }  // namespace

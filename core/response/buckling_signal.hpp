@@ -10,10 +10,10 @@ namespace pleuel {
 /// Compressive axial force over the Euler load of the member as if pinned at both ends,
 ///     −N/P_E,   P_E = π² min(E I)/L²                                               [–]
 /// at every node and quarter point of its elements: 0.5 is a load factor of 2 against buckling.
-/// L is the length of the whole beam, E I the smallest bending stiffness of its sections: in motion
-/// in a plane for bending in that plane, in space for the weaker axis. That is safe for tapered
-/// members, and for members whose ends are held more firmly than by pins. Where two sections (or
-/// both axes of one) have the same E I, the response has a kink.
+/// L is the length of the whole beam, E I the smallest bending stiffness of its sections, about
+/// either axis, also where the motion is in a plane: a channel for each axis, so the larger counts.
+/// That is safe for tapered members, and for members whose ends are held more firmly than by pins.
+/// Where two sections (or both axes of one) have the same E I, the response has a kink.
 std::unique_ptr<Signal> make_buckling_signal(const BodyModel& body, const Eigen::Vector3d& gravity);
 
 }  // namespace pleuel

@@ -33,9 +33,12 @@ void set_mass(const ResponseSettings& settings, const Model& model, Response& re
 class ResponseMaker {
  public:
   /// @param norm  of the model; null without redundant constraints
-  ResponseMaker(const ResponseSettings& settings, const Model& model,
+  ResponseMaker(const ResponseSettings& settings, const Model& model, const Model& with_all_modes,
                 std::shared_ptr<LeastNorm> norm)
-      : settings_(settings), model_(model), norm_(std::move(norm)) {}
+      : settings_(settings),
+        model_(model),
+        with_all_modes_(with_all_modes),
+        norm_(std::move(norm)) {}
 
   Response make() {
     response_.name = settings_.name;
@@ -99,7 +102,7 @@ class ResponseMaker {
       response_.mechanism_mode = settings_.mode;
       return;
     }
-    const BodyModel& body = model_.body(settings_.bodies.front());
+    const BodyModel& body = with_all_modes_.body(settings_.bodies.front());
     const FrequencyWithDerivatives frequency = body_frequency(body, settings_.mode, variables());
     response_.constant = frequency.value;
     response_.constant_x = frequency.derivatives;
@@ -131,6 +134,7 @@ class ResponseMaker {
 
   const ResponseSettings& settings_;
   const Model& model_;
+  const Model& with_all_modes_;
   std::shared_ptr<LeastNorm> norm_;
   Response response_;
 };
@@ -139,13 +143,18 @@ class ResponseMaker {
 
 std::vector<Response> make_responses(const std::vector<ResponseSettings>& settings,
                                      const Model& model) {
+  return make_responses(settings, model, model);
+}
+
+std::vector<Response> make_responses(const std::vector<ResponseSettings>& settings,
+                                     const Model& model, const Model& with_all_modes) {
   std::shared_ptr<LeastNorm> norm;
   if (!model.mechanism.system->left_out().empty()) {
     norm = std::make_shared<LeastNorm>(model.mechanism);
   }
   std::vector<Response> responses;
   for (const ResponseSettings& setting : settings) {
-    responses.push_back(ResponseMaker(setting, model, norm).make());
+    responses.push_back(ResponseMaker(setting, model, with_all_modes, norm).make());
   }
   return responses;
 }

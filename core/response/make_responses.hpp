@@ -12,4 +12,8 @@ namespace pleuel {
 std::vector<Response> make_responses(const std::vector<ResponseSettings>& settings,
                                      const Model& model);
 
+/// The same with the natural frequencies of bodies from another model, that with all their modes.
+std::vector<Response> make_responses(const std::vector<ResponseSettings>& settings,
+                                     const Model& model, const Model& with_all_modes);
+
 }  // namespace pleuel

@@ -19,6 +19,8 @@ constexpr double shift_share = 1e-4;
 /// Below this share of σ a motion counts as free: its double eigenvalue 0 comes out of the solver
 /// as σ √(machine precision), some 1e-8 σ.
 constexpr double free_motion = 1e-4;
+/// What of a matrix counts as not symmetric.
+constexpr double asymmetry = 1e-10;
 
 /// Matrices on the free motions, with unit inertia.
 class FreeMotions {
@@ -90,15 +92,24 @@ Pencil pencil_at(const FrozenMechanism& frozen, std::complex<double> s) {
   return pencil;
 }
 
-Eigen::VectorXcd vibrations_of(const FrozenMechanism& frozen) {
-  const FreeMotions motions(frozen);
-  const Eigen::Index n = motions.count();
-  if (n == 0) return {};
-  const Eigen::MatrixXd gyroscopic = motions.project(frozen.G);
-  const double largest = std::max(std::sqrt(motions.project(frozen.K).norm()), gyroscopic.norm());
-  if (largest == 0.0) return {};
-  const double sigma = shift_share * largest;
-  const Eigen::MatrixXd flexibility = motions.flexibility(sigma);
+namespace {
+
+/// s of ω² = 1/θ − σ² for the eigenvalues θ of a symmetric F.
+Eigen::VectorXcd conservative_eigenvalues(const Eigen::MatrixXd& flexibility, double sigma) {
+  const Eigen::VectorXd theta =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 * (flexibility + flexibility.transpose()),
+                                                     Eigen::EigenvaluesOnly)
+          .eigenvalues();
+  Eigen::VectorXcd values(theta.size());
+  for (Eigen::Index i = 0; i < theta.size(); ++i) {
+    values(i) = std::sqrt(std::complex<double>(sigma * sigma - 1.0 / theta(i), 0.0));
+  }
+  return values;
+}
+
+Eigen::VectorXcd gyroscopic_eigenvalues(const Eigen::MatrixXd& flexibility,
+                                        const Eigen::MatrixXd& gyroscopic, double sigma) {
+  const Eigen::Index n = flexibility.rows();
   Eigen::MatrixXd inverse(2 * n, 2 * n);
   inverse.topLeftCorner(n, n) =
       -flexibility * (gyroscopic + sigma * Eigen::MatrixXd::Identity(n, n));
@@ -106,20 +117,49 @@ Eigen::VectorXcd vibrations_of(const FrozenMechanism& frozen) {
   inverse.bottomLeftCorner(n, n).diagonal().array() += 1.0 / sigma;
   inverse.topRightCorner(n, n) = -sigma * flexibility;
   inverse.bottomRightCorner(n, n) = -sigma * flexibility;
-  const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(inverse, false).eigenvalues();
-  std::vector<std::complex<double>> vibrations;
-  for (const std::complex<double>& theta : values) {
-    const std::complex<double> s = sigma + 1.0 / theta;
-    if (s.imag() > free_motion * sigma) vibrations.push_back(s);
+  const Eigen::VectorXcd theta = Eigen::EigenSolver<Eigen::MatrixXd>(inverse, false).eigenvalues();
+  return sigma + theta.array().inverse();
+}
+
+bool is_symmetric(const Eigen::MatrixXd& matrix) {
+  return (matrix - matrix.transpose()).norm() <= asymmetry * matrix.norm();
+}
+
+}  // namespace
+
+Eigen::VectorXcd modes_of(const FrozenMechanism& frozen) {
+  const FreeMotions motions(frozen);
+  if (motions.count() == 0) return {};
+  const Eigen::MatrixXd gyroscopic = motions.project(frozen.G),
+                        stiffness = motions.project(frozen.K);
+  const double largest = std::max(std::sqrt(stiffness.norm()), gyroscopic.norm());
+  if (largest == 0.0) return {};
+  const double sigma = shift_share * largest;
+  const Eigen::MatrixXd flexibility = motions.flexibility(sigma);
+  const bool is_conservative = gyroscopic.isZero(0.0) && is_symmetric(stiffness);
+  const Eigen::VectorXcd values = is_conservative
+                                      ? conservative_eigenvalues(flexibility, sigma)
+                                      : gyroscopic_eigenvalues(flexibility, gyroscopic, sigma);
+  std::vector<std::complex<double>> modes;
+  for (const std::complex<double>& s : values) {
+    const bool vibrates = s.imag() > free_motion * sigma;
+    const bool grows = s.real() > free_motion * sigma && std::abs(s.imag()) <= free_motion * sigma;
+    if (vibrates || grows) modes.push_back(s);
   }
-  std::sort(vibrations.begin(), vibrations.end(),
-            [](const auto& a, const auto& b) { return a.imag() < b.imag(); });
-  return Eigen::Map<Eigen::VectorXcd>(vibrations.data(),
-                                      static_cast<Eigen::Index>(vibrations.size()));
+  std::sort(modes.begin(), modes.end(),
+            [](const auto& a, const auto& b) { return frequency_of(a) < frequency_of(b); });
+  return Eigen::Map<Eigen::VectorXcd>(modes.data(), static_cast<Eigen::Index>(modes.size()));
+}
+
+double frequency_of(std::complex<double> s) {
+  return s.imag() > 1e-8 * std::abs(s) ? s.imag() : -s.real();
 }
 
 Eigen::VectorXd mechanism_frequencies(const Mechanism& mechanism, const State& state) {
-  return vibrations_of(freeze(mechanism, state)).imag();
+  const Eigen::VectorXcd modes = modes_of(freeze(mechanism, state));
+  Eigen::VectorXd frequencies(modes.size());
+  for (Eigen::Index i = 0; i < modes.size(); ++i) frequencies(i) = frequency_of(modes(i));
+  return frequencies;
 }
 
 }  // namespace pleuel

@@ -27,20 +27,26 @@ struct Pencil {
 };
 Pencil pencil_at(const FrozenMechanism& frozen, std::complex<double> s);
 
-/// Eigenvalues s of the vibrations, those with positive imaginary part ω, the natural angular
-/// frequency [rad/s]; ascending in it. Their real part vanishes in equilibrium; about a motion,
-/// where K is not symmetric, they may grow or decay. On the free motions y = Z z (Φ_q Z = 0,
-/// Zᵀ M Z = 1) with F = (σ² + σ G + K)⁻¹ the eigenvalues θ = 1/(s − σ) are those of
+/// Eigenvalues s of the modes: first the motions that grow without vibrating, s real and positive,
+/// the fastest first; then the vibrations, those with positive imaginary part ω, the natural
+/// angular frequency [rad/s], ascending in it. Their real part vanishes in equilibrium; about a
+/// motion, where K is not symmetric, they may grow or decay. On the free motions y = Z z (Φ_q Z =
+/// 0, Zᵀ M Z = 1) with F = (σ² + σ G + K)⁻¹ the eigenvalues θ = 1/(s − σ) are those of
 ///     [ −F (G + σ)  −σF ; −F (G + σ) + 1/σ  −σF ]
 /// The inverse, taken from the pencil, keeps low frequencies exact beside high ones: in K itself
-/// they are below round-off. σ is 1e-4 of the largest frequency. Free motions without stiffness
-/// (|ω| < 1e-4 σ) and unstable ones have no frequency.
+/// they are below round-off. σ is 1e-4 of the largest frequency. Without gyroscopic forces, where K
+/// is symmetric, the eigenvalues 1/(σ² + ω²) of F itself are enough. Free motions without stiffness
+/// (|s| < 1e-4 σ) are not among the modes.
 /// @throws SimulationError if a free motion has no inertia
-Eigen::VectorXcd vibrations_of(const FrozenMechanism& frozen);
+Eigen::VectorXcd modes_of(const FrozenMechanism& frozen);
 
-/// Natural angular frequencies of a mechanism about a state [rad/s], ascending: drives and joints
-/// hold, loads and gravity count. Exact for a mechanism at rest in equilibrium; about a motion, an
-/// approximation for frequencies that are high against its rates, since coefficients are frozen.
+/// The natural angular frequency of a mode [rad/s]; of a motion that grows as exp(γt) it is −γ.
+double frequency_of(std::complex<double> s);
+
+/// Natural angular frequencies of a mechanism about a state [rad/s], ascending, unstable modes
+/// first and negative: drives and joints hold, loads and gravity count. Exact for a mechanism at
+/// rest in equilibrium; about a motion, an approximation for frequencies that are high against its
+/// rates, since coefficients are frozen.
 Eigen::VectorXd mechanism_frequencies(const Mechanism& mechanism, const State& state);
 
 }  // namespace pleuel

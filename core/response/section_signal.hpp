@@ -45,7 +45,11 @@ class SectionSignal final : public BodySignal<SectionSignal<Quantity>> {
   std::string describe(int channel) const override {
     const Channel& c = channels_[static_cast<std::size_t>(channel)];
     const Station& station = stations_[static_cast<std::size_t>(c.station)];
-    if (c.point < 0) return fmt::format("node {}", station.place);
+    if (c.point < 0) {
+      std::string what;
+      if constexpr (requires { quantity_.name(c.point); }) what = quantity_.name(c.point);
+      return fmt::format("node {}{}", station.place, what);
+    }
     const auto& point =
         section_of(this->body().beam, c.station).points[static_cast<std::size_t>(c.point)];
     return fmt::format("node {}, y = {:.4g} m, z = {:.4g} m", station.place, point.y, point.z);

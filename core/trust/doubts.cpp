@@ -6,6 +6,8 @@
 #include "core/trust/bending_range.hpp"
 #include "core/trust/energy_balance.hpp"
 #include "core/trust/fast_laws.hpp"
+#include "core/trust/frequency_meaning.hpp"
+#include "core/trust/sideways_buckling.hpp"
 
 namespace pleuel {
 
@@ -22,7 +24,8 @@ std::vector<Doubt> find_doubts_before(const ProblemFile& problem) {
 
 std::vector<Doubt> find_doubts(const TrustedRun& run) {
   std::vector<Doubt> doubts = find_doubts_before(run.problem);
-  for (const auto find : {doubt_bending_range, doubt_energy_balance, doubt_fast_laws}) {
+  for (const auto find : {doubt_bending_range, doubt_energy_balance, doubt_fast_laws,
+                          doubt_frequencies, doubt_sideways_buckling}) {
     const std::vector<Doubt> found = find(run);
     doubts.insert(doubts.end(), found.begin(), found.end());
   }

@@ -1,0 +1,108 @@
+#include "core/trust/frequency_meaning.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "core/response/full_mechanism.hpp"
+#include "core/response/mechanism_modes.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Relative change of a frequency by the stress of the start that is worth a word.
+constexpr double small_change = 1e-2;
+
+std::vector<const Response*> frequencies_of_mechanism(const TrustedRun& run) {
+  std::vector<const Response*> found;
+  for (const Response& response : run.analysis.responses) {
+    if (response.mechanism_mode) found.push_back(&response);
+  }
+  return found;
+}
+
+std::vector<std::string> names_of(const std::vector<const Response*>& responses) {
+  std::vector<std::string> names;
+  for (const Response* response : responses) names.push_back(response->name);
+  return names;
+}
+
+void add_unstable(const TrustedRun& run, const std::vector<const Response*>& responses,
+                  std::vector<Doubt>& doubts) {
+  const Eigen::VectorXd& all = run.analysis.mechanism_frequencies;
+  const auto count = (all.array() < 0.0).count();
+  if (count == 0) return;
+  doubts.push_back({fmt::format("the mechanism is unstable where it starts: its first {} grow{} as "
+                                "exp({:.4g} t) without vibrating; the frequency of such a mode is "
+                                "given as a negative number.",
+                                count == 1 ? "mode" : fmt::format("{} modes", count),
+                                count == 1 ? "s" : "", -all(0)),
+                    false, names_of(responses)});
+}
+
+/// Frequencies of the same mechanism whose members are in equilibrium with the motion.
+Eigen::VectorXd stressed_frequencies(const TrustedRun& run) {
+  ProblemFile problem = run.problem;
+  problem.simulation.quasi_static_start = true;
+  const Eigen::VectorXd start = start_design(problem);
+  const auto full = make_full_mechanism(problem, Design<double>(start.begin(), start.end()),
+                                        Design<double>(run.x.begin(), run.x.end()));
+  return mechanism_frequencies(full->model.mechanism, full->initial->state);
+}
+
+void add_missing_stress(const TrustedRun& run, const std::vector<const Response*>& responses,
+                        std::vector<Doubt>& doubts) {
+  const Mechanism& mechanism = run.analysis.model.mechanism;
+  if (run.problem.simulation.quasi_static_start || mechanism.elastic.empty()) return;
+  if (!run.analysis.modes_left_out.empty()) return;
+  State state;
+  run.analysis.trajectory.load(0, state);
+  if (state.v.isZero(0.0) && state.a.isZero(0.0)) return;
+  Eigen::VectorXd stressed;
+  try {
+    stressed = stressed_frequencies(run);
+  } catch (const SimulationError& error) {
+    doubts.push_back({fmt::format("natural frequencies are those of undeformed members; under the "
+                                  "motion and the loads at t = 0 they would be stressed, and with "
+                                  "that: {}",
+                                  error.what()),
+                      false, names_of(responses)});
+    return;
+  }
+  for (const Response* response : responses) {
+    const int mode = *response->mechanism_mode;
+    if (mode >= stressed.size()) continue;
+    const double change = std::abs(stressed(mode) - response->constant);
+    if (change <= small_change * std::abs(response->constant)) continue;
+    doubts.push_back(
+        {fmt::format("the frequency \"{}\" is {:.5g} rad/s for members that start undeformed; the "
+                     "stress of the motion and the loads at t = 0 is missing in it, with which it "
+                     "is {:.5g} rad/s: /simulation/initial_state \"quasi-static\" has it.",
+                     response->name, response->constant, stressed(mode)),
+         false,
+         {response->name}});
+  }
+}
+
+}  // namespace
+
+std::vector<Doubt> doubt_frequencies(const TrustedRun& run) {
+  std::vector<Doubt> doubts;
+  if (!run.analysis.modes_left_out.empty()) {
+    doubts.push_back(
+        {fmt::format("natural frequencies are those of the motion in the plane and of "
+                     "what effects leave in it only, as the mechanism cannot be "
+                     "started in space: {}",
+                     run.analysis.modes_left_out)});
+  }
+  const std::vector<const Response*> responses = frequencies_of_mechanism(run);
+  if (responses.empty()) return doubts;
+  add_unstable(run, responses, doubts);
+  add_missing_stress(run, responses, doubts);
+  return doubts;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,157 @@
+#include "core/integration/elastic_stability.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/error.hpp"
+#include "core/response/analysis.hpp"
+#include "core/scene/problem_reader.hpp"
+
+/// Starts from elastic equilibrium: those that have to be found, and those that do not exist.
+namespace {
+
+using namespace pleuel;
+using testing::HasSubstr;
+
+constexpr double young = 2.1e11, width = 0.02, height = 0.002;
+const double stiffness = young * width * std::pow(height, 3) / 12;  // length 1
+
+std::string joint(const std::string& name, const std::string& type, double x,
+                  const std::string& axis = "") {
+  return fmt::format(R"("{}": {{"type": "{}", "bodies": ["ground", "b"], "at": [{}, 0, 0]{}}})",
+                     name, type, x, axis.empty() ? "" : ", \"axis\": " + axis);
+}
+
+/// One beam along x, thin in the plane; loads in the plane at its end.
+std::string beam(const std::string& joints, double axial, double transverse, int elements = 8,
+                 const std::string& effects = "{}", const std::string& frame = "tangent") {
+  return fmt::format(R"({{"scene": {{
+      "materials": {{"m": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
+      "bodies": {{"b": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "m",
+                       "section": {{"type": "rectangle", "width": 0.02, "height": 0.002}},
+                       "elements": {}, "frame": "{}"}}}},
+      "joints": {{{}}},
+      "loads": {{"n": {{"type": "force", "body": "b", "at": [1, 0, 0], "direction": [1, 0, 0],
+                      "value": {}}},
+               "p": {{"type": "force", "body": "b", "at": [1, 0, 0], "direction": [0, 1, 0],
+                     "value": {}}}}}}},
+      "effects": {},
+      "simulation": {{"end_time": 0.001, "step": 0.001, "initial_state": "quasi-static"}},
+      "responses": {{
+        "x": {{"type": "position", "body": "b", "at": 1, "direction": "x", "over_time": "final"}},
+        "y": {{"type": "position", "body": "b", "at": 1, "direction": "y", "over_time": "final"}}}}}})",
+                     elements, frame, joints, axial, transverse, effects);
+}
+
+/// Tip x and y where the motion begins.
+Eigen::Vector2d tip(const std::string& text) {
+  const ProblemFile problem = read_problem_text(text, "a.json");
+  const auto analysis = analyze(problem, start_design(problem));
+  return {analysis->histories[0](0, 0), analysis->histories[1](0, 0)};
+}
+
+std::string error_of(const std::string& text) {
+  try {
+    tip(text);
+  } catch (const SimulationError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+const std::string clamp = joint("c", "fixed", 0);
+
+/// The elastica of BENCHMARKS for α = PL²/EI = 0.25: 0.0827459 of deflection, 0.0041178 of
+/// shortening. The model is linear in bending: its error is α²-small, some 1 %.
+TEST(QuasiStaticStart, OfABentCantileverIsNearTheElastica) {
+  const Eigen::Vector2d found = tip(beam(clamp, 0.0, 0.25 * stiffness));
+  EXPECT_NEAR(found(1) / 0.0827459154, 1.0, 0.01);
+  EXPECT_NEAR((1.0 - found(0)) / 0.0041178184, 1.0, 0.03);
+}
+
+/// PL³/3EI up to rotations where linear bending is wrong: it is found and left to warnings. The tip
+/// falls by ∫½v'² = P²L⁵/15 (EI)²; axial strain is 1e-9.
+TEST(QuasiStaticStart, IsFoundForLargeBending) {
+  for (double alpha : {0.1, 0.5, 1.0}) {
+    for (int elements : {4, 32}) {
+      const Eigen::Vector2d found = tip(beam(clamp, 0.0, alpha * stiffness, elements));
+      EXPECT_NEAR(found(1) / (alpha / 3.0), 1.0, 1e-5) << alpha;
+      EXPECT_NEAR((1.0 - found(0)) / (alpha * alpha / 15.0), 1.0, 1e-2) << alpha;
+    }
+  }
+}
+
+/// Round-off grows with the fourth power of the number of elements: some 1e-6 here.
+TEST(QuasiStaticStart, IsFoundForFineMeshes) {
+  for (int elements : {96, 160}) {
+    const Eigen::Vector2d found = tip(beam(clamp, -2.0, 0.1 * stiffness, elements));
+    const double k = std::sqrt(2.0 / stiffness);  // beam-column: v = P (tan kL − kL)/(N k)
+    const double expected = 0.1 * stiffness * (std::tan(k) - k) / (2.0 * k);
+    EXPECT_NEAR(found(1) / expected, 1.0, 1e-5) << elements;
+  }
+}
+
+/// Both ends held lengthwise: each of two clamped members carries half of the force, PL³/6EI.
+TEST(QuasiStaticStart, OfClampedMembersCoupledAtTheirTipsIsFound) {
+  for (const char* type : {"point-on-line", "revolute"}) {
+    const std::string text = fmt::format(
+        R"({{"scene": {{
+      "materials": {{"m": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
+      "bodies": {{
+        "one": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "m",
+                "section": {{"type": "rectangle", "width": 0.02, "height": 0.03}}, "elements": 3}},
+        "two": {{"type": "beam", "from": [2, 0, 0], "to": [1, 0, 0], "material": "m",
+                "section": {{"type": "rectangle", "width": 0.02, "height": 0.03}}, "elements": 3}}}},
+      "joints": {{"a": {{"type": "fixed", "bodies": ["ground", "one"], "at": [0, 0, 0]}},
+                "b": {{"type": "fixed", "bodies": ["ground", "two"], "at": [2, 0, 0]}},
+                "link": {{"type": "{}", "bodies": ["one", "two"], "at": [1, 0, 0], "axis": [{}]}}}},
+      "loads": {{"f": {{"type": "force", "body": "one", "at": [1, 0, 0], "direction": [0, -1, 0],
+                      "value": 10}}}}}},
+      "simulation": {{"end_time": 0.001, "step": 0.001, "initial_state": "quasi-static"}},
+      "responses": {{"x": {{"type": "mass"}}, "y": {{"type": "position", "body": "one", "at": 1,
+                                                "direction": "y", "over_time": "max-abs"}}}}}})",
+        type, std::string(type) == "revolute" ? "0, 0, 1" : "1, 0, 0");
+    const ProblemFile problem = read_problem_text(text, "a.json");
+    const auto analysis = analyze(problem, start_design(problem));
+    const double inertia = 0.02 * std::pow(0.03, 3) / 12;
+    EXPECT_NEAR(analysis->reductions[1].value * 6 * young * inertia / 10.0, 1.0, 1e-4) << type;
+  }
+}
+
+/// Columns beyond their Euler loads by 1.3 in the plane: 1/1.3 of the loads is what they bear.
+TEST(QuasiStaticStart, RefusesColumnsBeyondTheirEulerLoad) {
+  const double unit = std::pow(std::numbers::pi, 2) * stiffness;
+  struct Case {
+    std::string name, joints, frame;
+    double load;
+  };
+  const std::string guide = joint("g", "point-on-line", 1, "[1, 0, 0]");
+  for (const Case& column :
+       {Case{"free", clamp, "tangent", unit / 4},
+        Case{"pinned", joint("p", "revolute", 0) + "," + guide, "chord", unit},
+        Case{"clamped and pinned", clamp + "," + guide, "tangent", 2.045748 * unit}}) {
+    for (const char* effects : {"{}", R"({"spatial_motion": "on"})"}) {
+      EXPECT_EQ(error_of(beam(column.joints, -0.9 * column.load, 0.0, 8, effects, column.frame)),
+                "")
+          << column.name << effects;
+      const std::string error =
+          error_of(beam(column.joints, -1.3 * column.load, 0.0, 8, effects, column.frame));
+      EXPECT_THAT(error, HasSubstr("is unstable")) << column.name << effects;
+      EXPECT_THAT(error, HasSubstr("the body \"b\" buckles, at some 0.769 of these loads"));
+    }
+    const std::string bent =
+        error_of(beam(column.joints, -1.3 * column.load, 1e-3, 8, "{}", column.frame));
+    EXPECT_THAT(bent, HasSubstr("0.769")) << "with a force across: " << column.name;
+  }
+}
+
+/// What is not held may fall as it likes: a pendulum upside down has no equilibrium, its beam has.
+TEST(QuasiStaticStart, LeavesMotionsOfTheWholeMechanismAlone) {
+  EXPECT_EQ(error_of(beam(joint("p", "revolute", 0), -0.01 * stiffness, 0.0)), "");
+}
+
+}  // namespace
