@@ -26,10 +26,16 @@ constexpr double asymmetry = 1e-10;
 class FreeMotions {
  public:
   explicit FreeMotions(const FrozenMechanism& frozen) : frozen_(frozen), n_(frozen.M.rows()) {
-    const Eigen::Index m = frozen.phi.rows();
+    std::vector<Eigen::Index> rows;
+    for (int i = 0; i < static_cast<int>(frozen.phi.rows()); ++i) {
+      const auto& without = frozen.left_out;
+      if (std::find(without.begin(), without.end(), i) == without.end()) rows.push_back(i);
+    }
+    const auto m = static_cast<Eigen::Index>(rows.size());
     null_space_ = Eigen::MatrixXd::Identity(n_, n_).rightCols(n_ - m);
     if (m > 0) {
-      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(frozen.phi.transpose());
+      const Eigen::MatrixXd phi = frozen.phi(rows, Eigen::all);
+      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(phi.transpose());
       null_space_ = qr.householderQ() * null_space_;
     }
     mass_.compute(null_space_.transpose() * frozen.M * null_space_);
@@ -77,6 +83,7 @@ FrozenMechanism freeze(const Mechanism& mechanism, const State& state) {
   frozen.G = 0.5 * (damping.topLeftCorner(n, n) - damping.topLeftCorner(n, n).transpose());
   frozen.K = stiffness.topLeftCorner(n, n);
   frozen.phi = stiffness.bottomLeftCorner(m, n);
+  frozen.left_out = system.left_out();
   return frozen;
 }
 
@@ -89,6 +96,7 @@ Pencil pencil_at(const FrozenMechanism& frozen, std::complex<double> s) {
   pencil.matrix.topLeftCorner(n, n) = s * s * frozen.M + s * frozen.G + frozen.K;
   pencil.matrix.topRightCorner(n, m) = pencil.kappa * frozen.phi.transpose();
   pencil.matrix.bottomLeftCorner(m, n) = pencil.kappa * frozen.phi;
+  for (int i : frozen.left_out) pencil.matrix(n + i, n + i) = pencil.kappa;
   return pencil;
 }
 
@@ -140,6 +148,9 @@ Eigen::VectorXcd modes_of(const FrozenMechanism& frozen) {
   const Eigen::VectorXcd values = is_conservative
                                       ? conservative_eigenvalues(flexibility, sigma)
                                       : gyroscopic_eigenvalues(flexibility, gyroscopic, sigma);
+  if (!values.array().isFinite().all()) {
+    throw SimulationError("the natural frequencies do not exist: the equations are singular");
+  }
   std::vector<std::complex<double>> modes;
   for (const std::complex<double>& s : values) {
     const bool vibrates = s.imag() > free_motion * sigma;

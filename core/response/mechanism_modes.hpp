@@ -1,6 +1,7 @@
 #pragma once
 
 #include <complex>
+#include <vector>
 
 #include "core/integration/mechanism.hpp"
 
@@ -15,6 +16,8 @@ namespace pleuel {
 struct FrozenMechanism {
   Eigen::MatrixXd M, G, K;  ///< n × n
   Eigen::MatrixXd phi;      ///< Φ_q, m × n
+  /// Rows of Φ_q that follow from the others: they are zero, and so are their multipliers.
+  std::vector<int> left_out;
 };
 
 FrozenMechanism freeze(const Mechanism& mechanism, const State& state);
@@ -37,7 +40,7 @@ Pencil pencil_at(const FrozenMechanism& frozen, std::complex<double> s);
 /// they are below round-off. σ is 1e-4 of the largest frequency. Without gyroscopic forces, where K
 /// is symmetric, the eigenvalues 1/(σ² + ω²) of F itself are enough. Free motions without stiffness
 /// (|s| < 1e-4 σ) are not among the modes.
-/// @throws SimulationError if a free motion has no inertia
+/// @throws SimulationError if a free motion has no inertia, or if it has neither that nor stiffness
 Eigen::VectorXcd modes_of(const FrozenMechanism& frozen);
 
 /// The natural angular frequency of a mode [rad/s]; of a motion that grows as exp(γt) it is −γ.

@@ -216,4 +216,15 @@ TEST(FrequencyOfAMechanism, OfARotatingBeamSaysThatTheStressIsMissing) {
   EXPECT_FALSE(mentions_stress(doubts_of(rotating("quasi-static"))));
 }
 
+/// A clamp that is there twice holds as once.
+TEST(FrequencyOfAMechanism, IsThatWithoutItsRedundantConstraints) {
+  const std::string once = cantilever(rectangle, "{}", 3);
+  std::string twice = once;
+  const std::string joints = R"("joints": {)";
+  twice.insert(twice.find(joints) + joints.size(),
+               R"("again": {"type": "revolute", "bodies": ["ground", "b"], "at": [0, 0, 0]},)");
+  const Eigen::VectorXd expected = values(once), found = values(twice);
+  EXPECT_LE((found.array() / expected.array() - 1.0).abs().maxCoeff(), 1e-7);
+}
+
 }  // namespace
