@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/shown_unit.hpp"
+#include "cli/variable_quantity.hpp"
 #include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/text_file.hpp"
 
@@ -23,13 +23,23 @@ void check_names(const JsonNode& variables, const ProblemFile& problem) {
   }
 }
 
-double read_value(const JsonNode& node, const DesignVariable& variable, const ShownUnit& unit) {
-  const auto written = node.find("unit");
-  if (written && written->text() != unit.si) {
-    written->fail_with_value(fmt::format("must be \"{}\" as in the problem", unit.si));
+/// A number in the unit that stands beside it, by default SI; or a text with unit.
+double read_number(const JsonNode& node, const JsonNode& value, const UnitSystem& units,
+                   const Quantity& quantity) {
+  const auto unit = node.find("unit");
+  const JsonNode& written = value.value().is_string() || !unit ? value : *unit;
+  try {
+    if (value.value().is_string()) return units.read(value.text(), quantity);
+    return value.number() * (unit ? units.scale(unit->text(), quantity) : 1.0);
+  } catch (const UnitError& error) {
+    written.fail_with_value("must be " + describe(quantity), fmt::format(": {}", error.what()));
   }
+}
+
+double read_value(const JsonNode& node, const DesignVariable& variable, const UnitSystem& units,
+                  const Quantity& quantity) {
   const JsonNode value = node.at("value");
-  const double x = value.number();
+  const double x = read_number(node, value, units, quantity);
   if (x < variable.lower || x > variable.upper) {
     value.fail_with_value(
         fmt::format("must lie within the bounds of {:g} to {:g}", variable.lower, variable.upper));
@@ -45,11 +55,12 @@ Eigen::VectorXd read_design(const std::filesystem::path& path, const ProblemFile
   const JsonNode root(document, file, "", "the design");
   const JsonNode variables = root.at("variables");
   check_names(variables, problem);
-  const std::vector<ShownUnit> units = variable_units(problem);
+  const UnitSystem units;
   Eigen::VectorXd x(static_cast<Eigen::Index>(problem.variables.size()));
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     const DesignVariable& variable = problem.variables[i];
-    x(static_cast<Eigen::Index>(i)) = read_value(variables.at(variable.name), variable, units[i]);
+    x(static_cast<Eigen::Index>(i)) = read_value(variables.at(variable.name), variable, units,
+                                                 variable_quantity(problem, static_cast<int>(i)));
   }
   return x;
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <new>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -79,6 +80,11 @@ int guarded_main(int argc, const char* const* argv) {
     return report(ExitCode::simulation_failed, error.what());
   } catch (const Stopped&) {
     return report(ExitCode::not_verified, "interrupted before there was any result");
+  } catch (const std::bad_alloc&) {
+    return report(ExitCode::bad_input,
+                  "the memory of the machine is used up: take a longer /simulation/step or a "
+                  "shorter /simulation/end_time, a smaller /sensitivity/memory (then stretches are "
+                  "simulated again), or fewer --jobs");
   } catch (const std::exception& error) {
     return report(ExitCode::fault,
                   fmt::format("{} (this is a fault of the program)", error.what()));

@@ -22,6 +22,12 @@ struct Optimum {
   std::optional<GradientChoice> method;  ///< of the gradients; none if there was none
 
   bool has_design() const { return result.evaluation.has_gradients(); }
+
+  /// Where the search began: that of the file, unless another design was given.
+  double start(std::size_t variable) const {
+    return result.history.empty() ? problem.variables[variable].start
+                                  : result.history.front().x(static_cast<Eigen::Index>(variable));
+  }
 };
 
 /// The limit of a constraint that is nearer to its value, and how much of it is used.

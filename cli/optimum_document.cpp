@@ -54,6 +54,9 @@ Json optimum_document(const Optimum& optimum) {
                    {"objective", objective_document(optimum)},
                    {"variables", variables_document(optimum.problem, result.x)},
                    {"constraints", Json::object()}};
+  for (std::size_t i = 0; i < optimum.problem.variables.size(); ++i) {
+    document["variables"][optimum.problem.variables[i].name]["start"] = optimum.start(i);
+  }
   if (optimum.has_design()) {
     for (std::size_t i = 0; i < optimum.problem.constraints.size(); ++i) {
       document["constraints"][optimum.problem.constraints[i].name] =

@@ -59,7 +59,7 @@ std::string variables_text(const Optimum& optimum) {
     const DesignVariable& variable = optimum.problem.variables[i];
     const ShownUnit& unit = units[i];
     const double value = optimum.result.x(static_cast<Eigen::Index>(i));
-    table.add_row({variable.name, significant(unit.shown(variable.start)),
+    table.add_row({variable.name, significant(unit.shown(optimum.start(i))),
                    significant(unit.shown(value)), significant(unit.shown(variable.lower)),
                    significant(unit.shown(variable.upper)), unit.name,
                    bound_mark(variable, value)});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <stdexcept>
 
 #include "cli/variable_quantity.hpp"
@@ -37,6 +38,7 @@ std::vector<ShownUnit> variable_units(const ProblemFile& problem) {
 }
 
 ShownUnit unit_of(const ResponseSettings& response) {
+  if (response.type == ResponseType::frequency) return {"rad/s", "Hz", 2.0 * std::numbers::pi};
   return engineering_unit(quantity_of(response).unit);
 }
 

@@ -2,6 +2,7 @@
 
 #include "cli/analysis_report.hpp"
 #include "cli/commands.hpp"
+#include "cli/limits_report.hpp"
 #include "cli/monitors_report.hpp"
 #include "cli/number_text.hpp"
 #include "cli/problem_input.hpp"
@@ -54,12 +55,12 @@ double largest_step(const Trajectory& trajectory) {
 
 /// @param design  where it comes from, if it is not the start
 std::string simulation_text(const ProblemFile& problem, const std::string& design,
-                            const Simulated& run) {
+                            const Eigen::VectorXd& x, const Simulated& run) {
   const Analysis& analysis = run.analysis;
   const Trajectory& trajectory = analysis.trajectory;
   std::string text =
       fmt::format("{}{}: {}\n\n{}\n{}", problem.name, design, size_text(analysis),
-                  responses_text(problem, analysis),
+                  responses_text(problem, analysis) + limits_text(problem, x, analysis),
                   monitors_text(run.monitors, analysis.model.mechanism.system->multipliers()) +
                       assembly_text(analysis) + warnings_text(run.warnings));
   if (trajectory.split_steps > 0) {
@@ -93,9 +94,10 @@ Outcome run_simulate(const Arguments& arguments) {
   record.begin_phase("write");
   const std::string design = arguments.design ? " at " + arguments.design->string() : "";
   Outcome outcome{ExitCode::done, simulation_document(run),
-                  simulation_text(input.problem, design, run)};
+                  simulation_text(input.problem, design, input.design, run)};
   outcome.text += fmt::format("Written to {}: trajectory.csv, result.json, run_card.json\n",
                               record.folder().string());
+  outcome.document["constraints"] = limits_document(input.problem, input.design, *analysis);
   record.write("result.json", outcome.document);
   write_trajectory(record.result("trajectory.csv"), *analysis);
   record.finish(outcome);

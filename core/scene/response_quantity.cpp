@@ -1,5 +1,7 @@
 #include "core/scene/response_quantity.hpp"
 
+#include "core/scene/frequency_quantity.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -25,7 +27,7 @@ Quantity instant_quantity(const ResponseSettings& response) {
     case ResponseType::reaction_force:
       return quantities::force;
     case ResponseType::frequency:
-      return quantities::angular_speed;
+      return quantities::angular_frequency;
     case ResponseType::buckling:
     case ResponseType::constraint_drift:
       return quantities::pure_number;

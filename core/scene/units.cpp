@@ -3,11 +3,14 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <udunits2.h>
+
+#include "core/scene/frequency_quantity.hpp"
 
 namespace pleuel {
 namespace {
@@ -93,6 +96,20 @@ bool has_angle(const ut_unit* unit) {
          std::string_view::npos;
 }
 
+/// Of a frequency both cycles and radians are units; "1/s" could be either of them.
+bool counts_cycles(const std::string& name) {
+  return name.ends_with("Hz") || name.ends_with("hertz");
+}
+
+double cycles_factor(const std::string& name, const Quantity& quantity, const ut_unit* from) {
+  const auto is = [&quantity](const Quantity& other) {
+    return quantity.name == other.name && quantity.unit == other.unit;
+  };
+  if (is(quantities::angular_frequency) && counts_cycles(name)) return 2.0 * std::numbers::pi;
+  const bool asks_for_cycles = is(quantities::frequency);
+  return asks_for_cycles && has_angle(from) ? 0.5 / std::numbers::pi : 1.0;
+}
+
 void check_dimension(const std::string& name, const ut_unit* from, const ut_unit* to) {
   const bool has_right_dimension = to != nullptr && ut_are_convertible(from, to) != 0;
   if (has_right_dimension && has_angle(to) && !has_angle(from)) {
@@ -144,8 +161,11 @@ double UnitSystem::scale(const std::string& unit, const Quantity& quantity) cons
       has_stray_number(name) ? nullptr : parse_unit(database_->system.get(), name);
   if (!from) throw UnitError(fmt::format("\"{}\" is not a known unit", name));
   const UnitHandle to = parse_unit(database_->system.get(), std::string(quantity.unit));
-  check_dimension(name, from.get(), to.get());
-  return proportional_factor(name, from.get(), to.get());
+  const double cycles = cycles_factor(name, quantity, from.get());
+  if (cycles == 1.0 || ut_are_convertible(from.get(), to.get()) == 0) {
+    check_dimension(name, from.get(), to.get());
+  }
+  return cycles * proportional_factor(name, from.get(), to.get());
 }
 
 double UnitSystem::read(const std::string& text, const Quantity& quantity) const {

@@ -113,13 +113,30 @@ TEST_F(WrongDesign, IsRefusedWithFileAndPlace) {
       "\"crank_length\"?");
   expect_complaint(R"({"variables": {"crank_length": {"start": 0.05}}})",
                    "/variables/crank_length is missing the key \"value\"");
-  expect_complaint(R"({"variables": {"crank_length": {"value": "50 mm"}}})",
-                   "/variables/crank_length/value must be a number, got \"50 mm\"");
-  expect_complaint(R"({"variables": {"crank_length": {"value": 50, "unit": "mm"}}})",
-                   "/variables/crank_length/unit must be \"m\" as in the problem, got \"mm\"");
+  expect_complaint(R"({"variables": {"crank_length": {"value": "50 kg"}}})",
+                   "/variables/crank_length/value must be a length [m], got \"50 kg\": \"kg\" "
+                   "measures something else");
+  expect_complaint(R"({"variables": {"crank_length": {"value": 50, "unit": "s"}}})",
+                   "/variables/crank_length/unit must be a length [m], got \"s\": \"s\" measures "
+                   "something else");
   expect_complaint(R"({"variables": {"crank_length": {"value": 0.2}}})",
                    "/variables/crank_length/value must lie within the bounds of 0.02 to 0.15, "
                    "got 0.2");
+}
+
+TEST_F(FailedDesign, MayBeWrittenByHandInAnyUnit) {
+  const auto responses = [&](const std::string& design) {
+    std::ofstream(folder_.path() / "design.json") << design;
+    return run_program(folder_.path(), {"simulate", problem("hard/impossible_designs"), "--design",
+                                        "design.json", "--json"})
+        .document()
+        .at("responses");
+  };
+  const nlohmann::json si = responses(
+      R"({"variables": {"crank_length": {"value": 0.05}, "rod_height": {"value": 0.02}}})");
+  EXPECT_EQ(responses(R"({"variables": {"crank_length": {"value": "50 mm"},
+                                        "rod_height": {"value": 2, "unit": "cm"}}})"),
+            si);
 }
 
 TEST_F(WrongDesign, ThatIsNotThereIsNamed) {

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -95,6 +97,37 @@ TEST_F(Interrupted, CheckTellsTheDesign) {
   const nlohmann::json document = nlohmann::json::parse(out());
   EXPECT_EQ(document.at("status"), "interrupted");
   EXPECT_TRUE(document.at("responses").at("rod_bow").contains("value"));
+}
+
+/// The best of what was evaluated: the lightest within the limits, else the one nearest to them.
+TEST_F(Interrupted, OptimizationKeepsItsBestDesignNotItsLast) {
+  const std::string path = folder_.path().string();
+  const ProgramRun run = run_line(
+      folder_.path(),
+      fmt::format("optimize {0} --backend nlopt-mma -o {1}/run >{1}/out & p=$!; i=0; "
+                  "while [ $(cat {1}/run/history.csv 2>/dev/null | wc -l) -lt 5 ] && "
+                  "[ $i -lt 3000 ]; do sleep 0.01; i=$((i + 1)); done; kill -TERM $p; wait $p; "
+                  "echo $?",
+                  problem("slider_crank_round"), path));
+  EXPECT_EQ(run.out, "4\n");
+  const CsvRows rows = read_csv(folder_.path() / "run/history.csv");
+  const auto cell = [&](std::size_t row, const std::string& title) {
+    const auto found = std::find(rows[0].begin(), rows[0].end(), title);
+    return std::stod(rows[row].at(static_cast<std::size_t>(found - rows[0].begin())));
+  };
+  std::size_t best = 1;
+  for (std::size_t row = 2; row < rows.size(); ++row) {
+    const bool is_within = cell(row, "max_violation") <= 1e-4;
+    const bool best_is_within = cell(best, "max_violation") <= 1e-4;
+    const bool is_better = is_within && best_is_within
+                               ? cell(row, "objective") < cell(best, "objective")
+                               : cell(row, "max_violation") < cell(best, "max_violation");
+    if (is_better) best = row;
+  }
+  for (const char* name : {"crank_diameter", "rod_diameter"}) {
+    EXPECT_EQ(result().at("variables").at(name).at("value"),
+              cell(best, std::string("variable:") + name));
+  }
 }
 
 /// Nothing is known of a motion that has not ended; no folder stays.

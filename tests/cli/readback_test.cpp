@@ -79,6 +79,22 @@ TEST(ReadBack, OfSimulate) {
   }
   EXPECT_EQ(table.text(table.row_of("rod_stress"), "unit"), "MPa");
   EXPECT_EQ(table.text(table.row_of("rod_bow"), "unit"), "mm");
+  // The start breaks the limit on the stress of the crank, 245 of 200 MPa, and keeps the others.
+  const TextTable limits(report.text, "constraint");
+  const json& constraints = report.document.at("constraints");
+  ASSERT_EQ(limits.rows(), 4u);
+  for (const auto& [name, constraint] : constraints.items()) {
+    const std::size_t row = limits.row_of(name);
+    const std::string unit = limits.text(row, "unit");
+    const double of_limit = constraint.at("limit"), of_value = constraint.at("value");
+    expect_shown(limits.text(row, "value"), unit, of_value);
+    expect_shown(limits.text(row, "limit"), unit, of_limit);
+    expect_shown(limits.text(row, "used"), "1", 100 * of_value / of_limit);
+    EXPECT_EQ(constraint.at("kept"), name != "crank_strength") << name;
+  }
+  EXPECT_EQ(constraints.at("crank_strength").at("value"), responses.at("crank_stress").at("value"));
+  EXPECT_THAT(report.text, testing::ContainsRegex("crank_strength .* BROKEN\n"));
+  EXPECT_THAT(report.text, testing::ContainsRegex("rod_strength .* kept\n"));
   const auto value = [&](const char* name) -> double { return responses.at(name).at("value"); };
   const auto column = [&](const char* name) { return report.column("trajectory.csv", name); };
   // Peaks lie between the instants: of second order in the step, here up to 1e-3.

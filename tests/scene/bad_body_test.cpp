@@ -30,8 +30,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{"/scene/bodies/rod/reduction/frequency", "0",
                 "/scene/bodies/rod/reduction/frequency must be positive [Hz], got 0"},
         BadEdit{
-            "/scene/bodies/rod/reduction/frequency", R"("2 rad/s")",
-            R"(/scene/bodies/rod/reduction/frequency must be a frequency [Hz], got "2 rad/s": "rad/s" measures something else)"},
+            "/scene/bodies/rod/reduction/frequency", R"("2 rad")",
+            R"(/scene/bodies/rod/reduction/frequency must be a frequency [Hz], got "2 rad": "rad" measures something else)"},
         BadEdit{
             "/scene/bodies/rod/reduction/frequency", R"({"variable": "speed"})",
             R"(/scene/bodies/rod/reduction/frequency must be a frequency [Hz]: a number in SI units or a text with unit, got {"variable":"speed"})"},

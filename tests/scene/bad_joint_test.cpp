@@ -86,8 +86,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{"/scene/joints/elbow/drive/frequency", "0",
                 "/scene/joints/elbow/drive/frequency must be positive [rad/s], got 0"},
         BadEdit{
-            "/scene/joints/elbow/drive/frequency", R"("10 Hz")",
-            R"(/scene/joints/elbow/drive/frequency must be an angular speed [rad/s], got "10 Hz": "Hz" names no angle; write rad/s, deg/s or rpm)"},
+            "/scene/joints/elbow/drive/frequency", R"("10 1/s")",
+            R"(/scene/joints/elbow/drive/frequency must be a frequency [rad/s], got "10 1/s": "1/s" names no angle; write rad/s, deg/s or rpm)"},
         BadEdit{
             "/scene/joints/elbow/drive/phase", R"("1 s")",
             R"(/scene/joints/elbow/drive/phase must be an angle [rad], got "1 s": "s" measures something else)"},

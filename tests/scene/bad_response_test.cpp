@@ -39,8 +39,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{"/responses/tone/over_time", R"("max")",
                 "/responses/tone/over_time is not for a frequency, which does not change in time"},
         BadEdit{
-            "/constraints/resonance/lower", R"("100 Hz")",
-            R"(/constraints/resonance/lower must be an angular speed [rad/s], got "100 Hz": "Hz" names no angle; write rad/s, deg/s or rpm)"},
+            "/constraints/resonance/lower", R"("100 1/s")",
+            R"(/constraints/resonance/lower must be a frequency [rad/s], got "100 1/s": "1/s" names no angle; write rad/s, deg/s or rpm)"},
         BadEdit{"/responses/stability/over_time", "remove",
                 R"(/responses/stability is missing the key "over_time")"},
         BadEdit{"/responses/stability/body", R"("strut")",

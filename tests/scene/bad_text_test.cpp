@@ -162,7 +162,7 @@ TEST(BadFile, DirectoryIsCalledDirectory) {
 TEST(BadFile, WithoutEndIsRefused) {
   const std::filesystem::path endless = "/dev/zero";
   EXPECT_EQ(complaint_about_file(endless),
-            "/dev/zero: is larger than 32 MiB, which no problem file is");
+            "/dev/zero: is no ordinary file");
 }
 
 TEST(File, IsReadLikeItsTextAndGivesItsNameToAProblemWithout) {

@@ -53,6 +53,14 @@ TEST(Override, BeginsABlockThatTheFileLeavesOut) {
             "good.json: /sensitivity has the unknown key \"metod\"; did you mean \"method\"?");
 }
 
+TEST(Override, BeginsABlockOfTheSceneThatTheFileLeavesOut) {
+  ASSERT_TRUE(read_with({}).scene.loads.empty());
+  const ProblemFile problem = read_with(
+      {R"(/scene/loads/push={"type": "force", "body": "slider", "at": [0.3, 0, 0],
+           "direction": [1, 0, 0], "value": "1 N"})"});
+  EXPECT_EQ(problem.scene.loads.size(), 1u);
+}
+
 TEST(Override, IsAppliedInOrder) {
   EXPECT_EQ(read_with({"/optimizer/backend=a", "/optimizer/backend=b=c"}).optimizer.backend, "b=c");
 }

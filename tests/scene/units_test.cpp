@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/scene/frequency_quantity.hpp"
+
 namespace pleuel {
 namespace {
 
@@ -68,6 +70,22 @@ INSTANTIATE_TEST_SUITE_P(UnitsOfAngularSpeed, UnitReading,
                                          Reading{"1500 rev/min", angular_speed, 50.0 * pi},
                                          Reading{"180 deg/s", angular_speed, pi},
                                          Reading{"180 degree/s", angular_speed, pi}));
+
+/// Cycles and radians are both units of a frequency: one cycle is 2π rad.
+INSTANTIATE_TEST_SUITE_P(UnitsOfFrequency, UnitReading,
+                         testing::Values(Reading{"40 Hz", angular_frequency, 80.0 * pi},
+                                         Reading{"2 kHz", angular_frequency, 4000.0 * pi},
+                                         Reading{"40 rad/s", angular_frequency, 40.0},
+                                         Reading{"60 rpm", angular_frequency, 2.0 * pi},
+                                         Reading{"10 rad/s", frequency, 5.0 / pi},
+                                         Reading{"60 rpm", frequency, 1.0}));
+
+TEST(Units, OfAFrequencyAreNoTimesOrLengths) {
+  EXPECT_EQ(complaint("3 m Hz", angular_frequency), "\"m Hz\" measures something else");
+  EXPECT_EQ(complaint("3 rad", frequency), "\"rad\" measures something else");
+  EXPECT_EQ(complaint("3 1/s", angular_frequency),
+            "\"1/s\" names no angle; write rad/s, deg/s or rpm");
+}
 
 TEST(Units, OfAnotherQuantityAreRefused) {
   EXPECT_EQ(complaint("12 kg", length), "\"kg\" measures something else");

@@ -27,6 +27,16 @@ std::string plain_reason(const std::string& what) {
   return what;
 }
 
+/// What a terminal would obey instead of showing it: C0, DEL, and C1 in UTF-8.
+bool has_control_character(const std::string& text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 'x');
+    if (byte < 0x20 || byte == 0x7F || (byte == 0xC2 && next >= 0x80 && next < 0xA0)) return true;
+  }
+  return false;
+}
+
 /// Builds the document event by event; `open_` holds the objects and lists not yet closed.
 class DocumentBuilder : public nlohmann::json_sax<Json> {
  public:
@@ -48,6 +58,11 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   bool end_array() override { return close(); }
 
   bool key(string_t& key) override {
+    if (has_control_character(key)) {
+      throw InputError(
+          fmt::format("{}: a name in {} has a control character, which no name may have", file_,
+                      open_.back().pointer.empty() ? "the document" : open_.back().pointer));
+    }
     if (!open_.back().keys.insert(key).second) {
       throw InputError(
           fmt::format("{}: {} is there twice", file_, child_pointer(open_.back().pointer, key)));

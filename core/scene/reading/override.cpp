@@ -19,6 +19,9 @@ constexpr std::array optional_blocks = {"accuracy",   "constraints", "effects", 
                                         "optimizer",  "pareto",      "responses", "sensitivity",
                                         "simulation", "uncertainty", "variables"};
 
+/// The same within the scene.
+constexpr std::array scene_blocks = {"joints", "loads", "materials"};
+
 /// One assignment on its way down the document.
 class Override {
  public:
@@ -71,9 +74,12 @@ class Override {
     if (parent.is_array()) return parent[index(parent.size(), pointer, key)];
     if (!parent.is_object()) fail(fmt::format("{} has no members", shown(pointer)));
     if (parent.contains(key)) return parent[key];
-    const bool is_block =
-        std::find(optional_blocks.begin(), optional_blocks.end(), key) != optional_blocks.end();
-    if (pointer.empty() && is_block) return parent[key] = Json::object();
+    const auto is_one_of = [&key](const auto& blocks) {
+      return std::find(blocks.begin(), blocks.end(), key) != blocks.end();
+    };
+    const bool is_block = (pointer.empty() && is_one_of(optional_blocks)) ||
+                          (pointer == "/scene" && is_one_of(scene_blocks));
+    if (is_block) return parent[key] = Json::object();
     std::vector<std::string> known;
     for (const auto& [name, member] : parent.items()) known.push_back(name);
     fail(fmt::format("{} has no key \"{}\"{}", shown(pointer), key, hint(key, known)));

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/frequency_quantity.hpp"
+
 namespace pleuel {
 namespace {
 
@@ -64,8 +66,8 @@ HarmonicFunction read_harmonic(const Source& source, NumberReader& numbers) {
   allow_keys(source, {"amplitude", "frequency", "phase", "offset"});
   HarmonicFunction harmonic;
   harmonic.amplitude = numbers.designable(source.node.at("amplitude"), source.value);
-  harmonic.frequency =
-      numbers.designable(source.node.at("frequency"), quantities::angular_speed, Range::positive);
+  harmonic.frequency = numbers.designable(source.node.at("frequency"),
+                                          quantities::angular_frequency, Range::positive);
   if (const auto phase = source.node.find("phase")) {
     harmonic.phase = numbers.designable(*phase, quantities::angle);
   }
