@@ -161,8 +161,7 @@ TEST(BadFile, DirectoryIsCalledDirectory) {
 
 TEST(BadFile, WithoutEndIsRefused) {
   const std::filesystem::path endless = "/dev/zero";
-  EXPECT_EQ(complaint_about_file(endless),
-            "/dev/zero: is no ordinary file");
+  EXPECT_EQ(complaint_about_file(endless), "/dev/zero: is no ordinary file");
 }
 
 TEST(File, IsReadLikeItsTextAndGivesItsNameToAProblemWithout) {
