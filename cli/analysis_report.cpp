@@ -27,6 +27,8 @@ const char* kind_of(const EffectRecord& effect) {
       return "exact";
     case EffectRecord::Kind::estimated:
       return "estimated";
+    case EffectRecord::Kind::measured:
+      return "measured";
     default:
       return "forced";
   }

@@ -9,8 +9,8 @@
 
 #include "cli/console.hpp"
 #include "cli/design_file.hpp"
-#include "core/model/effect_estimates.hpp"
 #include "core/response/analysis.hpp"
+#include "core/response/effect_measurement.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/scene/reading/override.hpp"
 
@@ -60,7 +60,7 @@ ProblemInput read_file(const std::filesystem::path& file, const Arguments& argum
   if (arguments.difference_step) sensitivity.difference_step = *arguments.difference_step;
   input.design = arguments.design ? read_design(*arguments.design, input.problem)
                                   : start_design(input.problem);
-  estimate_effects(input.problem);
+  decide_effects(input.problem);
   const std::string text = read_text(file);
   input.effective = parse_json(text, file.string());
   Fingerprint fingerprint;

@@ -4,8 +4,8 @@
 
 #include "core/base/error.hpp"
 #include "core/base/stop.hpp"
-#include "core/model/effect_estimates.hpp"
 #include "core/response/analysis.hpp"
+#include "core/response/effect_measurement.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/doubts.hpp"
@@ -21,7 +21,7 @@ ProblemFile read_with(const std::filesystem::path& file, std::vector<std::string
 }
 
 void measure(ProblemFile problem, StabilityRun& run) {
-  estimate_effects(problem);
+  decide_effects(problem);
   const auto begin = std::chrono::steady_clock::now();
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);

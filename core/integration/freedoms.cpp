@@ -1,7 +1,11 @@
 #include "core/integration/freedoms.hpp"
 
+#include <cmath>
+#include <vector>
+
 #include <Eigen/QR>
 
+#include "core/integration/configuration.hpp"
 #include "core/integration/initial_state.hpp"
 
 namespace pleuel {
@@ -21,29 +25,101 @@ std::vector<int> rigid_coordinates(const Mechanism& mechanism) {
   return rigid;
 }
 
+/// Φ_q with respect to rigid coordinates over their scale, rows of length one.
+Eigen::MatrixXd rigid_jacobian(const Mechanism& mechanism, const State& state,
+                               const std::vector<int>& rigid) {
+  const System& system = *mechanism.system;
+  System::Matrix matrix = system.make_matrix();
+  projection_matrix(mechanism, state, matrix);
+  Eigen::MatrixXd jacobian(system.multipliers(), static_cast<Eigen::Index>(rigid.size()));
+  for (std::size_t j = 0; j < rigid.size(); ++j) {
+    jacobian.col(static_cast<Eigen::Index>(j)) =
+        mechanism.scale(rigid[j]) *
+        Eigen::VectorXd(matrix.col(rigid[j])).tail(system.multipliers());
+  }
+  for (const int row : system.left_out()) jacobian.row(row).setZero();
+  return jacobian;
+}
+
+void normalize_rows(Eigen::MatrixXd& matrix) {
+  for (auto row : matrix.rowwise()) {
+    if (row.norm() > 0.0) row.normalize();
+  }
+}
+
+/// Closes the constraints by rigid motion. @returns whether that succeeds
+bool close(const Mechanism& mechanism, const std::vector<int>& rigid, State& state) {
+  constexpr int most_iterations = 20;
+  constexpr double closed = 1e-9;
+  const int m = mechanism.system->multipliers();
+  Eigen::VectorXd residual;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    mechanism.system->residual(state, ConstraintLevel::position, residual);
+    Eigen::VectorXd open = residual.tail(m);
+    for (const int row : mechanism.system->left_out()) open(row) = 0.0;
+    if (open.lpNorm<Eigen::Infinity>() <= closed) return true;
+    const Eigen::VectorXd step =
+        rigid_jacobian(mechanism, state, rigid).completeOrthogonalDecomposition().solve(open);
+    Eigen::VectorXd change = Eigen::VectorXd::Zero(state.q.size());
+    for (std::size_t j = 0; j < rigid.size(); ++j) {
+      change(rigid[j]) = -mechanism.scale(rigid[j]) * step(static_cast<Eigen::Index>(j));
+    }
+    const Eigen::VectorXd before = state.q;
+    advance(mechanism.rotations, before, change, state.q);
+    if (!state.q.allFinite()) return false;
+  }
+  return false;
+}
+
 }  // namespace
 
 Freedoms rigid_freedoms(const Mechanism& mechanism, const State& state) {
-  const System& system = *mechanism.system;
   const std::vector<int> rigid = rigid_coordinates(mechanism);
   Freedoms freedoms;
   freedoms.coordinates = static_cast<int>(rigid.size());
-  if (rigid.empty() || system.multipliers() == 0) return freedoms;
-  System::Matrix matrix = system.make_matrix();
-  projection_matrix(mechanism, state, matrix);
-  Eigen::MatrixXd jacobian(system.multipliers(), freedoms.coordinates);
-  for (int j = 0; j < freedoms.coordinates; ++j) {
-    const int i = rigid[static_cast<std::size_t>(j)];
-    jacobian.col(j) =
-        mechanism.scale(i) * Eigen::VectorXd(matrix.col(i)).tail(system.multipliers());
-  }
-  for (auto row : jacobian.rowwise()) {
-    if (row.norm() > 0.0) row.normalize();
-  }
+  if (rigid.empty() || mechanism.system->multipliers() == 0) return freedoms;
+  Eigen::MatrixXd jacobian = rigid_jacobian(mechanism, state, rigid);
+  normalize_rows(jacobian);
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposition(jacobian);
   decomposition.setThreshold(independent);
   freedoms.constraints = static_cast<int>(decomposition.rank());
   return freedoms;
+}
+
+Eigen::MatrixXd free_motions(const Mechanism& mechanism, const State& state) {
+  const std::vector<int> rigid = rigid_coordinates(mechanism);
+  const auto size = static_cast<Eigen::Index>(rigid.size());
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(size, size);
+  if (mechanism.system->multipliers() > 0) {
+    Eigen::MatrixXd jacobian = rigid_jacobian(mechanism, state, rigid);
+    normalize_rows(jacobian);
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposition(jacobian.transpose());
+    decomposition.setThreshold(independent);
+    const Eigen::MatrixXd all = decomposition.householderQ() * basis;
+    basis = all.rightCols(size - decomposition.rank());
+  }
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(state.q.size(), basis.cols());
+  for (Eigen::Index j = 0; j < size; ++j) {
+    motions.row(rigid[static_cast<std::size_t>(j)]) = basis.row(j);
+  }
+  return motions;
+}
+
+State generic_position(const Mechanism& mechanism, const State& state) {
+  const std::vector<int> rigid = rigid_coordinates(mechanism);
+  const Eigen::MatrixXd motions = free_motions(mechanism, state);
+  Eigen::VectorXd way(motions.cols());
+  for (Eigen::Index i = 0; i < way.size(); ++i) way(i) = std::sin(1.0 + 2.3 * double(i));
+  for (const double distance : {0.1, 0.01}) {
+    State moved = state;
+    if (way.size() > 0) {
+      const Eigen::VectorXd change =
+          distance * mechanism.scale.cwiseProduct(motions * way.normalized());
+      advance(mechanism.rotations, state.q, change, moved.q);
+    }
+    if (mechanism.system->multipliers() == 0 || close(mechanism, rigid, moved)) return moved;
+  }
+  return state;
 }
 
 }  // namespace pleuel

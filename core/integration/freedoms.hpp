@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include "core/integration/mechanism.hpp"
 
 namespace pleuel {
@@ -16,5 +18,14 @@ struct Freedoms {
 /// At a state: in a singular position, such as a dead centre, fewer constraints are independent.
 /// By a rank-revealing QR decomposition of Φ_q: for descriptions, not for loops.
 Freedoms rigid_freedoms(const Mechanism& mechanism, const State& state);
+
+/// The rigid motions that constraints and drives leave free, as velocities: n × free(), columns
+/// orthonormal in coordinates over their scale (which is how they are given). Elastic rows are
+/// zero.
+Eigen::MatrixXd free_motions(const Mechanism& mechanism, const State& state);
+
+/// A position near by that is no special one: some way along a free motion of no meaning, with the
+/// constraints closed by rigid motion. The state itself where that fails.
+State generic_position(const Mechanism& mechanism, const State& state);
 
 }  // namespace pleuel

@@ -11,33 +11,25 @@ namespace pleuel {
 
 namespace {
 
-/// Pivots below this, relative to the largest, are zero.
-constexpr double rank_tolerance = 1e-8;
+/// What is left of a direction is round-off below this.
+constexpr double no_direction = 1e-8;
 /// The small motion, in scales of the coordinates and in seconds.
 constexpr double small = 1e-3;
-/// A constraint holds after it up to this; one that is independent at its end is off by small².
+/// The independent constraints are closed to a tenth of this. One that is independent at its end
+/// is off by small².
 constexpr double closed = 1e-10;
 constexpr int max_iterations = 20;
 
-class RedundancyTest {
+/// A mechanism that is moved while some of its constraints are kept.
+class MovedMechanism {
  public:
-  explicit RedundancyTest(Mechanism& mechanism)
+  MovedMechanism(const Mechanism& mechanism, State state, Eigen::VectorXd scale)
       : mechanism_(mechanism),
         system_(*mechanism.system),
-        state_(mechanism.guess),
+        state_(std::move(state)),
+        scale_(std::move(scale)),
         matrix_(system_.make_matrix()) {}
 
-  std::vector<int> run() {
-    if (system_.multipliers() == 0) return {};
-    std::vector<int> candidates = split();
-    if (candidates.empty() || !move()) return {};
-    const Eigen::VectorXd open = constraints().cwiseAbs();
-    std::erase_if(candidates, [&](int row) { return !(open(row) <= closed); });
-    std::sort(candidates.begin(), candidates.end());
-    return candidates;
-  }
-
- private:
   Eigen::VectorXd constraints() {
     system_.residual(state_, ConstraintLevel::position, residual_);
     return residual_.tail(system_.multipliers());
@@ -47,59 +39,156 @@ class RedundancyTest {
   Eigen::MatrixXd jacobian() {
     system_.tangent(state_, {.q = 1.0}, ConstraintLevel::position, matrix_);
     const Eigen::MatrixXd rows = matrix_.bottomRows(system_.multipliers());
-    return rows.leftCols(system_.coordinates()) * mechanism_.scale.asDiagonal();
+    return rows.leftCols(system_.coordinates()) * scale_.asDiagonal();
   }
 
-  /// Sets the independent rows and returns the others.
-  std::vector<int> split() {
-    const Eigen::MatrixXd rows = jacobian().rowwise().normalized();
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.transpose());
-    qr.setThreshold(rank_tolerance);
-    const auto& order = qr.colsPermutation().indices();
-    independent_.assign(order.begin(), order.begin() + qr.rank());
-    return {order.begin() + qr.rank(), order.end()};
-  }
-
-  /// Moves along what the independent constraints leave free, and closes these.
-  bool move() {
-    Eigen::MatrixXd rows = jacobian()(independent_, Eigen::all);
+  /// A motion that the kept constraints leave free, of length one; zero if they leave none.
+  Eigen::VectorXd free_motion(const std::vector<int>& kept) {
+    const Eigen::MatrixXd rows = jacobian()(kept, Eigen::all);
     // A direction of no meaning, the same at every call; its free part is what is left of it.
     Eigen::VectorXd direction(rows.cols());
     for (Eigen::Index i = 0; i < direction.size(); ++i)
       direction(i) = std::sin(1.0 + 2.3 * double(i));
     direction -= least_norm(rows, rows * direction);
-    if (direction.norm() > rank_tolerance) add(small * direction.normalized());
-    state_.time += small;
+    if (direction.norm() <= no_direction) return Eigen::VectorXd::Zero(rows.cols());
+    return direction.normalized();
+  }
+
+  /// Moves and closes the kept constraints. @returns whether they close
+  bool move(const Eigen::VectorXd& scaled, double time, const std::vector<int>& kept) {
+    add(scaled);
+    state_.time += time;
     for (int iteration = 0; iteration < max_iterations; ++iteration) {
-      const Eigen::VectorXd open = constraints()(independent_);
-      if (open.lpNorm<Eigen::Infinity>() <= 0.1 * closed) return true;
-      rows = jacobian()(independent_, Eigen::all);
+      const Eigen::VectorXd open = constraints()(kept);
+      if (open.size() == 0 || open.lpNorm<Eigen::Infinity>() <= 0.1 * closed) return true;
+      const Eigen::MatrixXd rows = jacobian()(kept, Eigen::all);
       add(-least_norm(rows, open));
     }
     return false;
   }
 
+ private:
   static Eigen::VectorXd least_norm(const Eigen::MatrixXd& rows, const Eigen::VectorXd& rhs) {
+    if (rows.rows() == 0) return Eigen::VectorXd::Zero(rows.cols());
     return rows.completeOrthogonalDecomposition().solve(rhs);
   }
 
   void add(const Eigen::VectorXd& scaled) {
     const Eigen::VectorXd start = state_.q;
-    advance(mechanism_.rotations, start, mechanism_.scale.cwiseProduct(scaled), state_.q);
+    advance(mechanism_.rotations, start, scale_.cwiseProduct(scaled), state_.q);
   }
 
-  Mechanism& mechanism_;
+  const Mechanism& mechanism_;
   System& system_;
   State state_;
+  Eigen::VectorXd scale_;
   System::Matrix matrix_;
   Eigen::VectorXd residual_;
-  std::vector<int> independent_;
 };
+
+/// Rows in the order of their pivots.
+struct RankedRows {
+  std::vector<int> order;
+  Eigen::VectorXd pivots;  ///< relative to the first
+};
+
+RankedRows rank(Eigen::MatrixXd rows) {
+  for (auto row : rows.rowwise()) {
+    if (row.norm() > 0.0) row.normalize();
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.transpose());
+  const auto& order = qr.colsPermutation().indices();
+  RankedRows ranked{{order.begin(), order.end()}, Eigen::VectorXd::Zero(rows.rows())};
+  const Eigen::VectorXd diagonal = qr.matrixQR().diagonal().cwiseAbs();
+  if (diagonal.size() > 0 && diagonal(0) > 0.0) {
+    ranked.pivots.head(diagonal.size()) = diagonal / diagonal(0);
+  }
+  return ranked;
+}
+
+std::vector<int> first_rows(const RankedRows& ranked, std::size_t count) {
+  return {ranked.order.begin(), ranked.order.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
+/// What is left of a row without its share of others.
+Eigen::VectorXd part_across(const Eigen::MatrixXd& jacobian, int row,
+                            const std::vector<int>& others) {
+  const Eigen::MatrixXd rows = jacobian(others, Eigen::all);
+  const Eigen::VectorXd whole = jacobian.row(row).transpose();
+  return whole - rows.completeOrthogonalDecomposition().solve(rows * whole);
+}
+
+/// The rows of which a row is made, after the largest factor.
+std::vector<int> rows_that_make(const Eigen::MatrixXd& jacobian, int row,
+                                const std::vector<int>& others) {
+  constexpr double counts = 0.05;
+  const Eigen::MatrixXd columns = jacobian(others, Eigen::all).transpose();
+  const Eigen::VectorXd factors =
+      columns.completeOrthogonalDecomposition().solve(jacobian.row(row).transpose());
+  std::vector<int> found;
+  if (factors.size() == 0) return found;
+  const double largest = factors.lpNorm<Eigen::Infinity>();
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    if (std::abs(factors(static_cast<Eigen::Index>(i))) > counts * largest)
+      found.push_back(others[i]);
+  }
+  return found;
+}
+
+/// Elastic coordinates in units that are as large as those of frames.
+Eigen::VectorXd generous_scale(const Mechanism& mechanism) {
+  constexpr double elastic = 1e3;
+  Eigen::VectorXd scale = mechanism.scale;
+  for (const int i : mechanism.elastic) scale(i) *= elastic;
+  return scale;
+}
 
 }  // namespace
 
 std::vector<int> redundant_constraints(Mechanism& mechanism) {
-  return RedundancyTest(mechanism).run();
+  if (mechanism.system->multipliers() == 0) return {};
+  MovedMechanism moved(mechanism, mechanism.guess, mechanism.scale);
+  const RankedRows ranked = rank(moved.jacobian());
+  const auto independent =
+      static_cast<std::size_t>((ranked.pivots.array() > alignment_tolerance).count());
+  const std::vector<int> kept = first_rows(ranked, independent);
+  std::vector<int> candidates(ranked.order.begin() + static_cast<std::ptrdiff_t>(independent),
+                              ranked.order.end());
+  if (candidates.empty() || !moved.move(small * moved.free_motion(kept), small, kept)) return {};
+  const Eigen::VectorXd open = moved.constraints().cwiseAbs();
+  std::erase_if(candidates,
+                [&](int row) { return !(open(row) <= closed + alignment_tolerance * small); });
+  std::sort(candidates.begin(), candidates.end());
+  return candidates;
+}
+
+std::vector<NearRedundancy> nearly_redundant_constraints(const Mechanism& mechanism,
+                                                         const State& state, double largest) {
+  const System& system = *mechanism.system;
+  if (system.multipliers() == 0) return {};
+  const Eigen::VectorXd scale = generous_scale(mechanism);
+  Eigen::MatrixXd jacobian = MovedMechanism(mechanism, state, scale).jacobian();
+  for (const int row : system.left_out()) jacobian.row(row).setZero();
+  const RankedRows ranked = rank(jacobian);
+  std::vector<NearRedundancy> found;
+  for (std::size_t i = 1; i < ranked.order.size(); ++i) {
+    const int row = ranked.order[i];
+    const double length = jacobian.row(row).norm();
+    if (ranked.pivots(static_cast<Eigen::Index>(i)) > largest || length == 0.0) continue;
+    const std::vector<int> others = first_rows(ranked, i);
+    const Eigen::VectorXd blocked = part_across(jacobian, row, others);
+    const double misalignment = blocked.norm() / length;
+    if (misalignment > largest || misalignment < no_direction * alignment_tolerance) continue;
+    MovedMechanism moved(mechanism, state, scale);
+    const double before = moved.constraints()(row);
+    const double way = std::clamp(10.0 * misalignment, small, 100.0 * small);
+    if (!moved.move(way * blocked.normalized(), 0.0, others)) continue;
+    const double opened = std::abs(moved.constraints()(row) - before) / length;
+    if (opened > 2.0 * misalignment * way + closed) continue;
+    found.push_back(
+        {row, rows_that_make(jacobian, row, others), misalignment, blocked.normalized()});
+  }
+  return found;
 }
 
 }  // namespace pleuel

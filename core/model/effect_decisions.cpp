@@ -1,6 +1,9 @@
 #include "core/model/effect_decisions.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -14,33 +17,36 @@ std::optional<BeamEstimates> find_estimates(const Body& body, const EffectSettin
   return found->second;
 }
 
-bool is_needed(EffectChoice choice, std::optional<double> estimate, double tolerance) {
+const MeasuredEffect* find_measured(const Body& body, const char* effect,
+                                    const EffectSettings& settings) {
+  const auto found = settings.measured.find({body.name, effect});
+  return found == settings.measured.end() ? nullptr : &found->second;
+}
+
+/// What is asked for, without regard to what effects need of each other.
+bool is_wanted(const Body& body, const BeamEffect& effect, const EffectSettings& settings) {
+  const EffectChoice choice = settings.*effect.choice;
   if (choice != EffectChoice::automatic) return choice == EffectChoice::on;
-  return !estimate || *estimate > tolerance;
+  if (const MeasuredEffect* measured = find_measured(body, effect.name, settings)) {
+    return measured->is_needed;
+  }
+  const std::optional<BeamEstimates> estimates = find_estimates(body, settings);
+  return !estimates || (*estimates).*effect.estimate > settings.tolerance;
 }
 
 }  // namespace
 
 BeamEffects decide_beam_effects(const Body& body, const EffectSettings& settings) {
-  const auto& beam = std::get<BeamBody>(body.shape);
-  const std::optional<BeamEstimates> estimates = find_estimates(body, settings);
-  const auto decide = [&](EffectChoice choice, double BeamEstimates::*estimate) {
-    std::optional<double> number;
-    if (estimates) number = (*estimates).*estimate;
-    return is_needed(choice, number, settings.tolerance);
-  };
   BeamEffects effects;
-  effects.elasticity = !beam.is_rigid && decide(settings.elasticity, &BeamEstimates::elasticity);
-  effects.rotary_inertia = decide(settings.rotary_inertia, &BeamEstimates::rotary_inertia);
-  effects.torsional_elasticity = effects.elasticity && decide(settings.torsional_elasticity,
-                                                              &BeamEstimates::torsional_elasticity);
-  effects.geometric_stiffening =
-      effects.elasticity && settings.axial_elasticity != EffectChoice::off &&
-      decide(settings.geometric_stiffening, &BeamEstimates::geometric_stiffening);
-  // The axial force that stiffens comes from axial strain.
+  for (const BeamEffect& effect : beam_effects) {
+    effects.*effect.is_built = is_wanted(body, effect, settings);
+  }
+  const bool has_axial = settings.axial_elasticity != EffectChoice::off;
+  effects.elasticity = effects.elasticity && !std::get<BeamBody>(body.shape).is_rigid;
+  effects.torsional_elasticity = effects.torsional_elasticity && effects.elasticity;
+  effects.geometric_stiffening = effects.geometric_stiffening && effects.elasticity && has_axial;
   effects.axial_elasticity =
-      effects.elasticity && (effects.geometric_stiffening ||
-                             decide(settings.axial_elasticity, &BeamEstimates::axial_elasticity));
+      effects.elasticity && (effects.axial_elasticity || effects.geometric_stiffening);
   return effects;
 }
 
@@ -53,26 +59,16 @@ class BeamTable {
       : body_(body), settings_(settings), model_(model), is_planar_(is_planar) {}
 
   std::vector<EffectRecord> records() {
-    const BeamEffects built = decide_beam_effects(body_, settings_);
-    const auto& beam = std::get<BeamBody>(body_.shape);
-    add("elasticity", built.elasticity, settings_.elasticity, &BeamEstimates::elasticity);
-    if (beam.is_rigid) set_exact("the file says that it is rigid");
-    if (built.elasticity) {
-      add("axial_elasticity", built.axial_elasticity, settings_.axial_elasticity,
-          &BeamEstimates::axial_elasticity);
-      if (!built.axial_elasticity) saved(free_nodes());
-      add("torsional_elasticity", built.torsional_elasticity && !is_planar_,
-          settings_.torsional_elasticity, &BeamEstimates::torsional_elasticity);
-      if (is_planar_) {
-        set_exact("motion in a plane does not twist");
-      } else if (!built.torsional_elasticity) {
-        saved(free_nodes());
-      }
-      add("geometric_stiffening", built.geometric_stiffening, settings_.geometric_stiffening,
-          &BeamEstimates::geometric_stiffening);
+    built_ = decide_beam_effects(body_, settings_);
+    add("elasticity");
+    if (std::get<BeamBody>(body_.shape).is_rigid) set_exact("the file says that it is rigid");
+    if (built_.elasticity) {
+      add("axial_elasticity");
+      if (!built_.axial_elasticity) saved(free_nodes());
+      add_torsion();
+      add_stiffening();
     }
-    add("rotary_inertia", built.rotary_inertia, settings_.rotary_inertia,
-        &BeamEstimates::rotary_inertia);
+    add("rotary_inertia");
     return std::move(records_);
   }
 
@@ -88,33 +84,73 @@ class BeamTable {
     record.estimate.reset();
   }
 
-  void add(const std::string& name, bool is_built, EffectChoice choice,
-           double BeamEstimates::*estimate) {
-    EffectRecord record{name, body_.name, is_built, EffectRecord::Kind::exact, "", {}, 0};
+  void add_torsion() {
+    add("torsional_elasticity");
+    if (is_planar_) {
+      set_exact("motion in a plane does not twist");
+      records_.back().is_built = false;
+    } else if (!built_.torsional_elasticity) {
+      saved(free_nodes());
+    }
+  }
+
+  void add_stiffening() {
+    add("geometric_stiffening");
+    if (settings_.axial_elasticity != EffectChoice::off) return;
+    if (settings_.geometric_stiffening == EffectChoice::off) return;
+    set_exact("axial_elasticity is off, and without axial strain there is no axial force");
+    records_.back().kind = EffectRecord::Kind::forced;
+  }
+
+  void add(const char* name) {
+    const BeamEffect& effect =
+        *std::find_if(beam_effects.begin(), beam_effects.end(),
+                      [name](const BeamEffect& other) { return std::string(name) == other.name; });
+    EffectRecord record{name, body_.name, built_.*effect.is_built, EffectRecord::Kind::exact, "",
+                        {},   0};
     const auto estimates = find_estimates(body_, settings_);
-    if (choice != EffectChoice::automatic) {
+    if (settings_.*effect.choice != EffectChoice::automatic) {
       record.kind = EffectRecord::Kind::forced;
       record.reason = "asked for";
+    } else if (const MeasuredEffect* measured = find_measured(body_, name, settings_)) {
+      describe(*measured, record);
     } else if (estimates) {
-      record.kind = EffectRecord::Kind::estimated;
-      record.estimate = (*estimates).*estimate;
-      record.reason = std::isinf(*record.estimate)
-                          ? "a response of the body asks for it"
-                          : fmt::format("changes responses by some {:.2g}, tolerance {:g}",
-                                        *record.estimate, settings_.tolerance);
-      if (is_built && *record.estimate <= settings_.tolerance) {
-        record.reason = "geometric stiffening needs it";
-      }
+      describe((*estimates).*effect.estimate, record);
     } else {
       record.reason = "no tolerance allows to leave it out";
     }
+    if (record.is_built && !is_wanted(body_, effect, settings_)) {
+      record.reason = "geometric stiffening needs it";
+    }
     records_.push_back(std::move(record));
+  }
+
+  void describe(const MeasuredEffect& measured, EffectRecord& record) const {
+    record.kind = EffectRecord::Kind::measured;
+    record.estimate = measured.change;
+    record.reason = measured.is_needed
+                        ? fmt::format("without it \"{}\" changes by {:.2g}, tolerance {:g}",
+                                      measured.response, measured.change, settings_.tolerance)
+                        : fmt::format(
+                              "without all that is left out \"{}\" changes most, by {:.2g}, "
+                              "tolerance {:g}",
+                              measured.response, measured.change, settings_.tolerance);
+  }
+
+  void describe(double estimate, EffectRecord& record) const {
+    record.kind = EffectRecord::Kind::estimated;
+    record.estimate = estimate;
+    record.reason = std::isinf(estimate)
+                        ? "a response of the body asks for it"
+                        : fmt::format("changes responses by some {:.2g}, tolerance {:g}", estimate,
+                                      settings_.tolerance);
   }
 
   const Body& body_;
   const EffectSettings& settings_;
   const BodyModel& model_;
   bool is_planar_;
+  BeamEffects built_;
   std::vector<EffectRecord> records_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <array>
 #include <vector>
 
 #include "core/model/model.hpp"
@@ -13,8 +13,29 @@ struct BeamEffects {
   bool geometric_stiffening = true, rotary_inertia = true;
 };
 
-/// Decides what is simulated of a beam: what the file forces; else, where there is a tolerance and
-/// an estimate, what the estimate calls for; else all of it.
+/// One of them: its name in files, what the file says, its estimate, whether it is built.
+struct BeamEffect {
+  const char* name;
+  EffectChoice EffectSettings::*choice;
+  double BeamEstimates::*estimate;
+  bool BeamEffects::*is_built;
+};
+inline constexpr std::array<BeamEffect, 5> beam_effects = {
+    {{"elasticity", &EffectSettings::elasticity, &BeamEstimates::elasticity,
+      &BeamEffects::elasticity},
+     {"axial_elasticity", &EffectSettings::axial_elasticity, &BeamEstimates::axial_elasticity,
+      &BeamEffects::axial_elasticity},
+     {"torsional_elasticity", &EffectSettings::torsional_elasticity,
+      &BeamEstimates::torsional_elasticity, &BeamEffects::torsional_elasticity},
+     {"geometric_stiffening", &EffectSettings::geometric_stiffening,
+      &BeamEstimates::geometric_stiffening, &BeamEffects::geometric_stiffening},
+     {"rotary_inertia", &EffectSettings::rotary_inertia, &BeamEstimates::rotary_inertia,
+      &BeamEffects::rotary_inertia}}};
+
+/// Decides what is simulated of a beam: what the file forces; else what was measured; else,
+/// where there is a tolerance and an estimate, what the estimate calls for; else all of it. The
+/// axial force that stiffens comes from axial strain: without it there is no stiffening, and what
+/// stiffening needs is kept.
 BeamEffects decide_beam_effects(const Body& body, const EffectSettings& settings);
 
 /// Lines of the table of effects for a beam that was built.

@@ -77,6 +77,7 @@ struct EffectRecord {
   enum class Kind {
     exact,      ///< the answer is the same to round-off
     estimated,  ///< compared with the tolerance
+    measured,   ///< by a simulation with everything, compared with the tolerance
     forced      ///< by the file
   };
   std::string name;

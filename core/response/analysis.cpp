@@ -7,6 +7,7 @@
 #include "core/base/error.hpp"
 #include "core/response/make_responses.hpp"
 #include "core/response/mechanism_modes.hpp"
+#include "core/response/misalignment.hpp"
 #include "core/response/recorder.hpp"
 #include "core/scene/time_breaks.hpp"
 
@@ -111,6 +112,16 @@ SimulationOptions options_of(const ProblemFile& problem) {
           problem.sensitivity.memory};
 }
 
+/// @throws the error, with the joints that may be its cause
+[[noreturn]] void explain(const SimulationError& error, const Model& model) {
+  constexpr double hardly_meant = 1e-3;
+  std::string text = error.what();
+  for (const Misalignment& found : find_misalignments(model, model.mechanism.guess, hardly_meant)) {
+    text += ". Look at this first: " + found.text();
+  }
+  throw SimulationError(text);
+}
+
 /// The history of a response, measured against the rigid mechanism if need be.
 Eigen::MatrixXd against_rigid(const Response& response, Eigen::MatrixXd history,
                               const Analysis& analysis) {
@@ -161,8 +172,13 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
                                        analysis->full ? analysis->full->model : analysis->model);
   const SimulationOptions options = options_of(problem);
   Recorder recorder(analysis->responses, step_count(options) + 1);
-  analysis->trajectory = simulate(analysis->model.mechanism, options,
-                                  [&](int step, const State& state) { recorder.see(step, state); });
+  try {
+    analysis->trajectory =
+        simulate(analysis->model.mechanism, options,
+                 [&](int step, const State& state) { recorder.see(step, state); });
+  } catch (const SimulationError& error) {
+    explain(error, analysis->model);
+  }
   analysis->breaks = instants_at(options.breaks, analysis->trajectory.time);
   analysis->histories = recorder.take(analysis->trajectory.steps() + 1);
   set_mechanism_frequencies(*analysis);

@@ -37,8 +37,13 @@ class BodySignalMaker {
     if (!body_.is_elastic) fail(fmt::format("\"{}\" is rigid", body_.name));
     const bool needs_axial =
         settings_.type == ResponseType::buckling || settings_.part == StressPart::axial;
-    if (needs_axial && !has_axial_displacement()) {
+    if (needs_axial && !has_displacement(0)) {
       fail(fmt::format("\"{}\" has no axial elasticity", body_.name));
+    }
+    const bool needs_twist = settings_.part == StressPart::shear &&
+                             body_.frame.rotation == RotationCoordinates::rotation_vector;
+    if (needs_twist && !has_displacement(3)) {
+      fail(fmt::format("\"{}\" has no torsional elasticity", body_.name));
     }
     const bool has_strength = body_.beam.elements.front().strength > 0.0;
     if (settings_.part == StressPart::utilization && !has_strength) {
@@ -46,10 +51,10 @@ class BodySignalMaker {
     }
   }
 
-  bool has_axial_displacement() const {
+  bool has_displacement(int direction) const {
     const ElasticCoordinates& coordinates = *body_.coordinates;
     for (int node = 0; node < coordinates.node_count(); ++node) {
-      if (coordinates.index(node, 0) >= 0) return true;
+      if (coordinates.index(node, direction) >= 0) return true;
     }
     return false;
   }

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/time_integration.hpp"
@@ -22,6 +23,13 @@ struct BeamEstimates {
   double geometric_stiffening = 0.0, rotary_inertia = 0.0;
 };
 
+/// What leaving an effect out of a beam was measured to change.
+struct MeasuredEffect {
+  bool is_needed = true;
+  double change = 0.0;   ///< relative, of the response that changes most
+  std::string response;  ///< its name
+};
+
 struct EffectSettings {
   // Exact decisions:
   EffectChoice spatial_motion = EffectChoice::automatic;
@@ -36,6 +44,8 @@ struct EffectSettings {
   /// By body; set by estimate_effects() where a tolerance is given. Without an entry an effect is
   /// built.
   std::map<std::string, BeamEstimates> estimates = {};
+  /// By body and name of the effect; set by decide_effects() where estimates would leave it out.
+  std::map<std::pair<std::string, std::string>, MeasuredEffect> measured = {};
 };
 
 struct SimulationSettings {

@@ -82,6 +82,7 @@ ProblemFile read_document(const JsonNode& root, const UnitSystem& units) {
   read_settings(root, numbers, problem);
   check_margins(root, problem);
   check_scene(root.at("scene"), problem);
+  if (const auto effects = root.find("effects")) check_effects(*effects, problem);
   return problem;
 }
 

@@ -10,6 +10,9 @@ namespace pleuel {
 
 EffectSettings read_effects(const JsonNode& node);
 
+/// What is asked for in so many words has to be possible with the bodies that there are.
+void check_effects(const JsonNode& node, const ProblemFile& problem);
+
 SimulationSettings read_simulation(const JsonNode& node, const NumberReader& numbers);
 
 SensitivitySettings read_sensitivity(const JsonNode& node, const NumberReader& numbers);

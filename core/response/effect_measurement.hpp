@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+
+#include "core/response/analysis.hpp"
+
+namespace pleuel {
+
+/// The response that differs most between two simulations of one problem.
+struct LargestChange {
+  double relative = 0.0;  ///< infinite where one of them cannot be simulated
+  std::string response;   ///< its name
+};
+
+/// Relative changes of values: |y − y₀| over the larger of |y₀| and a hundredth of the largest
+/// magnitude in the history of y₀ (a value near zero says nothing of its own size). Differences
+/// below 1e-9 of the largest magnitude in the histories of the same unit are round-off. Monitors
+/// (balance of energy, drift of constraints) are left out.
+LargestChange largest_change(const ProblemFile& problem, const Analysis& reference,
+                             const Analysis& other);
+
+/// The problem with all effects that the file does not forbid.
+ProblemFile with_all_effects(ProblemFile problem);
+
+/// Decides with the tolerance of the file which effects of beams are left out, at the start design:
+/// estimates propose (estimate_effects()), simulations decide. The mechanism with all effects is
+/// simulated once beside the proposed one; while a response changes by more than the tolerance,
+/// what costs more than it on its own is taken back, or else what costs most. The decisions are
+/// kept in EffectSettings::measured, so that the model is the same at all designs. Does nothing
+/// without a tolerance, or where estimates leave nothing out. Where the mechanism with all effects
+/// cannot be simulated everything is built.
+void decide_effects(ProblemFile& problem);
+
+}  // namespace pleuel

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "core/trust/doubts.hpp"
+
+namespace pleuel {
+
+/// Imported bodies whose constants are continued linearly to another design than that of their
+/// file: nothing says how far they are still those of the body. Serious where a variable has moved
+/// by more than 1e-4 of its value: then the square of that may matter beside an optimizer's
+/// tolerance.
+std::vector<Doubt> doubt_extrapolation(const TrustedRun& run);
+
+}  // namespace pleuel

@@ -1,0 +1,317 @@
+#include "core/trust/idle_freedoms.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <Eigen/QR>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/integration/freedoms.hpp"
+#include "core/model/body_energy.hpp"
+#include "core/trust/connections.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Of motions of length one; of works relative to the largest force.
+constexpr double visible = 1e-6;
+/// Instants at which loads are looked at.
+constexpr int instants = 200;
+/// Of the scale of a coordinate.
+constexpr double stands_still = 1e-9;
+
+std::string quoted(const std::vector<std::string>& names) {
+  return fmt::format("\"{}\"", fmt::join(names, "\", \""));
+}
+
+/// Rows of the motions of a body's frame.
+auto rows_of(const BodyModel& body, const Eigen::MatrixXd& motions) {
+  return motions.middleRows(body.frame.offset, body.frame.size());
+}
+
+/// Columns: an orthonormal basis of those combinations of motions that leave rows at rest.
+Eigen::MatrixXd at_rest(const Eigen::MatrixXd& motions, const Eigen::MatrixXd& rows) {
+  if (rows.rows() == 0 || motions.cols() == 0) return motions;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.transpose());
+  qr.setThreshold(visible);
+  const bool is_zero = rows.lpNorm<Eigen::Infinity>() <= visible;
+  const Eigen::Index rank = is_zero ? 0 : qr.rank();
+  const Eigen::MatrixXd all = qr.householderQ();
+  return motions * all.rightCols(motions.cols() - rank);
+}
+
+/// The state of the trajectory with the fewest free motions: no dead centre.
+State least_free_state(const Analysis& analysis) {
+  State best, state;
+  int fewest = 0;
+  const int steps = analysis.trajectory.steps();
+  for (int i = 0; i <= 4; ++i) {
+    analysis.trajectory.load(i * steps / 4, state);
+    const int free = rigid_freedoms(analysis.model.mechanism, state).free();
+    if (i > 0 && free >= fewest) continue;
+    best = state;
+    fewest = free;
+    if (free == 0) break;
+  }
+  return best;
+}
+
+class IdleFreedoms {
+ public:
+  explicit IdleFreedoms(const TrustedRun& run)
+      : run_(run), model_(run.analysis.model), design_(run.x.begin(), run.x.end()) {}
+
+  std::vector<Doubt> find() {
+    if (looks_at_no_motion()) return {};
+    state_ = least_free_state(run_.analysis);
+    if (rigid_freedoms(model_.mechanism, state_).free() <= 0) return {};
+    for (const int i : model_.mechanism.elastic) state_.q(i) = 0.0;
+    state_ = generic_position(model_.mechanism, state_);
+    state_.v.setZero();
+    state_.a.setZero();
+    state_.lambda.setZero();
+    const Eigen::MatrixXd free = free_motions(model_.mechanism, state_);
+    if (floats_and_moves()) return {};
+    Eigen::MatrixXd idle = free;
+    for (const BodyModel& body : model_.bodies) {
+      if (is_acted_on(body, free) || !is_grounded(body)) {
+        idle = at_rest(idle, rows_of(body, idle));
+      }
+    }
+    idle = without_harmless_spins(std::move(idle));
+    if (idle.cols() == 0) return {};
+    return {describe(idle)};
+  }
+
+ private:
+  /// Frequencies and masses need no motion.
+  bool looks_at_no_motion() const {
+    const auto& responses = run_.problem.responses;
+    return !responses.empty() &&
+           std::all_of(responses.begin(), responses.end(),
+                       [](const ResponseSettings& response) {
+                         return response.type == ResponseType::frequency ||
+                                response.type == ResponseType::mass;
+                       }) &&
+           std::any_of(responses.begin(), responses.end(), [](const ResponseSettings& response) {
+             return response.type == ResponseType::frequency;
+           });
+  }
+
+  const Body& scene_body(const BodyModel& body) const {
+    return run_.problem.scene.bodies[static_cast<std::size_t>(&body - model_.bodies.data())];
+  }
+
+  bool is_grounded(const BodyModel& body) const {
+    return grounded_.empty() || grounded_.contains(body.name);
+  }
+
+  bool floats_and_moves() const {
+    return grounded_.empty() && std::any_of(model_.bodies.begin(), model_.bodies.end(),
+                                            [&](const BodyModel& body) { return moves(body); });
+  }
+
+  bool moves(const BodyModel& body) const {
+    const Trajectory& trajectory = run_.analysis.trajectory;
+    State state, start;
+    trajectory.load(0, start);
+    for (int step = 0; step <= trajectory.steps(); ++step) {
+      trajectory.load(step, state);
+      const auto change = (state.q - start.q).cwiseQuotient(model_.mechanism.scale).eval();
+      if (change.segment(body.frame.offset, body.frame.size()).lpNorm<Eigen::Infinity>() >
+          stands_still) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  bool is_acted_on(const BodyModel& body, const Eigen::MatrixXd& free) {
+    if (rows_of(body, free).lpNorm<Eigen::Infinity>() <= visible) return false;
+    return has_given_velocity(scene_body(body), design_) || has_weight(body, free) ||
+           has_force(body, free);
+  }
+
+  bool does_work(const Eigen::VectorXd& force, const BodyModel& body,
+                 const Eigen::MatrixXd& free) const {
+    const auto part =
+        force.segment(body.frame.offset, body.frame.size())
+            .cwiseProduct(model_.mechanism.scale.segment(body.frame.offset, body.frame.size()))
+            .eval();
+    if (part.isZero(0.0)) return false;
+    return (rows_of(body, free).transpose() * part).lpNorm<Eigen::Infinity>() >
+           visible * part.lpNorm<Eigen::Infinity>();
+  }
+
+  /// Its weight is what is left of the residual of a body at rest.
+  bool has_weight(const BodyModel& body, const Eigen::MatrixXd& free) {
+    if (model_.gravity.isZero(0.0)) return false;
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(model_.mechanism.system->size());
+    Eigen::VectorXd q, v;
+    q.setZero(state_.q.size());
+    v.setZero(state_.q.size());
+    add_energy_gradient(body, model_.gravity, state_, {.weight = 1.0}, q, v);
+    force.head(q.size()) = q;
+    return does_work(force, body, free);
+  }
+
+  /// Of loads and force elements, at any time and with any motion; joints exert none with λ = 0.
+  bool has_force(const BodyModel& body, const Eigen::MatrixXd& free) {
+    const std::vector<Term*> terms = terms_besides_bodies(model_).acting;
+    State state = state_;
+    const double end = run_.analysis.trajectory.time(run_.analysis.trajectory.steps());
+    for (int i = 0; i <= instants; ++i) {
+      state.time = end * i / instants;
+      if (does_any_work(terms, state, body, free)) return true;
+    }
+    state.v = model_.mechanism.scale.cwiseProduct(
+        free * Eigen::VectorXd::LinSpaced(free.cols(), 1.0, 1.7));
+    return does_any_work(terms, state, body, free);
+  }
+
+  bool does_any_work(const std::vector<Term*>& terms, const State& state, const BodyModel& body,
+                     const Eigen::MatrixXd& free) const {
+    for (Term* term : terms) {
+      Eigen::VectorXd force = Eigen::VectorXd::Zero(model_.mechanism.system->size());
+      term->add_residual(state, ConstraintLevel::position, force);
+      if (does_work(force, body, free)) return true;
+    }
+    return false;
+  }
+
+  /// Where the only body that moves spins about an axis through its centre of mass.
+  Eigen::MatrixXd without_harmless_spins(Eigen::MatrixXd idle) const {
+    for (const BodyModel& body : model_.bodies) {
+      const Eigen::MatrixXd alone = at_rest(idle, rows_of_others(body, idle));
+      if (alone.cols() != 1 || moves_centre(body, alone)) continue;
+      if (!is_held_by_points(body.name) && !moves(body)) continue;
+      idle = at_rest(idle, rows_of(body, idle));
+    }
+    return idle;
+  }
+
+  static Eigen::MatrixXd rows_of_others(const BodyModel& body, const Eigen::MatrixXd& motions) {
+    Eigen::MatrixXd rows = motions;
+    rows.middleRows(body.frame.offset, body.frame.size()).setZero();
+    return rows;
+  }
+
+  /// The kinetic energy of the motion that the mass would have in its centre.
+  bool moves_centre(const BodyModel& body, const Eigen::MatrixXd& motion) const {
+    double work = 0.0, force = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      Eigen::VectorXd q, v;
+      q.setZero(motion.rows());
+      v.setZero(motion.rows());
+      add_energy_gradient(body, Eigen::Vector3d::Unit(i), state_, {.weight = 1.0}, q, v);
+      q = q.cwiseProduct(model_.mechanism.scale);
+      work = std::max(work, std::abs(motion.col(0).dot(q)));
+      force = std::max(force, q.lpNorm<Eigen::Infinity>());
+    }
+    return work > visible * force;
+  }
+
+  bool is_held_by_points(const std::string& name) const {
+    int count = 0;
+    for (const Joint& joint : run_.problem.scene.joints) {
+      if (joint.bodies[0] != name && joint.bodies[1] != name) continue;
+      ++count;
+      if (joint.type != JointType::spherical && joint.type != JointType::point_on_line &&
+          joint.type != JointType::distance) {
+        return false;
+      }
+    }
+    return count >= 2;
+  }
+
+  Doubt describe(const Eigen::MatrixXd& idle) const {
+    std::vector<std::string> names;
+    bool is_moved = false;
+    for (const BodyModel& body : model_.bodies) {
+      if (rows_of(body, idle).lpNorm<Eigen::Infinity>() <= visible) continue;
+      names.push_back(body.name);
+      is_moved = is_moved || moves(body);
+    }
+    Doubt doubt;
+    doubt.text = fmt::format(
+        "{} can move freely ({}), and no drive, load, spring, damper, weight or initial velocity "
+        "acts on {}: {}. Is a joint or a drive missing? If it is meant, put a damper, however "
+        "weak, into the joint that is free.",
+        quoted(names),
+        idle.cols() == 1 ? "one free motion" : fmt::format("{} free motions", idle.cols()),
+        names.size() == 1 ? "it" : "them",
+        is_moved ? "only the inertia of the rest moves what is free" : "nothing moves there");
+    doubt.responses = concerned(names);
+    doubt.is_serious = !doubt.responses.empty();
+    return doubt;
+  }
+
+  /// Responses of the bodies, of their joints, and of the whole mechanism.
+  std::vector<std::string> concerned(const std::vector<std::string>& names) const {
+    const auto is_one = [&](const std::string& name) {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    std::vector<std::string> found;
+    for (const ResponseSettings& response : run_.problem.responses) {
+      if (response.type == ResponseType::mass) continue;
+      bool is_concerned = response.joint.empty() ? response.bodies.empty() ||
+                                                       std::any_of(response.bodies.begin(),
+                                                                   response.bodies.end(), is_one)
+                                                 : false;
+      for (const Joint& joint : run_.problem.scene.joints) {
+        if (joint.name != response.joint) continue;
+        is_concerned = is_one(joint.bodies[0]) || is_one(joint.bodies[1]);
+      }
+      if (is_concerned) found.push_back(response.name);
+    }
+    return found;
+  }
+
+  const TrustedRun& run_;
+  const Model& model_;
+  std::vector<double> design_;
+  State state_;
+  std::set<std::string> grounded_ = grounded_bodies(run_.problem.scene);
+};
+
+}  // namespace
+
+std::vector<Doubt> doubt_idle_freedoms(const TrustedRun& run) {
+  return IdleFreedoms(run).find();
+}
+
+std::vector<Doubt> doubt_unconnected_bodies(const TrustedRun& run) {
+  const Scene& scene = run.problem.scene;
+  const std::set<std::string> grounded = grounded_bodies(scene);
+  if (grounded.empty()) return {};
+  const std::vector<double> design(run.x.begin(), run.x.end());
+  std::vector<std::string> names;
+  for (const Body& body : scene.bodies) {
+    if (grounded.contains(body.name)) continue;
+    // Of a group that somebody throws or pushes, nothing is forgotten.
+    if (has_given_velocity(body, design) || has_load(scene, body.name)) return {};
+    names.push_back(body.name);
+  }
+  if (names.empty()) return {};
+  Doubt doubt;
+  doubt.text = fmt::format(
+      "no joint or spring connects {} with the ground, directly or by way of other bodies, and no "
+      "load or initial velocity is given: {}. Is a joint missing?",
+      quoted(names), run.analysis.model.gravity.isZero(0.0) ? "nothing moves there" : "falls");
+  for (const ResponseSettings& response : run.problem.responses) {
+    const bool looks_there =
+        std::any_of(response.bodies.begin(), response.bodies.end(), [&](const std::string& name) {
+          return std::find(names.begin(), names.end(), name) != names.end();
+        });
+    if (looks_there && response.type != ResponseType::mass) {
+      doubt.responses.push_back(response.name);
+    }
+  }
+  doubt.is_serious = !doubt.responses.empty();
+  return {doubt};
+}
+
+}  // namespace pleuel

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "core/trust/doubts.hpp"
+
+namespace pleuel {
+
+/// Bodies that can move freely although nothing is there to move them: a joint or a drive may have
+/// been forgotten.
+///
+/// A body is acted on if its free motion does work against its weight, a load, a spring, a damper
+/// or a motor, or if the file gives it a velocity. Free motions of the mechanism (all drives held)
+/// that move only bodies on which nothing acts are idle: at most inertia moves them. They are
+/// looked for in a position near the start that is no special one.
+///
+/// Not idle: a mechanism that touches the ground nowhere but moves; the spin of a body about an
+/// axis through its centre of mass, where its joints are points or the body moves otherwise (a rod
+/// between ball joints, a roller).
+std::vector<Doubt> doubt_idle_freedoms(const TrustedRun& run);
+
+/// Bodies without a way of joints and springs to the ground, where others have one, that nobody has
+/// given a velocity or a load.
+std::vector<Doubt> doubt_unconnected_bodies(const TrustedRun& run);
+
+}  // namespace pleuel

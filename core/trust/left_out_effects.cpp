@@ -1,0 +1,73 @@
+#include "core/trust/left_out_effects.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "core/model/effect_estimates.hpp"
+#include "core/response/effect_measurement.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Share of Euler's load from which stiffening changes bending by as much.
+constexpr double small_axial_force = 1e-2;
+
+bool leaves_out_by_measurement(const Model& model) {
+  return std::any_of(model.effects.begin(), model.effects.end(), [](const EffectRecord& record) {
+    return record.kind == EffectRecord::Kind::measured && !record.is_built;
+  });
+}
+
+}  // namespace
+
+std::vector<Doubt> doubt_left_out_effects(const TrustedRun& run) {
+  if (!leaves_out_by_measurement(run.analysis.model)) return {};
+  if (run.x == start_design(run.problem)) return {};
+  try {
+    const auto complete = analyze(with_all_effects(run.problem), run.x);
+    const LargestChange change = largest_change(run.problem, *complete, run.analysis);
+    if (change.relative <= run.problem.effects.tolerance) return {};
+    return {{fmt::format("effects that were left out at the start design change \"{}\" by {:.2g} "
+                         "at this one, more than /effects/tolerance = {:g}. Start from this "
+                         "design, or with a smaller tolerance.",
+                         change.response, change.relative, run.problem.effects.tolerance),
+             true,
+             {change.response}}};
+  } catch (const SimulationError& error) {
+    return {{fmt::format("with the effects that were left out at the start design this one cannot "
+                         "be simulated: {}",
+                         error.what()),
+             true}};
+  }
+}
+
+std::vector<Doubt> doubt_lost_stiffening(const TrustedRun& run) {
+  const EffectSettings& asked = run.problem.effects;
+  if (asked.axial_elasticity != EffectChoice::off || asked.elasticity == EffectChoice::off ||
+      asked.geometric_stiffening == EffectChoice::off) {
+    return {};
+  }
+  ProblemFile estimated = with_all_effects(run.problem);
+  estimated.effects.axial_elasticity = EffectChoice::automatic;
+  estimated.effects.tolerance = small_axial_force;
+  for (std::size_t i = 0; i < estimated.variables.size(); ++i) {
+    estimated.variables[i].start = run.x(static_cast<Eigen::Index>(i));
+  }
+  estimate_effects(estimated);
+  std::vector<Doubt> doubts;
+  for (const auto& [body, estimates] : estimated.effects.estimates) {
+    if (estimates.geometric_stiffening <= small_axial_force) continue;
+    doubts.push_back(
+        {fmt::format("\"{}\" carries an axial force of about {:.2g} of its Euler load, which "
+                     "stiffens or softens it, but has no geometric stiffening because "
+                     "/effects/axial_elasticity is \"off\". Leave that out of the file.",
+                     body, estimates.geometric_stiffening),
+         true});
+  }
+  return doubts;
+}
+
+}  // namespace pleuel

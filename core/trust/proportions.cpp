@@ -1,0 +1,220 @@
+#include "core/trust/proportions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/model/scene_geometry.hpp"
+
+namespace pleuel {
+
+namespace {
+
+constexpr double far_away = 100.0;       // of the size of the rest
+constexpr double most_slender = 5000.0;  // lengths over depths; wires included
+constexpr double largest_body = 10.0;    // radius of gyration, of the mechanism's size
+// From foams to osmium, from gels to diamond, from the moon's third to Jupiter's tenfold.
+constexpr double least_density = 10.0, most_density = 25e3;  // [kg/m³]
+constexpr double least_young = 1e6, most_young = 2e12;       // [Pa]
+constexpr double least_gravity = 0.5, most_gravity = 250.0;  // [m/s²]
+
+struct Place {
+  std::string pointer;
+  Eigen::Vector3d position;
+};
+
+double size_of(const std::vector<Eigen::Vector3d>& points) {
+  double size = 0.0;
+  for (const auto& a : points) {
+    for (const auto& b : points) size = std::max(size, (a - b).norm());
+  }
+  return size;
+}
+
+double distance_to(const Eigen::Vector3d& point, const std::vector<Eigen::Vector3d>& others) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& other : others) least = std::min(least, (point - other).norm());
+  return least;
+}
+
+class Proportions {
+ public:
+  explicit Proportions(const TrustedRun& run)
+      : scene_(run.problem.scene), design_(run.x.begin(), run.x.end()) {}
+
+  std::vector<Doubt> find() {
+    collect_places();
+    check_distances();
+    for (const Body& body : scene_.bodies) {
+      if (const auto* beam = std::get_if<BeamBody>(&body.shape)) check_beam(body.name, *beam);
+      if (const auto* rigid = std::get_if<RigidBody>(&body.shape)) check_rigid(body.name, *rigid);
+    }
+    for (const Material& material : scene_.materials) check_material(material);
+    check_gravity();
+    return std::move(doubts_);
+  }
+
+ private:
+  void add(const std::string& text) {
+    doubts_.push_back({text + ". Is a unit missing, or another one meant?"});
+  }
+
+  // Where things are.
+
+  void place(const std::string& pointer, const Point& point) {
+    places_.push_back({pointer, resolve_point(point, design_)});
+  }
+
+  void collect_places() {
+    for (const Body& body : scene_.bodies) {
+      const std::string at = "/scene/bodies/" + body.name;
+      if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
+        place(at + "/from", beam->from);
+        place(at + "/to", beam->to);
+      } else if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
+        place(at + "/from", imported->from);
+      } else if (const auto* rigid = std::get_if<RigidBody>(&body.shape)) {
+        place(at + "/at", rigid->at);
+      } else {
+        place(at + "/at", std::get<PointMass>(body.shape).at);
+      }
+    }
+    for (const Joint& joint : scene_.joints) {
+      place("/scene/joints/" + joint.name + "/at", joint.at);
+      if (joint.type == JointType::distance) {
+        place("/scene/joints/" + joint.name + "/to", joint.to);
+      }
+    }
+    for (const Load& load : scene_.loads) {
+      const std::string at = "/scene/loads/" + load.name + "/at";
+      if (const auto* force = std::get_if<PointForce>(&load.element)) place(at, force->at);
+      if (const auto* spring = std::get_if<SpringDamper>(&load.element)) {
+        for (const Point& point : spring->at) place(at, point);
+      }
+    }
+  }
+
+  /// A point, or several at one place or near each other, far from the rest: at most half of all.
+  void check_distances() {
+    std::set<std::size_t> named;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      if (named.contains(i)) continue;
+      const auto [near, rest] = split(i);
+      if (2 * near.size() > places_.size() || rest.empty()) continue;
+      std::vector<Eigen::Vector3d> others;
+      for (const std::size_t k : rest) others.push_back(places_[k].position);
+      const double size = size_of(others);
+      const double distance = distance_to(places_[i].position, others);
+      if (size == 0.0 || distance <= far_away * size) continue;
+      named.insert(near.begin(), near.end());
+      add(
+          fmt::format("{} is {:.3g} m away from all other points of the mechanism, which lie "
+                      "within {:.3g} m of each other",
+                      places_[i].pointer, distance, size));
+    }
+  }
+
+  /// The points that lie, as seen from all others, where point i is; and the others.
+  std::pair<std::vector<std::size_t>, std::vector<std::size_t>> split(std::size_t i) const {
+    std::vector<std::pair<double, std::size_t>> by_distance;
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      by_distance.emplace_back((places_[k].position - places_[i].position).norm(), k);
+    }
+    std::sort(by_distance.begin(), by_distance.end());
+    const double farthest = by_distance.back().first;
+    std::pair<std::vector<std::size_t>, std::vector<std::size_t>> parts;
+    for (const auto& [distance, k] : by_distance) {
+      (distance * 2.0 < farthest ? parts.first : parts.second).push_back(k);
+    }
+    return parts;
+  }
+
+  double mechanism_size() const {
+    std::vector<Eigen::Vector3d> points;
+    for (const Place& place : places_) points.push_back(place.position);
+    return size_of(points);
+  }
+
+  // What bodies are.
+
+  void check_beam(const std::string& name, const BeamBody& beam) {
+    const double length =
+        (resolve_point(beam.to, design_) - resolve_point(beam.from, design_)).norm();
+    double most = 0.0, least = std::numeric_limits<double>::infinity();
+    for (const Segment& segment : beam.segments) {
+      const double depth = depth_of(resolve_section(segment.section, design_));
+      most = std::max(most, depth);
+      least = std::min(least, depth);
+    }
+    const std::string at = "/scene/bodies/" + name;
+    if (most > length) {
+      add(fmt::format("{}/section is {:.3g} m deep, more than the beam is long ({:.3g} m)", at,
+                      most, length));
+    } else if (length > most_slender * least) {
+      add(
+          fmt::format("{} is {:.3g} m long, {:.0f} times as much as its section is deep "
+                      "({:.3g} m)",
+                      at, length, length / least, least));
+    }
+  }
+
+  /// √(12 I/A) about the stiffer axis: of a rectangle its larger side.
+  static double depth_of(const SectionProperties<double>& section) {
+    return std::sqrt(12.0 * std::max(section.inertia_y, section.inertia_z) / section.area);
+  }
+
+  void check_rigid(const std::string& name, const RigidBody& rigid) {
+    double inertia = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      inertia = std::max(inertia, resolve(rigid.inertia[i], design_));
+    }
+    const double radius = std::sqrt(inertia / resolve(rigid.mass, design_));
+    const double size = mechanism_size();
+    if (size == 0.0 || !(radius > largest_body * size)) return;
+    add(
+        fmt::format("/scene/bodies/{}/inertia is that of a body of {:.3g} m (radius of gyration), "
+                    "in a mechanism of {:.3g} m",
+                    name, radius, size));
+  }
+
+  void check_material(const Material& material) {
+    const bool is_used =
+        std::any_of(scene_.bodies.begin(), scene_.bodies.end(), [&](const Body& body) {
+          const auto* beam = std::get_if<BeamBody>(&body.shape);
+          return beam && beam->material == material.name;
+        });
+    if (!is_used) return;
+    const std::string at = "/scene/materials/" + material.name;
+    const double density = resolve(material.density, design_);
+    const double young = resolve(material.young, design_);
+    if (density < least_density || density > most_density) {
+      add(fmt::format("{}/density is {:.4g} kg/m³, which no solid has (steel: 7850)", at, density));
+    }
+    if (young < least_young || young > most_young) {
+      add(fmt::format("{}/young is {:.4g} Pa, which no solid has (steel: 2.1e11)", at, young));
+    }
+  }
+
+  void check_gravity() {
+    const double gravity = resolve_point(scene_.gravity, design_).norm();
+    if (gravity == 0.0 || (gravity >= least_gravity && gravity <= most_gravity)) return;
+    add(fmt::format("/scene/gravity is {:.4g} m/s² (on the earth: 9.81)", gravity));
+  }
+
+  const Scene& scene_;
+  Design<double> design_;
+  std::vector<Place> places_;
+  std::vector<Doubt> doubts_;
+};
+
+}  // namespace
+
+std::vector<Doubt> doubt_proportions(const TrustedRun& run) {
+  return Proportions(run).find();
+}
+
+}  // namespace pleuel
