@@ -19,6 +19,8 @@ constexpr double small = 1e-3;
 /// is off by small².
 constexpr double closed = 1e-10;
 constexpr int max_iterations = 20;
+/// What opens by more, of the way that is moved, does not follow from the others but from a drive.
+constexpr double most_misaligned = 3e-2;
 
 /// A mechanism that is moved while some of its constraints are kept.
 class MovedMechanism {
@@ -27,6 +29,7 @@ class MovedMechanism {
       : mechanism_(mechanism),
         system_(*mechanism.system),
         state_(std::move(state)),
+        start_(state_.q),
         scale_(std::move(scale)),
         matrix_(system_.make_matrix()) {}
 
@@ -52,6 +55,11 @@ class MovedMechanism {
     direction -= least_norm(rows, rows * direction);
     if (direction.norm() <= no_direction) return Eigen::VectorXd::Zero(rows.cols());
     return direction.normalized();
+  }
+
+  /// How far it has been moved, in scales of the coordinates.
+  double way() const {
+    return difference(mechanism_.rotations, state_.q, start_).cwiseQuotient(scale_).norm();
   }
 
   /// Moves and closes the kept constraints. @returns whether they close
@@ -81,6 +89,7 @@ class MovedMechanism {
   const Mechanism& mechanism_;
   System& system_;
   State state_;
+  Eigen::VectorXd start_;  ///< q
   Eigen::VectorXd scale_;
   System::Matrix matrix_;
   Eigen::VectorXd residual_;
@@ -143,32 +152,54 @@ Eigen::VectorXd generous_scale(const Mechanism& mechanism) {
   return scale;
 }
 
+/// Takes out what opens a little when drives are let go.
+void erase_misaligned(const Mechanism& mechanism, const std::vector<int>& drives,
+                      std::vector<int> kept, std::vector<int>& candidates) {
+  const auto is_drive = [&](int row) {
+    return std::find(drives.begin(), drives.end(), row) != drives.end();
+  };
+  if (std::erase_if(kept, is_drive) == 0) return;
+  MovedMechanism moved(mechanism, mechanism.guess, mechanism.scale);
+  const Eigen::VectorXd motion = moved.free_motion(kept);
+  if (motion.isZero(0.0) || !moved.move(small * motion, 0.0, kept)) return;
+  const Eigen::VectorXd open = moved.constraints().cwiseAbs();
+  std::erase_if(candidates, [&](int row) {
+    return !is_drive(row) && open(row) > closed + alignment_tolerance * small &&
+           open(row) < most_misaligned * small;
+  });
+}
+
 }  // namespace
 
-std::vector<int> redundant_constraints(Mechanism& mechanism) {
+std::vector<int> redundant_constraints(Mechanism& mechanism, const std::vector<int>& drives) {
   if (mechanism.system->multipliers() == 0) return {};
   MovedMechanism moved(mechanism, mechanism.guess, mechanism.scale);
   const RankedRows ranked = rank(moved.jacobian());
   const auto independent =
       static_cast<std::size_t>((ranked.pivots.array() > alignment_tolerance).count());
-  const std::vector<int> kept = first_rows(ranked, independent);
+  std::vector<int> kept = first_rows(ranked, independent);
   std::vector<int> candidates(ranked.order.begin() + static_cast<std::ptrdiff_t>(independent),
                               ranked.order.end());
   if (candidates.empty() || !moved.move(small * moved.free_motion(kept), small, kept)) return {};
+  const double way = std::max(small, moved.way());
   const Eigen::VectorXd open = moved.constraints().cwiseAbs();
   std::erase_if(candidates,
-                [&](int row) { return !(open(row) <= closed + alignment_tolerance * small); });
+                [&](int row) { return !(open(row) <= closed + alignment_tolerance * way); });
+  erase_misaligned(mechanism, drives, std::move(kept), candidates);
   std::sort(candidates.begin(), candidates.end());
   return candidates;
 }
 
 std::vector<NearRedundancy> nearly_redundant_constraints(const Mechanism& mechanism,
-                                                         const State& state, double largest) {
+                                                         const State& state,
+                                                         const std::vector<int>& drives,
+                                                         double largest) {
   const System& system = *mechanism.system;
   if (system.multipliers() == 0) return {};
   const Eigen::VectorXd scale = generous_scale(mechanism);
   Eigen::MatrixXd jacobian = MovedMechanism(mechanism, state, scale).jacobian();
   for (const int row : system.left_out()) jacobian.row(row).setZero();
+  for (const int row : drives) jacobian.row(row).setZero();
   const RankedRows ranked = rank(jacobian);
   std::vector<NearRedundancy> found;
   for (std::size_t i = 1; i < ranked.order.size(); ++i) {

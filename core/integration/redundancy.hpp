@@ -16,10 +16,12 @@ inline constexpr double alignment_tolerance = 1e-6;
 /// spatial revolutes. Candidates are the rows of Φ_q that a rank-revealing QR factorisation with
 /// column pivoting leaves over at the guess (pivots up to the alignment tolerance); they are
 /// redundant if they still hold, up to the tolerance, after a small motion in which only the others
-/// are kept. So a position in which the mechanism is merely singular is told from redundancy. The
-/// guess has to meet the constraints.
+/// are kept. So a position in which the mechanism is merely singular is told from redundancy. What
+/// drives hold altogether is moved without them, too: a drive that starts from rest moves nothing,
+/// and hides joints that are out of line. The guess has to meet the constraints.
+/// @param drives  multipliers of drives
 /// @returns indices of multipliers, ascending
-std::vector<int> redundant_constraints(Mechanism& mechanism);
+std::vector<int> redundant_constraints(Mechanism& mechanism, const std::vector<int>& drives = {});
 
 /// A constraint that would follow from others if joints were aligned exactly.
 struct NearRedundancy {
@@ -32,9 +34,12 @@ struct NearRedundancy {
 /// Constraints that are kept, but block a motion only because joints are slightly out of line: they
 /// open with the motion that the others leave by the misalignment, in proportion. (In a position
 /// that is nearly singular they open with its square.) Elastic coordinates count with the
-/// mechanism's size: bodies that yield are not locked.
+/// mechanism's size: bodies that yield are not locked. Drives are let go.
+/// @param drives   multipliers of drives
 /// @param largest  misalignment that is looked for
 std::vector<NearRedundancy> nearly_redundant_constraints(const Mechanism& mechanism,
-                                                         const State& state, double largest);
+                                                         const State& state,
+                                                         const std::vector<int>& drives,
+                                                         double largest);
 
 }  // namespace pleuel

@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "core/integration/redundancy.hpp"
+#include "core/model/drive_rows.hpp"
 #include "core/model/imported_builder.hpp"
 #include "core/model/joint_builder.hpp"
 #include "core/model/load_builder.hpp"
@@ -195,7 +196,7 @@ class ModelBuilder {
   }
 
   void leave_out_redundant() {
-    const std::vector<int> redundant = redundant_constraints(model_.mechanism);
+    const std::vector<int> redundant = redundant_constraints(model_.mechanism, drive_rows(model_));
     if (redundant.empty()) return;
     model_.mechanism.system->leave_out(redundant);
     std::map<std::string, int> counts;

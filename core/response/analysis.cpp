@@ -114,9 +114,9 @@ SimulationOptions options_of(const ProblemFile& problem) {
 
 /// @throws the error, with the joints that may be its cause
 [[noreturn]] void explain(const SimulationError& error, const Model& model) {
-  constexpr double hardly_meant = 1e-3;
+  constexpr double largest = 3e-2;
   std::string text = error.what();
-  for (const Misalignment& found : find_misalignments(model, model.mechanism.guess, hardly_meant)) {
+  for (const Misalignment& found : find_misalignments(model, model.mechanism.guess, largest)) {
     text += ". Look at this first: " + found.text();
   }
   throw SimulationError(text);

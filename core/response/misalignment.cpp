@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "core/integration/redundancy.hpp"
+#include "core/model/drive_rows.hpp"
 
 namespace pleuel {
 

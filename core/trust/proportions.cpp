@@ -17,9 +17,11 @@ namespace {
 constexpr double far_away = 100.0;       // of the size of the rest
 constexpr double most_slender = 5000.0;  // lengths over depths; wires included
 constexpr double largest_body = 10.0;    // radius of gyration, of the mechanism's size
-// From foams to osmium, from gels to diamond, from the moon's third to Jupiter's tenfold.
+// From foams to osmium, from rubber to what is meant as rigid, from the moon's third to Jupiter's
+// tenfold.
 constexpr double least_density = 10.0, most_density = 25e3;  // [kg/m³]
-constexpr double least_young = 1e6, most_young = 2e12;       // [Pa]
+constexpr double least_young = 1e6,
+                 most_young = 1e18;  // [Pa]; stiff beyond reason may be meant as rigid
 constexpr double least_gravity = 0.5, most_gravity = 250.0;  // [m/s²]
 
 struct Place {
@@ -98,13 +100,14 @@ class Proportions {
     }
   }
 
-  /// A point, or several at one place or near each other, far from the rest: at most half of all.
+  /// A point, or few at one place or near each other, far from the rest. Where many are far, the
+  /// rest may be a small crank.
   void check_distances() {
     std::set<std::size_t> named;
     for (std::size_t i = 0; i < places_.size(); ++i) {
       if (named.contains(i)) continue;
       const auto [near, rest] = split(i);
-      if (2 * near.size() > places_.size() || rest.empty()) continue;
+      if (near.size() > std::max<std::size_t>(2, places_.size() / 3) || rest.empty()) continue;
       std::vector<Eigen::Vector3d> others;
       for (const std::size_t k : rest) others.push_back(places_[k].position);
       const double size = size_of(others);

@@ -80,7 +80,8 @@ TEST(Invariants, RefuseWhatHasNone) {
   EXPECT_THAT(complaint({"--body", "slider"}), HasSubstr("\"slider\" is rigid"));
   EXPECT_THAT(complaint({"--body", "rood"}), HasSubstr("there is no body \"rood\""));
   EXPECT_THAT(complaint({"-o", "all.json"}), HasSubstr("2 bodies are elastic"));
-  EXPECT_THAT(complaint({"--set", "/effects/elasticity=off"}), HasSubstr("no body is elastic"));
+  EXPECT_THAT(complaint({"--set", "/effects={\"elasticity\": \"off\"}"}),
+              HasSubstr("no body is elastic"));
 }
 
 }  // namespace

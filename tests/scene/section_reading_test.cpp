@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -146,6 +148,36 @@ TEST(Materials, OfTheLibraryAreWhatAMaterialCanBe) {
     EXPECT_LT(material.density.constant, 8000.0);
   }
   EXPECT_GE(names.size(), 8U);
+}
+
+/// The numbers of the standards and handbooks that the library names: E [GPa], ν, ρ [kg/m³], yield
+/// strength [MPa].
+TEST(Materials, OfTheLibraryHaveTheNumbersOfTheirStandards) {
+  struct Row {
+    const char* name;
+    double young, poisson, density, strength;
+  };
+  for (const Row& row : {Row{"steel", 210, 0.3, 7850, 355},                       // EN 1993-1-1
+                         Row{"high-strength-steel", 210, 0.3, 7850, 960},         // EN 10025-6
+                         Row{"heat-treated-steel-42CrMo4", 210, 0.3, 7850, 650},  // EN ISO 683-2
+                         Row{"stainless-steel", 200, 0.3, 7900, 190},             // EN 10088
+                         Row{"ductile-iron-GJS-400-15", 169, 0.275, 7100, 250},   // EN 1563
+                         Row{"aluminium-6082-T6", 70, 0.33, 2700, 250},           // EN 755-2
+                         Row{"aluminium-7075-T6", 71.7, 0.33, 2810, 480},         // EN 755-2
+                         Row{"titanium-Ti6Al4V", 113.8, 0.342, 4430, 828},        // ASTM B348
+                         Row{"magnesium-AZ31", 45, 0.35, 1770, 145},              // ASTM B107
+                         Row{"cfrp-quasi-isotropic", 69.7, 0.296, 1600, 270},     // see below
+                         Row{"pom", 2.85, 0.37, 1410, 64}}) {                     // ISO 527
+    const std::vector<Material> library = material_library();
+    const auto found = std::find_if(library.begin(), library.end(), [&](const Material& material) {
+      return material.name == row.name;
+    });
+    ASSERT_NE(found, library.end()) << row.name;
+    EXPECT_DOUBLE_EQ(found->young.constant, row.young * 1e9) << row.name;
+    EXPECT_DOUBLE_EQ(found->poisson.constant, row.poisson) << row.name;
+    EXPECT_DOUBLE_EQ(found->density.constant, row.density) << row.name;
+    EXPECT_DOUBLE_EQ(found->strength->constant, row.strength * 1e6) << row.name;
+  }
 }
 
 /// Classical lamination theory: with the invariants of the ply, Q₁₁ = E₁/(1 − ν₁₂ν₂₁) …,

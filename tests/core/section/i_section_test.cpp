@@ -1,6 +1,8 @@
 #include "core/section/i_section.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -97,6 +99,37 @@ TEST(ISection, WithFilletsAddedIsTheTableOfTheStandard) {
   // Their own second moments are 0.0075 r⁴ each: 4 · 1.6e-10 m⁴, less than half a last digit.
   EXPECT_NEAR(section.inertia_z + 4 * fillet * y * y, 1943e-8, 0.5e-8);
   EXPECT_NEAR(section.inertia_y + 4 * fillet * z * z, 142.4e-8, 0.11e-8);
+}
+
+/// I 100 × 200, flange 8.5, web 5.6 mm. The shear of torsion in a wall of thickness t is T t/J
+/// (Timoshenko & Goodier, §112); the points are where bending about either axis is largest in each
+/// wall: the corners of the flanges, the ends of the web, and the middles of the flanges.
+TEST(ISection, HasPointsAtTheEndsOfItsWallsWithTheShearOfTheWalls) {
+  const double b = 0.1, h = 0.2, f = 0.0085, w = 0.0056;
+  const auto section = i_section(b, h, f, w);
+  const auto points_at = [&](double y, double z) {
+    std::vector<double> shears;
+    for (const auto& point : section.points) {
+      if (std::abs(std::abs(point.y) - y) < 1e-12 && std::abs(std::abs(point.z) - z) < 1e-12) {
+        shears.push_back(point.shear);
+      }
+    }
+    return shears;
+  };
+  const double torsion = section.torsion;
+  const std::vector<double> corners = points_at(h / 2, b / 2), middles = points_at(h / 2, 0.0),
+                            web = points_at(h / 2 - f, w / 2);
+  ASSERT_EQ(corners.size(), 4u);
+  ASSERT_EQ(middles.size(), 2u);
+  ASSERT_EQ(web.size(), 4u);
+  EXPECT_EQ(section.points.size(), 10u);
+  for (const double shear : corners) EXPECT_NEAR(shear * torsion / f, 1.0, 1e-12);
+  for (const double shear : web) EXPECT_NEAR(shear * torsion / w, 1.0, 1e-12);
+  // Thicker where the web joins: between the flange alone and a wall of the inscribed circle.
+  for (const double shear : middles) {
+    EXPECT_GT(shear * torsion / f, 1.0);
+    EXPECT_LT(shear * torsion / f, (f + w * w / (4 * f)) / f + 0.05);
+  }
 }
 
 TEST(ISection, DerivativesAreThoseOfTheComplexStep) {

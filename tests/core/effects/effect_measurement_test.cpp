@@ -1,0 +1,192 @@
+/// What is left out with a tolerance is decided by simulations, not by estimates alone.
+
+#include "core/response/effect_measurement.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/error.hpp"
+#include "core/model/effect_estimates.hpp"
+#include "core/scene/problem_reader.hpp"
+#include "core/trust/left_out_effects.hpp"
+#include "tests/support/problem_runs.hpp"
+
+namespace pleuel::test {
+namespace {
+
+using testing::HasSubstr;
+
+ProblemFile read(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  return read_problem_text(text, "test.json", overrides);
+}
+
+/// A flat bar with an arm across it: the load on the arm twists the bar.
+std::string twisted_bar(double tolerance, const std::string& response) {
+  return fmt::format(
+      R"({{"scene": {{"materials": {{"m": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
+        "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [0.8, 0, 0], "material": "m", "elements": 2,
+                             "section": {{"type": "rectangle", "width": 0.003, "height": 0.05}},
+                             "damping": {{"stiffness": 1e-4}}}},
+                    "arm": {{"type": "rigid", "at": [0.8, 0, 0.4], "mass": 0.01, "inertia": [1e-4, 1e-4, 1e-4, 0, 0, 0]}}}},
+        "joints": {{"clamp": {{"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}},
+                    "end": {{"type": "fixed", "bodies": ["bar", "arm"], "at": [0.8, 0, 0]}}}},
+        "loads": {{"w": {{"type": "force", "body": "arm", "at": [0.8, 0, 0.4], "direction": [0, -1, 0], "value": 0.3}}}}}},
+        "simulation": {{"end_time": 0.05, "step": 0.001, "initial_state": "quasi-static"}},
+        "responses": {{"y": {}}}, "effects": {{"tolerance": {}}}}})",
+      response, tolerance);
+}
+const std::string position =
+    R"({"type": "position", "body": "arm", "direction": "y", "over_time": "final"})";
+
+/// y = −(F L³/3EI + F a² L/GJ): bending and twist; J of a strip b t³/3 (1 − 0.63 t/b).
+TEST(MeasuredEffects, KeepTheTwistThatAnArmMakesLarge) {
+  for (const double tolerance : {1e-1, 1e-2, 1e-3}) {
+    ProblemFile problem = read(twisted_bar(tolerance, position));
+    decide_effects(problem);
+    const double value = analyze(problem, start_design(problem))->reductions[0].value;
+    const double torsion = 0.05 * std::pow(0.003, 3) / 3 * (1 - 0.63 * 0.003 / 0.05);
+    const double twist = 0.3 * 0.4 * 0.4 * 0.8 / (2.1e11 / 2.6 * torsion);
+    const double bend = 0.3 * std::pow(0.8, 3) / (3 * 2.1e11 * 0.003 * std::pow(0.05, 3) / 12);
+    EXPECT_NEAR(value, -(twist + bend), (tolerance + 1e-3) * (twist + bend)) << tolerance;
+  }
+}
+
+TEST(MeasuredEffects, AreInTheTableWithWhatWasMeasured) {
+  ProblemFile problem = read(twisted_bar(1e-2, position));
+  decide_effects(problem);
+  const auto analysis = analyze(problem, start_design(problem));
+  const auto record = [&](const std::string& name) {
+    return *std::find_if(analysis->model.effects.begin(), analysis->model.effects.end(),
+                         [&](const EffectRecord& effect) { return effect.name == name; });
+  };
+  EXPECT_EQ(record("elasticity").kind, EffectRecord::Kind::measured);
+  EXPECT_TRUE(record("elasticity").is_built);
+  EXPECT_THAT(record("elasticity").reason, HasSubstr("without it \"y\" changes by 1"));
+  EXPECT_TRUE(record("torsional_elasticity").is_built);
+  EXPECT_EQ(record("axial_elasticity").kind, EffectRecord::Kind::measured);
+  EXPECT_FALSE(record("axial_elasticity").is_built);
+}
+
+/// The law, on problems whose estimates are far off: peaks of torque and reactions of members that
+/// ring.
+TEST(MeasuredEffects, ChangeNoAskedResponseByMoreThanTheTolerance) {
+  for (const char* name : {"slider_crank", "spatial_slider_crank", "four_bar"}) {
+    for (const double tolerance : {0.05, 1e-3}) {
+      ProblemFile problem = sample_problem(name);
+      problem.effects = {};
+      problem.simulation.step *= 4.0;
+      problem.simulation.end_time *= 0.5;
+      std::erase_if(problem.responses, [](const ResponseSettings& response) {
+        return response.type == ResponseType::stress || response.type == ResponseType::deflection;
+      });
+      const auto complete = analyze(problem, start_design(problem));
+      problem.effects.tolerance = tolerance;
+      decide_effects(problem);
+      const auto lean = analyze(problem, start_design(problem));
+      EXPECT_LE(largest_change(problem, *complete, *lean).relative, tolerance)
+          << name << " " << largest_change(problem, *complete, *lean).response;
+      for (std::size_t i = 0; i < problem.responses.size(); ++i) {
+        const double value = complete->reductions[i].value;
+        EXPECT_NEAR(lean->reductions[i].value, value, tolerance * std::abs(value) + 1e-9)
+            << name << " " << problem.responses[i].name;
+      }
+    }
+  }
+}
+
+/// At another design little is not little any more.
+TEST(MeasuredEffects, AreMeasuredAgainAtOtherDesigns) {
+  ProblemFile problem =
+      read(twisted_bar(1e-2, R"({"type": "position", "body": "arm", "direction": "z",
+                                 "over_time": "final"})"),
+           {R"(/scene/loads/w/value={"variable": "force"})",
+            R"(/variables={"force": {"start": "1e-6 N", "lower": "1e-7 N", "upper": "500 N"}})"});
+  decide_effects(problem);
+  const auto doubts_at = [&](double force) {
+    Eigen::VectorXd x(1);
+    x << force;
+    const auto analysis = analyze(problem, x);
+    const Monitors monitors = monitor(analysis->model, analysis->trajectory);
+    return doubt_left_out_effects(TrustedRun{problem, x, *analysis, monitors});
+  };
+  EXPECT_THAT(doubts_at(1e-6), testing::IsEmpty());
+  EXPECT_THAT(doubts_at(2e-6), testing::IsEmpty());
+  const std::vector<Doubt> doubts = doubts_at(20.0);
+  ASSERT_THAT(doubts, testing::SizeIs(1));
+  EXPECT_TRUE(doubts[0].is_serious);
+  EXPECT_THAT(doubts[0].text, HasSubstr("left out at the start design"));
+}
+
+// Estimates against closed forms.
+
+/// A cantilever under loads that do not change: with nothing that moves, an estimate of
+/// displacements is twice (sudden loads) the static one over the length.
+TEST(Estimates, OfACantileverAreThoseOfTheBooks) {
+  const double length = 0.5, width = 0.02, height = 0.01, force = 3.0, pull = 40.0, torque = 2.0;
+  ProblemFile problem = read(
+      R"({"scene": {"materials": {"m": {"young": 7e10, "poisson": 0.25, "density": 2700}},
+          "bodies": {"beam": {"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "material": "m", "elements": 2,
+                              "section": {"type": "rectangle", "width": 0.02, "height": 0.01}}},
+          "joints": {"clamp": {"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}},
+          "loads": {"bend": {"type": "force", "body": "beam", "at": [0.5, 0, 0], "direction": [0, 1, 0], "value": 3},
+                    "pull": {"type": "force", "body": "beam", "at": [0.5, 0, 0], "direction": [1, 0, 0], "value": 40},
+                    "twist": {"type": "torque", "body": "beam", "at": [0.5, 0, 0], "direction": [1, 0, 0], "value": 2}}},
+          "simulation": {"end_time": 0.01, "step": 0.001}, "effects": {"tolerance": 1e-3}})");
+  estimate_effects(problem);
+  const BeamEstimates found = problem.effects.estimates.at("beam");
+  const double young = 7e10, area = width * height, pi = 3.14159265358979323846;
+  const double about_z = width * std::pow(height, 3) / 12,
+               about_y = height * std::pow(width, 3) / 12;
+  const double bent = force * std::pow(length, 3) / (3 * young * about_z);
+  EXPECT_NEAR(found.elasticity, 2 * bent / length, 1e-9 * found.elasticity);
+  EXPECT_NEAR(found.axial_elasticity, 2 * pull / (young * area), 1e-9 * found.axial_elasticity);
+  // J = 0.229 b t³ of sides 2 : 1 (Timoshenko & Goodier, §109: three digits); half depth 10 mm.
+  const double torsion = 0.229 * width * std::pow(height, 3);
+  EXPECT_NEAR(found.torsional_elasticity, 2 * torque / (young / 2.5 * torsion) * width / 2,
+              3e-3 * found.torsional_elasticity);
+  // Euler's load of a column that is clamped at one end, about its weaker axis.
+  const double euler = pi * pi * young * about_z / (4 * length * length);
+  EXPECT_NEAR(found.geometric_stiffening, pull / euler, 1e-9 * found.geometric_stiffening);
+  EXPECT_NEAR(found.rotary_inertia, pi * pi * about_y / area / (length * length),
+              1e-9 * found.rotary_inertia);
+}
+
+// Contradictory wishes.
+
+TEST(ContradictoryEffects, AreErrorsThatNameTheirPlace) {
+  const auto complaint = [](const std::string& effects, const std::string& problem_name) {
+    try {
+      sample_problem(problem_name, {"/effects=" + effects});
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_THAT(complaint(R"({"geometric_stiffening": "on", "axial_elasticity": "off"})", "four_bar"),
+              HasSubstr("/effects/geometric_stiffening is \"on\", but /effects/axial_elasticity"));
+  EXPECT_THAT(complaint(R"({"axial_elasticity": "on", "elasticity": "off"})", "four_bar"),
+              HasSubstr("/effects/axial_elasticity is \"on\", but /effects/elasticity is \"off\""));
+  EXPECT_EQ(complaint(R"({"geometric_stiffening": "auto", "axial_elasticity": "off"})", "four_bar"),
+            "none");
+  EXPECT_EQ(complaint(R"({"geometric_stiffening": "on", "axial_elasticity": "auto"})", "four_bar"),
+            "none");
+}
+
+/// With a tolerance that axial elasticity alone would not survive, stiffening keeps it.
+TEST(GeometricStiffening, KeepsTheAxialElasticityThatItNeeds) {
+  ProblemFile problem = sample_problem(
+      "slider_crank_exudyn", {R"(/effects={"geometric_stiffening": "on", "tolerance": 0.5})"});
+  std::erase_if(problem.responses, [](const ResponseSettings& response) {
+    return response.type == ResponseType::stress;
+  });
+  estimate_effects(problem);
+  const auto built = build_model(problem.scene, problem.effects, {}, {});
+  ASSERT_TRUE(built.body("rod").has_stiffening);
+  EXPECT_GE(built.body("rod").coordinate(4, 0), 0);
+}
+
+}  // namespace
+}  // namespace pleuel::test
