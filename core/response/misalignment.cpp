@@ -55,7 +55,8 @@ std::string Misalignment::text() const {
 std::vector<Misalignment> find_misalignments(const Model& model, const State& state,
                                              double largest) {
   std::vector<Misalignment> found;
-  for (const NearRedundancy& near : nearly_redundant_constraints(model.mechanism, state, largest)) {
+  for (const NearRedundancy& near :
+       nearly_redundant_constraints(model.mechanism, state, drive_rows(model), largest)) {
     Misalignment misalignment{joints_of(near, model), bodies_of(near, model), near.misalignment};
     const auto same = std::find_if(found.begin(), found.end(), [&](const Misalignment& other) {
       return other.joints == misalignment.joints;
