@@ -105,18 +105,6 @@ TEST(RedundantConstraints, OfADoubledJointAreThoseOfOne) {
   EXPECT_LE((found.q - expected.q).lpNorm<Eigen::Infinity>(), 1e-12);
 }
 
-/// A second drive of the same angle follows from the first if it says the same at all times; one
-/// that agrees at the start only contradicts it.
-TEST(RedundantConstraints, OfADoubledDriveAreThoseOfOneOnlyIfBothSayTheSame) {
-  Scene scene = swinging_beam(0.3, CircleSection{0.01}, 2);
-  scene.joints.front().drive = Drive(ConstantSpeedDrive{3.0});
-  scene.joints.push_back(revolute("again", ground_name, "beam", {0.0, 0.0, 0.0}));
-  scene.joints.back().drive = Drive(ConstantSpeedDrive{3.0});
-  EXPECT_EQ(build_model(scene, {}, {}, {}).mechanism.system->left_out().size(), 3u);
-  scene.joints.back().drive = Drive(ConstantSpeedDrive{4.0});
-  EXPECT_EQ(build_model(scene, {}, {}, {}).mechanism.system->left_out().size(), 2u);
-}
-
 /// Newton's method sets their multipliers to zero, whatever they were: with a wrong factor
 /// round-off would grow from step to step.
 TEST(RedundantConstraints, HaveNoMultipliersAfterAStepOfNewtonsMethod) {

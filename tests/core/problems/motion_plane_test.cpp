@@ -1,7 +1,5 @@
 #include "core/model/motion_plane.hpp"
 
-#include <functional>
-
 #include <gtest/gtest.h>
 
 #include "sensitivity/gradients.hpp"
@@ -74,84 +72,6 @@ TEST(PlaneOfACantilever, IsThatOfItsLoad) {
   EXPECT_EQ(of_torque->normal.cwiseAbs(), Eigen::Vector3d::UnitY());
   EXPECT_FALSE(plane_with(PointForce{"beam", tip, {0.0, slope, slope}, {}, false}));
 }
-
-/// What leads out of the plane is said, each of it; without it the pendulum moves in the plane.
-struct OutOfPlane {
-  const char* reason;
-  std::function<void(Scene&)> change;
-};
-class RefusedPlane : public testing::TestWithParam<OutOfPlane> {};
-
-Scene pendulum_in_a_plane() {
-  Scene scene = swinging_beam(0.7, RectangleSection{0.03, 0.02}, 2);
-  RigidBody mass;
-  mass.at = {0.7, 0.0, 0.0};
-  mass.mass = 1.0;
-  mass.inertia = {1.0, 2.0, 3.0, 0.1, 0.0, 0.0};
-  scene.bodies.push_back({"mass", mass});
-  Joint joint;
-  joint.name = "end";
-  joint.type = JointType::fixed;
-  joint.bodies = {"beam", "mass"};
-  joint.at = {0.7, 0.0, 0.0};
-  scene.joints.push_back(joint);
-  return scene;
-}
-
-RigidBody& mass_of(Scene& scene) {
-  return std::get<RigidBody>(scene.bodies.back().shape);
-}
-
-TEST_P(RefusedPlane, IsRefusedForThatReason) {
-  Scene scene = pendulum_in_a_plane();
-  const Design<double> start = {0.0};
-  ASSERT_TRUE(find_motion_plane(scene, start).plane);
-  GetParam().change(scene);
-  const PlaneAnalysis analysis = find_motion_plane(scene, start);
-  EXPECT_FALSE(analysis.plane);
-  EXPECT_EQ(analysis.reason, std::string(GetParam().reason) + " leaves the plane");
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Reasons, RefusedPlane,
-    testing::Values(
-        OutOfPlane{"gravity", [](Scene& scene) { scene.gravity[2] = 1e-3; }},
-        // Zero now, but a design variable may make it something.
-        OutOfPlane{"gravity", [](Scene& scene) { scene.gravity[2] = Number::bound(0); }},
-        OutOfPlane{"body mass", [](Scene& scene) { mass_of(scene).at[2] = 1e-3; }},
-        OutOfPlane{"body mass", [](Scene& scene) { mass_of(scene).at[2] = Number::bound(0); }},
-        OutOfPlane{"a principal axis of inertia of body mass",
-                   [](Scene& scene) { mass_of(scene).inertia[4] = 0.01; }},
-        OutOfPlane{"a principal axis of inertia of body mass",
-                   [](Scene& scene) { mass_of(scene).inertia[5] = 0.01; }},
-        OutOfPlane{"a principal axis of the sections of body beam",
-                   [](Scene& scene) {
-                     std::get<BeamBody>(scene.bodies.front().shape).reference = {0.0, 1.0, 1.0};
-                   }},
-        OutOfPlane{"the velocity of body mass",
-                   [](Scene& scene) { scene.bodies.back().velocity[2] = 1.0; }},
-        OutOfPlane{"the velocity of body mass",
-                   [](Scene& scene) { scene.bodies.back().velocity[2] = Number::bound(0); }},
-        OutOfPlane{"the angular velocity of body mass",
-                   [](Scene& scene) { scene.bodies.back().angular_velocity[0] = 1.0; }},
-        OutOfPlane{
-            "the angular velocity of body mass",
-            [](Scene& scene) { scene.bodies.back().angular_velocity[1] = Number::bound(0); }},
-        OutOfPlane{"joint end", [](Scene& scene) { scene.joints.back().at[2] = 1e-3; }},
-        OutOfPlane{
-            "load push",
-            [](Scene& scene) {
-              scene.loads = {{"push", PointForce{"mass", {0.7, 0.0, 0.0}, {0, 0, 1}, {}, false}}};
-            }},
-        OutOfPlane{
-            "load push",
-            [](Scene& scene) {
-              scene.loads = {{"push", PointForce{"mass", {0.7, 0.0, 0.1}, {0, 1, 0}, {}, false}}};
-            }},
-        OutOfPlane{
-            "load twist", [](Scene& scene) {
-              scene.loads = {{"twist", PointTorque{"mass", {0.7, 0.0, 0.0}, {1, 0, 0}, {}, false}}};
-            }}));
 
 /// A scene whose points are fixed, turned about z and shifted.
 Scene moved_scene(Scene scene, double angle, const Eigen::Vector3d& shift) {
