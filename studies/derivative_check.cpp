@@ -1,6 +1,7 @@
 #include "studies/derivative_check.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <tuple>
@@ -17,6 +18,11 @@ namespace pleuel {
 namespace {
 
 constexpr double first_steps[] = {1e-5, 1e-4, 1e-6, 1e-3}, further_steps[] = {1e-7, 1e-2, 1e-8};
+
+/// Of newton_tolerance, where it is suspected to be too loose.
+constexpr double tightening = 1e-4, tightest_tolerance = 1e-12;
+/// A wrong term of a derivative shows as this and more.
+constexpr double least_error_of_terms = 1e-3;
 
 class Check {
  public:
@@ -114,6 +120,38 @@ class Check {
   std::string failure_;  ///< of the last step that failed
 };
 
+bool any_differs(const std::vector<DerivativeCheck>& checks) {
+  return std::any_of(checks.begin(), checks.end(), [](const DerivativeCheck& check) {
+    return check.verdict() == DerivativeVerdict::differs;
+  });
+}
+
+/// See check_derivatives(). Where Newton's method does not come so far, all stays as it is.
+void excuse_loose_newton(std::vector<DerivativeCheck>& checks, ProblemFile problem,
+                         const Eigen::VectorXd& x, const DerivativeCheckOptions& options) {
+  double& tolerance = problem.simulation.newton_tolerance;
+  tolerance = std::max(tightest_tolerance, tightening * tolerance);
+  std::vector<DerivativeCheck> tight_checks;
+  try {
+    const auto analysis = analyze(problem, x);
+    tight_checks = Check(problem, x, *analysis, options).run();
+  } catch (const SimulationError&) {
+    return;
+  }
+  for (std::size_t i = 0; i < checks.size(); ++i) {
+    for (std::size_t j = 0; j < checks[i].variables.size(); ++j) {
+      JudgedDerivative& loose = checks[i].variables[j];
+      const JudgedDerivative& tight = tight_checks[i].variables[j];
+      if (loose.verdict != DerivativeVerdict::differs) continue;
+      const bool is_right = tight.verdict != DerivativeVerdict::differs;
+      const double change = std::abs(loose.derivative - tight.derivative);
+      if (!is_right || change > least_error_of_terms * std::abs(tight.derivative)) continue;
+      loose.verdict = DerivativeVerdict::noise;
+      loose.tight_error = tight.error;
+    }
+  }
+}
+
 }  // namespace
 
 std::size_t DerivativeCheck::worst_variable() const {
@@ -127,7 +165,12 @@ std::size_t DerivativeCheck::worst_variable() const {
 std::vector<DerivativeCheck> check_derivatives(const ProblemFile& problem, const Eigen::VectorXd& x,
                                                Analysis& analysis,
                                                const DerivativeCheckOptions& options) {
-  return Check(problem, x, analysis, options).run();
+  std::vector<DerivativeCheck> checks = Check(problem, x, analysis, options).run();
+  const bool is_loose = problem.simulation.newton_tolerance > tightest_tolerance;
+  if (is_loose && any_differs(checks)) {
+    excuse_loose_newton(checks, with_steps_of(analysis.trajectory, problem), x, options);
+  }
+  return checks;
 }
 
 }  // namespace pleuel

@@ -54,6 +54,44 @@ TEST(DerivativeCheck, DoesNotBlameResponsesThatAreNoise) {
   EXPECT_EQ(checks.at(checks.size() - 2).verdict(), DerivativeVerdict::noise);  // the drift
 }
 
+/// Newton's method stops after the same number of iterations at all designs nearby: what it leaves
+/// is smooth in the design, and part of the differences but not of the gradient.
+ProblemFile loose_problem() {
+  return read_problem(
+      PLEUEL_SOURCE_DIR "/problems/four_bar.json",
+      {"/simulation/step=1 ms", "/simulation/end_time=30 ms", "/simulation/newton_tolerance=1e-3"});
+}
+
+TEST(DerivativeCheck, BlamesALooseNewtonToleranceAndNotTheDerivatives) {
+  const ProblemFile problem = loose_problem();
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  int loose = 0;
+  for (const DerivativeCheck& check : check_derivatives(problem, x, *analysis)) {
+    EXPECT_NE(check.verdict(), DerivativeVerdict::differs);
+    for (const JudgedDerivative& judged : check.variables) {
+      if (!judged.tight_error) continue;
+      ++loose;
+      EXPECT_EQ(judged.verdict, DerivativeVerdict::noise);
+      EXPECT_GT(judged.error, 1e-6);  // what differences with this tolerance say
+      EXPECT_LT(*judged.tight_error, 1e-6);
+    }
+  }
+  EXPECT_GT(loose, 0);
+}
+
+/// The analysis of another design: its derivatives are wrong, however loose the tolerance is.
+TEST(DerivativeCheck, DoesNotExcuseWrongDerivativesByALooseTolerance) {
+  const ProblemFile problem = loose_problem();
+  const Eigen::VectorXd x = start_design(problem);
+  const auto elsewhere = analyze(problem, 1.01 * x);
+  const auto checks = check_derivatives(problem, x, *elsewhere);
+  for (std::size_t i = 0; i < checks.size(); ++i) {
+    if (problem.responses[i].type != ResponseType::mass) continue;
+    EXPECT_EQ(checks[i].verdict(), DerivativeVerdict::differs) << problem.responses[i].name;
+  }
+}
+
 TEST(DerivativeCheck, NoticesThatAnalysisAndDesignDoNotBelongTogether) {
   const ProblemFile problem = test::quick_problem();
   const Eigen::VectorXd x = start_design(problem);
