@@ -19,10 +19,10 @@ namespace {
 
 constexpr double first_steps[] = {1e-5, 1e-4, 1e-6, 1e-3}, further_steps[] = {1e-7, 1e-2, 1e-8};
 
-/// Of newton_tolerance, where it is suspected to be too loose.
-constexpr double tightening = 1e-4, tightest_tolerance = 1e-12;
-/// A wrong term of a derivative shows as this and more.
-constexpr double least_error_of_terms = 1e-3;
+/// Where newton_tolerance is suspected to be too loose: the tightest that Newton's method reaches.
+constexpr double tight_tolerances[] = {1e-12, 1e-10};
+/// A derivative that is computed anew at the same design is the same to this.
+constexpr double same_derivative = 1e-6;
 
 class Check {
  public:
@@ -126,28 +126,41 @@ bool any_differs(const std::vector<DerivativeCheck>& checks) {
   });
 }
 
-/// See check_derivatives(). Where Newton's method does not come so far, all stays as it is.
-void excuse_loose_newton(std::vector<DerivativeCheck>& checks, ProblemFile problem,
-                         const Eigen::VectorXd& x, const DerivativeCheckOptions& options) {
-  double& tolerance = problem.simulation.newton_tolerance;
-  tolerance = std::max(tightest_tolerance, tightening * tolerance);
-  std::vector<DerivativeCheck> tight_checks;
-  try {
-    const auto analysis = analyze(problem, x);
-    tight_checks = Check(problem, x, *analysis, options).run();
-  } catch (const SimulationError&) {
-    return;
+/// The same checks with Newton's method carried further; empty where it does not come so far.
+std::vector<DerivativeCheck> tight_checks(ProblemFile problem, const Eigen::VectorXd& x,
+                                          const DerivativeCheckOptions& options) {
+  for (const double tolerance : tight_tolerances) {
+    if (problem.simulation.newton_tolerance <= tolerance) continue;
+    ProblemFile tight = problem;
+    tight.simulation.newton_tolerance = tolerance;
+    try {
+      const auto analysis = analyze(tight, x);
+      return Check(tight, x, *analysis, options).run();
+    } catch (const SimulationError&) {
+      continue;
+    }
   }
-  for (std::size_t i = 0; i < checks.size(); ++i) {
+  return {};
+}
+
+/// See check_derivatives().
+void excuse_loose_newton(std::vector<DerivativeCheck>& checks, const ProblemFile& problem,
+                         const Eigen::VectorXd& x, const DerivativeCheckOptions& options) {
+  const auto here = analyze(problem, x);
+  const Eigen::MatrixXd again =
+      sampled_gradients(*here, response_values(*here), ExactMethod::direct);
+  const std::vector<DerivativeCheck> tight = tight_checks(problem, x, options);
+  for (std::size_t i = 0; i < tight.size(); ++i) {
     for (std::size_t j = 0; j < checks[i].variables.size(); ++j) {
       JudgedDerivative& loose = checks[i].variables[j];
-      const JudgedDerivative& tight = tight_checks[i].variables[j];
+      const JudgedDerivative& judged = tight[i].variables[j];
       if (loose.verdict != DerivativeVerdict::differs) continue;
-      const bool is_right = tight.verdict != DerivativeVerdict::differs;
-      const double change = std::abs(loose.derivative - tight.derivative);
-      if (!is_right || change > least_error_of_terms * std::abs(tight.derivative)) continue;
+      if (judged.verdict == DerivativeVerdict::differs) continue;
+      const double repeated = again(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      const double change = std::abs(repeated - loose.derivative);
+      if (change > same_derivative * std::abs(loose.derivative)) continue;
       loose.verdict = DerivativeVerdict::noise;
-      loose.tight_error = tight.error;
+      loose.tight_error = judged.error;
     }
   }
 }
@@ -166,8 +179,7 @@ std::vector<DerivativeCheck> check_derivatives(const ProblemFile& problem, const
                                                Analysis& analysis,
                                                const DerivativeCheckOptions& options) {
   std::vector<DerivativeCheck> checks = Check(problem, x, analysis, options).run();
-  const bool is_loose = problem.simulation.newton_tolerance > tightest_tolerance;
-  if (is_loose && any_differs(checks)) {
+  if (any_differs(checks)) {
     excuse_loose_newton(checks, with_steps_of(analysis.trajectory, problem), x, options);
   }
   return checks;

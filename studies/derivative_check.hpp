@@ -36,8 +36,8 @@ struct DerivativeCheckOptions {
 ///
 /// Newton's method that stops early leaves an error that varies smoothly with the design: no
 /// scatter shows it, and differences see its derivative where the gradient does not. Where some
-/// derivative differs, all is repeated with a 1e-4th of `newton_tolerance` (but at least 1e-12): a
-/// derivative that is then right, and within a thousandth of what it was, is `noise`.
+/// derivative differs, all is repeated with a `newton_tolerance` of 1e-12 (or 1e-10, if that is
+/// not reached): a derivative that is right then is `noise`, if it is that of this design at all.
 /// @param analysis  of the problem at x, which has at least one variable
 /// @throws SimulationError if the differences of all steps fail
 std::vector<DerivativeCheck> check_derivatives(const ProblemFile& problem, const Eigen::VectorXd& x,

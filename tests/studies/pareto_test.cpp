@@ -118,6 +118,7 @@ TEST(Dominance, IsOnlyAmongDesignsWithinTheirLimits) {
 TEST(Pareto, OverALowerLimitHasMultipliersOfTheOtherSign) {
   const ProblemFile problem = test::quick_problem(
       {R"(/constraints={"rod_size": {"linear": {"rod_diameter": 1}, "lower": "20 mm"}})",
+       R"(/variables/crank_diameter={"start": "30 mm", "lower": "30 mm", "upper": "30 mm"})",
        R"(/pareto={"constraint": "rod_size", "from": "20 mm", "to": "30 mm", "points": 3})"});
   for (const ParetoPoint& point : front(problem)) {
     EXPECT_EQ(point.result.status, Status::verified) << point.result.message;

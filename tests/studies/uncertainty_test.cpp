@@ -90,11 +90,12 @@ TEST(Uncertainty, OfSamplesIsThatOfTheNumbersDrawn) {
                 std::abs(mean) * response.deviation, 1e-2 * response.deviation)
         << problem.responses[i].name;
   }
+  // d² at three deviations of 0.2 %: ½ · 0.6 % · 3 of a deviation.
   const UncertainResponse& mass = response_of(problem, study, "crank_and_rod");
   EXPECT_NEAR(mass.sampled->highest, mass.value + drawn.maxCoeff() * mass.deviation,
-              1e-2 * mass.deviation);
+              2e-2 * mass.deviation);
   EXPECT_NEAR(mass.sampled->lowest, mass.value + drawn.minCoeff() * mass.deviation,
-              1e-2 * mass.deviation);
+              2e-2 * mass.deviation);
 }
 
 /// Deviations at every instant, against the scatter of the sampled histories; in the norm over
