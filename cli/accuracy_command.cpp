@@ -5,11 +5,11 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/csv_file.hpp"
-#include "cli/number_text.hpp"
 #include "cli/run_record.hpp"
 #include "cli/table.hpp"
 #include "cli/warnings.hpp"
 #include "core/base/error.hpp"
+#include "core/base/number_text.hpp"
 #include "core/trust/doubts.hpp"
 #include "studies/accuracy.hpp"
 

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/number_text.hpp"
-#include "cli/shown_unit.hpp"
 #include "cli/table.hpp"
+#include "core/base/number_text.hpp"
+#include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
 

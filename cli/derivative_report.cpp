@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/number_text.hpp"
-#include "cli/shown_unit.hpp"
 #include "cli/table.hpp"
+#include "core/base/number_text.hpp"
+#include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
 
@@ -29,12 +29,14 @@ Json curve_document(const std::vector<CentralDifference>& curve) {
 }
 
 Json variable_document(const JudgedDerivative& judged) {
-  return {{"verdict", to_string(judged.verdict)},
-          {"derivative", judged.derivative},
-          {"error", judged.error},
-          {"difference_step", judged.step},
-          {"resolution", judged.resolution},
-          {"curve", curve_document(judged.curve)}};
+  Json document = {{"verdict", to_string(judged.verdict)},
+                   {"derivative", judged.derivative},
+                   {"error", judged.error},
+                   {"difference_step", judged.step},
+                   {"resolution", judged.resolution},
+                   {"curve", curve_document(judged.curve)}};
+  if (judged.tight_error) document["tight_error"] = *judged.tight_error;
+  return document;
 }
 
 std::string response_verdict(const ProblemFile& problem, const DerivativeCheck& check) {
@@ -55,12 +57,30 @@ std::string response_verdict(const ProblemFile& problem, const DerivativeCheck& 
 std::string explanation(const JudgedDerivative& judged) {
   switch (judged.verdict) {
     case DerivativeVerdict::noise:
+      if (judged.tight_error) return "noise: /simulation/newton_tolerance is too loose, see below";
       return fmt::format("noise: differences are good to {} only", magnitude(judged.resolution));
     case DerivativeVerdict::kink:
       return "kink: differences mix two peaks";
     default:
       return "DIFFERS";
   }
+}
+
+/// What to do where Newton's method stops too early for differences; empty if it does not.
+std::string loose_newton_text(const ProblemFile& problem,
+                              const std::vector<DerivativeCheck>& checks) {
+  double largest = -1.0;
+  for (const DerivativeCheck& check : checks) {
+    for (const JudgedDerivative& judged : check.variables) {
+      if (judged.tight_error) largest = std::max(largest, *judged.tight_error);
+    }
+  }
+  if (largest < 0.0) return "";
+  return fmt::format(
+      "Newton's method stops too early for differences: /simulation/newton_tolerance is {:g}. With "
+      "a tighter one\nthese derivatives are right (to {}): tighten it, or live with errors of "
+      "that size in the values.\n",
+      problem.simulation.newton_tolerance, magnitude(largest));
 }
 
 std::string disagreements_text(const ProblemFile& problem,
@@ -81,7 +101,8 @@ std::string disagreements_text(const ProblemFile& problem,
     }
   }
   if (table.is_empty()) return "";
-  return "\nDerivatives that do not agree with differences to 1e-6 [SI]\n" + table.text();
+  return "\nDerivatives that do not agree with differences to 1e-6 [SI]\n" + table.text() +
+         loose_newton_text(problem, checks);
 }
 
 /// What an optimizer compares the noise of a response with; 0 if it does not look at it.

@@ -6,9 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "cli/variable_quantity.hpp"
 #include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/text_file.hpp"
+#include "core/scene/shown_unit.hpp"
+#include "core/scene/variable_quantity.hpp"
 
 namespace pleuel {
 

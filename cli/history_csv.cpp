@@ -5,8 +5,8 @@ namespace pleuel {
 namespace {
 
 std::vector<std::string> header(const Problem& problem) {
-  std::vector<std::string> titles = {"evaluation",    "iteration", "seconds",  "request",
-                                     "max_violation", "step",      "objective"};
+  std::vector<std::string> titles = {"evaluation", "iteration",     "seconds", "purpose",
+                                     "request",    "max_violation", "step",    "objective"};
   for (const Constraint& constraint : problem.constraints()) {
     titles.push_back("constraint:" + constraint.name);
   }
@@ -32,7 +32,7 @@ void HistoryCsv::add(const EvaluationRecord& record) {
     has_failed ? csv_.add(std::string()) : csv_.add(value);
   };
   csv_.add(record.evaluation).add(record.iteration).add(record.seconds);
-  csv_.add(to_string(record.request));
+  csv_.add(to_string(record.purpose)).add(to_string(record.request));
   add_value(record.max_violation);
   csv_.add(record.step);
   add_value(record.objective);

@@ -6,12 +6,12 @@
 #include "cli/problem_input.hpp"
 #include "cli/run_record.hpp"
 #include "cli/table.hpp"
-#include "cli/variable_quantity.hpp"
 #include "cli/warnings.hpp"
 #include "core/base/error.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/body_export.hpp"
 #include "core/scene/invariants_file.hpp"
+#include "core/scene/variable_quantity.hpp"
 #include "core/trust/doubts.hpp"
 
 namespace pleuel {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/console.hpp"
-#include "cli/number_text.hpp"
+#include "core/base/number_text.hpp"
 
 namespace pleuel {
 
@@ -18,6 +18,17 @@ std::string first_clause(const std::string& message) {
   return message.substr(0, std::min(message.find("; "), message.find(". ")));
 }
 
+const char* describe(Purpose purpose) {
+  switch (purpose) {
+    case Purpose::search:
+      return "the backend goes on";
+    case Purpose::polish:
+      return "the answer is refined";
+    default:
+      return "of the answer, by designs beside it";
+  }
+}
+
 }  // namespace
 
 IterationLines::IterationLines(std::FILE* out, const ProblemFile& problem)
@@ -27,11 +38,16 @@ IterationLines::IterationLines(std::FILE* out, const ProblemFile& problem)
 }
 
 void IterationLines::see(const EvaluationRecord& record) {
+  if (record.purpose != purpose_) {
+    purpose_ = record.purpose;
+    step_ = 0.0;
+    show(out_, fmt::format("  {:>9}  {}\n", to_string(purpose_), describe(purpose_)));
+  }
   step_ = std::max(step_, record.step);
   if (record.has_failed()) {
     show(out_, fmt::format("  evaluation {} failed: {}\n", record.evaluation,
                            first_clause(record.failure)));
-  } else if (record.iteration > iteration_) {
+  } else if (purpose_ != Purpose::audit && record.iteration > iteration_) {
     show(out_, fmt::format(columns, record.iteration, significant(unit_.shown(record.objective), 6),
                            magnitude(record.max_violation), magnitude(step_),
                            fmt::format("{:.1f}", record.seconds)));

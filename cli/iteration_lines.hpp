@@ -2,12 +2,13 @@
 
 #include <cstdio>
 
-#include "cli/shown_unit.hpp"
+#include "core/scene/shown_unit.hpp"
 #include "optimization/history.hpp"
 
 namespace pleuel {
 
-/// A line for each iteration, and for each failed evaluation, while the optimizer works.
+/// A line for each iteration, for each failed evaluation, and where an audit or a polish begins or
+/// ends, while the optimizer works. Designs of an audit are no iterations.
 class IterationLines {
  public:
   IterationLines(std::FILE* out, const ProblemFile& problem);
@@ -16,6 +17,7 @@ class IterationLines {
  private:
   std::FILE* out_;
   ShownUnit unit_;
+  Purpose purpose_ = Purpose::search;
   int iteration_ = 0;
   double step_ = 0.0;  ///< the longest since the line before
 };

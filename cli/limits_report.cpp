@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/number_text.hpp"
 #include "cli/optimum.hpp"
-#include "cli/shown_unit.hpp"
 #include "cli/table.hpp"
+#include "core/base/number_text.hpp"
+#include "core/scene/shown_unit.hpp"
 #include "optimization/verdict.hpp"
 
 namespace pleuel {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/number_text.hpp"
+#include "core/base/number_text.hpp"
 
 namespace pleuel {
 

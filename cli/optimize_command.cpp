@@ -54,10 +54,10 @@ Result interrupted_result(const DesignProblem& problem, const SolveOptions& opti
   Result result;
   result.status = Status::interrupted;
   result.message = fmt::format(
-      "{} evaluations were made; the best design among them has {} = {:.6g} and exceeds no limit "
-      "by "
+      "{} evaluations were made; the best design among them has {} = {} and exceeds no limit by "
       "more than {:.1e} (relative)",
-      seen.size(), problem.objective_name(), best.objective, best.max_violation);
+      seen.size(), problem.objective_name(), problem.objective_text(best.objective),
+      best.max_violation);
   result.backend = options.backend;
   result.x = best.x;
   result.evaluations = seen.back().evaluation;

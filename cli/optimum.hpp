@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/shown_unit.hpp"
 #include "core/response/monitors.hpp"
+#include "core/scene/shown_unit.hpp"
 #include "optimization/solve.hpp"
 #include "sensitivity/gradients.hpp"
 

@@ -3,6 +3,7 @@
 #include "cli/monitors_report.hpp"
 #include "cli/scene_report.hpp"
 #include "core/scene/response_quantity.hpp"
+#include "optimization/prices.hpp"
 
 namespace pleuel {
 
@@ -25,8 +26,10 @@ Json constraint_document(const Optimum& optimum, std::size_t i) {
   Json document = {{"value", value},
                    {"limit", used.limit},
                    {"side", used.is_upper ? "upper" : "lower"},
-                   {"unit", unit_of(optimum.problem, constraint).si},
-                   {"multiplier", optimum.result.constraint_multipliers(row)}};
+                   {"unit", unit_of(optimum.problem, constraint).si}};
+  if (has_prices(optimum.result)) {
+    document["multiplier"] = optimum.result.constraint_multipliers(row);
+  }
   if (used.utilisation) document["utilisation"] = *used.utilisation;
   if (constraint.deviations > 0.0) document["deviations"] = constraint.deviations;
   return document;
@@ -73,6 +76,7 @@ Json optimum_document(const Optimum& optimum) {
   document["gradient_evaluations"] = result.gradient_evaluations;
   document["iterations"] = result.iterations;
   document["restarts"] = result.restarts;
+  if (!result.polished_with.empty()) document["polished_with"] = result.polished_with;
   if (optimum.method) {
     document["gradients"] = {{"method", to_string(optimum.method->method)},
                              {"reason", optimum.method->reason}};

@@ -1,12 +1,15 @@
 #include "cli/optimum_report.hpp"
 
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "cli/monitors_report.hpp"
-#include "cli/number_text.hpp"
 #include "cli/table.hpp"
 #include "cli/warnings.hpp"
 #include "cli/wrapped_text.hpp"
+#include "core/base/number_text.hpp"
+#include "optimization/prices.hpp"
 
 namespace pleuel {
 
@@ -75,11 +78,18 @@ std::string worth(const Optimum& optimum, double multiplier, double limit) {
   return (gain < 0 ? "−" : "+") + fmt::format("{:.2f} %", 100 * std::abs(gain / objective));
 }
 
+std::string price_text(const std::optional<double>& multiplier, const ShownUnit& objective,
+                       const ShownUnit& limit) {
+  if (!multiplier) return "–";
+  return *multiplier == 0.0 ? "0" : significant(objective.shown(*multiplier) * limit.factor, 3);
+}
+
 std::vector<std::string> constraint_row(const Optimum& optimum, std::size_t i) {
   const ConstraintSettings& constraint = optimum.problem.constraints[i];
   const auto row = static_cast<Eigen::Index>(i);
   const double value = optimum.result.evaluation.constraints(row);
-  const double multiplier = optimum.result.constraint_multipliers(row);
+  std::optional<double> multiplier;
+  if (has_prices(optimum.result)) multiplier = optimum.result.constraint_multipliers(row);
   const UsedLimit used = used_limit(constraint, value);
   const ShownUnit unit = unit_of(optimum.problem, constraint);
   const ShownUnit objective_unit =
@@ -93,8 +103,8 @@ std::vector<std::string> constraint_row(const Optimum& optimum, std::size_t i) {
           (used.is_upper ? "≤ " : "≥ ") + significant(unit.shown(used.limit)),
           unit.name,
           used.utilisation ? percent(*used.utilisation) : "–",
-          multiplier == 0.0 ? "0" : significant(objective_unit.shown(multiplier) * unit.factor, 3),
-          worth(optimum, multiplier, used.limit)};
+          price_text(multiplier, objective_unit, unit),
+          multiplier ? worth(optimum, *multiplier, used.limit) : "–"};
 }
 
 std::string constraints_text(const Optimum& optimum) {
@@ -124,7 +134,11 @@ std::string effort_text(const Optimum& optimum) {
   const Result& result = optimum.result;
   std::string gradients = "gradients";
   if (optimum.method) gradients += fmt::format(" ({})", to_string(optimum.method->method));
-  return fmt::format("{}: {} evaluations, {} with {}, {} restarts, {}\n", result.backend,
+  const std::string backend =
+      result.polished_with.empty()
+          ? result.backend
+          : fmt::format("{}, polished with {}", result.backend, result.polished_with);
+  return fmt::format("{}: {} evaluations, {} with {}, {} restarts, {}\n", backend,
                      result.evaluations, result.gradient_evaluations, gradients, result.restarts,
                      duration(result.seconds));
 }

@@ -6,14 +6,15 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/csv_file.hpp"
-#include "cli/number_text.hpp"
 #include "cli/run_record.hpp"
-#include "cli/shown_unit.hpp"
 #include "cli/solve_settings.hpp"
 #include "cli/table.hpp"
 #include "cli/warnings.hpp"
 #include "cli/wrapped_text.hpp"
 #include "core/base/error.hpp"
+#include "core/base/number_text.hpp"
+#include "core/scene/shown_unit.hpp"
+#include "optimization/prices.hpp"
 #include "studies/pareto.hpp"
 
 namespace pleuel {
@@ -42,7 +43,10 @@ class ParetoCsv {
     csv_.add(to_string(point.result.status)).add(point.limit);
     const std::vector<double> goals = {point.result.evaluation.objective, point.limited_value,
                                        point.multiplier};
-    for (const double goal : goals) point.has_design() ? csv_.add(goal) : csv_.add(std::string());
+    for (std::size_t i = 0; i < goals.size(); ++i) {
+      const bool is_known = i < 2 ? point.has_design() : has_prices(point.result);
+      is_known ? csv_.add(goals[i]) : csv_.add(std::string());
+    }
     for (std::size_t i = 0; i < variables_; ++i) {
       csv_.add(point.result.x(static_cast<Eigen::Index>(i)));
     }
@@ -75,7 +79,7 @@ Json point_document(const ProblemFile& problem, const ParetoPoint& point) {
     document["warnings"] = point.result.warnings;
     document["objectives"] = {{problem.objective->response, point.result.evaluation.objective},
                               {limited_name(varied_constraint(problem)), point.limited_value}};
-    document["multiplier"] = point.multiplier;
+    if (has_prices(point.result)) document["multiplier"] = point.multiplier;
   }
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     document["variables"][problem.variables[i].name] = point.result.x(static_cast<Eigen::Index>(i));
@@ -130,7 +134,8 @@ std::string points_text(const ProblemFile& problem, const std::vector<ParetoPoin
     if (point.has_design()) {
       cells[1] = significant(limited.shown(point.limited_value));
       cells[2] = significant(goal.shown(point.result.evaluation.objective));
-      cells[3] = significant(goal.shown(point.multiplier) * limited.factor, 3);
+      if (has_prices(point.result))
+        cells[3] = significant(goal.shown(point.multiplier) * limited.factor, 3);
     }
     for (std::size_t i = 0; i < problem.variables.size(); ++i) {
       cells.push_back(significant(units[i].shown(point.result.x(static_cast<Eigen::Index>(i)))));

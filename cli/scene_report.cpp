@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "cli/number_text.hpp"
-#include "cli/shown_unit.hpp"
 #include "cli/table.hpp"
+#include "core/base/number_text.hpp"
 #include "core/integration/configuration.hpp"
+#include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
 

@@ -4,7 +4,6 @@
 #include "cli/commands.hpp"
 #include "cli/limits_report.hpp"
 #include "cli/monitors_report.hpp"
-#include "cli/number_text.hpp"
 #include "cli/problem_input.hpp"
 #include "cli/run_record.hpp"
 #include "cli/scene_report.hpp"
@@ -12,6 +11,7 @@
 #include "cli/trajectory_csv.hpp"
 #include "cli/warnings.hpp"
 #include "cli/wrapped_text.hpp"
+#include "core/base/number_text.hpp"
 #include "core/trust/doubts.hpp"
 
 namespace pleuel {

@@ -5,10 +5,10 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/csv_file.hpp"
-#include "cli/number_text.hpp"
 #include "cli/run_record.hpp"
 #include "cli/table.hpp"
 #include "cli/warnings.hpp"
+#include "core/base/number_text.hpp"
 #include "studies/stability.hpp"
 
 namespace pleuel {

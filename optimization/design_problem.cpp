@@ -4,10 +4,20 @@
 
 namespace pleuel {
 
+namespace {
+
+std::string text_in(const ShownUnit& unit, double value) {
+  const std::string name = unit.name == "1" ? "" : " " + unit.name;
+  return fmt::format("{:.6g}{}", unit.shown(value), name);
+}
+
+}  // namespace
+
 DesignProblem::DesignProblem(ProblemFile file, int threads)
     : file_(std::move(file)), threads_(threads) {
   if (file_.variables.empty())
     throw InputError("/variables is missing: there is nothing to design");
+  variable_units_ = variable_units(file_);
   if (!file_.objective) throw InputError("/objective is missing: there is nothing to minimize");
   for (const DesignVariable& variable : file_.variables) {
     variables_.push_back({variable.name, variable.start, variable.lower, variable.upper});
@@ -22,6 +32,18 @@ void DesignProblem::start_from(const Eigen::VectorXd& x) {
   for (std::size_t i = 0; i < variables_.size(); ++i) {
     variables_[i].start = x(static_cast<Eigen::Index>(i));
   }
+}
+
+std::string DesignProblem::variable_text(std::size_t variable, double value) const {
+  return text_in(variable_units_[variable], value);
+}
+
+std::string DesignProblem::constraint_text(std::size_t constraint, double value) const {
+  return text_in(unit_of(file_, file_.constraints[constraint]), value);
+}
+
+std::string DesignProblem::objective_text(double value) const {
+  return text_in(unit_of(find_response(file_, objective_name())), value);
 }
 
 std::size_t DesignProblem::response_index(const std::string& name) const {

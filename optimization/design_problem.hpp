@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/response/analysis.hpp"
+#include "core/scene/shown_unit.hpp"
 #include "optimization/problem.hpp"
 #include "sensitivity/gradients.hpp"
 
@@ -37,6 +38,10 @@ class DesignProblem : public Problem {
   const std::vector<Variable>& variables() const override { return variables_; }
   const std::vector<Constraint>& constraints() const override { return constraints_; }
   std::string objective_name() const override { return file_.objective->response; }
+  /// In the units that the user wrote, or those of engineers.
+  std::string variable_text(std::size_t variable, double value) const override;
+  std::string constraint_text(std::size_t constraint, double value) const override;
+  std::string objective_text(double value) const;
 
   /// The simulation of the design seen last is kept, so that its gradients cost no second one.
   Evaluation evaluate(const Eigen::VectorXd& x, Request request) override;
@@ -70,6 +75,7 @@ class DesignProblem : public Problem {
   int threads_;
   std::vector<Variable> variables_;
   std::vector<Constraint> constraints_;
+  std::vector<ShownUnit> variable_units_;
   Eigen::VectorXd x_;
   std::unique_ptr<Analysis> analysis_;
   std::optional<GradientChoice> choice_;

@@ -9,8 +9,11 @@
 
 #include "core/response/describe_tie.hpp"
 #include "core/trust/doubts.hpp"
+#include "optimization/broken_limits.hpp"
+#include "optimization/kkt_audit.hpp"
 #include "optimization/peak_problem.hpp"
 #include "optimization/peak_windows.hpp"
+#include "optimization/prices.hpp"
 #include "optimization/robust_problem.hpp"
 #include "optimization/scaling.hpp"
 #include "optimization/verdict.hpp"
@@ -190,6 +193,8 @@ Result find_optimum(DesignProblem& design, const SolveOptions& options, const Ob
   Problem& problem = robust ? *robust : design;
   SolveOptions plain = options;
   plain.max_iterations = std::min(options.max_iterations, plain_iterations);
+  plain.polish_iterations =
+      std::min(plain_iterations / 2, options.max_iterations - plain.max_iterations);
   plain.max_restarts = std::min(options.max_restarts, 1);
   Result result = solve(problem, plain, observer);
   SolveOptions rest = options;
@@ -216,6 +221,49 @@ Result find_optimum(DesignProblem& design, const SolveOptions& options, const Ob
   return result;
 }
 
+/// The violation up to which one design is preferred to another for its objective: so that no
+/// tolerance is exploited.
+constexpr double strict_violation = 1e-6;
+
+/// A run that proved nothing ends at the best design of its whole history: a later part of the run
+/// may have begun at a worse one.
+void return_to_best(DesignProblem& design, const Tolerances& tolerances, Result& result) {
+  if (result.status == Status::verified || !result.evaluation.has_gradients()) return;
+  const bool keeps_limits = result.max_violation <= tolerances.violation;
+  const EvaluationRecord best = best_record(result.history, strict_violation);
+  const bool is_better = keeps_limits ? best.max_violation <= strict_violation &&
+                                            best.objective < result.evaluation.objective
+                                      : best.max_violation < result.max_violation;
+  if (!is_better) return;
+  Attempt attempt = attempt_evaluation(design, best.x, Request::values_and_gradients);
+  if (!attempt.evaluation) return;
+  result.x = best.x;
+  result.evaluation = std::move(*attempt.evaluation);
+  result.evaluation.constraints = best.constraints;  // with their margins
+  result.max_violation = best.max_violation;
+  const Eigen::VectorXd scales =
+      constraint_scales(design, result.evaluation, variable_scales(design, result.x));
+  const KktAudit audit =
+      audit_kkt(design, {best.x, result.evaluation, best.max_violation}, result.evaluation, scales);
+  result.kkt_residual = audit.residual;
+  result.bound_multipliers = audit.bound_multipliers;
+  result.constraint_multipliers =
+      prices_of(design, best.constraints, audit.constraint_multipliers, scales);
+  const bool is_within = best.max_violation <= tolerances.violation;
+  const std::string what =
+      is_within ? std::string("the best design of the run, of which nothing is proven")
+                : fmt::format(
+                      "no design that keeps all limits was found; of those seen, this one breaks "
+                      "them least ({:.2g} relative): {}",
+                      best.max_violation,
+                      broken_limits(design, best.constraints, scales, tolerances.violation));
+  result.message =
+      is_within ? fmt::format("{}; the run ended elsewhere, where {}", what, result.message) : what;
+  if (result.status != Status::failed) {
+    result.status = is_within ? Status::stalled : Status::infeasible;
+  }
+}
+
 /// Doubts about the numbers of the last design: no optimum that rests on them is verified.
 void judge_numbers(DesignProblem& design, Result& result) {
   if (!result.evaluation.has_gradients()) return;
@@ -233,6 +281,7 @@ void judge_numbers(DesignProblem& design, Result& result) {
 Result solve_design(DesignProblem& design, const SolveOptions& options, const Observer& observer,
                     const Notice& notice) {
   Result result = find_optimum(design, options, observer, notice);
+  return_to_best(design, options.verdict, result);
   judge_numbers(design, result);
   return result;
 }

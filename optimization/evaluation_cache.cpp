@@ -104,12 +104,14 @@ const EvaluationCache::Entry& EvaluationCache::remember(const Eigen::VectorXd& x
 void EvaluationCache::record(const Entry& entry, const std::string& failure) {
   const bool with_gradients = entry.request == Request::values_and_gradients;
   gradient_evaluations_ += with_gradients ? 1 : 0;
-  iterations_ += with_gradients && entry.evaluation ? 1 : 0;
+  const bool is_step = purpose_ != Purpose::audit;
+  iterations_ += is_step && with_gradients && entry.evaluation ? 1 : 0;
   consecutive_failures_ = entry.evaluation ? 0 : consecutive_failures_ + 1;
 
   EvaluationRecord record;
   record.evaluation = evaluations() + 1;
   record.iteration = iterations_;
+  record.purpose = purpose_;
   record.request = entry.request;
   record.x = entry.x;
   record.failure = failure;

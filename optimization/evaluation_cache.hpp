@@ -54,6 +54,9 @@ class EvaluationCache {
   /// once, but not from one that it has already accepted.
   const Evaluation* evaluate(const Eigen::VectorXd& x, Request request);
 
+  /// What evaluations are made for from here on.
+  void set_purpose(Purpose purpose) { purpose_ = purpose; }
+
   Problem& problem() const { return problem_; }
   const Scales& scales() const { return scales_; }
   const History& history() const { return history_; }
@@ -80,6 +83,7 @@ class EvaluationCache {
   Watch watch_;
   std::deque<Entry> entries_;  ///< the latest at the front
   History history_;
+  Purpose purpose_ = Purpose::search;
   int gradient_evaluations_ = 0;
   int iterations_ = 0;
   int consecutive_failures_ = 0;

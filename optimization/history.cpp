@@ -4,6 +4,17 @@
 
 namespace pleuel {
 
+std::string to_string(Purpose purpose) {
+  switch (purpose) {
+    case Purpose::search:
+      return "search";
+    case Purpose::polish:
+      return "polish";
+    default:
+      return "audit";
+  }
+}
+
 const EvaluationRecord& best_record(const History& history, double allowed_violation) {
   const auto is_better = [&](const EvaluationRecord& one, const EvaluationRecord& other) {
     if (one.has_failed()) return false;

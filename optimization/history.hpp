@@ -10,10 +10,21 @@
 
 namespace pleuel {
 
+/// What an evaluation is made for.
+enum class Purpose {
+  search,  ///< a step of the backend
+  polish,  ///< a step of what refines the backend's answer
+  audit    ///< beside an answer, to prove or disprove it: no step of anything
+};
+
+/// "search", "polish" or "audit".
+std::string to_string(Purpose purpose);
+
 /// One call of Problem::evaluate.
 struct EvaluationRecord {
   int evaluation = 0;  ///< 1, 2, 3, …
-  int iteration = 0;   ///< designs at which gradients were known so far, this one included
+  int iteration = 0;   ///< designs of a search or polish with gradients so far, this one included
+  Purpose purpose = Purpose::search;
   Request request = Request::values;
   Eigen::VectorXd x;            ///< [SI]
   std::string failure;          ///< empty: it succeeded; else why not, and the numbers below say 0

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "optimization/nonnegative_least_squares.hpp"
@@ -17,6 +18,10 @@ constexpr double near_limit = 0.1;
 /// Slope, relative to |f|, with respect to which all slopes are small: 1e-3 of it would change the
 /// objective by 1e-4 across the whole range of a variable.
 constexpr double flat = 1e-3;
+/// Part of the gradient scale that the terms of a variable count for at least.
+constexpr double least_part = 1e-5;
+/// The terms that make the weights follow from multipliers, and these from the weights.
+constexpr int weighted_passes = 3;
 
 /// One side of a constraint or of a variable: g = sign · (c − limit) / magnitude ≤ 0.
 struct Limit {
@@ -68,23 +73,65 @@ std::vector<Limit> near_bounds(const Problem& problem, const Eigen::VectorXd& x,
   return limits;
 }
 
-/// [s ∘ ∇g; diag(slack)], variables + limits × limits.
-Eigen::MatrixXd system_matrix(const std::vector<Limit>& limits, Eigen::Index variables) {
-  const auto count = static_cast<Eigen::Index>(limits.size());
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(variables + count, count);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    matrix.col(k).head(variables) = limits[k].gradient;
-    matrix(variables + k, k) = limits[k].slack();
-  }
-  return matrix;
-}
+/// Least squares of all rows, each times its weight.
+class MultiplierSystem {
+ public:
+  MultiplierSystem(std::vector<Limit> limits, std::size_t constraints, Eigen::VectorXd right)
+      : limits_(std::move(limits)), constraints_(constraints), right_(std::move(right)) {}
 
-/// Σ λ |g|: what slack leaves to be gained, and what violations gained already.
-double complementarity(const std::vector<Limit>& limits, const Eigen::VectorXd& lambda) {
-  double sum = 0.0;
-  for (Eigen::Index k = 0; k < lambda.size(); ++k) sum += lambda[k] * std::abs(limits[k].value);
-  return sum;
-}
+  /// λ of the system [W (s ∘ ∇g); diag(slack ‖W (s ∘ ∇g)‖ / ‖s ∘ ∇g‖)] λ = [−W (s ∘ ∇f); 0].
+  Eigen::VectorXd solve(const Eigen::VectorXd& weights) const {
+    const auto count = static_cast<Eigen::Index>(limits_.size());
+    const Eigen::Index variables = right_.size();
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(variables + count, count);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(variables + count);
+    right.head(variables) = weights.cwiseProduct(right_);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const Limit& limit = limits_[static_cast<std::size_t>(k)];
+      const Eigen::VectorXd weighted = weights.cwiseProduct(limit.gradient);
+      const double length = limit.gradient.norm();
+      matrix.col(k).head(variables) = weighted;
+      matrix(variables + k, k) = limit.slack() * (length > 0.0 ? weighted.norm() / length : 1.0);
+    }
+    return nonnegative_least_squares(matrix, right);
+  }
+
+  /// What these λ make of the audit, without its scales.
+  KktAudit audit(const Eigen::VectorXd& lambda, Eigen::Index constraints,
+                 const Eigen::VectorXd& s) const {
+    KktAudit audit;
+    audit.constraint_multipliers = Eigen::VectorXd::Zero(constraints);
+    audit.bound_multipliers = Eigen::VectorXd::Zero(s.size());
+    audit.unpaid = Eigen::VectorXd::Zero(s.size());
+    audit.stationarity = -right_;
+    // Both sides of a limit may have a price: what counts is their difference.
+    Eigen::MatrixXd of_constraints = Eigen::MatrixXd::Zero(s.size(), constraints);
+    for (std::size_t k = 0; k < limits_.size(); ++k) {
+      const Limit& limit = limits_[k];
+      const double price = lambda[static_cast<Eigen::Index>(k)];
+      const Eigen::VectorXd force = price * limit.gradient;
+      const double multiplier = limit.sign * price / limit.magnitude;
+      if (k < constraints_) {
+        audit.constraint_multipliers[limit.index] += multiplier;
+        of_constraints.col(limit.index) += force;
+      } else {
+        audit.bound_multipliers[limit.index] += multiplier;
+      }
+      const double length = limit.gradient.lpNorm<1>();
+      audit.stationarity += force;
+      audit.complementarity += price * std::abs(limit.value);
+      if (price > 0.0) audit.unpaid += force.cwiseAbs() * std::min(1.0, limit.slack() / length);
+    }
+    audit.terms = right_.cwiseAbs() + of_constraints.cwiseAbs().rowwise().sum() +
+                  audit.bound_multipliers.cwiseProduct(s).cwiseAbs();
+    return audit;
+  }
+
+ private:
+  std::vector<Limit> limits_;  ///< of constraints, then of variables
+  std::size_t constraints_;    ///< how many are of constraints
+  Eigen::VectorXd right_;      ///< −s ∘ ∇f
+};
 
 /// |f|, but not nothing where f vanishes at the optimum.
 double objective_value_scale(const KnownDesign& design, const Evaluation& start) {
@@ -102,35 +149,46 @@ double gradient_scale(const Problem& problem, const KnownDesign& design, const E
       {here, std::min(at_start, 0.1 * value), flat * value, std::numeric_limits<double>::min()});
 }
 
+/// How far multipliers are from explaining the design: by all variables together, and by the worst
+/// one, which may be ten times as far off (verdict.hpp).
+double distance(const KktAudit& audit) {
+  return std::max(audit.residual, 0.1 * audit.variable_residuals().maxCoeff());
+}
+
 }  // namespace
+
+Eigen::VectorXd KktAudit::variable_residuals(const Eigen::VectorXd& curvatures) const {
+  Eigen::VectorXd magnitudes = terms;
+  if (curvatures.size() > 0) magnitudes = magnitudes.cwiseMax(curvatures);
+  return stationarity.cwiseAbs().cwiseMax(unpaid).cwiseQuotient(
+      magnitudes.cwiseMax(least_part * gradient_scale));
+}
 
 KktAudit audit_kkt(const Problem& problem, const KnownDesign& design, const Evaluation& start,
                    const Eigen::VectorXd& scales) {
   const Eigen::VectorXd s = local_scales(problem, design.x);
-  const Eigen::Index variables = s.size();
   std::vector<Limit> limits = near_constraints(problem, design.evaluation, scales, s);
-  const std::size_t first_bound = limits.size();
+  const std::size_t constraints = limits.size();
   const std::vector<Limit> bounds = near_bounds(problem, design.x, s);
   limits.insert(limits.end(), bounds.begin(), bounds.end());
+  const MultiplierSystem system(std::move(limits), constraints,
+                                -s.cwiseProduct(design.evaluation.objective_gradient));
 
-  const Eigen::MatrixXd matrix = system_matrix(limits, variables);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(matrix.rows());
-  right.head(variables) = -s.cwiseProduct(design.evaluation.objective_gradient);
-  const Eigen::VectorXd lambda = nonnegative_least_squares(matrix, right);
-
-  KktAudit audit;
-  audit.gradient_scale = gradient_scale(problem, design, start, s);
-  const double stationarity = (matrix * lambda - right).head(variables).norm();
-  const double value_scale = std::min(audit.gradient_scale, objective_value_scale(design, start));
-  audit.residual =
-      std::max(stationarity / audit.gradient_scale, complementarity(limits, lambda) / value_scale);
-  audit.constraint_multipliers = Eigen::VectorXd::Zero(scales.size());
-  audit.bound_multipliers = Eigen::VectorXd::Zero(variables);
-  for (std::size_t k = 0; k < limits.size(); ++k) {
-    Eigen::VectorXd& multipliers =
-        k < first_bound ? audit.constraint_multipliers : audit.bound_multipliers;
-    multipliers[limits[k].index] +=
-        limits[k].sign * lambda[static_cast<Eigen::Index>(k)] / limits[k].magnitude;
+  const double gradients = gradient_scale(problem, design, start, s);
+  const double values = std::min(gradients, objective_value_scale(design, start));
+  const auto audit_with = [&](const Eigen::VectorXd& weights) {
+    KktAudit audit = system.audit(system.solve(weights), scales.size(), s);
+    audit.gradient_scale = gradients;
+    audit.residual =
+        std::max(audit.stationarity.norm() / gradients, audit.complementarity / values);
+    return audit;
+  };
+  KktAudit audit = audit_with(Eigen::VectorXd::Ones(s.size()));
+  for (int pass = 0; pass < weighted_passes; ++pass) {
+    const Eigen::VectorXd weights = (audit.terms / gradients).cwiseMax(least_part).cwiseInverse();
+    KktAudit weighted = audit_with(weights);
+    if (!(distance(weighted) < distance(audit))) break;
+    audit = std::move(weighted);
   }
   return audit;
 }

@@ -23,11 +23,32 @@ struct KktAudit {
   double residual = 0.0;
   /// What residuals are compared with, in units of the objective; see audit_kkt().
   double gradient_scale = 0.0;
+
+  /// The same of each variable in its own magnitude, so that a small part of the objective counts
+  /// as much as a large one. In units of the objective, size = variables:
+  ///     r_i = s_i (∂f/∂x_i + Σ μ_j ∂c_j/∂x_i + β_i)
+  ///     T_i = s_i (|∂f/∂x_i| + Σ |μ_j ∂c_j/∂x_i| + |β_i|)
+  Eigen::VectorXd stationarity;  ///< r
+  Eigen::VectorXd terms;         ///< T
+  /// The part of T_i that limits with slack pay, each times slack / ‖s ∘ ∇g‖₁: the relative change
+  /// of the variables by which the limit is not reached.
+  Eigen::VectorXd unpaid;
+  /// Σ λ |g| [unit of the objective]: what slack leaves to be gained, and violation has gained.
+  double complementarity = 0.0;
+
+  /// max(|r_i|, unpaid_i) / max(T_i, κ_i) for each variable, where T_i counts as at least 10⁻⁵ of
+  /// gradient_scale: below that lies the noise of gradients, and a variable that changes nothing.
+  /// @param curvatures  κ, change of r_i with x_i / s_i, ≥ 0; empty: unknown. Where the objective
+  ///                    alone makes a minimum, all terms of T_i vanish there and κ_i is its
+  ///                    measure.
+  Eigen::VectorXd variable_residuals(const Eigen::VectorXd& curvatures = {}) const;
 };
 
 /// Multipliers by nonnegative least squares on the gradients in scaled variables. All limits that
 /// are within 10 % (of their magnitude) take part; one with slack pays for its multiplier with the
-/// row λ · slack, so that no activity tolerance decides.
+/// row λ · slack, so that no activity tolerance decides. Once with all rows alike, and once more
+/// with each row divided by its T_i, since the multiplier of a limit on a small part drowns in the
+/// residuals of large ones: the multipliers that explain the design better are taken.
 ///
 /// gradient_scale is ‖s ∘ ∇f‖₂. Near an optimum without active limits this vanishes with the
 /// residual: it is therefore at least min(G, |f| / 10), with the same floor of |f|, where G is the

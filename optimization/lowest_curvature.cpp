@@ -56,8 +56,10 @@ LowestCurvature lowest_curvature(const HessianProduct& product, const Eigen::Mat
   lowest.products = static_cast<int>(directions.cols());
   if (lowest.products == 0) return lowest;
   const Eigen::MatrixXd form = directions.transpose() * images;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (form + form.transpose()));
+  lowest.form = 0.5 * (form + form.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(lowest.form);
   lowest.curvature = eigen.eigenvalues()[0];
+  lowest.directions = directions;
   lowest.direction = (directions * eigen.eigenvectors().col(0)).normalized();
   return lowest;
 }

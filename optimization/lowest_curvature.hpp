@@ -9,9 +9,11 @@ namespace pleuel {
 
 /// Where a quadratic form bends least among the directions that were looked at.
 struct LowestCurvature {
-  Eigen::VectorXd direction;  ///< of length 1; empty if no product could be had
-  double curvature = 0.0;     ///< dᵀ H d
-  int products = 0;           ///< with H that were made
+  Eigen::VectorXd direction;   ///< of length 1; empty if no product could be had
+  double curvature = 0.0;      ///< dᵀ H d
+  int products = 0;            ///< with H that were made
+  Eigen::MatrixXd directions;  ///< Q, orthonormal columns: those that were looked at
+  Eigen::MatrixXd form;        ///< Qᵀ H Q, symmetric
 };
 
 /// H d for a d of length 1; nullopt if it cannot be had.

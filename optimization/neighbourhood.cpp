@@ -14,6 +14,7 @@ namespace {
 constexpr double distance = 0.02;    ///< h
 constexpr int doublings = 5;         ///< of h, at most
 constexpr int most_directions = 6;   ///< whose Hessian product is computed
+constexpr double reach = 0.5;        ///< R
 constexpr double held = 1e-3;        ///< part of the gradient scale that makes a multiplier count
 constexpr double noise = 1e-8;       ///< of the objective
 constexpr double far_enough = 1e-2;  ///< relative gain: a backend finds on from there
@@ -124,6 +125,7 @@ class Exploration {
       : cache_(cache),
         design_(design),
         multipliers_(audit.constraint_multipliers),
+        bound_multipliers_(audit.bound_multipliers),
         s_(lengths(cache.problem(), design.x)),
         holding_(holding_limits(cache.problem(), design, audit, s_)),
         basis_(tangent_basis(rows(holding_.constraints).matrix(), holding_)) {}
@@ -135,6 +137,7 @@ class Exploration {
     const LowestCurvature lowest = find_lowest_curvature();
     result.directions = lowest.products;
     if (lowest.products == 0) return result;
+    result.gain_left = gain_left(lowest) / value_scale;
     for (const double sign : {1.0, -1.0}) {
       const Neighbour neighbour = follow(sign * lowest.direction, value_scale);
       if (neighbour.gain <= std::max(result.gain, least_gain) * value_scale) continue;
@@ -160,6 +163,30 @@ class Exploration {
     if (evaluation == nullptr) return std::nullopt;
     return s_.cwiseProduct(evaluation->objective_gradient +
                            evaluation->constraint_jacobian.transpose() * multipliers_);
+  }
+
+  /// See explore_neighbourhood().
+  double gain_left(const LowestCurvature& lowest) const {
+    const Evaluation& here = design_.evaluation;
+    const Eigen::VectorXd gradient =
+        s_.cwiseProduct(here.objective_gradient +
+                        here.constraint_jacobian.transpose() * multipliers_ + bound_multipliers_);
+    const Eigen::VectorXd open = basis_.transpose() * gradient;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(lowest.form);
+    const Eigen::VectorXd slopes =
+        eigen.eigenvectors().transpose() * (lowest.directions.transpose() * gradient);
+    const double rest = std::sqrt(std::max(0.0, open.squaredNorm() - slopes.squaredNorm()));
+    double sum = gain_along(rest, eigen.eigenvalues()[0]);
+    for (Eigen::Index k = 0; k < slopes.size(); ++k) {
+      sum += gain_along(slopes[k], eigen.eigenvalues()[k]);
+    }
+    return sum;
+  }
+
+  static double gain_along(double slope, double curvature) {
+    const double steep = std::abs(slope);
+    if (steep <= reach * curvature) return steep == 0.0 ? 0.0 : 0.5 * steep * steep / curvature;
+    return steep * reach - 0.5 * std::max(0.0, curvature) * reach * reach;
   }
 
   /// The design, moved off bounds that do not hold it: so far that a step to any side stays within.
@@ -249,7 +276,7 @@ class Exploration {
 
   EvaluationCache& cache_;
   const KnownDesign& design_;
-  const Eigen::VectorXd multipliers_;
+  const Eigen::VectorXd multipliers_, bound_multipliers_;
   const Eigen::VectorXd s_;
   const Holding holding_;
   const Eigen::MatrixXd basis_;

@@ -14,6 +14,9 @@ struct Neighbourhood {
   /// A design that keeps the limits and is better by more than was asked for.
   std::optional<Eigen::VectorXd> better;
   double gain = 0.0;  ///< how much lower its objective is, relative
+  /// By how much the objective may come down by following what is left of the gradients, relative:
+  /// ½ rᵀ H⁻¹ r in the directions that the limits leave open, see explore_neighbourhood().
+  double gain_left = 0.0;
 };
 
 /// Looks whether a KKT point is a minimum, not a maximum or a saddle. In the tangent space of the
@@ -28,6 +31,11 @@ struct Neighbourhood {
 /// leaves costs nothing; else min(dimension, 6) gradients, one more where a bound without
 /// multiplier is near, and two to four values, more only if the objective does fall. It is no
 /// proof: beyond six dimensions directions remain unseen, and so does what lies further away.
+///
+/// The same products give what is left to be gained by the remaining slope r of the Lagrangian: for
+/// each eigenvector of the reduced Hessian with curvature k the gain r²/2k, or r R − k R²/2 where
+/// the minimum lies further off than R = 0.5 s; directions that were not looked at count with the
+/// lowest curvature that was found.
 /// @param least_gain  relative to |f| (at least 10⁻³ |f(start)|)
 /// @param start       evaluation of the first design
 Neighbourhood explore_neighbourhood(EvaluationCache& cache, const KnownDesign& design,

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "optimization/peak_windows.hpp"
 #include "optimization/scaling.hpp"
 
@@ -48,7 +46,7 @@ PeakProblem::PeakProblem(DesignProblem& problem, int windows, const Eigen::Vecto
     is_split_.push_back(response && !constraint.is_equality() &&
                         has_peaks(file.responses[*response]));
     if (is_split_.back()) {
-      add_rows(i, constraint, file.responses[*response]);
+      add_rows(i, constraint);
     } else {
       rows_.push_back(constraint);
       constraint_of_row_.emplace_back(i);
@@ -57,17 +55,10 @@ PeakProblem::PeakProblem(DesignProblem& problem, int windows, const Eigen::Vecto
   bound_objective();
 }
 
-void PeakProblem::add_rows(std::optional<std::size_t> constraint, const Constraint& limits,
-                           const ResponseSettings& response) {
-  const double from = response.from.value_or(0.0);
-  const double to = response.to.value_or(problem_.file().simulation.end_time);
-  for (int window = 0; window < windows_; ++window) {
-    rows_.push_back(limits);
-    rows_.back().name +=
-        fmt::format(" between {:.4g} and {:.4g} s", from + (to - from) * window / windows_,
-                    from + (to - from) * (window + 1) / windows_);
-    constraint_of_row_.push_back(constraint);
-  }
+void PeakProblem::add_rows(std::optional<std::size_t> constraint, const Constraint& limits) {
+  rows_.insert(rows_.end(), static_cast<std::size_t>(windows_), limits);
+  constraint_of_row_.insert(constraint_of_row_.end(), static_cast<std::size_t>(windows_),
+                            constraint);
 }
 
 void PeakProblem::bound_objective() {
@@ -75,7 +66,7 @@ void PeakProblem::bound_objective() {
   const ResponseSettings& response = problem_.file().responses[objective];
   has_bound_ = has_peaks(response) && response.over_time != OverTime::min;
   if (!has_bound_) return;
-  add_rows(std::nullopt, {response.name, -infinity, 0.0}, response);
+  add_rows(std::nullopt, {response.name, -infinity, 0.0});
   Eigen::VectorXd start(static_cast<Eigen::Index>(variables_.size()));
   for (Eigen::Index i = 0; i < start.size(); ++i) start(i) = variables_[i].start;
   const Evaluation at_start = problem_.evaluate(start, Request::values_and_gradients);
@@ -84,6 +75,16 @@ void PeakProblem::bound_objective() {
   const double magnitude = std::max(change, least_dependence * std::abs(at_start.objective));
   variables_.push_back({"bound of " + response.name, at_start.objective, -infinity, infinity,
                         magnitude > 0.0 ? magnitude : 1.0});
+}
+
+std::string PeakProblem::variable_text(std::size_t variable, double value) const {
+  return variable < problem_.variables().size() ? problem_.variable_text(variable, value)
+                                                : problem_.objective_text(value);
+}
+
+std::string PeakProblem::constraint_text(std::size_t constraint, double value) const {
+  const auto& of_file = constraint_of_row_[constraint];
+  return of_file ? problem_.constraint_text(*of_file, value) : problem_.objective_text(value);
 }
 
 Evaluation PeakProblem::evaluate(const Eigen::VectorXd& x, Request request) {

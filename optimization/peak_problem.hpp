@@ -14,6 +14,7 @@ namespace pleuel {
 ///     minimize t   subject to   peak of each window ≤ t
 ///
 /// A design of this problem is (x, t) then, and the rows peak − t ≤ 0 follow those of the limits.
+/// All rows bear the names of what they are peaks of: windows are nothing that a user knows.
 class PeakProblem : public Problem {
  public:
   /// @param windows  of equal length, at least 1
@@ -25,6 +26,8 @@ class PeakProblem : public Problem {
   const std::vector<Variable>& variables() const override { return variables_; }
   const std::vector<Constraint>& constraints() const override { return rows_; }
   std::string objective_name() const override { return problem_.objective_name(); }
+  std::string variable_text(std::size_t variable, double value) const override;
+  std::string constraint_text(std::size_t constraint, double value) const override;
   Evaluation evaluate(const Eigen::VectorXd& x, Request request) override;
 
   /// The constraint of the file that each row is of; none for those of the objective.
@@ -42,8 +45,7 @@ class PeakProblem : public Problem {
   Eigen::VectorXd fold_multipliers(const Eigen::VectorXd& rows) const;
 
  private:
-  void add_rows(std::optional<std::size_t> constraint, const Constraint& limits,
-                const ResponseSettings& response);
+  void add_rows(std::optional<std::size_t> constraint, const Constraint& limits);
   void bound_objective();
 
   /// The constraints, those on peaks window by window.

@@ -34,6 +34,14 @@ double checked_start(const Variable& variable) {
 
 }  // namespace
 
+std::string Problem::variable_text(std::size_t, double value) const {
+  return fmt::format("{:.6g}", value);
+}
+
+std::string Problem::constraint_text(std::size_t, double value) const {
+  return fmt::format("{:.6g}", value);
+}
+
 FunctionProblem::FunctionProblem(std::vector<Variable> variables,
                                  std::vector<Constraint> constraints, Function function)
     : variables_(std::move(variables)),
@@ -58,7 +66,9 @@ Eigen::VectorXd checked_start(const Problem& problem) {
 std::string describe_design(const Problem& problem, const Eigen::VectorXd& x) {
   std::string text;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    text += fmt::format("{}{} = {:.6g}", i == 0 ? "" : ", ", problem.variables()[i].name, x[i]);
+    const auto variable = static_cast<std::size_t>(i);
+    text += fmt::format("{}{} = {}", i == 0 ? "" : ", ", problem.variables()[variable].name,
+                        problem.variable_text(variable, x[i]));
   }
   return text;
 }

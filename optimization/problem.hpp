@@ -68,6 +68,10 @@ class Problem {
   virtual const std::vector<Constraint>& constraints() const = 0;
   virtual std::string objective_name() const = 0;
 
+  /// Values with their units, for messages: "1.18 mm". By default the bare number.
+  virtual std::string variable_text(std::size_t variable, double value) const;
+  virtual std::string constraint_text(std::size_t constraint, double value) const;
+
   /// Values, and gradients if requested, of the design x (within its bounds). Backends often ask
   /// for the gradients of the very design whose values they saw last: keep its simulation.
   /// @throws EvaluationFailure or any other SimulationError if the design cannot be evaluated.
@@ -98,7 +102,7 @@ class FunctionProblem : public Problem {
 ///         numbers, or if a start lies outside its bounds; the message names the variable.
 Eigen::VectorXd checked_start(const Problem& problem);
 
-/// "width = 0.02, height = 0.03": a design for messages.
+/// "width = 20 mm, height = 30 mm": a design for messages.
 std::string describe_design(const Problem& problem, const Eigen::VectorXd& x);
 
 }  // namespace pleuel

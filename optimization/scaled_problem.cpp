@@ -7,7 +7,8 @@
 
 namespace pleuel {
 
-ScaledProblem::ScaledProblem(EvaluationCache& cache, const KnownDesign& around, Budget budget)
+ScaledProblem::ScaledProblem(EvaluationCache& cache, const KnownDesign& around, Budget budget,
+                             const Eigen::VectorXd& factors)
     : cache_(cache),
       iterations_(cache.iterations()),
       evaluations_(cache.evaluations()),
@@ -16,6 +17,7 @@ ScaledProblem::ScaledProblem(EvaluationCache& cache, const KnownDesign& around, 
       variable_scales_(variable_scales(cache.problem(), around.x)),
       constraint_scales_(cache.scales().constraints),
       objective_scale_(objective_scale(cache.problem(), around.evaluation, variable_scales_)) {
+  if (factors.size() > 0) variable_scales_ = variable_scales_.cwiseProduct(factors);
   const std::vector<Variable>& variables = cache.problem().variables();
   for (Eigen::Index i = 0; i < around_.size(); ++i) {
     if (!variables[i].is_fixed()) free_.push_back(i);

@@ -35,9 +35,11 @@ class ScaledProblem {
     int line_search = 0;           ///< evaluations without gradients in a row: no way down is found
   };
 
-  /// @param around  the design whose magnitudes scale the problem, and where the backend starts;
-  ///                with gradients.
-  ScaledProblem(EvaluationCache& cache, const KnownDesign& around, Budget budget);
+  /// @param around   the design whose magnitudes scale the problem, and where the backend starts;
+  ///                 with gradients.
+  /// @param factors  of s, one a variable, positive; empty: 1.
+  ScaledProblem(EvaluationCache& cache, const KnownDesign& around, Budget budget,
+                const Eigen::VectorXd& factors = {});
 
   int variables() const { return static_cast<int>(free_.size()); }
   int inequalities() const { return static_cast<int>(inequalities_.size()); }

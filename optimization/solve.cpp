@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 
 #include "optimization/optimizer.hpp"
+#include "optimization/polish.hpp"
+#include "optimization/prices.hpp"
 #include "optimization/scaling.hpp"
 
 namespace pleuel {
@@ -65,11 +67,11 @@ class Run {
 
   Result solve() {
     double tolerance = options_.tolerance;
-    Verdict verdict = improve(start_, tolerance);
+    Verdict verdict = polished(improve(start_, tolerance));
     while (may_restart(verdict)) {
       const KnownDesign from = start_of_restart(verdict);
       tolerance *= tolerance_factor;
-      Verdict next = improve(from, tolerance);
+      Verdict next = polished(improve(from, tolerance));
       unchanged_restarts_ = next.design.x == verdict.design.x ? unchanged_restarts_ + 1 : 0;
       verdict = std::move(next);
     }
@@ -100,11 +102,26 @@ class Run {
   /// a backend may stop slightly outside the limits, or leave a good point.
   Verdict improve(const KnownDesign& from, double tolerance) {
     const Eigen::VectorXd end = run_backend(from, tolerance);
-    const Eigen::VectorXd strictly_best = best_record(cache_.history(), strict_violation).x;
-    const Eigen::VectorXd best = best_record(cache_.history(), options_.verdict.violation).x;
+    const History steps = search_steps();
+    return best_of({end, best_record(steps, strict_violation).x,
+                    best_record(steps, options_.verdict.violation).x},
+                   from);
+  }
 
+  /// Without what a polish saw on its way: its steps may use up all that limits tolerate.
+  History search_steps() const {
+    History steps = cache_.history();
+    std::erase_if(steps,
+                  [](const EvaluationRecord& record) { return record.purpose != Purpose::search; });
+    return steps;
+  }
+
+  /// The best one of some designs and of that where they come from, judged. The first one that is
+  /// proven, strictly within the limits, is it.
+  Verdict best_of(const std::vector<Eigen::VectorXd>& designs, const KnownDesign& from) {
+    cache_.set_purpose(Purpose::audit);
     Verdict verdict = judged(from);
-    for (const Eigen::VectorXd& x : {end, strictly_best, best}) {
+    for (const Eigen::VectorXd& x : designs) {
       std::optional<Verdict> candidate = audit(x);
       if (candidate && is_better(*candidate, verdict)) verdict = std::move(*candidate);
       const bool strict = verdict.design.max_violation <= strict_violation;
@@ -113,7 +130,28 @@ class Run {
     return verdict;
   }
 
+  /// What the polisher makes of an answer that is nearly an optimum; else the answer itself. Only a
+  /// proof counts, or a lower objective strictly within the limits.
+  Verdict polished(Verdict verdict) {
+    if (!is_worth_polishing(verdict, options_.verdict) || is_lost_ ||
+        polishes_ >= options_.max_polishes || cache_.iterations() >= polish_budget().iterations) {
+      return verdict;
+    }
+    ++polishes_;
+    cache_.set_purpose(Purpose::polish);
+    const Eigen::VectorXd end = polish(cache_, verdict.design, verdict.audit, polish_budget());
+    cache_.set_purpose(Purpose::audit);
+    std::optional<Verdict> next = audit(end);
+    if (!next || end == verdict.design.x) return verdict;
+    const bool is_proof = next->status == Status::verified && verdict.status != Status::verified;
+    const bool keeps_limits = next->design.max_violation <= strict_violation;
+    if (!is_proof && !(keeps_limits && is_better(*next, verdict))) return verdict;
+    is_polished_ = true;
+    return std::move(*next);
+  }
+
   Eigen::VectorXd run_backend(const KnownDesign& from, double tolerance) {
+    cache_.set_purpose(Purpose::search);
     ScaledProblem scaled(cache_, from,
                          {options_.max_iterations, max_evaluations(),
                           options_.max_consecutive_failures, longest_line_search});
@@ -154,20 +192,29 @@ class Run {
   }
 
   /// Proven before unproven, within the limits before outside; then the lower objective, or the
-  /// smaller violation.
+  /// smaller violation. Of two unproven designs of which one uses the tolerance of the limits, the
+  /// one that fulfils the KKT conditions better: what a violation gains is no merit.
   bool is_better(const Verdict& one, const Verdict& other) const {
+    const auto is_strict = [](const Verdict& verdict) {
+      return verdict.design.max_violation <= strict_violation;
+    };
     const auto rank = [&](const Verdict& verdict) {
       const bool verified = verdict.status == Status::verified;
-      const bool strict = verdict.design.max_violation <= strict_violation;
       const bool within = verdict.design.max_violation <= options_.verdict.violation;
-      return verified && strict ? 3 : verified ? 2 : within ? 1 : 0;
+      return verified && is_strict(verdict) ? 3 : verified ? 2 : within ? 1 : 0;
     };
     if (rank(one) != rank(other)) return rank(one) > rank(other);
-    return rank(one) > 0 ? one.design.evaluation.objective < other.design.evaluation.objective
-                         : one.design.max_violation < other.design.max_violation;
+    if (rank(one) == 0) return one.design.max_violation < other.design.max_violation;
+    if (is_strict(one) != is_strict(other)) return one.audit.residual < other.audit.residual;
+    return one.design.evaluation.objective < other.design.evaluation.objective;
   }
 
   int max_evaluations() const { return evaluations_per_iteration * options_.max_iterations; }
+
+  PolishBudget polish_budget() const {
+    const int iterations = options_.max_iterations + options_.polish_iterations;
+    return {iterations, evaluations_per_iteration * iterations};
+  }
 
   bool is_exhausted() const {
     return cache_.iterations() >= options_.max_iterations ||
@@ -186,10 +233,17 @@ class Run {
     result.status = verdict.status;
     result.message = verdict.message;
     if (verdict.status != Status::verified) add_reason(result);
+    if (is_polished_) result.polished_with = polisher;
+    if (is_polished_) result.message += fmt::format("; polished with {}", polisher);
+    if (verdict.status == Status::verified) {
+      result.message += "; from one start: other local optima were not looked for";
+    }
     result.backend = options_.backend;
     result.x = std::move(verdict.design.x);
     result.evaluation = std::move(verdict.design.evaluation);
-    result.constraint_multipliers = std::move(verdict.audit.constraint_multipliers);
+    result.constraint_multipliers =
+        prices_of(cache_.problem(), result.evaluation.constraints,
+                  verdict.audit.constraint_multipliers, cache_.scales().constraints);
     result.bound_multipliers = std::move(verdict.audit.bound_multipliers);
     result.kkt_residual = verdict.audit.residual;
     result.max_violation = verdict.design.max_violation;
@@ -235,6 +289,8 @@ class Run {
   int restarts_ = 0;
   int escapes_ = 0;
   int unchanged_restarts_ = 0;
+  int polishes_ = 0;
+  bool is_polished_ = false;
   bool is_lost_ = false;
   std::string backend_reason_ = "nothing, since no variable is free";
 };

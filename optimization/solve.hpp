@@ -27,6 +27,10 @@ struct SolveOptions {
   int max_escapes = 4;
   /// Failed evaluations in a row after which the run is given up, at least 1.
   int max_consecutive_failures = 20;
+  /// How often an answer that is nearly one is refined by another backend (polish.hpp).
+  int max_polishes = 2;
+  /// Designs with gradients that a polish may use beyond max_iterations.
+  int polish_iterations = 0;
   /// What the verdict asks for.
   Tolerances verdict{};
   /// What an earlier part of the same run has used already, for messages.
@@ -42,10 +46,12 @@ struct Result {
   /// Sentences: what speaks against the numbers of the last design.
   std::vector<std::string> warnings;
   std::string backend;
-  Eigen::VectorXd x;  ///< [SI]
+  std::string polished_with;  ///< the backend that refined the answer; empty: nobody did
+  Eigen::VectorXd x;          ///< [SI]
   /// At x, with gradients. Without any entry if the start already failed.
   Evaluation evaluation;
-  /// μ and β of KktAudit: d(optimal objective) / d(active limit) = −μ.
+  /// μ and β of KktAudit: d(optimal objective) / d(active limit) = −μ. That of a limit with slack
+  /// is 0; see has_prices() of prices.hpp for the designs at which they are prices.
   Eigen::VectorXd constraint_multipliers, bound_multipliers;
   double kkt_residual = 0.0;   ///< relative
   double max_violation = 0.0;  ///< relative
@@ -58,8 +64,8 @@ struct Result {
 };
 
 /// Optimizes from the start values of the problem with one backend, and proves or doubts the
-/// answer: check the start → backend → audit → restart from there if the design is unproven,
-/// from its better neighbour if it is no minimum → result.
+/// answer: check the start → backend → audit → polish if the design is nearly an optimum → restart
+/// from there if it is unproven, from its better neighbour if it is no minimum → result.
 /// @throws InputError if the backend is unknown or cannot take the constraints, or if the start
 /// lies
 ///         outside its bounds. A start that cannot be evaluated is not thrown but `failed`.

@@ -2,29 +2,66 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
+#include "optimization/broken_limits.hpp"
 #include "optimization/gradient_check.hpp"
 #include "optimization/neighbourhood.hpp"
+#include "optimization/scaling.hpp"
 
 namespace pleuel {
 
 namespace {
 
-std::string worst_constraint(const EvaluationCache& cache, const KnownDesign& design) {
-  const std::vector<Constraint>& constraints = cache.problem().constraints();
-  std::string worst;
-  double largest = 0.0;
-  for (Eigen::Index j = 0; j < design.evaluation.constraints.size(); ++j) {
-    const double value = design.evaluation.constraints[j];
-    const double excess = std::max(value - constraints[j].upper, constraints[j].lower - value);
-    if (excess / cache.scales().constraints[j] <= largest) continue;
-    largest = excess / cache.scales().constraints[j];
-    worst = fmt::format("{} = {:.6g} leaves its limits [{:.6g}, {:.6g}]", constraints[j].name,
-                        value, constraints[j].lower, constraints[j].upper);
+/// Relative to s: how far variables without proof are moved to see how their slopes change.
+constexpr double probe = 0.01;
+
+/// κ of KktAudit::variable_residuals() for the variables whose residuals are too large, by one
+/// gradient at a design where they are moved downhill; zeros for the others, or where it fails.
+Eigen::VectorXd probe_curvatures(EvaluationCache& cache, const KnownDesign& design,
+                                 const KktAudit& audit, double allowed) {
+  const Eigen::VectorXd s = local_scales(cache.problem(), design.x);
+  const Eigen::VectorXd residuals = audit.variable_residuals();
+  Eigen::VectorXd moved = design.x;
+  for (Eigen::Index i = 0; i < s.size(); ++i) {
+    if (!(residuals[i] > allowed)) continue;
+    const Variable& variable = cache.problem().variables()[static_cast<std::size_t>(i)];
+    const double way = std::copysign(probe * s[i], -audit.stationarity[i]);
+    moved[i] = std::clamp(moved[i] + way, variable.lower, variable.upper);
   }
-  return worst;
+  const Eigen::VectorXd way = (moved - design.x).cwiseQuotient(s);
+  Eigen::VectorXd curvatures = Eigen::VectorXd::Zero(s.size());
+  const Evaluation* there = cache.evaluate(moved, Request::values_and_gradients);
+  if (there == nullptr) return curvatures;
+  const Eigen::VectorXd change = s.cwiseProduct(
+      there->objective_gradient - design.evaluation.objective_gradient +
+      (there->constraint_jacobian - design.evaluation.constraint_jacobian).transpose() *
+          audit.constraint_multipliers);
+  for (Eigen::Index i = 0; i < s.size(); ++i) {
+    if (way[i] != 0.0) curvatures[i] = std::abs(change[i] / way[i]);
+  }
+  return curvatures;
+}
+
+struct UnprovenVariable {
+  std::size_t variable;
+  double residual;
+};
+
+/// The variable with the largest residual, if that is more than allowed.
+std::optional<UnprovenVariable> unproven_variable(EvaluationCache& cache, Verdict& verdict,
+                                                  const Tolerances& tolerances) {
+  const double allowed = tolerances.variable_residual;
+  Eigen::VectorXd residuals = verdict.audit.variable_residuals();
+  if (residuals.maxCoeff() <= allowed) return std::nullopt;
+  residuals = verdict.audit.variable_residuals(
+      probe_curvatures(cache, verdict.design, verdict.audit, allowed));
+  Eigen::Index worst = 0;
+  const double largest = residuals.maxCoeff(&worst);
+  if (largest <= allowed) return std::nullopt;
+  return UnprovenVariable{static_cast<std::size_t>(worst), largest};
 }
 
 void judge_gradients(Verdict& verdict, EvaluationCache& cache, const Tolerances& tolerances) {
@@ -51,6 +88,9 @@ void judge_neighbourhood(Verdict& verdict, EvaluationCache& cache, const Evaluat
                          const Tolerances& tolerances) {
   const Neighbourhood around =
       explore_neighbourhood(cache, verdict.design, verdict.audit, start, tolerances.gain);
+  const double value_scale =
+      std::max(std::abs(verdict.design.evaluation.objective), 1e-3 * std::abs(start.objective));
+  verdict.gain_left = around.gain_left + verdict.audit.complementarity / value_scale;
   if (around.better) {
     verdict.status = Status::stalled;
     verdict.better_neighbour = around.better;
@@ -59,6 +99,12 @@ void judge_neighbourhood(Verdict& verdict, EvaluationCache& cache, const Evaluat
         "by {:.2g} (relative) at {}",
         cache.problem().objective_name(), around.gain,
         describe_design(cache.problem(), *around.better));
+  } else if (verdict.gain_left > tolerances.gain) {
+    verdict.status = Status::stalled;
+    verdict.message = fmt::format(
+        "near a local optimum, but {:.2g} of the objective (relative; allowed {:.2g}) is estimated "
+        "to be left to it",
+        verdict.gain_left, tolerances.gain);
   } else if (around.dimension == 0) {
     verdict.message += "; its limits leave no direction open";
   } else {
@@ -84,13 +130,23 @@ Verdict judge(EvaluationCache& cache, const KnownDesign& design, const Evaluatio
   verdict.audit = audit_kkt(cache.problem(), design, start, cache.scales().constraints);
   if (design.max_violation > tolerances.violation) {
     verdict.status = Status::infeasible;
-    verdict.message = fmt::format("no design that keeps all limits was found: {} ({:.2g} relative)",
-                                  worst_constraint(cache, design), design.max_violation);
+    verdict.message = fmt::format(
+        "no design that keeps all limits was found; of those seen, this one breaks them least "
+        "({:.2g} relative): {}",
+        design.max_violation,
+        broken_limits(cache.problem(), design.evaluation.constraints, cache.scales().constraints,
+                      tolerances.violation));
   } else if (!(verdict.audit.residual <= tolerances.kkt_residual)) {
     verdict.message = fmt::format(
         "limits are kept, but the design is not proven optimal: relative KKT residual {:.2g}, "
         "allowed {:.2g}",
         verdict.audit.residual, tolerances.kkt_residual);
+  } else if (const auto unproven = unproven_variable(cache, verdict, tolerances)) {
+    verdict.message = fmt::format(
+        "limits are kept, but {} is not proven optimal: what is left of its slope is {:.2g} of the "
+        "terms that make it up, allowed {:.2g}",
+        cache.problem().variables()[unproven->variable].name, unproven->residual,
+        tolerances.variable_residual);
   } else {
     judge_gradients(verdict, cache, tolerances);
   }

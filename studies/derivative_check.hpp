@@ -33,6 +33,11 @@ struct DerivativeCheckOptions {
 /// and while some derivative differs or drowns in noise, of 1e-7, 1e-2 and 1e-8; with the adjoint
 /// method; and the values with their neighbours for noise. A step at which a simulation fails is
 /// left out.
+///
+/// Newton's method that stops early leaves an error that varies smoothly with the design: no
+/// scatter shows it, and differences see its derivative where the gradient does not. Where some
+/// derivative differs, all is repeated with a `newton_tolerance` of 1e-12 (or 1e-10, if that is
+/// not reached): a derivative that is right then is `noise`, if it is that of this design at all.
 /// @param analysis  of the problem at x, which has at least one variable
 /// @throws SimulationError if the differences of all steps fail
 std::vector<DerivativeCheck> check_derivatives(const ProblemFile& problem, const Eigen::VectorXd& x,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,8 +38,11 @@ struct DerivativeEvidence {
 struct JudgedDerivative {
   DerivativeVerdict verdict = DerivativeVerdict::differs;
   double derivative = 0.0;
-  double error = 0.0;                    ///< the smallest over the steps
-  double step = 0.0;                     ///< where that was
+  double error = 0.0;  ///< the smallest over the steps
+  double step = 0.0;   ///< where that was
+  /// The same error where Newton's method is carried further, of a derivative that differs only
+  /// because it is not: see check_derivatives(). Its verdict is noise.
+  std::optional<double> tight_error;
   double resolution = 0.0;               ///< u + t of the difference at its best step, relative
   std::vector<CentralDifference> curve;  ///< ascending steps
 };

@@ -56,8 +56,8 @@ bool is_within_limits(const ParetoPoint& point) {
   return status == Status::verified || status == Status::unresolved || status == Status::stalled;
 }
 
-/// @param sign  1 if a small limited value is good (upper limit), −1 if a large one is
-bool dominates(const ParetoPoint& one, const ParetoPoint& other, double sign) {
+bool dominates(const ParetoPoint& one, const ParetoPoint& other, GoodSide side) {
+  const double sign = side == GoodSide::low ? 1.0 : -1.0;
   const double gain = other.result.evaluation.objective - one.result.evaluation.objective;
   const double limited_gain = sign * (other.limited_value - one.limited_value);
   const double least = resolution * std::abs(one.result.evaluation.objective);
@@ -66,16 +66,16 @@ bool dominates(const ParetoPoint& one, const ParetoPoint& other, double sign) {
          (gain > least || limited_gain > least_limited);
 }
 
-void mark_dominated(std::vector<ParetoPoint>& points, double sign) {
+}  // namespace
+
+void mark_dominated(std::vector<ParetoPoint>& points, GoodSide side) {
   for (ParetoPoint& point : points) {
     if (!is_within_limits(point)) continue;
     point.is_dominated = std::any_of(points.begin(), points.end(), [&](const ParetoPoint& other) {
-      return is_within_limits(other) && dominates(other, point, sign);
+      return is_within_limits(other) && dominates(other, point, side);
     });
   }
 }
-
-}  // namespace
 
 std::vector<ParetoPoint> pareto_front(const ProblemFile& problem, const SolveOptions& options,
                                       const ParetoObserver& observer, int threads) {
@@ -98,7 +98,7 @@ std::vector<ParetoPoint> pareto_front(const ProblemFile& problem, const SolveOpt
     if (is_within_limits(points.back())) start_from(points.back().result.x, varied.variables);
     if (observer) observer(points.back());
   }
-  mark_dominated(points, constraint.upper ? 1.0 : -1.0);
+  mark_dominated(points, constraint.upper ? GoodSide::low : GoodSide::high);
   return points;
 }
 

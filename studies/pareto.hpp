@@ -12,12 +12,21 @@ namespace pleuel {
 struct ParetoPoint {
   double limit = 0.0;          ///< [SI]
   double limited_value = 0.0;  ///< of the constraint whose limit is varied [SI]
-  double multiplier = 0.0;     ///< of that constraint: d(objective)/d(limit) = −multiplier
-  bool is_dominated = false;   ///< another point is better in one goal and no worse in the other
+  /// Of that constraint: d(objective)/d(limit) = −multiplier. Only where has_prices(result).
+  double multiplier = 0.0;
+  bool is_dominated = false;  ///< another point is better in one goal and no worse in the other
   Result result;
 
   bool has_design() const { return result.evaluation.has_gradients(); }
 };
+
+/// Which limited values are good: those below an upper limit, or above a lower one.
+enum class GoodSide { low, high };
+
+/// Marks each point for which another one is better in one goal, by more than 1e-4 relative, and
+/// not worse in the other. Points that break limits or have no design neither dominate nor are
+/// dominated.
+void mark_dominated(std::vector<ParetoPoint>& points, GoodSide side);
 
 /// Sees each point as it is found; dominance is known only at the end.
 using ParetoObserver = std::function<void(const ParetoPoint&)>;

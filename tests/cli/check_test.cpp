@@ -36,6 +36,16 @@ TEST(Check, WarnsOfNoiseAboveTheTolerance) {
   EXPECT_FALSE(run.document().at("warnings").empty());
 }
 
+TEST(Check, NamesTheToleranceWhereDerivativesOnlySeemWrong) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(
+      folder.path(), {"check", problem("four_bar"), "--set", "/simulation/step=1 ms", "--set",
+                      "/simulation/end_time=30 ms", "--set", "/simulation/newton_tolerance=1e-3"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, ::testing::Not(::testing::HasSubstr("DIFFERS")));
+  EXPECT_THAT(run.out, ::testing::HasSubstr("/simulation/newton_tolerance is 0.001"));
+}
+
 TEST(Check, CountsTheFreedomsThatAreLeft) {
   const TemporaryFolder folder;
   const auto rigid_motion = [&](const std::string& name) {
@@ -55,9 +65,31 @@ TEST(Check, GivesAReasonForEveryEffect) {
   const ProgramRun run = run_program(
       folder.path(), joined({"check", problem("slider_crank_round"), "--json"}, quick()));
   const nlohmann::json document = run.document();
-  ASSERT_FALSE(document.at("effects").empty());
-  for (const auto& effect : document.at("effects")) {
-    EXPECT_FALSE(effect.at("reason").get<std::string>().empty()) << effect;
+  const auto effect_of = [&](const std::string& name, const std::string& body) {
+    for (const auto& effect : document.at("effects")) {
+      if (effect.at("name") == name && effect.value("body", "") == body) return effect;
+    }
+    return nlohmann::json{{"built", "missing"}, {"decision", ""}, {"reason", name}};
+  };
+  struct Expected {
+    const char *name, *body;
+    bool is_built;
+    const char *decision, *reason;
+  };
+  // The file: all in the plane z = 0, stiffening "on", damping given, no gravity, no loads, no
+  // tolerance.
+  for (const Expected& expected :
+       {Expected{"geometric_stiffening", "rod", true, "forced", "asked for"},
+        Expected{"elasticity", "crank", true, "exact", "no tolerance"},
+        Expected{"torsional_elasticity", "rod", false, "exact", "in a plane"},
+        Expected{"damping", "", true, "exact", "given"},
+        Expected{"gravity", "", false, "exact", "none is given"},
+        Expected{"loads", "", false, "exact", "none are given"},
+        Expected{"spatial_motion", "", false, "exact", "plane with normal (0, 0, 1)"}}) {
+    const nlohmann::json effect = effect_of(expected.name, expected.body);
+    EXPECT_EQ(effect.at("built"), expected.is_built) << effect;
+    EXPECT_EQ(effect.at("decision"), expected.decision) << effect;
+    EXPECT_THAT(effect.at("reason").get<std::string>(), ::testing::HasSubstr(expected.reason));
   }
 }
 

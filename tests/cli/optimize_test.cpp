@@ -1,3 +1,9 @@
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "tests/cli/program.hpp"
@@ -58,13 +64,106 @@ TEST(Optimize, MayUseAnyGradients) {
       "adjoint");
 }
 
-TEST(Optimize, ShowsIterationsAndUnitsOfTheUser) {
+/// The words of the line of a table that begins with this name.
+std::vector<std::string> table_row(const std::string& text, const std::string& name) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream stream(line);
+    std::vector<std::string> words;
+    for (std::string word; stream >> word;) words.push_back(word);
+    if (words.size() > 1 && words.front() == name) return words;
+  }
+  ADD_FAILURE() << "no line of " << name << " in\n" << text;
+  return std::vector<std::string>(16, "nan");
+}
+
+/// A number of a table, with five digits (prices: three), against the document.
+void expect_shown(const std::string& word, double value, double digits = 1e-4) {
+  EXPECT_NEAR(std::stod(word), value, digits * std::abs(value)) << word;
+}
+
+/// The document in SI, the tables in mm and MPa.
+TEST(Optimize, ShowsTheNumbersOfItsDocumentInUnitsOfTheUser) {
   const TemporaryFolder folder;
-  const ProgramRun run = run_program(folder.path(), quick_optimization({}));
+  const ProgramRun run = run_program(folder.path(), quick_optimization({"-o", "run"}));
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("iteration"));
+  const auto document = nlohmann::json::parse(read_file(folder.path() / "run/result.json"));
   EXPECT_THAT(run.out, HasSubstr("VERIFIED"));
-  EXPECT_THAT(run.out, HasSubstr("mm"));
+  for (const auto& [name, variable] : document.at("variables").items()) {
+    const auto row = table_row(run.out, name);  // name, start, optimum, lower, upper, unit
+    expect_shown(row.at(1), 1e3 * variable.at("start").get<double>());
+    expect_shown(row.at(2), 1e3 * variable.at("value").get<double>());
+    expect_shown(row.at(3), 1e3 * variable.at("lower").get<double>());
+    expect_shown(row.at(4), 1e3 * variable.at("upper").get<double>());
+    EXPECT_EQ(row.at(5), "mm");
+  }
+  const double objective = document.at("objective").at("value");
+  int priced = 0;
+  for (const auto& [name, constraint] : document.at("constraints").items()) {
+    // name, value, ≤, limit, unit, used, %, multiplier, sign and percent, %
+    const auto row = table_row(run.out, name);
+    const bool is_stress = constraint.at("unit") == "Pa";
+    const double unit = is_stress ? 1e6 : 1e-3;
+    const double value = constraint.at("value"), limit = constraint.at("limit");
+    const double price = constraint.at("multiplier");
+    expect_shown(row.at(1), value / unit);
+    EXPECT_EQ(row.at(2), "≤");
+    expect_shown(row.at(3), limit / unit);
+    EXPECT_EQ(row.at(4), is_stress ? "MPa" : "mm");
+    EXPECT_NEAR(std::stod(row.at(5)), 100.0 * value / limit, 0.05 + 1e-9);
+    if (price == 0.0) {
+      EXPECT_EQ(row.at(7), "0") << name;
+      EXPECT_EQ(row.at(8), "–") << name;
+      continue;
+    }
+    ++priced;
+    expect_shown(row.at(7), price * unit, 5e-3);
+    // More room for stress or deflection saves mass: the sign is minus.
+    EXPECT_THAT(row.at(8), ::testing::StartsWith("−"));
+    EXPECT_NEAR(std::stod(row.at(8).substr(std::string("−").size())), price * limit / objective,
+                0.0051)
+        << "percent of the objective at one more percent of the limit";
+  }
+  EXPECT_GT(priced, 0);
+}
+
+/// Iterations are those of the backend, designs of the audit are none.
+TEST(Optimize, TellsStepsFromTheAuditInItsHistory) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(folder.path(), quick_optimization({"-o", "run"}));
+  const auto rows = read_csv(folder.path() / "run/history.csv");
+  const auto& titles = rows.front();
+  const auto column = [&](const std::string& title) {
+    return static_cast<std::size_t>(std::find(titles.begin(), titles.end(), title) -
+                                    titles.begin());
+  };
+  int last = 0, audits = 0;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    const int iteration = std::stoi(rows[k].at(column("iteration")));
+    const std::string purpose = rows[k].at(column("purpose"));
+    if (purpose == "audit") {
+      ++audits;
+      EXPECT_EQ(iteration, last) << k;
+    }
+    last = iteration;
+  }
+  EXPECT_GE(audits, 6);
+  EXPECT_THAT(run.out, HasSubstr("audit"));
+  EXPECT_THAT(run.out, ::testing::Not(HasSubstr(fmt::format("\n  {:>9}  ", last + 1))));
+}
+
+TEST(Optimize, StartsInItsTablesWhereTheRunBegan) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "design.json")
+      << R"({"variables": {"crank_diameter": {"value": 0.025}, "rod_diameter": {"value": 0.020}}})";
+  const ProgramRun run =
+      run_program(folder.path(), quick_optimization({"-o", "run", "--design", "design.json",
+                                                     "--set", "/optimizer/max_iterations=1"}));
+  const auto document = nlohmann::json::parse(read_file(folder.path() / "run/result.json"));
+  EXPECT_EQ(document.at("variables").at("crank_diameter").at("start"), 0.025) << run.err;
+  EXPECT_EQ(document.at("variables").at("rod_diameter").at("start"), 0.020);
+  expect_shown(table_row(run.out, "crank_diameter").at(1), 25.0);
+  expect_shown(table_row(run.out, "rod_diameter").at(1), 20.0);
 }
 
 TEST(Optimize, CannotVerifyWhatNoDesignCanKeep) {
@@ -74,7 +173,23 @@ TEST(Optimize, CannotVerifyWhatNoDesignCanKeep) {
                   quick_optimization({"--json", "--set", "/constraints/rod_stiffness/upper=1e-12",
                                       "--set", "/optimizer/max_iterations=10"}));
   EXPECT_EQ(run.exit_code, 4) << run.err;
-  EXPECT_EQ(run.document().at("status"), "infeasible");
+  const nlohmann::json document = run.document();
+  EXPECT_EQ(document.at("status"), "infeasible");
+  const std::string message = document.at("message");
+  EXPECT_THAT(message, HasSubstr("rod_stiffness = "));
+  EXPECT_THAT(message, HasSubstr(" mm exceeds its upper limit 1e-09 mm"));
+  EXPECT_THAT(message, ::testing::Not(HasSubstr("between")));
+  for (const auto& [name, constraint] : document.at("constraints").items()) {
+    EXPECT_FALSE(constraint.contains("multiplier")) << name << ": a price where none can be";
+  }
+  const auto rows = read_csv(folder.path() / "runs/slider_crank_round-optimize/history.csv");
+  const auto column = std::find(rows.front().begin(), rows.front().end(), "max_violation");
+  double least = document.at("max_violation");
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    const std::string& cell = rows[k].at(std::size_t(column - rows.front().begin()));
+    if (!cell.empty()) least = std::min(least, std::stod(cell));
+  }
+  EXPECT_NEAR(document.at("max_violation"), least, 1e-12 * least);
 }
 
 TEST(Optimize, WithoutTimeToFinishItIsNotVerified) {

@@ -217,7 +217,8 @@ TEST_P(Failure, OfDifferentiabilityIsNotVerified) {
 
 // min −a with b ≤ (1 − a)³, b ≥ 0: at the optimum (1, 0) the gradients of both limits are parallel
 // and no multipliers exist (Kuhn & Tucker 1951). Nothing that fails the conditions may be called
-// proven; all four come within a hundredth of it.
+// proven. Beyond the tip a violation of 1e-6, in units of the cusp's magnitude at the start (slope
+// 3 times a tenth of the range of a: 1.2), allows a − 1 = (1.2e-6)^⅓ = 0.0106.
 TEST_P(Failure, OfTheConstraintQualificationIsNotVerifiedElsewhere) {
   FunctionProblem problem({{"a", 0.0, -2.0, 2.0}, {"b", 0.5, 0.0, 2.0}}, {{"cusp", -infinity, 0.0}},
                           by_complex_step([](const auto& x) {
@@ -229,7 +230,7 @@ TEST_P(Failure, OfTheConstraintQualificationIsNotVerifiedElsewhere) {
                           }));
   const Result result = solve(problem, options_);
   EXPECT_TRUE(result.status == Status::verified || result.status == Status::stalled);
-  EXPECT_NEAR(result.x[0], 1.0, 1e-2);
+  EXPECT_NEAR(result.x[0], 1.0, std::cbrt(1.2e-6) + 1e-4) << result.message;
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, Failure, testing::ValuesIn(optimizer_names()), name_of_backend);

@@ -2,8 +2,10 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "sensitivity/sampled_gradients.hpp"
 #include "studies/noise.hpp"
 #include "tests/studies/quick_problem.hpp"
 
@@ -37,6 +39,60 @@ TEST(DerivativeCheck, FindsThatDirectAndAdjointAreTheSameUpToRoundOff) {
   }
 }
 
+/// Five soft links that swing: round-off grows with the motion. A design that is changed in its
+/// last digits changes its own gradient by 2e-10 here, and the adjoint is not farther off than some
+/// tens of that. (A wrong term would be 1e-3 and more.)
+TEST(DerivativeCheck, FindsDirectAndAdjointAsFarApartAsRoundOffMovesTheMotion) {
+  std::string bodies, joints;
+  for (int i = 0; i < 5; ++i) {
+    const std::string width = i == 1 ? R"({"variable": "w"})" : "\"10 mm\"";
+    const std::string before = i == 0 ? "ground" : fmt::format("b{}", i - 1);
+    const std::string drive =
+        i == 0 ? R"(, "drive": {"type": "ramp-to-speed", "speed": 10, "ramp": 0.1})" : "";
+    bodies += fmt::format(
+        R"({0}"b{1}": {{"type": "beam", "from": [{2}, 0, 0], "to": [{3}, 0, 0], "material": "soft",
+            "elements": 2, "frame": "chord", "damping": {{"stiffness": "1e-5 s"}},
+            "section": {{"type": "rectangle", "width": {4}, "height": {{"variable": "h"}}}}}})",
+        i == 0 ? "" : ", ", i, 0.2 * i, 0.2 * (i + 1), width);
+    joints += fmt::format(
+        R"({0}"j{1}": {{"type": "revolute", "bodies": ["{2}", "b{1}"], "at": [{3}, 0, 0],
+            "axis": [0, 0, 1]{4}}})",
+        i == 0 ? "" : ", ", i, before, 0.2 * i, drive);
+  }
+  const ProblemFile problem = read_problem_text(
+      R"({"scene": {"gravity": [0, -9.81, 0],
+          "materials": {"soft": {"young": "2 GPa", "poisson": 0.3, "density": 1200}},
+          "bodies": {)" +
+          bodies + R"(}, "joints": {)" + joints + R"(}},
+          "simulation": {"end_time": "0.5 s", "step": "1 ms",
+            "formulation": "stabilized-index-2"},
+          "variables": {"h": {"start": 0.01, "lower": 0.005, "upper": 0.02},
+            "w": {"start": 0.012, "lower": 0.005, "upper": 0.02}},
+          "responses": {
+            "a": {"type": "acceleration", "body": "b4", "at": 1, "direction": "y",
+              "over_time": "max-abs"},
+            "s": {"type": "stress", "body": "b0", "over_time": "max"}}})",
+      "chain.json");
+  const Eigen::VectorXd x = start_design(problem);
+  const auto gradients = [&](const Eigen::VectorXd& design, ExactMethod method) {
+    const auto analysis = analyze(problem, design);
+    return sampled_gradients(*analysis, response_values(*analysis), method);
+  };
+  const Eigen::MatrixXd direct = gradients(x, ExactMethod::direct);
+  const Eigen::MatrixXd adjoint = gradients(x, ExactMethod::adjoint);
+  Eigen::VectorXd round_off = Eigen::VectorXd::Zero(direct.rows());
+  for (const double change : {1e-15, -1e-15, 3e-15}) {
+    const Eigen::MatrixXd moved = gradients((1.0 + change) * x, ExactMethod::direct);
+    round_off = round_off.cwiseMax((moved - direct).rowwise().norm());
+  }
+  for (Eigen::Index i = 0; i < direct.rows(); ++i) {
+    EXPECT_LE((adjoint.row(i) - direct.row(i)).norm(),
+              100.0 * round_off(i) + 1e-10 * direct.row(i).norm())
+        << problem.responses[static_cast<std::size_t>(i)].name;
+    EXPECT_LE(round_off(i), 1e-7 * direct.row(i).norm());  // or the law above says nothing
+  }
+}
+
 /// An energy balance and a drift of constraints are what errors leave: differences of them say
 /// nothing of the gradient where Newton's method is loose, and must not say that it is wrong.
 TEST(DerivativeCheck, DoesNotBlameResponsesThatAreNoise) {
@@ -52,6 +108,47 @@ TEST(DerivativeCheck, DoesNotBlameResponsesThatAreNoise) {
         << problem.responses[i].name << ": " << checks[i].error;
   }
   EXPECT_EQ(checks.at(checks.size() - 2).verdict(), DerivativeVerdict::noise);  // the drift
+}
+
+/// Newton's method stops after the same number of iterations at all designs nearby: what it leaves
+/// is smooth in the design, and part of the differences but not of the gradient.
+ProblemFile loose_problem() {
+  return read_problem(
+      PLEUEL_SOURCE_DIR "/problems/four_bar.json",
+      {"/simulation/step=1 ms", "/simulation/end_time=30 ms", "/simulation/newton_tolerance=1e-3"});
+}
+
+TEST(DerivativeCheck, BlamesALooseNewtonToleranceAndNotTheDerivatives) {
+  const ProblemFile problem = loose_problem();
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  int loose = 0;
+  for (const DerivativeCheck& check : check_derivatives(problem, x, *analysis)) {
+    EXPECT_NE(check.verdict(), DerivativeVerdict::differs);
+    for (const JudgedDerivative& judged : check.variables) {
+      if (!judged.tight_error) continue;
+      ++loose;
+      EXPECT_EQ(judged.verdict, DerivativeVerdict::noise);
+      EXPECT_GT(judged.error, 1e-6);  // what differences with this tolerance say
+      EXPECT_LT(*judged.tight_error, 1e-6);
+    }
+  }
+  EXPECT_GT(loose, 0);
+}
+
+/// The analysis of another design: its derivatives are wrong, however loose the tolerance is.
+TEST(DerivativeCheck, DoesNotExcuseWrongDerivativesByALooseTolerance) {
+  const ProblemFile problem = loose_problem();
+  const Eigen::VectorXd x = start_design(problem);
+  const auto elsewhere = analyze(problem, 1.01 * x);
+  bool any_differs = false;
+  for (const DerivativeCheck& check : check_derivatives(problem, x, *elsewhere)) {
+    any_differs = any_differs || check.verdict() == DerivativeVerdict::differs;
+    for (const JudgedDerivative& judged : check.variables) {
+      EXPECT_FALSE(judged.tight_error.has_value());
+    }
+  }
+  EXPECT_TRUE(any_differs);
 }
 
 TEST(DerivativeCheck, NoticesThatAnalysisAndDesignDoNotBelongTogether) {

@@ -74,6 +74,62 @@ TEST(Pareto, EqualDesignsDoNotDominateEachOther) {
   }
 }
 
+/// A point with this objective and limited value that ended so.
+ParetoPoint point(double objective, double limited, Status status = Status::verified) {
+  ParetoPoint point;
+  point.limited_value = limited;
+  point.result.status = status;
+  point.result.evaluation.objective = objective;
+  return point;
+}
+
+std::vector<bool> dominated(std::vector<ParetoPoint> points, GoodSide side) {
+  mark_dominated(points, side);
+  std::vector<bool> marks;
+  for (const ParetoPoint& marked : points) marks.push_back(marked.is_dominated);
+  return marks;
+}
+
+TEST(Dominance, MarksPointsThatAreWorseInOneGoalAndBetterInNone) {
+  // Below an upper limit (2, 2) is worse than (1, 2) and (2, 1); above a lower one (1, 2) is best.
+  const std::vector<ParetoPoint> points = {point(1.0, 2.0), point(2.0, 1.0), point(2.0, 2.0)};
+  EXPECT_EQ(dominated(points, GoodSide::low), (std::vector{false, false, true}));
+  EXPECT_EQ(dominated(points, GoodSide::high), (std::vector{false, true, true}));
+}
+
+/// Optima agree to 1e-4: half of that is no difference, twice that is one.
+TEST(Dominance, NeedsMoreThanTheAccuracyOfOptima) {
+  EXPECT_EQ(dominated({point(1.0, 2.0), point(1.00005, 2.0)}, GoodSide::low),
+            (std::vector{false, false}));
+  EXPECT_EQ(dominated({point(1.0, 2.0), point(1.0002, 2.0)}, GoodSide::low),
+            (std::vector{false, true}));
+  EXPECT_EQ(dominated({point(1.0, 2.0), point(1.0, 2.0004)}, GoodSide::low),
+            (std::vector{false, true}));
+}
+
+TEST(Dominance, IsOnlyAmongDesignsWithinTheirLimits) {
+  EXPECT_EQ(dominated({point(1.0, 1.0, Status::infeasible), point(2.0, 2.0),
+                       point(3.0, 3.0, Status::failed), point(4.0, 4.0, Status::stalled)},
+                      GoodSide::low),
+            (std::vector{false, false, false, true}));
+}
+
+/// The rod is as thin as it may be. m = ρ π/4 d² l and so dm/dd = ρ π/2 d l: 7850 kg/m³, 180 mm.
+TEST(Pareto, OverALowerLimitHasMultipliersOfTheOtherSign) {
+  const ProblemFile problem = test::quick_problem(
+      {R"(/constraints={"rod_size": {"linear": {"rod_diameter": 1}, "lower": "20 mm"}})",
+       R"(/variables/crank_diameter={"start": "30 mm", "lower": "30 mm", "upper": "30 mm"})",
+       R"(/pareto={"constraint": "rod_size", "from": "20 mm", "to": "30 mm", "points": 3})"});
+  for (const ParetoPoint& point : front(problem)) {
+    EXPECT_EQ(point.result.status, Status::verified) << point.result.message;
+    EXPECT_NEAR(point.limited_value, point.limit, 1e-6 * point.limit);
+    const double slope = 7850.0 * 1.5707963267948966 * point.limit * 0.180;
+    EXPECT_NEAR(point.multiplier, -slope, 1e-4 * slope);
+    // A thicker rod is heavier, but what is large is good.
+    EXPECT_FALSE(point.is_dominated);
+  }
+}
+
 TEST(Pareto, WithoutSettingsThereIsNothingToVary) {
   ProblemFile problem = test::quick_problem();
   problem.pareto.reset();

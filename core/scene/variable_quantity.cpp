@@ -1,4 +1,4 @@
-#include "cli/variable_quantity.hpp"
+#include "core/scene/variable_quantity.hpp"
 
 #include <optional>
 

@@ -1,4 +1,4 @@
-#include "cli/number_text.hpp"
+#include "core/base/number_text.hpp"
 
 #include <algorithm>
 #include <cmath>

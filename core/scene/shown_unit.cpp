@@ -1,13 +1,13 @@
-#include "cli/shown_unit.hpp"
+#include "core/scene/shown_unit.hpp"
 
 #include <algorithm>
 #include <array>
 #include <numbers>
 #include <stdexcept>
 
-#include "cli/variable_quantity.hpp"
 #include "core/scene/response_quantity.hpp"
 #include "core/scene/units.hpp"
+#include "core/scene/variable_quantity.hpp"
 
 namespace pleuel {
 

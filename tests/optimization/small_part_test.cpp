@@ -1,0 +1,214 @@
+/// A verdict for every variable: small parts of the objective, bad scales, variables without
+/// influence. All optima are closed forms.
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "backend_names.hpp"
+#include "complex_step.hpp"
+#include "known_problems.hpp"
+#include "optimization/optimizer.hpp"
+#include "optimization/solve.hpp"
+
+namespace pleuel::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// Two cantilevers under tip loads, the second one so much lighter: mass 1 + part at b h = 1, and
+/// stress 1/(b h²) ≤ 1 each. A high section is light: b goes to its bound 0.5, and h is √2 there,
+/// so that b h = √2/2 for both. They share nothing.
+KnownProblem two_beams(double part) {
+  std::vector<Variable> variables;
+  for (const char* name : {"big ", "small "}) {
+    variables.push_back({std::string(name) + "width", 1.0, 0.5, 10.0});
+    variables.push_back({std::string(name) + "height", 2.0, 0.1, 5.0});
+  }
+  return {"two beams",
+          {variables,
+           {{"big stress", -infinity, 1.0}, {"small stress", -infinity, 1.0}},
+           by_complex_step([part](const auto& x) {
+             using Scalar = std::decay_t<decltype(x[0])>;
+             Vector<Scalar> values(3);
+             values << x[0] * x[1] + part * x[2] * x[3], 1.0 / (x[0] * x[1] * x[1]),
+                 1.0 / (x[2] * x[3] * x[3]);
+             return values;
+           })},
+          std::sqrt(0.5) * (1.0 + part)};
+}
+
+class SmallPart : public testing::TestWithParam<std::string> {};
+
+TEST_P(SmallPart, IsAsGoodAsTheLargeOne) {
+  for (const double part : {0.02, 1e-3, 1e-4}) {
+    KnownProblem known = two_beams(part);
+    const Result result = solve(known.problem, {.backend = GetParam()});
+    EXPECT_EQ(result.status, Status::verified) << result.message;
+    EXPECT_NEAR(result.x[0] * result.x[1], std::sqrt(0.5), 1e-4) << part;
+    // The variable residual leaves 1e-4 of a part: kkt_audit.hpp.
+    EXPECT_NEAR(result.x[2] * result.x[3], std::sqrt(0.5), 1e-3) << part;
+    // Price of the small stress limit: m = √(b/σ) part, dm/dσ = −m/2.
+    EXPECT_NEAR(result.constraint_multipliers[1], 0.5 * part * std::sqrt(0.5), 0.02 * part);
+  }
+}
+
+/// f = Σ w (z + 1/z) with z = x / unit: a minimum of 2 w at x = unit, made by the objective alone.
+TEST_P(SmallPart, MayHaveItsMinimumInside) {
+  const Eigen::Vector3d units(1e-6, 1.0, 1e3), weights(1.0, 1e-3, 0.02);
+  std::vector<Variable> variables;
+  for (int i = 0; i < 3; ++i) {
+    variables.push_back({"x" + std::to_string(i), 2.0 * units[i], 0.1 * units[i], 9.0 * units[i]});
+  }
+  FunctionProblem problem(variables, {}, by_complex_step([&](const auto& x) {
+                            using Scalar = std::decay_t<decltype(x[0])>;
+                            Vector<Scalar> values = Vector<Scalar>::Zero(1);
+                            for (int i = 0; i < 3; ++i) {
+                              const Scalar z = x[i] / units[i];
+                              values[0] += weights[i] * (z + 1.0 / z);
+                            }
+                            return values;
+                          }));
+  const Result result = solve(problem, {.backend = GetParam()});
+  EXPECT_EQ(result.status, Status::verified) << result.message;
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(result.x[i] / units[i], 1.0, 0.02) << i;
+}
+
+/// x + 2y ≥ 3, 2x + y ≥ 3 and, through the same corner (1, 1), x + y ≥ 2 twice: four limits for two
+/// variables.
+TEST_P(SmallPart, MayBeHeldByDependentLimits) {
+  FunctionProblem problem(
+      {{"x", 3.0, 0.0, 10.0}, {"y", 2.0, 0.0, 10.0}},
+      {{"a", 3.0, infinity}, {"b", 3.0, infinity}, {"c", 2.0, infinity}, {"d", 2.0, infinity}},
+      by_complex_step([](const auto& x) {
+        using Scalar = std::decay_t<decltype(x[0])>;
+        Vector<Scalar> values(5);
+        values << x[0] + 1.1 * x[1], x[0] + 2.0 * x[1], 2.0 * x[0] + x[1], x[0] + x[1], x[0] + x[1];
+        return values;
+      }));
+  const Result result = solve(problem, {.backend = GetParam()});
+  EXPECT_EQ(result.status, Status::verified) << result.message;
+  EXPECT_NEAR(result.evaluation.objective, 2.1, 1e-4 * 2.1);
+}
+
+/// One variable that changes nothing and one that only a limit far away sees.
+TEST_P(SmallPart, MayBeNothingAtAll) {
+  FunctionProblem problem(
+      {{"x", 3.0, 0.5, 10.0}, {"nothing", 2.0, 0.0, 10.0}, {"loose", 2.0, 0.0, 10.0}},
+      {{"holds", -infinity, 1.0}, {"far", -infinity, 100.0}}, by_complex_step([](const auto& x) {
+        using Scalar = std::decay_t<decltype(x[0])>;
+        Vector<Scalar> values(3);
+        values << x[0], 1.0 / x[0], x[2];
+        return values;
+      }));
+  const Result result = solve(problem, {.backend = GetParam()});
+  EXPECT_EQ(result.status, Status::verified) << result.message;
+  EXPECT_NEAR(result.evaluation.objective, 1.0, 1e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, SmallPart, testing::ValuesIn(optimizer_names()),
+                         name_of_backend);
+
+/// The big beam at its optimum, the small one on its stress limit b h² = 1 with 5 % more mass than
+/// needed: h = √2/1.05 gives b h = 1/h.
+TEST(Verdict, OfASmallPartThatIsTooHeavyIsNotVerified) {
+  for (const double part : {0.02, 1e-3, 1e-4, 1e-5}) {
+    KnownProblem known = two_beams(part);
+    const Eigen::VectorXd start = checked_start(known.problem);
+    const auto design = [](double excess) {
+      const double height = std::sqrt(2.0) / excess;
+      return Eigen::Vector4d(0.5, std::sqrt(2.0), 1.0 / (height * height), height);
+    };
+    const Verdict heavy = judge_anew(known.problem, start, design(1.05));
+    EXPECT_EQ(heavy.status, Status::stalled) << heavy.message;
+    EXPECT_THAT(heavy.message, HasSubstr("small"));
+    EXPECT_EQ(judge_anew(known.problem, start, design(1.0)).status, Status::verified) << part;
+  }
+}
+
+/// The same with slack: the small beam is 5 % wider than its stress asks for.
+TEST(Verdict, OfASmallPartWithSlackIsNotVerified) {
+  KnownProblem known = two_beams(1e-3);
+  const double height = std::sqrt(2.0);
+  const Verdict verdict = judge_anew(known.problem, checked_start(known.problem),
+                                     Eigen::Vector4d(0.5, height, 0.5, 1.05 * height));
+  EXPECT_EQ(verdict.status, Status::stalled) << verdict.message;
+  EXPECT_THAT(verdict.message, HasSubstr("small"));
+}
+
+/// 1 + ½ k x²: what is left is ½ k x².
+TEST(Verdict, EstimatesWhatIsLeftToTheOptimum) {
+  constexpr double k = 100.0, x = 4e-5;
+  FunctionProblem problem(
+      {{"x", 1.0, -1.0, 1.0}, {"y", 0.5, -1.0, 1.0}}, {}, by_complex_step([](const auto& z) {
+        using Scalar = std::decay_t<decltype(z[0])>;
+        return Vector<Scalar>::Constant(1, 1.0 + 0.5 * k * (z[0] * z[0] + 4.0 * z[1] * z[1]));
+      }));
+  const Verdict verdict = judge_anew(problem, checked_start(problem), Eigen::Vector2d(x, 0.0));
+  EXPECT_EQ(verdict.status, Status::verified) << verdict.message;
+  EXPECT_NEAR(verdict.gain_left, 0.5 * k * x * x, 1e-3 * 0.5 * k * x * x);
+}
+
+/// |x − 0.3| + x/10: the minimum is a kink. Nothing else may be called an optimum.
+TEST(Verdict, BesideAKinkIsNotVerified) {
+  for (const std::string& backend : optimizer_names()) {
+    FunctionProblem problem(
+        {{"x", 0.9, 0.0, 1.0}}, {}, [](const Eigen::VectorXd& x, Request request) {
+          Evaluation evaluation;
+          evaluation.objective = 1.0 + std::abs(x[0] - 0.3) + 0.1 * x[0];
+          evaluation.constraints.resize(0);
+          if (request == Request::values) return evaluation;
+          evaluation.objective_gradient = Eigen::VectorXd::Constant(1, x[0] > 0.3 ? 1.1 : -0.9);
+          evaluation.constraint_jacobian.resize(0, 1);
+          return evaluation;
+        });
+    const Result result = solve(problem, {.backend = backend});
+    const bool is_optimum = std::abs(result.x[0] - 0.3) < 1e-4;
+    EXPECT_TRUE(is_optimum || result.status != Status::verified) << backend << result.message;
+  }
+}
+
+/// MMA left alone with a loose tolerance stops at 1e-3 of the optimum of the cantilever.
+TEST(Polish, FinishesAnAnswerThatIsNearlyAnOptimum) {
+  KnownProblem known = cantilever();
+  SolveOptions options{.backend = "nlopt-mma", .tolerance = 1e-3, .max_restarts = 0};
+  const Result polished = solve(known.problem, options);
+  EXPECT_EQ(polished.status, Status::verified) << polished.message;
+  EXPECT_EQ(polished.backend, "nlopt-mma");
+  EXPECT_EQ(polished.polished_with, "nlopt-slsqp");
+  EXPECT_THAT(polished.message, HasSubstr("polished with nlopt-slsqp"));
+  EXPECT_NEAR(polished.evaluation.objective, known.optimum, 1e-6 * known.optimum);
+
+  options.max_polishes = 0;
+  const Result rough = solve(known.problem, options);
+  EXPECT_EQ(rough.polished_with, "");
+  EXPECT_GT(rough.evaluation.objective, known.optimum * (1.0 + 1e-6));
+}
+
+/// Steps are counted, designs that only prove something are not.
+TEST(Purpose, TellsStepsFromTheAudit) {
+  KnownProblem known = cantilever();
+  const Result result = solve(known.problem, {.backend = "nlopt-mma", .tolerance = 1e-3});
+  int steps = 0, audits = 0, polishes = 0;
+  for (const EvaluationRecord& record : result.history) {
+    const bool is_audit = record.purpose == Purpose::audit;
+    audits += is_audit ? 1 : 0;
+    polishes += record.purpose == Purpose::polish ? 1 : 0;
+    steps += !is_audit && record.request == Request::values_and_gradients ? 1 : 0;
+    EXPECT_EQ(record.iteration, steps) << record.evaluation;
+  }
+  EXPECT_EQ(result.history.front().purpose, Purpose::search);
+  EXPECT_EQ(result.iterations, steps);
+  EXPECT_GE(audits, 6);  // the values of the gradient check
+  EXPECT_GT(polishes, 0);
+}
+
+TEST(Verdict, SaysThatOtherOptimaWereNotLookedFor) {
+  KnownProblem known = hs035();
+  EXPECT_THAT(solve(known.problem, {}).message,
+              HasSubstr("other local optima were not looked for"));
+}
+
+}  // namespace
+}  // namespace pleuel::test
