@@ -8,6 +8,7 @@
 #include "core/response/make_responses.hpp"
 #include "core/response/mechanism_modes.hpp"
 #include "core/response/recorder.hpp"
+#include "core/response/validity.hpp"
 #include "core/scene/time_breaks.hpp"
 
 namespace pleuel {
@@ -161,8 +162,12 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
                                        analysis->full ? analysis->full->model : analysis->model);
   const SimulationOptions options = options_of(problem);
   Recorder recorder(analysis->responses, step_count(options) + 1);
-  analysis->trajectory = simulate(analysis->model.mechanism, options,
-                                  [&](int step, const State& state) { recorder.see(step, state); });
+  ConstraintGuard guard(analysis->model, options);
+  analysis->trajectory =
+      simulate(analysis->model.mechanism, options, [&](int step, const State& state) {
+        recorder.see(step, state);
+        guard.see(step, state);
+      });
   analysis->breaks = instants_at(options.breaks, analysis->trajectory.time);
   analysis->histories = recorder.take(analysis->trajectory.steps() + 1);
   set_mechanism_frequencies(*analysis);
@@ -179,6 +184,7 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
     }
     analysis->reductions.push_back(std::move(reduction));
   }
+  require_finite(*analysis);
   return analysis;
 }
 
