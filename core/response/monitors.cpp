@@ -110,6 +110,8 @@ class Monitoring {
     if (largest == 0.0) return;
     const Eigen::VectorXd error = (monitors_.energy - monitors_.work).array() - monitors_.energy(0);
     monitors_.energy_error = error.lpNorm<Eigen::Infinity>() / largest;
+    const double elastic = elastic_.lpNorm<Eigen::Infinity>();
+    if (elastic > 0.0) monitors_.elastic_energy_error = monitors_.energy_error * largest / elastic;
   }
 
   /// A sum of squares is beyond the range of numbers before the motion is.

@@ -7,6 +7,7 @@
 #include "core/trust/energy_balance.hpp"
 #include "core/trust/fast_laws.hpp"
 #include "core/trust/frequency_meaning.hpp"
+#include "core/trust/resolution.hpp"
 #include "core/trust/sideways_buckling.hpp"
 
 namespace pleuel {
@@ -25,7 +26,7 @@ std::vector<Doubt> find_doubts_before(const ProblemFile& problem) {
 std::vector<Doubt> find_doubts(const TrustedRun& run) {
   std::vector<Doubt> doubts = find_doubts_before(run.problem);
   for (const auto find : {doubt_bending_range, doubt_energy_balance, doubt_fast_laws,
-                          doubt_frequencies, doubt_sideways_buckling}) {
+                          doubt_frequencies, doubt_sideways_buckling, doubt_resolution}) {
     const std::vector<Doubt> found = find(run);
     doubts.insert(doubts.end(), found.begin(), found.end());
   }
