@@ -79,6 +79,7 @@ class SceneMaker {
         dice_.one_of({"rectangle", "circle", "tube", "ellipse", "box", "i", "general"});
     const double b = breadth, h = breadth * dice_.uniform(0.6, 1.5), t = 0.15 * std::min(b, h);
     const auto variable = [&](const char* what, double value) {
+      if (file_["variables"].size() == 2) return Json(value);
       const std::string name = body + "_" + what;
       file_["variables"][name] = {{"start", value}, {"lower", 0.7 * value}, {"upper", 1.3 * value}};
       return Json{{"variable", name}};
@@ -124,8 +125,8 @@ class SceneMaker {
     const double breadth = length * dice_.uniform(0.02, 0.07);
     Json body = {{"type", "beam"}, {"from", point(from)}, {"to", point(to)}, {"material", "stuff"}};
     body["section"] = section(name, breadth, properties);
-    body["elements"] = dice_.whole(1, 6);
-    if (dice_.chance(0.15)) {
+    body["elements"] = dice_.whole(1, is_long_ ? 3 : 6);
+    if (dice_.chance(0.15) && !is_long_) {
       const Json section = body["section"];
       body.erase("section");
       const int elements = body["elements"];
@@ -250,6 +251,7 @@ class SceneMaker {
   void make_chain() {
     const int links = dice_.whole(2, 6);
     is_spatial_ = dice_.chance(0.3);
+    is_long_ = links > 3;
     Vector3d from = Vector3d::Zero();
     std::string before = "ground";
     for (int i = 0; i < links; ++i) {
@@ -344,7 +346,7 @@ class SceneMaker {
   int kind_ = 0;
   double size_ = 1.0;
   Vector3d normal_ = Vector3d::UnitZ();
-  bool is_spatial_ = false, has_elastic_ = false;
+  bool is_spatial_ = false, is_long_ = false, has_elastic_ = false;
   std::string elastic_, torque_, reaction_;
   double lowest_ = 1e300, mass_ = 0.0, speed_ = 0.0, end_ = 0.0;
 };
