@@ -190,6 +190,11 @@ std::string proposed_step(const ProblemFile& problem, double error) {
   return fmt::format("{:.2g} s", problem.simulation.step * factor);
 }
 
+/// Two digits, and no exponent.
+std::string percent(double share) {
+  return share < 1.0 ? fmt::format("{:.2g}", 100.0 * share) : fmt::format("{:.0f}", 100.0 * share);
+}
+
 /// The doubt about some responses, or none.
 std::vector<Doubt> doubt_about(const TrustedRun& run, const std::vector<Unresolved>& unresolved,
                                const std::string& what, const std::string& advice) {
@@ -200,7 +205,7 @@ std::vector<Doubt> doubt_about(const TrustedRun& run, const std::vector<Unresolv
     const std::string& name = run.analysis.responses[one.response].name;
     doubt.responses.push_back(name);
     doubt.is_serious = doubt.is_serious || (one.error > serious_error && counts(run.problem, name));
-    changes.push_back(fmt::format("\"{}\" by {:.2g} %", name, 100.0 * one.change));
+    changes.push_back(fmt::format("\"{}\" by {} %", name, percent(one.change)));
   }
   doubt.text =
       fmt::format("{} changes {}: not resolved. {}", what, fmt::join(changes, ", "), advice);
