@@ -10,6 +10,7 @@ Json monitors_document(const Monitors& monitors) {
   return {{"position_drift", monitors.position_drift},
           {"velocity_drift", monitors.velocity_drift},
           {"energy_error", monitors.energy_error},
+          {"elastic_energy_error", monitors.elastic_energy_error},
           {"elastic_rotation", monitors.elastic_rotation}};
 }
 

@@ -11,7 +11,7 @@
 #include "sensitivity/kinks.hpp"
 #include "sensitivity/sampled_gradients.hpp"
 #include "studies/noise.hpp"
-#include "studies/relative_error.hpp"
+#include "core/base/relative_error.hpp"
 
 namespace pleuel {
 

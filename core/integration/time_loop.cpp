@@ -20,7 +20,7 @@ constexpr double slow_rate = 0.1;
 constexpr double round_off = 1e-9;
 
 /// Constraints of index 1 may drift so far, relative to the largest scale of a coordinate.
-constexpr double most_drift = 1e-2;
+constexpr double most_drift = 1e-3;
 /// A step is halved so often at most.
 constexpr int max_splits = 6;
 
@@ -149,7 +149,24 @@ void TimeLoop::restore(const Checkpoint& checkpoint) {
   store();
 }
 
+void TimeLoop::require_finite() const {
+  const auto n = state_.q.size();
+  for (const auto* values : {&state_.q, &state_.v, &state_.a, &state_.lambda}) {
+    if (values->allFinite()) continue;
+    for (Eigen::Index i = 0; i < values->size(); ++i) {
+      if (std::isfinite((*values)(i))) continue;
+      const auto equation = static_cast<std::size_t>(values == &state_.lambda ? n + i : i);
+      throw SimulationError(fmt::format(
+          "simulation stopped at t = {:.6g} s (step {} of {}): the state{} is not finite. Look for "
+          "numbers of the file that are out of proportion (sizes, densities, stiffness, units)",
+          state_.time, step_, steps_,
+          equation < equation_names_.size() ? " of " + equation_names_[equation] : ""));
+    }
+  }
+}
+
 void TimeLoop::store() {
+  require_finite();
   const Eigen::Index step = stored_++;
   trajectory_.time(step) = state_.time;
   if (window_.is_full()) window_.make_room(window_.capacity() + window_.capacity() / 8 + 64);

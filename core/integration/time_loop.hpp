@@ -68,6 +68,8 @@ class TimeLoop {
   /// That of the steps, and those of the projection.
   std::vector<LinearSolver*> solvers();
 
+  /// @throws SimulationError naming the first part of the state that is not finite
+  void require_finite() const;
   void store();
 
   void advance_step(double end);

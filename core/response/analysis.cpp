@@ -9,6 +9,7 @@
 #include "core/response/mechanism_modes.hpp"
 #include "core/response/misalignment.hpp"
 #include "core/response/recorder.hpp"
+#include "core/response/validity.hpp"
 #include "core/scene/time_breaks.hpp"
 
 namespace pleuel {
@@ -172,10 +173,13 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
                                        analysis->full ? analysis->full->model : analysis->model);
   const SimulationOptions options = options_of(problem);
   Recorder recorder(analysis->responses, step_count(options) + 1);
+  ConstraintGuard guard(analysis->model, options);
   try {
     analysis->trajectory =
-        simulate(analysis->model.mechanism, options,
-                 [&](int step, const State& state) { recorder.see(step, state); });
+        simulate(analysis->model.mechanism, options, [&](int step, const State& state) {
+          recorder.see(step, state);
+          guard.see(step, state);
+        });
   } catch (const SimulationError& error) {
     explain(error, analysis->model);
   }
@@ -195,6 +199,7 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
     }
     analysis->reductions.push_back(std::move(reduction));
   }
+  require_finite(*analysis);
   return analysis;
 }
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
 #include "core/model/body_energy.hpp"
 
 namespace pleuel {
@@ -37,6 +40,7 @@ class Monitoring {
       observe_terms(i);
     }
     balance();
+    require_finite();
     return std::move(monitors_);
   }
 
@@ -111,6 +115,22 @@ class Monitoring {
     if (largest == 0.0) return;
     const Eigen::VectorXd error = (monitors_.energy - monitors_.work).array() - monitors_.energy(0);
     monitors_.energy_error = error.lpNorm<Eigen::Infinity>() / largest;
+    const double elastic = elastic_.lpNorm<Eigen::Infinity>();
+    if (elastic > 0.0) monitors_.elastic_energy_error = monitors_.energy_error * largest / elastic;
+  }
+
+  /// A sum of squares is beyond the range of numbers before the motion is.
+  void require_finite() const {
+    const Eigen::VectorXd sum = monitors_.energy + monitors_.work;
+    for (Eigen::Index i = 0; i < sum.size(); ++i) {
+      if (std::isfinite(sum(i))) continue;
+      throw SimulationError(fmt::format(
+          "the energy of the mechanism is not finite at t = {:.6g} s. Look for numbers of the file "
+          "that are out of proportion",
+          trajectory_.time(i)));
+    }
+    if (std::isfinite(monitors_.position_drift) && std::isfinite(monitors_.velocity_drift)) return;
+    throw SimulationError("constraints are not finite in some instant");
   }
 
   const Model& model_;

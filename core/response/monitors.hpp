@@ -17,6 +17,9 @@ struct Monitors {
   /// Largest |E(t) − E(0) − W(t)| over the largest of kinetic energy, elastic energy, change of
   /// weight's potential and |W| in any instant; zero if all are.
   double energy_error = 0.0;
+  /// The same |E(t) − E(0) − W(t)| over the largest elastic energy: a heavy body that moves hides
+  /// an error of elastic ones in the ratio above. Zero without elastic energy.
+  double elastic_energy_error = 0.0;
   /// Largest rotation of a node of a beam against its body frame [rad], and that beam. Deformation
   /// is taken to be small: beyond some 0.2 rad results mean little.
   double elastic_rotation = 0.0;

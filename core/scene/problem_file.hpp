@@ -65,6 +65,8 @@ struct SimulationSettings {
   std::vector<double> instants;
   /// Starts from elastic equilibrium under the initial accelerations, without vibration.
   bool quasi_static_start = false;
+  /// Whether runs with other steps and elements judge what is resolved (core/trust/resolution.hpp).
+  bool checks_resolution = true;
 };
 
 struct DesignVariable {

@@ -12,6 +12,7 @@
 #include "core/trust/left_out_effects.hpp"
 #include "core/trust/misaligned_joints.hpp"
 #include "core/trust/proportions.hpp"
+#include "core/trust/resolution.hpp"
 #include "core/trust/sideways_buckling.hpp"
 
 namespace pleuel {
@@ -29,10 +30,21 @@ std::vector<Doubt> find_doubts_before(const ProblemFile& problem) {
 
 std::vector<Doubt> find_doubts(const TrustedRun& run) {
   std::vector<Doubt> doubts = find_doubts_before(run.problem);
-  for (const auto find : {doubt_bending_range, doubt_energy_balance, doubt_extrapolation,
-                          doubt_fast_laws, doubt_frequencies, doubt_idle_freedoms,
-                          doubt_left_out_effects, doubt_lost_stiffening, doubt_misaligned_joints,
-                          doubt_proportions, doubt_sideways_buckling, doubt_unconnected_bodies}) {
+  for (const auto find : {
+           doubt_bending_range,
+           doubt_energy_balance,
+           doubt_extrapolation,
+           doubt_fast_laws,
+           doubt_frequencies,
+           doubt_idle_freedoms,
+           doubt_left_out_effects,
+           doubt_lost_stiffening,
+           doubt_misaligned_joints,
+           doubt_proportions,
+           doubt_sideways_buckling,
+           doubt_unconnected_bodies,
+           doubt_resolution,
+       }) {
     const std::vector<Doubt> found = find(run);
     doubts.insert(doubts.end(), found.begin(), found.end());
   }

@@ -1,4 +1,4 @@
-#include "studies/relative_error.hpp"
+#include "core/base/relative_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -142,7 +142,7 @@ Formulation read_formulation(const JsonNode& node, const NumberReader& numbers) 
 SimulationSettings read_simulation(const JsonNode& node, const NumberReader& numbers) {
   node.allow_keys({"end_time", "step", "scheme", "spectral_radius", "formulation", "baumgarte",
                    "projection", "newton_tolerance", "max_newton_iterations", "initial_state",
-                   "local_error", "smallest_step"});
+                   "local_error", "smallest_step", "resolution_check"});
   SimulationSettings settings;
   read_times(node, numbers, settings);
   if (const auto scheme = node.find("scheme")) {
@@ -166,6 +166,7 @@ SimulationSettings read_simulation(const JsonNode& node, const NumberReader& num
     settings.quasi_static_start =
         read_choice<bool>(*state, {{"consistent", false}, {"quasi-static", true}});
   }
+  if (const auto check = node.find("resolution_check")) settings.checks_resolution = check->truth();
   return settings;
 }
 

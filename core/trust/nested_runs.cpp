@@ -1,0 +1,103 @@
+#include "core/trust/nested_runs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "core/base/error.hpp"
+#include "core/base/parallel.hpp"
+
+namespace pleuel {
+
+namespace {
+
+void change_steps(SimulationSettings& settings, double factor) {
+  const double steps = std::ceil(settings.end_time / settings.step * (1 - 1e-12));
+  settings.step = settings.end_time / std::ceil(steps / factor * (1 - 1e-12));
+  settings.local_error = std::min(settings.local_error * factor * factor, 0.5);
+  settings.smallest_step *= factor;
+}
+
+/// Segments without a fraction share the length in proportion to their elements, which rounding
+/// would change.
+void fix_fractions(BeamBody& beam) {
+  double sum = 0.0;
+  for (const Segment& segment : beam.segments) sum += segment.elements;
+  for (Segment& segment : beam.segments) {
+    if (!segment.fraction) segment.fraction = segment.elements / sum;
+  }
+}
+
+void change_elements(Scene& scene, double factor) {
+  for (Body& body : scene.bodies) {
+    auto* beam = std::get_if<BeamBody>(&body.shape);
+    if (!beam || beam->is_rigid) continue;
+    fix_fractions(*beam);
+    for (Segment& segment : beam->segments) {
+      segment.elements = static_cast<int>(std::ceil(factor * segment.elements));
+    }
+  }
+}
+
+}  // namespace
+
+ProblemFile refined(ProblemFile problem, const Refinement& refinement) {
+  if (refinement.step != 1.0) change_steps(problem.simulation, refinement.step);
+  if (refinement.elements != 1.0) change_elements(problem.scene, refinement.elements);
+  return problem;
+}
+
+NestedRun nested_run_of(const Analysis& analysis) {
+  return {{}, values_of(analysis), analysis.trajectory.time, analysis.histories};
+}
+
+NestedRun make_nested_run(const ProblemFile& problem, const Eigen::VectorXd& x,
+                          const Refinement& refinement) {
+  NestedRun run;
+  try {
+    run = nested_run_of(*analyze(refined(problem, refinement), x));
+  } catch (const SimulationError& error) {
+    run.failure = error.what();
+  } catch (const InputError& error) {  // a window without steps, more modes than coordinates …
+    run.failure = error.what();
+  }
+  return run;
+}
+
+std::vector<NestedRun> make_nested_runs(const ProblemFile& problem, const Eigen::VectorXd& x,
+                                        const std::vector<Refinement>& refinements) {
+  std::vector<NestedRun> runs(refinements.size());
+  for_each_in_parallel(static_cast<int>(runs.size()), available_threads(), [&](int i) {
+    const auto index = static_cast<std::size_t>(i);
+    runs[index] = make_nested_run(problem, x, refinements[index]);
+  });
+  return runs;
+}
+
+std::optional<int> fewest_elements(const Model& model, const ProblemFile& problem) {
+  std::optional<int> fewest;
+  for (const Body& body : problem.scene.bodies) {
+    const auto* beam = std::get_if<BeamBody>(&body.shape);
+    if (!beam || !model.body(body.name).is_elastic) continue;
+    for (const Segment& segment : beam->segments) {
+      fewest = std::min(fewest.value_or(segment.elements), segment.elements);
+    }
+  }
+  return fewest;
+}
+
+double largest_difference(const Eigen::VectorXd& time_a, const Eigen::MatrixXd& a,
+                          const Eigen::VectorXd& time_b, const Eigen::MatrixXd& b,
+                          const StepRange& range) {
+  double largest = 0.0;
+  Eigen::Index next = 1;
+  for (Eigen::Index i = range.first; i <= range.last; ++i) {
+    while (next + 1 < time_a.size() && time_a(next) < time_b(i)) ++next;
+    const double share = (time_b(i) - time_a(next - 1)) / (time_a(next) - time_a(next - 1));
+    const auto between = (1.0 - share) * a.col(next - 1) + share * a.col(next);
+    largest = std::max(largest, (between - b.col(i)).cwiseAbs().maxCoeff());
+  }
+  return largest;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/response/analysis.hpp"
+
+/// Runs of the same design with another division of time or space, to compare responses with.
+namespace pleuel {
+
+/// How a nested run differs from the one that is judged.
+struct Refinement {
+  double step = 1.0;      ///< times the steps of the file: 2 or 0.5
+  double elements = 1.0;  ///< times the elements of every segment: 2 or 0.5
+};
+
+/// What is compared of a run.
+struct NestedRun {
+  std::string failure;  ///< empty: it succeeded; else nothing below is known
+  Eigen::VectorXd values;
+  Eigen::VectorXd time;
+  std::vector<Eigen::MatrixXd> histories;  ///< one a response; empty for constants
+
+  bool has_failed() const { return !failure.empty(); }
+};
+
+/// The problem with its steps and elements changed. Twice the steps are rounded so that they divide
+/// the time; the local error that is allowed, where steps follow it, changes with their square.
+/// Half of an odd number of elements is rounded up.
+ProblemFile refined(ProblemFile problem, const Refinement& refinement);
+
+NestedRun make_nested_run(const ProblemFile& problem, const Eigen::VectorXd& x,
+                          const Refinement& refinement);
+
+/// What was simulated already.
+NestedRun nested_run_of(const Analysis& analysis);
+
+/// The same of several refinements, on the threads of the machine.
+std::vector<NestedRun> make_nested_runs(const ProblemFile& problem, const Eigen::VectorXd& x,
+                                        const std::vector<Refinement>& refinements);
+
+/// The fewest elements of a segment of an elastic beam; none without such a beam.
+std::optional<int> fewest_elements(const Model& model, const ProblemFile& problem);
+
+/// max |a(t) − b(t)| over channels and the instants of b, with straight lines between those of a.
+/// @param range  of b
+double largest_difference(const Eigen::VectorXd& time_a, const Eigen::MatrixXd& a,
+                          const Eigen::VectorXd& time_b, const Eigen::MatrixXd& b,
+                          const StepRange& range);
+
+}  // namespace pleuel

@@ -1,0 +1,241 @@
+#include "core/trust/resolution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/base/relative_error.hpp"
+#include "core/trust/nested_runs.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Relative errors from which on a response is named, and from which on nothing that rests on it is
+/// verified.
+constexpr double small_error = 0.01, serious_error = 0.1;
+
+// Of a suspicion:
+constexpr double suspicious_change = 0.01;      ///< of a value by twice the step
+constexpr double suspicious_difference = 0.05;  ///< of histories, of their largest value
+/// Second difference of a history over its largest value: 2 (1 − cos ωh) of a vibration.
+constexpr double suspicious_swing = 0.3;
+/// Error of the balance of energy, of the largest elastic energy.
+constexpr double suspicious_energy = 0.5;
+
+/// A change that is not below this share of the one before says nothing of the next one (a quarter
+/// is what order 2 promises).
+constexpr double falling_share = 0.5;
+/// What is taken then, times the change.
+constexpr double unknown_factor = 3.0;
+
+class Judgement {
+ public:
+  explicit Judgement(const TrustedRun& run)
+      : run_(run), problem_(run.problem), found_(nested_run_of(run.analysis)) {
+    for (std::size_t i = 0; i < run.analysis.responses.size(); ++i) {
+      const bool is_error_itself = run.analysis.responses[i].is_balance ||
+                                   problem_.responses[i].type == ResponseType::constraint_drift;
+      if (!is_error_itself) judged_.push_back(i);
+    }
+  }
+
+  Resolution judge() {
+    if (judged_.empty()) return {};
+    const std::optional<int> fewest = fewest_elements(run_.analysis.model, problem_);
+    const bool has_few = fewest.value_or(1) <= 2;
+    space_factor_ = has_few ? 2.0 : 0.5;
+    std::vector<Refinement> coarse = {{2.0, 1.0}};
+    if (fewest) coarse.push_back({2.0, space_factor_});
+    suspect(make_nested_runs(problem_, run_.x, coarse));
+    std::vector<Refinement> fine;
+    if (is_time_suspicious_) fine.push_back({0.5, 1.0});
+    if (is_space_suspicious_) fine.push_back({1.0, 2.0});
+    return weigh(make_nested_runs(problem_, run_.x, fine));
+  }
+
+ private:
+  double magnitude(const NestedRun& run, std::size_t i) const {
+    const Eigen::MatrixXd& history = run.histories[i];
+    return history.size() > 0 ? history.cwiseAbs().maxCoeff()
+                              : std::abs(run.values(static_cast<Eigen::Index>(i)));
+  }
+
+  /// Of the value of a response, relative to the second run.
+  double change(const NestedRun& run, const NestedRun& reference, std::size_t i) const {
+    const auto index = static_cast<Eigen::Index>(i);
+    return value_error(run.values(index), reference.values(index), magnitude(reference, i));
+  }
+
+  void suspect(const std::vector<NestedRun>& coarse) {
+    coarse_ = coarse.front();
+    is_time_suspicious_ = coarse_.has_failed() ||
+                          run_.monitors.elastic_energy_error > suspicious_energy ||
+                          std::any_of(judged_.begin(), judged_.end(),
+                                      [&](std::size_t i) { return is_suspicious_in_time(i); });
+    if (coarse.size() < 2) return;
+    const NestedRun& other = coarse[1];
+    is_space_suspicious_ = coarse_.has_failed() || other.has_failed() ||
+                           std::any_of(judged_.begin(), judged_.end(), [&](std::size_t i) {
+                             return is_suspicious_in_space(other, i);
+                           });
+  }
+
+  bool is_suspicious_in_time(std::size_t i) const {
+    if (change(coarse_, found_, i) > suspicious_change) return true;
+    const Eigen::MatrixXd& history = found_.histories[i];
+    if (history.size() == 0) return false;
+    const StepRange range = run_.analysis.responses[i].steps(coarse_.time);
+    const double size = magnitude(found_, i);
+    return largest_difference(found_.time, history, coarse_.time, coarse_.histories[i], range) >
+               suspicious_difference * size ||
+           swing(history) > suspicious_swing * size;
+  }
+
+  static double swing(const Eigen::MatrixXd& history) {
+    const Eigen::Index n = history.cols() - 2;
+    if (n < 1) return 0.0;
+    return (history.leftCols(n) - 2.0 * history.middleCols(1, n) + history.rightCols(n))
+        .cwiseAbs()
+        .maxCoeff();
+  }
+
+  /// Half the elements have four times the error (order 2, bending has more), twice a quarter of
+  /// it.
+  bool is_suspicious_in_space(const NestedRun& other, std::size_t i) const {
+    const double share = space_factor_ < 1.0 ? 1.0 / 3.0 : 4.0 / 3.0;
+    return share * change(other, coarse_, i) > small_error;
+  }
+
+  Resolution weigh(const std::vector<NestedRun>& fine) const {
+    Resolution resolution;
+    std::size_t next = 0;
+    if (is_time_suspicious_) resolution.in_time = weigh_time(fine[next++], resolution.failure);
+    if (is_space_suspicious_) {
+      resolution.in_space = weigh_space(fine[next], resolution.in_time, resolution.failure);
+    }
+    return resolution;
+  }
+
+  int order() const {
+    const SimulationSettings& settings = problem_.simulation;
+    const bool is_second =
+        settings.scheme == SchemeType::generalized_alpha ||
+        (settings.scheme == SchemeType::newmark && settings.spectral_radius == 1.0);
+    return is_second ? 2 : 1;
+  }
+
+  std::vector<Unresolved> weigh_time(const NestedRun& fine, std::string& failure) const {
+    std::vector<Unresolved> unresolved;
+    if (fine.has_failed()) {
+      failure = fine.failure;
+      return unresolved;
+    }
+    const double remaining = std::pow(2.0, -order());
+    for (const std::size_t i : judged_) {
+      const double now = change(found_, fine, i);
+      const double before = coarse_.has_failed() ? 0.0 : change(coarse_, found_, i);
+      const bool is_falling = now <= std::max(falling_share, remaining * 1.2) * before;
+      const double error = now * (is_falling ? 1.0 / (1.0 - remaining) : unknown_factor);
+      if (error > small_error) unresolved.push_back({i, now, error});
+    }
+    return sorted(std::move(unresolved));
+  }
+
+  /// Without those that time does not resolve: what space changes of them is not known.
+  std::vector<Unresolved> weigh_space(const NestedRun& fine, const std::vector<Unresolved>& in_time,
+                                      std::string& failure) const {
+    std::vector<Unresolved> unresolved;
+    if (fine.has_failed()) {
+      failure = fine.failure;
+      return unresolved;
+    }
+    for (const std::size_t i : judged_) {
+      const double now = change(found_, fine, i), error = 4.0 / 3.0 * now;
+      const bool is_named = std::any_of(
+          in_time.begin(), in_time.end(),
+          [&](const Unresolved& other) { return other.response == i && other.error > error; });
+      if (error > small_error && !is_named) unresolved.push_back({i, now, error});
+    }
+    return sorted(std::move(unresolved));
+  }
+
+  static std::vector<Unresolved> sorted(std::vector<Unresolved> unresolved) {
+    std::stable_sort(unresolved.begin(), unresolved.end(),
+                     [](const Unresolved& a, const Unresolved& b) { return a.error > b.error; });
+    return unresolved;
+  }
+
+  const TrustedRun& run_;
+  const ProblemFile& problem_;
+  NestedRun found_, coarse_;
+  std::vector<std::size_t> judged_;
+  double space_factor_ = 0.5;
+  bool is_time_suspicious_ = false, is_space_suspicious_ = false;
+};
+
+/// Whether an optimum rests on a response; without an objective all are what is asked for.
+bool counts(const ProblemFile& problem, const std::string& response) {
+  if (!problem.objective) return true;
+  return problem.objective->response == response ||
+         std::any_of(problem.constraints.begin(), problem.constraints.end(),
+                     [&](const ConstraintSettings& limit) { return limit.response == response; });
+}
+
+/// A step that brings the largest error below half a percent by order 2, two digits.
+std::string proposed_step(const ProblemFile& problem, double error) {
+  const double factor = std::clamp(std::sqrt(0.5 * small_error / error), 1.0 / 16.0, 0.5);
+  return fmt::format("{:.2g} s", problem.simulation.step * factor);
+}
+
+/// Two digits, and no exponent.
+std::string percent(double share) {
+  return share < 1.0 ? fmt::format("{:.2g}", 100.0 * share) : fmt::format("{:.0f}", 100.0 * share);
+}
+
+/// The doubt about some responses, or none.
+std::vector<Doubt> doubt_about(const TrustedRun& run, const std::vector<Unresolved>& unresolved,
+                               const std::string& what, const std::string& advice) {
+  if (unresolved.empty()) return {};
+  Doubt doubt;
+  std::vector<std::string> changes;
+  for (const Unresolved& one : unresolved) {
+    const std::string& name = run.analysis.responses[one.response].name;
+    doubt.responses.push_back(name);
+    doubt.is_serious = doubt.is_serious || (one.error > serious_error && counts(run.problem, name));
+    changes.push_back(fmt::format("\"{}\" by {} %", name, percent(one.change)));
+  }
+  doubt.text =
+      fmt::format("{} changes {}: not resolved. {}", what, fmt::join(changes, ", "), advice);
+  return {doubt};
+}
+
+}  // namespace
+
+Resolution judge_resolution(const TrustedRun& run) {
+  return Judgement(run).judge();
+}
+
+std::vector<Doubt> doubt_resolution(const TrustedRun& run) {
+  if (!run.problem.simulation.checks_resolution) return {};
+  const Resolution found = judge_resolution(run);
+  std::vector<Doubt> doubts;
+  const auto add = [&](const std::vector<Doubt>& more) {
+    doubts.insert(doubts.end(), more.begin(), more.end());
+  };
+  if (!found.in_time.empty()) {
+    add(doubt_about(run, found.in_time, "half the step",
+                    fmt::format("Try a /simulation/step of {}",
+                                proposed_step(run.problem, found.in_time.front().error))));
+  }
+  add(doubt_about(run, found.in_space, "twice the elements", "Try more elements"));
+  if (!found.failure.empty()) {
+    doubts.push_back(
+        {fmt::format("whether the responses are resolved is not known: {}", found.failure)});
+  }
+  return doubts;
+}
+
+}  // namespace pleuel
