@@ -8,6 +8,7 @@
 #include "cli/table.hpp"
 #include "cli/warnings.hpp"
 #include "core/base/error.hpp"
+#include "core/model/divided_beams.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/body_export.hpp"
 #include "core/scene/invariants_file.hpp"
@@ -41,8 +42,8 @@ std::vector<std::string> chosen_bodies(const Arguments& arguments, const Model& 
 std::vector<InvariantsFile> export_bodies(const Arguments& arguments, const ProblemFile& problem) {
   const Eigen::VectorXd x = start_design(problem);
   const Design<double> start(x.begin(), x.end());
-  const Model model =
-      build_model(problem.scene, problem.effects, start, start, problem.sensitivity.invariants);
+  const Model model = build_model(without_divisions(problem.scene), problem.effects, start, start,
+                                  problem.sensitivity.invariants);
   std::vector<InvariantsFile> files;
   for (const std::string& name : chosen_bodies(arguments, model)) {
     files.push_back(export_body(problem, model, name, si_units(problem)));

@@ -13,8 +13,29 @@ namespace pleuel {
 
 namespace {
 
-int elastic_coordinates(const BodyModel& body) {
-  return body.elastic_size();
+/// A body of the file: of a divided beam all its frames.
+struct BodyRow {
+  std::string name;
+  double mass = 0.0;
+  std::size_t frames = 0, elements = 0;
+  int rigid = 0, elastic = 0;
+  bool is_beam = false, is_elastic = false;
+};
+
+std::vector<BodyRow> body_rows(const Model& model) {
+  std::vector<BodyRow> rows;
+  for (const BodyModel& body : model.bodies) {
+    if (rows.empty() || rows.back().name != body.name) rows.push_back({body.name});
+    BodyRow& row = rows.back();
+    row.mass += body.mass;
+    ++row.frames;
+    row.elements += body.beam.elements.size();
+    row.rigid += body.frame.size();
+    row.elastic += body.elastic_size();
+    row.is_beam = body.is_beam();
+    row.is_elastic = body.is_elastic;
+  }
+  return rows;
 }
 
 /// Of the size of a coordinate; assembly itself ends at 1e-10.
@@ -30,11 +51,12 @@ int drives(const Model& model) {
 
 Json bodies_document(const Model& model) {
   Json document = Json::array();
-  for (const BodyModel& body : model.bodies) {
+  for (const BodyRow& body : body_rows(model)) {
     document.push_back({{"name", body.name},
                         {"mass", body.mass},
-                        {"elements", body.beam.elements.size()},
-                        {"coordinates", body.frame.size() + elastic_coordinates(body)}});
+                        {"frames", body.frames},
+                        {"elements", body.elements},
+                        {"coordinates", body.rigid + body.elastic}});
   }
   return document;
 }
@@ -42,15 +64,14 @@ Json bodies_document(const Model& model) {
 std::string bodies_text(const Model& model) {
   Table table({{"body", Table::Align::left},
                {"mass [kg]"},
+               {"frames"},
                {"elements"},
                {"rigid coordinates"},
                {"elastic"}});
-  for (const BodyModel& body : model.bodies) {
-    table.add_row(
-        {body.name, significant(body.mass),
-         body.is_beam() ? std::to_string(body.beam.elements.size()) : "–",
-         std::to_string(body.frame.size()),
-         body.is_elastic || body.is_beam() ? std::to_string(elastic_coordinates(body)) : "–"});
+  for (const BodyRow& body : body_rows(model)) {
+    table.add_row({body.name, significant(body.mass), std::to_string(body.frames),
+                   body.is_beam ? std::to_string(body.elements) : "–", std::to_string(body.rigid),
+                   body.is_elastic || body.is_beam ? std::to_string(body.elastic) : "–"});
   }
   return table.text();
 }

@@ -15,7 +15,7 @@ Attachment::Attachment(const std::string& body, Point at, const std::vector<Body
     : context_(context), at_(std::move(at)) {
   if (body == ground_name) return;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (bodies[i].name != body) continue;
+    if (context.scene.bodies[i].name != body) continue;
     body_ = &context.scene.bodies[i];
     model_ = &bodies[i];
   }

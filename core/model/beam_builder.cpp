@@ -242,6 +242,8 @@ void set_nodal_view(BodyModel& model) {
   const int columns = frame + static_cast<int>(model.basis->cols());
   auto view = std::make_unique<BodyModel>();
   view->name = model.name;
+  view->stretch = model.stretch;
+  view->condition = model.condition;
   view->frame = model.frame;
   view->frame.offset = 0;
   view->coordinates = model.coordinates;
@@ -267,7 +269,11 @@ void set_nodal_view(BodyModel& model) {
 
 void set_beam(const BeamBody& beam, const Body& body, const BuildContext& context,
               BodyModel& model) {
-  const BeamEffects& effects = context.effects_of(body.name);
+  const BeamEffects& effects = context.effects_of(model.name);
+  model.condition = beam.frame;
+  if (beam.part) {
+    model.stretch = {beam.part->begin, beam.part->end, beam.part->first_element};
+  }
   model.mesh = make_mesh(body, context.scene, context.start, effects.elasticity);
   model.beam = resolve_beam(beam, model.mesh, context.scene, context.design);
   for (int variable : variables_of(body, context.scene)) {

@@ -15,13 +15,16 @@ constexpr double least_distance = 0.01;
 /// Shares of the length that differ by less are the same.
 constexpr double rounding_tolerance = 1e-9;
 
-/// Shares of the length at which joints and loads act, ascending.
+/// Shares of the length of the whole beam, from the beginning of its part, at which joints and
+/// loads act, ascending.
 std::vector<double> attached_shares(const Body& body, const Scene& scene,
                                     const Design<double>& start) {
+  const auto& beam = std::get<BeamBody>(body.shape);
+  const double part = beam.part ? beam.part->end - beam.part->begin : 1.0;
   std::vector<double> shares;
   for (const AttachedPoint& point : attached_points(scene)) {
     if (point.body != body.name) continue;
-    shares.push_back(share_along(std::get<BeamBody>(body.shape), point.at, start));
+    shares.push_back(part * share_along(beam, point.at, start));
   }
   std::sort(shares.begin(), shares.end());
   return shares;
@@ -49,6 +52,7 @@ BeamMesh make_mesh(const Body& body, const Scene& scene, const Design<double>& s
   BeamMesh mesh;
   for (std::size_t s = 0; s < beam.segments.size(); ++s) {
     const int elements = beam.segments[s].elements;
+    if (elements == 0) continue;
     mesh.elements.insert(mesh.elements.end(), static_cast<std::size_t>(elements),
                          {static_cast<int>(s), fractions[s] / elements});
   }
@@ -70,7 +74,10 @@ BeamMesh make_mesh(const Body& body, const Scene& scene, const Design<double>& s
 
 double share_along(const BeamBody& beam, const Point& point, const Design<double>& start) {
   const Eigen::Vector3d from = resolve_point(beam.from, start), to = resolve_point(beam.to, start);
-  return (resolve_point(point, start) - from).dot(to - from) / (to - from).squaredNorm();
+  const double share =
+      (resolve_point(point, start) - from).dot(to - from) / (to - from).squaredNorm();
+  if (!beam.part) return share;
+  return (share - beam.part->begin) / (beam.part->end - beam.part->begin);
 }
 
 }  // namespace pleuel

@@ -27,7 +27,7 @@ struct BeamMesh {
 BeamMesh make_mesh(const Body& body, const Scene& scene, const Design<double>& start,
                    bool is_elastic);
 
-/// Share of the length at which a point of the scene lies on a beam.
+/// Share of the length at which a point of the scene lies on a beam, or on a part of one.
 double share_along(const BeamBody& beam, const Point& point, const Design<double>& start);
 
 }  // namespace pleuel

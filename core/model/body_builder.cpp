@@ -5,6 +5,7 @@
 #include "core/base/error.hpp"
 #include "core/effects/floating_frame_body.hpp"
 #include "core/model/beam_builder.hpp"
+#include "core/model/divided_beams.hpp"
 #include "core/model/imported_builder.hpp"
 #include "core/model/invariant_derivatives.hpp"
 #include "core/model/stiffening_builder.hpp"
@@ -79,11 +80,11 @@ Invariants<double> derivative_of(const Invariants<Dual>& invariants) {
 }
 
 BodyModel make_body_model(const Body& body, const BuildContext& context, int offset) {
-  if (const auto broken = find_impossible(body, context.design)) {
-    throw SimulationError(fmt::format("the body \"{}\" is impossible: {}", body.name, *broken));
-  }
   BodyModel model;
-  model.name = body.name;
+  model.name = name_in_scene(body);
+  if (const auto broken = find_impossible(body, context.design)) {
+    throw SimulationError(fmt::format("the body \"{}\" is impossible: {}", model.name, *broken));
+  }
   model.frame = make_frame(body, context, offset);
   if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
     set_beam(*beam, body, context, model);

@@ -76,8 +76,11 @@ Eigen::Matrix<Scalar, Eigen::Dynamic, 1> frame_coordinates(const BodyFrame& fram
 template <class Scalar>
 Eigen::Matrix<Scalar, Eigen::Dynamic, 1> frame_rates(const BodyFrame& frame, const Body& body,
                                                      const Design<Scalar>& design) {
-  const Vector3<Scalar> velocity = resolve_point(body.velocity, design);
+  Vector3<Scalar> velocity = resolve_point(body.velocity, design);
   const Vector3<Scalar> spin = resolve_point(body.angular_velocity, design);
+  if (const auto* beam = std::get_if<BeamBody>(&body.shape); beam != nullptr && beam->part) {
+    velocity += spin.cross(part_offset(*beam, design));
+  }
   Eigen::Matrix<Scalar, Eigen::Dynamic, 1> v(frame.size());
   const int k = frame.translations();
   for (int i = 0; i < k; ++i) {

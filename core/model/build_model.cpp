@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
 #include "core/integration/redundancy.hpp"
+#include "core/model/divided_beams.hpp"
 #include "core/model/drive_rows.hpp"
 #include "core/model/imported_builder.hpp"
 #include "core/model/joint_builder.hpp"
@@ -14,15 +16,27 @@
 namespace pleuel {
 
 const BodyModel& Model::body(const std::string& name) const {
+  for (const BodyModel& body : undivided) {
+    if (body.name == name) return body;
+  }
   for (const BodyModel& body : bodies) {
     if (body.name == name) return body;
   }
   throw InputError(fmt::format("there is no body \"{}\"", name));
 }
 
+std::vector<const BodyModel*> Model::parts(const std::string& name) const {
+  std::vector<const BodyModel*> parts;
+  for (const BodyModel& body : bodies) {
+    if (body.name == name) parts.push_back(&body);
+  }
+  if (parts.empty()) throw InputError(fmt::format("there is no body \"{}\"", name));
+  return parts;
+}
+
 const JointModel& Model::joint(const std::string& name) const {
   for (const JointModel& joint : joints) {
-    if (joint.name == name) return joint;
+    if (joint.name == name && !joint.is_division) return joint;
   }
   throw InputError(fmt::format("there is no joint \"{}\"", name));
 }
@@ -64,15 +78,22 @@ double size_of(const Scene& scene, const Design<double>& start) {
 
 class ModelBuilder {
  public:
-  ModelBuilder(const Scene& scene, const EffectSettings& effects, const Design<double>& start,
-               const Design<double>& design, const InvariantDifferentiation& differentiation)
-      : context_{scene,          effects,      start,
-                 design,         std::nullopt, resolve_point(scene.gravity, design),
-                 differentiation} {}
+  /// @param scene    of the file
+  /// @param divided  the same with a body for each frame
+  ModelBuilder(const Scene& scene, const DividedScene& divided, const EffectSettings& effects,
+               const Design<double>& start, const Design<double>& design,
+               const InvariantDifferentiation& differentiation)
+      : scene_(scene), divisions_(divided.divisions), context_{divided.scene,
+                                                               effects,
+                                                               start,
+                                                               design,
+                                                               std::nullopt,
+                                                               resolve_point(scene.gravity, design),
+                                                               differentiation} {}
 
   Model build() {
     decide_motion();
-    for (const Body& body : context_.scene.bodies) {
+    for (const Body& body : scene_.bodies) {
       if (!std::holds_alternative<BeamBody>(body.shape)) continue;
       context_.beam_effects[body.name] = pleuel::decide_beam_effects(body, context_.effects);
     }
@@ -81,6 +102,7 @@ class ModelBuilder {
       const BodyModel& added = model_.bodies.back();
       coordinates_ += added.frame.size() + added.elastic_size();
     }
+    add_undivided();
     if (context_.plane) model_.effects.front().coordinates_saved = out_of_plane_coordinates();
     add_body_terms();
     add_joints();
@@ -96,7 +118,7 @@ class ModelBuilder {
 
  private:
   void decide_motion() {
-    const PlaneAnalysis analysis = find_motion_plane(context_.scene, context_.start);
+    const PlaneAnalysis analysis = find_motion_plane(scene_, context_.start);
     EffectRecord record{"spatial_motion", "", true, EffectRecord::Kind::exact,
                         analysis.reason,  {}, 0};
     switch (context_.effects.spatial_motion) {
@@ -117,6 +139,17 @@ class ModelBuilder {
     }
     record.is_built = !context_.plane.has_value();
     model_.effects.push_back(record);
+  }
+
+  /// Divided beams as they would be undivided.
+  void add_undivided() {
+    BuildContext whole{
+        scene_,         context_.effects, context_.start,           context_.design,
+        context_.plane, context_.gravity, context_.differentiation, context_.beam_effects};
+    for (const Body& body : scene_.bodies) {
+      if (model_.parts(body.name).size() < 2) continue;
+      model_.undivided.push_back(make_body_model(body, whole, 0));
+    }
   }
 
   /// What the same mechanism would have in space on top: of frames three of six (one of three for
@@ -149,17 +182,30 @@ class ModelBuilder {
           model_.effects.push_back(std::move(record));
         }
       }
-      if (!model_.bodies[i].is_beam()) continue;
-      for (EffectRecord& record :
-           beam_records(body, context_.effects, model_.bodies[i], context_.plane.has_value())) {
-        model_.effects.push_back(std::move(record));
-      }
+      if (!model_.bodies[i].is_beam() || model_.bodies[i].stretch.begin > 0.0) continue;
+      add_beam_records(model_.bodies[i].name);
     }
     note_exact("damping", has_damping, has_damping ? "given for a body" : "no body has any");
     const bool has_gravity = !context_.gravity.isZero();
     note_exact("gravity", has_gravity, has_gravity ? "given" : "none is given");
     const bool has_loads = !context_.scene.loads.empty();
     note_exact("loads", has_loads, has_loads ? "given" : "none are given");
+  }
+
+  /// One set of records a beam, whatever number of frames it has.
+  void add_beam_records(const std::string& name) {
+    const auto is_named = [&](const Body& body) { return body.name == name; };
+    const Body& body = *std::find_if(scene_.bodies.begin(), scene_.bodies.end(), is_named);
+    std::vector<EffectRecord> records;
+    for (const BodyModel* part : model_.parts(name)) {
+      std::vector<EffectRecord> of_part =
+          beam_records(body, context_.effects, *part, context_.plane.has_value());
+      for (std::size_t i = 0; i < records.size(); ++i) {
+        of_part[i].coordinates_saved += records[i].coordinates_saved;
+      }
+      records = std::move(of_part);
+    }
+    std::move(records.begin(), records.end(), std::back_inserter(model_.effects));
   }
 
   void note_exact(const std::string& name, bool is_built, const std::string& reason) {
@@ -170,7 +216,8 @@ class ModelBuilder {
     for (const Joint& joint : context_.scene.joints) {
       model_.joints.push_back(
           make_joint(joint, model_.bodies, context_, coordinates_, multipliers_));
-      const JointModel& added = model_.joints.back();
+      JointModel& added = model_.joints.back();
+      added.is_division = static_cast<int>(model_.joints.size()) <= divisions_;
       multipliers_ += added.equations();
       if (added.equations() > 0) terms_.push_back(make_joint_term(added, coordinates_));
     }
@@ -191,7 +238,8 @@ class ModelBuilder {
     }
     for (const JointModel& joint : model_.joints) {
       names.insert(names.end(), static_cast<std::size_t>(joint.equations()),
-                   fmt::format("the joint \"{}\"", joint.name));
+                   joint.is_division ? fmt::format("the beam {}", joint.name)
+                                     : fmt::format("the joint \"{}\"", joint.name));
     }
   }
 
@@ -200,10 +248,13 @@ class ModelBuilder {
     if (redundant.empty()) return;
     model_.mechanism.system->leave_out(redundant);
     std::map<std::string, int> counts;
-    for (int row : redundant) ++counts[joint_of(row).name];
+    for (int row : redundant) {
+      const JointModel& joint = joint_of(row);
+      ++counts[joint.is_division ? joint.name : fmt::format("\"{}\"", joint.name)];
+    }
     std::string text;
     for (const auto& [name, count] : counts) {
-      text += fmt::format("{}{} of \"{}\"", text.empty() ? "" : ", ", count, name);
+      text += fmt::format("{}{} of {}", text.empty() ? "" : ", ", count, name);
     }
     note_exact(
         "redundant_constraints", false,
@@ -221,7 +272,7 @@ class ModelBuilder {
 
   void set_guess() {
     Mechanism& mechanism = model_.mechanism;
-    const double size = size_of(context_.scene, context_.start);
+    const double size = size_of(scene_, context_.start);
     mechanism.guess = State(coordinates_, multipliers_);
     mechanism.guess_q_x.setZero(coordinates_, context_.variables());
     mechanism.guess_v_x.setZero(coordinates_, context_.variables());
@@ -253,6 +304,10 @@ class ModelBuilder {
     Eigen::VectorXd& weight = model_.mechanism.reaction_weight;
     weight.setOnes(multipliers_);
     for (const JointModel& joint : model_.joints) {
+      if (joint.is_division) {  // the beam itself: how joints share a load is asked without it
+        weight.segment(joint.first_multiplier, joint.equations()).setZero();
+        continue;
+      }
       for (int i = 0; i < joint.equations(); ++i) {
         if (!is_moment(joint.topology.equations[static_cast<std::size_t>(i)].kind)) continue;
         weight(joint.first_multiplier + i) = 1.0 / (length * length);
@@ -317,6 +372,8 @@ class ModelBuilder {
     }
   }
 
+  const Scene& scene_;
+  int divisions_;
   BuildContext context_;
   Model model_;
   std::vector<std::unique_ptr<Term>> terms_;
@@ -327,7 +384,8 @@ class ModelBuilder {
 
 Model build_model(const Scene& scene, const EffectSettings& effects, const Design<double>& start,
                   const Design<double>& design, const InvariantDifferentiation& differentiation) {
-  return ModelBuilder(scene, effects, start, design, differentiation).build();
+  const DividedScene divided = divide_beams(scene, effects, start);
+  return ModelBuilder(scene, divided, effects, start, design, differentiation).build();
 }
 
 }  // namespace pleuel

@@ -12,6 +12,7 @@
 #include "core/beam/elastic_basis.hpp"
 #include "core/integration/least_norm.hpp"
 #include "core/integration/simulate.hpp"
+#include "core/model/divided_beams.hpp"
 #include "core/model/model.hpp"
 
 namespace pleuel {
@@ -192,7 +193,7 @@ class Estimation {
     EffectSettings settings = problem_.effects;
     settings.estimates.clear();
     settings.elasticity = elasticity;
-    return build_model(problem_.scene, settings, start_, start_);
+    return build_model(without_divisions(problem_.scene), settings, start_, start_);
   }
 
   SimulationOptions options() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,9 +16,24 @@
 
 namespace pleuel {
 
-/// A body of the model: what responses need to know of it.
+/// The stretch of a beam that a body of the model is: all of it, or a part of a divided one.
+struct BeamStretch {
+  double begin = 0.0, end = 1.0;  ///< shares of the length of the beam
+  int first_element = 0;          ///< of the beam's elements
+
+  /// A share of the length of the whole beam as one of this stretch, within 0 … 1.
+  double within(double share) const {
+    return std::clamp((share - begin) / (end - begin), 0.0, 1.0);
+  }
+  double of_whole(double share) const { return begin + share * (end - begin); }
+};
+
+/// A body of the model: what responses need to know of it. A beam that is divided into frames is
+/// several of them, one a frame, all with the name of the beam.
 struct BodyModel {
   std::string name;
+  BeamStretch stretch;
+  ReferenceCondition condition = ReferenceCondition::tangent;  ///< of a beam
   BodyFrame frame;         ///< its coordinates begin at frame.offset, the elastic ones follow
   double mass = 0.0;       ///< [kg]
   Eigen::VectorXd mass_x;  ///< derivatives with respect to all design variables
@@ -68,6 +84,7 @@ struct JointModel {
   JointData<double> data;
   std::vector<DesignDerivative<JointData<double>>> derivatives;
   std::optional<CoordinateMap> map;
+  bool is_division = false;  ///< welds two frames of one beam: no joint of the scene
 
   int equations() const { return static_cast<int>(topology.equations.size()); }
 };
@@ -93,11 +110,17 @@ struct EffectRecord {
 struct Model {
   Mechanism mechanism;
   std::vector<BodyModel> bodies;
+  /// Beams that are divided, as if they were not: for their constants. They have no coordinates in
+  /// the system.
+  std::vector<BodyModel> undivided;
   std::vector<JointModel> joints;
   std::vector<EffectRecord> effects;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
 
+  /// The body with its constants; of a divided beam as if it were not divided.
   const BodyModel& body(const std::string& name) const;
+  /// The bodies of the model that a body of the scene is made of: one, or one a frame, in order.
+  std::vector<const BodyModel*> parts(const std::string& name) const;
   const JointModel& joint(const std::string& name) const;
 };
 

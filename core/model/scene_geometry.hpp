@@ -193,9 +193,20 @@ Pose<Scalar> beam_pose(const Beam& body, const Design<Scalar>& design) {
   return {resolve_point(body.from, design), beam_axes(body.from, body.to, body.reference, design)};
 }
 
+/// From the beginning of a beam to that of its part, at t = 0, global axes [m].
+template <class Scalar>
+Vector3<Scalar> part_offset(const BeamBody& beam, const Design<Scalar>& design) {
+  const double begin = beam.part ? beam.part->begin : 0.0;
+  return begin * (resolve_point(beam.to, design) - resolve_point(beam.from, design));
+}
+
 template <class Scalar>
 Pose<Scalar> body_pose(const Body& body, const Design<Scalar>& design) {
-  if (const auto* beam = std::get_if<BeamBody>(&body.shape)) return beam_pose(*beam, design);
+  if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
+    Pose<Scalar> pose = beam_pose(*beam, design);
+    if (beam->part) pose.origin += part_offset(*beam, design);
+    return pose;
+  }
   if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
     return beam_pose(*imported, design);
   }

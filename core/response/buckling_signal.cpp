@@ -58,10 +58,16 @@ class BucklingQuantity {
   template <class Scalar>
   Scalar evaluate(const Beam<Scalar>& beam, const SectionProperties<Scalar>&,
                   const SectionForces<Scalar>& forces, int plane) const {
+    return -forces.axial / euler_load(beam, plane);
+  }
+
+  const std::vector<int>& planes() const { return planes_; }
+
+  template <class Scalar>
+  static Scalar euler_load(const Beam<Scalar>& beam, int plane) {
     constexpr double pi = std::numbers::pi;
     const Scalar length = beam.node_position(beam.node_count() - 1);
-    const Scalar euler = pi * pi * least_stiffness(beam, plane) / (length * length);
-    return -forces.axial / euler;
+    return pi * pi * least_stiffness(beam, plane) / (length * length);
   }
 
  private:
@@ -78,12 +84,45 @@ class BucklingQuantity {
   std::vector<int> planes_;
 };
 
+class CompressionQuantity {
+ public:
+  std::vector<int> points(const BodyModel&, const SectionProperties<double>&) const {
+    constexpr int whole = -1;
+    return {whole};
+  }
+
+  template <class Scalar>
+  Scalar evaluate(const Beam<Scalar>&, const SectionProperties<Scalar>&,
+                  const SectionForces<Scalar>& forces, int) const {
+    return -forces.axial;
+  }
+};
+
 }  // namespace
 
 std::unique_ptr<Signal> make_buckling_signal(const BodyModel& body,
                                              const Eigen::Vector3d& gravity) {
   return std::make_unique<SectionSignal<BucklingQuantity>>(body, gravity, StationChoice{},
                                                            BucklingQuantity(body));
+}
+
+std::unique_ptr<Signal> make_compression_signal(const BodyModel& body,
+                                                const Eigen::Vector3d& gravity) {
+  return std::make_unique<SectionSignal<CompressionQuantity>>(body, gravity, StationChoice{},
+                                                              CompressionQuantity());
+}
+
+std::vector<EulerLoad> euler_loads(const BodyModel& body, int variables) {
+  std::vector<EulerLoad> loads;
+  for (const int plane : BucklingQuantity(body).planes()) {
+    EulerLoad load{BucklingQuantity::euler_load(body.beam, plane),
+                   Eigen::VectorXd::Zero(variables)};
+    for (const auto& [variable, beam] : body.beam_x) {
+      load.derivatives(variable) = derivative_of(BucklingQuantity::euler_load(beam, plane));
+    }
+    loads.push_back(std::move(load));
+  }
+  return loads;
 }
 
 }  // namespace pleuel

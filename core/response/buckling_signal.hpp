@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "core/model/model.hpp"
 #include "core/response/signal.hpp"
@@ -15,5 +16,18 @@ namespace pleuel {
 /// That is safe for tapered members, and for members whose ends are held more firmly than by pins.
 /// Where two sections (or both axes of one) have the same E I, the response has a kink.
 std::unique_ptr<Signal> make_buckling_signal(const BodyModel& body, const Eigen::Vector3d& gravity);
+
+/// −N [N], at the same places.
+std::unique_ptr<Signal> make_compression_signal(const BodyModel& body,
+                                                const Eigen::Vector3d& gravity);
+
+/// P_E [N] for bending in one plane, and its derivatives with respect to all design variables.
+struct EulerLoad {
+  double value = 0.0;
+  Eigen::VectorXd derivatives;
+};
+
+/// Those of a beam for both planes; one where they are equal.
+std::vector<EulerLoad> euler_loads(const BodyModel& body, int variables);
 
 }  // namespace pleuel

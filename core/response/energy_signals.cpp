@@ -97,7 +97,10 @@ class StretchingEnergy {
 
 std::vector<const BodyModel*> bodies_of(const Model& model, const std::vector<std::string>& names) {
   std::vector<const BodyModel*> bodies;
-  for (const std::string& name : names) bodies.push_back(&model.body(name));
+  for (const std::string& name : names) {
+    const std::vector<const BodyModel*> parts = model.parts(name);
+    bodies.insert(bodies.end(), parts.begin(), parts.end());
+  }
   if (!bodies.empty()) return bodies;
   for (const BodyModel& body : model.bodies) bodies.push_back(&body);
   return bodies;

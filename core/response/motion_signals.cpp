@@ -27,7 +27,9 @@ class DeflectionSignal final : public BodySignal<DeflectionSignal, 1> {
       : BodySignal(body), at_(at), place_(find_place(body.beam, at)), direction_(direction) {}
 
   int channels() const override { return 1; }
-  std::string describe(int) const override { return fmt::format("at {:g} of the length", at_); }
+  std::string describe(int) const override {
+    return fmt::format("at {:g} of the length", body().stretch.of_whole(at_));
+  }
   LocalPlace place(int) const { return {place_.element, 2}; }
 
   template <class Scalar>
@@ -53,7 +55,8 @@ class PlaceSignal final : public BodySignal<PlaceSignal> {
   int channels() const override { return 1; }
   std::string describe(int) const override {
     const std::string place =
-        body().is_beam() ? fmt::format("at {:g} of the length", motion_.at) : "reference point";
+        body().is_beam() ? fmt::format("at {:g} of the length", body().stretch.of_whole(motion_.at))
+                         : "reference point";
     return fmt::format("{}, {}", place, component_name(motion_.direction));
   }
   LocalPlace place(int) const { return {place_.element, body().is_beam() ? 2 : 0}; }
@@ -81,7 +84,30 @@ class PlaceSignal final : public BodySignal<PlaceSignal> {
   BeamPlace place_;
 };
 
+class AxisSignal final : public BodySignal<AxisSignal, 1> {
+ public:
+  AxisSignal(const BodyModel& body, int axis) : BodySignal(body), axis_(axis) {}
+
+  int channels() const override { return 3; }
+  std::string describe(int channel) const override {
+    return fmt::format("axis of the body frame, {}", component_name(channel));
+  }
+  LocalPlace place(int) const { return {}; }
+
+  template <class Scalar>
+  Scalar evaluate(const Beam<Scalar>&, const LocalMotion<Scalar>& motion, int channel) const {
+    return this->frame(motion).A(channel, axis_);
+  }
+
+ private:
+  int axis_;
+};
+
 }  // namespace
+
+std::unique_ptr<Signal> make_axis_signal(const BodyModel& body, int axis) {
+  return std::make_unique<AxisSignal>(body, axis);
+}
 
 std::unique_ptr<Signal> make_deflection_signal(const BodyModel& body, double at, int direction) {
   return std::make_unique<DeflectionSignal>(body, at, direction);

@@ -22,6 +22,10 @@ struct PlaceMotion {
   int direction = 0;  ///< 0 … 2: global x, y, z; −1: magnitude
 };
 
+/// A column of A, global axes, three channels: where local x, y or z of the body frame points.
+/// @param axis  0 … 2
+std::unique_ptr<Signal> make_axis_signal(const BodyModel& body, int axis);
+
 /// With p the place in the frame (undeformed place and elastic displacement):
 ///     r + A p [m]
 std::unique_ptr<Signal> make_position_signal(const BodyModel& body, const PlaceMotion& motion);

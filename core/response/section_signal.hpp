@@ -45,14 +45,15 @@ class SectionSignal final : public BodySignal<SectionSignal<Quantity>> {
   std::string describe(int channel) const override {
     const Channel& c = channels_[static_cast<std::size_t>(channel)];
     const Station& station = stations_[static_cast<std::size_t>(c.station)];
+    const double place = this->body().stretch.first_element + station.place;
     if (c.point < 0) {
       std::string what;
       if constexpr (requires { quantity_.name(c.point); }) what = quantity_.name(c.point);
-      return fmt::format("node {}{}", station.place, what);
+      return fmt::format("node {}{}", place, what);
     }
     const auto& point =
         section_of(this->body().beam, c.station).points[static_cast<std::size_t>(c.point)];
-    return fmt::format("node {}, y = {:.4g} m, z = {:.4g} m", station.place, point.y, point.z);
+    return fmt::format("node {}, y = {:.4g} m, z = {:.4g} m", place, point.y, point.z);
   }
 
   LocalPlace place(int channel) const {

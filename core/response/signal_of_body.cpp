@@ -1,13 +1,18 @@
 #include "core/response/signal_of_body.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/response/buckling_signal.hpp"
+#include "core/response/divided_deflection.hpp"
 #include "core/response/imported_signals.hpp"
 #include "core/response/imported_stress_signal.hpp"
 #include "core/response/motion_signals.hpp"
 #include "core/response/projected_signal.hpp"
 #include "core/response/response.hpp"
+#include "core/response/scaled_signal.hpp"
+#include "core/response/signal_list.hpp"
 #include "core/response/stress_signal.hpp"
 
 namespace pleuel {
@@ -16,21 +21,40 @@ namespace {
 
 class BodySignalMaker {
  public:
-  BodySignalMaker(const ResponseSettings& settings, const Model& model)
-      : settings_(settings), model_(model), body_(model.body(settings.bodies.front())) {}
+  BodySignalMaker(const ResponseSettings& settings, const Model& model, const BodyModel& body)
+      : settings_(settings), model_(model), body_(body) {}
 
   std::unique_ptr<Signal> make() const {
     const bool needs_section_forces =
         settings_.type == ResponseType::stress || settings_.type == ResponseType::buckling;
     if (needs_section_forces && body_.is_beam()) check_section_forces();
     if (body_.is_imported()) return make_imported_signal();
-    if (!body_.basis) return make_body_signal(body_);
-    return std::make_unique<ProjectedSignal>(make_body_signal(*body_.nodal), body_.map,
-                                             model_.mechanism.system->variables());
+    return in_coordinates([&](const BodyModel& body) { return make_body_signal(body); });
+  }
+
+  /// Compressive axial force.
+  std::unique_ptr<Signal> make_compression() const {
+    check_section_forces();
+    return in_coordinates(
+        [&](const BodyModel& body) { return make_compression_signal(body, model_.gravity); });
+  }
+
+  /// Where an axis of the body frame points.
+  std::unique_ptr<Signal> make_axis(int axis) const {
+    return in_coordinates([&](const BodyModel& body) { return make_axis_signal(body, axis); });
   }
 
  private:
   [[noreturn]] void fail(const std::string& why) const { refuse_response(settings_.name, why); }
+
+  /// @param make  a signal of the body itself, or with a basis of the one in the coordinates of its
+  ///              elements
+  template <class Make>
+  std::unique_ptr<Signal> in_coordinates(const Make& make) const {
+    if (!body_.basis) return make(body_);
+    return std::make_unique<ProjectedSignal>(make(*body_.nodal), body_.map,
+                                             model_.mechanism.system->variables());
+  }
 
   /// Section forces come from strain.
   void check_section_forces() const {
@@ -59,7 +83,6 @@ class BodySignalMaker {
     return false;
   }
 
-  /// @param body  the one itself, or with a basis the one in the coordinates of its elements
   std::unique_ptr<Signal> make_body_signal(const BodyModel& body) const {
     const PlaceMotion place{settings_.at, settings_.direction};
     switch (settings_.type) {
@@ -120,10 +143,128 @@ class BodySignalMaker {
   const BodyModel& body_;
 };
 
+/// Signals of a beam that is divided into frames, from those of its parts.
+class DividedSignalMaker {
+ public:
+  DividedSignalMaker(const ResponseSettings& settings, const Model& model)
+      : settings_(settings), model_(model), parts_(model.parts(settings.bodies.front())) {}
+
+  std::unique_ptr<Signal> make() const {
+    switch (settings_.type) {
+      case ResponseType::stress:
+        return make_stress();
+      case ResponseType::buckling:
+        return make_buckling();
+      case ResponseType::deflection:
+        if (settings_.against == DeflectionReference::rigid_mechanism) break;
+        return make_deflection();
+      default:
+        break;
+    }
+    const BodyModel& part = part_at(settings_.at);
+    ResponseSettings settings = settings_;
+    settings.at = part.stretch.within(settings.at);
+    return make_of(settings, part);
+  }
+
+ private:
+  /// Places nearer to the end of a part than this share of the beam are on it, too.
+  static constexpr double rounding_tolerance = 1e-9;
+
+  std::unique_ptr<Signal> make_of(const ResponseSettings& settings, const BodyModel& part) const {
+    return BodySignalMaker(settings, model_, part).make();
+  }
+
+  static bool holds(const BodyModel& part, double share) {
+    return part.stretch.begin - rounding_tolerance <= share &&
+           share <= part.stretch.end + rounding_tolerance;
+  }
+
+  const BodyModel& part_at(double share) const {
+    for (const BodyModel* part : parts_) {
+      if (holds(*part, share)) return *part;
+    }
+    return *parts_.back();
+  }
+
+  static bool holds_segment(const BodyModel& part, int segment) {
+    const std::vector<MeshElement>& elements = part.mesh.elements;
+    return std::any_of(elements.begin(), elements.end(),
+                       [&](const MeshElement& element) { return element.segment == segment; });
+  }
+
+  std::unique_ptr<Signal> make_stress() const {
+    std::vector<std::unique_ptr<Signal>> signals;
+    for (const BodyModel* part : parts_) {
+      ResponseSettings settings = settings_;
+      if (settings.station) {
+        if (!holds(*part, *settings.station)) continue;
+        settings.station = part->stretch.within(*settings.station);
+      }
+      if (settings.segment && !holds_segment(*part, *settings.segment)) continue;
+      signals.push_back(make_of(settings, *part));
+    }
+    return std::make_unique<SignalList>(std::move(signals));
+  }
+
+  /// Compression of the parts over the Euler load of the whole beam.
+  std::unique_ptr<Signal> make_buckling() const {
+    const int variables = model_.mechanism.system->variables();
+    std::vector<std::unique_ptr<Signal>> signals;
+    for (const EulerLoad& load : euler_loads(model_.body(settings_.bodies.front()), variables)) {
+      for (const BodyModel* part : parts_) {
+        signals.push_back(std::make_unique<ScaledSignal>(
+            BodySignalMaker(settings_, model_, *part).make_compression(), 1.0 / load.value,
+            -load.derivatives / (load.value * load.value)));
+      }
+    }
+    return std::make_unique<SignalList>(std::move(signals));
+  }
+
+  /// Position of a place, global x, y, z.
+  std::unique_ptr<Signal> make_position(double at) const {
+    const BodyModel& part = part_at(at);
+    ResponseSettings settings = settings_;
+    settings.type = ResponseType::position;
+    settings.at = part.stretch.within(at);
+    std::vector<std::unique_ptr<Signal>> components;
+    for (int direction = 0; direction < 3; ++direction) {
+      settings.direction = direction;
+      components.push_back(make_of(settings, part));
+    }
+    return std::make_unique<SignalList>(std::move(components));
+  }
+
+  std::unique_ptr<Signal> make_deflection() const {
+    const ReferenceCondition frame = parts_.front()->condition;
+    const bool is_chord =
+        settings_.against == DeflectionReference::chord || frame == ReferenceCondition::chord;
+    if (!is_chord && frame == ReferenceCondition::mean_axis) {
+      refuse_response(settings_.name,
+                      fmt::format("\"{}\" is divided into frames and has no mean axis as a whole: "
+                                  "measure against the chord",
+                                  settings_.bodies.front()));
+    }
+    const bool is_at_end = !is_chord && frame == ReferenceCondition::tangent_end;
+    const BodyModel& clamped = is_at_end ? *parts_.back() : *parts_.front();
+    const int axis = is_chord ? 3 - settings_.direction : settings_.direction;
+    return make_divided_deflection(
+        {make_position(settings_.at), make_position(is_at_end ? 1.0 : 0.0), make_position(1.0),
+         BodySignalMaker(settings_, model_, clamped).make_axis(axis)},
+        is_chord ? DividedReference::chord : DividedReference::tangent, settings_.direction);
+  }
+
+  const ResponseSettings& settings_;
+  const Model& model_;
+  std::vector<const BodyModel*> parts_;
+};
+
 }  // namespace
 
 std::unique_ptr<Signal> make_signal_of_body(const ResponseSettings& settings, const Model& model) {
-  return BodySignalMaker(settings, model).make();
+  const std::vector<const BodyModel*> parts = model.parts(settings.bodies.front());
+  if (parts.size() > 1) return DividedSignalMaker(settings, model).make();
+  return BodySignalMaker(settings, model, *parts.front()).make();
 }
 
 }  // namespace pleuel

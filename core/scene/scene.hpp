@@ -107,6 +107,15 @@ struct CraigBampton {
   std::optional<double> frequency;  ///< or all below this one [rad/s]
 };
 
+/// Not of a file: the stretch of a divided beam that one of its frames carries. Ends of the beam
+/// and list of segments are those of the whole beam; segments have the elements and the share of
+/// the whole length that lie in the stretch, none where they lie outside.
+struct BeamPart {
+  std::string body;               ///< name of the whole beam
+  double begin = 0.0, end = 1.0;  ///< shares of its length
+  int first_element = 0;          ///< elements of the whole beam that come before
+};
+
 struct BeamBody {
   Point from, to;  ///< end points at t = 0, global axes [m]
   std::string material;
@@ -118,6 +127,8 @@ struct BeamBody {
   std::optional<std::array<double, 3>> reference;
   bool is_rigid = false;  ///< no elastic coordinates; inertia from the same integrals
   std::optional<CraigBampton> reduction;
+  int frames = 1;  ///< floating frames that share the beam, welded to each other
+  std::optional<BeamPart> part = {};
 };
 
 struct RigidBody {

@@ -4,7 +4,8 @@
 
 namespace pleuel {
 
-/// Beams that bend beyond what linear elasticity in a body frame is good for.
+/// Bodies whose deformation is too large for linear elasticity in a body frame, by the estimated
+/// error of their displacements, rotations and stresses (geometric_error.hpp).
 std::vector<Doubt> doubt_bending_range(const TrustedRun& run);
 
 }  // namespace pleuel

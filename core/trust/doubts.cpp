@@ -13,6 +13,7 @@
 #include "core/trust/misaligned_joints.hpp"
 #include "core/trust/proportions.hpp"
 #include "core/trust/resolution.hpp"
+#include "core/trust/shear_range.hpp"
 #include "core/trust/sideways_buckling.hpp"
 
 namespace pleuel {
@@ -41,6 +42,7 @@ std::vector<Doubt> find_doubts(const TrustedRun& run) {
            doubt_lost_stiffening,
            doubt_misaligned_joints,
            doubt_proportions,
+           doubt_shear_range,
            doubt_sideways_buckling,
            doubt_unconnected_bodies,
            doubt_resolution,

@@ -313,7 +313,8 @@ std::vector<Doubt> doubt_sideways_buckling(const TrustedRun& run) {
   for (const Body& body : run.problem.scene.bodies) {
     if (!std::holds_alternative<BeamBody>(body.shape)) continue;
     const BodyModel& model = run.analysis.model.body(body.name);
-    if (!model.is_elastic) continue;
+    // The undivided beam knows no state.
+    if (!model.is_elastic || run.analysis.model.parts(body.name).size() > 1) continue;
     const std::vector<Doubt> found = SidewaysBuckling(run, body, model).find();
     doubts.insert(doubts.end(), found.begin(), found.end());
   }

@@ -10,6 +10,7 @@ namespace {
 
 constexpr int most_elements = 10000;
 constexpr int most_modes = 1000;
+constexpr int most_frames = 1000;
 
 enum class BodyType { beam, rigid, point_mass, imported };
 
@@ -107,10 +108,27 @@ void read_elasticity(const JsonNode& node, BeamBody& beam, NumberReader& numbers
   }
 }
 
+/// Damping that is stated for the motion against one frame changes its meaning with many.
+void read_frames(const JsonNode& node, const JsonNode& body, BeamBody& beam) {
+  beam.frames = node.whole_number(1, most_frames);
+  if (beam.frames == 1) return;
+  if (beam.is_rigid) node.fail("is not for a rigid beam");
+  const auto damping = body.find("damping");
+  if (!damping) return;
+  for (const char* key : {"mass", "modal"}) {
+    if (!damping->find(key)) continue;
+    node.fail(fmt::format(
+        "cannot be more than 1 with \"{}\" damping, which acts on the motion against one frame; "
+        "\"stiffness\" damping is the same for any number of frames",
+        key));
+  }
+}
+
 BeamBody read_beam(const JsonNode& node, const std::vector<std::string>& materials,
                    NumberReader& numbers) {
   node.allow_keys({"type", "from", "to", "material", "section", "elements", "segments", "frame",
-                   "damping", "reference", "rigid", "reduction", "velocity", "angular_velocity"});
+                   "frames", "damping", "reference", "rigid", "reduction", "velocity",
+                   "angular_velocity"});
   BeamBody beam;
   beam.from = numbers.triple(node.at("from"), quantities::length);
   beam.to = numbers.triple(node.at("to"), quantities::length);
@@ -120,6 +138,7 @@ BeamBody read_beam(const JsonNode& node, const std::vector<std::string>& materia
     beam.frame = read_choice(*frame, reference_conditions);
   }
   read_elasticity(node, beam, numbers);
+  if (const auto frames = node.find("frames")) read_frames(*frames, node, beam);
   if (const auto reference = node.find("reference")) {
     beam.reference = numbers.direction(*reference);
   }

@@ -1,0 +1,204 @@
+#include "core/model/divided_beams.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "core/model/beam_mesh.hpp"
+#include "core/model/effect_decisions.hpp"
+#include "core/model/scene_geometry.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Places nearer to the end of a stretch than this share of the beam belong to it.
+constexpr double rounding_tolerance = 1e-9;
+
+/// Elements so many that each frame has one.
+std::vector<Segment> refine_segments(const BeamBody& beam) {
+  int elements = 0;
+  for (const Segment& segment : beam.segments) elements += segment.elements;
+  const std::vector<double> fractions = length_fractions(beam);
+  const int factor = (beam.frames + elements - 1) / elements;
+  std::vector<Segment> segments = beam.segments;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    segments[i].elements *= factor;
+    segments[i].fraction = fractions[i];
+  }
+  return segments;
+}
+
+/// Shares of the length of all nodes.
+std::vector<double> node_shares(const std::vector<Segment>& segments) {
+  std::vector<double> shares{0.0};
+  double begin = 0.0;
+  for (const Segment& segment : segments) {
+    for (int i = 1; i <= segment.elements; ++i) {
+      shares.push_back(begin + *segment.fraction * i / segment.elements);
+    }
+    begin += *segment.fraction;
+  }
+  shares.back() = 1.0;
+  return shares;
+}
+
+/// Nodes at which stretches end: those nearest to equal shares, each stretch with an element.
+std::vector<int> cut_nodes(const std::vector<double>& shares, int frames) {
+  const int last = static_cast<int>(shares.size()) - 1;
+  std::vector<int> nodes{0};
+  for (int k = 1; k < frames; ++k) {
+    const double wanted = static_cast<double>(k) / frames;
+    const int first = nodes.back() + 1, end = last - (frames - k);
+    int best = first;
+    for (int node = first; node <= end; ++node) {
+      const auto distance = [&](int i) {
+        return std::abs(shares[static_cast<std::size_t>(i)] - wanted);
+      };
+      if (distance(node) < distance(best)) best = node;
+    }
+    nodes.push_back(best);
+  }
+  nodes.push_back(last);
+  return nodes;
+}
+
+/// The stretch between two nodes of a beam.
+BeamBody cut(const BeamBody& beam, const std::vector<Segment>& segments, int first, int last,
+             BeamPart part) {
+  BeamBody stretch = beam;
+  stretch.frames = 1;
+  stretch.segments = segments;
+  int node = 0;
+  for (Segment& segment : stretch.segments) {
+    const int end = node + segment.elements;
+    const int inside = std::max(0, std::min(end, last) - std::max(node, first));
+    segment.fraction = *segment.fraction * inside / segment.elements;
+    segment.elements = inside;
+    node = end;
+  }
+  part.first_element = first;
+  stretch.part = std::move(part);
+  return stretch;
+}
+
+class Division {
+ public:
+  Division(const Scene& scene, const EffectSettings& effects, const Design<double>& start)
+      : scene_(scene), effects_(effects), start_(start) {}
+
+  DividedScene run() {
+    DividedScene divided;
+    for (const Body& body : scene_.bodies) add(body, divided.scene);
+    std::vector<Joint> joints = std::move(divided.scene.joints);
+    std::vector<Body> bodies = std::move(divided.scene.bodies);
+    divided.scene = scene_;
+    divided.divisions = static_cast<int>(joints.size());
+    divided.scene.bodies = std::move(bodies);
+    if (!parts_.empty()) move_attachments(divided.scene);
+    divided.scene.joints.insert(divided.scene.joints.begin(), joints.begin(), joints.end());
+    return divided;
+  }
+
+ private:
+  void add(const Body& body, Scene& divided) {
+    const auto* beam = std::get_if<BeamBody>(&body.shape);
+    const bool is_divided =
+        beam != nullptr && beam->frames > 1 && decide_beam_effects(body, effects_).elasticity;
+    if (!is_divided) {
+      divided.bodies.push_back(body);
+      return;
+    }
+    const std::vector<Segment> segments = refine_segments(*beam);
+    const std::vector<double> shares = node_shares(segments);
+    const std::vector<int> nodes = cut_nodes(shares, beam->frames);
+    std::vector<Body>& parts = parts_[body.name];
+    for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+      const auto share = [&](int node) { return shares[static_cast<std::size_t>(node)]; };
+      Body part = body;
+      part.name = unique_name(fmt::format("{} (frame {})", body.name, k + 1));
+      part.shape = cut(*beam, segments, nodes[k], nodes[k + 1],
+                       {body.name, share(nodes[k]), share(nodes[k + 1])});
+      if (k > 0) divided.joints.push_back(weld(body.name, k, parts.back(), part));
+      parts.push_back(part);
+      divided.bodies.push_back(std::move(part));
+    }
+  }
+
+  std::string unique_name(std::string name) const {
+    while (find_body(name)) name += '\'';
+    return name;
+  }
+  bool find_body(const std::string& name) const {
+    return std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
+                       [&](const Body& body) { return body.name == name; });
+  }
+
+  /// At the start design: where elastic beams are held is a share of their length.
+  Joint weld(const std::string& beam, std::size_t number, const Body& before,
+             const Body& after) const {
+    Joint joint;
+    joint.name = fmt::format("\"{}\" between its frames {} and {}", beam, number, number + 1);
+    joint.type = JointType::fixed;
+    joint.bodies = {before.name, after.name};
+    const Eigen::Vector3d at = body_pose(after, start_).origin;
+    joint.at = {at.x(), at.y(), at.z()};
+    return joint;
+  }
+
+  void move_attachments(Scene& divided) const {
+    for (Joint& joint : divided.joints) {
+      const bool has_length = joint.type == JointType::distance;
+      move(joint.bodies[0], joint.at);
+      move(joint.bodies[1], has_length ? joint.to : joint.at);
+    }
+    for (Load& load : divided.loads) {
+      if (auto* force = std::get_if<PointForce>(&load.element)) {
+        move(force->body, force->at);
+      } else if (auto* torque = std::get_if<PointTorque>(&load.element)) {
+        move(torque->body, torque->at);
+      } else if (auto* spring = std::get_if<SpringDamper>(&load.element)) {
+        for (std::size_t i = 0; i < 2; ++i) move(spring->bodies[i], spring->at[i]);
+      }
+    }
+  }
+
+  /// From a beam to the stretch of it that a point lies on.
+  void move(std::string& body, const Point& at) const {
+    const auto found = parts_.find(body);
+    if (found == parts_.end()) return;
+    for (const Body& part : found->second) {
+      body = part.name;
+      if (share_along(std::get<BeamBody>(part.shape), at, start_) <= 1.0 + rounding_tolerance)
+        return;
+    }
+  }
+
+  const Scene& scene_;
+  const EffectSettings& effects_;
+  const Design<double>& start_;
+  std::map<std::string, std::vector<Body>> parts_;  ///< by the name of the beam
+};
+
+}  // namespace
+
+DividedScene divide_beams(const Scene& scene, const EffectSettings& effects,
+                          const Design<double>& start) {
+  return Division(scene, effects, start).run();
+}
+
+Scene without_divisions(Scene scene) {
+  for (Body& body : scene.bodies) {
+    if (auto* beam = std::get_if<BeamBody>(&body.shape)) beam->frames = 1;
+  }
+  return scene;
+}
+
+const std::string& name_in_scene(const Body& body) {
+  const auto* beam = std::get_if<BeamBody>(&body.shape);
+  return beam != nullptr && beam->part ? beam->part->body : body.name;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,82 @@
+#include "core/trust/beam_state.hpp"
+
+#include <cmath>
+
+#include "core/beam/beam_shape.hpp"
+
+namespace pleuel {
+
+Eigen::MatrixXd nodal_displacements(const BodyModel& body, const State& state) {
+  const auto q = state.q.segment(body.elastic_offset(), body.elastic_size());
+  const ElasticCoordinates& nodal = body.basis ? *body.nodal->coordinates : *body.coordinates;
+  const Eigen::VectorXd values = body.basis ? Eigen::VectorXd(*body.basis * q) : Eigen::VectorXd(q);
+  Eigen::MatrixXd displacements = Eigen::MatrixXd::Zero(6, nodal.node_count());
+  for (int node = 0; node < nodal.node_count(); ++node) {
+    for (int i = 0; i < 6; ++i) {
+      const int index = nodal.index(node, i);
+      if (index >= 0) displacements(i, node) = values(index);
+    }
+  }
+  return displacements;
+}
+
+double elongation_of(const BodyModel& body, const Eigen::MatrixXd& nodal, int element) {
+  const auto from = nodal.col(element), to = nodal.col(element + 1);
+  const double linear = to(0) - from(0);
+  if (!body.has_stiffening) return linear;
+  const double length = body.beam.elements[static_cast<std::size_t>(element)].length;
+  return linear + 0.5 * (slope_integral<double>(to(1) - from(1), from(5), to(5), length) +
+                         slope_integral<double>(to(2) - from(2), -from(4), -to(4), length));
+}
+
+namespace {
+
+void keep_larger(double value, int step, double& largest, int& at) {
+  if (value <= largest) return;
+  largest = value;
+  at = step;
+}
+
+void note_beam(const BodyModel& body, const State& state, int step, LargestDeformation& largest) {
+  const Eigen::MatrixXd nodal = nodal_displacements(body, state);
+  const double bending = std::sqrt(nodal.bottomRows(2).colwise().squaredNorm().maxCoeff());
+  keep_larger(bending, step, largest.bending, largest.bending_step);
+  keep_larger(nodal.row(3).cwiseAbs().maxCoeff(), step, largest.twist, largest.twist_step);
+  if (nodal.row(0).isZero(0.0)) return;
+  for (int e = 0; e + 1 < nodal.cols(); ++e) {
+    const double length = body.beam.elements[static_cast<std::size_t>(e)].length;
+    keep_larger(std::abs(elongation_of(body, nodal, e)) / length, step, largest.strain,
+                largest.strain_step);
+  }
+}
+
+void note_imported(const BodyModel& body, const State& state, int step,
+                   LargestDeformation& largest) {
+  const auto q = state.q.segment(body.elastic_offset(), body.elastic_size());
+  for (const BodyPlace& place : body.constants->places) {
+    keep_larger((place.rotation * q).norm(), step, largest.bending, largest.bending_step);
+  }
+}
+
+}  // namespace
+
+std::vector<LargestDeformation> largest_deformations(const Model& model,
+                                                     const Trajectory& trajectory) {
+  std::vector<LargestDeformation> all(model.bodies.size());
+  State state;
+  for (int step = 0; step <= trajectory.steps(); ++step) {
+    trajectory.load(step, state);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const BodyModel& body = model.bodies[i];
+      if (!body.is_elastic || body.elastic_size() == 0) continue;
+      if (body.is_imported()) {
+        note_imported(body, state, step, all[i]);
+      } else {
+        note_beam(body, state, step, all[i]);
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,357 @@
+#include "core/trust/shear_range.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/beam/beam_shape.hpp"
+#include "core/beam/elastic_basis.hpp"
+#include "core/beam/natural_modes.hpp"
+#include "core/model/scene_geometry.hpp"
+#include "core/section/shear_coefficient.hpp"
+#include "core/trust/beam_state.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Errors that are as good as none, relative.
+constexpr double tolerable = 0.01;
+/// From here on numbers are those of another beam. Below, that shear is missing is a property of
+/// the theory that is used, as good as it is for most machines.
+constexpr double alarming = 0.1;
+/// Planes in which a beam deflects less than this share of the other do not count.
+constexpr double still = 1e-3;
+
+/// κ for forces along local y and z.
+struct Coefficients {
+  const Design<double>& design;
+  double nu;
+
+  using Pair = std::array<double, 2>;
+  double of(const Number& number) const { return resolve(number, design); }
+
+  Pair operator()(const RectangleSection&) const {
+    const double kappa = rectangle_shear_coefficient(nu);
+    return {kappa, kappa};
+  }
+  Pair operator()(const CircleSection&) const {
+    const double kappa = round_shear_coefficient(nu, 0.0);
+    return {kappa, kappa};
+  }
+  Pair operator()(const TubeSection& s) const {
+    const double kappa =
+        round_shear_coefficient(nu, 1.0 - 2.0 * of(s.thickness) / of(s.outer_diameter));
+    return {kappa, kappa};
+  }
+  Pair operator()(const EllipseSection& s) const {
+    return {ellipse_shear_coefficient(nu, of(s.height), of(s.width)),
+            ellipse_shear_coefficient(nu, of(s.width), of(s.height))};
+  }
+  Pair operator()(const BoxSection& s) const {
+    const double t = of(s.thickness), width = of(s.width) - t, height = of(s.height) - t;
+    return {box_shear_coefficient(nu, {height, width, t, t}),
+            box_shear_coefficient(nu, {width, height, t, t})};
+  }
+  /// Along z the flanges carry the force, as two rectangles.
+  Pair operator()(const ISection& s) const {
+    const double flange = of(s.flange_thickness), web = of(s.web_thickness);
+    const double width = of(s.width), height = of(s.height);
+    const double flanges = 2.0 * width * flange;
+    const double area = flanges + (height - 2.0 * flange) * web;
+    return {i_shear_coefficient(nu, {height - flange, width, web, flange}),
+            rectangle_shear_coefficient(nu) * flanges / area};
+  }
+  /// Unknown: as of a rectangle.
+  Pair operator()(const GeneralSection&) const {
+    const double kappa = rectangle_shear_coefficient(nu);
+    return {kappa, kappa};
+  }
+};
+
+/// A plane of bending of one element.
+struct ElementBending {
+  double length = 0.0, stiffness = 0.0;  ///< ℓ [m], EI [N m²]
+  double shear_stiffness = 0.0;          ///< κ G A [N]
+  std::array<double, 2> curvature{};     ///< at both ends [1/m]
+  std::array<double, 2> deflection{};    ///< at both ends [m]
+
+  double force() const { return stiffness * (curvature[1] - curvature[0]) / length; }
+  double bending_energy() const {
+    const auto [a, b] = curvature;
+    return stiffness * length * (a * a + a * b + b * b) / 6.0;
+  }
+  double shear_energy() const { return 0.5 * force() * force() / shear_stiffness * length; }
+};
+
+using BeamBending = std::vector<ElementBending>;
+
+class BendingReader {
+ public:
+  BendingReader(const ProblemFile& problem, const Eigen::VectorXd& x, const std::string& body)
+      : design_(x.begin(), x.end()) {
+    for (const Body& other : problem.scene.bodies) {
+      if (other.name == body) beam_ = &std::get<BeamBody>(other.shape);
+    }
+  }
+
+  /// @param plane  0: along y, 1: along z
+  BeamBending read(const BodyModel& body, const Eigen::MatrixXd& nodal, int plane) const {
+    BeamBending elements;
+    for (std::size_t e = 0; e < body.beam.elements.size(); ++e) {
+      const BeamElement<double>& element = body.beam.elements[e];
+      const auto node = static_cast<Eigen::Index>(e);
+      const auto segment = static_cast<std::size_t>(body.mesh.elements[e].segment);
+      const double nu = element.young / (2.0 * element.shear) - 1.0;
+      const auto kappa = std::visit(Coefficients{design_, nu}, beam_->segments[segment].section);
+      Eigen::Matrix<double, 12, 1> q;
+      q << nodal.col(node), nodal.col(node + 1);
+      ElementBending bending;
+      bending.length = element.length;
+      bending.stiffness =
+          element.young * (plane == 0 ? element.section.inertia_z : element.section.inertia_y);
+      bending.shear_stiffness =
+          kappa[static_cast<std::size_t>(plane)] * element.shear * element.section.area;
+      for (std::size_t end = 0; end < 2; ++end) {
+        const double xi = static_cast<double>(end);
+        const auto row = plane == 0 ? deflection_y_row(xi, element.length, 2)
+                                    : deflection_z_row(xi, element.length, 2);
+        bending.curvature[end] = row.dot(q);
+        bending.deflection[end] = nodal(1 + plane, node + static_cast<Eigen::Index>(end));
+      }
+      elements.push_back(bending);
+    }
+    return elements;
+  }
+
+ private:
+  Design<double> design_;
+  const BeamBody* beam_ = nullptr;
+};
+
+double energy_ratio(const BeamBending& elements) {
+  double bending = 0.0, shear = 0.0;
+  for (const ElementBending& element : elements) {
+    bending += element.bending_energy();
+    shear += element.shear_energy();
+  }
+  return bending > 0.0 ? shear / bending : 0.0;
+}
+
+/// Values at nodes, and the largest against an end of the beam or the line through both.
+struct Course {
+  std::vector<double> x{0.0}, value;
+
+  double against_node(std::size_t node) const {
+    double largest = 0.0;
+    for (double v : value) largest = std::max(largest, std::abs(v - value[node]));
+    return largest;
+  }
+  double against_chord() const {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      const double share = x[i] / x.back();
+      const double line = (1.0 - share) * value.front() + share * value.back();
+      largest = std::max(largest, std::abs(value[i] - line));
+    }
+    return largest;
+  }
+};
+
+double ratio(double part, double whole) {
+  return whole > 0.0 ? part / whole : 0.0;
+}
+
+/// The larger one of the shares against the frame and against the chord.
+double displacement_ratio(const BodyModel& body, const BeamBending& elements) {
+  Course bending, shear;
+  bending.value = {elements.front().deflection[0]};
+  shear.value = {0.0};
+  for (const ElementBending& element : elements) {
+    for (Course* course : {&bending, &shear})
+      course->x.push_back(course->x.back() + element.length);
+    bending.value.push_back(element.deflection[1]);
+    // V = −EI v''' bends by +V/κGA
+    shear.value.push_back(shear.value.back() -
+                          element.force() / element.shear_stiffness * element.length);
+  }
+  const double chord = ratio(shear.against_chord(), bending.against_chord());
+  if (body.condition == ReferenceCondition::chord ||
+      body.condition == ReferenceCondition::mean_axis) {
+    return chord;
+  }
+  const bool is_end = body.condition == ReferenceCondition::tangent_end;
+  const std::size_t clamped = is_end ? elements.size() : 0;
+  return std::max(chord, ratio(shear.against_node(clamped), bending.against_node(clamped)));
+}
+
+double largest_deflection(const BeamBending& elements) {
+  double largest = 0.0;
+  for (const ElementBending& element : elements) {
+    for (double v : element.deflection) largest = std::max(largest, std::abs(v));
+  }
+  return largest;
+}
+
+}  // namespace
+
+ShearShare shear_share(const ProblemFile& problem, const Eigen::VectorXd& x, const Model& model,
+                       const std::string& name, const State& state) {
+  const BendingReader reader(problem, x, name);
+  const std::vector<const BodyModel*> parts = model.parts(name);
+  std::array<BeamBending, 2> planes;
+  for (const BodyModel* part : parts) {
+    const Eigen::MatrixXd nodal = nodal_displacements(*part, state);
+    for (int plane = 0; plane < 2; ++plane) {
+      BeamBending& elements = planes[static_cast<std::size_t>(plane)];
+      const BeamBending more = reader.read(*part, nodal, plane);
+      elements.insert(elements.end(), more.begin(), more.end());
+    }
+  }
+  const std::array<double, 2> size{largest_deflection(planes[0]), largest_deflection(planes[1])};
+  std::array<double, 2> shares{};
+  for (std::size_t plane = 0; plane < 2; ++plane) {
+    if (size[plane] <= still * size[1 - plane] || size[plane] == 0.0) continue;
+    shares[plane] = parts.size() > 1 ? energy_ratio(planes[plane])
+                                     : displacement_ratio(*parts.front(), planes[plane]);
+  }
+  return {shares[0], shares[1], std::max(size[0], size[1])};
+}
+
+namespace {
+
+class ShearDoubts {
+ public:
+  explicit ShearDoubts(const TrustedRun& run) : run_(run), model_(run.analysis.model) {}
+
+  std::vector<Doubt> find() {
+    const auto largest = largest_deformations(model_, run_.analysis.trajectory);
+    State state;
+    for (std::size_t i = 0; i < model_.bodies.size(); ++i) {
+      const BodyModel& body = model_.bodies[i];
+      if (!body.is_beam() || !body.is_elastic || largest[i].bending <= known_[body.name]) continue;
+      known_[body.name] = largest[i].bending;
+      run_.analysis.trajectory.load(largest[i].bending_step, state);
+      shares_[body.name] = shear_share(run_.problem, run_.x, model_, body.name, state);
+    }
+    std::vector<Doubt> doubts;
+    for (const auto& [body, share] : shares_) add_doubt(body, share, doubts);
+    return doubts;
+  }
+
+ private:
+  void add_doubt(const std::string& body, const ShearShare& share,
+                 std::vector<Doubt>& doubts) const {
+    double worst = 0.0;
+    std::vector<std::string> responses;
+    for (std::size_t i = 0; i < run_.problem.responses.size(); ++i) {
+      const double error = error_of(i, body, share);
+      if (error <= tolerable) continue;
+      worst = std::max(worst, error);
+      responses.push_back(run_.problem.responses[i].name);
+    }
+    if (responses.empty()) return;
+    std::string names;
+    for (const std::string& name : responses) {
+      names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", name);
+    }
+    const bool is_serious = worst > alarming;
+    const std::string advice = is_serious ? "Do not trust that" : "Where that matters";
+    doubts.push_back(
+        {fmt::format("\"{}\" is stubby: shear, which beams leave out, would change {} by some "
+                     "{:.2g} %. {}: import the body from a code whose elements shear (type "
+                     "\"invariants\").",
+                     body, names, 100.0 * worst, advice),
+         is_serious, responses});
+  }
+
+  /// What shear of a beam changes of a response, over what it is with shear.
+  double error_of(std::size_t index, const std::string& body, const ShearShare& share) const {
+    const ResponseSettings& response = run_.problem.responses[index];
+    const bool is_of_body =
+        std::find(response.bodies.begin(), response.bodies.end(), body) != response.bodies.end();
+    const double largest = share.largest() / (1.0 + share.largest());
+    switch (response.type) {
+      case ResponseType::deflection: {
+        if (response.against == DeflectionReference::rigid_mechanism) return moved(index, share);
+        const double own = response.direction == 1 ? share.along_y : share.along_z;
+        return is_of_body ? own / (1.0 + own) : 0.0;
+      }
+      case ResponseType::position:
+        return moved(index, share);
+      case ResponseType::elastic_energy:
+        return is_of_body ? largest : 0.0;
+      case ResponseType::buckling:
+        return is_of_body ? euler_share(body) : 0.0;
+      case ResponseType::frequency:
+        return is_of_body ? mode_share(body, response.mode) : 0.0;
+      default:
+        return 0.0;
+    }
+  }
+
+  /// Of the range of a position or a deflection against the rigid mechanism.
+  double moved(std::size_t index, const ShearShare& share) const {
+    const Eigen::MatrixXd& history = run_.analysis.histories[index];
+    if (history.size() == 0) return 0.0;
+    const double largest = share.largest();
+    const double range = std::max(history.maxCoeff() - history.minCoeff(), 1e-300);
+    return std::min(largest * share.displacement / range, largest / (1.0 + largest));
+  }
+
+  /// π² EI/(κ G A L²), of the weaker plane.
+  double euler_share(const std::string& name) const {
+    const BodyModel& body = model_.body(name);
+    const BendingReader reader(run_.problem, run_.x, name);
+    const double length = body.beam.node_position(body.beam.node_count() - 1);
+    const Eigen::MatrixXd straight = Eigen::MatrixXd::Zero(6, body.beam.node_count());
+    double share = 0.0;
+    for (int plane = 0; plane < 2; ++plane) {
+      for (const ElementBending& element : reader.read(body, straight, plane)) {
+        share = std::max(share, element.stiffness / element.shear_stiffness);
+      }
+    }
+    share *= std::numbers::pi * std::numbers::pi / (length * length);
+    return share / (1.0 + share);
+  }
+
+  /// Half of the ratio of the energies of a mode: ω² is stiffness.
+  double mode_share(const std::string& name, int mode) const {
+    const BodyModel& body = model_.body(name);
+    if (mode >= body.elastic_size()) return 0.0;
+    const auto dense = [&](const Eigen::VectorXd& entries) {
+      return dense_matrix(body.invariants.pattern, entries);
+    };
+    const NaturalModes modes =
+        natural_modes(dense(body.invariants.stiffness), dense(body.invariants.mass_matrix));
+    const BendingReader reader(run_.problem, run_.x, name);
+    State state(body.elastic_offset() + body.elastic_size(), 0);
+    state.q.tail(body.elastic_size()) = modes.shapes.col(mode);
+    const Eigen::MatrixXd nodal = nodal_displacements(body, state);
+    double shear = 0.0;
+    for (int plane = 0; plane < 2; ++plane) {
+      for (const ElementBending& element : reader.read(body, nodal, plane)) {
+        shear += element.shear_energy();
+      }
+    }
+    const double of_mode = 0.5 * modes.lambda(mode);  // all energy of a mode with unit mass
+    return 0.5 * shear / (of_mode + shear);
+  }
+
+  const TrustedRun& run_;
+  const Model& model_;
+  std::map<std::string, double> known_;  ///< largest rotations [rad]
+  std::map<std::string, ShearShare> shares_;
+};
+
+}  // namespace
+
+std::vector<Doubt> doubt_shear_range(const TrustedRun& run) {
+  return ShearDoubts(run).find();
+}
+
+}  // namespace pleuel

@@ -1,0 +1,138 @@
+#include "core/trust/geometric_error.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/trust/beam_state.hpp"
+#include "core/trust/bending_range.hpp"
+#include "tests/support/bent_cantilever.hpp"
+#include "tests/support/problem_runs.hpp"
+
+namespace pleuel::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Judged {
+  ProblemFile problem;
+  Eigen::VectorXd x;
+  std::unique_ptr<Analysis> analysis;
+  Monitors monitors;
+
+  explicit Judged(ProblemFile file)
+      : problem(std::move(file)), x(start_design(problem)), analysis(analyze(problem, x)) {}
+  explicit Judged(const BentCantilever& cantilever) : Judged(cantilever.problem()) {}
+
+  double value(const std::string& response) const {
+    return analysis->reductions[static_cast<std::size_t>(response_index(problem, response))].value;
+  }
+  GeometricError error() const {
+    State state;
+    analysis->trajectory.load(analysis->trajectory.steps(), state);
+    const BodyModel& body = analysis->model.bodies.front();
+    return estimate_geometric_error(body, nodal_displacements(body, state));
+  }
+  std::vector<Doubt> doubts() const {
+    return doubt_bending_range({problem, x, *analysis, monitors});
+  }
+};
+
+BentCantilever pushed(double alpha) {
+  return {.force_y = alpha * BentCantilever::bending_stiffness};
+}
+
+double relative(double found, double exact) {
+  return std::abs(found - exact) / std::abs(exact);
+}
+
+/// The deflection of linear elasticity is α/3; the exact one is that of the elastica. Estimates are
+/// right to leading order, within a factor of 1.5 up to 35 %.
+TEST(GeometricError, OfDeflectionIsThatAgainstTheElastica) {
+  for (const ElasticaTip& exact : elastica_tips) {
+    BentCantilever cantilever = pushed(exact.load);
+    cantilever.stiffening = "off";
+    const Judged run(cantilever);
+    const double deflection = relative(run.value("y"), exact.deflection);
+    EXPECT_NEAR(run.value("y"), exact.load / 3.0, 1e-6);
+    EXPECT_LT(std::abs(std::log(run.error().deflection / deflection)), std::log(1.1)) << exact.load;
+  }
+}
+
+/// Geometric stiffening shortens by α²/15, in the limit of small deflections.
+TEST(GeometricError, OfShorteningIsThatAgainstTheElastica) {
+  for (std::size_t i : {0u, 1u}) {
+    const ElasticaTip& exact = elastica_tips[i];
+    const Judged run(pushed(exact.load));
+    const double shortening = relative(1.0 - run.value("x"), exact.shortening);
+    EXPECT_LT(std::abs(std::log(run.error().position / shortening)), std::log(1.2)) << exact.load;
+  }
+}
+
+/// Without geometric stiffening bending shortens nothing: positions miss (1 − sin φ/φ) of the
+/// length.
+TEST(GeometricError, KnowsAboutMissingShortening) {
+  BentCantilever cantilever;
+  cantilever.moment_z = 0.3 * BentCantilever::bending_stiffness;
+  cantilever.stiffening = "off";
+  const Judged run(cantilever);
+  EXPECT_NEAR(run.error().position, 1.0 - std::sin(0.3) / 0.3, 1e-3);
+  EXPECT_NEAR(run.error().deflection, relative(0.15, (1.0 - std::cos(0.3)) / 0.3), 1e-3);
+}
+
+/// The same beam in other frames: against the chord, and in space, with modes.
+TEST(GeometricError, IsOfTheSameSizeInSpaceAndWithModes) {
+  const double alone = Judged(pushed(0.5)).error().deflection;
+  BentCantilever spatial = pushed(0.5);
+  spatial.motion = "on";
+  EXPECT_NEAR(Judged(spatial).error().deflection, alone, 1e-3 * alone);
+  BentCantilever reduced = pushed(0.5);
+  reduced.more = R"(, "reduction": {"modes": 4})";
+  EXPECT_NEAR(Judged(reduced).error().deflection, alone, 0.05 * alone);
+  BentCantilever oblique;
+  oblique.force_y = 0.6 * 50.0;
+  oblique.force_z = 0.8 * 50.0;
+  EXPECT_NEAR(Judged(oblique).error().deflection, alone, 0.02 * alone);
+}
+
+/// At an error of 1 % of deflection (α = 0.3) there is a doubt, at 0.3 % (α = 0.16) there is none.
+TEST(BendingRange, IsLeftAtAnErrorOfOnePercent) {
+  ASSERT_EQ(Judged(pushed(0.32)).doubts().size(), 1u);
+  EXPECT_TRUE(Judged(pushed(0.32)).doubts().front().is_serious);
+  EXPECT_TRUE(Judged(pushed(0.16)).doubts().empty());
+  EXPECT_TRUE(Judged(pushed(-0.16)).doubts().empty());
+}
+
+/// As many frames as the doubt asks for leave an error below 1 %, and no doubt.
+TEST(BendingRange, NamesFramesThatCure) {
+  for (const ElasticaTip& exact : {elastica_tips[1], elastica_tips[2], elastica_tips[3]}) {
+    BentCantilever cantilever = pushed(exact.load);
+    cantilever.stiffening = "off";  // in one frame it finds no equilibrium that far
+    const std::vector<Doubt> doubts = Judged(cantilever).doubts();
+    ASSERT_EQ(doubts.size(), 1u);
+    const std::string& text = doubts.front().text;
+    EXPECT_THAT(text, HasSubstr("\"beam\""));
+    const std::string key = "\"frames\": ";
+    cantilever.frames = std::stoi(text.substr(text.find(key) + key.size()));
+    EXPECT_LE(cantilever.frames, 12);
+    cantilever.stiffening = "on";
+    const Judged cured(cantilever);
+    EXPECT_LE(relative(cured.value("y"), exact.deflection), 0.01) << exact.load;
+    EXPECT_TRUE(cured.doubts().empty()) << exact.load;
+  }
+}
+
+/// Pulled by 2 % in its length.
+TEST(BendingRange, IsLeftByLargeStretching) {
+  BentCantilever cantilever;
+  cantilever.force_x = 0.02 * 1.2e11 * 1e-4;  // ε E A
+  const std::vector<Doubt> doubts = Judged(cantilever).doubts();
+  ASSERT_EQ(doubts.size(), 1u);
+  EXPECT_THAT(doubts.front().text, HasSubstr("stretched by 2 %"));
+  cantilever.force_x *= 0.1;
+  EXPECT_TRUE(Judged(cantilever).doubts().empty());
+}
+
+}  // namespace
+}  // namespace pleuel::test

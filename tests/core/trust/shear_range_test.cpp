@@ -1,0 +1,130 @@
+#include "core/trust/shear_range.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/section/shear_coefficient.hpp"
+#include "tests/support/bent_cantilever.hpp"
+#include "tests/support/problem_runs.hpp"
+
+namespace pleuel::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double nu = 0.3;
+
+/// A beam of 1 m in equilibrium under a force of 1 N along y.
+struct StubbyBeam {
+  std::string section;
+  bool is_pinned = false;  ///< at both ends, with the force in the middle; else a cantilever
+  std::string frame = "tangent",
+              response = R"({"type": "deflection", "body": "beam", "at": 1, "over_time": "max"})";
+  int frames = 1;
+
+  ProblemFile problem() const {
+    const std::string clamp =
+        R"({"a": {"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}})";
+    const std::string pins =
+        R"({"a": {"type": "revolute", "bodies": ["ground", "beam"], "at": [0, 0, 0]},
+            "b": {"type": "point-on-line", "bodies": ["ground", "beam"], "at": [1, 0, 0],
+                  "axis": [1, 0, 0]}})";
+    return read_problem_text(fmt::format(R"({{"name": "stubby", "scene": {{"gravity": [0, 0, 0],
+          "materials": {{"steel": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
+          "bodies": {{"beam": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
+            "material": "steel", "section": {}, "elements": 8, "frames": {}, "frame": "{}"}}}},
+          "joints": {}, "loads": {{"push": {{"type": "force", "body": "beam", "at": [{}, 0, 0],
+            "direction": [0, 1, 0], "value": 1}}}}}},
+        "simulation": {{"end_time": 2e-6, "step": 1e-6, "initial_state": "quasi-static"}},
+        "responses": {{"asked": {}}}}})",
+                                         section, frames, frame, is_pinned ? pins : clamp,
+                                         is_pinned ? 0.5 : 1.0, response),
+                             "stubby.json");
+  }
+};
+
+struct Judged {
+  ProblemFile problem;
+  Eigen::VectorXd x;
+  std::unique_ptr<Analysis> analysis;
+  Monitors monitors;
+
+  explicit Judged(const StubbyBeam& beam)
+      : problem(beam.problem()), x(start_design(problem)), analysis(analyze(problem, x)) {}
+  double share() const {
+    State state;
+    analysis->trajectory.load(0, state);
+    return shear_share(problem, x, analysis->model, "beam", state).along_y;
+  }
+  std::vector<Doubt> doubts() const { return doubt_shear_range({problem, x, *analysis, monitors}); }
+};
+
+std::string rectangle(double height) {
+  return fmt::format(R"({{"type": "rectangle", "width": 0.05, "height": {}}})", height);
+}
+
+/// Timoshenko: P L³/(3EI) + P L/(κGA), and P L³/(48EI) + P L/(4κGA).
+TEST(ShearShare, IsThatOfTimoshenkosClosedForm) {
+  for (const double size : {0.05, 0.2, 0.5}) {
+    for (const bool is_round : {false, true}) {
+      const double kappa =
+          is_round ? 6.0 * (1.0 + nu) / (7.0 + 6.0 * nu) : 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu);
+      // EI/(κGA) with I/A = h²/12 or d²/16
+      const double ratio = 2.0 * (1.0 + nu) / kappa * size * size / (is_round ? 16.0 : 12.0);
+      const std::string section =
+          is_round ? fmt::format(R"({{"type": "circle", "diameter": {}}})", size) : rectangle(size);
+      for (const int frames : {1, 2}) {
+        StubbyBeam beam{section};
+        beam.response = R"({"type": "mass"})";
+        beam.frames = frames;
+        EXPECT_NEAR(Judged(beam).share(), 3.0 * ratio, 1e-3 * ratio) << size << is_round << frames;
+        beam.is_pinned = true;
+        for (const std::string frame : {"chord", "tangent", "mean-axis"}) {
+          beam.frame = frame;
+          EXPECT_NEAR(Judged(beam).share(), 12.0 * ratio, 0.01 * ratio) << size << frame << frames;
+        }
+      }
+    }
+  }
+}
+
+/// The case of h/L = 0.5 is 16 % too stiff; slender beams are left in peace.
+TEST(ShearRange, IsLeftByStubbyBeams) {
+  const std::vector<Doubt> doubts = Judged(StubbyBeam{rectangle(0.5)}).doubts();
+  ASSERT_EQ(doubts.size(), 1u);
+  EXPECT_THAT(doubts.front().text, HasSubstr("\"beam\" is stubby"));
+  EXPECT_THAT(doubts.front().text, HasSubstr("some 16 %"));
+  EXPECT_EQ(doubts.front().responses, std::vector<std::string>{"asked"});
+  EXPECT_TRUE(doubts.front().is_serious);
+  EXPECT_TRUE(Judged(StubbyBeam{rectangle(0.05)}).doubts().empty());
+}
+
+/// Stress of a cantilever does not depend on its stiffness; its frequencies and positions do.
+TEST(ShearRange, ConcernsWhatRestsOnStiffness) {
+  const auto doubts = [](const std::string& response) {
+    StubbyBeam beam{rectangle(0.5)};
+    beam.response = response;
+    return Judged(beam).doubts().size();
+  };
+  EXPECT_EQ(doubts(R"({"type": "stress", "body": "beam", "over_time": "max"})"), 0u);
+  EXPECT_EQ(doubts(R"({"type": "mass"})"), 0u);
+  EXPECT_EQ(doubts(R"({"type": "frequency", "body": "beam"})"), 1u);
+  EXPECT_EQ(doubts(R"({"type": "buckling", "body": "beam", "over_time": "max"})"), 1u);
+}
+
+/// Cowper's coefficients meet: an ellipse with equal axes and a tube without hole are circles, a
+/// thin tube has 2(1 + ν)/(4 + 3ν), a thin box without flanges is a rectangle.
+TEST(ShearCoefficient, OfSectionsThatAreTheSameIsTheSame) {
+  const double circle = 6.0 * (1.0 + nu) / (7.0 + 6.0 * nu);
+  EXPECT_NEAR(round_shear_coefficient(nu, 0.0), circle, 1e-15);
+  EXPECT_NEAR(ellipse_shear_coefficient(nu, 2.0, 2.0), circle, 1e-15);
+  EXPECT_NEAR(round_shear_coefficient(nu, 1.0), 2.0 * (1.0 + nu) / (4.0 + 3.0 * nu), 1e-15);
+  const double rectangle = rectangle_shear_coefficient(nu);
+  EXPECT_NEAR(box_shear_coefficient(nu, {1.0, 1e-9, 0.01, 0.01}), rectangle, 1e-6);
+  EXPECT_NEAR(i_shear_coefficient(nu, {1.0, 1e-9, 0.01, 0.01}), rectangle, 1e-6);
+}
+
+}  // namespace
+}  // namespace pleuel::test
