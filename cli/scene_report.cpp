@@ -101,6 +101,12 @@ std::string assembly_text(const Analysis& analysis) {
   analysis.trajectory.load(0, initial);
   Eigen::VectorXd shift = difference(mechanism.rotations, initial.q, mechanism.guess.q).cwiseAbs();
   for (const int i : mechanism.elastic) shift(i) = 0.0;
+  // Where members start deformed, frames of one beam stand along its curve.
+  for (const BodyModel& body : analysis.model.bodies) {
+    const bool is_divided = analysis.model.parts(body.name).size() > 1;
+    if (!is_divided || !mechanism.starts_in_equilibrium) continue;
+    shift.segment(body.frame.offset, body.frame.size()).setZero();
+  }
   Eigen::Index largest = 0;
   if (shift.size() == 0 ||
       shift.cwiseQuotient(mechanism.scale).maxCoeff(&largest) <= visible_shift) {

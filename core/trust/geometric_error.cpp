@@ -22,7 +22,7 @@ std::string GeometricError::most() const {
   if (most == strain) return "its length";
   if (most == deflection) return "its deflection";
   if (most == curvature) return "its curvature and stress";
-  return most == rotation ? "the rotation of its nodes" : "positions along it";
+  return most == rotation ? "the rotation of its nodes" : "its shortening by bending";
 }
 
 namespace {
