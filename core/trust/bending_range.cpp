@@ -41,11 +41,11 @@ Finding find_in(const TrustedRun& run, const BodyModel& body, const LargestDefor
     finding.error.deflection = error_per_square * largest.bending * largest.bending;
     return finding;
   }
-  if (largest.bending < small_bending && largest.twist < small_twist &&
-      largest.strain < small_strain) {
-    return finding;
-  }
-  for (int step : std::set<int>{largest.bending_step, largest.twist_step, largest.strain_step}) {
+  std::set<int> steps;  // without those of next to no deformation: there errors are round-off
+  if (largest.bending >= small_bending) steps.insert(largest.bending_step);
+  if (largest.twist >= small_twist) steps.insert(largest.twist_step);
+  if (largest.strain >= small_strain) steps.insert(largest.strain_step);
+  for (int step : steps) {
     const GeometricError error = error_at(run, body, step);
     if (error.largest() > finding.error.largest()) finding.error = error;
   }

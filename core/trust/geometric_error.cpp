@@ -32,6 +32,8 @@ using Eigen::Vector3d;
 
 /// Pieces of an element that are integrated as one.
 constexpr int pieces = 4;
+/// Rotations, and displacements over the length, that say nothing.
+constexpr double round_off = 1e-9;
 
 /// The middle of a piece in the linear solution.
 struct Piece {
@@ -195,7 +197,7 @@ class ExactBeam {
       largest = std::max(largest, linear[i].curvature.norm());
       change = std::max(change, (pieces_[i].curvature - linear[i].curvature).norm());
     }
-    if (largest > 0.0) error.curvature = change / largest;
+    if (largest * length() > round_off) error.curvature = change / largest;
   }
 
   void compare_shapes(const Shape& exact, const std::vector<Piece>& linear,
@@ -217,10 +219,10 @@ class ExactBeam {
                    rotation_vector(rotation_of(rotation).transpose() * exact.rotation[i]).norm());
       if (node < last) x += body_.beam.elements[static_cast<std::size_t>(node)].length;
     }
-    if (sideways > 0.0) error.deflection = sideways_error / sideways;
-    if (turned > 0.0) error.rotation = turned_error / turned;
+    if (sideways > round_off * length()) error.deflection = sideways_error / sideways;
+    if (turned > round_off) error.rotation = turned_error / turned;
     const double along = body_.has_stiffening ? axial_scale(linear) : length();
-    if (along > 0.0) error.position = along_error / along;
+    if (along > round_off * length()) error.position = along_error / along;
   }
 
   /// Elongation and shortening by bending, each by its size [m].

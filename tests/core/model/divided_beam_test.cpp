@@ -39,7 +39,7 @@ struct Simulated {
 /// α = 1 is 10 % off in one frame. Measured against the tables of the elastica, each doubling of
 /// the frames takes three quarters of the error.
 TEST(DividedBeam, ConvergesToTheElasticaAtLeastAsTheSquareOfItsFrames) {
-  for (const std::string motion : {"auto"}) {
+  for (const std::string motion : {"auto", "on"}) {
     const ElasticaTip& exact = elastica_tips[2];
     std::vector<double> sizes, errors;
     for (int frames : {1, 2, 4, 8}) {
@@ -55,6 +55,19 @@ TEST(DividedBeam, ConvergesToTheElasticaAtLeastAsTheSquareOfItsFrames) {
     EXPECT_GE(observed_order(sizes, errors), 1.8) << motion;
     EXPECT_LE(errors.back(), 4e-3 * exact.deflection) << motion;
   }
+}
+
+/// In both planes at once the deflection is the same, of a square section.
+TEST(DividedBeam, BendsInAnyDirectionInSpaceAlike) {
+  const ElasticaTip& exact = elastica_tips[3];
+  BentCantilever cantilever;
+  cantilever.frames = 8;
+  cantilever.force_y = 0.6 * exact.load * BentCantilever::bending_stiffness;
+  cantilever.force_z = 0.8 * exact.load * BentCantilever::bending_stiffness;
+  const Simulated run(cantilever);
+  EXPECT_NEAR(run.value("y"), 0.6 * exact.deflection, 5e-3 * exact.deflection);
+  EXPECT_NEAR(run.value("z"), 0.8 * exact.deflection, 5e-3 * exact.deflection);
+  EXPECT_NEAR(run.value("x"), 1.0 - exact.shortening, 5e-3 * exact.deflection);
 }
 
 /// M L/(E I) = 1: an arc of that angle. Its moment is the same everywhere.
