@@ -21,6 +21,7 @@ std::vector<std::string> joints_of(const NearRedundancy& near, const Model& mode
     const auto is_its = [&joint](int row) {
       return joint.first_multiplier <= row && row < joint.first_multiplier + joint.equations();
     };
+    if (joint.is_division) continue;
     if (is_its(near.constraint) || std::any_of(near.others.begin(), near.others.end(), is_its)) {
       names.push_back(joint.name);
     }
@@ -32,7 +33,8 @@ std::vector<std::string> bodies_of(const NearRedundancy& near, const Model& mode
   std::vector<std::string> names;
   for (const BodyModel& body : model.bodies) {
     const auto part = near.motion.segment(body.frame.offset, body.frame.size());
-    if (part.lpNorm<Eigen::Infinity>() > visible) names.push_back(body.name);
+    if (part.lpNorm<Eigen::Infinity>() <= visible) continue;
+    if (names.empty() || names.back() != body.name) names.push_back(body.name);
   }
   return names;
 }

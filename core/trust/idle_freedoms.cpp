@@ -102,7 +102,9 @@ class IdleFreedoms {
   }
 
   const Body& scene_body(const BodyModel& body) const {
-    return run_.problem.scene.bodies[static_cast<std::size_t>(&body - model_.bodies.data())];
+    const std::vector<Body>& bodies = run_.problem.scene.bodies;
+    return *std::find_if(bodies.begin(), bodies.end(),
+                         [&](const Body& other) { return other.name == body.name; });
   }
 
   bool is_grounded(const BodyModel& body) const {
@@ -193,9 +195,11 @@ class IdleFreedoms {
     return idle;
   }
 
-  static Eigen::MatrixXd rows_of_others(const BodyModel& body, const Eigen::MatrixXd& motions) {
+  Eigen::MatrixXd rows_of_others(const BodyModel& body, const Eigen::MatrixXd& motions) const {
     Eigen::MatrixXd rows = motions;
-    rows.middleRows(body.frame.offset, body.frame.size()).setZero();
+    for (const BodyModel* part : model_.parts(body.name)) {
+      rows.middleRows(part->frame.offset, part->frame.size()).setZero();
+    }
     return rows;
   }
 
@@ -232,7 +236,7 @@ class IdleFreedoms {
     bool is_moved = false;
     for (const BodyModel& body : model_.bodies) {
       if (rows_of(body, idle).lpNorm<Eigen::Infinity>() <= visible) continue;
-      names.push_back(body.name);
+      if (names.empty() || names.back() != body.name) names.push_back(body.name);
       is_moved = is_moved || moves(body);
     }
     Doubt doubt;

@@ -39,9 +39,9 @@ std::vector<Doubt> doubt_misaligned_joints(const TrustedRun& run) {
   const Model& model = run.analysis.model;
   std::vector<Doubt> doubts;
   for (const Misalignment& found : find_misalignments(model, start, locking)) {
-    const bool is_locked =
-        std::none_of(found.bodies.begin(), found.bodies.end(),
-                     [&](const std::string& name) { return moves(model.body(name), run); });
+    const bool is_locked = std::none_of(
+        found.bodies.begin(), found.bodies.end(),
+        [&](const std::string& name) { return moves(*model.parts(name).front(), run); });
     if (found.size > hardly_meant && !is_locked) continue;
     doubts.push_back({found.text(), true});
   }
