@@ -114,7 +114,8 @@ std::unique_ptr<Signal> make_compression_signal(const BodyModel& body,
 
 std::vector<EulerLoad> euler_loads(const BodyModel& body, int variables) {
   std::vector<EulerLoad> loads;
-  for (const int plane : BucklingQuantity(body).planes()) {
+  const BucklingQuantity quantity(body);
+  for (const int plane : quantity.planes()) {
     EulerLoad load{BucklingQuantity::euler_load(body.beam, plane),
                    Eigen::VectorXd::Zero(variables)};
     for (const auto& [variable, beam] : body.beam_x) {

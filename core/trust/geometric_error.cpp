@@ -209,7 +209,9 @@ class ExactBeam {
       const auto i = static_cast<std::size_t>(pieces * node);
       const Vector3d displacement = exact.position[i] - x * Vector3d::UnitX();
       const Vector3d change = displacement - nodal_.col(node).head<3>();
-      sideways = std::max(sideways, nodal_.col(node).segment<2>(1).norm());
+      // Twist displaces the edges of the sections.
+      sideways = std::max({sideways, nodal_.col(node).segment<2>(1).norm(),
+                           std::abs(nodal_(3, node)) * edge_distance()});
       sideways_error = std::max(sideways_error, change.tail<2>().norm());
       along_error = std::max(along_error, std::abs(change(0)));
       const Vector3d rotation = nodal_.col(node).tail<3>();
@@ -223,6 +225,17 @@ class ExactBeam {
     if (turned > round_off) error.rotation = turned_error / turned;
     const double along = body_.has_stiffening ? axial_scale(linear) : length();
     if (along > round_off * length()) error.position = along_error / along;
+  }
+
+  /// From the axis to the farthest stress point of a section [m].
+  double edge_distance() const {
+    double largest = 0.0;
+    for (const BeamElement<double>& element : body_.beam.elements) {
+      for (const StressPoint<double>& point : element.section.points) {
+        largest = std::max(largest, std::hypot(point.y, point.z));
+      }
+    }
+    return largest;
   }
 
   /// Elongation and shortening by bending, each by its size [m].

@@ -9,6 +9,7 @@
 
 #include "core/beam/beam_place.hpp"
 #include "core/model/scene_geometry.hpp"
+#include "core/trust/beam_state.hpp"
 #include "core/trust/lateral_stability.hpp"
 
 namespace pleuel {
@@ -133,40 +134,27 @@ class Supports {
 /// The section forces of one beam over time.
 class BeamHistory {
  public:
-  BeamHistory(const BodyModel& model, BendingPlane plane)
-      : model_(model), nodal_(model.basis ? *model.nodal : model), plane_(plane) {}
+  BeamHistory(const BodyModel& model, BendingPlane plane) : model_(model), plane_(plane) {}
 
   PlaneLoad at(const State& state) const {
     PlaneLoad load;
-    const Beam<double>& beam = nodal_.beam;
-    Eigen::VectorXd columns, local;
-    if (model_.basis) {
-      columns.resize(model_.map.columns());
-      model_.map.gather(state.q, columns, local);
-    }
-    const auto displacement = [&](int node, int i) {
-      const int index = nodal_.coordinate(node, i);
-      if (index < 0) return 0.0;
-      return model_.basis ? local(index) : state.q(index);
-    };
+    const Beam<double>& beam = model_.beam;
+    const Eigen::MatrixXd nodal = nodal_displacements(model_, state);
     const bool is_xy = plane_ == BendingPlane::xy;
     for (int e = 0; e + 1 < beam.node_count(); ++e) {
       const BeamElement<double>& element = beam.elements[static_cast<std::size_t>(e)];
       const auto end = [&](int node) {  // deflection and slope in the plane
-        return is_xy ? std::array{displacement(node, 1), displacement(node, 5)}
-                     : std::array{displacement(node, 2), -displacement(node, 4)};
+        return is_xy ? std::array{nodal(1, node), nodal(5, node)}
+                     : std::array{nodal(2, node), -nodal(4, node)};
       };
       const auto a = end(e), b = end(e + 1);
-      double stretch = displacement(e + 1, 0) - displacement(e, 0);
-      if (nodal_.has_stiffening) {
-        stretch += 0.5 * slope_integral(b[0] - a[0], a[1], b[1], element.length);
-      }
       const double inertia = is_xy ? element.section.inertia_z : element.section.inertia_y;
       const auto moment = [&](double xi) {
         const auto h = hermite(xi, element.length, 2);
         return element.young * inertia * (h[0] * a[0] + h[1] * a[1] + h[2] * b[0] + h[3] * b[1]);
       };
-      load.axial.push_back(element.young * element.section.area * stretch / element.length);
+      load.axial.push_back(element.young * element.section.area * elongation_of(model_, nodal, e) /
+                           element.length);
       load.moment.push_back({moment(0.0), moment(1.0)});
     }
     return load;
@@ -174,7 +162,6 @@ class BeamHistory {
 
  private:
   const BodyModel& model_;
-  const BodyModel& nodal_;
   BendingPlane plane_;
 };
 
@@ -274,12 +261,15 @@ class SidewaysBuckling {
     return std::sqrt(1.0 + pi * pi * lateral_ * depth_ * depth_ / (length_ * length_ * twisting_));
   }
 
+  /// Serious where compression alone is too large. Where a bending moment takes part the numbers
+  /// hold for a member that is held sideways, as the motion takes it to be.
   /// @param is_bent  whether the bending moment takes part
   Doubt doubt(double factor, bool is_bent) const {
     const double moment = largest_moment(load_), press = largest_press(load_);
     std::string what;
     if (is_bent) what = fmt::format("a bending moment of {:.3g} N m", moment);
-    if (press > 0.0) {
+    const double pi = std::numbers::pi;
+    if (press > 1e-3 * pi * pi * lateral_ / (length_ * length_)) {
       what += fmt::format("{}a pressing force of {:.3g} N", is_bent ? " and " : "", press);
     }
     const bool is_beyond = factor * (is_bent ? warping() : 1.0) < 1.0;
@@ -292,7 +282,7 @@ class SidewaysBuckling {
                 body_.name, is_beyond ? "buckles" : "comes near to buckling",
                 is_bent ? "lateral-torsional buckling" : "about its weak axis", what, time_, factor,
                 unseen, is_beyond ? " Make it stiffer sideways or in torsion, or hold it." : ""),
-            is_beyond};
+            is_beyond && !is_bent};
   }
 
   const TrustedRun& run_;
