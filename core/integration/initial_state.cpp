@@ -175,7 +175,7 @@ InitialState initial_state(Mechanism& mechanism) {
   initial.state.a.setZero();
   initial.state.lambda.setZero();
   System::Matrix matrix = mechanism.system->make_matrix();
-  LinearSolver solver(matrix, mechanism.elastic);
+  LinearSolver solver(matrix);
   assemble_positions(mechanism, solver, matrix, initial);
   project_velocities(mechanism, solver, matrix, initial);
   solve_accelerations(mechanism, solver, matrix, initial.state);
