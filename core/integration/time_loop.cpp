@@ -20,7 +20,7 @@ constexpr double slow_rate = 0.1;
 constexpr double round_off = 1e-9;
 
 /// Constraints of index 1 may drift so far, relative to the largest scale of a coordinate.
-constexpr double most_drift = 1e-3;
+constexpr double most_drift = 1e-2;
 /// A step is halved so often at most.
 constexpr int max_splits = 6;
 
