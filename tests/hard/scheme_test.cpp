@@ -128,9 +128,12 @@ TEST(Index1, KeepsItsConstraintsToRoundOffByProjection) {
   EXPECT_LE(drift_of_index_1(4.0, projection), 1e-14);
 }
 
-/// It would go on with joints that are apart by the size of the mechanism.
+/// It would go on with joints that are apart by the size of the mechanism. When they are by a
+/// hundredth depends on what the first step sets out from: measured 9 s with the exact acceleration
+/// and jerk, 39 s with those of a damped start.
 TEST(Index1, StopsWhereTheBricardMechanismComesApartAndNamesTheJoint) {
-  const ProblemFile problem = sample_problem("hard/bricard", {"/simulation/formulation=index-1"});
+  const ProblemFile problem =
+      sample_problem("hard/bricard", {"/simulation/formulation=index-1", end_of(60.0)});
   try {
     analyze(problem, start_design(problem));
     FAIL() << "it drifts";
