@@ -249,16 +249,24 @@ TEST_F(ReadBackOptimum, History) {
 /// The lines while it works, in the unit of the objective.
 TEST_F(ReadBackOptimum, Iterations) {
   const TextTable table(report_.text, "iteration");
-  ASSERT_EQ(table.rows(), document_.at("iterations").get<std::size_t>());
   const std::vector<double> iterations = report_.column("history.csv", "iteration");
+  std::size_t shown = 0;
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    const auto found = std::find(iterations.begin(), iterations.end(), double(row + 1));
+    const std::string first = table.text(row, "iteration");
+    if (first == "polish" || first == "audit") continue;  // what the evaluations from here are for
+    ++shown;
+    EXPECT_EQ(first, fmt::format("{}", shown));
+    const auto found = std::find(iterations.begin(), iterations.end(), double(shown));
+    ASSERT_NE(found, iterations.end());
     const auto i = static_cast<std::size_t>(found - iterations.begin());
     expect_shown(table.text(row, "objective [kg]"), "kg",
                  report_.column("history.csv", "objective")[i]);
     expect_shown(table.text(row, "max violation"), "1",
                  report_.column("history.csv", "max_violation")[i]);
   }
+  EXPECT_EQ(shown, document_.at("iterations").get<std::size_t>());
+  // The answer is proven by designs beside it, which are no iterations.
+  EXPECT_EQ(table.row_of("audit"), shown);
 }
 
 TEST(ReadBack, OfPareto) {
