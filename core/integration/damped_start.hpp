@@ -21,6 +21,10 @@ namespace pleuel {
 ///     a = a(0) + O(h²),   w = a(δ) + O(h²) with the delay δ of the scheme
 /// so multipliers keep their order from the first step on (Jay & Negrut 2007). Index 3 also needs
 /// velocities that start off the constraints (jerk.hpp).
+///
+/// Where the damping of elastic coordinates is no stiffer than the step, or the step resolves the
+/// start, so that both agree, a₀ itself serves: a = a₀, and w = a₀ + δ j with the jerk j of the
+/// constraints.
 class DampedStart {
  public:
   /// @param first_step  the scheme of the first step
@@ -51,11 +55,16 @@ class DampedStart {
                                 const Eigen::MatrixXd& v);
   /// What the line through both makes of them at a time.
   std::array<double, 2> weights_at(double time) const;
+  /// Whether the probes find the acceleration of the start again.
+  bool is_resolved(const Eigen::VectorXd& found) const;
+  bool has_stiff_damping() const;
+  void set_exact();
 
   Mechanism& mechanism_;
   State start_;
   double step_, delay_, weight_of_jerk_;
-  bool is_needed_;  ///< implicit Euler looks at no accelerations
+  bool is_needed_;         ///< implicit Euler looks at no accelerations
+  bool is_exact_ = false;  ///< not damped, or resolved by the step
   std::array<Probe, 2> probes_;
   Eigen::VectorXd v_, a_, w_;
 };

@@ -23,7 +23,7 @@ Json swung_arm() {
       "bodies": {
         "boom": {"type": "beam", "from": [0, 0, 0], "to": [0.48, 0.36, 0], "material": "light",
                  "section": {"type": "rectangle", "width": 0.012, "height": 0.006},
-                 "elements": 3, "frame": "chord", "damping": {"stiffness": 1e-3}},
+                 "elements": 3, "frame": "chord", "damping": {"stiffness": 1e-4}},
         "arm": {"type": "beam", "from": [0.48, 0.36, 0], "to": [0.4, 0.6, 0], "material": "light",
                 "section": {"type": "rectangle", "width": 0.02, "height": 0.016}, "elements": 2,
                 "damping": {"stiffness": 1e-4}}
