@@ -130,8 +130,7 @@ class Run {
     return verdict;
   }
 
-  /// What the polisher makes of an answer that is nearly an optimum; else the answer itself. Only a
-  /// proof counts, or a lower objective strictly within the limits.
+  /// What the polisher makes of an answer that is nearly an optimum; else the answer itself.
   Verdict polished(Verdict verdict) {
     if (!is_worth_polishing(verdict, options_.verdict) || is_lost_ ||
         polishes_ >= options_.max_polishes || cache_.iterations() >= polish_budget().iterations) {
@@ -139,15 +138,38 @@ class Run {
     }
     ++polishes_;
     cache_.set_purpose(Purpose::polish);
+    const std::size_t first = cache_.history().size();
     const Eigen::VectorXd end = polish(cache_, verdict.design, verdict.audit, polish_budget());
+    const Eigen::VectorXd last = last_step(first, end);
     cache_.set_purpose(Purpose::audit);
-    std::optional<Verdict> next = audit(end);
-    if (!next || end == verdict.design.x) return verdict;
-    const bool is_proof = next->status == Status::verified && verdict.status != Status::verified;
-    const bool keeps_limits = next->design.max_violation <= strict_violation;
-    if (!is_proof && !(keeps_limits && is_better(*next, verdict))) return verdict;
-    is_polished_ = true;
-    return std::move(*next);
+    for (const Eigen::VectorXd& x : {last, end}) {
+      if (x == verdict.design.x) continue;
+      std::optional<Verdict> next = audit(x);
+      if (!next || !is_refined(*next, verdict)) continue;
+      is_polished_ = true;
+      verdict = std::move(*next);
+      if (verdict.status == Status::verified) break;
+    }
+    return verdict;
+  }
+
+  /// Where the steps of a polish led: the last design with gradients from this evaluation on. Its
+  /// answer may be another one: the lowest objective within the backend's own tolerance of the
+  /// limits, be it the design that it began with.
+  Eigen::VectorXd last_step(std::size_t first, const Eigen::VectorXd& end) const {
+    const History& history = cache_.history();
+    for (std::size_t i = history.size(); i > first; --i) {
+      const EvaluationRecord& record = history[i - 1];
+      if (record.request == Request::values_and_gradients && !record.has_failed()) return record.x;
+    }
+    return end;
+  }
+
+  /// Only a proof counts, or a lower objective strictly within the limits.
+  bool is_refined(const Verdict& next, const Verdict& verdict) const {
+    const bool is_proof = next.status == Status::verified && verdict.status != Status::verified;
+    const bool keeps_limits = next.design.max_violation <= strict_violation;
+    return is_proof || (keeps_limits && is_better(next, verdict));
   }
 
   Eigen::VectorXd run_backend(const KnownDesign& from, double tolerance) {

@@ -1,10 +1,13 @@
 #include "studies/derivative_check.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/base/relative_error.hpp"
+#include "sensitivity/finite_difference.hpp"
 #include "sensitivity/sampled_gradients.hpp"
 #include "studies/noise.hpp"
 #include "tests/studies/quick_problem.hpp"
@@ -118,19 +121,57 @@ ProblemFile loose_problem() {
       {"/simulation/step=1 ms", "/simulation/end_time=30 ms", "/simulation/newton_tolerance=1e-3"});
 }
 
-TEST(DerivativeCheck, BlamesALooseNewtonToleranceAndNotTheDerivatives) {
-  const ProblemFile problem = loose_problem();
+/// Central differences of two steps, extrapolated to none (Richardson): of fourth order, so that
+/// steps can be long and round-off small.
+Eigen::MatrixXd extrapolated_differences(const ProblemFile& problem, const Eigen::VectorXd& x) {
+  const double step = 1e-3;
+  return (4.0 * central_differences(problem, x, 0.5 * step) -
+          central_differences(problem, x, step)) /
+         3.0;
+}
+
+ProblemFile tight_problem() {
+  ProblemFile problem = loose_problem();
+  problem.simulation.newton_tolerance = 1e-12;
+  return problem;
+}
+
+/// What the check below relies on. Single central differences come within some 1e-6 only: their
+/// truncation, as the square of the step, meets their round-off, as its inverse, near 3e-5.
+TEST(DerivativeCheck, WouldFindTheDerivativesRightWithATightTolerance) {
+  const ProblemFile problem = tight_problem();
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
+  const Eigen::VectorXd values = values_of(*analysis);
+  const Eigen::MatrixXd direct =
+      sampled_gradients(*analysis, response_values(*analysis), ExactMethod::direct);
+  const Eigen::MatrixXd differences = extrapolated_differences(problem, x);
+  for (Eigen::Index i = 0; i < direct.rows(); ++i) {
+    EXPECT_LT(gradient_error(direct.row(i), differences.row(i), x, std::abs(values(i))), 2e-7)
+        << problem.responses[static_cast<std::size_t>(i)].name;
+  }
+}
+
+TEST(DerivativeCheck, BlamesALooseNewtonToleranceAndNotTheDerivatives) {
+  const ProblemFile problem = loose_problem(), tight = tight_problem();
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const auto tight_analysis = analyze(tight, x);
+  const auto checks = check_derivatives(problem, x, *analysis);
+  const auto tight_checks = check_derivatives(tight, x, *tight_analysis);
   int loose = 0;
-  for (const DerivativeCheck& check : check_derivatives(problem, x, *analysis)) {
-    EXPECT_NE(check.verdict(), DerivativeVerdict::differs);
-    for (const JudgedDerivative& judged : check.variables) {
+  for (std::size_t i = 0; i < checks.size(); ++i) {
+    EXPECT_NE(checks[i].verdict(), DerivativeVerdict::differs);
+    for (std::size_t j = 0; j < checks[i].variables.size(); ++j) {
+      const JudgedDerivative& judged = checks[i].variables[j];
       if (!judged.tight_error) continue;
       ++loose;
       EXPECT_EQ(judged.verdict, DerivativeVerdict::noise);
       EXPECT_GT(judged.error, 1e-6);  // what differences with this tolerance say
-      EXPECT_LT(*judged.tight_error, 1e-6);
+      const JudgedDerivative& better = tight_checks[i].variables[j];
+      EXPECT_EQ(*judged.tight_error, better.error);
+      EXPECT_LT(*judged.tight_error, std::max(1e-6, better.resolution));  // of differences
+      EXPECT_LT(*judged.tight_error, judged.error);
     }
   }
   EXPECT_GT(loose, 0);
