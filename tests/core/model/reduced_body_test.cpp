@@ -81,11 +81,20 @@ TEST(CraigBamptonModes, OfANumberAreTheSameInSpaceAsInThePlane) {
 /// Measured: 5.8e-6, 2.4e-7, 2.6e-8, 4.1e-9 m.
 TEST(CraigBamptonModes, AFewOfThemConverge) {
   int full_size = 0;
-  const auto full = places_of(sample_with({}, EffectChoice::off), &full_size);
+  // Less damping than elsewhere: where it is stiff in a step for some of the modes only, starts
+  // differ (core/integration/damped_start.hpp), by 1e-6 m here.
+  const auto sample_of = [](std::optional<int> modes) {
+    SampleScene sample = sample_with(modes, EffectChoice::off);
+    for (Body& body : sample.scene.bodies) {
+      std::get<BeamBody>(body.shape).damping = {1.0, 2e-5};
+    }
+    return sample;
+  };
+  const auto full = places_of(sample_of({}), &full_size);
   double previous = 1.0;
   for (int modes : {0, 1, 2, 4}) {
     int size = 0;
-    const double error = distance_of(places_of(sample_with(modes, EffectChoice::off), &size), full);
+    const double error = distance_of(places_of(sample_of(modes), &size), full);
     EXPECT_LT(error, previous / 3) << modes << " modes";
     EXPECT_LT(size, full_size);
     previous = error;
