@@ -4,10 +4,10 @@
 #include <chrono>
 
 #include "core/base/error.hpp"
+#include "core/base/relative_error.hpp"
 #include "core/base/stop.hpp"
 #include "core/trust/doubts.hpp"
 #include "sensitivity/gradients.hpp"
-#include "core/base/relative_error.hpp"
 
 namespace pleuel {
 

@@ -7,11 +7,11 @@
 #include <tuple>
 
 #include "core/base/error.hpp"
+#include "core/base/relative_error.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/kinks.hpp"
 #include "sensitivity/sampled_gradients.hpp"
 #include "studies/noise.hpp"
-#include "core/base/relative_error.hpp"
 
 namespace pleuel {
 

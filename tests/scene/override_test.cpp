@@ -55,8 +55,8 @@ TEST(Override, BeginsABlockThatTheFileLeavesOut) {
 
 TEST(Override, BeginsABlockOfTheSceneThatTheFileLeavesOut) {
   ASSERT_TRUE(read_with({}).scene.loads.empty());
-  const ProblemFile problem = read_with(
-      {R"(/scene/loads/push={"type": "force", "body": "slider", "at": [0.3, 0, 0],
+  const ProblemFile problem =
+      read_with({R"(/scene/loads/push={"type": "force", "body": "slider", "at": [0.3, 0, 0],
            "direction": [1, 0, 0], "value": "1 N"})"});
   EXPECT_EQ(problem.scene.loads.size(), 1u);
 }

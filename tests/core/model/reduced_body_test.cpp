@@ -86,7 +86,7 @@ TEST(CraigBamptonModes, AFewOfThemConverge) {
   const auto sample_of = [](std::optional<int> modes) {
     SampleScene sample = sample_with(modes, EffectChoice::off);
     for (Body& body : sample.scene.bodies) {
-      std::get<BeamBody>(body.shape).damping = {1.0, 2e-5};
+      std::get<BeamBody>(body.shape).damping = {1.0, 5e-5};
     }
     return sample;
   };
