@@ -22,6 +22,8 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 constexpr int max_iterations = 25;
 /// Newton's method ends at this change of scaled coordinates.
 constexpr double tolerance = 1e-13;
+/// Or where it gets no further, at this share of the largest deformation.
+constexpr double stuck_share = 1e-9;
 /// Or where it gets no further and each equation is met to this share of its terms. Stiff elements
 /// leave such changes of the coordinates as round-off makes of it, some n⁴ of it for n elements.
 constexpr double round_off = 1e-12;
@@ -321,7 +323,11 @@ bool Equilibrium::solve_from(const Eigen::VectorXd& target, InitialState& at) {
     const bool is_met = is_stuck && backward_error(matrix, unknowns(at), left) < round_off;
     strains = strains_.predicted(at.state.q, step.head(n_));
     advance_by(step, at);
-    if (size < tolerance || (size < 1e-9 && is_stuck) || is_met) return true;
+    const double deformation = at.state.q(mechanism_.elastic)
+                                   .cwiseQuotient(mechanism_.scale(mechanism_.elastic))
+                                   .lpNorm<Eigen::Infinity>();
+    const bool is_round_off = is_stuck && size < stuck_share * std::max(1.0, deformation);
+    if (size < tolerance || is_round_off || is_met) return true;
     previous = size;
   }
   return false;
