@@ -136,6 +136,19 @@ void add_invariants(CLI::App& app, Arguments& arguments) {
   add_overwrite(invariants, arguments);
 }
 
+void add_prices(CLI::App& app, Arguments& arguments) {
+  CLI::App* prices = add_file_command(app, arguments, "prices",
+                                      "what the optimum would gain by each number of the file");
+  prices
+      ->add_option("--design", arguments.design,
+                   "the optimum: result.json of an optimization (default: it is looked for first)")
+      ->type_name("FILE");
+  add_output(prices, arguments);
+  add_backend(prices, arguments);
+  add_method(prices, arguments);
+  add_jobs(prices, arguments);
+}
+
 void add_commands(CLI::App& app, Arguments& arguments) {
   CLI::App* check = add_file_command(
       app, arguments, "check",
@@ -161,6 +174,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   add_backend(pareto, arguments);
   add_method(pareto, arguments);
   add_jobs(pareto, arguments);
+  add_prices(app, arguments);
   add_output(add_file_command(app, arguments, "accuracy",
                               "errors and times for steps x elements; the cheapest that will do"),
              arguments);

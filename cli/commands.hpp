@@ -14,6 +14,7 @@ Outcome run_gradient(const Arguments& arguments);
 Outcome run_invariants(const Arguments& arguments);
 Outcome run_optimize(const Arguments& arguments);
 Outcome run_pareto(const Arguments& arguments);
+Outcome run_prices(const Arguments& arguments);
 Outcome run_simulate(const Arguments& arguments);
 Outcome run_stability(const Arguments& arguments);
 

@@ -61,10 +61,10 @@ ProblemInput read_file(const std::filesystem::path& file, const Arguments& argum
   input.design = arguments.design ? read_design(*arguments.design, input.problem)
                                   : start_design(input.problem);
   decide_effects(input.problem);
-  const std::string text = read_text(file);
-  input.effective = parse_json(text, file.string());
+  input.text = {read_text(file), file.string(), arguments.overrides};
+  input.effective = parse_json(input.text.text, file.string());
   Fingerprint fingerprint;
-  fingerprint.add(text);
+  fingerprint.add(input.text.text);
   for (const std::string& assignment : arguments.overrides) {
     apply_override(input.effective, assignment, file.string());
     fingerprint.add(assignment);

@@ -9,6 +9,7 @@
 #include "cli/arguments.hpp"
 #include "cli/json.hpp"
 #include "core/scene/problem_file.hpp"
+#include "core/scene/problem_numbers.hpp"
 
 namespace pleuel {
 
@@ -17,6 +18,7 @@ struct ProblemInput {
   std::filesystem::path file;
   ProblemFile problem;     ///< with the method of the command line
   Eigen::VectorXd design;  ///< [SI]: that of --design, else the start
+  ProblemText text;        ///< what it was read from
   Json effective;          ///< the file with all overrides applied
   std::string hash;        ///< of the file's text, the overrides and another design: "fnv1a64:…"
 };

@@ -11,13 +11,12 @@
 #include "core/trust/doubts.hpp"
 #include "optimization/broken_limits.hpp"
 #include "optimization/kkt_audit.hpp"
+#include "optimization/margin_problem.hpp"
 #include "optimization/peak_problem.hpp"
 #include "optimization/peak_windows.hpp"
 #include "optimization/prices.hpp"
-#include "optimization/robust_problem.hpp"
 #include "optimization/scaling.hpp"
 #include "optimization/verdict.hpp"
-#include "sensitivity/gradients.hpp"
 #include "sensitivity/kinks.hpp"
 
 namespace pleuel {
@@ -39,29 +38,6 @@ void continue_from(const Result& before, Result& result) {
   result.restarts += before.restarts + 1;
   result.seconds += before.seconds;
   result.history.insert(result.history.begin(), before.history.begin(), before.history.end());
-}
-
-/// With the margins that the constraints of the file ask for, if any.
-/// @param constraint_of_row  of a problem made of that of the file
-/// @throws InputError if gradients are differences: those of differences would be noise
-std::unique_ptr<Problem> with_margins(
-    Problem& problem, const DesignProblem& design,
-    const std::vector<std::optional<std::size_t>>& constraint_of_row) {
-  Eigen::VectorXd margins = Eigen::VectorXd::Zero(Eigen::Index(constraint_of_row.size()));
-  for (std::size_t row = 0; row < constraint_of_row.size(); ++row) {
-    if (!constraint_of_row[row]) continue;
-    margins(static_cast<Eigen::Index>(row)) =
-        design.file().constraints[*constraint_of_row[row]].deviations;
-  }
-  if (margins.isZero(0.0)) return nullptr;
-  if (is_difference(design.file().sensitivity.method)) {
-    throw InputError(
-        "/sensitivity/method must be \"auto\", \"direct\" or \"adjoint\" where a constraint has "
-        "\"deviations\": their gradients are differences of gradients");
-  }
-  Eigen::VectorXd deviations = Eigen::VectorXd::Zero(Eigen::Index(problem.variables().size()));
-  deviations.head(Eigen::Index(design.variables().size())) = design.variable_deviations();
-  return std::make_unique<RobustProblem>(problem, deviations, margins);
 }
 
 /// Records of a run on windows as records of the file, counted on from the run before.

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <limits>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "tests/cli/program.hpp"
@@ -136,6 +139,73 @@ TEST(StabilityCommand, ReportsWhatFails) {
     EXPECT_THAT(study_run.at("failure").get<std::string>(), testing::HasSubstr("t = "));
   }
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "runs/dead_centres-stability/stability.csv"));
+}
+
+TEST(PricesCommand, WritesWhatItSays) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(
+      folder.path(), joined({"prices", problem("slider_crank_round"), "-o", "p"}, quick()));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json result = nlohmann::json::parse(read_file(folder.path() / "p/result.json"));
+  const nlohmann::json& prices = result.at("prices");
+  const double mass = result.at("objective").at("value");
+  const auto rows = read_csv(folder.path() / "p/prices.csv");
+  ASSERT_EQ(rows.size(), 1 + prices.size());
+  EXPECT_EQ(rows.front(), (std::vector<std::string>{"name", "kind", "value", "unit", "per_unit",
+                                                    "per_percent", "next_limit"}));
+  double last = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const nlohmann::json& price = prices.at(rows[i].at(0));
+    EXPECT_EQ(price.at("kind"), rows[i].at(1));
+    EXPECT_EQ(price.at("value"), std::stod(rows[i].at(2)));
+    EXPECT_EQ(price.at("per_unit"), std::stod(rows[i].at(4)));
+    const double percent = price.at("per_percent");
+    EXPECT_EQ(percent, std::stod(rows[i].at(5)));
+    EXPECT_NEAR(percent,
+                0.01 * price.at("value").get<double>() * price.at("per_unit").get<double>(),
+                1e-14 * std::abs(percent));
+    EXPECT_LE(std::abs(percent), last);
+    last = std::abs(percent);
+  }
+  // The table shows grams and percent of the same number, in units of engineers.
+  const nlohmann::json& density = prices.at("/scene/materials/steel/density");
+  const double share = 100.0 * density.at("per_percent").get<double>() / mass;
+  EXPECT_THAT(unwrapped(run.out),
+              testing::HasSubstr(fmt::format("materials/steel/density 7850.0 kg/m^3 +{:.4g} +",
+                                             density.at("per_unit").get<double>())));
+  EXPECT_THAT(unwrapped(run.out), testing::HasSubstr(fmt::format("+{:.3f} %", share)));
+}
+
+TEST(PricesCommand, AreThoseOfTheDesignThatIsGivenIfItIsAnOptimum) {
+  const TemporaryFolder folder;
+  const std::string file = problem("slider_crank_round");
+  ASSERT_EQ(run_program(folder.path(), joined({"optimize", file, "-o", "o"}, quick())).exit_code,
+            0);
+  const ProgramRun of_optimum = run_program(
+      folder.path(),
+      joined({"prices", file, "--design", "o/result.json", "--json", "-o", "p"}, quick()));
+  EXPECT_EQ(of_optimum.exit_code, 0) << of_optimum.err;
+  const nlohmann::json priced = of_optimum.document();
+  EXPECT_EQ(priced.at("status"), "done");
+  // Those of limits are the multipliers of the optimization.
+  const nlohmann::json optimum = nlohmann::json::parse(read_file(folder.path() / "o/result.json"));
+  bool has_limit = false;
+  for (const auto& [name, constraint] : optimum.at("constraints").items()) {
+    const double multiplier = constraint.at("multiplier");
+    if (multiplier == 0.0) continue;
+    const auto& price = priced.at("prices").at("/constraints/" + name + "/upper");
+    EXPECT_NEAR(price.at("per_unit").get<double>() / -multiplier, 1.0, 1e-3) << name;
+    has_limit = true;
+  }
+  EXPECT_TRUE(has_limit);
+
+  nlohmann::json start = optimum;
+  start["variables"]["rod_diameter"]["value"] = 0.03;
+  std::ofstream(folder.path() / "elsewhere.json") << start;
+  const ProgramRun elsewhere = run_program(
+      folder.path(), joined({"prices", file, "--design", "elsewhere.json", "-o", "e"}, quick()));
+  EXPECT_EQ(elsewhere.exit_code, 4);
+  EXPECT_THAT(unwrapped(elsewhere.out), testing::HasSubstr("the design is no optimum"));
 }
 
 }  // namespace

@@ -75,7 +75,11 @@ double NumberReader::fixed(const JsonNode& node, const Quantity& quantity, Range
 
 Number NumberReader::designable(const JsonNode& node, const Quantity& quantity, Range range) {
   if (node.value().is_object()) return binding(node, quantity, range);
-  if (node.value().is_number() || node.value().is_string()) return fixed(node, quantity, range);
+  if (node.value().is_number() || node.value().is_string()) {
+    const double value = fixed(node, quantity, range);
+    fixed_.push_back({node, value, quantity});
+    return value;
+  }
   node.fail_with_value(
       fmt::format("must be {}: a number in SI units, a text with unit or {{\"variable\": name}}",
                   describe(quantity)));

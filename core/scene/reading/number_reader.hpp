@@ -35,6 +35,13 @@ struct VariableUse {
   JsonNode node;
 };
 
+/// A fixed number where a design variable could stand.
+struct FixedNumber {
+  JsonNode node;
+  double value = 0.0;  ///< [SI]
+  Quantity quantity;
+};
+
 /// Reads numbers with units and bindings to design variables. The quantity of a variable is that of
 /// the places it is used in, which must agree. Everything throws InputError.
 class NumberReader {
@@ -69,6 +76,9 @@ class NumberReader {
 
   const std::vector<VariableUse>& uses() const { return uses_; }
 
+  /// All that designable() found to be fixed, in the order of reading.
+  const std::vector<FixedNumber>& fixed_numbers() const { return fixed_; }
+
   /// The quantity of a variable; nothing if it is not used.
   std::optional<Quantity> quantity_of(int variable) const;
 
@@ -84,6 +94,7 @@ class NumberReader {
   const UnitSystem* units_;
   std::vector<std::string> variables_;
   std::vector<VariableUse> uses_;
+  std::vector<FixedNumber> fixed_;
 };
 
 }  // namespace pleuel

@@ -1,0 +1,95 @@
+#include "core/scene/reading/document_reader.hpp"
+
+#include "core/scene/reading/catalogue.hpp"
+#include "core/scene/reading/goal_reader.hpp"
+#include "core/scene/reading/override.hpp"
+#include "core/scene/reading/response_reader.hpp"
+#include "core/scene/reading/scene_check.hpp"
+#include "core/scene/reading/scene_reader.hpp"
+#include "core/scene/reading/settings_reader.hpp"
+#include "core/scene/reading/variable_reader.hpp"
+
+namespace pleuel {
+namespace {
+
+void read_heading(const JsonNode& root, ProblemFile& problem) {
+  root.allow_keys({"$schema", "name", "description", "scene", "effects", "simulation",
+                   "sensitivity", "variables", "responses", "objective", "constraints", "optimizer",
+                   "pareto", "accuracy", "uncertainty"});
+  if (const auto schema = root.find("$schema")) schema->text();
+  if (const auto name = root.find("name")) problem.name = name->text();
+  if (const auto description = root.find("description")) problem.description = description->text();
+}
+
+void read_settings(const JsonNode& root, const NumberReader& numbers, ProblemFile& problem) {
+  if (const auto effects = root.find("effects")) problem.effects = read_effects(*effects);
+  if (const auto sensitivity = root.find("sensitivity")) {
+    problem.sensitivity = read_sensitivity(*sensitivity, numbers);
+  }
+  if (const auto optimizer = root.find("optimizer")) problem.optimizer = read_optimizer(*optimizer);
+  if (const auto pareto = root.find("pareto")) {
+    problem.pareto = read_pareto(*pareto, problem, numbers);
+  }
+  if (const auto accuracy = root.find("accuracy")) {
+    problem.accuracy = read_accuracy(*accuracy, numbers);
+  }
+  if (const auto uncertainty = root.find("uncertainty")) {
+    problem.uncertainty = read_uncertainty(*uncertainty, numbers, problem.variables);
+  }
+}
+
+void check_margins(const JsonNode& root, const ProblemFile& problem) {
+  for (const ConstraintSettings& constraint : problem.constraints) {
+    if (constraint.deviations == 0.0 || problem.uncertainty) continue;
+    root.at("constraints")
+        .at(constraint.name)
+        .at("deviations")
+        .fail("needs the block \"uncertainty\", which says what scatters");
+  }
+}
+
+}  // namespace
+
+Json whole_document(const ProblemText& text, const UnitSystem& units) {
+  Json document = parse_json(text.text, text.file);
+  for (const std::string& assignment : text.overrides) {
+    apply_override(document, assignment, text.file);
+  }
+  expand_catalogue(document, text.file, units);
+  return document;
+}
+
+std::vector<std::string> variable_names(const JsonNode& root) {
+  std::vector<std::string> names;
+  if (const auto variables = root.find("variables")) {
+    for (const auto& [name, variable] : variables->members()) names.push_back(name);
+  }
+  return names;
+}
+
+/// The variables come late: where they are used tells what they measure.
+ProblemFile read_document(const JsonNode& root, NumberReader& numbers) {
+  ProblemFile problem;
+  read_heading(root, problem);
+  problem.scene = read_scene(root.at("scene"), numbers);
+  problem.simulation = read_simulation(root.at("simulation"), numbers);
+  if (const auto responses = root.find("responses")) {
+    problem.responses = read_responses(*responses, {problem.scene, problem.simulation, numbers});
+  }
+  if (const auto objective = root.find("objective")) {
+    problem.objective = read_objective(*objective, problem.responses);
+  }
+  if (const auto constraints = root.find("constraints")) {
+    problem.constraints = read_constraints(*constraints, problem.responses, numbers);
+  }
+  if (const auto variables = root.find("variables")) {
+    problem.variables = read_variables(*variables, numbers);
+  }
+  read_settings(root, numbers, problem);
+  check_margins(root, problem);
+  check_scene(root.at("scene"), problem);
+  if (const auto effects = root.find("effects")) check_effects(*effects, problem);
+  return problem;
+}
+
+}  // namespace pleuel

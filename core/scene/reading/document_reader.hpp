@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scene/problem_file.hpp"
+#include "core/scene/problem_numbers.hpp"
+#include "core/scene/reading/json_node.hpp"
+#include "core/scene/reading/number_reader.hpp"
+#include "core/scene/units.hpp"
+
+namespace pleuel {
+
+/// The document that a problem is read from: with all overrides, and sections of the catalogue
+/// written out. @throws InputError
+Json whole_document(const ProblemText& text, const UnitSystem& units);
+
+/// Names of the design variables, in order.
+std::vector<std::string> variable_names(const JsonNode& root);
+
+/// @param numbers  that knows variable_names()
+/// @throws InputError
+ProblemFile read_document(const JsonNode& root, NumberReader& numbers);
+
+}  // namespace pleuel

@@ -1,0 +1,196 @@
+#include "studies/number_prices.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/scene/problem_reader.hpp"
+#include "optimization/design_solve.hpp"
+#include "studies/priced_numbers.hpp"
+
+namespace pleuel::test {
+namespace {
+
+/// A bar of width b under a force F at its end, at rest; its height h has to carry it: the mass is
+/// ρ L b h with h = √(6 F L / (b σ)). So m = ρ L^(3/2) b^(1/2) F^(1/2) √6 σ^(−1/2).
+constexpr const char* bar = R"({
+  "scene": {
+    "materials": {"steel": {"young": "210 GPa", "poisson": 0.3, "density": "7850 kg/m^3"}},
+    "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": ["400 mm", 0, 0],
+                       "material": "steel", "elements": 2,
+                       "section": {"type": "rectangle", "width": "30 mm",
+                                   "height": {"variable": "height"}}}},
+    "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}},
+    "loads": {"press": {"type": "force", "body": "bar", "at": [0.4, 0, 0],
+                        "direction": [0, -1, 0], "value": "0.5 kN"}}},
+  "simulation": {"end_time": "1 ms", "step": "0.5 ms", "initial_state": "quasi-static"},
+  "variables": {"height": {"start": "30 mm", "lower": "1 mm", "upper": "60 mm"}},
+  "responses": {"m": {"type": "mass"}, "s": {"type": "stress", "body": "bar", "over_time": "max"}},
+  "objective": {"minimize": "m"},
+  "constraints": {"strength": {"response": "s", "upper": "100 MPa"}}})";
+
+const double height_of_bar = std::sqrt(6 * 500 * 0.4 / (0.03 * 1e8));
+
+const NumberPrice* find(const PriceList& list, const std::string& name) {
+  for (const NumberPrice& price : list.prices) {
+    if (price.name == name) return &price;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> names_of(const std::vector<NumberGroup>& groups) {
+  std::vector<std::string> names;
+  for (const NumberGroup& group : groups) names.push_back(group.name);
+  return names;
+}
+
+TEST(NumberPrices, AreTheExponentsOfAClosedForm) {
+  const ProblemText text{bar, "bar.json"};
+  const PriceList list = number_prices(text, read_problem_text(bar, "bar.json"),
+                                       Eigen::VectorXd::Constant(1, height_of_bar));
+  EXPECT_NEAR(list.objective, 7850 * 0.4 * 0.03 * height_of_bar, 1e-12);
+  EXPECT_LT(list.residual, 1e-6);
+  for (const auto& [name, exponent] :
+       std::vector<std::pair<std::string, double>>{{"/scene/materials/steel/density", 1.0},
+                                                   {"/scene/bodies/bar/to/0", 1.5},
+                                                   {"/scene/bodies/bar/section/width", 0.5},
+                                                   {"/scene/loads/press/value", 0.5},
+                                                   {"/constraints/strength/upper", -0.5}}) {
+    const NumberPrice* price = find(list, name);
+    ASSERT_NE(price, nullptr) << name;
+    EXPECT_NEAR(price->per_percent() / (0.01 * list.objective), exponent, 1e-6) << name;
+    EXPECT_EQ(price->next_limit, "") << name;
+  }
+  // Stiffness moves the tip, not the mass: what is left is round-off, and no price.
+  EXPECT_EQ(find(list, "/scene/materials/steel/young")->per_unit, 0.0);
+  EXPECT_EQ(list.prices.front().name, "/scene/bodies/bar/to/0");
+}
+
+TEST(NumberPrices, OfABoundIsThatOfTheObjective) {
+  const std::vector<std::string> overrides = {"/variables/height/start=50 mm",
+                                              "/variables/height/lower=40 mm"};
+  const PriceList list =
+      number_prices({bar, "bar.json", overrides}, read_problem_text(bar, "bar.json", overrides),
+                    Eigen::VectorXd::Constant(1, 0.04));
+  const NumberPrice* bound = find(list, "/variables/height/lower");
+  ASSERT_NE(bound, nullptr);
+  EXPECT_NEAR(bound->per_unit, 7850 * 0.4 * 0.03, 1e-6);
+  EXPECT_EQ(find(list, "/constraints/strength/upper"), nullptr);
+  EXPECT_EQ(find(list, "/scene/loads/press/value")->per_unit, 0.0);
+}
+
+/// The optimum is at 20 mm, the bound at 20.05 mm: one percent more force would lift it by 0.5 %,
+/// to where the upper bound decides.
+TEST(NumberPrices, SaysWhichBoundDecidesNext) {
+  const std::vector<std::string> overrides = {"/variables/height/start=20 mm",
+                                              "/variables/height/upper=20.05 mm"};
+  const ProblemFile problem = read_problem_text(bar, "bar.json", overrides);
+  const PriceList list = number_prices({bar, "bar.json", overrides}, problem,
+                                       Eigen::VectorXd::Constant(1, height_of_bar));
+  EXPECT_EQ(find(list, "/scene/loads/press/value")->next_limit, "height");
+  EXPECT_EQ(find(list, "/scene/materials/steel/density")->next_limit, "");
+}
+
+TEST(NumberPrices, OfAFixedVariableIsThatOfTheNumber) {
+  const std::vector<std::string> overrides = {
+      R"(/scene/bodies/bar/section/width={"variable": "width"})",
+      R"(/variables/width={"start": "30 mm", "lower": "30 mm", "upper": "30 mm"})"};
+  const ProblemFile problem = read_problem_text(bar, "bar.json", overrides);
+  const PriceList list =
+      number_prices({bar, "bar.json", overrides}, problem, Eigen::Vector2d(height_of_bar, 0.03));
+  const NumberPrice* width = find(list, "width");
+  ASSERT_NE(width, nullptr);
+  EXPECT_EQ(width->kind, NumberPrice::Kind::variable);
+  EXPECT_NEAR(width->per_percent() / (0.01 * list.objective), 0.5, 1e-6);
+}
+
+TEST(PricedNumbers, MovePointsThatAreSharedAsOne) {
+  const auto groups = priced_numbers({bar, "bar.json"}, read_problem_text(bar, "bar.json"));
+  for (const NumberGroup& group : groups) {
+    if (group.name == "/scene/bodies/bar/to/0") {
+      EXPECT_THAT(group.pointers,
+                  testing::ElementsAre("/scene/bodies/bar/to/0", "/scene/loads/press/at/0"));
+    } else if (group.name == "/scene/bodies/bar/from/1") {
+      EXPECT_THAT(group.pointers,
+                  testing::ElementsAre("/scene/bodies/bar/from/1", "/scene/joints/wall/at/1"));
+    }
+  }
+  // Across the plane nothing is priced.
+  EXPECT_THAT(names_of(groups), testing::Not(testing::Contains("/scene/bodies/bar/to/2")));
+  EXPECT_THAT(names_of(groups), testing::Contains("/scene/bodies/bar/to/1"));
+}
+
+TEST(PricedNumbers, AreThoseOfLibraryMaterialsToo) {
+  std::string text = bar;
+  const std::string declared =
+      R"("materials": {"steel": {"young": "210 GPa", "poisson": 0.3, "density": "7850 kg/m^3"}},)";
+  text.erase(text.find(declared), declared.size());
+  const auto groups = priced_numbers({text, "bar.json"}, read_problem_text(text, "bar.json"));
+  EXPECT_THAT(names_of(groups), testing::Contains("/scene/materials/steel/density"));
+}
+
+TEST(PricedNumbers, LeaveOutWhatNoVariableCanStandFor) {
+  const std::vector<std::string> overrides = {"/scene/gravity=[0, -9.81, 0]"};
+  const auto groups =
+      priced_numbers({bar, "bar.json", overrides}, read_problem_text(bar, "bar.json", overrides));
+  EXPECT_THAT(names_of(groups), testing::Not(testing::Contains(testing::HasSubstr("gravity"))));
+}
+
+/// Binding a number to a variable that is fixed at its value changes no response.
+TEST(PricedNumbers, LeaveTheMechanismAsItIsWhenTheyAreBound) {
+  const std::string path = std::string(PLEUEL_SOURCE_DIR) + "/problems/slider_crank.json";
+  const ProblemFile problem = read_problem(path);
+  std::ifstream stream(path);
+  const ProblemText text{{std::istreambuf_iterator<char>(stream), {}}, path};
+  const ProblemFile bound = bind_numbers(text, priced_numbers(text, problem));
+  ASSERT_GT(bound.variables.size(), problem.variables.size() + 10);
+  const auto before = analyze(problem, start_design(problem));
+  const auto after = analyze(bound, start_design(bound));
+  EXPECT_EQ(before->model.mechanism.system->coordinates(),
+            after->model.mechanism.system->coordinates());
+  EXPECT_LT((values_of(*before) - values_of(*after))
+                .cwiseQuotient(values_of(*before))
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-12);
+}
+
+/// Re-optimized with a little more and less of each number: the optimum of the flexible
+/// slider-crank, two limits and two proportions decide it.
+TEST(NumberPrices, AreThoseOfOptimizingAnew) {
+  const std::string path = std::string(PLEUEL_SOURCE_DIR) + "/problems/slider_crank.json";
+  std::ifstream stream(path);
+  const std::string file{std::istreambuf_iterator<char>(stream), {}};
+  const std::string coarse = "/simulation/step=0.2 ms";
+  const auto optimum = [&](const std::vector<std::string>& overrides) {
+    DesignProblem design(read_problem(path, overrides));
+    return solve_design(design, {});
+  };
+  const Result result = optimum({coarse});
+  ASSERT_EQ(result.status, Status::verified);
+  const PriceList list =
+      number_prices({file, path, {coarse}}, read_problem(path, {coarse}), result.x);
+  struct Case {
+    const char *pointer, *less, *more;
+    double percents;  ///< between them
+  };
+  for (const Case& one :
+       {Case{"/scene/materials/steel/density", "7810.75 kg/m^3", "7889.25 kg/m^3", 1.0},
+        Case{"/scene/materials/steel/young", "208.95 GPa", "211.05 GPa", 1.0},
+        Case{"/scene/joints/bearing/drive/speed", "199.95 rad/s", "200.05 rad/s", 0.05},
+        Case{"/constraints/crank_strength/upper", "199 MPa", "201 MPa", 1.0}}) {
+    const auto at = [&](const char* value) {
+      return optimum({coarse, std::string(one.pointer) + "=" + value}).evaluation.objective;
+    };
+    const double anew = at(one.more) - at(one.less);
+    const NumberPrice* price = find(list, one.pointer);
+    ASSERT_NE(price, nullptr) << one.pointer;
+    EXPECT_NEAR(one.percents * price->per_percent() / anew, 1.0, 0.01) << one.pointer;
+  }
+}
+
+}  // namespace
+}  // namespace pleuel::test
