@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/error.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/extrapolation.hpp"
@@ -133,8 +134,16 @@ TEST(MisalignedJoints, OfALoopInSpaceThatIsDrivenAreRedundant) {
     return analyze(problem, start_design(problem))->reductions[0].value;
   };
   const double expected = torque(0.0);
-  for (const double tilt : {1e-9, 1e-8, 1e-7}) {
+  for (const double tilt : {1e-9, 1e-8, 1e-7, 5e-7}) {
     EXPECT_NEAR(torque(tilt), expected, 1e-4 * expected) << tilt;
+  }
+  for (const double tilt : {1e-5, 1e-3, 1e-2}) {
+    try {
+      torque(tilt);
+      ADD_FAILURE() << "a loop that is locked was driven";
+    } catch (const SimulationError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("would hold a motion")) << tilt;
+    }
   }
 }
 
