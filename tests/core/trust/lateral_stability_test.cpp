@@ -172,6 +172,9 @@ TEST(SidewaysBuckling, IsToldNearTheCriticalLoadInThePlaneAndInSpace) {
   for (const char* effects : {"{}", R"({"spatial_motion": "on"})"}) {
     for (const char* body : {"", R"(, "reduction": {"modes": 2})"}) {
       EXPECT_TRUE(doubts_of(cantilever(0.5 * critical_force(), thin, effects, body)).empty());
+      // From three quarters on.
+      EXPECT_TRUE(doubts_of(cantilever(0.73 * critical_force(), thin, effects, body)).empty());
+      EXPECT_EQ(doubts_of(cantilever(0.77 * critical_force(), thin, effects, body)).size(), 1u);
       const auto near = doubts_of(cantilever(0.9 * critical_force(), thin, effects, body));
       ASSERT_EQ(near.size(), 1u) << effects << body;
       EXPECT_FALSE(near[0].is_serious);
