@@ -188,6 +188,52 @@ TEST(StationaryDesign, IsJudgedAtFewEvaluations) {
   EXPECT_LE(values, 6 + 4);
 }
 
+/// f = 1 + 1000 y − x² with 1 + y − k x² ≥ 1. Beside the origin, y as it is, f falls by x² while
+/// the limit is violated by k x², here less than what is restored: its price is 1000 k x². So the
+/// origin is the minimum for 1000 k > 1 and none below.
+KnownProblem bought_by_violation(double k) {
+  return {"bought by violation",
+          {{{"x", 0.0, -1.0, 1.0}, {"y", 0.0, -1.0, 1.0}},
+           {{"limit", 1.0, infinity}},
+           by_complex_step([k](const auto& x) {
+             return column(x, 1.0 + 1000.0 * x[1] - x[0] * x[0], 1.0 + x[1] - k * x[0] * x[0]);
+           })},
+          1.0};
+}
+
+TEST(Neighbourhood, CountsAViolationAtItsPrice) {
+  for (const double k : {0.002, 0.0015}) {
+    KnownProblem minimum = bought_by_violation(k);
+    const Eigen::VectorXd x = checked_start(minimum.problem);
+    const Verdict verdict = judge_anew(minimum.problem, x, x);
+    EXPECT_EQ(verdict.status, Status::verified) << verdict.message;
+    EXPECT_NEAR(verdict.audit.constraint_multipliers[0], -1000.0, 1e-6);
+  }
+  KnownProblem maximum = bought_by_violation(0.0005);
+  const Eigen::VectorXd x = checked_start(maximum.problem);
+  const Verdict verdict = judge_anew(maximum.problem, x, x);
+  EXPECT_EQ(verdict.status, Status::stalled) << verdict.message;
+  EXPECT_TRUE(verdict.better_neighbour);
+}
+
+/// The other way round: what a neighbour keeps better than the design is credited. f = 1 + 1000 y
+/// + x² with 1 + y + k x² ≥ 1, whose room beside the origin is worth 1000 k x².
+TEST(Neighbourhood, CreditsRoomAtItsPrice) {
+  const auto with_room = [](double k) {
+    return FunctionProblem({{"x", 0.0, -1.0, 1.0}, {"y", 0.0, -1.0, 1.0}},
+                           {{"limit", 1.0, infinity}}, by_complex_step([k](const auto& x) {
+                             return column(x, 1.0 + 1000.0 * x[1] + x[0] * x[0],
+                                           1.0 + x[1] + k * x[0] * x[0]);
+                           }));
+  };
+  FunctionProblem minimum = with_room(0.0005), maximum = with_room(0.002);
+  const Eigen::VectorXd x = checked_start(minimum);
+  EXPECT_EQ(judge_anew(minimum, x, x).status, Status::verified);
+  const Verdict verdict = judge_anew(maximum, x, x);
+  EXPECT_EQ(verdict.status, Status::stalled) << verdict.message;
+  EXPECT_TRUE(verdict.better_neighbour);
+}
+
 /// Against a dense eigensolver.
 TEST(LowestCurvature, IsTheSmallestEigenvalueInTheSubspace) {
   Eigen::MatrixXd matrix(6, 6);

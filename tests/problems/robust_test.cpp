@@ -73,4 +73,44 @@ TEST(RobustConstraints, CostMassThatPlainLimitsDoNot) {
   EXPECT_GT(with.evaluation.objective, 1.01 * without.evaluation.objective);
 }
 
+/// A block that goes to 100 mm, whatever the design, and then to the uncertain a, deviation 2 mm;
+/// the objective is its last place, −a. Limited is the largest place, with three deviations:
+/// 100 mm ≤ 102 mm at the first peak, which does not scatter, and a + 6 mm ≤ 102 mm at the second.
+const char* const two_peaks = R"({
+  "scene": {
+    "bodies": {"block": {"type": "rigid", "at": [0, 0, 0], "mass": 1,
+      "inertia": [1, 1, 1, 0, 0, 0]}},
+    "joints": {"guide": {"type": "prismatic", "bodies": ["ground", "block"], "at": [0, 0, 0],
+      "axis": [1, 0, 0], "drive": {"type": "table",
+        "times": [0, "10 ms", "20 ms", "30 ms", "40 ms"],
+        "values": [0, "100 mm", 0, {"variable": "a"}, {"variable": "a", "factor": -1}]}}}},
+  "simulation": {"end_time": "40 ms", "step": "0.2 ms"},
+  "variables": {"a": {"start": "80 mm", "lower": "50 mm", "upper": "98 mm"}},
+  "uncertainty": {"parameters": {"a": {"deviation": "2 mm"}}},
+  "responses": {
+    "reach": {"type": "position", "body": "block", "direction": "x", "over_time": "max"},
+    "end": {"type": "position", "body": "block", "direction": "x", "over_time": "final"}},
+  "objective": {"minimize": "end"},
+  "constraints": {"room": {"response": "reach", "upper": "102 mm", "deviations": 3}}})";
+
+/// At the bound of a the highest peak keeps its margin, and the lower one does not.
+TEST(RobustConstraints, HoldForLowerPeaksThatScatterMore) {
+  for (const char* upper : {"98 mm", "99.9 mm"}) {
+    DesignProblem problem(read_problem_text(two_peaks, "two_peaks.json",
+                                            {std::string("/variables/a/upper=") + upper}));
+    const Result result = solve_design(problem, {.backend = "nlopt-slsqp"});
+    EXPECT_EQ(result.status, Status::verified) << result.message;
+    EXPECT_NEAR(result.x(0), 0.096, 2e-5) << upper;
+  }
+}
+
+/// Where both keep theirs the bound is the answer.
+TEST(RobustConstraints, LeaveABoundThatAllPeaksKeep) {
+  DesignProblem problem(
+      read_problem_text(two_peaks, "two_peaks.json", {"/variables/a/upper=95 mm"}));
+  const Result result = solve_design(problem, {.backend = "nlopt-slsqp"});
+  EXPECT_EQ(result.status, Status::verified) << result.message;
+  EXPECT_NEAR(result.x(0), 0.095, 1e-9);
+}
+
 }  // namespace

@@ -65,6 +65,29 @@ TEST(BadText, KeysThatAreThereTwiceAreRefused) {
   EXPECT_EQ(complaint_about_text(R"({"scene": 1, "scene": 1})"), "bad.json: /scene is there twice");
 }
 
+/// A terminal obeys them: escape (C0), delete, and the control sequence introducer of C1.
+TEST(BadText, ControlCharactersAreRefusedInNamesAndTexts) {
+  for (const char* character : {"\\u001b", "\\u0000", "\\u0007", "\x7F", "\xC2\x9B", "\\u009b"}) {
+    const std::string name = std::string("a") + character + "[2Jb";
+    EXPECT_EQ(complaint_about_text(R"({"scene": {"bodies": {")" + name + R"(": 1}}})"),
+              "bad.json: a name in /scene/bodies has a control character, which no name may have");
+    EXPECT_EQ(complaint_about_text(R"({")" + name + R"(": 1})"),
+              "bad.json: a name in the document has a control character, which no name may have");
+    EXPECT_EQ(complaint_about_text(R"({"list": [1, {"name": ")" + name + R"("}]})"),
+              "bad.json: the text of /list/1/name has a control character; of those texts may have "
+              "tabs and line breaks");
+  }
+  EXPECT_EQ(complaint_about_text(R"({"a\nb": 1})"),
+            "bad.json: a name in the document has a control character, which no name may have");
+  // Characters beside them are none: space, ~, the no-break space of U+00A0, ä.
+  for (const char* text : {" ~", "\xC2\xA0", "\xC3\xA4"}) {
+    Json document = good_json();
+    document["name"] = text;
+    document["description"] = "two\nlines,\ttabbed";
+    EXPECT_EQ(read(document).name, text);
+  }
+}
+
 TEST(BadText, NestedTooDeeplyIsRefusedWithoutOverflow) {
   EXPECT_THAT(complaint_about_text(std::string(1000000, '[')),
               HasSubstr("is nested deeper than 64 levels"));

@@ -1,6 +1,7 @@
 #include "core/scene/reading/json_text.hpp"
 
 #include <algorithm>
+#include <string_view>
 #include <unordered_set>
 #include <vector>
 
@@ -28,10 +29,12 @@ std::string plain_reason(const std::string& what) {
 }
 
 /// What a terminal would obey instead of showing it: C0, DEL, and C1 in UTF-8.
-bool has_control_character(const std::string& text) {
+/// @param allowed  of these
+bool has_control_character(const std::string& text, std::string_view allowed = "") {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto byte = static_cast<unsigned char>(text[i]);
     const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 'x');
+    if (allowed.find(text[i]) != std::string_view::npos) continue;
     if (byte < 0x20 || byte == 0x7F || (byte == 0xC2 && next >= 0x80 && next < 0xA0)) return true;
   }
   return false;
@@ -49,7 +52,15 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   bool number_integer(number_integer_t value) override { return add(Json(value)); }
   bool number_unsigned(number_unsigned_t value) override { return add(Json(value)); }
   bool number_float(number_float_t value, const string_t&) override { return add(Json(value)); }
-  bool string(string_t& value) override { return add(Json(value)); }
+  bool string(string_t& value) override {
+    if (has_control_character(value, "\t\r\n")) {
+      throw InputError(
+          fmt::format("{}: the text of {} has a control character; of those texts may have tabs "
+                      "and line breaks",
+                      file_, open_.empty() ? "the document" : pointer_of_next()));
+    }
+    return add(Json(value));
+  }
   bool binary(binary_t&) override { return false; }  // JSON text has no such thing
 
   bool start_object(std::size_t) override { return open(Json::object()); }

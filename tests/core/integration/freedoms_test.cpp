@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/integration/configuration.hpp"
 #include "core/response/analysis.hpp"
 #include "tests/support/problem_runs.hpp"
 
@@ -26,6 +27,36 @@ TEST_P(RigidFreedoms, AreThoseOfTheMechanism) {
   const Freedoms freedoms = rigid_freedoms(analysis->model.mechanism, initial);
   EXPECT_EQ(freedoms.coordinates, expected.coordinates);
   EXPECT_EQ(freedoms.free(), expected.free);
+}
+
+/// Free motions keep all constraints to first order, and are as many as the freedoms.
+TEST_P(RigidFreedoms, AreSpannedByMotionsThatKeepTheConstraints) {
+  const ProblemFile problem = sample_problem(GetParam().problem, GetParam().overrides);
+  const auto analysis = analyze(problem, start_design(problem));
+  Mechanism& mechanism = analysis->model.mechanism;
+  State state;
+  analysis->trajectory.load(0, state);
+  const Eigen::MatrixXd motions = free_motions(mechanism, state);
+  ASSERT_EQ(motions.cols(), GetParam().free);
+  State generic = generic_position(mechanism, state);
+  for (State* at : {&state, &generic}) {
+    const Eigen::MatrixXd free = free_motions(mechanism, *at);
+    ASSERT_EQ(free.cols(), GetParam().free);
+    EXPECT_LE(
+        (free.transpose() * free - Eigen::MatrixXd::Identity(free.cols(), free.cols())).norm(),
+        1e-12);
+    for (Eigen::Index i = 0; i < free.cols(); ++i) {
+      Eigen::VectorXd before, after;
+      State moved = *at;
+      mechanism.system->residual(moved, ConstraintLevel::position, before);
+      advance(mechanism.rotations, at->q, 1e-6 * mechanism.scale.cwiseProduct(free.col(i)),
+              moved.q);
+      mechanism.system->residual(moved, ConstraintLevel::position, after);
+      // Of second order, and the round-off of positions.
+      EXPECT_LE((after - before).tail(mechanism.system->multipliers()).lpNorm<Eigen::Infinity>(),
+                1e-10);
+    }
+  }
 }
 
 const std::string brief = "/simulation/end_time=2 ms";

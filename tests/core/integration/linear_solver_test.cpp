@@ -180,8 +180,8 @@ TEST(LinearSolver, SolvesForManyColumnsAsForEach) {
   }
 }
 
-/// Wilkinson's matrix, −1 below the diagonal and 1 in the last column, with a small diagonal d:
-/// elimination with pivots on the diagonal multiplies entries by 1/d in each column.
+/// Wilkinson's matrix, −1 below the diagonal and 1 in the last column, with the diagonal d:
+/// elimination with pivots on the diagonal multiplies entries by 1 + 1/d in each column.
 Eigen::MatrixXd growing_matrix(double diagonal) {
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
   for (int i = 0; i < size; ++i) {
@@ -192,20 +192,28 @@ Eigen::MatrixXd growing_matrix(double diagonal) {
   return matrix;
 }
 
+/// d = 0.15 is a pivot by the usual threshold, and lets entries grow to 7.7²⁹ = 5e25: no digit of a
+/// solution is left. The largest entries of the columns are no worse than 2²⁹.
 TEST(LinearSolver, TakesTheLargestPivotsWhereThoseOfTheDiagonalMakeEntriesGrow) {
-  const Eigen::MatrixXd matrix = growing_matrix(0.01);
+  const Eigen::MatrixXd matrix = growing_matrix(0.15);
   LinearSolver solver(matrix.sparseView());
   ASSERT_TRUE(solver.factorize(matrix.sparseView()));
-  Eigen::MatrixXd x = matrix * Eigen::MatrixXd::Ones(size, 1);
+  EXPECT_EQ(solver.pivots().threshold, LinearSolver::usual_threshold);
+  const Eigen::MatrixXd rhs = matrix * Eigen::MatrixXd::Ones(size, 1);
+  Eigen::MatrixXd x = rhs;
   solver.solve(x);
+  EXPECT_EQ(solver.pivots().threshold, 1.0) << "the usual pivots served: this test shows nothing";
+  EXPECT_GT(solver.pivot_choices(), 1);
   EXPECT_TRUE(solver.is_accurate());
-  const Eigen::VectorXd expected = matrix.fullPivLu().solve(matrix * Eigen::VectorXd::Ones(size));
-  EXPECT_LE((matrix * (x - expected)).lpNorm<Eigen::Infinity>(), 1e-10 * size);
+  EXPECT_LE((matrix * x - rhs).lpNorm<Eigen::Infinity>(), 1e-10 * size);
+  // A condition of some 1e9 leaves six digits and more.
+  const Eigen::MatrixXd dense = matrix.fullPivLu().solve(rhs);
+  EXPECT_LE((x - dense).lpNorm<Eigen::Infinity>(), 1e-6 * dense.lpNorm<Eigen::Infinity>());
   // Another solver goes on from there with the same pivots.
   LinearSolver again(matrix.sparseView());
   again.use_pivots(solver.pivots());
   ASSERT_TRUE(again.factorize(matrix.sparseView()));
-  Eigen::MatrixXd y = matrix * Eigen::MatrixXd::Ones(size, 1);
+  Eigen::MatrixXd y = rhs;
   again.solve(y);
   EXPECT_EQ(again.pivot_choices(), 1);
   EXPECT_EQ(x, y);

@@ -1,5 +1,7 @@
 #include "core/integration/redundancy.hpp"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +9,7 @@
 #include "core/integration/linear_solver.hpp"
 #include "core/integration/simulate.hpp"
 #include "core/integration/step_equations.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/sample_scenes.hpp"
 
 namespace pleuel::test {
@@ -103,6 +106,52 @@ TEST(RedundantConstraints, OfADoubledJointAreThoseOfOne) {
   const Trajectory found = simulate(twice.mechanism, {0.1, 1e-3}),
                    expected = simulate(once.mechanism, {0.1, 1e-3});
   EXPECT_LE((found.q - expected.q).lpNorm<Eigen::Infinity>(), 1e-12);
+}
+
+/// A second drive of the same angle follows from the first if it says the same at all times; one
+/// that agrees at the start only contradicts it.
+TEST(RedundantConstraints, OfADoubledDriveAreThoseOfOneOnlyIfBothSayTheSame) {
+  Scene scene = swinging_beam(0.3, CircleSection{0.01}, 2);
+  scene.joints.front().drive = Drive(ConstantSpeedDrive{3.0});
+  scene.joints.push_back(revolute("again", ground_name, "beam", {0.0, 0.0, 0.0}));
+  scene.joints.back().drive = Drive(ConstantSpeedDrive{3.0});
+  EXPECT_EQ(build_model(scene, {}, {}, {}).mechanism.system->left_out().size(), 3u);
+  scene.joints.back().drive = Drive(ConstantSpeedDrive{4.0});
+  EXPECT_EQ(build_model(scene, {}, {}, {}).mechanism.system->left_out().size(), 2u);
+}
+
+/// A bar on two hinges of one axis, both driven alike: its motion is that of the law, and the
+/// torque that both exert together is that of one, I φ̈ + m g L/2 cos φ, at every instant.
+TEST(RedundantConstraints, OfTwoDrivesShareTheTorqueOfOne) {
+  const double length = 0.3, width = 0.02;
+  Scene scene = swinging_beam(length, RectangleSection{width, width}, 2);
+  std::get<BeamBody>(scene.bodies.front().shape).is_rigid = true;
+  const Drive law(PolynomialFunction{{0.0, 0.0, 0.0, 40.0}});  // 40 t³
+  scene.joints.front().drive = law;
+  scene.joints.push_back(revolute("again", ground_name, "beam", {0.0, 0.0, 0.0}));
+  scene.joints.back().drive = law;
+  const double mass = 7850.0 * width * width * length;
+  const double inertia = mass * (length * length / 3 + width * width / 12);
+  for (const EffectChoice spatial : {EffectChoice::automatic, EffectChoice::on}) {
+    EffectSettings effects;
+    effects.spatial_motion = spatial;
+    Model model = build_model(scene, effects, {}, {});
+    const Trajectory trajectory = simulate(model.mechanism, {0.2, 1e-3});
+    State state;
+    for (const int step : {100, 150, 200}) {
+      trajectory.load(step, state);
+      const double t = state.time, angle = 40.0 * t * t * t;
+      const FrameMotion<double> motion = frame_of(model.body("beam"), state);
+      EXPECT_NEAR(motion.A(1, 0), std::sin(angle), 1e-9);
+      double torque = 0.0;
+      for (const char* name : {"bearing", "again"}) {
+        torque -= state.lambda(model.joint(name).drive_row);
+      }
+      const double expected = inertia * 240.0 * t + mass * 9.81 * length / 2 * std::cos(angle);
+      // Of second order in the step: (h/t)² at most.
+      EXPECT_NEAR(torque / expected, 1.0, 2e-4) << t;
+    }
+  }
 }
 
 /// Newton's method sets their multipliers to zero, whatever they were: with a wrong factor

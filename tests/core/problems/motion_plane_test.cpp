@@ -1,5 +1,7 @@
 #include "core/model/motion_plane.hpp"
 
+#include <functional>
+
 #include <gtest/gtest.h>
 
 #include "sensitivity/gradients.hpp"
@@ -72,6 +74,197 @@ TEST(PlaneOfACantilever, IsThatOfItsLoad) {
   EXPECT_EQ(of_torque->normal.cwiseAbs(), Eigen::Vector3d::UnitY());
   EXPECT_FALSE(plane_with(PointForce{"beam", tip, {0.0, slope, slope}, {}, false}));
 }
+
+/// What leads out of the plane is said, each of it; without it the pendulum moves in the plane.
+struct OutOfPlane {
+  const char* reason;
+  std::function<void(Scene&)> change;
+};
+class RefusedPlane : public testing::TestWithParam<OutOfPlane> {};
+
+Scene pendulum_in_a_plane() {
+  Scene scene = swinging_beam(0.7, RectangleSection{0.03, 0.02}, 2);
+  RigidBody mass;
+  mass.at = {0.7, 0.0, 0.0};
+  mass.mass = 1.0;
+  mass.inertia = {1.0, 2.0, 3.0, 0.1, 0.0, 0.0};
+  scene.bodies.push_back({"mass", mass});
+  Joint joint;
+  joint.name = "end";
+  joint.type = JointType::fixed;
+  joint.bodies = {"beam", "mass"};
+  joint.at = {0.7, 0.0, 0.0};
+  scene.joints.push_back(joint);
+  return scene;
+}
+
+RigidBody& mass_of(Scene& scene) {
+  return std::get<RigidBody>(scene.bodies.back().shape);
+}
+
+/// A second mass on a joint with this axis.
+constexpr std::array<double, 3> along = {1.0, 0.0, 0.0}, across = {0.0, 0.0, 1.0},
+                                tilted = {0.6, 0.0, 0.8};
+Joint& add_joint(Scene& scene, JointType type, const std::array<double, 3>& axis) {
+  scene.bodies.push_back(
+      {"other", RigidBody{{0.7, 0.3, 0.0}, 1.0, {1.0, 2.0, 3.0, 0.1, 0.0, 0.0}}});
+  Joint joint;
+  joint.name = "more";
+  joint.type = type;
+  joint.bodies = {"mass", "other"};
+  joint.at = {0.7, 0.0, 0.0};
+  joint.to = {0.7, 0.3, 0.0};
+  joint.axis = axis;
+  joint.second_axis = {0.0, 1.0, 0.0};
+  scene.joints.push_back(joint);
+  return scene.joints.back();
+}
+
+TEST_P(RefusedPlane, IsRefusedForThatReason) {
+  Scene scene = pendulum_in_a_plane();
+  const Design<double> start = {0.0};
+  ASSERT_TRUE(find_motion_plane(scene, start).plane);
+  GetParam().change(scene);
+  const PlaneAnalysis analysis = find_motion_plane(scene, start);
+  EXPECT_FALSE(analysis.plane);
+  EXPECT_EQ(analysis.reason, std::string(GetParam().reason) + " leaves the plane");
+}
+
+/// What stays in the plane is not refused: the same joints, drives and loads with other axes.
+TEST(MotionPlaneOf, JointsWhoseAxesLieInItOrAcrossItIsKept) {
+  const Design<double> start = {0.0};
+  const auto is_planar = [&](JointType type, const std::array<double, 3>& axis,
+                             const std::function<void(Scene&)>& change = {}) {
+    Scene scene = pendulum_in_a_plane();
+    add_joint(scene, type, axis);
+    if (change) change(scene);
+    return find_motion_plane(scene, start).plane.has_value();
+  };
+  EXPECT_TRUE(is_planar(JointType::revolute, across));
+  EXPECT_TRUE(is_planar(JointType::prismatic, along));
+  EXPECT_TRUE(is_planar(JointType::point_on_line, along));
+  EXPECT_TRUE(is_planar(JointType::distance, tilted)) << "it has no axis";
+  EXPECT_TRUE(is_planar(JointType::spherical, tilted));
+  for (const JointType type : {JointType::cylindrical, JointType::planar, JointType::universal}) {
+    EXPECT_TRUE(is_planar(type, along));
+    EXPECT_TRUE(is_planar(type, across));
+  }
+  const auto driven = [](DrivenCoordinate coordinate) {
+    return [coordinate](Scene& scene) {
+      scene.joints.back().drive = Drive(ConstantFunction{0.1}, coordinate);
+    };
+  };
+  EXPECT_TRUE(is_planar(JointType::cylindrical, along, driven(DrivenCoordinate::displacement)));
+  EXPECT_TRUE(is_planar(JointType::cylindrical, across, driven(DrivenCoordinate::angle)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Reasons, RefusedPlane,
+    testing::Values(
+        OutOfPlane{"gravity", [](Scene& scene) { scene.gravity[2] = 1e-3; }},
+        // Zero now, but a design variable may make it something.
+        OutOfPlane{"gravity", [](Scene& scene) { scene.gravity[2] = Number::bound(0); }},
+        OutOfPlane{"body mass", [](Scene& scene) { mass_of(scene).at[2] = 1e-3; }},
+        OutOfPlane{"body mass", [](Scene& scene) { mass_of(scene).at[2] = Number::bound(0); }},
+        OutOfPlane{"a principal axis of inertia of body mass",
+                   [](Scene& scene) { mass_of(scene).inertia[4] = 0.01; }},
+        OutOfPlane{"a principal axis of inertia of body mass",
+                   [](Scene& scene) { mass_of(scene).inertia[5] = 0.01; }},
+        OutOfPlane{"a principal axis of the sections of body beam",
+                   [](Scene& scene) {
+                     std::get<BeamBody>(scene.bodies.front().shape).reference = {0.0, 1.0, 1.0};
+                   }},
+        OutOfPlane{"the velocity of body mass",
+                   [](Scene& scene) { scene.bodies.back().velocity[2] = 1.0; }},
+        OutOfPlane{"the velocity of body mass",
+                   [](Scene& scene) { scene.bodies.back().velocity[2] = Number::bound(0); }},
+        OutOfPlane{"the angular velocity of body mass",
+                   [](Scene& scene) { scene.bodies.back().angular_velocity[0] = 1.0; }},
+        OutOfPlane{
+            "the angular velocity of body mass",
+            [](Scene& scene) { scene.bodies.back().angular_velocity[1] = Number::bound(0); }},
+        OutOfPlane{"joint end", [](Scene& scene) { scene.joints.back().at[2] = 1e-3; }},
+        OutOfPlane{"joint end", [](Scene& scene) { scene.joints.back().at[2] = Number::bound(0); }},
+        OutOfPlane{
+            "body beam",
+            [](Scene& scene) { std::get<BeamBody>(scene.bodies.front().shape).to[2] = 1e-3; }},
+        OutOfPlane{"body beam",
+                   [](Scene& scene) {
+                     std::get<BeamBody>(scene.bodies.front().shape).to[2] = Number::bound(0);
+                   }},
+        // A principal axis, but of another direction.
+        OutOfPlane{"a principal axis of inertia of body mass",
+                   [](Scene& scene) { mass_of(scene).inertia = {1.0, 2.0, 3.0, 0.0, 0.1, 0.1}; }},
+        OutOfPlane{"joint more",
+                   [](Scene& scene) { add_joint(scene, JointType::revolute, tilted); }},
+        OutOfPlane{"joint more",
+                   [](Scene& scene) { add_joint(scene, JointType::revolute, along); }},
+        OutOfPlane{"joint more",
+                   [](Scene& scene) { add_joint(scene, JointType::prismatic, tilted); }},
+        OutOfPlane{"joint more",
+                   [](Scene& scene) { add_joint(scene, JointType::prismatic, across); }},
+        OutOfPlane{"joint more",
+                   [](Scene& scene) { add_joint(scene, JointType::point_on_line, tilted); }},
+        OutOfPlane{"joint more",
+                   [](Scene& scene) { add_joint(scene, JointType::cylindrical, tilted); }},
+        OutOfPlane{"joint more", [](Scene& scene) { add_joint(scene, JointType::planar, tilted); }},
+        OutOfPlane{"joint more",
+                   [](Scene& scene) { add_joint(scene, JointType::universal, tilted); }},
+        OutOfPlane{"joint more",
+                   [](Scene& scene) {
+                     add_joint(scene, JointType::universal, along).second_axis = {0.0, 0.6, 0.8};
+                   }},
+        OutOfPlane{"joint more",
+                   [](Scene& scene) {
+                     add_joint(scene, JointType::distance, along).to = {0.7, 0.3, 1e-3};
+                   }},
+        OutOfPlane{"the drive of joint more",
+                   [](Scene& scene) {
+                     add_joint(scene, JointType::cylindrical, along).drive =
+                         Drive(ConstantFunction{0.1}, DrivenCoordinate::angle);
+                   }},
+        OutOfPlane{"the drive of joint more",
+                   [](Scene& scene) {
+                     add_joint(scene, JointType::cylindrical, across).drive =
+                         Drive(ConstantFunction{0.1}, DrivenCoordinate::displacement);
+                   }},
+        OutOfPlane{"load spring",
+                   [](Scene& scene) {
+                     scene.loads = {
+                         {"spring", SpringDamper{{"ground", "mass"},
+                                                 {Point{0.0, 1.0, 0.1}, Point{0.7, 0.0, 0.0}},
+                                                 10.0,
+                                                 0.0,
+                                                 {}}}};
+                   }},
+        OutOfPlane{"load spring",
+                   [](Scene& scene) {
+                     add_joint(scene, JointType::cylindrical, along);
+                     scene.loads = {
+                         {"spring",
+                          JointForce{"more", DrivenCoordinate::angle, 2.0, 0.0, 0.0, {}}}};
+                   }},
+        OutOfPlane{"load spring",
+                   [](Scene& scene) {
+                     add_joint(scene, JointType::cylindrical, across);
+                     scene.loads = {
+                         {"spring",
+                          JointForce{"more", DrivenCoordinate::displacement, 2.0, 0.0, 0.0, {}}}};
+                   }},
+        OutOfPlane{
+            "load push",
+            [](Scene& scene) {
+              scene.loads = {{"push", PointForce{"mass", {0.7, 0.0, 0.0}, {0, 0, 1}, {}, false}}};
+            }},
+        OutOfPlane{
+            "load push",
+            [](Scene& scene) {
+              scene.loads = {{"push", PointForce{"mass", {0.7, 0.0, 0.1}, {0, 1, 0}, {}, false}}};
+            }},
+        OutOfPlane{
+            "load twist", [](Scene& scene) {
+              scene.loads = {{"twist", PointTorque{"mass", {0.7, 0.0, 0.0}, {1, 0, 0}, {}, false}}};
+            }}));
 
 /// A scene whose points are fixed, turned about z and shifted.
 Scene moved_scene(Scene scene, double angle, const Eigen::Vector3d& shift) {

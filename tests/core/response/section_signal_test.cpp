@@ -141,6 +141,39 @@ TEST(Buckling, IsThePressOverTheEulerLoad) {
   EXPECT_LT(buckling(planar, strained(planar, {.pull = 1e-4})), 0.0) << "pull does no harm";
 }
 
+/// A tapered member counts with its weakest section over its whole length, about whichever axis
+/// that is: three segments pressed by the same force, the weakest in the middle, and turned.
+TEST(Buckling, OfATaperedMemberIsThatOfItsWeakestSection) {
+  for (const bool is_turned : {false, true}) {
+    const auto rectangle = [&](double across, double thick) {
+      return is_turned ? RectangleSection{thick, across} : RectangleSection{across, thick};
+    };
+    Scene scene = swinging_beam(length, RectangleSection{0.03, 0.03}, 2);
+    scene.gravity = {0.0, 0.0, 0.0};
+    std::get<BeamBody>(scene.bodies[0].shape).segments = {{rectangle(0.05, 0.03), 2, {}},
+                                                          {rectangle(0.04, 0.012), 2, {}},
+                                                          {rectangle(0.02, 0.016), 2, {}}};
+    EffectSettings effects;
+    effects.geometric_stiffening = EffectChoice::off;
+    const Model model = build_model(scene, effects, {}, {});
+    // I: 50·30³, 40·12³ = 69120, 20·16³ = 81920 by twelve; over the other side 16·20³ = 128000.
+    const double least = 40 * std::pow(12.0, 3) / 12 * 1e-12;
+    const double euler = std::numbers::pi * std::numbers::pi * young * least / (length * length);
+    const double press = 500.0;
+    State state = model.mechanism.guess;
+    const BodyModel& body = model.body("beam");
+    double shift = 0.0;
+    for (int node = 0; node < body.beam.node_count(); ++node) {
+      const int index = body.coordinate(node, 0);
+      if (index >= 0) state.q(index) = shift;
+      if (node + 1 == body.beam.node_count()) break;
+      const auto& element = body.beam.elements[static_cast<std::size_t>(node)];
+      shift -= press * element.length / (element.young * element.section.area);
+    }
+    EXPECT_NEAR(buckling(model, state) * euler / press, 1.0, 1e-9) << is_turned;
+  }
+}
+
 /// A bar that is pushed along its axis with acceleration a: its root carries ρAL a.
 TEST(Buckling, OfAPushedBarIsThatOfItsInertia) {
   for (int elements : {1, 3}) {

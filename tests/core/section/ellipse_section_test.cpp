@@ -59,9 +59,9 @@ TEST(EllipseSection, TorsionIsThatOfPrandtlsFunction) {
   EXPECT_GT(section.points[2].shear, section.points[0].shear);  // largest at the minor axis
 }
 
-TEST(EllipseSection, DerivativesAreThoseOfTheComplexStep) {
-  expect_derivatives_of_the_complex_step(
-      [](const auto& size) { return ellipse_section(size[0], size[1]); }, {0.011, 0.023});
+TEST(EllipseSection, DerivativesAreThoseOfTheComplexStepAndOfDifferences) {
+  expect_right_derivatives([](const auto& size) { return ellipse_section(size[0], size[1]); },
+                           {0.011, 0.023});
 }
 
 }  // namespace

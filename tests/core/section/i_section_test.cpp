@@ -132,8 +132,8 @@ TEST(ISection, HasPointsAtTheEndsOfItsWallsWithTheShearOfTheWalls) {
   }
 }
 
-TEST(ISection, DerivativesAreThoseOfTheComplexStep) {
-  expect_derivatives_of_the_complex_step(
+TEST(ISection, DerivativesAreThoseOfTheComplexStepAndOfDifferences) {
+  expect_right_derivatives(
       [](const auto& size) { return i_section(size[0], size[1], size[2], size[3]); },
       {0.046, 0.08, 0.0052, 0.0038});
 }

@@ -129,8 +129,8 @@ TEST(RectangleSection, SecondMomentsAreTheIntegralsOverItsArea) {
   EXPECT_NEAR(section.inertia_y / zz, 1.0, 1.0 / (n * n) * 1.1);
 }
 
-TEST(RectangleSection, DerivativesAreThoseOfTheComplexStep) {
-  test::expect_derivatives_of_the_complex_step(
+TEST(RectangleSection, DerivativesAreThoseOfTheComplexStepAndOfDifferences) {
+  test::expect_right_derivatives(
       [](const auto& size) { return rectangle_section(size[0], size[1]); }, {0.011, 0.023});
 }
 

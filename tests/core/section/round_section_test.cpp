@@ -49,9 +49,9 @@ TEST(RoundSection, ShearOfAShaftIsThatOfTheTextbook) {
   }
 }
 
-TEST(RoundSection, DerivativesAreThoseOfTheComplexStep) {
-  test::expect_derivatives_of_the_complex_step(
-      [](const auto& size) { return round_section(size[0], size[1]); }, {0.03, 0.02});
+TEST(RoundSection, DerivativesAreThoseOfTheComplexStepAndOfDifferences) {
+  test::expect_right_derivatives([](const auto& size) { return round_section(size[0], size[1]); },
+                                 {0.03, 0.02});
 }
 
 }  // namespace

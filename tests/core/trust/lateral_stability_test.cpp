@@ -94,6 +94,37 @@ TEST(LateralStability, OfColumnsIsTheEulerLoadOfTheirEnds) {
   EXPECT_TRUE(std::isinf(factor({forked, forked}, 1.0, none))) << "pull";
 }
 
+/// A column of two sections, clamped below and free above: by the solutions of EI u'' = −P u on
+/// both parts, tan(k₁ l₁) tan(k₂ l₂) = k₂/k₁ with k² = P/EI (Timoshenko & Gere, Theory of Elastic
+/// Stability, §2.14).
+TEST(LateralStability, OfASteppedColumnIsTheRootOfItsEquation) {
+  Beam<double> beam = thin_beam();
+  for (int i = 0; i < 6; ++i) {  // 450 mm of 1200 mm
+    beam.elements[static_cast<std::size_t>(i)].section = rectangle_section<double>(0.0008, 0.05);
+  }
+  const double below = 6 * length / count, above = length - below;
+  const double thick = young * beam.elements.front().section.inertia_y,
+               thin = young * beam.elements.back().section.inertia_y;
+  const auto open_equation = [&](double load) {
+    const double k1 = std::sqrt(load / thick), k2 = std::sqrt(load / thin);
+    return std::tan(k1 * below) * std::tan(k2 * above) - k2 / k1;
+  };
+  // Bisection below the first pole, where k₂ l₂ is a right angle.
+  double low = 0.0, high = thin * std::pow(pi / 2 / above, 2) * (1 - 1e-12);
+  for (int i = 0; i < 200; ++i) {
+    const double middle = (low + high) / 2;
+    (open_equation(middle) < 0.0 ? low : high) = middle;
+  }
+  std::vector<LateralSupport> supports(count + 1);
+  supports.front() = clamped;
+  PlaneLoad load;
+  load.axial.assign(count, -1.0);
+  load.moment.assign(count, {0.0, 0.0});
+  EXPECT_NEAR(lateral_load_factor(beam, BendingPlane::xy, supports, load) / low, 1.0, 1e-4);
+  // Between those of its two sections.
+  EXPECT_GT(low, 1.2 * pi * pi * thin / (4 * length * length));
+}
+
 TEST(LateralStability, OfABeamThatNothingHoldsIsNotANumber) {
   EXPECT_TRUE(std::isnan(factor({open, open}, -1.0, none)));
 }
@@ -141,6 +172,9 @@ TEST(SidewaysBuckling, IsToldNearTheCriticalLoadInThePlaneAndInSpace) {
   for (const char* effects : {"{}", R"({"spatial_motion": "on"})"}) {
     for (const char* body : {"", R"(, "reduction": {"modes": 2})"}) {
       EXPECT_TRUE(doubts_of(cantilever(0.5 * critical_force(), thin, effects, body)).empty());
+      // From three quarters on.
+      EXPECT_TRUE(doubts_of(cantilever(0.73 * critical_force(), thin, effects, body)).empty());
+      EXPECT_EQ(doubts_of(cantilever(0.77 * critical_force(), thin, effects, body)).size(), 1u);
       const auto near = doubts_of(cantilever(0.9 * critical_force(), thin, effects, body));
       ASSERT_EQ(near.size(), 1u) << effects << body;
       EXPECT_FALSE(near[0].is_serious);

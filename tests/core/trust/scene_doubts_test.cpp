@@ -1,12 +1,16 @@
 /// Doubts about scenes: numbers that come out without complaint, but of another mechanism than
 /// meant.
 
+#include <cmath>
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/error.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
+#include "core/trust/energy_balance.hpp"
 #include "core/trust/extrapolation.hpp"
 #include "core/trust/idle_freedoms.hpp"
 #include "core/trust/left_out_effects.hpp"
@@ -133,8 +137,16 @@ TEST(MisalignedJoints, OfALoopInSpaceThatIsDrivenAreRedundant) {
     return analyze(problem, start_design(problem))->reductions[0].value;
   };
   const double expected = torque(0.0);
-  for (const double tilt : {1e-9, 1e-8, 1e-7}) {
+  for (const double tilt : {1e-9, 1e-8, 1e-7, 5e-7}) {
     EXPECT_NEAR(torque(tilt), expected, 1e-4 * expected) << tilt;
+  }
+  for (const double tilt : {1e-5, 1e-3, 1e-2}) {
+    try {
+      torque(tilt);
+      ADD_FAILURE() << "a loop that is locked was driven";
+    } catch (const SimulationError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("would hold a motion")) << tilt;
+    }
   }
 }
 
@@ -283,6 +295,33 @@ INSTANTIATE_TEST_SUITE_P(
                     Slip{"/scene/materials/steel/young=2.1e20", "/scene/materials/steel/young"},
                     Slip{"/scene/gravity=[0, -9810, 0]", "/scene/gravity"}));
 
+/// Just within and just beyond what is said of each: from foams to osmium, from rubber to what is
+/// meant as rigid, from half a metre to 250 m/s².
+TEST(SizesOutOfProportion, BeginWhereTheyAreSaidTo) {
+  struct Edge {
+    const char *pointer, *within, *beyond;
+  };
+  for (const Edge& edge : {Edge{"/scene/materials/steel/density", "10.1", "9.9"},
+                           Edge{"/scene/materials/steel/density", "24900", "25100"},
+                           Edge{"/scene/materials/steel/young", "1.01e6", "0.99e6"},
+                           Edge{"/scene/materials/steel/young", "0.99e18", "1.01e18"},
+                           Edge{"/scene/gravity", "[0, 0.51, 0]", "[0, 0.49, 0]"},
+                           Edge{"/scene/gravity", "[0, 249, 0]", "[0, 251, 0]"}}) {
+    // Rubber rods are for no motion: the doubt looks at numbers only.
+    ProblemFile problem = sample_problem("slider_crank", {"/simulation/end_time=0.1 ms"});
+    const Eigen::VectorXd x = start_design(problem);
+    const auto analysis = analyze(problem, x);
+    const Monitors monitors = monitor(analysis->model, analysis->trajectory);
+    const auto count = [&](const char* value) {
+      problem.scene =
+          sample_problem("slider_crank", {std::string(edge.pointer) + "=" + value}).scene;
+      return doubt_proportions(TrustedRun{problem, x, *analysis, monitors}).size();
+    };
+    EXPECT_EQ(count(edge.within), 0u) << edge.pointer << " " << edge.within;
+    EXPECT_EQ(count(edge.beyond), 1u) << edge.pointer << " " << edge.beyond;
+  }
+}
+
 /// Bodies that a massless rod holds: where they are, and what they weigh, are their own business.
 TEST(SizesOutOfProportion, ArePointsFarAwayAndInertiaOfOtherUnits) {
   const auto with = [](const std::string& body, const std::string& at) {
@@ -311,6 +350,43 @@ TEST(SizesOutOfProportion, ArePointsFarAwayAndInertiaOfOtherUnits) {
   EXPECT_THAT(heavy("1e-2"), IsEmpty());
   ASSERT_THAT(heavy("1e2"), SizeIs(1));
   EXPECT_THAT(heavy("1e2")[0].text, HasSubstr("/scene/bodies/more/inertia"));
+}
+
+/// A radius of gyration of ten times the mechanism's size; a hundred times its size away.
+TEST(SizesOutOfProportion, BeginAtTenTimesTheInertiaAndAHundredTimesTheDistance) {
+  // Bar of 1 m, and a wheel at its end: nothing else has a place.
+  const auto doubts = [](double inertia, double at) {
+    ProblemFile problem = read(crank_rocker(driven, closed));
+    const Eigen::VectorXd x = start_design(problem);
+    const auto analysis = analyze(problem, x);
+    const Monitors monitors = monitor(analysis->model, analysis->trajectory);
+    problem.scene = {};
+    problem.scene.bodies = {
+        {"one", PointMass{{0.0, 0.0, 0.0}, 1.0}},
+        {"two", PointMass{{1.0, 0.0, 0.0}, 1.0}},
+        {"three", PointMass{{0.5, 0.0, 0.0}, 1.0}},
+        {"four", PointMass{{0.3, 0.0, 0.0}, 1.0}},
+        {"wheel", RigidBody{{at, 0.0, 0.0}, 2.0, {inertia, 0.1, 0.1, 0.0, 0.0, 0.0}}}};
+    return doubt_proportions(TrustedRun{problem, x, *analysis, monitors}).size();
+  };
+  EXPECT_EQ(doubts(2.0 * 9.9 * 9.9, 1.0), 0u);
+  EXPECT_EQ(doubts(2.0 * 10.1 * 10.1, 1.0), 1u);
+  EXPECT_EQ(doubts(1.0, 1.0 + 99.0), 0u);
+  EXPECT_EQ(doubts(1.0, 1.0 + 101.0), 1u);
+}
+
+/// Of the largest energy, one percent may be missing.
+TEST(EnergyBalance, IsDoubtedAboveOnePercent) {
+  const ProblemFile problem = read(crank_rocker(driven, closed));
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  Monitors monitors = monitor(analysis->model, analysis->trajectory);
+  monitors.energy_error = 0.0098;
+  EXPECT_THAT(doubt_energy_balance(TrustedRun{problem, x, *analysis, monitors}), IsEmpty());
+  monitors.energy_error = 0.0102;
+  const auto doubts = doubt_energy_balance(TrustedRun{problem, x, *analysis, monitors});
+  ASSERT_THAT(doubts, SizeIs(1));
+  EXPECT_THAT(doubts[0].text, HasSubstr("balanced to 1 % of"));
 }
 
 TEST(SizesOutOfProportion, AreSectionsThatAreLargerThanTheBeamIsLong) {
@@ -343,6 +419,11 @@ TEST(LostStiffening, IsADoubtWhereAxialForcesAreLarge) {
         force));
   };
   EXPECT_THAT(doubts_of(problem_with(1.0), doubt_lost_stiffening), IsEmpty());
+  // From one percent on.
+  const double pi = 3.14159265358979, radius = 0.0025;
+  const double euler = pi * pi * 2.1e11 * pi / 4 * std::pow(radius, 4) / (0.3 * 0.3);
+  EXPECT_THAT(doubts_of(problem_with(0.0098 * euler), doubt_lost_stiffening), IsEmpty());
+  EXPECT_THAT(doubts_of(problem_with(0.0102 * euler), doubt_lost_stiffening), SizeIs(1));
   const std::vector<Doubt> doubts = doubts_of(problem_with(200.0), doubt_lost_stiffening);
   ASSERT_THAT(doubts, SizeIs(1));
   EXPECT_TRUE(doubts[0].is_serious);
@@ -375,6 +456,10 @@ TEST(Extrapolation, IsADoubtWhereTheDesignHasLeftThatOfTheFile) {
   EXPECT_THAT(doubts_at(0.02), IsEmpty()) << "not continued";
   std::get<ImportedBody>(problem.scene.bodies.back().shape).is_linear = true;
   EXPECT_THAT(doubts_at(0.03), IsEmpty());
+  EXPECT_THAT(doubts_at(0.03 * (1 + 0.9e-4)), IsEmpty());
+  EXPECT_THAT(doubts_at(0.03 * (1 - 0.9e-4)), IsEmpty());
+  EXPECT_THAT(doubts_at(0.03 * (1 + 1.1e-4)), SizeIs(1));
+  EXPECT_THAT(doubts_at(0.03 * (1 - 1.1e-4)), SizeIs(1));
   EXPECT_THAT(doubts_at(0.03 * (1 + 1e-9)), IsEmpty());
   ASSERT_THAT(doubts_at(0.0303), SizeIs(1));
   EXPECT_TRUE(doubts_at(0.0303)[0].is_serious);

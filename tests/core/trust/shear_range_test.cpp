@@ -101,6 +101,24 @@ TEST(ShearRange, IsLeftByStubbyBeams) {
   EXPECT_TRUE(Judged(StubbyBeam{rectangle(0.05)}).doubts().empty());
 }
 
+/// Timoshenko's share of the deflection s/(1 + s), s = 3EI/(κGAL²) = ½ (1 + ν)/κ (h/L)²: 1 % where
+/// there is a doubt, 10 % where it is serious.
+TEST(ShearRange, IsLeftAtOnePercentAndSeriousAtTen) {
+  const double unit = 0.5 * (1 + nu) / rectangle_shear_coefficient(nu);
+  const auto height_with = [&](double share) { return std::sqrt(share / (1 - share) / unit); };
+  const auto doubts = [&](double share) {
+    return Judged(StubbyBeam{
+                      fmt::format(R"({{"type": "rectangle", "width": 0.05, "height": {:.12g}}})",
+                                  height_with(share))})
+        .doubts();
+  };
+  EXPECT_TRUE(doubts(0.0097).empty());
+  ASSERT_EQ(doubts(0.0103).size(), 1u);
+  EXPECT_FALSE(doubts(0.0103)[0].is_serious);
+  EXPECT_FALSE(doubts(0.097)[0].is_serious);
+  EXPECT_TRUE(doubts(0.103)[0].is_serious);
+}
+
 /// Stress of a cantilever does not depend on its stiffness; its frequencies and positions do.
 TEST(ShearRange, ConcernsWhatRestsOnStiffness) {
   const auto doubts = [](const std::string& response) {
