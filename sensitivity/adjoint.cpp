@@ -32,7 +32,7 @@ class AdjointRun {
         state_(equations_.make_state(State(system_.coordinates(), system_.multipliers()))),
         old_(state_),
         matrix_(equations_.make_matrix()),
-        solver_(matrix_),
+        solver_(matrix_, mechanism.elastic),
         adjoint_(zero_adjoint(system_, functions)),
         before_(adjoint_),
         y_(Eigen::MatrixXd::Zero(equations_.size(), functions)),

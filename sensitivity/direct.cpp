@@ -29,7 +29,7 @@ class DirectDifferentiation {
         equations_(mechanism, scheme_, trajectory.formulation),
         state_(equations_.make_state(State(system_.coordinates(), system_.multipliers()))),
         matrix_(equations_.make_matrix()),
-        solver_(matrix_) {
+        solver_(matrix_, mechanism.elastic) {
     if (trajectory.is_projected()) projection_.emplace(mechanism);
   }
 

@@ -22,7 +22,7 @@ class InitialDifferentiation {
         n_(system_.coordinates()),
         m_(system_.multipliers()),
         matrix_(system_.make_matrix()),
-        solver_(matrix_) {}
+        solver_(matrix_, mechanism.elastic) {}
 
   StateSensitivity run() {
     if (mechanism_.starts_in_equilibrium) {

@@ -175,6 +175,8 @@ InitialState initial_state(Mechanism& mechanism) {
   initial.state.a.setZero();
   initial.state.lambda.setZero();
   System::Matrix matrix = mechanism.system->make_matrix();
+  // Assembly weighs its equations by many orders of magnitude: an order for one kind does not suit
+  // it.
   LinearSolver solver(matrix);
   assemble_positions(mechanism, solver, matrix, initial);
   project_velocities(mechanism, solver, matrix, initial);

@@ -42,7 +42,7 @@ State ConstrainedJerk::moved() const {
 void ConstrainedJerk::solve(Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> rhs) const {
   System::Matrix matrix = system_.make_matrix();
   system_.tangent(start_, {.a = 1.0}, level, matrix);
-  LinearSolver solver(matrix);
+  LinearSolver solver(matrix, mechanism_.elastic);
   if (!solver.factorize(matrix)) {
     throw SimulationError("the equations of the start are singular");
   }

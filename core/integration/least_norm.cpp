@@ -11,7 +11,7 @@ LeastNorm::LeastNorm(const Mechanism& mechanism)
     : mechanism_(mechanism),
       system_(*mechanism.system),
       matrix_(system_.make_matrix()),
-      solver_(matrix_),
+      solver_(matrix_, mechanism.elastic),
       position_(system_.coordinates(), system_.multipliers()),
       forceless_(system_.multipliers(), static_cast<Eigen::Index>(system_.left_out().size())) {}
 

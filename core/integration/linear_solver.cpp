@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include <camd.h>
 #include <klu.h>
 
 #include "core/integration/block_factors.hpp"
@@ -27,6 +28,18 @@ using Block = Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 /// The power of two next to 1/x.
 double inverse_power(double x) {
   return x > 0.0 && std::isfinite(x) ? std::ldexp(1.0, -std::ilogb(x)) : 1.0;
+}
+
+/// Orders unknowns by minimum degree of A + Aᵀ, those of `first` before the others.
+std::vector<int> elimination_order(LinearSolver::Matrix& pattern, const std::vector<int>& first) {
+  const int size = static_cast<int>(pattern.rows());
+  std::vector<int> order(static_cast<std::size_t>(size)), sets(order.size(), 1);
+  for (const int unknown : first) sets[static_cast<std::size_t>(unknown)] = 0;
+  [[maybe_unused]] const int status =
+      camd_order(size, pattern.outerIndexPtr(), pattern.innerIndexPtr(), order.data(), nullptr,
+                 nullptr, sets.data());
+  assert(status == CAMD_OK);
+  return order;
 }
 
 }  // namespace
@@ -196,16 +209,23 @@ struct LinearSolver::Implementation {
   }
 };
 
-LinearSolver::LinearSolver(const Matrix& pattern)
+LinearSolver::LinearSolver(const Matrix& pattern, const std::vector<int>& first)
     : implementation_(std::make_unique<Implementation>()) {
   Implementation& klu = *implementation_;
   klu.matrix = pattern;
   klu.pivoted_values.resize(pattern.nonZeros());
   klu_defaults(&klu.common);
   klu.common.scale = -1;  // done here; the pattern needs no check in each factorisation
-  klu.common.tol = usual_threshold;
-  klu.symbolic =
-      klu_analyze(static_cast<int>(pattern.rows()), klu.starts(), klu.rows(), &klu.common);
+  const int size = static_cast<int>(pattern.rows());
+  if (first.empty()) {
+    klu.common.tol = usual_threshold;
+    klu.symbolic = klu_analyze(size, klu.starts(), klu.rows(), &klu.common);
+  } else {
+    klu.common.tol = ordered_threshold;
+    std::vector<int> order = elimination_order(klu.matrix, first);
+    klu.symbolic =
+        klu_analyze_given(size, klu.starts(), klu.rows(), order.data(), order.data(), &klu.common);
+  }
   assert(klu.symbolic != nullptr);
 }
 
@@ -258,6 +278,11 @@ double LinearSolver::condition() const {
 
 int LinearSolver::factorizations() const {
   return implementation_->factorizations;
+}
+
+int LinearSolver::factor_entries() const {
+  const Implementation& klu = *implementation_;
+  return klu.numeric == nullptr ? 0 : klu.numeric->lnz + klu.numeric->unz;
 }
 
 LinearSolver::Pivots LinearSolver::pivots() const {

@@ -55,7 +55,7 @@ TimeLoop::TimeLoop(Mechanism& mechanism, const SimulationOptions& options, Insta
       state_(equations_.make_state(initial_state(mechanism).state)),
       old_(state_),
       matrix_(equations_.make_matrix()),
-      solver_(matrix_),
+      solver_(matrix_, mechanism.elastic),
       correction_(equations_.size()),
       finest_level_(halvings(options, regular_step())) {
   if (options.formulation.is_projected) projection_.emplace(mechanism);

@@ -219,4 +219,48 @@ TEST(LinearSolver, TakesTheLargestPivotsWhereThoseOfTheDiagonalMakeEntriesGrow) 
   EXPECT_EQ(x, y);
 }
 
+/// A chain of coupled unknowns, as the nodes of a beam, and six that are coupled to all of them, as
+/// a frame; numbered like a body: the frame first.
+Matrix body_matrix(int nodes) {
+  constexpr int frame = 6;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < frame + nodes; ++i) {
+    entries.emplace_back(i, i, i < frame ? 10.0 * nodes : 4.0);
+    if (i > frame) {
+      entries.emplace_back(i, i - 1, -1.0);
+      entries.emplace_back(i - 1, i, -1.0);
+    }
+    for (int k = 0; i >= frame && k < frame; ++k) {
+      entries.emplace_back(i, k, std::cos(i + k));
+      entries.emplace_back(k, i, std::cos(i + k));
+    }
+  }
+  Matrix matrix(frame + nodes, frame + nodes);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+std::vector<int> nodes_of(const Matrix& body) {
+  std::vector<int> nodes;
+  for (int i = 6; i < body.cols(); ++i) nodes.push_back(i);
+  return nodes;
+}
+
+/// Each node of the chain adds its two neighbours and six rows and columns of the frame.
+TEST(LinearSolver, FillsInProportionToTheNodesOfABody) {
+  for (const int nodes : {50, 200, 800}) {
+    const Matrix matrix = body_matrix(nodes);
+    LinearSolver solver(matrix, nodes_of(matrix));
+    ASSERT_TRUE(solver.factorize(matrix));
+    EXPECT_LE(solver.factor_entries(), (2 + 2 + 2 * 6) * nodes + 2 * 6 * 6) << nodes;
+    const Eigen::MatrixXd expected = Eigen::MatrixXd::Random(matrix.rows(), 2);
+    Eigen::MatrixXd x = matrix * expected;
+    solver.solve(x);
+    EXPECT_LE((x - expected).cwiseAbs().maxCoeff(), 1e-12) << nodes;
+    x = matrix.transpose() * expected;
+    solver.solve_transposed(x);
+    EXPECT_LE((x - expected).cwiseAbs().maxCoeff(), 1e-12) << nodes;
+  }
+}
+
 }  // namespace
