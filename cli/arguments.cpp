@@ -1,16 +1,22 @@
 #include "cli/arguments.hpp"
 
 #include <algorithm>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/console.hpp"
 #include "cli/versions.hpp"
+#include "cli/wrapped_text.hpp"
 #include "core/base/error.hpp"
 
 namespace pleuel {
 
 namespace {
+
+/// Where the library begins what it says of an option.
+constexpr std::size_t help_column = 30;
 
 constexpr const char* footer = R"(
 Every command that takes FILE also takes --set (repeatable) and --json.
@@ -208,8 +214,10 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
   check_command_name(app, arguments.words);
   try {
     app.parse(argc, argv);
-  } catch (const CLI::Success& help) {
-    app.exit(help);
+  } catch (const CLI::Success& success) {
+    std::ostringstream text;
+    app.exit(success, text);
+    write_all(stdout, wrapped(text.str(), std::string(help_column, ' ')));
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
     throw InputError(fmt::format("{}; see {} --help", error.what(), arguments.program));

@@ -10,6 +10,7 @@
 #include "cli/stopwatch.hpp"
 #include "cli/ties.hpp"
 #include "cli/warnings.hpp"
+#include "cli/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/stop.hpp"
 #include "core/scene/body_rules.hpp"
@@ -104,7 +105,7 @@ std::string time_text(const ProblemFile& problem, const Findings& findings) {
     text += fmt::format("; an optimization of 20 to 50 iterations takes about {} to {}",
                         duration(20 * iteration), duration(50 * iteration));
   }
-  return text + "\n";
+  return wrapped(text, "  ") + "\n";
 }
 
 std::string make_text(const ProblemFile& problem, const Findings& findings) {

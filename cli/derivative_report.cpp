@@ -160,7 +160,7 @@ std::string derivatives_text(const ProblemFile& problem, const Analysis& analysi
          fmt::format("{} / {}", digits_of(check.relative_noise), digits_of(check.error))});
   }
   return "Responses; direct differentiation against central differences and against the adjoint "
-         "method, noise of\nthe value (all relative), and right digits of value / gradient that an "
+         "method,\nnoise of the value (all relative), and right digits of value / gradient that an "
          "optimizer may expect\n" +
          table.text() + disagreements_text(problem, checks);
 }

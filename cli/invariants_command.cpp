@@ -6,14 +6,12 @@
 #include "cli/problem_input.hpp"
 #include "cli/run_record.hpp"
 #include "cli/table.hpp"
-#include "cli/warnings.hpp"
 #include "core/base/error.hpp"
 #include "core/model/divided_beams.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/body_export.hpp"
 #include "core/scene/invariants_file.hpp"
 #include "core/scene/variable_quantity.hpp"
-#include "core/trust/doubts.hpp"
 
 namespace pleuel {
 
@@ -72,10 +70,8 @@ Json file_document(const InvariantsFile& file, const fs::path& path) {
           {"variables", std::move(variables)}};
 }
 
-Outcome report(const ProblemFile& problem, const std::vector<InvariantsFile>& files,
-               const std::vector<fs::path>& paths) {
-  const std::vector<std::string> warnings = texts_of(find_doubts_before(problem));
-  Outcome outcome{ExitCode::done, {{"bodies", Json::array()}, {"warnings", warnings}}, ""};
+Outcome report(const std::vector<InvariantsFile>& files, const std::vector<fs::path>& paths) {
+  Outcome outcome{ExitCode::done, {{"bodies", Json::array()}, {"warnings", Json::array()}}, ""};
   Table table({{"body", Table::Align::left},
                {"coordinates"},
                {"places"},
@@ -87,7 +83,7 @@ Outcome report(const ProblemFile& problem, const std::vector<InvariantsFile>& fi
                    std::to_string(files[i].constants.places.size()),
                    std::to_string(files[i].design.size()), paths[i].string()});
   }
-  outcome.text = table.text() + warnings_text(warnings);
+  outcome.text = table.text();
   return outcome;
 }
 
@@ -105,8 +101,7 @@ void check_free(const fs::path& path, const Arguments& arguments) {
   }
 }
 
-Outcome write_one(const fs::path& path, const ProblemFile& problem,
-                  const std::vector<InvariantsFile>& files) {
+Outcome write_one(const fs::path& path, const std::vector<InvariantsFile>& files) {
   if (files.size() != 1) {
     throw InputError(
         fmt::format("-o {}: is one file, but {} bodies are elastic; choose one with "
@@ -115,7 +110,7 @@ Outcome write_one(const fs::path& path, const ProblemFile& problem,
   }
   WriteFailures failures;
   write_file({path, &failures}, write_invariants(files.front()));
-  Outcome outcome = report(problem, files, {path});
+  Outcome outcome = report(files, {path});
   outcome.unwritten = failures.files();
   return outcome;
 }
@@ -126,7 +121,7 @@ Outcome run_invariants(const Arguments& arguments) {
   const ProblemInput input = read_input(arguments);
   if (arguments.output && arguments.output->extension() == ".json") {
     check_free(*arguments.output, arguments);
-    return write_one(*arguments.output, input.problem, export_bodies(arguments, input.problem));
+    return write_one(*arguments.output, export_bodies(arguments, input.problem));
   }
   RunRecord record(arguments, input, Json::object());
   record.begin_phase("export");
@@ -142,7 +137,7 @@ Outcome run_invariants(const Arguments& arguments) {
     paths.push_back(path);
     write_file(written, write_invariants(file));
   }
-  Outcome outcome = report(input.problem, files, paths);
+  Outcome outcome = report(files, paths);
   record.finish(outcome);
   return outcome;
 }

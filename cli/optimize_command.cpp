@@ -37,8 +37,11 @@ void examine_designs(RunRecord& record, Optimum& optimum) {
   write_trajectory(record.result("trajectory-optimum.csv"), *end);
   optimum.responses = values_of(*end);
   optimum.monitors = monitor(end->model, end->trajectory);
-  optimum.warnings =
-      texts_of(find_doubts(TrustedRun{optimum.problem, optimum.result.x, *end, optimum.monitors}));
+  // Of an answer with gradients the doubts are known: they are part of its verdict.
+  optimum.warnings = optimum.result.evaluation.has_gradients()
+                         ? optimum.result.warnings
+                         : texts_of(find_doubts(TrustedRun{optimum.problem, optimum.result.x, *end,
+                                                           optimum.monitors}));
 }
 
 ExitCode exit_code(const Optimum& optimum) {
@@ -111,9 +114,11 @@ std::string resume_text(const RunRecord& record, const Arguments& arguments,
 }
 
 std::string files_text(const RunRecord& record, const Optimum& optimum) {
-  return fmt::format("Written to {}: history.csv, result.json, run_card.json{}\n",
-                     record.folder().string(),
-                     optimum.has_design() ? ", trajectory-start.csv, trajectory-optimum.csv" : "");
+  return wrapped(
+      fmt::format("Written to {}: history.csv, result.json, run_card.json{}\n",
+                  record.folder().string(),
+                  optimum.has_design() ? ", trajectory-start.csv, trajectory-optimum.csv" : ""),
+      "  ");
 }
 
 }  // namespace

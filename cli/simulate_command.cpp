@@ -2,6 +2,7 @@
 
 #include "cli/analysis_report.hpp"
 #include "cli/commands.hpp"
+#include "cli/console.hpp"
 #include "cli/limits_report.hpp"
 #include "cli/monitors_report.hpp"
 #include "cli/problem_input.hpp"
@@ -12,6 +13,7 @@
 #include "cli/warnings.hpp"
 #include "cli/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
+#include "core/base/stop.hpp"
 #include "core/trust/doubts.hpp"
 
 namespace pleuel {
@@ -22,16 +24,39 @@ namespace {
 struct Simulated {
   const Analysis& analysis;
   Monitors monitors;
-  std::vector<std::string> warnings;
   double seconds = 0.0;
+  std::vector<std::string> warnings{};
   double check_seconds = 0.0;  ///< of what the warnings are found by
+  bool is_checked = true;
 };
+
+/// Simulations of more steps say what follows.
+constexpr int many_steps = 10000;
+
+/// Finds the warnings. An interrupt ends that, but not what is known.
+void check_numbers(const ProblemInput& input, Simulated& run) {
+  if (run.analysis.trajectory.steps() > many_steps) {
+    show(stderr, fmt::format("simulated in {}; checking the numbers …\n", duration(run.seconds)));
+  }
+  const Stopwatch check;
+  try {
+    run.warnings =
+        texts_of(find_doubts(TrustedRun{input.problem, input.design, run.analysis, run.monitors}));
+  } catch (const Stopped&) {
+    run.is_checked = false;
+    run.warnings = {
+        "interrupted while the numbers were checked: what speaks against them is not "
+        "known"};
+  }
+  run.check_seconds = check.seconds();
+}
 
 Json simulation_document(const Simulated& run) {
   const Analysis& analysis = run.analysis;
   const Trajectory& trajectory = analysis.trajectory;
   const System& system = *analysis.model.mechanism.system;
-  return {{"responses", responses_document(analysis)},
+  return {{"status", run.is_checked ? "done" : "interrupted"},
+          {"responses", responses_document(analysis)},
           {"steps", trajectory.steps()},
           {"split_steps", trajectory.split_steps},
           {"rejected_steps", trajectory.rejected_steps},
@@ -91,14 +116,12 @@ Outcome run_simulate(const Arguments& arguments) {
   const auto analysis = analyze(input.problem, input.design);
   const double seconds = stopwatch.seconds();
   record.begin_phase("monitor");
-  const Stopwatch check;
-  Simulated run{*analysis, monitor(analysis->model, analysis->trajectory), {}, seconds};
-  run.warnings =
-      texts_of(find_doubts(TrustedRun{input.problem, input.design, *analysis, run.monitors}));
-  run.check_seconds = check.seconds();
+  Simulated run{*analysis, monitor(analysis->model, analysis->trajectory), seconds};
+  check_numbers(input, run);
   record.begin_phase("write");
   const std::string design = arguments.design ? " at " + arguments.design->string() : "";
-  Outcome outcome{ExitCode::done, simulation_document(run),
+  Outcome outcome{run.is_checked ? ExitCode::done : ExitCode::not_verified,
+                  simulation_document(run),
                   simulation_text(input.problem, design, input.design, run)};
   outcome.text += fmt::format("Written to {}: trajectory.csv, result.json, run_card.json\n",
                               record.folder().string());

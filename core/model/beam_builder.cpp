@@ -177,10 +177,11 @@ class BasisBuilder {
     matrices.mass = dense_matrix(start.pattern, start.mass_matrix);
     matrices.stiffness = dense_matrix(start.pattern, start.stiffness);
     for (ModeFamily& family : kept.families) {
-      family.modes = beam_.reduction->modes
-                         ? complete_modes(matrices, family.coordinates, *beam_.reduction->modes)
-                         : count_fixed_interface_modes(matrices, family.coordinates,
-                                                       *beam_.reduction->frequency);
+      const CraigBampton& asked = *beam_.reduction;
+      const int modes =
+          asked.modes ? *asked.modes
+                      : count_fixed_interface_modes(matrices, family.coordinates, *asked.frequency);
+      family.modes = complete_modes(matrices, family.coordinates, modes + asked.more_modes);
     }
     return kept;
   }

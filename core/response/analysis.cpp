@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/machine_memory.hpp"
 #include "core/response/make_responses.hpp"
 #include "core/response/mechanism_modes.hpp"
 #include "core/response/misalignment.hpp"
@@ -123,6 +124,23 @@ SimulationOptions options_of(const ProblemFile& problem) {
   throw SimulationError(text);
 }
 
+/// Histories of responses are held as a whole, whatever the memory for states is.
+/// @throws InputError if the machine cannot hold them
+void require_memory(const std::vector<Response>& responses, const SimulationOptions& options) {
+  double channels = 1.0;  // the time
+  for (const Response& response : responses) {
+    if (response.signal) channels += response.signal->channels();
+  }
+  const double steps = options.end_time / options.step;
+  const double needed = sizeof(double) * channels * steps, there = machine_memory();
+  if (needed <= there) return;
+  throw InputError(
+      fmt::format("{:.3g} steps with {:.0f} numbers each, those of the responses, take {:.3g} GB, "
+                  "but the machine has {:.3g} GB: take a longer /simulation/step, a shorter "
+                  "/simulation/end_time, or ask for a stress \"at\" a place, not of a whole body",
+                  steps, channels, needed * 1e-9, there * 1e-9));
+}
+
 /// The history of a response, measured against the rigid mechanism if need be.
 Eigen::MatrixXd against_rigid(const Response& response, Eigen::MatrixXd history,
                               const Analysis& analysis) {
@@ -172,6 +190,7 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   analysis->responses = make_responses(problem.responses, analysis->model,
                                        analysis->full ? analysis->full->model : analysis->model);
   const SimulationOptions options = options_of(problem);
+  require_memory(analysis->responses, options);
   Recorder recorder(analysis->responses, step_count(options) + 1);
   ConstraintGuard guard(analysis->model, options);
   try {

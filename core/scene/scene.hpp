@@ -105,6 +105,7 @@ struct Damping {
 struct CraigBampton {
   std::optional<int> modes;         ///< number of fixed-interface modes
   std::optional<double> frequency;  ///< or all below this one [rad/s]
+  int more_modes = 0;               ///< not of a file: so many besides, in each family
 };
 
 /// Not of a file: the stretch of a divided beam that one of its frames carries. Ends of the beam

@@ -1,7 +1,6 @@
 #include "core/trust/doubts.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "core/trust/bending_range.hpp"
 #include "core/trust/energy_balance.hpp"
@@ -9,6 +8,8 @@
 #include "core/trust/fast_laws.hpp"
 #include "core/trust/frequency_meaning.hpp"
 #include "core/trust/idle_freedoms.hpp"
+#include "core/trust/initial_motion.hpp"
+#include "core/trust/joint_turns.hpp"
 #include "core/trust/left_out_effects.hpp"
 #include "core/trust/misaligned_joints.hpp"
 #include "core/trust/proportions.hpp"
@@ -19,18 +20,11 @@
 namespace pleuel {
 
 std::vector<Doubt> find_doubts_before(const ProblemFile& problem) {
-  using Find = std::vector<Doubt> (*)(const ProblemFile&);
-  static constexpr std::array<Find, 0> kinds = {};
-  std::vector<Doubt> doubts;
-  for (const Find find : kinds) {
-    const std::vector<Doubt> found = find(problem);
-    doubts.insert(doubts.end(), found.begin(), found.end());
-  }
-  return doubts;
+  return doubt_fast_laws_before(problem);
 }
 
 std::vector<Doubt> find_doubts(const TrustedRun& run) {
-  std::vector<Doubt> doubts = find_doubts_before(run.problem);
+  std::vector<Doubt> doubts;
   for (const auto find : {
            doubt_bending_range,
            doubt_energy_balance,
@@ -38,6 +32,8 @@ std::vector<Doubt> find_doubts(const TrustedRun& run) {
            doubt_fast_laws,
            doubt_frequencies,
            doubt_idle_freedoms,
+           doubt_initial_motion,
+           doubt_joint_turns,
            doubt_left_out_effects,
            doubt_lost_stiffening,
            doubt_misaligned_joints,

@@ -17,11 +17,11 @@ struct TrustedRun {
   const Monitors& monitors;  ///< of the analysis
 };
 
-/// What the file alone says against the numbers to come: known before a long run. Each kind has a
-/// file of its own, too.
+/// What the file alone says against the numbers to come, at its start design: known before a long
+/// run, and found again after it.
 std::vector<Doubt> find_doubts_before(const ProblemFile& problem);
 
-/// All doubts about a simulated design, those of its file among them, the serious ones first; every
+/// All doubts about a simulated design, the serious ones first; every
 /// command that shows numbers shows them. Each kind of doubt has a file of its own beside this one.
 std::vector<Doubt> find_doubts(const TrustedRun& run);
 

@@ -9,16 +9,24 @@ namespace {
 /// Share of the energy in motion. Errors of order h² are a few times larger in peaks than in
 /// energy.
 constexpr double small_energy_error = 1e-2;
+/// Where so much is missing, vibrations are not seen that the motion has.
+constexpr double large_energy_error = 0.1;
+
+/// Two digits, and no exponent.
+std::string percent(double share) {
+  return share < 1.0 ? fmt::format("{:.2g}", 100.0 * share) : fmt::format("{:.0f}", 100.0 * share);
+}
 
 }  // namespace
 
 std::vector<Doubt> doubt_energy_balance(const TrustedRun& run) {
-  if (run.monitors.energy_error <= small_energy_error) return {};
-  return {
-      {fmt::format("energy is balanced to {:.2g} % of the largest in the motion only: steps are "
-                   "too long for what moves here, or a drive jumps. Compare with a smaller "
-                   "/simulation/step.",
-                   100.0 * run.monitors.energy_error)}};
+  const double error = run.monitors.energy_error;
+  if (error <= small_energy_error) return {};
+  return {{fmt::format("energy is balanced to {} % of the largest in the motion only: steps are "
+                       "too long for what moves here, or a drive jumps. Compare with a smaller "
+                       "/simulation/step.",
+                       percent(error)),
+           error > large_energy_error}};
 }
 
 }  // namespace pleuel

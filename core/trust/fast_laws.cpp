@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/model/scene_geometry.hpp"
+#include "core/scene/time_breaks.hpp"
 
 namespace pleuel {
 
@@ -39,24 +40,40 @@ struct Missed {
   double scale = 0.0;  ///< largest distance from a value
 };
 
-Missed missed_by(const Eigen::VectorXd& time, const Observed& value, const Values& origin) {
+/// The times at which a law may turn sharply.
+const std::vector<double>& knots_of(const TimeFunction& function) {
+  static const std::vector<double> none;
+  const auto* table = std::get_if<TableFunction>(&function);
+  return table ? table->times : none;
+}
+
+/// @param knots  ascending: instants that are looked at, too
+Missed missed_by(const Eigen::VectorXd& time, const Observed& value,
+                 const std::vector<double>& knots) {
+  const Values origin = {0.0, 0.0};
   Missed missed;
   double place = 0.0;
+  auto knot = knots.begin();
   for (Eigen::Index i = 0; i + 1 < time.size(); ++i) {
     const double h = time(i + 1) - time(i);
     const Values begin = value(time(i) + beside * h), end = value(time(i + 1) - beside * h);
     missed.scale = std::max({missed.scale, distance(begin, origin), distance(end, origin)});
+    const auto look = [&](double at) {
+      const Values here = value(time(i) + (beside + (1.0 - 2.0 * beside) * at) * h);
+      const Values line = {begin[0] + at * (end[0] - begin[0]),
+                           begin[1] + at * (end[1] - begin[1])};
+      missed.scale = std::max(missed.scale, distance(here, origin));
+      if (distance(here, line) <= missed.largest) return;
+      missed.largest = distance(here, line);
+      missed.time = time(i) + at * h;
+      missed.step = h;
+    };
     for (int k = 0; k < samples; ++k) {
       place = std::fmod(place + golden_ratio, 1.0);
-      const double share = beside + (1.0 - 2.0 * beside) * place;
-      const Values here = value(time(i) + share * h);
-      const Values line = {begin[0] + place * (end[0] - begin[0]),
-                           begin[1] + place * (end[1] - begin[1])};
-      missed.scale = std::max(missed.scale, distance(here, origin));
-      if (distance(here, line) <= missed.largest) continue;
-      missed.largest = distance(here, line);
-      missed.time = time(i) + share * h;
-      missed.step = h;
+      look(place);
+    }
+    for (; knot != knots.end() && *knot < time(i + 1); ++knot) {
+      if (*knot > time(i)) look((*knot - time(i)) / h);
     }
   }
   return missed;
@@ -82,13 +99,15 @@ void add_missed(const Subject& subject, const Missed& missed, double scale,
        true});
 }
 
-void add_load(const std::string& name, const TimeLaw<double>& law, const Eigen::VectorXd& time,
-              std::vector<Doubt>& doubts) {
-  const Missed missed = missed_by(time,
-                                  [&](double t) -> Values {
-                                    return {law.at(t).value, 0.0};
-                                  },
-                                  {0.0, 0.0});
+void add_load(const std::string& name, const TimeFunction& function, const Design<double>& design,
+              const Eigen::VectorXd& time, std::vector<Doubt>& doubts) {
+  const TimeLaw<double> law = resolve_time_law(function, design);
+  const Missed missed = missed_by(
+      time,
+      [&](double t) -> Values {
+        return {law.at(t).value, 0.0};
+      },
+      knots_of(function));
   add_missed({fmt::format("the load \"{}\"", name), "value"}, missed, missed.scale, doubts);
 }
 
@@ -121,38 +140,39 @@ void add_drive(const Joint& joint, const TimeLaw<double>& law, const Eigen::Vect
          true});
     return;
   }
+  const std::vector<double>& knots = knots_of(joint.drive->motion);
   if (joint.drive->coordinate == DrivenCoordinate::angle) {
-    const Missed turned = missed_by(time,
-                                    [&](double t) -> Values {
-                                      const double angle = law.at(t).value;
-                                      return {std::cos(angle), std::sin(angle)};
-                                    },
-                                    {0.0, 0.0});
+    const Missed turned = missed_by(
+        time,
+        [&](double t) -> Values {
+          const double angle = law.at(t).value;
+          return {std::cos(angle), std::sin(angle)};
+        },
+        knots);
     add_missed({who, "direction", most_missed_direction}, turned, 1.0, doubts);
     if (turned.largest > most_missed_direction) return;
   }
-  const Missed moved = missed_by(time,
-                                 [&](double t) -> Values {
-                                   return {law.at(t).acceleration, 0.0};
-                                 },
-                                 {0.0, 0.0});
+  const Missed moved = missed_by(
+      time,
+      [&](double t) -> Values {
+        return {law.at(t).acceleration, 0.0};
+      },
+      knots);
   add_missed({who, "acceleration"}, moved, moved.scale, doubts);
 }
 
-}  // namespace
-
-std::vector<Doubt> doubt_fast_laws(const TrustedRun& run) {
-  const Design<double> design(run.x.begin(), run.x.end());
-  const Eigen::VectorXd& time = run.analysis.trajectory.time;
+/// @param time  the instants of the steps
+std::vector<Doubt> find_fast_laws(const Scene& scene, const Design<double>& design,
+                                  const Eigen::VectorXd& time) {
   std::vector<Doubt> doubts;
-  for (const Joint& joint : run.problem.scene.joints) {
+  for (const Joint& joint : scene.joints) {
     if (!joint.drive) continue;
     add_drive(joint, resolve_time_law(joint.drive->motion, design, LawOf::motion), time, doubts);
   }
   const auto add = [&](const std::string& name, const TimeFunction& function) {
-    add_load(name, resolve_time_law(function, design), time, doubts);
+    add_load(name, function, design, time, doubts);
   };
-  for (const Load& load : run.problem.scene.loads) {
+  for (const Load& load : scene.loads) {
     if (const auto* force = std::get_if<PointForce>(&load.element)) {
       add(load.name, force->value);
     } else if (const auto* torque = std::get_if<PointTorque>(&load.element)) {
@@ -162,6 +182,27 @@ std::vector<Doubt> doubt_fast_laws(const TrustedRun& run) {
     }
   }
   return doubts;
+}
+
+}  // namespace
+
+std::vector<Doubt> doubt_fast_laws(const TrustedRun& run) {
+  return find_fast_laws(run.problem.scene, Design<double>(run.x.begin(), run.x.end()),
+                        run.analysis.trajectory.time);
+}
+
+std::vector<Doubt> doubt_fast_laws_before(const ProblemFile& problem) {
+  const SimulationSettings& settings = problem.simulation;
+  if (settings.local_error > 0.0) return {};
+  SimulationOptions options;
+  options.end_time = settings.end_time;
+  options.step = settings.step;
+  options.breaks = time_breaks(problem.scene, settings.step);
+  const std::vector<double> instants = regular_instants(options);
+  const Eigen::VectorXd x = start_design(problem);
+  return find_fast_laws(problem.scene, Design<double>(x.begin(), x.end()),
+                        Eigen::Map<const Eigen::VectorXd>(
+                            instants.data(), static_cast<Eigen::Index>(instants.size())));
 }
 
 }  // namespace pleuel

@@ -8,4 +8,8 @@ namespace pleuel {
 /// not seen, however well energy is balanced. And drives whose speed jumps.
 std::vector<Doubt> doubt_fast_laws(const TrustedRun& run);
 
+/// The same of the start design before a simulation, whose equal steps the file says; nothing where
+/// steps follow an error.
+std::vector<Doubt> doubt_fast_laws_before(const ProblemFile& problem);
+
 }  // namespace pleuel

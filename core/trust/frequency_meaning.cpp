@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/response/full_mechanism.hpp"
 #include "core/response/mechanism_modes.hpp"
+#include "core/trust/turning_axes.hpp"
 
 namespace pleuel {
 
@@ -87,6 +88,33 @@ void add_missing_stress(const TrustedRun& run, const std::vector<const Response*
   }
 }
 
+/// Small motions have constant coefficients only in axes that turn with the mechanism.
+void add_turning(const TrustedRun& run, const std::vector<const Response*>& responses,
+                 std::vector<Doubt>& doubts) {
+  const Analysis& analysis = run.analysis;
+  if (!analysis.modes_left_out.empty()) return;
+  State state;
+  analysis.trajectory.load(0, state);
+  if (analysis.full) state = analysis.full->initial->state;
+  if (state.v.isZero(0.0)) return;
+  const Model& model = analysis.full ? analysis.full->model : analysis.model;
+  const Eigen::VectorXd turning = frequencies_in_turning_axes(model, state);
+  for (const Response* response : responses) {
+    const int mode = *response->mechanism_mode;
+    if (mode >= turning.size()) continue;
+    const double change = std::abs(turning(mode) - response->constant);
+    if (change <= small_change * std::abs(response->constant)) continue;
+    doubts.push_back(
+        {fmt::format("the frequency \"{}\" is not high against the speed at which the mechanism "
+                     "moves at t = 0: it is {:.5g} rad/s in axes that stand still, and {:.5g} "
+                     "rad/s in axes that turn with the bodies, which is right where all turn "
+                     "alike. Do not rely on it.",
+                     response->name, response->constant, turning(mode)),
+         true,
+         {response->name}});
+  }
+}
+
 }  // namespace
 
 std::vector<Doubt> doubt_frequencies(const TrustedRun& run) {
@@ -101,6 +129,7 @@ std::vector<Doubt> doubt_frequencies(const TrustedRun& run) {
   const std::vector<const Response*> responses = frequencies_of_mechanism(run);
   if (responses.empty()) return doubts;
   add_unstable(run, responses, doubts);
+  add_turning(run, responses, doubts);
   add_missing_stress(run, responses, doubts);
   return doubts;
 }

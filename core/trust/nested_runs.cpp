@@ -39,11 +39,19 @@ void change_elements(Scene& scene, double factor) {
   }
 }
 
+void add_modes(Scene& scene, int more) {
+  for (Body& body : scene.bodies) {
+    auto* beam = std::get_if<BeamBody>(&body.shape);
+    if (beam && beam->reduction) beam->reduction->more_modes += more;
+  }
+}
+
 }  // namespace
 
 ProblemFile refined(ProblemFile problem, const Refinement& refinement) {
   if (refinement.step != 1.0) change_steps(problem.simulation, refinement.step);
   if (refinement.elements != 1.0) change_elements(problem.scene, refinement.elements);
+  if (refinement.more_modes > 0) add_modes(problem.scene, refinement.more_modes);
   return problem;
 }
 
@@ -72,6 +80,14 @@ std::vector<NestedRun> make_nested_runs(const ProblemFile& problem, const Eigen:
     runs[index] = make_nested_run(problem, x, refinements[index]);
   });
   return runs;
+}
+
+bool has_reduced_beams(const Model& model, const ProblemFile& problem) {
+  return std::any_of(problem.scene.bodies.begin(), problem.scene.bodies.end(),
+                     [&](const Body& body) {
+                       const auto* beam = std::get_if<BeamBody>(&body.shape);
+                       return beam && beam->reduction && model.body(body.name).is_elastic;
+                     });
 }
 
 std::optional<int> fewest_elements(const Model& model, const ProblemFile& problem) {

@@ -13,6 +13,7 @@ namespace pleuel {
 struct Refinement {
   double step = 1.0;      ///< times the steps of the file: 2 or 0.5
   double elements = 1.0;  ///< times the elements of every segment: 2 or 0.5
+  int more_modes = 0;     ///< of each family of every reduced beam
 };
 
 /// What is compared of a run.
@@ -39,6 +40,9 @@ NestedRun nested_run_of(const Analysis& analysis);
 /// The same of several refinements, on the threads of the machine.
 std::vector<NestedRun> make_nested_runs(const ProblemFile& problem, const Eigen::VectorXd& x,
                                         const std::vector<Refinement>& refinements);
+
+/// Whether an elastic beam is reduced to modes.
+bool has_reduced_beams(const Model& model, const ProblemFile& problem);
 
 /// The fewest elements of a segment of an elastic beam; none without such a beam.
 std::optional<int> fewest_elements(const Model& model, const ProblemFile& problem);

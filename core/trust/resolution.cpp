@@ -8,6 +8,7 @@
 
 #include "core/base/relative_error.hpp"
 #include "core/trust/nested_runs.hpp"
+#include "core/trust/round_off.hpp"
 
 namespace pleuel {
 
@@ -31,6 +32,9 @@ constexpr double falling_share = 0.5;
 /// What is taken then, times the change.
 constexpr double unknown_factor = 3.0;
 
+/// Of a reduction, in each family: with one the next may be of a symmetry that is not excited.
+constexpr int more_modes = 2;
+
 class Judgement {
  public:
   explicit Judgement(const TrustedRun& run)
@@ -44,19 +48,40 @@ class Judgement {
 
   Resolution judge() {
     if (judged_.empty()) return {};
-    const std::optional<int> fewest = fewest_elements(run_.analysis.model, problem_);
-    const bool has_few = fewest.value_or(1) <= 2;
-    space_factor_ = has_few ? 2.0 : 0.5;
-    std::vector<Refinement> coarse = {{2.0, 1.0}};
-    if (fewest) coarse.push_back({2.0, space_factor_});
-    suspect(make_nested_runs(problem_, run_.x, coarse));
+    const std::vector<NestedRun> coarse = make_nested_runs(problem_, run_.x, coarse_runs());
+    suspect(coarse);
+    if (!is_suspicious()) return {};
+    if (leave_out_round_off()) suspect(coarse);
     std::vector<Refinement> fine;
     if (is_time_suspicious_) fine.push_back({0.5, 1.0});
     if (is_space_suspicious_) fine.push_back({1.0, 2.0});
+    if (are_modes_suspicious_) fine.push_back({1.0, 1.0, more_modes});
     return weigh(make_nested_runs(problem_, run_.x, fine));
   }
 
  private:
+  std::vector<Refinement> coarse_runs() {
+    const std::optional<int> fewest = fewest_elements(run_.analysis.model, problem_);
+    const bool has_few = fewest.value_or(1) <= 2;
+    space_factor_ = has_few ? 2.0 : 0.5;
+    has_elements_ = fewest.has_value();
+    has_modes_ = has_reduced_beams(run_.analysis.model, problem_);
+    std::vector<Refinement> coarse = {{2.0, 1.0}};
+    if (has_elements_) coarse.push_back({2.0, space_factor_});
+    if (has_modes_) coarse.push_back({2.0, 1.0, more_modes});
+    return coarse;
+  }
+
+  bool is_suspicious() const {
+    return is_time_suspicious_ || is_space_suspicious_ || are_modes_suspicious_;
+  }
+
+  /// @returns whether there was one
+  bool leave_out_round_off() {
+    const std::vector<bool> is_left_out = find_round_off(run_);
+    return std::erase_if(judged_, [&](std::size_t i) { return is_left_out[i]; }) > 0;
+  }
+
   double magnitude(const NestedRun& run, std::size_t i) const {
     const Eigen::MatrixXd& history = run.histories[i];
     return history.size() > 0 ? history.cwiseAbs().maxCoeff()
@@ -75,12 +100,19 @@ class Judgement {
                           run_.monitors.elastic_energy_error > suspicious_energy ||
                           std::any_of(judged_.begin(), judged_.end(),
                                       [&](std::size_t i) { return is_suspicious_in_time(i); });
-    if (coarse.size() < 2) return;
-    const NestedRun& other = coarse[1];
-    is_space_suspicious_ = coarse_.has_failed() || other.has_failed() ||
-                           std::any_of(judged_.begin(), judged_.end(), [&](std::size_t i) {
-                             return is_suspicious_in_space(other, i);
-                           });
+    // Half the elements have four times the error (order 2, bending has more), twice a quarter of
+    // it.
+    const double share = space_factor_ < 1.0 ? 1.0 / 3.0 : 4.0 / 3.0;
+    if (has_elements_) is_space_suspicious_ = is_suspicious_beside(coarse[1], share);
+    if (has_modes_) are_modes_suspicious_ = is_suspicious_beside(coarse.back(), 1.0);
+  }
+
+  /// @param share  of the change that is an error
+  bool is_suspicious_beside(const NestedRun& other, double share) const {
+    return coarse_.has_failed() || other.has_failed() ||
+           std::any_of(judged_.begin(), judged_.end(), [&](std::size_t i) {
+             return share * change(other, coarse_, i) > small_error;
+           });
   }
 
   bool is_suspicious_in_time(std::size_t i) const {
@@ -102,20 +134,15 @@ class Judgement {
         .maxCoeff();
   }
 
-  /// Half the elements have four times the error (order 2, bending has more), twice a quarter of
-  /// it.
-  bool is_suspicious_in_space(const NestedRun& other, std::size_t i) const {
-    const double share = space_factor_ < 1.0 ? 1.0 / 3.0 : 4.0 / 3.0;
-    return share * change(other, coarse_, i) > small_error;
-  }
-
   Resolution weigh(const std::vector<NestedRun>& fine) const {
     Resolution resolution;
     std::size_t next = 0;
     if (is_time_suspicious_) resolution.in_time = weigh_time(fine[next++], resolution.failure);
-    if (is_space_suspicious_) {
-      resolution.in_space = weigh_space(fine[next], resolution.in_time, resolution.failure);
-    }
+    const auto weigh_next = [&] {
+      return weigh_division(fine[next++], resolution.in_time, resolution.failure);
+    };
+    if (is_space_suspicious_) resolution.in_space = weigh_next();
+    if (are_modes_suspicious_) resolution.in_modes = weigh_next();
     return resolution;
   }
 
@@ -144,9 +171,11 @@ class Judgement {
     return sorted(std::move(unresolved));
   }
 
-  /// Without those that time does not resolve: what space changes of them is not known.
-  std::vector<Unresolved> weigh_space(const NestedRun& fine, const std::vector<Unresolved>& in_time,
-                                      std::string& failure) const {
+  /// Of elements or modes. Without those that time does not resolve: what space changes of them is
+  /// not known.
+  std::vector<Unresolved> weigh_division(const NestedRun& fine,
+                                         const std::vector<Unresolved>& in_time,
+                                         std::string& failure) const {
     std::vector<Unresolved> unresolved;
     if (fine.has_failed()) {
       failure = fine.failure;
@@ -173,7 +202,8 @@ class Judgement {
   NestedRun found_, coarse_;
   std::vector<std::size_t> judged_;
   double space_factor_ = 0.5;
-  bool is_time_suspicious_ = false, is_space_suspicious_ = false;
+  bool has_elements_ = false, has_modes_ = false;
+  bool is_time_suspicious_ = false, is_space_suspicious_ = false, are_modes_suspicious_ = false;
 };
 
 /// Whether an optimum rests on a response; without an objective all are what is asked for.
@@ -231,6 +261,9 @@ std::vector<Doubt> doubt_resolution(const TrustedRun& run) {
                                 proposed_step(run.problem, found.in_time.front().error))));
   }
   add(doubt_about(run, found.in_space, "twice the elements", "Try more elements"));
+  add(doubt_about(run, found.in_modes,
+                  fmt::format("a \"reduction\" of {} modes more in each family", more_modes),
+                  "Try more modes"));
   if (!found.failure.empty()) {
     doubts.push_back(
         {fmt::format("whether the responses are resolved is not known: {}", found.failure)});

@@ -10,28 +10,33 @@ namespace pleuel {
 /// What a finer division of time or space changes of a response.
 struct Unresolved {
   std::size_t response = 0;  ///< index
-  double change = 0.0;       ///< of its value by a run of half the step or twice the elements
-  double error = 0.0;        ///< estimate of what is missing to the limit of fine division
+  double change = 0.0;  ///< of its value by a run of half the step, twice the elements, or more
+                        ///< modes
+  double error = 0.0;   ///< estimate of what is missing to the limit of fine division
 };
 
 /// Responses whose estimated error is above one percent, the worst first; all errors are relative
 /// (core/base/relative_error.hpp).
 struct Resolution {
   std::vector<Unresolved> in_time, in_space;
-  std::string failure;  ///< of a finer run that could not be made; empty: none
+  std::vector<Unresolved> in_modes;  ///< that reductions leave out
+  std::string failure;               ///< of a finer run that could not be made; empty: none
 };
 
 /// Judges which responses are resolved, in two stages:
 /// 1. Suspicion. A run of twice the step, and one of it with half the elements (twice, where there
-///    are only one or two), together cost about as much as the simulation. A response is suspicious
+///    are only one or two), together cost about as much as the simulation; where beams are reduced,
+///    one with more modes joins them. A response is suspicious
 ///    if the values differ by more than a percent (a percent of its error in space, of order 2), if
 ///    the histories differ by some percent of their largest value (peaks can agree by accident), or
 ///    if the history swings from step to step (ωh above some 0.6, where twice the step says
 ///    nothing).
-/// 2. Evidence. Only if there is a suspicion, half the step or twice the elements are run and
-///    judge all responses. With the order p of the scheme and the observed change c the error is
-///    c / (1 − 2⁻ᵖ) (Richardson). Where the change is not a fraction of the one before, as it is of
-///    a peak that rings, nothing is known of the limit, and three times the change is taken.
+/// 2. Evidence. Only if there is a suspicion, half the step, twice the elements or the modes are
+/// run
+///    and judge all responses but those that are round-off (round_off.hpp). With the order p of the
+///    scheme and the observed change c the error is c / (1 − 2⁻ᵖ) (Richardson). Where the change is
+///    not a fraction of the one before, as it is of a peak that rings, nothing is known of the
+///    limit, and three times the change is taken.
 /// Balances of energy and drifts of constraints are errors themselves, and not judged.
 Resolution judge_resolution(const TrustedRun& run);
 

@@ -11,6 +11,7 @@
 #include "core/beam/beam_shape.hpp"
 #include "core/beam/elastic_basis.hpp"
 #include "core/beam/natural_modes.hpp"
+#include "core/integration/freedoms.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "core/section/shear_coefficient.hpp"
 #include "core/trust/beam_state.hpp"
@@ -229,6 +230,7 @@ class ShearDoubts {
   explicit ShearDoubts(const TrustedRun& run) : run_(run), model_(run.analysis.model) {}
 
   std::vector<Doubt> find() {
+    is_held_twice_ = is_held_twice();
     const auto largest = largest_deformations(model_, run_.analysis.trajectory);
     State state;
     for (std::size_t i = 0; i < model_.bodies.size(); ++i) {
@@ -244,6 +246,21 @@ class ShearDoubts {
   }
 
  private:
+  /// Whether joints and drives hold more than rigid bodies need, in every position: then section
+  /// forces are those of deformation. Five instants are enough, of which not all are dead centres.
+  bool is_held_twice() const {
+    const Mechanism& mechanism = model_.mechanism;
+    const int rows =
+        mechanism.system->multipliers() - static_cast<int>(mechanism.system->left_out().size());
+    const int steps = run_.analysis.trajectory.steps();
+    State state;
+    for (int i = 0; i <= 4; ++i) {
+      run_.analysis.trajectory.load(i * steps / 4, state);
+      if (rigid_freedoms(mechanism, state).constraints >= rows) return false;
+    }
+    return true;
+  }
+
   void add_doubt(const std::string& body, const ShearShare& share,
                  std::vector<Doubt>& doubts) const {
     double worst = 0.0;
@@ -262,10 +279,10 @@ class ShearDoubts {
     const bool is_serious = worst > alarming;
     const std::string advice = is_serious ? "Do not trust that" : "Where that matters";
     doubts.push_back(
-        {fmt::format("\"{}\" is stubby: shear, which beams leave out, would change {} by some "
+        {fmt::format("\"{}\" is stubby: shear, which beams leave out, would change {} by {} "
                      "{:.2g} %. {}: import the body from a code whose elements shear (type "
                      "\"invariants\").",
-                     body, names, 100.0 * worst, advice),
+                     body, names, is_held_twice_ ? "up to" : "some", 100.0 * worst, advice),
          is_serious, responses});
   }
 
@@ -289,6 +306,14 @@ class ShearDoubts {
         return is_of_body ? euler_share(body) : 0.0;
       case ResponseType::frequency:
         return is_of_body ? mode_share(body, response.mode) : 0.0;
+      case ResponseType::stress:
+        return is_held_twice_ && is_of_body ? largest : 0.0;
+      case ResponseType::reaction_force:
+      case ResponseType::reaction_moment:
+      case ResponseType::drive_torque:
+      case ResponseType::drive_force:
+      case ResponseType::drive_power:
+        return is_held_twice_ ? largest : 0.0;
       default:
         return 0.0;
     }
@@ -344,6 +369,7 @@ class ShearDoubts {
 
   const TrustedRun& run_;
   const Model& model_;
+  bool is_held_twice_ = false;
   std::map<std::string, double> known_;  ///< largest rotations [rad]
   std::map<std::string, ShearShare> shares_;
 };

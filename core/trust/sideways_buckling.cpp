@@ -28,17 +28,17 @@ constexpr double harmless = 0.05;
 /// What joints hold of a body in space, as if its neighbours were rigid.
 class Supports {
  public:
-  Supports(const TrustedRun& run, const Body& body, const BodyModel& model, BendingPlane plane)
+  Supports(const TrustedRun& run, const Body& body, const Beam<double>& beam, BendingPlane plane)
       : run_(run),
         body_(body),
-        model_(model),
+        beam_(beam),
         design_(run.x.begin(), run.x.end()),
         axes_(body_pose(body, design_).rotation),
         lateral_(axes_.col(plane == BendingPlane::xy ? 2 : 1)),
         transverse_(axes_.col(plane == BendingPlane::xy ? 1 : 2)) {}
 
   std::vector<LateralSupport> find() const {
-    std::vector<LateralSupport> supports(static_cast<std::size_t>(model_.beam.node_count()));
+    std::vector<LateralSupport> supports(static_cast<std::size_t>(beam_.node_count()));
     for (const Joint& joint : run_.problem.scene.joints) {
       for (std::size_t side = 0; side < 2; ++side) {
         if (joint.bodies[side] != body_.name) continue;
@@ -58,9 +58,9 @@ class Supports {
     const bool is_other_end = joint.type == JointType::distance && side == 1;
     const Eigen::Vector3d point = resolve_point(is_other_end ? joint.to : joint.at, design_);
     const double x = (point - body_pose(body_, design_).origin).dot(axes_.col(0));
-    const double length = model_.beam.node_position(model_.beam.node_count() - 1);
+    const double length = beam_.node_position(beam_.node_count() - 1);
     const double share = std::clamp(x / length, 0.0, 1.0);
-    const BeamPlace place = find_place(model_.beam, share);
+    const BeamPlace place = find_place(beam_, share);
     return static_cast<std::size_t>(place.node());
   }
 
@@ -125,21 +125,39 @@ class Supports {
 
   const TrustedRun& run_;
   const Body& body_;
-  const BodyModel& model_;
+  const Beam<double>& beam_;
   Design<double> design_;
   Eigen::Matrix3d axes_;
   Eigen::Vector3d lateral_, transverse_;
 };
 
+using Parts = std::vector<const BodyModel*>;
+
+/// The elements of all parts of a beam in one.
+Beam<double> whole_beam(const Parts& parts) {
+  Beam<double> beam = parts.front()->beam;
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    const std::vector<BeamElement<double>>& more = parts[i]->beam.elements;
+    beam.elements.insert(beam.elements.end(), more.begin(), more.end());
+  }
+  return beam;
+}
+
 /// The section forces of one beam over time.
 class BeamHistory {
  public:
-  BeamHistory(const BodyModel& model, BendingPlane plane) : model_(model), plane_(plane) {}
+  BeamHistory(const Parts& parts, BendingPlane plane) : parts_(parts), plane_(plane) {}
 
   PlaneLoad at(const State& state) const {
     PlaneLoad load;
-    const Beam<double>& beam = model_.beam;
-    const Eigen::MatrixXd nodal = nodal_displacements(model_, state);
+    for (const BodyModel* part : parts_) add(*part, state, load);
+    return load;
+  }
+
+ private:
+  void add(const BodyModel& part, const State& state, PlaneLoad& load) const {
+    const Beam<double>& beam = part.beam;
+    const Eigen::MatrixXd nodal = nodal_displacements(part, state);
     const bool is_xy = plane_ == BendingPlane::xy;
     for (int e = 0; e + 1 < beam.node_count(); ++e) {
       const BeamElement<double>& element = beam.elements[static_cast<std::size_t>(e)];
@@ -153,15 +171,13 @@ class BeamHistory {
         const auto h = hermite(xi, element.length, 2);
         return element.young * inertia * (h[0] * a[0] + h[1] * a[1] + h[2] * b[0] + h[3] * b[1]);
       };
-      load.axial.push_back(element.young * element.section.area * elongation_of(model_, nodal, e) /
+      load.axial.push_back(element.young * element.section.area * elongation_of(part, nodal, e) /
                            element.length);
       load.moment.push_back({moment(0.0), moment(1.0)});
     }
-    return load;
   }
 
- private:
-  const BodyModel& model_;
+  const Parts& parts_;
   BendingPlane plane_;
 };
 
@@ -180,17 +196,17 @@ double largest_press(const PlaneLoad& load) {
 
 class SidewaysBuckling {
  public:
-  SidewaysBuckling(const TrustedRun& run, const Body& body, const BodyModel& model)
+  SidewaysBuckling(const TrustedRun& run, const Body& body, Parts parts)
       : run_(run),
         body_(body),
-        model_(model),
-        is_planar_(model.frame.rotation == RotationCoordinates::angle),
+        parts_(std::move(parts)),
+        beam_(whole_beam(parts_)),
+        is_planar_(frame().rotation == RotationCoordinates::angle),
         plane_(plane()) {
-    const Beam<double>& beam = model.beam;
-    length_ = beam.node_position(beam.node_count() - 1);
+    length_ = beam_.node_position(beam_.node_count() - 1);
     lateral_ = twisting_ = std::numeric_limits<double>::infinity();
     bool is_equal = true;
-    for (const BeamElement<double>& element : beam.elements) {
+    for (const BeamElement<double>& element : beam_.elements) {
       const SectionProperties<double>& s = element.section;
       const bool is_xy = plane_ == BendingPlane::xy;
       const double weak = is_xy ? s.inertia_y : s.inertia_z;
@@ -208,7 +224,7 @@ class SidewaysBuckling {
   std::vector<Doubt> find() {
     find_worst();
     if (worst_ < harmless) return {};
-    std::vector<LateralSupport> supports = Supports(run_, body_, model_, plane_).find();
+    std::vector<LateralSupport> supports = Supports(run_, body_, beam_, plane_).find();
     double factor = factor_of(supports, load_);
     if (std::isnan(factor)) {  // nothing keeps it from turning about its axis
       supports.front().twist = true;
@@ -222,18 +238,20 @@ class SidewaysBuckling {
   }
 
  private:
+  const BodyFrame& frame() const { return parts_.front()->frame; }
+
   /// Of the motion, or in space that of the stiffer axis.
   BendingPlane plane() const {
     if (is_planar_) {
-      const Eigen::Vector3d out = model_.frame.reference.transpose() * model_.frame.axis;
+      const Eigen::Vector3d out = frame().reference.transpose() * frame().axis;
       return std::abs(out.z()) > 0.5 ? BendingPlane::xy : BendingPlane::xz;
     }
-    const SectionProperties<double>& s = model_.beam.elements.front().section;
+    const SectionProperties<double>& s = beam_.elements.front().section;
     return s.inertia_z >= s.inertia_y ? BendingPlane::xy : BendingPlane::xz;
   }
 
   void find_worst() {
-    const BeamHistory history(model_, plane_);
+    const BeamHistory history(parts_, plane_);
     const double pi = std::numbers::pi;
     const double moment = pi * std::sqrt(lateral_ * twisting_) / length_;
     const double press = pi * pi * lateral_ / (length_ * length_);
@@ -251,7 +269,7 @@ class SidewaysBuckling {
   }
 
   double factor_of(const std::vector<LateralSupport>& supports, const PlaneLoad& load) const {
-    return lateral_load_factor(model_.beam, plane_, supports, load);
+    return lateral_load_factor(beam_, plane_, supports, load);
   }
 
   /// What restrained warping could add at most: flanges that hold all of the lateral stiffness, at
@@ -287,7 +305,8 @@ class SidewaysBuckling {
 
   const TrustedRun& run_;
   const Body& body_;
-  const BodyModel& model_;
+  Parts parts_;
+  Beam<double> beam_;
   bool is_planar_;
   BendingPlane plane_;
   bool moments_matter_ = true;
@@ -302,10 +321,9 @@ std::vector<Doubt> doubt_sideways_buckling(const TrustedRun& run) {
   std::vector<Doubt> doubts;
   for (const Body& body : run.problem.scene.bodies) {
     if (!std::holds_alternative<BeamBody>(body.shape)) continue;
-    const BodyModel& model = run.analysis.model.body(body.name);
-    // The undivided beam knows no state.
-    if (!model.is_elastic || run.analysis.model.parts(body.name).size() > 1) continue;
-    const std::vector<Doubt> found = SidewaysBuckling(run, body, model).find();
+    const Parts parts = run.analysis.model.parts(body.name);
+    if (!parts.front()->is_elastic) continue;
+    const std::vector<Doubt> found = SidewaysBuckling(run, body, parts).find();
     doubts.insert(doubts.end(), found.begin(), found.end());
   }
   return doubts;

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <fstream>
+#include <sstream>
 
 #include <gmock/gmock.h>
 
@@ -97,6 +99,18 @@ TEST(Help, IsNoError) {
   const ProgramRun run = run_program(folder.path(), {"--help"});
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_THAT(run.out, HasSubstr("optimize"));
+}
+
+TEST(Help, FitsIntoAHundredColumns) {
+  const TemporaryFolder folder;
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--help"}, {"optimize", "--help"}, {"gradient", "--help"}}) {
+    std::istringstream lines(run_program(folder.path(), words).out);
+    for (std::string line; std::getline(lines, line);) {
+      const auto is_character = [](char byte) { return (byte & 0xC0) != 0x80; };  // of UTF-8
+      EXPECT_LE(std::count_if(line.begin(), line.end(), is_character), 100) << line;
+    }
+  }
 }
 
 }  // namespace

@@ -64,6 +64,22 @@ TEST_F(Interrupted, StabilityKeepsItsRuns) {
   EXPECT_EQ(result().at("runs").size() + 1, read_csv(folder_.path() / "run/stability.csv").size());
 }
 
+/// What was simulated is kept where the checks of it, which take as long, are not awaited.
+TEST_F(Interrupted, SimulateKeepsWhatItHasSimulated) {
+  const std::string path = folder_.path().string();
+  const ProgramRun run = run_line(
+      folder_.path(),
+      fmt::format("simulate {0} -o {1}/run --set '/simulation/step=4 us' >{1}/out 2>{1}/err & "
+                  "p=$!; i=0; while [ ! -s {1}/err ] && [ $i -lt 3000 ]; "
+                  "do sleep 0.01; i=$((i + 1)); done; kill -TERM $p; wait $p; echo $?",
+                  problem("slider_crank_round"), path));
+  EXPECT_EQ(run.out, "4\n");
+  EXPECT_EQ(result().at("status"), "interrupted");
+  EXPECT_FALSE(result().at("responses").empty());
+  EXPECT_GE(read_csv(folder_.path() / "run/trajectory.csv").size(), 1000u);
+  EXPECT_THAT(out(), HasSubstr("interrupted while the numbers were checked"));
+}
+
 /// Samples are told after each batch of 64.
 TEST_F(Interrupted, UncertaintyKeepsItsSamples) {
   const std::string path = folder_.path().string();

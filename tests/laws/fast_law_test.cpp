@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "core/response/monitors.hpp"
@@ -32,12 +33,20 @@ TEST(FastLoad, IsDoubtedFromTwentyTwoStepsAPeriodOn) {
 
 TEST(FastLoad, IsDoubtedWhereATableIsFinerThanTheSteps) {
   const auto pulse = [](double width) {
-    const auto at = [&](int i) { return std::to_string(0.0503 + i * width); };
+    const auto at = [&](int i) { return fmt::format("{:.12g}", 0.0503 + i * width); };
     return R"({"type": "table", "times": [)" + at(0) + "," + at(1) + "," + at(2) +
            R"(], "values": [0, 1, 0]})";
   };
   EXPECT_TRUE(doubts_about(pushed_block(pulse(5e-3))).empty());
-  EXPECT_EQ(doubts_about(pushed_block(pulse(3e-4))).size(), 2U);
+  for (const double width : {3e-4, 3e-6, 3e-9}) {
+    EXPECT_EQ(doubts_about(pushed_block(pulse(width))).size(), 2U) << width;
+  }
+}
+
+TEST(FastLoad, IsKnownBeforeTheSimulation) {
+  EXPECT_TRUE(doubt_fast_laws_before(pushed_block(harmonic(23))).empty());
+  const ProblemFile fast = pushed_block(harmonic(10));
+  EXPECT_EQ(texts_of(doubt_fast_laws_before(fast)), texts_of(doubts_about(fast)));
 }
 
 TEST(FastLoad, IsNotDoubtedWhereItJumpsOnAnInstant) {

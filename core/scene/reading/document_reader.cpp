@@ -1,5 +1,6 @@
 #include "core/scene/reading/document_reader.hpp"
 
+#include "core/base/machine_memory.hpp"
 #include "core/scene/reading/catalogue.hpp"
 #include "core/scene/reading/goal_reader.hpp"
 #include "core/scene/reading/override.hpp"
@@ -25,6 +26,8 @@ void read_settings(const JsonNode& root, const NumberReader& numbers, ProblemFil
   if (const auto effects = root.find("effects")) problem.effects = read_effects(*effects);
   if (const auto sensitivity = root.find("sensitivity")) {
     problem.sensitivity = read_sensitivity(*sensitivity, numbers);
+  } else {
+    problem.sensitivity.memory = default_memory();
   }
   if (const auto optimizer = root.find("optimizer")) problem.optimizer = read_optimizer(*optimizer);
   if (const auto pareto = root.find("pareto")) {

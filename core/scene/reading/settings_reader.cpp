@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/machine_memory.hpp"
 #include "core/scene/sample_extent.hpp"
 
 namespace pleuel {
@@ -198,9 +199,9 @@ SensitivitySettings read_sensitivity(const JsonNode& node, const NumberReader& n
     settings.difference_step = read_tolerance(*step);
   }
   read_invariant_derivatives(node, settings.invariants);
-  if (const auto memory = node.find("memory")) {
-    settings.memory = numbers.fixed(*memory, quantities::data, Range::positive);
-  }
+  const auto memory = node.find("memory");
+  settings.memory =
+      memory ? numbers.fixed(*memory, quantities::data, Range::positive) : default_memory();
   return settings;
 }
 

@@ -212,4 +212,19 @@ TEST(SidewaysBuckling, OfAColumnOutOfThePlaneOfMotionIsSerious) {
   EXPECT_NE(doubts[0].text.find("about its weak axis"), std::string::npos);
 }
 
+/// However many frames it has, and whether their stretches share its elements or divide them.
+TEST(SidewaysBuckling, OfADividedBeamIsThatOfTheWhole) {
+  for (const char* frames : {R"(, "frames": 2)", R"(, "frames": 12)"}) {
+    const auto doubts = [&](double share) {
+      return sideways_doubts_of(cantilever(share * critical_force(), thin, "{}", frames));
+    };
+    EXPECT_TRUE(doubts(0.7).empty()) << frames;
+    EXPECT_EQ(doubts(0.9).size(), 1u) << frames;
+    const std::vector<Doubt> beyond = doubts(2.0);
+    ASSERT_EQ(beyond.size(), 1u) << frames;
+    EXPECT_NE(beyond[0].text.find("\"arm\" buckles out of the plane"), std::string::npos);
+    EXPECT_NE(beyond[0].text.find("the critical load is 0.5"), std::string::npos) << beyond[0].text;
+  }
+}
+
 }  // namespace

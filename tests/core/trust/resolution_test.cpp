@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/problem_reader.hpp"
+#include "core/trust/energy_balance.hpp"
 #include "core/trust/nested_runs.hpp"
+#include "core/trust/round_off.hpp"
 
 namespace pleuel {
 namespace {
@@ -140,6 +142,89 @@ TEST(LargestDifference, ComparesHistoriesOfDifferentInstants) {
   const Eigen::MatrixXd a = coarse.cwiseAbs2().transpose(), b = fine.cwiseAbs2().transpose();
   EXPECT_DOUBLE_EQ(largest_difference(fine, b, coarse, a, whole_range(coarse)), 0.0);
   EXPECT_DOUBLE_EQ(largest_difference(coarse, a, fine, b, whole_range(fine)), 1.0);
+}
+
+/// Under its weight a clamped beam has the moment wL²/2 at the clamp. The static modes of its last
+/// node alone are a cubic with the right deflection and slope there (wL⁴/8EI, wL³/6EI):
+/// EI (6/8 − 2/6) wL²/EI = 5/12 wL².
+TEST(Resolution, NamesWhatAReductionLeavesOut) {
+  const auto weighing = [](int modes) {
+    return std::vector<std::string>{
+        R"(/scene={"gravity": [0, -9.81, 0],
+             "materials": {"m": {"young": 210e9, "poisson": 0.3, "density": 7850}},
+             "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [0.3, 0, 0], "material": "m",
+               "section": {"type": "rectangle", "width": 0.02, "height": {"variable": "height"}},
+               "elements": 12, "reduction": {"modes": )" +
+            std::to_string(modes) + R"(}}},
+             "joints": {"f": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
+             "loads": {"push": {"type": "force", "body": "b", "at": [0.3, 0, 0],
+                                "direction": [0, 1, 0], "value": 0}}})",
+        "/simulation/initial_state=quasi-static",
+        R"(/constraints={"c": {"response": "stress", "upper": 1e9}})"};
+  };
+  const std::vector<Doubt> doubts = doubts_of(weighing(0));
+  ASSERT_EQ(doubts.size(), 1U);
+  EXPECT_THAT(doubts[0].text, HasSubstr("modes more in each family changes \"stress\" by"));
+  EXPECT_TRUE(doubts[0].is_serious);
+  EXPECT_THAT(doubts_of(weighing(10)), IsEmpty());
+}
+
+/// In equilibrium under a force across nothing pulls: what is computed of that is round-off.
+TEST(Resolution, IsNotAskedOfRoundOff) {
+  const ProblemFile problem =
+      read_problem_text(cantilever, "cantilever.json",
+                        {"/simulation/initial_state=quasi-static", "/scene/loads/push/value=500",
+                         R"(/responses={
+           "whole": {"type": "stress", "body": "b", "over_time": "max"},
+           "bending": {"type": "stress", "part": "bending", "body": "b", "over_time": "max-abs"},
+           "axial": {"type": "stress", "part": "axial", "body": "b", "over_time": "max-abs"},
+           "along": {"type": "reaction-force", "joint": "f", "direction": "x", "over_time": "max-abs"},
+           "across": {"type": "reaction-force", "joint": "f", "direction": "y", "over_time": "max-abs"},
+           "tip": {"type": "position", "body": "b", "at": 1, "direction": "y", "over_time": "max"}})",
+                         R"(/objective={"minimize": "whole"})", "/constraints={}"});
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const Monitors monitors = monitor(analysis->model, analysis->trajectory);
+  const TrustedRun run{problem, x, *analysis, monitors};
+  EXPECT_THAT(find_round_off(run), testing::ElementsAre(false, false, true, true, false, false));
+  EXPECT_THAT(doubt_resolution(run), IsEmpty());
+}
+
+/// A balanced rotor at constant speed needs no torque.
+TEST(Resolution, IsNotAskedOfATorqueThatHoldsNothing) {
+  for (const char* step : {"1e-2", "1e-3"}) {
+    const ProblemFile problem = read_problem_text(
+        R"({"scene": {"bodies": {"r": {"type": "rigid", "at": [0, 0, 0], "mass": 1,
+              "inertia": [0.1, 0.1, 0.1, 0, 0, 0]}},
+            "joints": {"j": {"type": "revolute", "bodies": ["ground", "r"], "at": [0, 0, 0],
+              "drive": {"type": "constant-speed", "speed": 1}}}},
+          "simulation": {"end_time": 0.5, "step": 1},
+          "responses": {"T": {"type": "drive-torque", "joint": "j", "over_time": "max-abs"}}})",
+        "rotor.json", {std::string("/simulation/step=") + step});
+    const Eigen::VectorXd x = start_design(problem);
+    const auto analysis = analyze(problem, x);
+    const Monitors monitors = monitor(analysis->model, analysis->trajectory);
+    EXPECT_THAT(doubt_resolution({problem, x, *analysis, monitors}), IsEmpty()) << step;
+  }
+}
+
+/// A first mode of 1166 rad/s does not ring in steps of 0.1 s: a sudden load then seems to bend the
+/// beam as a slow one, at any such step. The energy tells.
+TEST(EnergyBalance, IsSeriousWhereSuddenLoadsLookSlow) {
+  const auto doubts = [](const std::string& end, const std::string& step) {
+    const ProblemFile problem =
+        read_problem_text(cantilever, "cantilever.json",
+                          {sudden, "/simulation/spectral_radius=0", "/simulation/end_time=" + end,
+                           "/simulation/step=" + step});
+    const Eigen::VectorXd x = start_design(problem);
+    const auto analysis = analyze(problem, x);
+    return doubt_energy_balance(
+        {problem, x, *analysis, monitor(analysis->model, analysis->trajectory)});
+  };
+  EXPECT_THAT(doubts("0.01", "1e-5"), IsEmpty());
+  const std::vector<Doubt> coarse = doubts("1", "0.1");
+  ASSERT_EQ(coarse.size(), 1U);
+  EXPECT_TRUE(coarse[0].is_serious);
 }
 
 }  // namespace

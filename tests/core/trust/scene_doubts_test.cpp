@@ -13,6 +13,8 @@
 #include "core/trust/energy_balance.hpp"
 #include "core/trust/extrapolation.hpp"
 #include "core/trust/idle_freedoms.hpp"
+#include "core/trust/initial_motion.hpp"
+#include "core/trust/joint_turns.hpp"
 #include "core/trust/left_out_effects.hpp"
 #include "core/trust/misaligned_joints.hpp"
 #include "core/trust/proportions.hpp"
@@ -465,6 +467,69 @@ TEST(Extrapolation, IsADoubtWhereTheDesignHasLeftThatOfTheFile) {
   EXPECT_TRUE(doubts_at(0.0303)[0].is_serious);
   EXPECT_THAT(doubts_at(0.0303)[0].text, HasSubstr("h = 0.0303 instead of 0.03 m"));
   EXPECT_THAT(doubts_at(0.0303)[0].text, HasSubstr("rod.json"));
+}
+
+// Velocities that the file gives.
+
+/// A bar of 1 m on a hinge, whose frame is at its left end.
+ProblemFile turning_bar(double hinge, const std::string& velocity) {
+  return read(fmt::format(
+      R"({{"scene": {{"bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
+          "material": "steel", "section": {{"type": "circle", "diameter": 0.03}}, "rigid": true,
+          "elements": 1, "angular_velocity": [0, 0, 10], "velocity": {}}}}},
+          "joints": {{"hinge": {{"type": "revolute", "bodies": ["ground", "bar"], "at": [{}, 0, 0]}}}}}},
+          "simulation": {{"end_time": 0.01, "step": 0.001}}}})",
+      velocity, hinge));
+}
+
+/// About its middle the left end goes down with ω/2; at rest it is not.
+TEST(InitialMotion, IsADoubtWhereJointsChangeWhatTheFileGives) {
+  EXPECT_THAT(doubts_of(turning_bar(0.0, "[0, 0, 0]"), doubt_initial_motion), IsEmpty());
+  EXPECT_THAT(doubts_of(turning_bar(0.5, "[0, -5, 0]"), doubt_initial_motion), IsEmpty());
+  const std::vector<Doubt> doubts = doubts_of(turning_bar(0.5, "[0, 0, 0]"), doubt_initial_motion);
+  ASSERT_THAT(doubts, SizeIs(1));
+  EXPECT_TRUE(doubts[0].is_serious);
+  EXPECT_THAT(doubts[0].text, HasSubstr("the initial angular velocity of \"bar\""));
+  EXPECT_THAT(doubts[0].text, HasSubstr("instead of the 10 rad/s of the file"));
+  EXPECT_THAT(doubts_of(turning_bar(0.0, "[0, 3, 0]"), doubt_initial_motion), SizeIs(1));
+}
+
+/// An elastic member begins without elastic rates, and takes the velocity of what it carries.
+TEST(InitialMotion, OfAMassOnAnElasticMemberIsADoubt) {
+  const std::vector<Doubt> doubts = doubts_of(read(
+                                                  R"({"scene": {"bodies": {
+            "arm": {"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "material": "steel",
+                    "section": {"type": "circle", "diameter": 0.02}, "elements": 2},
+            "mass": {"type": "point-mass", "at": [0.5, 0, 0], "mass": 10, "velocity": [0, 0.1, 0]}},
+          "joints": {"clamp": {"type": "fixed", "bodies": ["ground", "arm"], "at": [0, 0, 0]},
+                     "tip": {"type": "spherical", "bodies": ["arm", "mass"], "at": [0.5, 0, 0]}}},
+          "simulation": {"end_time": 0.01, "step": 0.001}})"),
+                                              doubt_initial_motion);
+  ASSERT_THAT(doubts, SizeIs(1));
+  EXPECT_THAT(doubts[0].text, HasSubstr("the initial velocity of \"mass\""));
+}
+
+// Springs in joints that turn.
+
+/// ½ J ω² = ½ k φ² at φ = ω √(J/k): with J = 0.1 kg m², k = 10 N m/rad a tenth of ω [s].
+ProblemFile spring_rotor(double speed, const std::string& effects) {
+  return read(fmt::format(
+      R"({{"scene": {{"bodies": {{"rotor": {{"type": "rigid", "at": [0, 0, 0], "mass": 1,
+          "inertia": [0.1, 0.1, 0.1, 0, 0, 0], "angular_velocity": [0, 0, {}]}}}},
+          "joints": {{"bearing": {{"type": "revolute", "bodies": ["ground", "rotor"], "at": [0, 0, 0]}}}},
+          "loads": {{"coil": {{"type": "joint", "joint": "bearing", "stiffness": 10}}}}}},
+          "effects": {}, "simulation": {{"end_time": 0.4, "step": 0.002}}}})",
+      speed, effects));
+}
+
+TEST(JointTurns, AreADoubtBeyondHalfATurnInSpace) {
+  const std::string space = R"({"spatial_motion": "on"})";
+  EXPECT_THAT(doubts_of(spring_rotor(30, space), doubt_joint_turns), IsEmpty());
+  const std::vector<Doubt> doubts = doubts_of(spring_rotor(33, space), doubt_joint_turns);
+  ASSERT_THAT(doubts, SizeIs(1));
+  EXPECT_TRUE(doubts[0].is_serious);
+  EXPECT_THAT(doubts[0].text, HasSubstr("the joint \"bearing\" turns by more than half a turn"));
+  EXPECT_THAT(doubts_of(spring_rotor(60, "{}"), doubt_joint_turns), IsEmpty()) << "counted";
 }
 
 }  // namespace

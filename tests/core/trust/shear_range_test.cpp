@@ -132,6 +132,37 @@ TEST(ShearRange, ConcernsWhatRestsOnStiffness) {
   EXPECT_EQ(doubts(R"({"type": "buckling", "body": "beam", "over_time": "max"})"), 1u);
 }
 
+/// A beam clamped at one end whose other end is moved sideways without turning takes
+/// 12EI/L³ / (1 + 12EI/(κGAL²)) a metre: forces and stresses are as wrong as its stiffness.
+TEST(ShearRange, ConcernsTheForcesOfWhatIsHeldMoreThanItNeeds) {
+  const auto doubts = [](const std::string& response) {
+    const ProblemFile problem = read_problem_text(
+        R"({"scene": {"materials": {"m": {"young": 2.1e11, "poisson": 0.3, "density": 7850}},
+            "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [0.2, 0, 0], "material": "m",
+              "section": {"type": "rectangle", "width": 0.05, "height": 0.1}, "elements": 4}},
+            "joints": {"clamp": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]},
+                       "ram": {"type": "prismatic", "bodies": ["ground", "b"], "at": [0.2, 0, 0],
+                               "axis": [0, 1, 0],
+                               "drive": {"type": "polynomial", "coefficients": [0, 1e-5]}}}},
+          "simulation": {"end_time": 1, "step": 0.25}, "responses": {"asked": )" +
+            response + "}}",
+        "ram.json");
+    const Eigen::VectorXd x = start_design(problem);
+    const auto analysis = analyze(problem, x);
+    return doubt_shear_range({problem, x, *analysis, Monitors{}});
+  };
+  const double phi = 12 * 2.6 * 0.25 / 12 / rectangle_shear_coefficient(nu);
+  for (const char* response :
+       {R"({"type": "stress", "body": "b", "over_time": "max"})",
+        R"({"type": "drive-force", "joint": "ram", "over_time": "max"})",
+        R"({"type": "reaction-moment", "joint": "clamp", "direction": "z", "over_time": "max"})"}) {
+    const std::vector<Doubt> found = doubts(response);
+    ASSERT_EQ(found.size(), 1u) << response;
+    EXPECT_TRUE(found[0].is_serious);
+    EXPECT_THAT(found[0].text, HasSubstr(fmt::format("up to {:.2g} %", 100 * phi / (1 + phi))));
+  }
+}
+
 /// Cowper's coefficients meet: an ellipse with equal axes and a tube without hole are circles, a
 /// thin tube has 2(1 + ν)/(4 + 3ν), a thin box without flanges is a rectangle.
 TEST(ShearCoefficient, OfSectionsThatAreTheSameIsTheSame) {

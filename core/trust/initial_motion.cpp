@@ -1,0 +1,73 @@
+#include "core/trust/initial_motion.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "core/model/scene_geometry.hpp"
+
+namespace pleuel {
+
+namespace {
+
+constexpr double small_change = 0.01;
+
+using Velocity = std::array<Number, 3>;
+
+bool is_given(const Velocity& velocity, const Design<double>& design) {
+  return std::any_of(velocity.begin(), velocity.end(),
+                     [&](const Number& number) { return resolve(number, design) != 0.0; });
+}
+
+class InitialMotion {
+ public:
+  explicit InitialMotion(const TrustedRun& run)
+      : run_(run), design_(run.x.begin(), run.x.end()), asked_(run.analysis.model.mechanism.guess) {
+    run.analysis.trajectory.load(0, start_);
+  }
+
+  std::vector<Doubt> find() {
+    for (const Body& body : run_.problem.scene.bodies) {
+      const BodyFrame& frame = run_.analysis.model.parts(body.name).front()->frame;
+      const int first = frame.offset, turn = frame.offset + frame.translations();
+      if (is_given(body.velocity, design_)) {
+        compare(body.name, "velocity", "m/s", first, frame.translations());
+      }
+      if (is_given(body.angular_velocity, design_)) {
+        compare(body.name, "angular velocity", "rad/s", turn, frame.rotations());
+      }
+    }
+    return std::move(doubts_);
+  }
+
+ private:
+  void compare(const std::string& body, const char* what, const char* unit, int offset, int size) {
+    const Eigen::VectorXd asked = asked_.v.segment(offset, size);
+    const Eigen::VectorXd found = start_.v.segment(offset, size);
+    if (!((found - asked).norm() > small_change * asked.norm())) return;
+    const bool is_turned = std::abs(found.norm() - asked.norm()) <= small_change * asked.norm();
+    doubts_.push_back(
+        {fmt::format(
+             "the initial {0} of \"{1}\" is {2:.4g} {3}{4} instead of the {5:.4g} {3} of the "
+             "file, as joints, drives and elastic bodies at rest demand it. Give every body "
+             "that moves at t = 0 both velocities of its frame, so that they fit all joints.",
+             what, body, found.norm(), unit, is_turned ? " in another direction" : "",
+             asked.norm()),
+         true});
+  }
+
+  const TrustedRun& run_;
+  Design<double> design_;
+  const State& asked_;
+  State start_;
+  std::vector<Doubt> doubts_;
+};
+
+}  // namespace
+
+std::vector<Doubt> doubt_initial_motion(const TrustedRun& run) {
+  return InitialMotion(run).find();
+}
+
+}  // namespace pleuel

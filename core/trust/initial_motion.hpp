@@ -1,0 +1,12 @@
+#pragma once
+
+#include "core/trust/doubts.hpp"
+
+namespace pleuel {
+
+/// Initial velocities of the file that are not those of the simulation: they are made consistent
+/// with joints and drives, and elastic bodies begin without elastic rates. What the file gives and
+/// changes by more than a percent is named.
+std::vector<Doubt> doubt_initial_motion(const TrustedRun& run);
+
+}  // namespace pleuel

@@ -1,0 +1,101 @@
+#include "core/trust/joint_turns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/model/scene_geometry.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// The angle about a joint's axis by which the frame of its second body has turned against that of
+/// the first since the start; that of deformation is left out. In (−π, π].
+class JointAngle {
+ public:
+  JointAngle(const Model& model, const Joint& joint, const State& start)
+      : first_(frame_of(model, joint.bodies[0])), second_(frame_of(model, joint.bodies[1])) {
+    const Eigen::Vector3d axis = to_vector(joint.axis).normalized();
+    const Eigen::Vector3d across = axis.unitOrthogonal();
+    const Eigen::Matrix3d one = rotation(first_, start), other = rotation(second_, start);
+    from_ = one.transpose() * across;
+    beside_ = one.transpose() * axis.cross(across);
+    turned_ = other.transpose() * across;
+  }
+
+  double at(const State& state) const {
+    const Eigen::Matrix3d one = rotation(first_, state);
+    const Eigen::Vector3d now = rotation(second_, state) * turned_;
+    return std::atan2(now.dot(one * beside_), now.dot(one * from_));
+  }
+
+ private:
+  static std::optional<BodyFrame> frame_of(const Model& model, const std::string& body) {
+    if (body == ground_name) return std::nullopt;
+    return model.parts(body).front()->frame;
+  }
+
+  static Eigen::Matrix3d rotation(const std::optional<BodyFrame>& frame, const State& state) {
+    if (!frame) return Eigen::Matrix3d::Identity();
+    const auto of = [&](const Eigen::VectorXd& all) {
+      return Coordinates<double>(all.segment(frame->offset, frame->size()));
+    };
+    return frame_motion<double>(*frame, of(state.q), of(state.v), of(state.a)).A;
+  }
+
+  std::optional<BodyFrame> first_, second_;
+  Eigen::Vector3d from_, beside_, turned_;
+};
+
+/// The first time at which the angle jumps from one end of its range to the other.
+std::optional<double> jump_of(const TrustedRun& run, const Joint& joint) {
+  const Trajectory& trajectory = run.analysis.trajectory;
+  State state;
+  trajectory.load(0, state);
+  const JointAngle angle(run.analysis.model, joint, state);
+  double before = 0.0;
+  for (int step = 1; step <= trajectory.steps(); ++step) {
+    trajectory.load(step, state);
+    const double now = angle.at(state);
+    if (std::abs(now - before) > std::numbers::pi) return trajectory.time(step);
+    before = now;
+  }
+  return std::nullopt;
+}
+
+bool is_in_space(const Model& model) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(), [](const BodyModel& body) {
+    return body.frame.rotation == RotationCoordinates::rotation_vector;
+  });
+}
+
+}  // namespace
+
+std::vector<Doubt> doubt_joint_turns(const TrustedRun& run) {
+  if (!is_in_space(run.analysis.model)) return {};
+  const Design<double> design(run.x.begin(), run.x.end());
+  const Scene& scene = run.problem.scene;
+  std::vector<Doubt> doubts;
+  for (const Load& load : scene.loads) {
+    const auto* force = std::get_if<JointForce>(&load.element);
+    if (!force || force->coordinate != DrivenCoordinate::angle) continue;
+    if (resolve(force->stiffness, design) == 0.0) continue;
+    const auto joint = std::find_if(scene.joints.begin(), scene.joints.end(),
+                                    [&](const Joint& other) { return other.name == force->joint; });
+    const std::optional<double> time = jump_of(run, *joint);
+    if (!time) continue;
+    doubts.push_back(
+        {fmt::format("the joint \"{}\" turns by more than half a turn, at t = {:.4g} s; in space "
+                     "the spring \"{}\" counts its angle from -180 to 180 deg, and its moment "
+                     "jumps there. Only motion in a plane counts whole turns.",
+                     joint->name, *time, load.name),
+         true});
+  }
+  return doubts;
+}
+
+}  // namespace pleuel

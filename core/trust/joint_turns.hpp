@@ -1,0 +1,11 @@
+#pragma once
+
+#include "core/trust/doubts.hpp"
+
+namespace pleuel {
+
+/// Springs in joints in space that turn farther than half a turn from where they began: there the
+/// angle is counted from −π to π, where motion in a plane counts whole turns, and the moment jumps.
+std::vector<Doubt> doubt_joint_turns(const TrustedRun& run);
+
+}  // namespace pleuel

@@ -1,0 +1,150 @@
+#include "core/trust/round_off.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/response/make_responses.hpp"
+#include "core/response/recorder.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Of forces and stresses: what cancels in them is as large as the whole, and Newton's method ends
+/// at 1e-10.
+constexpr double tiny_force = 1e-9;
+/// Forces and torques that hold a motion make up for round-off of its positions, ε/h² of N steps;
+/// beside the energy that is in it: N² times this, within limits.
+constexpr double tiny_inertia = 2e-13, most_inertia = 1e-6;
+/// Of lengths, which are exact to the last digits.
+constexpr double tiny_length = 1e-12;
+/// Of lengths that rates over one step are made from.
+constexpr double tiny_way = 1e-14;
+
+/// What a response is compared with: a share of another response of the same run.
+struct Measure {
+  ResponseSettings settings;
+  double share = tiny_force;
+};
+
+double largest(const Eigen::MatrixXd& history) {
+  return history.size() > 0 ? history.cwiseAbs().maxCoeff() : 0.0;
+}
+
+class RoundOff {
+ public:
+  explicit RoundOff(const TrustedRun& run) : run_(run), model_(run.analysis.model) {
+    for (const BodyModel& body : model_.bodies) {
+      if (body.frame.translations() > 0) size_ = model_.mechanism.scale(body.frame.offset);
+    }
+  }
+
+  std::vector<bool> find() {
+    const std::vector<ResponseSettings>& responses = run_.problem.responses;
+    std::vector<std::vector<Measure>> measures;
+    for (const ResponseSettings& response : responses) measures.push_back(measures_of(response));
+    const std::vector<double> measured = measure(measures);
+    std::vector<bool> is_round_off(responses.size(), false);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < responses.size(); ++i) {
+      double scale = length_scale(responses[i]);
+      for (const Measure& one : measures[i]) {
+        scale = std::max(scale, one.share * measured[next++]);
+      }
+      is_round_off[i] =
+          run_.analysis.responses[i].signal && largest(run_.analysis.histories[i]) <= scale;
+    }
+    return is_round_off;
+  }
+
+ private:
+  /// Of a length and its rates.
+  double length_scale(const ResponseSettings& response) const {
+    const Trajectory& trajectory = run_.analysis.trajectory;
+    const double step = trajectory.time(trajectory.steps()) / trajectory.steps();
+    switch (response.type) {
+      case ResponseType::position:
+      case ResponseType::deflection:
+        return tiny_length * size_;
+      case ResponseType::velocity:
+        return tiny_way * size_ / step;
+      case ResponseType::acceleration:
+        return tiny_way * size_ / (step * step);
+      default:
+        return 0.0;
+    }
+  }
+
+  std::vector<Measure> measures_of(const ResponseSettings& response) const {
+    ResponseSettings whole = response;
+    whole.over_time = OverTime::max_abs;
+    whole.from = whole.to = std::nullopt;
+    switch (response.type) {
+      case ResponseType::stress:
+        if (response.part == StressPart::utilization) return {};
+        whole.part = StressPart::von_mises;
+        return {{whole}};
+      case ResponseType::velocity:
+      case ResponseType::acceleration:
+        whole.direction = -1;
+        return {{whole}};
+      case ResponseType::reaction_force:
+      case ResponseType::reaction_moment:
+      case ResponseType::drive_torque:
+      case ResponseType::drive_force:
+        return reactions(whole, response.type);
+      default:
+        return {};
+    }
+  }
+
+  /// Force and moment in the joint, and the energy of motion; a moment as a force at the size of
+  /// the mechanism, or as an energy by one radian.
+  std::vector<Measure> reactions(ResponseSettings whole, ResponseType type) const {
+    const bool is_moment =
+        type == ResponseType::reaction_moment || type == ResponseType::drive_torque;
+    const double steps = run_.analysis.trajectory.steps();
+    const double inertia = std::clamp(tiny_inertia * steps * steps, tiny_force, most_inertia);
+    whole.direction = -1;
+    whole.type = ResponseType::reaction_force;
+    const Measure force{whole, tiny_force * (is_moment ? size_ : 1.0)};
+    whole.type = ResponseType::reaction_moment;
+    const Measure moment{whole, tiny_force / (is_moment ? 1.0 : size_)};
+    whole.type = ResponseType::kinetic_energy;
+    return {force, moment, {whole, inertia / (is_moment ? 1.0 : size_)}};
+  }
+
+  /// The largest magnitudes over the simulation, in order.
+  std::vector<double> measure(const std::vector<std::vector<Measure>>& measures) const {
+    std::vector<ResponseSettings> settings;
+    for (const auto& of_one : measures) {
+      for (const Measure& one : of_one) settings.push_back(one.settings);
+    }
+    if (settings.empty()) return {};
+    const std::vector<Response> responses = make_responses(settings, model_);
+    const Trajectory& trajectory = run_.analysis.trajectory;
+    Recorder recorder(responses, trajectory.steps() + 1);
+    State state;
+    for (int step = 0; step <= trajectory.steps(); ++step) {
+      trajectory.load(step, state);
+      recorder.see(step, state);
+    }
+    std::vector<double> all;
+    for (const Eigen::MatrixXd& history : recorder.take(trajectory.steps() + 1)) {
+      all.push_back(largest(history));
+    }
+    return all;
+  }
+
+  const TrustedRun& run_;
+  const Model& model_;
+  double size_ = 1.0;  ///< of the mechanism [m]
+};
+
+}  // namespace
+
+std::vector<bool> find_round_off(const TrustedRun& run) {
+  return RoundOff(run).find();
+}
+
+}  // namespace pleuel

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "core/trust/doubts.hpp"
+
+namespace pleuel {
+
+/// Whether the history of a response is nothing but round-off, one a response: below a tiny share
+/// of what its kind is made of, as the axial stress in pure bending beside the von Mises stress,
+/// the force of a joint across a force, or the torque of a drive that nothing resists beside that
+/// force times the size of the mechanism. Constants never are.
+std::vector<bool> find_round_off(const TrustedRun& run);
+
+}  // namespace pleuel

@@ -1,0 +1,77 @@
+#include "core/trust/turning_axes.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/response/analysis.hpp"
+#include "core/scene/problem_reader.hpp"
+#include "core/trust/frequency_meaning.hpp"
+
+namespace pleuel {
+namespace {
+
+/// A steel blade of 1 m × 20 mm × 30 mm that turns at 50 rad/s about its clamped end.
+ProblemFile blade(const std::string& frame, double speed = 50.0) {
+  return read_problem_text(fmt::format(R"({{"scene": {{
+          "materials": {{"m": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
+          "bodies": {{"b": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "m",
+            "section": {{"type": "rectangle", "width": 0.02, "height": 0.03}}, "elements": 6, {}}}}},
+          "joints": {{"d": {{"type": "revolute", "bodies": ["ground", "b"], "at": [0, 0, 0],
+            "drive": {{"type": "constant-speed", "speed": {}}}}}}}}},
+        "simulation": {{"end_time": 1e-3, "step": 1e-4, "initial_state": "quasi-static"}},
+        "responses": {{"flap": {{"type": "frequency", "mode": 1}},
+                       "lag": {{"type": "frequency", "mode": 2}}}}}})",
+                                       frame, speed),
+                           "blade.json");
+}
+
+Eigen::VectorXd frequencies(const Analysis& analysis) {
+  State state;
+  analysis.trajectory.load(0, state);
+  if (analysis.full) state = analysis.full->initial->state;
+  return frequencies_in_turning_axes(analysis.full ? analysis.full->model : analysis.model, state);
+}
+
+/// Southwell: flapping ω₀² + 1.193 Ω² (Wright et al. 1982 to Ω = ω₀: 1.193 within 0.2 %), lagging
+/// less Ω². With any frame of the body, which is only another choice of coordinates.
+TEST(TurningAxes, GiveARotatingBeamItsFrequenciesInAnyFrame) {
+  const double mass = 7850 * 0.02 * 0.03, young = 2.1e11, square = 50.0 * 50.0;
+  const double flap = 3.5160 * 3.5160 * young * 0.03 * std::pow(0.02, 3) / 12 / mass;
+  const double lag = 3.5160 * 3.5160 * young * 0.02 * std::pow(0.03, 3) / 12 / mass;
+  for (const char* frame :
+       {R"("frame": "tangent")", R"("frame": "chord")", R"("frame": "mean-axis")",
+        R"("frame": "tangent-end")", R"("frames": 2)"}) {
+    const ProblemFile problem = blade(frame);
+    const auto analysis = analyze(problem, start_design(problem));
+    const Eigen::VectorXd found = frequencies(*analysis);
+    EXPECT_NEAR(found(0), std::sqrt(flap + 1.193 * square), 0.003 * found(0)) << frame;
+    EXPECT_NEAR(found(1), std::sqrt(lag + 0.193 * square), 0.003 * found(1)) << frame;
+  }
+}
+
+TEST(TurningAxes, LeaveTheFrequenciesOfAMechanismAtRest) {
+  const ProblemFile problem = blade(R"("frame": "chord")", 0.0);
+  const auto analysis = analyze(problem, start_design(problem));
+  const Eigen::VectorXd found = frequencies(*analysis);
+  EXPECT_NEAR(found(0), analysis->mechanism_frequencies(0), 1e-9 * found(0));
+  EXPECT_NEAR(found(5), analysis->mechanism_frequencies(5), 1e-9 * found(5));
+}
+
+TEST(Frequencies, AreDoubtedWhereTheAxesMatter) {
+  const auto doubts = [](const ProblemFile& problem) {
+    const Eigen::VectorXd x = start_design(problem);
+    const auto analysis = analyze(problem, x);
+    return doubt_frequencies({problem, x, *analysis, Monitors{}});
+  };
+  EXPECT_TRUE(doubts(blade(R"("frame": "tangent")")).empty());
+  EXPECT_TRUE(doubts(blade(R"("frame": "chord")", 0.0)).empty());
+  const std::vector<Doubt> found = doubts(blade(R"("frame": "chord")"));
+  ASSERT_FALSE(found.empty());
+  EXPECT_TRUE(found[0].is_serious);
+  EXPECT_NE(found[0].text.find("the frequency \"flap\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace pleuel
