@@ -28,6 +28,13 @@ TEST(Prices, AreThoseOfLimitsThatAreReached) {
   // A slack of 1 % of the magnitude each.
   EXPECT_EQ(prices_of(problem, Eigen::Vector3d(0.99, 9.9, 2.02), multipliers, scales),
             Eigen::Vector3d::Zero());
+  // A slack of a thousandth ends a price.
+  EXPECT_EQ(
+      prices_of(problem, Eigen::Vector3d(1 - 0.9e-3, 10 - 0.9e-2, 2 + 1.8e-3), multipliers, scales),
+      multipliers);
+  EXPECT_EQ(
+      prices_of(problem, Eigen::Vector3d(1 - 1.1e-3, 10 - 1.1e-2, 2 + 2.2e-3), multipliers, scales),
+      Eigen::Vector3d::Zero());
   // The lower side of a limit with two.
   EXPECT_EQ(prices_of(problem, Eigen::Vector3d(1e-4, 9.9, 2.02), Eigen::Vector3d(-0.5, 0.3, -0.2),
                       scales),
@@ -44,8 +51,8 @@ TEST(Prices, AreThoseOfOptimaOnly) {
   };
   EXPECT_TRUE(has_prices_as(Status::verified, 1e-6));
   EXPECT_TRUE(has_prices_as(Status::unresolved, 1e-6));
-  EXPECT_TRUE(has_prices_as(Status::stalled, 2e-3));
-  EXPECT_FALSE(has_prices_as(Status::stalled, 0.5));
+  EXPECT_TRUE(has_prices_as(Status::stalled, 0.9e-2));
+  EXPECT_FALSE(has_prices_as(Status::stalled, 1.1e-2));
   EXPECT_FALSE(has_prices_as(Status::infeasible, 1e-6));
   EXPECT_FALSE(has_prices_as(Status::failed, 1e-6));
   EXPECT_FALSE(has_prices_as(Status::interrupted, 1e-6));

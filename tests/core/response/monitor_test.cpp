@@ -2,6 +2,7 @@
 
 #include "core/integration/configuration.hpp"
 #include "core/model/body_energy.hpp"
+#include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"
 #include "tests/support/convergence.hpp"
 #include "tests/support/dense.hpp"
@@ -200,6 +201,29 @@ TEST(Monitors, FindTheEnergyOfTheStrain) {
 /// The pendulum as it swings, with all rates 1 % too large: its kinetic energy, which makes all of
 /// the energy in its deepest position, is 1.01² of the true one, so that 1 − 1.01⁻² of it are
 /// missing.
+/// What a large kinetic energy hides, the elastic energy shows: the energy that is missing, over
+/// the largest of the strain, which a response gives. 1e-3: the monitors sum that of stiffening up
+/// over time.
+TEST(Monitors, CompareTheBalanceWithTheEnergyOfTheStrainToo) {
+  const SampleScene sample = planar_sample();
+  ProblemFile problem = sample.problem();
+  problem.simulation.end_time = 0.05;
+  problem.simulation.step = 1e-3;
+  ResponseSettings elastic;
+  elastic.name = "strain";
+  elastic.type = ResponseType::elastic_energy;
+  elastic.over_time = OverTime::max;
+  problem.responses = {elastic};
+  const auto analysis = analyze(problem, start_design(problem));
+  const Monitors monitors = monitor(analysis->model, analysis->trajectory);
+  const double missing =
+      ((monitors.energy - monitors.work).array() - monitors.energy(0)).abs().maxCoeff();
+  const double strain = analysis->histories[0].maxCoeff();
+  ASSERT_GT(missing, 0.0);
+  EXPECT_NEAR(monitors.elastic_energy_error, missing / strain, 1e-3 * missing / strain);
+  EXPECT_GT(monitors.elastic_energy_error, monitors.energy_error);
+}
+
 TEST(Monitors, SeeRatesThatDoNotBelongToTheMotion) {
   auto [model, trajectory] = simulated_pendulum(1e-4);
   trajectory.v *= 1.01;

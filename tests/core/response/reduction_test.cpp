@@ -1,6 +1,7 @@
 #include "core/response/reduction.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -12,8 +13,8 @@ using namespace pleuel;
 constexpr int steps = 40;
 const Eigen::VectorXd grid = Eigen::VectorXd::LinSpaced(steps + 1, 0.0, 0.2);
 
-Eigen::MatrixXd sampled(double (*f)(double)) {
-  return grid.unaryExpr([f](double t) { return f(t); }).transpose();
+Eigen::MatrixXd sampled(const std::function<double(double)>& f) {
+  return grid.unaryExpr([&f](double t) { return f(t); }).transpose();
 }
 
 TEST(Reduction, FindsThePeakOfAParabolaBetweenTheSteps) {
@@ -108,6 +109,20 @@ TEST(Reduction, TellsPeaksOfNearlyTheSameHeight) {
   const auto damped =
       sampled([](double t) { return std::exp(-t) * std::sin(2 * std::numbers::pi * t / 0.1); });
   EXPECT_FALSE(reduce(OverTime::max, grid, damped).tie.has_value());
+}
+
+/// A thousandth parts peaks that tie from others.
+TEST(Reduction, TellsPeaksThatAreLowerByAThousandth) {
+  const auto second_lower_by = [](double gap) {
+    return sampled([gap](double t) {
+      const double height = t < 0.1 ? 1.0 : 1.0 - gap;
+      return height * std::sin(2 * std::numbers::pi * t / 0.1);
+    });
+  };
+  const Reduction tied = reduce(OverTime::max, grid, second_lower_by(0.95e-3));
+  ASSERT_TRUE(tied.tie.has_value());
+  EXPECT_NEAR(tied.tie->gap, 0.95e-3, 1e-6);
+  EXPECT_FALSE(reduce(OverTime::max, grid, second_lower_by(1.05e-3)).tie.has_value());
 }
 
 /// Every period has a broad peak of height 1 and a sharp one that is lower by 0.05 %: between them

@@ -98,6 +98,50 @@ TEST(Resolution, NamesWhatOneElementCannotShow) {
   EXPECT_THAT(doubts_of({frequency}), IsEmpty());
 }
 
+/// A free block under F sin ωt goes to F/(mω) (t − sin ωt/ω). Its error is known: a doubt from one
+/// percent on, a serious one from ten on.
+TEST(Resolution, IsDoubtedFromOnePercentOfErrorAndSeriousFromTen) {
+  constexpr double end = 0.1, omega = 60.0;
+  const double exact = end - std::sin(omega * end) / omega;  // F = mω
+  int near[4] = {};
+  for (int steps = 4; steps <= 40; ++steps) {
+    const ProblemFile problem = read_problem_text(fmt::format(R"({{"scene": {{
+            "bodies": {{"block": {{"type": "point-mass", "at": [0, 0, 0], "mass": 2}}}},
+            "joints": {{"guide": {{"type": "point-on-line", "bodies": ["ground", "block"],
+                                   "at": [0, 0, 0], "axis": [1, 0, 0]}}}},
+            "loads": {{"push": {{"type": "force", "body": "block", "at": [0, 0, 0],
+              "direction": [1, 0, 0],
+              "value": {{"type": "harmonic", "amplitude": 120, "frequency": 60}}}}}}}},
+          "simulation": {{"end_time": 0.1, "step": {:.17g}}},
+          "responses": {{"x": {{"type": "position", "body": "block", "direction": "x",
+                                "over_time": "final"}}}}}})",
+                                                              end / steps),
+                                                  "block.json");
+    const Eigen::VectorXd x = start_design(problem);
+    const auto analysis = analyze(problem, x);
+    const Monitors monitors = monitor(analysis->model, analysis->trajectory);
+    const std::vector<Doubt> doubts = doubt_resolution({problem, x, *analysis, monitors});
+    const double error = std::abs(analysis->reductions[0].value / exact - 1.0);
+    if (error < 0.009) {
+      EXPECT_TRUE(doubts.empty()) << error;
+    }
+    if (error > 0.011) {
+      EXPECT_EQ(doubts.size(), 1u) << error;
+    }
+    if (error > 0.011 && error < 0.085) {
+      EXPECT_FALSE(doubts.at(0).is_serious) << error;
+    }
+    if (error > 0.12) {
+      EXPECT_TRUE(doubts.at(0).is_serious) << error;
+    }
+    near[0] += error > 0.007 && error < 0.009;
+    near[1] += error > 0.011 && error < 0.014;
+    near[2] += error > 0.06 && error < 0.085;
+    near[3] += error > 0.12 && error < 0.17;
+  }
+  for (const int count : near) EXPECT_GT(count, 0) << "no error next to the thresholds";
+}
+
 /// What a run of half the step leaves is as much again in the first order, a third in the second.
 TEST(Resolution, KnowsTheOrderOfTheScheme) {
   const std::vector<std::string> overrides = {"/simulation/scheme=implicit-euler",
