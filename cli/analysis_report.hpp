@@ -2,20 +2,22 @@
 
 #include <string>
 
+#include "cli/error_report.hpp"
 #include "cli/json.hpp"
 #include "core/response/analysis.hpp"
 
 /// What simulate, gradient and check have in common to say of one simulated design.
 namespace pleuel {
 
-/// {NAME: {"value", "unit"}} [SI]
-Json responses_document(const Analysis& analysis);
+/// {NAME: {"value", "unit", "error"}} [SI]; without "error" where none are known
+Json responses_document(const Analysis& analysis, const ErrorBars& errors = {});
 
 /// [{"name", "built", "reason"}]
 Json effects_document(const Model& model);
 
 /// Table of values in engineering units.
-std::string responses_text(const ProblemFile& problem, const Analysis& analysis);
+std::string responses_text(const ProblemFile& problem, const Analysis& analysis,
+                           const ErrorBars& errors = {});
 
 /// Table: effect, whether it is built, why.
 std::string effects_text(const Model& model);

@@ -181,9 +181,11 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   add_method(pareto, arguments);
   add_jobs(pareto, arguments);
   add_prices(app, arguments);
-  add_output(add_file_command(app, arguments, "accuracy",
-                              "errors and times for steps x elements; the cheapest that will do"),
-             arguments);
+  CLI::App* accuracy =
+      add_file_command(app, arguments, "accuracy",
+                       "errors and times for steps x elements; the cheapest that will do");
+  add_output(accuracy, arguments);
+  add_design(accuracy, arguments);
   add_stability(app, arguments);
   add_uncertainty(app, arguments);
   add_command(app, arguments, "backends", "list the optimizers");

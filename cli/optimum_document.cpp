@@ -1,5 +1,6 @@
 #include "cli/optimum_document.hpp"
 
+#include "cli/error_report.hpp"
 #include "cli/monitors_report.hpp"
 #include "cli/scene_report.hpp"
 #include "core/scene/response_quantity.hpp"
@@ -15,6 +16,7 @@ Json objective_document(const Optimum& optimum) {
   if (!optimum.has_design()) return document;
   document["value"] = optimum.result.evaluation.objective;
   document["start"] = optimum.result.history.front().objective;
+  if (optimum.result.error) document["error"] = error_document(optimum.result.error);
   return document;
 }
 
@@ -43,6 +45,8 @@ Json responses_document(const Optimum& optimum) {
     document[response.name] = {{"value", optimum.responses(row)},
                                {"unit", quantity_of(response).unit},
                                {"start", optimum.start_responses(row)}};
+    const ErrorBars& errors = optimum.result.response_errors;
+    if (!errors.empty()) document[response.name]["error"] = error_document(error_of(errors, i));
   }
   return document;
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/error_report.hpp"
 #include "cli/monitors_report.hpp"
 #include "cli/table.hpp"
 #include "cli/warnings.hpp"
@@ -40,7 +41,11 @@ std::string objective_text(const Optimum& optimum) {
   std::string text = fmt::format("{}: {} → {} {}", name, significant(unit.shown(start)),
                                  significant(unit.shown(end)), unit.name);
   if (start != 0.0) text += fmt::format(" ({})", signed_percent((end - start) / std::abs(start)));
-  return text + "\n";
+  text += "\n";
+  if (optimum.result.error) {
+    text += wrapped("  " + error_sentence(*optimum.result.error, end, unit), "    ") + "\n";
+  }
+  return text;
 }
 
 std::string bound_mark(const DesignVariable& variable, double value) {

@@ -26,6 +26,7 @@ struct Simulated {
   Monitors monitors;
   double seconds = 0.0;
   std::vector<std::string> warnings{};
+  ErrorBars errors{};
   double check_seconds = 0.0;  ///< of what the warnings are found by
   bool is_checked = true;
 };
@@ -40,8 +41,9 @@ void check_numbers(const ProblemInput& input, Simulated& run) {
   }
   const Stopwatch check;
   try {
-    run.warnings =
-        texts_of(find_doubts(TrustedRun{input.problem, input.design, run.analysis, run.monitors}));
+    Trust trust = judge_run(TrustedRun{input.problem, input.design, run.analysis, run.monitors});
+    run.warnings = texts_of(trust.doubts);
+    run.errors = std::move(trust.errors);
   } catch (const Stopped&) {
     run.is_checked = false;
     run.warnings = {
@@ -56,7 +58,7 @@ Json simulation_document(const Simulated& run) {
   const Trajectory& trajectory = analysis.trajectory;
   const System& system = *analysis.model.mechanism.system;
   return {{"status", run.is_checked ? "done" : "interrupted"},
-          {"responses", responses_document(analysis)},
+          {"responses", responses_document(analysis, run.errors)},
           {"steps", trajectory.steps()},
           {"split_steps", trajectory.split_steps},
           {"rejected_steps", trajectory.rejected_steps},
@@ -87,7 +89,7 @@ std::string simulation_text(const ProblemFile& problem, const std::string& desig
   const Trajectory& trajectory = analysis.trajectory;
   std::string text =
       fmt::format("{}{}: {}\n\n{}\n{}", problem.name, design, size_text(analysis),
-                  responses_text(problem, analysis) + limits_text(problem, x, analysis),
+                  responses_text(problem, analysis, run.errors) + limits_text(problem, x, analysis),
                   monitors_text(run.monitors, analysis.model.mechanism.system->multipliers()) +
                       assembly_text(analysis) + warnings_text(run.warnings));
   if (trajectory.split_steps > 0) {

@@ -7,11 +7,13 @@
 
 #include <fmt/format.h>
 
+#include "core/base/number_text.hpp"
 #include "core/response/describe_tie.hpp"
 #include "core/trust/doubts.hpp"
 #include "optimization/broken_limits.hpp"
 #include "optimization/kkt_audit.hpp"
 #include "optimization/margin_problem.hpp"
+#include "optimization/optimum_error.hpp"
 #include "optimization/peak_problem.hpp"
 #include "optimization/peak_windows.hpp"
 #include "optimization/prices.hpp"
@@ -240,16 +242,31 @@ void return_to_best(DesignProblem& design, const Tolerances& tolerances, Result&
   }
 }
 
-/// Doubts about the numbers of the last design: no optimum that rests on them is verified.
+/// Doubts about the numbers of the last design, and their errors: no optimum that rests on numbers
+/// which are not to be trusted, or not known as well as the file asks for, is verified.
 void judge_numbers(DesignProblem& design, Result& result) {
   if (!result.evaluation.has_gradients()) return;
-  const std::vector<Doubt> doubts =
-      find_doubts(design.file(), result.x, design.analysis_at(result.x));
-  result.warnings = texts_of(doubts);
-  if (result.status != Status::verified || !has_serious(doubts)) return;
-  result.status = Status::unresolved;
-  result.message =
-      "optimal by its numbers, but these are not to be trusted: " + doubts.front().text;
+  const Analysis& analysis = design.analysis_at(result.x);
+  const Monitors monitors = monitor(analysis.model, analysis.trajectory);
+  Trust trust = judge_run(TrustedRun{design.file(), result.x, analysis, monitors});
+  result.warnings = texts_of(trust.doubts);
+  result.error = optimum_error(design, result, trust.errors);
+  if (result.status == Status::verified) {
+    const std::string inaccurate = inaccuracy(design, result, trust.errors);
+    if (has_serious(trust.doubts)) {
+      result.status = Status::unresolved;
+      result.message =
+          "optimal by its numbers, but these are not to be trusted: " + trust.doubts.front().text;
+    } else if (!inaccurate.empty()) {
+      result.status = Status::unresolved;
+      result.message = "optimal by its numbers, but " + inaccurate;
+    } else if (result.error && result.evaluation.objective != 0.0) {
+      result.message += fmt::format(
+          "; steps and elements: to ± {} %",
+          significant(100.0 * result.error->bound() / std::abs(result.evaluation.objective), 2));
+    }
+  }
+  result.response_errors = std::move(trust.errors);
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Dense>
 
+#include "core/base/error_bar.hpp"
 #include "optimization/history.hpp"
 #include "optimization/problem.hpp"
 #include "optimization/verdict.hpp"
@@ -45,6 +47,9 @@ struct Result {
   std::string message;  ///< a sentence: why this status
   /// Sentences: what speaks against the numbers of the last design.
   std::vector<std::string> warnings;
+  /// Of responses and objective by steps, elements and effects; where a design problem knows them.
+  std::vector<std::optional<ErrorBar>> response_errors;
+  std::optional<ErrorBar> error;  ///< of the optimal objective
   std::string backend;
   std::string polished_with;  ///< the backend that refined the answer; empty: nobody did
   Eigen::VectorXd x;          ///< [SI]

@@ -165,11 +165,13 @@ struct ParetoSettings {
   int points = 7;
 };
 
-/// Work–precision study: every step size with every number of elements, against a finer reference.
+/// How accurate answers must be, and the grid of the work–precision study: every step size with
+/// every number of elements, against a finer reference; empty lists are filled by the study.
 struct AccuracySettings {
   std::vector<double> steps;  ///< [s]
   std::vector<int> elements;  ///< per segment
-  double error = 1e-3;        ///< relative error for which the cheapest setting is recommended
+  /// Relative error that what is minimized or limited may have.
+  double target = 1e-2;
 };
 
 /// A variable that is not exactly what it is said to be; of a fixed one (lower == upper) just as of
@@ -204,7 +206,7 @@ struct ProblemFile {
   std::vector<ConstraintSettings> constraints;
   OptimizerSettings optimizer;
   std::optional<ParetoSettings> pareto;
-  std::optional<AccuracySettings> accuracy;
+  AccuracySettings accuracy;
   std::optional<UncertaintySettings> uncertainty;
 };
 

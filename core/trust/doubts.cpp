@@ -23,8 +23,12 @@ std::vector<Doubt> find_doubts_before(const ProblemFile& problem) {
   return doubt_fast_laws_before(problem);
 }
 
-std::vector<Doubt> find_doubts(const TrustedRun& run) {
-  std::vector<Doubt> doubts;
+Trust judge_run(const TrustedRun& run) {
+  Trust trust;
+  std::vector<Doubt>& doubts = trust.doubts;
+  const auto add = [&](const std::vector<Doubt>& found) {
+    doubts.insert(doubts.end(), found.begin(), found.end());
+  };
   for (const auto find : {
            doubt_bending_range,
            doubt_energy_balance,
@@ -41,14 +45,20 @@ std::vector<Doubt> find_doubts(const TrustedRun& run) {
            doubt_shear_range,
            doubt_sideways_buckling,
            doubt_unconnected_bodies,
-           doubt_resolution,
        }) {
-    const std::vector<Doubt> found = find(run);
-    doubts.insert(doubts.end(), found.begin(), found.end());
+    add(find(run));
   }
+  Resolution resolution = judge_resolution(run);
+  add(doubt_resolution(run, resolution));
+  trust.errors = std::move(resolution.bars);
+  add_left_out_effects(run, trust.errors);
   std::stable_partition(doubts.begin(), doubts.end(),
                         [](const Doubt& doubt) { return doubt.is_serious; });
-  return doubts;
+  return trust;
+}
+
+std::vector<Doubt> find_doubts(const TrustedRun& run) {
+  return judge_run(run).doubts;
 }
 
 std::vector<Doubt> find_doubts(const ProblemFile& problem, const Eigen::VectorXd& x,

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/base/error_bar.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"
 #include "core/trust/doubt.hpp"
@@ -20,6 +22,16 @@ struct TrustedRun {
 /// What the file alone says against the numbers to come, at its start design: known before a long
 /// run, and found again after it.
 std::vector<Doubt> find_doubts_before(const ProblemFile& problem);
+
+/// How far the numbers of a simulated design can be trusted.
+struct Trust {
+  std::vector<Doubt> doubts;  ///< the serious ones first
+  /// One a response, none of those that are errors themselves or round-off; empty where the file
+  /// leaves the check of resolution out.
+  std::vector<std::optional<ErrorBar>> errors;
+};
+
+Trust judge_run(const TrustedRun& run);
 
 /// All doubts about a simulated design, the serious ones first; every
 /// command that shows numbers shows them. Each kind of doubt has a file of its own beside this one.

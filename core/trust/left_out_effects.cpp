@@ -1,6 +1,7 @@
 #include "core/trust/left_out_effects.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -68,6 +69,18 @@ std::vector<Doubt> doubt_lost_stiffening(const TrustedRun& run) {
          true});
   }
   return doubts;
+}
+
+void add_left_out_effects(const TrustedRun& run, std::vector<std::optional<ErrorBar>>& errors) {
+  double share = 0.0;
+  for (const auto& [key, effect] : run.problem.effects.measured) {
+    if (!effect.is_needed) share += effect.change;
+  }
+  if (share == 0.0) return;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    if (!errors[i]) continue;
+    errors[i]->effects.bound += share * std::abs(run.analysis.reductions[i].value);
+  }
 }
 
 }  // namespace pleuel

@@ -52,6 +52,7 @@ ProblemFile refined(ProblemFile problem, const Refinement& refinement) {
   if (refinement.step != 1.0) change_steps(problem.simulation, refinement.step);
   if (refinement.elements != 1.0) change_elements(problem.scene, refinement.elements);
   if (refinement.more_modes > 0) add_modes(problem.scene, refinement.more_modes);
+  problem.simulation.newton_tolerance *= refinement.newton;
   return problem;
 }
 

@@ -14,6 +14,7 @@ struct Refinement {
   double step = 1.0;      ///< times the steps of the file: 2 or 0.5
   double elements = 1.0;  ///< times the elements of every segment: 2 or 0.5
   int more_modes = 0;     ///< of each family of every reduced beam
+  double newton = 1.0;    ///< times the tolerance of Newton's method
 };
 
 /// What is compared of a run.

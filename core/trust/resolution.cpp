@@ -35,6 +35,11 @@ constexpr double unknown_factor = 3.0;
 /// Of a reduction, in each family: with one the next may be of a symmetry that is not excited.
 constexpr int more_modes = 2;
 
+/// Tolerances of Newton's method up to this leave no error that counts.
+constexpr double small_tolerance = 1e-8;
+/// The tolerance of the run beside it, times that of the file.
+constexpr double tighter_newton = 1e-3;
+
 class Judgement {
  public:
   explicit Judgement(const TrustedRun& run)
@@ -48,28 +53,41 @@ class Judgement {
 
   Resolution judge() {
     if (judged_.empty()) return {};
-    const std::vector<NestedRun> coarse = make_nested_runs(problem_, run_.x, coarse_runs());
-    suspect(coarse);
-    if (!is_suspicious()) return {};
-    if (leave_out_round_off()) suspect(coarse);
+    plan_coarse_runs();
+    make_coarse_runs();
+    suspect();
+    if (is_suspicious() && leave_out_round_off()) suspect();
     std::vector<Refinement> fine;
     if (is_time_suspicious_) fine.push_back({0.5, 1.0});
     if (is_space_suspicious_) fine.push_back({1.0, 2.0});
     if (are_modes_suspicious_) fine.push_back({1.0, 1.0, more_modes});
-    return weigh(make_nested_runs(problem_, run_.x, fine));
+    Resolution found = weigh(make_nested_runs(problem_, run_.x, fine));
+    make_bars(found);
+    return found;
   }
 
  private:
-  std::vector<Refinement> coarse_runs() {
+  void plan_coarse_runs() {
     const std::optional<int> fewest = fewest_elements(run_.analysis.model, problem_);
     const bool has_few = fewest.value_or(1) <= 2;
     space_factor_ = has_few ? 2.0 : 0.5;
     has_elements_ = fewest.has_value();
     has_modes_ = has_reduced_beams(run_.analysis.model, problem_);
-    std::vector<Refinement> coarse = {{2.0, 1.0}};
-    if (has_elements_) coarse.push_back({2.0, space_factor_});
-    if (has_modes_) coarse.push_back({2.0, 1.0, more_modes});
-    return coarse;
+    has_tolerance_ = problem_.simulation.newton_tolerance > small_tolerance;
+  }
+
+  void make_coarse_runs() {
+    std::vector<Refinement> refinements = {{2.0, 1.0}, {4.0, 1.0}};
+    if (has_elements_) refinements.push_back({2.0, space_factor_});
+    if (has_modes_) refinements.push_back({2.0, 1.0, more_modes});
+    if (has_tolerance_) refinements.push_back({4.0, 1.0, 0, tighter_newton});
+    std::vector<NestedRun> runs = make_nested_runs(problem_, run_.x, refinements);
+    std::size_t next = 0;
+    coarse_ = std::move(runs[next++]);
+    coarsest_ = std::move(runs[next++]);
+    if (has_elements_) other_elements_ = std::move(runs[next++]);
+    if (has_modes_) other_modes_ = std::move(runs[next++]);
+    if (has_tolerance_) other_newton_ = std::move(runs[next++]);
   }
 
   bool is_suspicious() const {
@@ -94,8 +112,7 @@ class Judgement {
     return value_error(run.values(index), reference.values(index), magnitude(reference, i));
   }
 
-  void suspect(const std::vector<NestedRun>& coarse) {
-    coarse_ = coarse.front();
+  void suspect() {
     is_time_suspicious_ = coarse_.has_failed() ||
                           run_.monitors.elastic_energy_error > suspicious_energy ||
                           std::any_of(judged_.begin(), judged_.end(),
@@ -103,8 +120,8 @@ class Judgement {
     // Half the elements have four times the error (order 2, bending has more), twice a quarter of
     // it.
     const double share = space_factor_ < 1.0 ? 1.0 / 3.0 : 4.0 / 3.0;
-    if (has_elements_) is_space_suspicious_ = is_suspicious_beside(coarse[1], share);
-    if (has_modes_) are_modes_suspicious_ = is_suspicious_beside(coarse.back(), 1.0);
+    if (has_elements_) is_space_suspicious_ = is_suspicious_beside(other_elements_, share);
+    if (has_modes_) are_modes_suspicious_ = is_suspicious_beside(other_modes_, 1.0);
   }
 
   /// @param share  of the change that is an error
@@ -134,16 +151,42 @@ class Judgement {
         .maxCoeff();
   }
 
-  Resolution weigh(const std::vector<NestedRun>& fine) const {
+  Resolution weigh(std::vector<NestedRun> fine) {
     Resolution resolution;
     std::size_t next = 0;
-    if (is_time_suspicious_) resolution.in_time = weigh_time(fine[next++], resolution.failure);
-    const auto weigh_next = [&] {
-      return weigh_division(fine[next++], resolution.in_time, resolution.failure);
-    };
-    if (is_space_suspicious_) resolution.in_space = weigh_next();
-    if (are_modes_suspicious_) resolution.in_modes = weigh_next();
+    if (is_time_suspicious_) {
+      half_step_ = std::move(fine[next++]);
+      resolution.in_time = weigh_time(half_step_, resolution.failure);
+    }
+    if (is_space_suspicious_) {
+      twice_elements_ = std::move(fine[next++]);
+      resolution.in_space = weigh_division(twice_elements_, resolution.in_time, resolution.failure);
+    }
+    if (are_modes_suspicious_) {
+      more_modes_ = std::move(fine[next++]);
+      resolution.in_modes = weigh_division(more_modes_, resolution.in_time, resolution.failure);
+    }
     return resolution;
+  }
+
+  void make_bars(Resolution& resolution) const {
+    JudgingRuns runs;
+    if (is_time_suspicious_) runs.half_step = &half_step_;
+    runs.twice_step = &coarse_;
+    runs.four_steps = &coarsest_;
+    if (has_elements_) runs.elements = {&other_elements_, &coarse_};
+    runs.element_factor = space_factor_;
+    if (is_space_suspicious_) {
+      runs.elements = {&twice_elements_, &found_};
+      runs.element_factor = 2.0;
+    }
+    if (has_modes_) runs.modes = {&other_modes_, &coarse_};
+    if (are_modes_suspicious_) runs.modes = {&more_modes_, &found_};
+    if (has_tolerance_) runs.newton = {&other_newton_, &coarsest_};
+    resolution.bars.resize(run_.analysis.responses.size());
+    for (const std::size_t i : judged_) {
+      resolution.bars[i] = error_bar(run_.analysis, i, runs, order());
+    }
   }
 
   int order() const {
@@ -199,10 +242,11 @@ class Judgement {
 
   const TrustedRun& run_;
   const ProblemFile& problem_;
-  NestedRun found_, coarse_;
+  NestedRun found_, coarse_, coarsest_, other_elements_, other_modes_, other_newton_;
+  NestedRun half_step_, twice_elements_, more_modes_;
   std::vector<std::size_t> judged_;
   double space_factor_ = 0.5;
-  bool has_elements_ = false, has_modes_ = false;
+  bool has_elements_ = false, has_modes_ = false, has_tolerance_ = false;
   bool is_time_suspicious_ = false, is_space_suspicious_ = false, are_modes_suspicious_ = false;
 };
 
@@ -245,12 +289,10 @@ std::vector<Doubt> doubt_about(const TrustedRun& run, const std::vector<Unresolv
 }  // namespace
 
 Resolution judge_resolution(const TrustedRun& run) {
-  return Judgement(run).judge();
+  return run.problem.simulation.checks_resolution ? Judgement(run).judge() : Resolution();
 }
 
-std::vector<Doubt> doubt_resolution(const TrustedRun& run) {
-  if (!run.problem.simulation.checks_resolution) return {};
-  const Resolution found = judge_resolution(run);
+std::vector<Doubt> doubt_resolution(const TrustedRun& run, const Resolution& found) {
   std::vector<Doubt> doubts;
   const auto add = [&](const std::vector<Doubt>& more) {
     doubts.insert(doubts.end(), more.begin(), more.end());

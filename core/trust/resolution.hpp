@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/trust/doubts.hpp"
+#include "core/trust/error_bars.hpp"
 
 namespace pleuel {
 
@@ -20,7 +22,9 @@ struct Unresolved {
 struct Resolution {
   std::vector<Unresolved> in_time, in_space;
   std::vector<Unresolved> in_modes;  ///< that reductions leave out
-  std::string failure;               ///< of a finer run that could not be made; empty: none
+  /// One a response; none of those that are errors themselves, or round-off.
+  std::vector<std::optional<ErrorBar>> bars;
+  std::string failure;  ///< of a finer run that could not be made; empty: none
 };
 
 /// Judges which responses are resolved, in two stages:
@@ -40,8 +44,8 @@ struct Resolution {
 /// Balances of energy and drifts of constraints are errors themselves, and not judged.
 Resolution judge_resolution(const TrustedRun& run);
 
-/// Of judge_resolution(), unless the file leaves it out. Serious beyond ten percent of a response
+/// Doubts from judge_resolution(). Serious beyond ten percent of a response
 /// that is minimized or limited; of any in a file that minimizes nothing.
-std::vector<Doubt> doubt_resolution(const TrustedRun& run);
+std::vector<Doubt> doubt_resolution(const TrustedRun& run, const Resolution& found);
 
 }  // namespace pleuel

@@ -70,8 +70,8 @@ TEST(BadInput, OptimizingWithoutVariablesNamesFileAndPointer) {
 }
 
 TEST(BadInput, StudyWithoutSettingsNamesFileAndPointer) {
-  expect_complaint({"accuracy", problem("slider_crank_exudyn")},
-                   "slider_crank_exudyn.json: /accuracy is missing");
+  expect_complaint({"uncertainty", problem("slider_crank_exudyn")},
+                   "slider_crank_exudyn.json: /uncertainty is missing");
 }
 
 TEST(BadInput, WithJsonTheErrorIsADocument) {

@@ -63,7 +63,23 @@ TEST(AccuracyCommand, MeasuresEveryCombination) {
   }
   EXPECT_EQ(document.at("reference").at("step"), 0.5e-4);
   EXPECT_EQ(document.at("reference").at("elements"), 8);
-  EXPECT_TRUE(document.contains("recommended"));
+  // What is recommended can be set, and has the values that were measured.
+  const nlohmann::json& recommended = document.at("recommended");
+  ASSERT_TRUE(recommended.is_object()) << document.at("runs");
+  std::vector<std::string> words = {"simulate", problem("slider_crank_round"), "--json", "-o", "s"};
+  for (const auto& [pointer, value] : recommended.at("overrides").items()) {
+    words.insert(words.end(), {"--set", pointer + "=" + value.dump()});
+  }
+  // The last setting of a value counts.
+  std::vector<std::string> all = joined({words.begin(), words.begin() + 5}, quick());
+  all.insert(all.end(), words.begin() + 5, words.end());
+  const nlohmann::json simulated = run_program(folder.path(), all).document();
+  for (const auto& [name, error] : recommended.at("errors").items()) {
+    const double reference = document.at("reference").at("values").at(name);
+    const double value = simulated.at("responses").at(name).at("value");
+    EXPECT_LE(std::abs(value - reference), 1.001 * error.get<double>() * std::abs(reference))
+        << name;
+  }
   EXPECT_EQ(read_csv(folder.path() / "study/accuracy.csv").size(), 1u + 7u);  // and the reference
 }
 

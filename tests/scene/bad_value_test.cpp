@@ -119,8 +119,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{"/pareto/to", R"("0.1 mm")", R"(/pareto/to must differ from "from", got "0.1 mm")"},
         BadEdit{"/pareto/points", "1",
                 "/pareto/points must be a whole number from 2 to 10000, got 1"},
-        BadEdit{"/accuracy/error", "0",
-                "/accuracy/error must be greater than 0 and less than 1, got 0"},
+        BadEdit{"/accuracy/target", "0",
+                "/accuracy/target must be greater than 0 and less than 1, got 0"},
         BadEdit{"/accuracy/steps/1", "0", "/accuracy/steps/1 must be positive [s], got 0"},
         BadEdit{
             "/constraints/strength/deviations", "3",

@@ -76,7 +76,7 @@ std::string good_text() {
                   "memory": "512 MB"},
   "optimizer": {"backend": "ipopt", "tolerance": 1e-5, "max_iterations": 50},
   "pareto": {"constraint": "stiffness", "from": "0.1 mm", "to": "0.4 mm", "points": 5},
-  "accuracy": {"steps": ["1e-4 s", 5e-5], "elements": [2, 4], "error": 1e-2}
+  "accuracy": {"steps": ["1e-4 s", 5e-5], "elements": [2, 4], "target": 1e-2}
 })";
 }
 

@@ -114,7 +114,7 @@ TEST_P(SliderCrank, HasBothStudies) {
   EXPECT_EQ(problem.pareto->from, 1e-4);
   EXPECT_EQ(problem.pareto->to, 4e-4);
   EXPECT_EQ(problem.pareto->points, 7);
-  EXPECT_THAT(problem.accuracy->steps, ElementsAre(2e-4, 1e-4, 5e-5, 2.5e-5));
+  EXPECT_THAT(problem.accuracy.steps, ElementsAre(2e-4, 1e-4, 5e-5, 2.5e-5));
 }
 
 TEST(RectangularSliderCrank, HasFourVariablesAndProportions) {
@@ -213,7 +213,7 @@ TEST(GoodProblem, KeepsWhatItSaysInTheOrderOfTheFile) {
   EXPECT_EQ(problem.sensitivity.memory, 512e6);
   EXPECT_EQ(problem.optimizer.backend, "ipopt");
   EXPECT_EQ(problem.optimizer.max_iterations, 50);
-  EXPECT_THAT(problem.accuracy->elements, ElementsAre(2, 4));
+  EXPECT_THAT(problem.accuracy.elements, ElementsAre(2, 4));
 }
 
 TEST(GoodProblem, HasItsResponses) {

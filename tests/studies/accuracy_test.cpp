@@ -1,5 +1,6 @@
 #include "studies/accuracy.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -11,10 +12,19 @@
 namespace pleuel {
 namespace {
 
-AccuracyStudy study(double error) {
+AccuracyStudy study(double target) {
   ProblemFile problem = test::quick_problem();
-  problem.accuracy = AccuracySettings{{4e-4, 2e-4, 1e-4}, {4}, error};
-  return accuracy_study(problem);
+  problem.accuracy = AccuracySettings{{4e-4, 2e-4, 1e-4}, {4}, target};
+  return accuracy_study(problem, start_design(problem));
+}
+
+/// Of the responses that are minimized or limited.
+double counted_error(const AccuracyStudy& study, const AccuracyRun& run) {
+  double largest = 0.0;
+  for (const std::size_t i : study.counted) {
+    largest = std::max(largest, run.errors(static_cast<Eigen::Index>(i)));
+  }
+  return largest;
 }
 
 TEST(Accuracy, ErrorsFallWithTheStepAsASecondOrderSchemeMust) {
@@ -38,17 +48,60 @@ TEST(Accuracy, TheMassDependsOnNoStep) {
 
 TEST(Accuracy, RecommendsTheFastestOfThoseThatAreGoodEnough) {
   const AccuracyStudy result = study(0.5);
-  ASSERT_TRUE(result.recommended);
-  const AccuracyRun& best = result.runs[*result.recommended];
-  EXPECT_LE(best.largest_error(), 0.5);
-  for (const AccuracyRun& run : result.runs) {
-    if (run.largest_error() > 0.5) continue;
-    EXPECT_LE(best.seconds(), run.seconds());
+  ASSERT_EQ(result.recommendations.size(), 3u);
+  double target = 0.5;
+  for (const Recommendation& one : result.recommendations) {
+    EXPECT_NEAR(one.target, target, 1e-12);
+    target *= 0.1;
+    for (const AccuracyRun& run : result.runs) {
+      if (counted_error(result, run) > one.target) continue;
+      ASSERT_TRUE(one.values);
+      EXPECT_LE(result.runs[*one.values].simulation_seconds, run.simulation_seconds);
+    }
+    if (one.values) EXPECT_LE(counted_error(result, result.runs[*one.values]), one.target);
   }
+  EXPECT_TRUE(result.recommendations.front().values);
 }
 
 TEST(Accuracy, RecommendsNothingIfNothingIsGoodEnough) {
-  EXPECT_FALSE(study(1e-12).recommended);
+  for (const Recommendation& one : study(1e-12).recommendations) {
+    EXPECT_FALSE(one.values);
+    EXPECT_FALSE(one.gradients);
+  }
+}
+
+/// Responses that nobody limits have no veto: the end position of the slider, say.
+TEST(Accuracy, CountsWhatIsMinimizedOrLimited) {
+  const ProblemFile problem = test::quick_problem();
+  const AccuracyStudy result = study(1e-2);
+  ASSERT_EQ(result.counted.size(), problem.constraints.size() + 1);
+  for (const std::size_t i : result.counted) {
+    const std::string& name = problem.responses[i].name;
+    EXPECT_TRUE(name == problem.objective->response ||
+                std::any_of(problem.constraints.begin(), problem.constraints.end(),
+                            [&](const auto& limit) { return limit.response == name; }))
+        << name;
+  }
+}
+
+TEST(Accuracy, TriesStepsAndElementsAroundThoseOfTheFileIfItNamesNone) {
+  ProblemFile problem = test::quick_problem();
+  problem.accuracy = {};
+  const std::vector<Discretization> grid = accuracy_grid(problem);
+  EXPECT_EQ(grid.size(), 12u);
+  const AccuracyStudy result = accuracy_study(problem, start_design(problem));
+  EXPECT_EQ(result.runs.size(), 12u);
+  EXPECT_DOUBLE_EQ(result.reference.settings.step, problem.simulation.step / 4);
+  EXPECT_DOUBLE_EQ(result.reference.settings.factor, 4.0);
+}
+
+TEST(Accuracy, IsThatOfTheDesignThatIsAskedFor) {
+  ProblemFile problem = test::quick_problem();
+  problem.accuracy = AccuracySettings{{2e-4}, {2}, 1e-2};
+  const Eigen::VectorXd x = 0.7 * start_design(problem);
+  const AccuracyStudy result = accuracy_study(problem, x);
+  const ProblemFile same = discretized(problem, result.runs[0].settings);
+  EXPECT_EQ(result.runs[0].values, values_of(*analyze(same, x)));
 }
 
 TEST(Accuracy, ReferenceIsFinerThanEveryRun) {
@@ -87,15 +140,15 @@ TEST(Accuracy, AFailingRunIsMarkedAndTheOthersGoOn) {
   ProblemFile problem = test::quick_problem({"/simulation/max_newton_iterations=2"});
   problem.accuracy = AccuracySettings{{5e-3, 1e-4}, {2}, 1e-3};
   problem.simulation.newton_tolerance = 1e-9;
-  const AccuracyStudy result = accuracy_study(problem);
+  const AccuracyStudy result = accuracy_study(problem, start_design(problem));
   EXPECT_FALSE(result.runs[0].failure.empty());
   EXPECT_TRUE(result.runs[1].failure.empty()) << result.runs[1].failure;
 }
 
-TEST(Accuracy, WithoutSettingsThereIsNothingToTry) {
+TEST(Accuracy, WithoutResponsesThereIsNothingToCompare) {
   ProblemFile problem = test::quick_problem();
-  problem.accuracy.reset();
-  EXPECT_THROW(accuracy_study(problem), InputError);
+  problem.responses.clear();
+  EXPECT_THROW(accuracy_study(problem, start_design(problem)), InputError);
 }
 
 }  // namespace

@@ -218,17 +218,26 @@ OptimizerSettings read_optimizer(const JsonNode& node) {
 }
 
 AccuracySettings read_accuracy(const JsonNode& node, const NumberReader& numbers) {
-  node.allow_keys({"steps", "elements", "error"});
+  node.allow_keys({"target", "steps", "elements"});
   AccuracySettings settings;
-  for (const JsonNode& step : node.at("steps").items()) {
-    settings.steps.push_back(numbers.fixed(step, quantities::time, Range::positive));
+  if (const auto steps = node.find("steps")) {
+    for (const JsonNode& step : steps->items()) {
+      settings.steps.push_back(numbers.fixed(step, quantities::time, Range::positive));
+    }
+    if (settings.steps.empty()) steps->fail("must have at least one step");
   }
-  for (const JsonNode& elements : node.at("elements").items()) {
-    settings.elements.push_back(elements.whole_number(1, most_elements));
+  if (const auto elements = node.find("elements")) {
+    for (const JsonNode& number : elements->items()) {
+      settings.elements.push_back(number.whole_number(1, most_elements));
+    }
+    if (settings.elements.empty()) elements->fail("must have at least one number");
   }
-  if (settings.steps.empty()) node.at("steps").fail("must have at least one step");
-  if (settings.elements.empty()) node.at("elements").fail("must have at least one number");
-  if (const auto error = node.find("error")) settings.error = read_tolerance(*error);
+  if (const auto target = node.find("target")) {
+    settings.target = numbers.fixed(*target, quantities::pure_number);
+    if (settings.target <= 0.0 || settings.target >= 1.0) {
+      target->fail_with_value("must be greater than 0 and less than 1");
+    }
+  }
   return settings;
 }
 

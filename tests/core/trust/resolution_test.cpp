@@ -48,12 +48,16 @@ constexpr const char* cantilever = R"({
 const std::string sudden =
     R"(/scene/loads/push/value={"type": "harmonic", "amplitude": 500, "frequency": 1, "phase": 1.5})";
 
+std::vector<Doubt> doubts_about(const TrustedRun& run) {
+  return doubt_resolution(run, judge_resolution(run));
+}
+
 std::vector<Doubt> doubts_of(const std::vector<std::string>& overrides) {
   const ProblemFile problem = read_problem_text(cantilever, "cantilever.json", overrides);
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-  return doubt_resolution({problem, x, *analysis, monitors});
+  return doubts_about({problem, x, *analysis, monitors});
 }
 
 TEST(Resolution, IsNotDoubtedWhereTheStepFollowsTheMotion) {
@@ -120,7 +124,7 @@ TEST(Resolution, IsDoubtedFromOnePercentOfErrorAndSeriousFromTen) {
     const Eigen::VectorXd x = start_design(problem);
     const auto analysis = analyze(problem, x);
     const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-    const std::vector<Doubt> doubts = doubt_resolution({problem, x, *analysis, monitors});
+    const std::vector<Doubt> doubts = doubts_about({problem, x, *analysis, monitors});
     const double error = std::abs(analysis->reductions[0].value / exact - 1.0);
     if (error < 0.009) {
       EXPECT_TRUE(doubts.empty()) << error;
@@ -231,7 +235,7 @@ TEST(Resolution, IsNotAskedOfRoundOff) {
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
   const TrustedRun run{problem, x, *analysis, monitors};
   EXPECT_THAT(find_round_off(run), testing::ElementsAre(false, false, true, true, false, false));
-  EXPECT_THAT(doubt_resolution(run), IsEmpty());
+  EXPECT_THAT(doubts_about(run), IsEmpty());
 }
 
 /// A balanced rotor at constant speed needs no torque.
@@ -248,7 +252,7 @@ TEST(Resolution, IsNotAskedOfATorqueThatHoldsNothing) {
     const Eigen::VectorXd x = start_design(problem);
     const auto analysis = analyze(problem, x);
     const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-    EXPECT_THAT(doubt_resolution({problem, x, *analysis, monitors}), IsEmpty()) << step;
+    EXPECT_THAT(doubts_about({problem, x, *analysis, monitors}), IsEmpty()) << step;
   }
 }
 

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+
+/// How far a computed number may be from the one that is meant.
+namespace pleuel {
+
+/// What a number lacks by one cause [its unit].
+struct ErrorPart {
+  double change = 0.0;      ///< estimate of (limit of a fine division − value), signed
+  double bound = 0.0;       ///< what |limit − value| is expected to stay within
+  bool is_resolved = true;  ///< false: runs disagree; the bound is what they differ by, if known
+
+  /// That of `factor` times the number on top.
+  void add(const ErrorPart& part, double factor = 1.0) {
+    if (factor == 0.0) return;
+    change += factor * part.change;
+    bound += (factor < 0.0 ? -factor : factor) * part.bound;
+    is_resolved = is_resolved && part.is_resolved;
+  }
+};
+
+/// The error of a number, by cause.
+struct ErrorBar {
+  ErrorPart step;
+  ErrorPart elements;           ///< with the modes of reduced beams
+  ErrorPart newton;             ///< by the tolerance of Newton's method
+  ErrorPart effects;            ///< that were left out by a tolerance
+  std::optional<double> order;  ///< observed, in the step; of a single response
+
+  double change() const { return step.change + elements.change + newton.change + effects.change; }
+  double bound() const { return step.bound + elements.bound + newton.bound + effects.bound; }
+  bool is_resolved() const {
+    return step.is_resolved && elements.is_resolved && newton.is_resolved && effects.is_resolved;
+  }
+
+  /// That of `factor` times the number on top.
+  void add(const ErrorBar& bar, double factor = 1.0) {
+    step.add(bar.step, factor);
+    elements.add(bar.elements, factor);
+    newton.add(bar.newton, factor);
+    effects.add(bar.effects, factor);
+    order.reset();
+  }
+};
+
+}  // namespace pleuel

@@ -1,0 +1,93 @@
+#include "optimization/optimum_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/number_text.hpp"
+#include "optimization/prices.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Steps that are proposed aim at so much of the target.
+constexpr double proposed_share = 0.7;
+
+/// What would bring an error below the target.
+std::string advice(const ProblemFile& file, const ErrorBar& bar, double excess) {
+  if (bar.elements.bound > bar.step.bound && bar.elements.is_resolved) {
+    return "Try twice the elements";
+  }
+  const double factor =
+      bar.step.is_resolved ? std::clamp(std::sqrt(proposed_share / excess), 1.0 / 16.0, 0.9) : 0.25;
+  return fmt::format("Try a /simulation/step of {:.2g} s", factor * file.simulation.step);
+}
+
+/// @param size  what the error is compared with
+/// @returns empty if the target is met
+std::string complaint(const ProblemFile& file, const std::string& what, const ErrorBar& bar,
+                      double size) {
+  const double target = file.accuracy.target;
+  const double share = size > 0.0 ? bar.bound() / size : 0.0;
+  if (bar.is_resolved() && share <= target) return "";
+  const std::string amount =
+      bar.is_resolved() ? fmt::format("is known to ± {} % only", significant(100.0 * share, 2))
+                        : std::string("is not resolved by steps and elements");
+  return fmt::format("{} {}, /accuracy/target is {:g} %. {}", what, amount, 100.0 * target,
+                     advice(file, bar, share / target));
+}
+
+/// Whether a limit could be broken by the error of its value.
+bool may_break(const ConstraintSettings& limit, double value, double error) {
+  return (limit.upper && value + error > *limit.upper) ||
+         (limit.lower && value - error < *limit.lower);
+}
+
+double nearest_limit(const ConstraintSettings& limit, double value) {
+  if (!limit.lower) return *limit.upper;
+  if (!limit.upper) return *limit.lower;
+  return *limit.upper - value < value - *limit.lower ? *limit.upper : *limit.lower;
+}
+
+}  // namespace
+
+std::optional<ErrorBar> optimum_error(const DesignProblem& design, const Result& result,
+                                      const std::vector<std::optional<ErrorBar>>& errors) {
+  if (errors.empty() || !has_prices(result)) return std::nullopt;
+  ErrorBar bar;
+  const auto& of_objective = errors[*design.response_of({})];
+  if (of_objective) bar.add(*of_objective);
+  for (std::size_t i = 0; i < design.constraints().size(); ++i) {
+    const auto response = design.response_of({i, std::nullopt});
+    if (!response || !errors[*response]) continue;
+    bar.add(*errors[*response], result.constraint_multipliers(static_cast<Eigen::Index>(i)));
+  }
+  return bar;
+}
+
+std::string inaccuracy(const DesignProblem& design, const Result& result,
+                       const std::vector<std::optional<ErrorBar>>& errors) {
+  const std::optional<ErrorBar> bar = optimum_error(design, result, errors);
+  if (!bar) return "";
+  const ProblemFile& file = design.file();
+  const std::string of_objective =
+      complaint(file, fmt::format("the optimum of {}", design.objective_name()), *bar,
+                std::abs(result.evaluation.objective));
+  if (!of_objective.empty()) return of_objective;
+  for (std::size_t i = 0; i < file.constraints.size(); ++i) {
+    const ConstraintSettings& limit = file.constraints[i];
+    const auto response = design.response_of({i, std::nullopt});
+    if (!response || !errors[*response]) continue;
+    const double value = result.evaluation.constraints(static_cast<Eigen::Index>(i));
+    if (!may_break(limit, value, errors[*response]->bound())) continue;
+    const std::string text =
+        complaint(file, fmt::format("\"{}\", which is limited,", limit.response),
+                  *errors[*response], std::abs(nearest_limit(limit, value)));
+    if (!text.empty()) return text;
+  }
+  return "";
+}
+
+}  // namespace pleuel

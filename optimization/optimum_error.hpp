@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/error_bar.hpp"
+#include "optimization/design_problem.hpp"
+#include "optimization/solve.hpp"
+
+/// How far an optimum may be from that of an arbitrarily fine simulation.
+namespace pleuel {
+
+/// The errors Δ of objective and limits make of the optimum, by the envelope theorem,
+///
+///     f*(fine) − f* ≈ Δf + Σ μ_j Δc_j.
+///
+/// @param errors  one a response of the file (core/trust/doubts.hpp)
+/// @returns nothing where the design has no multipliers that are prices, or no errors are known
+std::optional<ErrorBar> optimum_error(const DesignProblem& design, const Result& result,
+                                      const std::vector<std::optional<ErrorBar>>& errors);
+
+/// Why the optimum is not known to the accuracy that the file asks for, and what would do; empty if
+/// it is. What counts is the error of the objective at the optimum, and that of each limit which
+/// the error could break.
+std::string inaccuracy(const DesignProblem& design, const Result& result,
+                       const std::vector<std::optional<ErrorBar>>& errors);
+
+}  // namespace pleuel
