@@ -16,6 +16,7 @@
 #include "core/trust/resolution.hpp"
 #include "core/trust/shear_range.hpp"
 #include "core/trust/sideways_buckling.hpp"
+#include "core/trust/sliding_contact.hpp"
 
 namespace pleuel {
 
@@ -40,6 +41,7 @@ std::vector<Doubt> find_doubts(const TrustedRun& run) {
            doubt_proportions,
            doubt_shear_range,
            doubt_sideways_buckling,
+           doubt_sliding_contacts,
            doubt_unconnected_bodies,
            doubt_resolution,
        }) {
