@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "core/base/error.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/stop.hpp"
@@ -208,12 +210,34 @@ class Study {
     for (std::size_t i = 0; i < study_.responses.size(); ++i) {
       study_.responses[i].sampled = responses.of(static_cast<Eigen::Index>(i));
     }
+    doubt_first_order(responses.count());
     if (histories.count() < 2) return;
     const Eigen::VectorXd deviations = histories.deviations();
     const Eigen::Index instants = study_.time.size();
     for (std::size_t k = 0; k < study_.histories.size(); ++k) {
       study_.histories[k].sampled_deviations =
           deviations.segment(static_cast<Eigen::Index>(k) * instants, instants);
+    }
+  }
+
+  /// Where samples deviate by others than first order says, by more than their own scatter.
+  void doubt_first_order(int samples) {
+    constexpr double small = 0.1;       // of a deviation
+    constexpr double round_off = 1e-9;  // of a value
+    const double scatter = 3.0 / std::sqrt(2.0 * (samples - 1.0));
+    for (std::size_t i = 0; i < study_.responses.size(); ++i) {
+      const UncertainResponse& response = study_.responses[i];
+      const double first = response.deviation, sampled = response.sampled->deviation;
+      const double larger = std::max(first, sampled);
+      if (larger <= round_off * std::abs(response.value)) continue;
+      if (std::abs(sampled - first) <= std::max(small, scatter) * larger) continue;
+      const std::string& name = analysis_->responses[i].name;
+      study_.doubts.push_back(
+          {fmt::format("\"{}\" is not linear over the range of the parameters: its deviation by "
+                       "samples is {:.3g} times that of first order. Rely on the samples.",
+                       name, sampled / first),
+           false,
+           {name}});
     }
   }
 

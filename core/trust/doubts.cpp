@@ -16,6 +16,7 @@
 #include "core/trust/resolution.hpp"
 #include "core/trust/shear_range.hpp"
 #include "core/trust/sideways_buckling.hpp"
+#include "core/trust/sliding_contact.hpp"
 
 namespace pleuel {
 
@@ -44,6 +45,7 @@ Trust judge_run(const TrustedRun& run) {
            doubt_proportions,
            doubt_shear_range,
            doubt_sideways_buckling,
+           doubt_sliding_contacts,
            doubt_unconnected_bodies,
        }) {
     add(find(run));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include <fmt/format.h>
 
@@ -88,17 +89,43 @@ void add_missing_stress(const TrustedRun& run, const std::vector<const Response*
   }
 }
 
+/// The model and the state that frequencies of the mechanism are those of.
+const Model& model_of_modes(const Analysis& analysis) {
+  return analysis.full ? analysis.full->model : analysis.model;
+}
+State state_of_modes(const Analysis& analysis) {
+  if (analysis.full) return analysis.full->initial->state;
+  State state;
+  analysis.trajectory.load(0, state);
+  return state;
+}
+
+/// Vibrations that grow, as follower forces make them, where the mechanism is at rest: about a
+/// motion, frozen coefficients do not tell.
+void add_flutter(const TrustedRun& run, const std::vector<const Response*>& responses,
+                 std::vector<Doubt>& doubts) {
+  constexpr double noise = 1e-4;
+  const State state = state_of_modes(run.analysis);
+  if (!run.analysis.modes_left_out.empty() || !state.v.isZero(0.0)) return;
+  const Eigen::VectorXcd modes = modes_of(freeze(model_of_modes(run.analysis).mechanism, state));
+  for (const std::complex<double>& mode : modes) {
+    if (!(mode.imag() > 0.0 && mode.real() > noise * mode.imag())) continue;
+    doubts.push_back({fmt::format("the mechanism flutters where it starts: its vibration of {:.5g} "
+                                  "rad/s grows as exp({:.4g} t), damping left out. A force that "
+                                  "follows a body feeds it.",
+                                  mode.imag(), mode.real()),
+                      true, names_of(responses)});
+    return;
+  }
+}
+
 /// Small motions have constant coefficients only in axes that turn with the mechanism.
 void add_turning(const TrustedRun& run, const std::vector<const Response*>& responses,
                  std::vector<Doubt>& doubts) {
   const Analysis& analysis = run.analysis;
-  if (!analysis.modes_left_out.empty()) return;
-  State state;
-  analysis.trajectory.load(0, state);
-  if (analysis.full) state = analysis.full->initial->state;
-  if (state.v.isZero(0.0)) return;
-  const Model& model = analysis.full ? analysis.full->model : analysis.model;
-  const Eigen::VectorXd turning = frequencies_in_turning_axes(model, state);
+  const State state = state_of_modes(analysis);
+  if (!analysis.modes_left_out.empty() || state.v.isZero(0.0)) return;
+  const Eigen::VectorXd turning = frequencies_in_turning_axes(model_of_modes(analysis), state);
   for (const Response* response : responses) {
     const int mode = *response->mechanism_mode;
     if (mode >= turning.size()) continue;
@@ -129,6 +156,7 @@ std::vector<Doubt> doubt_frequencies(const TrustedRun& run) {
   const std::vector<const Response*> responses = frequencies_of_mechanism(run);
   if (responses.empty()) return doubts;
   add_unstable(run, responses, doubts);
+  add_flutter(run, responses, doubts);
   add_turning(run, responses, doubts);
   add_missing_stress(run, responses, doubts);
   return doubts;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/scene/problem_reader.hpp"
 #include "studies/random_numbers.hpp"
 #include "tests/studies/quick_problem.hpp"
 
@@ -42,6 +43,36 @@ TEST(Uncertainty, OfTheMassIsThatOfTheClosedForm) {
   EXPECT_NEAR(mass.shares(0), of_crank * of_crank / std::pow(mass.deviation, 2), 1e-12);
   EXPECT_NEAR(mass.shares.sum(), 1.0, 1e-14);
   EXPECT_FALSE(mass.sampled.has_value());
+}
+
+/// Deflections go with h⁻³: of 20 ± 3 mm, ε = 0.15, (1 + ε)⁻³ deviates by far more than 3 ε; the
+/// mass, which is linear in h, does not.
+TEST(Uncertainty, SaysWhereFirstOrderIsNotEnough) {
+  const ProblemFile problem = read_problem_text(
+      R"({"scene": {
+          "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
+            "section": {"type": "rectangle", "width": 0.02, "height": {"variable": "h"}},
+            "elements": 1}},
+          "joints": {"f": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
+          "loads": {"p": {"type": "force", "body": "b", "at": [1, 0, 0], "direction": [0, 1, 0],
+                          "value": 1}}},
+        "simulation": {"end_time": 2e-3, "step": 1e-3, "initial_state": "quasi-static"},
+        "variables": {"h": {"start": 0.02, "lower": 0.001, "upper": 0.1}},
+        "uncertainty": {"parameters": {"h": {"deviation": 0.003}}, "samples": 500},
+        "responses": {"mass": {"type": "mass"},
+          "sag": {"type": "deflection", "body": "b", "at": 1, "over_time": "max"}}})",
+      "h.json");
+  const auto doubts = [](const ProblemFile& of) {
+    std::vector<std::string> texts;
+    for (const Doubt& doubt : uncertainty_study(of, 2).doubts) texts.push_back(doubt.text);
+    return texts;
+  };
+  const std::vector<std::string> found = doubts(problem);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].find("\"sag\" is not linear"), 0u);
+  ProblemFile narrow = problem;
+  narrow.uncertainty->parameters[0].deviation = 2e-4;
+  EXPECT_TRUE(doubts(narrow).empty());
 }
 
 /// Monte Carlo knows no derivative. N samples know a deviation to 1/√(2 (N − 1)) and a mean to

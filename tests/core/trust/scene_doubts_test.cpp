@@ -18,6 +18,7 @@
 #include "core/trust/left_out_effects.hpp"
 #include "core/trust/misaligned_joints.hpp"
 #include "core/trust/proportions.hpp"
+#include "core/trust/sliding_contact.hpp"
 #include "tests/support/problem_runs.hpp"
 
 namespace pleuel::test {
@@ -530,6 +531,35 @@ TEST(JointTurns, AreADoubtBeyondHalfATurnInSpace) {
   EXPECT_TRUE(doubts[0].is_serious);
   EXPECT_THAT(doubts[0].text, HasSubstr("the joint \"bearing\" turns by more than half a turn"));
   EXPECT_THAT(doubts_of(spring_rotor(60, "{}"), doubt_joint_turns), IsEmpty()) << "counted";
+}
+
+// What slides along beams.
+
+/// A mass that is moved along a horizontal arm of 1 m, or beyond its end.
+ProblemFile trolley(double from, double way, const std::string& arm) {
+  return read(fmt::format(
+      R"({{"scene": {{"gravity": [0, -9.81, 0], "bodies": {{
+            "arm": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
+                     "section": {{"type": "circle", "diameter": 0.03}}, "elements": 5{}}},
+            "trolley": {{"type": "point-mass", "at": [{}, 0, 0], "mass": 1}}}},
+          "joints": {{"clamp": {{"type": "fixed", "bodies": ["ground", "arm"], "at": [0, 0, 0]}},
+                      "rail": {{"type": "point-on-line", "bodies": ["arm", "trolley"], "at": [{}, 0, 0],
+                                "axis": [1, 0, 0], "drive": {{"type": "table", "times": [0, 0.2],
+                                                              "values": [0, {}]}}}}}}}},
+          "simulation": {{"end_time": 0.2, "step": 0.01}}}})",
+      arm, from, from, way));
+}
+
+TEST(SlidingContact, IsADoubtWhereItTravelsOverAnElasticBeam) {
+  const std::vector<Doubt> doubts = doubts_of(trolley(0.2, 0.6, ""), doubt_sliding_contacts);
+  ASSERT_THAT(doubts, SizeIs(1));
+  EXPECT_TRUE(doubts[0].is_serious);
+  EXPECT_THAT(doubts[0].text, HasSubstr("\"trolley\" slides 0.6 m along the elastic beam \"arm\""));
+  EXPECT_THAT(doubts_of(trolley(0.2, 0.6, R"(, "frames": 2)"), doubt_sliding_contacts), SizeIs(1));
+  EXPECT_THAT(doubts_of(trolley(0.2, 0.01, ""), doubt_sliding_contacts), IsEmpty());
+  EXPECT_THAT(doubts_of(trolley(1.0, 0.6, ""), doubt_sliding_contacts), IsEmpty());
+  EXPECT_THAT(doubts_of(trolley(0.2, 0.6, R"(, "rigid": true)"), doubt_sliding_contacts),
+              IsEmpty());
 }
 
 }  // namespace

@@ -73,5 +73,30 @@ TEST(Frequencies, AreDoubtedWhereTheAxesMatter) {
   EXPECT_NE(found[0].text.find("the frequency \"flap\""), std::string::npos);
 }
 
+/// A column under a force that follows its free end flutters from 20.05 EI/L² on (Beck 1952).
+TEST(Frequencies, AreDoubtedWhereAFollowerForceMakesThemGrow) {
+  const auto doubts = [](double load) {
+    const double stiffness = 2.1e11 * 0.013 * std::pow(0.01, 3) / 12;
+    const ProblemFile problem = read_problem_text(fmt::format(R"({{"scene": {{
+          "materials": {{"m": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
+          "bodies": {{"b": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "m",
+            "section": {{"type": "rectangle", "width": 0.01, "height": 0.013}}, "elements": 8}}}},
+          "joints": {{"f": {{"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}}}},
+          "loads": {{"p": {{"type": "force", "body": "b", "at": [1, 0, 0], "follows": true,
+            "direction": [-1, 0, 0], "value": {}}}}}}},
+        "simulation": {{"end_time": 1e-3, "step": 1e-4, "initial_state": "quasi-static"}},
+        "responses": {{"first": {{"type": "frequency"}}}}}})",
+                                                              load * stiffness),
+                                                  "beck.json");
+    const Eigen::VectorXd x = start_design(problem);
+    const auto analysis = analyze(problem, x);
+    return doubt_frequencies({problem, x, *analysis, Monitors{}});
+  };
+  EXPECT_TRUE(doubts(20.0).empty());
+  const std::vector<Doubt> found = doubts(20.15);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].text.find("flutters"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace pleuel

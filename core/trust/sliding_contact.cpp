@@ -1,0 +1,112 @@
+#include "core/trust/sliding_contact.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/model/scene_geometry.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Of the length of a beam: no more than the distance to a node may be.
+constexpr double short_way = 0.02;
+
+/// A point that moves with the frame of a body, deformation left out.
+class FramePoint {
+ public:
+  FramePoint(const Model& model, const std::string& body, const Eigen::Vector3d& at,
+             const State& start) {
+    if (body != ground_name) frame_ = model.parts(body).front()->frame;
+    const auto [origin, axes] = pose(start);
+    local_ = axes.transpose() * (at - origin);
+  }
+
+  Eigen::Vector3d at(const State& state) const {
+    const auto [origin, axes] = pose(state);
+    return origin + axes * local_;
+  }
+
+  /// Of another point, in the axes of this body, from its origin.
+  Eigen::Vector3d local(const Eigen::Vector3d& point, const State& state) const {
+    const auto [origin, axes] = pose(state);
+    return axes.transpose() * (point - origin);
+  }
+
+ private:
+  Pose<double> pose(const State& state) const {
+    if (!frame_) return {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()};
+    const auto of = [&](const Eigen::VectorXd& all) {
+      return Coordinates<double>(all.segment(frame_->offset, frame_->size()));
+    };
+    const FrameMotion<double> motion =
+        frame_motion<double>(*frame_, of(state.q), of(state.v), of(state.a));
+    return {motion.r, motion.A};
+  }
+
+  std::optional<BodyFrame> frame_;
+  Eigen::Vector3d local_;
+};
+
+/// Whether forces of a joint act on this body where the other one is.
+bool has_contact(const Joint& joint, std::size_t side) {
+  switch (joint.type) {
+    case JointType::prismatic:
+    case JointType::cylindrical:
+      return true;
+    case JointType::point_on_line:
+    case JointType::planar:
+      return side == 0;
+    default:
+      return false;
+  }
+}
+
+/// How far the other body's point of a joint goes along a beam, within its ends [m].
+double way_along(const TrustedRun& run, const Joint& joint, std::size_t side, double length) {
+  const Trajectory& trajectory = run.analysis.trajectory;
+  const Design<double> design(run.x.begin(), run.x.end());
+  const Eigen::Vector3d at = resolve_point(joint.at, design);
+  State state;
+  trajectory.load(0, state);
+  const FramePoint beam(run.analysis.model, joint.bodies[side], at, state);
+  const FramePoint other(run.analysis.model, joint.bodies[1 - side], at, state);
+  double least = length, most = 0.0;
+  for (int step = 0; step <= trajectory.steps(); ++step) {
+    trajectory.load(step, state);
+    const double x = std::clamp(beam.local(other.at(state), state).x(), 0.0, length);
+    least = std::min(least, x);
+    most = std::max(most, x);
+  }
+  return most - least;
+}
+
+}  // namespace
+
+std::vector<Doubt> doubt_sliding_contacts(const TrustedRun& run) {
+  std::vector<Doubt> doubts;
+  for (const Joint& joint : run.problem.scene.joints) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      const std::string& name = joint.bodies[side];
+      if (name == ground_name || !has_contact(joint, side)) continue;
+      const BodyModel& body = run.analysis.model.body(name);
+      if (!body.is_beam() || !body.is_elastic) continue;
+      const double length = body.beam.node_position(body.beam.node_count() - 1);
+      const double way = way_along(run, joint, side, length);
+      if (way <= short_way * length) continue;
+      doubts.push_back(
+          {fmt::format("\"{}\" slides {:.3g} m along the elastic beam \"{}\", but the joint \"{}\" "
+                       "belongs to the node where it is drawn: its forces act there, as by a rigid "
+                       "lever, wherever the slider is. Loads that travel over an elastic beam are "
+                       "not modelled. Do not trust these numbers; slide on a rigid body or on the "
+                       "ground.",
+                       joint.bodies[1 - side], way, name, joint.name),
+           true});
+    }
+  }
+  return doubts;
+}
+
+}  // namespace pleuel
