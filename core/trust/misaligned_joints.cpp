@@ -1,7 +1,12 @@
 #include "core/trust/misaligned_joints.hpp"
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
+#include <Eigen/Core>
+
+#include "core/frame/body_frame.hpp"
 #include "core/response/misalignment.hpp"
 
 namespace pleuel {
@@ -12,23 +17,58 @@ namespace {
 constexpr double hardly_meant = 1e-3;
 /// Of joints that lock a body altogether.
 constexpr double locking = 3e-2;
-/// Of the scale of a coordinate.
+/// [rad], or of the mechanism's size.
 constexpr double stands_still = 1e-3;
 
-bool moves(const BodyModel& body, const TrustedRun& run) {
+struct Pose {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+};
+
+Pose pose_of(const std::string& body, const Model& model, const State& state) {
+  if (body == ground_name) return {};
+  const BodyFrame& frame = model.parts(body).front()->frame;
+  const auto part = [&](const Eigen::VectorXd& of) {
+    return of.segment(frame.offset, frame.size());
+  };
+  const FrameMotion<double> motion =
+      frame_motion<double>(frame, part(state.q), part(state.v), part(state.a));
+  return {motion.r, motion.A};
+}
+
+/// Of the second body of a joint as the first one sees it.
+Pose relative_pose(const Joint& joint, const Model& model, const State& state) {
+  const Pose first = pose_of(joint.bodies[0], model, state),
+             second = pose_of(joint.bodies[1], model, state);
+  return {first.rotation.transpose() * (second.position - first.position),
+          first.rotation.transpose() * second.rotation};
+}
+
+/// Whether the bodies of a joint move against each other.
+bool moves(const Joint& joint, const TrustedRun& run) {
   const Trajectory& trajectory = run.analysis.trajectory;
-  const Eigen::VectorXd& scale = run.analysis.model.mechanism.scale;
-  State state, start;
-  trajectory.load(0, start);
+  const Model& model = run.analysis.model;
+  const double size = model.mechanism.scale.maxCoeff();
+  State state;
+  trajectory.load(0, state);
+  const Pose start = relative_pose(joint, model, state);
   for (int step = 1; step <= trajectory.steps(); ++step) {
     trajectory.load(step, state);
-    const Eigen::VectorXd way = (state.q - start.q).cwiseQuotient(scale);
-    if (way.segment(body.frame.offset, body.frame.size()).lpNorm<Eigen::Infinity>() >
-        stands_still) {
-      return true;
-    }
+    const Pose pose = relative_pose(joint, model, state);
+    const double way = (pose.position - start.position).lpNorm<Eigen::Infinity>() / size;
+    const double turn = (pose.rotation - start.rotation).lpNorm<Eigen::Infinity>();
+    if (std::max(way, turn) > stands_still) return true;
   }
   return false;
+}
+
+/// Whether any of these joints does what it is there for.
+bool any_moves(const std::vector<std::string>& names, const TrustedRun& run) {
+  return std::any_of(run.problem.scene.joints.begin(), run.problem.scene.joints.end(),
+                     [&](const Joint& joint) {
+                       return std::find(names.begin(), names.end(), joint.name) != names.end() &&
+                              moves(joint, run);
+                     });
 }
 
 }  // namespace
@@ -39,10 +79,7 @@ std::vector<Doubt> doubt_misaligned_joints(const TrustedRun& run) {
   const Model& model = run.analysis.model;
   std::vector<Doubt> doubts;
   for (const Misalignment& found : find_misalignments(model, start, locking)) {
-    const bool is_locked = std::none_of(
-        found.bodies.begin(), found.bodies.end(),
-        [&](const std::string& name) { return moves(*model.parts(name).front(), run); });
-    if (found.size > hardly_meant && !is_locked) continue;
+    if (found.size > hardly_meant && any_moves(found.joints, run)) continue;
     doubts.push_back({found.text(), true});
   }
   return doubts;

@@ -102,6 +102,29 @@ INSTANTIATE_TEST_SUITE_P(Tilts, SlightlyTiltedHinges,
                          testing::Combine(testing::Values(1e-5, 1e-4, 1e-3, 1e-2), directions,
                                           units));
 
+/// The same door on a carriage that drives off with it: what it does against the carriage counts,
+/// not that it moves at all.
+TEST(MisalignedJoints, LockABodyAlsoWhereItIsCarriedAway) {
+  const auto doubts_with = [](double tilt) {
+    return doubts_of(
+        read(door(tilt),
+             {R"(/scene/bodies/carriage={"type": "rigid", "at": [0, 0, 0], "mass": 5,
+                  "inertia": [1, 1, 1, 0, 0, 0]})",
+              R"(/scene/joints/rail={"type": "prismatic", "bodies": ["ground", "carriage"],
+                  "at": [0, 0, 0], "axis": [0, 1, 0],
+                  "drive": {"type": "polynomial", "coefficients": [0, 0, 20]}})",
+              R"(/scene/joints/low/bodies=["carriage", "door"])",
+              R"(/scene/joints/high/bodies=["carriage", "door"])"}),
+        doubt_misaligned_joints);
+  };
+  EXPECT_THAT(doubts_with(0.0), IsEmpty());
+  for (const double tilt : {1e-5, 5e-4, 5e-3, 2e-2}) {
+    const std::vector<Doubt> doubts = doubts_with(tilt);
+    ASSERT_THAT(doubts, SizeIs(1)) << tilt;
+    EXPECT_THAT(doubts[0].text, HasSubstr("\"low\", \"high\"")) << tilt;
+  }
+}
+
 /// Two ball joints make a hinge however near they are; so do points of a body that are a hundredth
 /// of the mechanism apart.
 TEST(MisalignedJoints, AreNotTwoBallJointsThatMakeAHinge) {
