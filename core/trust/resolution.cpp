@@ -203,15 +203,37 @@ class Judgement {
       failure = fine.failure;
       return unresolved;
     }
-    const double remaining = std::pow(2.0, -order());
+    bool is_certain = false;
     for (const std::size_t i : judged_) {
       const double now = change(found_, fine, i);
       const double before = coarse_.has_failed() ? 0.0 : change(coarse_, found_, i);
-      const bool is_falling = now <= std::max(falling_share, remaining * 1.2) * before;
-      const double error = now * (is_falling ? 1.0 / (1.0 - remaining) : unknown_factor);
-      if (error > small_error) unresolved.push_back({i, now, error});
+      const double error = now * (falls(now, before) ? 1.0 + missing_share() : unknown_factor);
+      if (error <= small_error) continue;
+      unresolved.push_back({i, now, error});
+      is_certain = is_certain || now > small_error || falls(now, before);
     }
+    if (!unresolved.empty() && !is_certain) ask_finer(fine, unresolved);
     return sorted(std::move(unresolved));
+  }
+
+  /// Whether a change is that of a fine division, a fraction of the one before.
+  bool falls(double now, double before) const {
+    return now <= std::max(falling_share, 1.2 * std::pow(2.0, -order())) * before;
+  }
+
+  /// What all finer divisions still change, over the last change.
+  double missing_share() const { return 1.0 / (std::pow(2.0, order()) - 1.0); }
+
+  /// Keeps of small changes of unknown meaning those that another half of the step confirms.
+  void ask_finer(const NestedRun& fine, std::vector<Unresolved>& unresolved) const {
+    const NestedRun finest = make_nested_run(problem_, run_.x, {0.25, 1.0});
+    if (finest.has_failed()) return;
+    std::erase_if(unresolved, [&](Unresolved& one) {
+      const double next = change(fine, finest, one.response);
+      if (!falls(next, one.change)) return false;
+      one.error = change(found_, finest, one.response) + missing_share() * next;
+      return one.error <= small_error;
+    });
   }
 
   /// Of elements or modes. Without those that time does not resolve: what space changes of them is

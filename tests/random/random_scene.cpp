@@ -1,7 +1,9 @@
 #include "tests/random/random_scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 #include <random>
 #include <string>
@@ -56,9 +58,10 @@ class SceneMaker {
                                      {"density", dice_.decades(800, 8000)}}}};
     size_ = dice_.decades(0.05, 2.0);
     kind_ = dice_.whole(0, 3);
+    share_ = dice_.decades(0.01, 0.8);
   }
 
-  Json make() {
+  RandomMechanism make() {
     if (kind_ == 0) make_four_bar();
     if (kind_ == 1) make_slider_crank();
     if (kind_ == 2) make_spatial_slider_crank();
@@ -66,7 +69,10 @@ class SceneMaker {
     add_gravity();
     add_simulation();
     add_responses();
-    return file_;
+    static const std::array<const char*, 4> kinds = {"four-bar", "slider-crank",
+                                                     "spatial slider-crank", "chain"};
+    const double share = torque_.empty() ? 0.0 : speed_ / lowest_;
+    return {file_, kinds[static_cast<std::size_t>(kind_)], is_spatial_, share, weight()};
   }
 
  private:
@@ -122,7 +128,7 @@ class SceneMaker {
   void add_beam(const std::string& name, const Vector3d& from, const Vector3d& to) {
     const double length = (to - from).norm();
     Properties properties{};
-    const double breadth = length * dice_.uniform(0.02, 0.07);
+    const double breadth = std::max(length, least_length_) * dice_.uniform(0.02, 0.07);
     Json body = {{"type", "beam"}, {"from", point(from)}, {"to", point(to)}, {"material", "stuff"}};
     body["section"] = section(name, breadth, properties);
     body["elements"] = dice_.whole(1, is_long_ ? 3 : 6);
@@ -139,23 +145,22 @@ class SceneMaker {
     const Vector3d across =
         normal_.cross(axis).norm() > 0.1 ? normal_.cross(axis) : axis.unitOrthogonal();
     body["reference"] = point(across.normalized());
+    const auto& stuff = file_["scene"]["materials"]["stuff"];
+    const double stiffness = stuff["young"].get<double>() * properties.inertia;
+    const double mass = stuff["density"].get<double>() * properties.area;
+    const double frequency = std::pow(pi / length, 2) * std::sqrt(stiffness / mass);
+    lowest_ = std::min(lowest_, frequency);
     if (dice_.chance(0.15) && has_elastic_) {
       body["rigid"] = true;
     } else {
       has_elastic_ = true;
       elastic_ = name;
       if (dice_.chance(0.2)) body["reduction"] = {{"modes", dice_.whole(0, 2)}};
-      const auto& stuff = file_["scene"]["materials"]["stuff"];
-      const double stiffness = stuff["young"].get<double>() * properties.inertia;
-      const double mass = stuff["density"].get<double>() * properties.area;
-      const double frequency = std::pow(pi / length, 2) * std::sqrt(stiffness / mass);
-      lowest_ = std::min(lowest_, frequency);
       if (dice_.chance(0.6))
-        body["damping"] = {{"stiffness", 2 * dice_.decades(3e-3, 0.1) / frequency}};
+        body["damping"] = {{"stiffness", 2 * dice_.decades(3e-3, 0.5) / frequency}};
     }
     bodies()[name] = body;
-    mass_ +=
-        properties.area * length * file_["scene"]["materials"]["stuff"]["density"].get<double>();
+    mass_ += mass * length;
   }
 
   void add_joint(const std::string& name, const std::string& type, const std::string& first,
@@ -164,10 +169,19 @@ class SceneMaker {
     if (type == "revolute") joints()[name]["axis"] = point(normal_);
   }
 
-  /// Of the first joint; a pendulum without.
+  /// Over the other members: what accelerates a rod sideways bends it by the square of the speed's
+  /// share of the resonance, so fast cranks are short.
+  double crank_share(double from, double to) {
+    const double share = dice_.uniform(from, to) * std::min(1.0, 0.03 / (share_ * share_));
+    least_length_ = 0.4 * size_;
+    return share;
+  }
+
+  /// Of the masses of beams. Heavy ones buckle a fast rod.
+  double slider_share() { return dice_.decades(0.1, 3) * std::min(1.0, 0.3 / share_); }
+
   void add_drive(const std::string& joint) {
-    speed_ = lowest_ * dice_.decades(0.01, 0.8);
-    if (kind_ != 3) speed_ = std::min(speed_, lowest_ * dice_.decades(0.01, 0.3));
+    speed_ = lowest_ * share_;
     const double period = 2 * pi / speed_;
     const std::string type = dice_.one_of({"ramp-to-speed", "ramp-to-speed", "constant-speed"});
     if (type == "constant-speed") {
@@ -181,7 +195,7 @@ class SceneMaker {
   }
 
   void make_four_bar() {
-    const double d = size_, a = d * dice_.uniform(0.2, 0.35), b = d * dice_.uniform(0.75, 1.1),
+    const double d = size_, a = d * crank_share(0.2, 0.35), b = d * dice_.uniform(0.75, 1.1),
                  c = d * dice_.uniform(0.6, 1.0), angle = dice_.uniform(0, 2 * pi);
     const Vector3d A(0, 0, 0), D(d, 0, 0), B(a * std::cos(angle), a * std::sin(angle), 0);
     // C at b from B and c from D.
@@ -202,14 +216,14 @@ class SceneMaker {
   }
 
   void make_slider_crank() {
-    const double a = size_ * dice_.uniform(0.1, 0.3), l = size_ * dice_.uniform(0.6, 1.0),
+    const double a = size_ * crank_share(0.1, 0.3), l = size_ * dice_.uniform(0.6, 1.0),
                  offset = a * dice_.uniform(-0.4, 0.4), angle = dice_.uniform(0, 2 * pi);
     const Vector3d B(a * std::cos(angle), a * std::sin(angle), 0);
     const Vector3d C(B.x() + std::sqrt(l * l - std::pow(offset - B.y(), 2)), offset, 0);
     add_beam("crank", Vector3d::Zero(), B);
     add_beam("rod", B, C);
     bodies()["slider"] = {
-        {"type", "point-mass"}, {"at", point(C)}, {"mass", mass_ * dice_.decades(0.1, 3)}};
+        {"type", "point-mass"}, {"at", point(C)}, {"mass", mass_ * slider_share()}};
     add_joint("bearing", "revolute", "ground", "crank", Vector3d::Zero());
     add_joint("pin", "revolute", "crank", "rod", B);
     add_joint("end", "revolute", "rod", "slider", C);
@@ -222,7 +236,7 @@ class SceneMaker {
 
   void make_spatial_slider_crank() {
     is_spatial_ = true;
-    const double a = size_ * dice_.uniform(0.1, 0.25), angle = dice_.uniform(0, 2 * pi);
+    const double a = size_ * crank_share(0.1, 0.25), angle = dice_.uniform(0, 2 * pi);
     // The crank turns about x in the plane x = 0, the slider moves along z beside it.
     const double l = size_ * dice_.uniform(0.8, 1.0), aside = size_ * dice_.uniform(0.1, 0.4);
     normal_ = Vector3d::UnitX();
@@ -230,7 +244,7 @@ class SceneMaker {
     const Vector3d C(aside, 0, B.z() + std::sqrt(l * l - aside * aside - B.y() * B.y()));
     add_beam("crank", Vector3d::Zero(), B);
     add_beam("rod", B, C);
-    const double mass = mass_ * dice_.decades(0.1, 3), inertia = mass * 0.01 * l * l;
+    const double mass = mass_ * slider_share(), inertia = mass * 0.01 * l * l;
     bodies()["slider"] = {{"type", "rigid"},
                           {"at", point(C)},
                           {"mass", mass},
@@ -269,10 +283,17 @@ class SceneMaker {
     if (dice_.chance(0.5)) {
       add_drive("hinge1");
     } else {
-      end_ = dice_.uniform(0.3, 0.8) * std::sqrt(size_ / 9.81);
+      end_ = dice_.uniform(0.3, 0.8) * std::sqrt(size_ / weight());
     }
     add_load(before, from);
-    end_ = std::min(end_, 2.0 * std::sqrt(size_ / 9.81));
+    end_ = std::min(end_, 2.0 * std::sqrt(size_ / weight()));
+  }
+
+  /// Acceleration of gravity [m/s²], less where members would sag far.
+  double weight() const {
+    const double length =
+        size_ / (kind_ == 3 ? static_cast<double>(file_.at("scene").at("bodies").size()) : 1.0);
+    return std::min(9.81, 0.01 * length * lowest_ * lowest_);
   }
 
   void add_load(const std::string& body, const Vector3d& at) {
@@ -280,12 +301,27 @@ class SceneMaker {
     const Vector3d direction =
         is_spatial_ ? Vector3d(dice_.uniform(-1, 1), dice_.uniform(-1, 1), 1).normalized()
                     : Vector3d(dice_.uniform(-1, 1), 1, 0).normalized();
-    const double weight = 9.81 * mass_;
+    const double size = weight() * mass_;
     Json load = {
         {"type", "force"}, {"body", body}, {"at", point(at)}, {"direction", point(direction)}};
-    load["value"] = {{"type", "harmonic"},
-                     {"amplitude", weight * dice_.uniform(0.2, 2.0)},
-                     {"frequency", 2 * pi / end_ * dice_.uniform(0.5, 4.0)}};
+    const double force = size * dice_.uniform(0.2, 2.0);
+    const int law = dice_.whole(0, 4);
+    if (law <= 2) {
+      load["value"] = {{"type", "harmonic"},
+                       {"amplitude", force},
+                       {"frequency", 2 * pi / end_ * dice_.uniform(0.5, 4.0)}};
+    } else if (law == 3) {  // all at once
+      load["value"] = {{"type", "table"},
+                       {"times", {-0.1 * end_, 0.0}},
+                       {"values", {0.0, force}},
+                       {"interpolation", "step"}};
+    } else {
+      const double begin = end_ * dice_.uniform(0.1, 0.5), rise = end_ * dice_.uniform(0.03, 0.2);
+      load["value"] = {{"type", "table"},
+                       {"times", {begin, begin + rise, begin + 2 * rise}},
+                       {"values", {0.0, force, 0.4 * force}},
+                       {"interpolation", dice_.one_of({"linear", "step", "monotone"})}};
+    }
     file_["scene"]["loads"]["push"] = load;
   }
 
@@ -295,7 +331,7 @@ class SceneMaker {
     const double angle = dice_.uniform(0, 2 * pi);
     Vector3d down(std::cos(angle), std::sin(angle), 0);
     if (is_spatial_) down = Vector3d(down.x(), down.y(), dice_.uniform(-1, 1)).normalized();
-    file_["scene"]["gravity"] = point(9.81 * down);
+    file_["scene"]["gravity"] = point(weight() * down);
   }
 
   void add_simulation() {
@@ -319,7 +355,7 @@ class SceneMaker {
                         {"against", "chord"},   {"direction", "y"}, {"over_time", "max-abs"}};
     responses["speed"] = {{"type", "velocity"},
                           {"body", elastic_},
-                          {"at", 1},
+                          {"at", 0.7},
                           {"direction", "magnitude"},
                           {"over_time", "rms"}};
     responses["acceleration"] = {{"type", "acceleration"},
@@ -349,6 +385,8 @@ class SceneMaker {
   bool is_spatial_ = false, is_long_ = false, has_elastic_ = false;
   std::string elastic_, torque_, reaction_;
   double lowest_ = 1e300, mass_ = 0.0, speed_ = 0.0, end_ = 0.0;
+  double share_ = 0.0;  ///< of the first resonance
+  double least_length_ = 0.0;
 };
 
 bool is_vector_key(const std::string& key) {
@@ -366,6 +404,16 @@ void rotate(Json& node, const Eigen::Matrix3d& rotation) {
                                         value[2].get<double>()));
     } else if (value.is_structured()) {
       rotate(value, rotation);
+    }
+  }
+}
+
+void nudge(Json& node, double share, Dice& dice) {
+  for (auto& [key, value] : node.items()) {
+    if (value.is_number_float()) {
+      value = value.get<double>() * (1.0 + (dice.chance(0.5) ? share : -share));
+    } else if (value.is_structured()) {
+      nudge(value, share, dice);
     }
   }
 }
@@ -402,19 +450,34 @@ const Unit* unit_of(const std::string& key, const std::string& type) {
                            "thickness", "flange_thickness", "web_thickness"}) {
     if (key == name) return &length;
   }
-  for (const char* name : {"end_time", "step", "ramp"}) {
+  for (const char* name : {"end_time", "step", "ramp", "times"}) {
     if (key == name) return &time;
   }
   if (key == "young") return &modulus;
   if (key == "density") return &density;
   if (key == "gravity") return &acceleration;
-  if (key == "amplitude") return &force;
+  if (key == "amplitude" || key == "values") return &force;
   if (key == "baumgarte") return &rate;
   if (key == "speed") return &speed;
   if (key == "area") return &area;
   if (key == "inertia_y" || key == "inertia_z" || key == "torsion") return &inertia;
   if (key == "mass" && type != "") return &mass;
   return nullptr;
+}
+
+/// Multiplies numbers under some keys, or all of a list there.
+void scale(Json& node, const std::vector<std::string>& keys, double factor) {
+  for (auto& [key, value] : node.items()) {
+    const bool is_named =
+        node.is_object() && std::find(keys.begin(), keys.end(), key) != keys.end();
+    if (is_named && value.is_number()) {
+      value = factor * value.get<double>();
+    } else if (is_named && value.is_array()) {
+      for (Json& entry : value) entry = factor * entry.get<double>();
+    } else if (value.is_structured()) {
+      scale(value, keys, factor);
+    }
+  }
 }
 
 std::string written(double value, const Unit& unit) {
@@ -439,8 +502,17 @@ void write_units(Json& node) {
 
 }  // namespace
 
-Json random_scene(unsigned seed) {
+RandomMechanism random_scene(unsigned seed) {
   return SceneMaker(seed).make();
+}
+
+RandomMechanism slowed(RandomMechanism scene, double factor) {
+  Json& file = scene.file;
+  scale(file, {"end_time", "step", "ramp", "times"}, 1.0 / factor);
+  scale(file, {"speed", "frequency", "baumgarte"}, factor);
+  scale(file, {"gravity", "amplitude", "values"}, factor * factor);
+  scene.resonance_share *= factor;
+  return scene;
 }
 
 bool is_planar(const Json& scene) {
@@ -460,6 +532,40 @@ Json rotated(const Json& scene, const Eigen::Matrix3d& rotation) {
   Json turned = scene;
   rotate(turned["scene"], rotation);
   return turned;
+}
+
+RandomMechanism suddenly_loaded(RandomMechanism scene, unsigned seed) {
+  Dice dice(seed + 5555);
+  Json& mechanism = scene.file["scene"];
+  Json& simulation = scene.file["simulation"];
+  simulation.erase("initial_state");
+  if (dice.chance(0.4)) simulation["initial_state"] = "quasi-static";
+  if (!mechanism.contains("gravity")) mechanism["gravity"] = {0.0, -scene.weight, 0.0};
+  if (dice.chance(0.4)) scale(mechanism, {"stiffness"}, dice.decades(3, 100));
+  if (!mechanism.contains("loads")) return scene;
+  Json& value = mechanism["loads"]["push"]["value"];
+  const double force = value.contains("values") ? value["values"][1].get<double>()
+                                                : value["amplitude"].get<double>();
+  const double end = simulation["end_time"], jump = dice.chance(0.5) ? 0.0 : dice.uniform(0.1, 0.6);
+  value = {{"type", "table"},
+           {"times", {-0.1 * end, jump * end}},
+           {"values", {0.0, force}},
+           {"interpolation", "step"}};
+  return scene;
+}
+
+RandomMechanism with_half_the_step(RandomMechanism scene) {
+  scale(scene.file["simulation"], {"step"}, 0.5);
+  scale(scene.file["simulation"], {"baumgarte"}, 2.0);
+  return scene;
+}
+
+Json nudged(const Json& scene, unsigned seed, double share) {
+  Json other = scene;
+  Dice dice(seed);
+  nudge(other["scene"], share, dice);
+  nudge(other["variables"], share, dice);
+  return other;
 }
 
 Json renamed(const Json& scene) {
@@ -498,6 +604,8 @@ Eigen::Matrix3d general_rotation(unsigned seed) {
 }
 
 ProblemFile read(const Json& scene) {
+  static std::mutex one_at_a_time;  // the library of units knows no threads
+  const std::lock_guard lock(one_at_a_time);
   return read_problem_text(scene.dump(), "random.json");
 }
 
