@@ -14,6 +14,8 @@ constexpr double order_room = 0.5;
 constexpr double safety = 1.3;
 /// Relative differences up to this are resolved, whatever their order.
 constexpr double small_share = 1e-2;
+/// Relative differences up to this are round-off.
+constexpr double round_off = 1e-13;
 /// What half the step changes says so much of the limit where no order is seen.
 constexpr double unknown_factor = 3.0;
 /// Errors in space: bending has a higher order than two, sampled stress an uneven one.
@@ -115,6 +117,7 @@ class Bar {
     if (!comparison.is_asked()) return {};
     if (!is_there(comparison.run) || !is_there(comparison.beside)) return unresolved(unknown);
     const double change = share * (of(*comparison.run) - of(*comparison.beside));
+    if (std::abs(change) <= round_off * magnitude_) return {};
     return {change, factor * std::abs(change), true};
   }
 
@@ -132,7 +135,7 @@ Extrapolation extrapolate(double fine, double middle, double coarse, double orde
   Extrapolation found;
   if (last != 0.0 && last * before > 0.0) found.order = std::log2(before / last);
   const double largest = std::max({std::abs(last), std::abs(before), local});
-  if (largest == 0.0) return found;
+  if (largest <= round_off * std::abs(fine)) return {};
   if (found.order && std::abs(*found.order - order) <= order_room) {
     const double remaining = 1.0 / (std::pow(2.0, order) - 1.0);
     found.part.change = remaining * last;
