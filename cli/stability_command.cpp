@@ -9,6 +9,7 @@
 #include "cli/table.hpp"
 #include "cli/warnings.hpp"
 #include "core/base/number_text.hpp"
+#include "core/trust/doubts.hpp"
 #include "studies/stability.hpp"
 
 namespace pleuel {
@@ -132,7 +133,11 @@ Outcome run_stability(const Arguments& arguments) {
   RunRecord record(arguments, inputs, Json::object());
   record.begin_phase("stability");
   std::optional<StabilityCsv> csv;  // with the first result
-  for (const ProblemInput& input : inputs) show_warnings_before(input.problem);
+  SharedWarnings before;
+  for (const ProblemInput& input : inputs) {
+    before.add(texts_of(find_doubts_before(input.problem)), input.problem.name);
+  }
+  show(stderr, warnings_text(before.sentences()));
   const std::vector<StabilityRun> runs =
       stability_study(arguments.files, arguments.overrides, [&](const StabilityRun& run) {
         if (!csv) csv.emplace(record.result("stability.csv"));

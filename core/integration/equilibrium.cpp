@@ -94,13 +94,17 @@ std::vector<bool> closed_by_deformation(Mechanism& mechanism) {
 }
 
 /// The largest |r_i| / Σ_j |J_ij x_j|: how well equations are met against their terms (Oettli &
-/// Prager 1964).
+/// Prager 1964). Equations whose terms are all next to nothing, as those of accelerations that
+/// vanish, hold nothing but round-off.
 double backward_error(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& unknowns,
                       const Eigen::VectorXd& residual) {
   const Eigen::VectorXd terms = matrix.cwiseAbs() * unknowns.cwiseAbs();
+  constexpr double nothing = 1e-18;
+  const double least = nothing * terms.maxCoeff();
   double worst = 0.0;
   for (Eigen::Index i = 0; i < residual.size(); ++i) {
-    if (residual(i) != 0.0) worst = std::max(worst, std::abs(residual(i)) / terms(i));
+    if (residual(i) == 0.0) continue;
+    worst = std::max(worst, std::abs(residual(i)) / std::max(terms(i), least));
   }
   return worst;
 }

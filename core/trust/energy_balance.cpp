@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/trust/percent.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -11,11 +13,6 @@ namespace {
 constexpr double small_energy_error = 1e-2;
 /// Where so much is missing, vibrations are not seen that the motion has.
 constexpr double large_energy_error = 0.1;
-
-/// Two digits, and no exponent.
-std::string percent(double share) {
-  return share < 1.0 ? fmt::format("{:.2g}", 100.0 * share) : fmt::format("{:.0f}", 100.0 * share);
-}
 
 }  // namespace
 

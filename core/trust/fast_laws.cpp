@@ -10,6 +10,7 @@
 
 #include "core/model/scene_geometry.hpp"
 #include "core/scene/time_breaks.hpp"
+#include "core/trust/percent.hpp"
 
 namespace pleuel {
 
@@ -91,11 +92,11 @@ void add_missed(const Subject& subject, const Missed& missed, double scale,
   if (!(missed.largest > subject.most_missed * scale)) return;
   doubts.push_back(
       {fmt::format("{} changes faster than the steps can follow: within the step of {:.3g} s at "
-                   "t = {:.4g} s its {} is {:.2g} % of the largest away from what the steps see. "
+                   "t = {:.4g} s its {} is {} % of the largest away from what the steps see. "
                    "Give an oscillation 22 steps or more, a revolution 32: a smaller "
                    "/simulation/step.",
                    subject.who, missed.step, missed.time, subject.what,
-                   100.0 * missed.largest / scale),
+                   percent(missed.largest / scale)),
        true});
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/base/relative_error.hpp"
 #include "core/trust/nested_runs.hpp"
+#include "core/trust/percent.hpp"
 #include "core/trust/round_off.hpp"
 
 namespace pleuel {
@@ -284,11 +285,6 @@ bool counts(const ProblemFile& problem, const std::string& response) {
 std::string proposed_step(const ProblemFile& problem, double error) {
   const double factor = std::clamp(std::sqrt(0.5 * small_error / error), 1.0 / 16.0, 0.5);
   return fmt::format("{:.2g} s", problem.simulation.step * factor);
-}
-
-/// Two digits, and no exponent.
-std::string percent(double share) {
-  return share < 1.0 ? fmt::format("{:.2g}", 100.0 * share) : fmt::format("{:.0f}", 100.0 * share);
 }
 
 /// The doubt about some responses, or none.

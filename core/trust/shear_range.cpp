@@ -5,13 +5,14 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 
+#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "core/beam/beam_shape.hpp"
 #include "core/beam/elastic_basis.hpp"
 #include "core/beam/natural_modes.hpp"
-#include "core/integration/freedoms.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "core/section/shear_coefficient.hpp"
 #include "core/trust/beam_state.hpp"
@@ -246,19 +247,50 @@ class ShearDoubts {
   }
 
  private:
-  /// Whether joints and drives hold more than rigid bodies need, in every position: then section
-  /// forces are those of deformation. Five instants are enough, of which not all are dead centres.
+  /// Whether joints and drives hold more than rigid bodies need, in every position, and that
+  /// bears something: then section forces are those of deformation. Five instants are enough, of
+  /// which not all are dead centres. A planar loop in space bears nothing across.
   bool is_held_twice() const {
-    const Mechanism& mechanism = model_.mechanism;
-    const int rows =
-        mechanism.system->multipliers() - static_cast<int>(mechanism.system->left_out().size());
+    constexpr double nothing = 1e-6;
     const int steps = run_.analysis.trajectory.steps();
+    double most = 0.0;
     State state;
     for (int i = 0; i <= 4; ++i) {
       run_.analysis.trajectory.load(i * steps / 4, state);
-      if (rigid_freedoms(mechanism, state).constraints >= rows) return false;
+      const std::optional<double> share = share_beyond_need(state);
+      if (!share) return false;
+      most = std::max(most, *share);
     }
-    return true;
+    return most > nothing;
+  }
+
+  /// Of the multipliers, what rigid bodies could do without: combinations of constraints in which
+  /// the coordinates of frames cancel. None where there is no such combination.
+  std::optional<double> share_beyond_need(const State& state) const {
+    const Mechanism& mechanism = model_.mechanism;
+    System& system = *mechanism.system;
+    const int n = system.coordinates(), m = system.multipliers();
+    if (m == 0) return std::nullopt;
+    std::vector<bool> is_left_out(static_cast<std::size_t>(m), false);
+    for (const int row : system.left_out()) is_left_out[static_cast<std::size_t>(row)] = true;
+    std::vector<int> rows;
+    for (int row = 0; row < m; ++row) {
+      if (!is_left_out[static_cast<std::size_t>(row)]) rows.push_back(row);
+    }
+    System::Matrix matrix = system.make_matrix();
+    system.tangent(state, {.q = 1.0}, ConstraintLevel::position, matrix);
+    const Eigen::MatrixXd all =
+        Eigen::MatrixXd(matrix).bottomLeftCorner(m, n) * mechanism.scale.asDiagonal();
+    Eigen::MatrixXd of_frames = all(rows, Eigen::all);
+    of_frames(Eigen::all, mechanism.elastic).setZero();
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(of_frames);
+    qr.setThreshold(1e-9);
+    const Eigen::Index beyond = of_frames.rows() - qr.rank();
+    if (beyond == 0) return std::nullopt;
+    const Eigen::VectorXd lambda = state.lambda(rows);
+    if (lambda.isZero(0.0)) return 0.0;
+    const Eigen::MatrixXd q = qr.householderQ();
+    return (q.rightCols(beyond).transpose() * lambda).norm() / lambda.norm();
   }
 
   void add_doubt(const std::string& body, const ShearShare& share,

@@ -39,7 +39,9 @@ TEST(FastLoad, IsDoubtedWhereATableIsFinerThanTheSteps) {
   };
   EXPECT_TRUE(doubts_about(pushed_block(pulse(5e-3))).empty());
   for (const double width : {3e-4, 3e-6, 3e-9}) {
-    EXPECT_EQ(doubts_about(pushed_block(pulse(width))).size(), 2U) << width;
+    const std::vector<Doubt> doubts = doubts_about(pushed_block(pulse(width)));
+    ASSERT_EQ(doubts.size(), 2U) << width;
+    EXPECT_EQ(doubts[0].text.find("e+"), std::string::npos) << doubts[0].text;
   }
 }
 

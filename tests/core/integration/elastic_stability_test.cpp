@@ -95,6 +95,14 @@ TEST(QuasiStaticStart, IsFoundForFineMeshes) {
   }
 }
 
+/// A force across: the equations of what does not move along hold nothing but round-off.
+TEST(QuasiStaticStart, IsFoundWhereNothingPullsAlong) {
+  for (int elements : {200, 400}) {
+    const Eigen::Vector2d found = tip(beam(clamp, 0.0, 0.007 * stiffness, elements));
+    EXPECT_NEAR(found(1) / (0.007 / 3.0), 1.0, 1e-4) << elements;
+  }
+}
+
 /// Both ends held lengthwise: each of two clamped members carries half of the force, PL³/6EI.
 TEST(QuasiStaticStart, OfClampedMembersCoupledAtTheirTipsIsFound) {
   for (const char* type : {"point-on-line", "revolute"}) {

@@ -132,6 +132,22 @@ TEST(ShearRange, ConcernsWhatRestsOnStiffness) {
   EXPECT_EQ(doubts(R"({"type": "buckling", "body": "beam", "over_time": "max"})"), 1u);
 }
 
+/// A slider-crank of stubby members in space: its three revolute joints hold the loop three times
+/// against motion across, where nothing pulls. Its torque is that of its inertia.
+TEST(ShearRange, DoesNotConcernTheForcesOfAPlanarLoopInSpace) {
+  const ProblemFile problem = sample_problem(
+      "slider_crank", {"/effects/spatial_motion=on", "/simulation/step=0.2 ms",
+                       "/simulation/end_time=60 ms", "/simulation/resolution_check=false"});
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const std::vector<Doubt> found = doubt_shear_range({problem, x, *analysis, Monitors{}});
+  ASSERT_FALSE(found.empty());
+  for (const Doubt& doubt : found) {
+    EXPECT_THAT(doubt.responses, testing::Not(testing::Contains("torque_peak"))) << doubt.text;
+    EXPECT_THAT(doubt.text, testing::Not(HasSubstr("stress"))) << doubt.text;
+  }
+}
+
 /// A beam clamped at one end whose other end is moved sideways without turning takes
 /// 12EI/L³ / (1 + 12EI/(κGAL²)) a metre: forces and stresses are as wrong as its stiffness.
 TEST(ShearRange, ConcernsTheForcesOfWhatIsHeldMoreThanItNeeds) {
