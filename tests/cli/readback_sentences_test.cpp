@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+
+#include "tests/cli/readback.hpp"
+
+/// Numbers in sentences and in tables of the model, read back.
+namespace pleuel::test {
+namespace {
+
+using nlohmann::json;
+
+/// The number behind some words of a report, whose lines are broken anywhere.
+std::string behind(const std::string& text, const std::string& words) {
+  const std::string line = unwrapped(text);
+  const std::size_t at = line.find(words);
+  EXPECT_NE(at, std::string::npos) << "no \"" << words << "\" in\n" << line;
+  return at == std::string::npos ? "nan" : line.substr(at + words.size(), 24);
+}
+
+TEST(ReadBackSentences, OfSimulate) {
+  const Report report = run({"simulate", file, "--set", "/simulation/formulation=index-1"});
+  const json& monitors = report.document.at("monitors");
+  expect_shown(behind(report.text, "are kept to "), "1", monitors.at("position_drift"));
+  expect_shown(behind(report.text, "their rates to "), "1", monitors.at("velocity_drift"));
+  expect_shown(behind(report.text, "Energy is balanced to "), "1", monitors.at("energy_error"));
+  EXPECT_GT(monitors.at("position_drift"), 0.0);
+  EXPECT_NE(monitors.at("position_drift"), monitors.at("velocity_drift"));
+  // 20 ms by 0.2 ms.
+  EXPECT_THAT(report.text, testing::HasSubstr(": 100 steps of 0.0002 s, "));
+}
+
+/// With too few iterations: what is left open, and what it took.
+TEST(ReadBackSentences, OfAnOptimumThatIsNotVerified) {
+  const Report report = run({"optimize", file, "--set", "/optimizer/max_iterations=2"}, 4);
+  const json& document = report.document;
+  expect_shown(behind(report.text, "KKT residual "), "1", document.at("kkt_residual"));
+  expect_shown(behind(report.text, "largest violation of a limit "), "1",
+               document.at("max_violation"));
+  EXPECT_NE(document.at("kkt_residual"), document.at("max_violation"));
+}
+
+TEST(ReadBackSentences, OfAccuracy) {
+  const Report report = run({"accuracy", file, "--set",
+                             R"(/accuracy={"steps": ["0.4 ms", "0.2 ms"], "elements": [2, 4],
+                                           "error": 0.5})"});
+  const json& reference = report.document.at("reference");
+  const json& best = report.document.at("recommended");
+  ASSERT_FALSE(best.is_null());
+  expect_shown(behind(report.text, "a reference with step "), "ms", reference.at("step"));
+  EXPECT_EQ(number_in(behind(report.text, "ms and ")), reference.at("elements"));
+  double error = 0.0, of_gradients = 0.0;
+  for (const auto& [name, of] : reference.at("errors").items()) {
+    error = std::max(error, of.get<double>());
+    of_gradients = std::max(of_gradients, reference.at("gradient_errors").at(name).get<double>());
+  }
+  expect_shown(behind(report.text, "Its own error is estimated at "), "1", error);
+  expect_shown(behind(report.text, ", of gradients "), "1", of_gradients);
+  expect_shown(behind(report.text, "Recommended: step "), "ms", best.at("step"));
+  EXPECT_THAT(unwrapped(report.text),
+              testing::HasSubstr(fmt::format("ms, {} elements a segment: the fastest with all "
+                                             "errors below 0.5",
+                                             best.at("elements").get<int>())));
+  // One row is marked, and it is that one.
+  EXPECT_THAT(report.text, testing::ContainsRegex(fmt::format("\n *{:g} +{} .*← recommended\n",
+                                                              1e3 * best.at("step").get<double>(),
+                                                              best.at("elements").get<int>())));
+  EXPECT_EQ(report.text.find("← recommended"), report.text.rfind("← recommended"));
+}
+
+/// Crank and rod of eight elements: rigid coordinates x, y, φ of bodies and x, y of the point mass.
+TEST(ReadBackSentences, OfCheck) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> words = joined({"check", file, "--jobs", "1"}, quick());
+  const std::string text = run_program(folder.path(), words).out;
+  const json document = run_program(folder.path(), joined(words, {"--json"})).document();
+  const TextTable bodies(text, "body"), effects(text, "effect");
+  for (const auto& body : document.at("bodies")) {
+    const std::size_t row = bodies.row_of(body.at("name"));
+    EXPECT_EQ(bodies.number(row, "frames"), body.at("frames"));
+    const bool is_beam = body.at("name") != "slider";
+    EXPECT_EQ(bodies.number(row, "rigid coordinates"), is_beam ? 3 : 2);
+    EXPECT_EQ(bodies.text(row, "elastic"),
+              is_beam ? fmt::format("{}", body.at("coordinates").get<int>() - 3) : "–");
+    if (is_beam) {
+      EXPECT_EQ(bodies.number(row, "elements"), body.at("elements"));
+    }
+  }
+  const json& motion = document.at("rigid_motion");
+  EXPECT_THAT(unwrapped(text),
+              testing::HasSubstr(fmt::format(
+                  "Rigid motion: {} coordinates, {} independent constraints ({} of drives): the "
+                  "drives prescribe it",
+                  motion.at("coordinates").get<int>(), motion.at("constraints").get<int>(),
+                  motion.at("drives").get<int>())));
+  // 3 + 3 + 2 coordinates; two of each of three pins, one of the guide, one of the drive.
+  EXPECT_EQ(motion.at("coordinates"), 8);
+  EXPECT_EQ(motion.at("constraints"), 8);
+  ASSERT_EQ(effects.rows(), document.at("effects").size());
+  for (std::size_t row = 0; row < effects.rows(); ++row) {
+    const json& effect = document.at("effects").at(row);
+    EXPECT_EQ(effects.text(row, "effect"), effect.at("name"));
+    EXPECT_EQ(effects.text(row, "of"), effect.value("body", "–"));
+    EXPECT_EQ(effects.text(row, "built"), effect.at("built") ? "yes" : "no");
+    EXPECT_EQ(effects.text(row, "decision"), effect.at("decision"));
+  }
+}
+
+}  // namespace
+}  // namespace pleuel::test

@@ -1,0 +1,240 @@
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "tests/cli/readback.hpp"
+
+/// Studies, read back.
+namespace pleuel::test {
+namespace {
+
+using nlohmann::json;
+
+TEST(ReadBack, OfPareto) {
+  const Report report = run({"pareto", file, "--set", "/pareto/points=3"});
+  const TextTable table(report.text, "limit [mm]");
+  const json& points = report.document.at("points");
+  ASSERT_EQ(table.rows(), 3u);
+  const auto column = [&](const char* title) { return report.column("pareto.csv", title); };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const json& point = points.at(i);
+    const double limit = point.at("limit"), multiplier = point.at("multiplier");
+    EXPECT_NEAR(limit, (0.1 + 0.15 * double(i)) * 1e-3, 1e-12);
+    const double bow = point.at("objectives").at("rod_bow");
+    const double mass = point.at("objectives").at("crank_and_rod");
+    EXPECT_LT(bow, 0.5e-3);  // [m]
+    EXPECT_GT(mass, 0.1);    // [kg]
+    expect_shown(table.text(i, "limit [mm]"), "mm", limit);
+    expect_shown(table.text(i, "rod_bow [mm]"), "mm", bow);
+    expect_shown(table.text(i, "crank_and_rod [kg]"), "kg", mass);
+    expect_shown(table.text(i, "multiplier [kg/mm]"), "kg/mm", multiplier);
+    EXPECT_EQ(table.text(i, "status"), point.at("status"));
+    EXPECT_EQ(report.files.at("pareto.csv")[i + 1][0], point.at("status"));
+    EXPECT_EQ(column("limit")[i], limit);
+    EXPECT_EQ(column("objective")[i], mass);
+    EXPECT_EQ(column("limited")[i], bow);
+    EXPECT_EQ(column("multiplier")[i], multiplier);
+    for (const auto& [name, value] : point.at("variables").items()) {
+      expect_shown(table.text(i, name + " [mm]"), "mm", value);
+      EXPECT_EQ(column(("variable:" + name).c_str())[i], value);
+    }
+    for (const char* key : {"kkt_residual", "evaluations", "seconds"}) {
+      EXPECT_EQ(column(key)[i], point.at(key)) << key;
+    }
+  }
+}
+
+TEST(ReadBack, OfAccuracy) {
+  const Report report = run({"accuracy", file, "--set",
+                             R"(/accuracy={"steps": ["0.4 ms", "0.2 ms"], "elements": [2, 4]})"});
+  const TextTable table(report.text, "step [ms]");
+  const json& runs = report.document.at("runs");
+  ASSERT_EQ(table.rows(), runs.size());
+  int bounds = 0;
+  const auto expect_worst = [&](const std::string& shown, const json& errors, const json& least) {
+    double most = 0.0;
+    std::string name;
+    for (const auto& [response, error] : errors.items()) {
+      if (error > most) name = response;
+      most = std::max(most, error.get<double>());
+    }
+    expect_shown(shown, "1", most);
+    EXPECT_THAT(shown, testing::EndsWith(" " + name));
+    // No run is known better than the reference is: then its error stands there, as a bound.
+    const bool is_bound = most > 0.0 && most <= least.at(name).get<double>();
+    EXPECT_EQ(shown.starts_with("≤ "), is_bound) << shown;
+    bounds += is_bound ? 1 : 0;
+  };
+  const json& reference = report.document.at("reference");
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const json& study_run = runs.at(i);
+    expect_shown(table.text(i, "step [ms]"), "ms", study_run.at("settings").at("step"));
+    EXPECT_EQ(table.number(i, "elements"), study_run.at("settings").at("elements"));
+    expect_worst(table.text(i, "largest error"), study_run.at("errors"), reference.at("errors"));
+    expect_worst(table.text(i, "of a gradient"), study_run.at("gradient_errors"),
+                 reference.at("gradient_errors"));
+    expect_shown(table.text(i, "simulation [ms]"), "ms", study_run.at("simulation_seconds"));
+    expect_shown(table.text(i, "gradient [ms]"), "ms", study_run.at("gradient_seconds"));
+    EXPECT_EQ(table.number(i, "steps"), study_run.at("work").at("steps"));
+    EXPECT_EQ(table.number(i, "factorizations"), study_run.at("work").at("factorizations"));
+    const auto cell = [&](const std::string& title) {  // the reference is the first line
+      return report.column("accuracy.csv", title).at(i + 1);
+    };
+    for (const char* key : {"step", "elements"}) {
+      EXPECT_EQ(cell(key), study_run.at("settings").at(key));
+    }
+    for (const char* key : {"steps", "newton_iterations", "factorizations"}) {
+      EXPECT_EQ(cell(key), study_run.at("work").at(key));
+    }
+    for (const char* key : {"simulation_seconds", "gradient_seconds"}) {
+      EXPECT_EQ(cell(key), study_run.at(key));
+    }
+    for (const auto& [name, error] : study_run.at("errors").items()) {
+      EXPECT_EQ(cell("error:" + name), error);
+      EXPECT_EQ(cell("gradient_error:" + name), study_run.at("gradient_errors").at(name));
+    }
+  }
+}
+
+/// Deviations and bounds are made again from gradients of another command.
+TEST(ReadBack, OfUncertainty) {
+  const Report report = run({"uncertainty", file, "--set",
+                             R"(/uncertainty={"parameters": {"rod_diameter":
+                                  {"deviation": "0.1 mm"}, "crank_diameter":
+                                  {"interval": "0.2 mm"}}, "samples": 8})"});
+  const json gradients =
+      run({"gradient", file, "--histories", "--method", "direct"}).document.at("responses");
+  const TextTable table(report.text, "response"), parameters(report.text, "parameter");
+  for (const auto& [name, response] : report.document.at("responses").items()) {
+    const json& of = gradients.at(name).at("gradients").at("direct");
+    const double rod = of.at("rod_diameter"), crank = of.at("crank_diameter");
+    const double value = response.at("value");
+    const double parts[] = {rod * 1e-4, crank * 2e-4 / std::sqrt(3.0)};
+    const double deviation = std::hypot(parts[0], parts[1]);
+    const double bound = std::abs(rod) * 3e-4 + std::abs(crank) * 2e-4;
+    EXPECT_NEAR(response.at("deviation"), deviation, 1e-6 * deviation) << name;
+    EXPECT_NEAR(response.at("bounds").at(0), value - bound, 1e-6 * bound) << name;
+    EXPECT_NEAR(response.at("bounds").at(1), value + bound, 1e-6 * bound) << name;
+    EXPECT_NEAR(response.at("shares").at("rod_diameter"),
+                parts[0] * parts[0] / (deviation * deviation), 1e-6);
+    const std::size_t row = table.row_of(name);
+    const std::string unit = table.text(row, "unit");
+    expect_shown(table.text(row, "value"), unit, value);
+    expect_shown(table.text(row, "deviation"), unit, response.at("deviation"));
+    expect_shown(table.text(row, "bounds ±"), unit, bound);
+    const json& sampled = response.at("sampled");
+    expect_shown(table.text(row, "sampled mean"), unit, sampled.at("mean"));
+    expect_shown(table.text(row, "sampled deviation"), unit, sampled.at("deviation"));
+    expect_shown(table.text(row, "lowest"), unit, sampled.at("lowest"));
+    expect_shown(table.text(row, "highest"), unit, sampled.at("highest"));
+    const bool is_rod = parts[0] * parts[0] > parts[1] * parts[1];
+    EXPECT_THAT(table.text(row, "from"),
+                testing::StartsWith(is_rod ? "rod_diameter " : "crank_diameter "));
+    const double share = response.at("shares").at(is_rod ? "rod_diameter" : "crank_diameter");
+    EXPECT_NEAR(number_in(table.text(row, "from").substr(is_rod ? 13 : 15)), 100 * share, 0.5);
+    // The other one, too, if it is half a percent or more.
+    EXPECT_EQ(table.text(row, "from").find(is_rod ? "crank_diameter " : "rod_diameter ") !=
+                  std::string::npos,
+              1 - share >= 0.005)
+        << table.text(row, "from");
+  }
+  for (const auto& [name, parameter] : report.document.at("parameters").items()) {
+    const std::size_t row = parameters.row_of(name);
+    expect_shown(parameters.text(row, "value"), "mm", parameter.at("value"));
+    expect_shown(parameters.text(row, "deviation"), "mm", parameter.at("deviation"));
+    expect_shown(parameters.text(row, "half width"), "mm", parameter.at("interval"));
+    EXPECT_EQ(parameters.text(row, "unit"), "mm");
+  }
+  EXPECT_EQ(parameters.text(parameters.row_of("rod_diameter"), "sampled as"), "normal");
+  EXPECT_EQ(parameters.text(parameters.row_of("crank_diameter"), "sampled as"), "uniform");
+  // Of the position, whose response is the end of its history.
+  const json& end = report.document.at("responses").at("slider_end");
+  const auto last = [&](const char* title) {
+    return report.column("uncertainty.csv", title).back();
+  };
+  EXPECT_EQ(last("slider_end"), end.at("value"));
+  EXPECT_NEAR(last("slider_end:deviation"), end.at("deviation"),
+              1e-9 * end.at("deviation").get<double>());
+  EXPECT_NEAR(last("slider_end:sampled_deviation"), end.at("sampled").at("deviation"), 1e-12);
+  EXPECT_NEAR(last("time"), 0.02, 1e-15);
+}
+
+TEST(ReadBack, OfStability) {
+  const Report report = run({"stability", file});
+  const TextTable table(report.text, "case");
+  const json& runs = report.document.at("runs");
+  ASSERT_EQ(table.rows(), runs.size());
+  const std::vector<std::pair<std::string, std::string>> shown = {
+      {"position drift", "position_drift"},
+      {"velocity drift", "velocity_drift"},
+      {"energy error", "energy_error"},
+      {"condition", "condition"}};
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const json& study_run = runs.at(i);
+    EXPECT_EQ(table.text(i, "case"), "slider_crank_round");
+    EXPECT_EQ(table.text(i, "formulation"), study_run.at("formulation"));
+    EXPECT_EQ(report.files.at("stability.csv")[i + 1][1], study_run.at("formulation"));
+    for (const auto& [title, key] : shown) {
+      expect_shown(table.text(i, title), "1", study_run.at(key));
+      EXPECT_EQ(report.column("stability.csv", key)[i], study_run.at(key));
+    }
+    const json& work = study_run.at("work");
+    EXPECT_EQ(table.number(i, "steps"), work.at("steps"));
+    expect_shown(table.text(i, "iterations a step"), "1",
+                 work.at("newton_iterations").get<double>() / work.at("steps").get<double>());
+    for (const char* key : {"steps", "newton_iterations", "factorizations"}) {
+      EXPECT_EQ(report.column("stability.csv", key)[i], work.at(key));
+    }
+    expect_shown(table.text(i, "time"), "s", study_run.at("seconds"));
+    EXPECT_EQ(report.column("stability.csv", "seconds")[i], study_run.at("seconds"));
+  }
+}
+
+/// The monitors are those of a simulation with that formulation.
+TEST(ReadBack, OfStabilityIsThatOfSimulations) {
+  const json runs = run({"stability", file}).document.at("runs");
+  for (const std::string formulation : {"index-3", "stabilized-index-2", "index-1"}) {
+    const json monitors = run({"simulate", file, "--set", "/simulation/formulation=" + formulation})
+                              .document.at("monitors");
+    const auto found = std::find_if(runs.begin(), runs.end(), [&](const json& one) {
+      return one.at("formulation") == formulation;
+    });
+    ASSERT_NE(found, runs.end());
+    for (const char* key : {"position_drift", "velocity_drift", "energy_error"}) {
+      EXPECT_EQ(found->at(key), monitors.at(key)) << formulation << " " << key;
+    }
+    EXPECT_NE(found->at("position_drift"), found->at("velocity_drift"));
+  }
+}
+
+/// An arm that is held at an angle: the place of its tip, cos φ, against its height, sin φ ≥ limit.
+/// From φ = −0.3 the optimum of a low limit is the bound at −1, that of 0.2 is on the far side,
+/// where both are better: the points before are dominated.
+TEST(ReadBack, OfDominatedPoints) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "arm.json") << R"({"name": "arm", "scene": {
+      "bodies": {"arm": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "rigid": true,
+        "material": "steel", "elements": 2, "section": {"type": "circle", "diameter": "50 mm"}}},
+      "joints": {"bearing": {"type": "revolute", "bodies": ["ground", "arm"], "at": [0, 0, 0],
+        "drive": {"type": "constant", "value": {"variable": "phi"}}}}},
+    "simulation": {"end_time": "2 ms", "step": "1 ms"},
+    "variables": {"phi": {"start": -0.3, "lower": -1, "upper": 3.1}},
+    "responses": {
+      "x": {"type": "position", "body": "arm", "at": 1, "direction": "x", "over_time": "final"},
+      "y": {"type": "position", "body": "arm", "at": 1, "direction": "y", "over_time": "final"}},
+    "objective": {"minimize": "x"},
+    "constraints": {"high": {"response": "y", "lower": 0}},
+    "pareto": {"constraint": "high", "from": -0.9, "to": 0.2, "points": 3}})";
+  const ProgramRun text = run_program(folder.path(), {"pareto", "arm.json", "-o", "text"});
+  const json points = json::parse(read_file(folder.path() / "text/result.json")).at("points");
+  const TextTable table(text.out, "limit [mm]");
+  ASSERT_EQ(points.size(), 3u);
+  ASSERT_NEAR(points.at(2).at("objectives").at("x"), -std::sqrt(1 - 0.04), 1e-3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(points.at(i).at("dominated"), i < 2) << i;
+    EXPECT_EQ(table.text(i, "status"), i < 2 ? "verified, dominated" : "verified");
+  }
+}
+
+}  // namespace
+}  // namespace pleuel::test
