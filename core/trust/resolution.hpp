@@ -36,12 +36,12 @@ struct Resolution {
 ///    if the history swings from step to step (ωh above some 0.6, where twice the step says
 ///    nothing).
 /// 2. Evidence. Only if there is a suspicion, half the step, twice the elements or more modes are
-/// run
-///    and judge all responses but those that are round-off (round_off.hpp). With the order p of the
-///    scheme and the observed change c the error is c / (1 − 2⁻ᵖ) (Richardson). Where the change is
-///    not a fraction of the one before, as it is of a peak that rings, nothing is known of the
-///    limit, and three times the change is taken. If nothing else speaks against the step than some
-///    of these that are below one percent, a quarter of the step is run and has the last word.
+///    run, and judge all responses but those that are round-off (round_off.hpp). With the order p
+///    of the scheme and the observed change c the error is c / (1 − 2⁻ᵖ) (Richardson). Where the
+///    change is not a fraction of the one before, as it is of a peak that rings, nothing is known
+///    of the limit, and three times the change is taken. If nothing else speaks against the step
+///    than some of these that are below one percent, a quarter of the step is run and has the last
+///    word.
 /// Balances of energy and drifts of constraints are errors themselves, and not judged.
 Resolution judge_resolution(const TrustedRun& run);
 
