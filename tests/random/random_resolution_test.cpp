@@ -87,8 +87,8 @@ Judged judge(unsigned seed, const SimulatedScene& scene) {
   judged.has_run = true;
   const Eigen::VectorXd x = start_design(scene.problem), values = values_of(*scene.analysis);
   const Monitors monitors = monitor(scene.analysis->model, scene.analysis->trajectory);
-  const std::vector<Doubt> doubts =
-      doubt_resolution(TrustedRun{scene.problem, x, *scene.analysis, monitors});
+  const TrustedRun run{scene.problem, x, *scene.analysis, monitors};
+  const std::vector<Doubt> doubts = doubt_resolution(run, judge_resolution(run));
   if (!doubts.empty()) judged.warning = fmt::format("seed {}: {}", seed, doubts.front().text);
   std::vector<Refinement> refinements = {{0.25, 1.0}, {1.0, 4.0}};
   if (has_reduced_beams(scene.analysis->model, scene.problem)) {
