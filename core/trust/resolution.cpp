@@ -41,6 +41,14 @@ constexpr double small_tolerance = 1e-8;
 /// The tolerance of the run beside it, times that of the file.
 constexpr double tighter_newton = 1e-3;
 
+/// Whether an optimum rests on a response; without an objective all are what is asked for.
+bool counts(const ProblemFile& problem, const std::string& response) {
+  if (!problem.objective) return true;
+  return problem.objective->response == response ||
+         std::any_of(problem.constraints.begin(), problem.constraints.end(),
+                     [&](const ConstraintSettings& limit) { return limit.response == response; });
+}
+
 class Judgement {
  public:
   explicit Judgement(const TrustedRun& run)
@@ -58,8 +66,9 @@ class Judgement {
     make_coarse_runs();
     suspect();
     if (is_suspicious() && leave_out_round_off()) suspect();
+    needs_half_step_ = is_time_suspicious_ || !are_coarse_bars_resolved();
     std::vector<Refinement> fine;
-    if (is_time_suspicious_) fine.push_back({0.5, 1.0});
+    if (needs_half_step_) fine.push_back({0.5, 1.0});
     if (is_space_suspicious_) fine.push_back({1.0, 2.0});
     if (are_modes_suspicious_) fine.push_back({1.0, 1.0, more_modes});
     Resolution found = weigh(make_nested_runs(problem_, run_.x, fine));
@@ -155,10 +164,8 @@ class Judgement {
   Resolution weigh(std::vector<NestedRun> fine) {
     Resolution resolution;
     std::size_t next = 0;
-    if (is_time_suspicious_) {
-      half_step_ = std::move(fine[next++]);
-      resolution.in_time = weigh_time(half_step_, resolution.failure);
-    }
+    if (needs_half_step_) half_step_ = std::move(fine[next++]);
+    if (is_time_suspicious_) resolution.in_time = weigh_time(half_step_, resolution.failure);
     if (is_space_suspicious_) {
       twice_elements_ = std::move(fine[next++]);
       resolution.in_space = weigh_division(twice_elements_, resolution.in_time, resolution.failure);
@@ -170,9 +177,21 @@ class Judgement {
     return resolution;
   }
 
+  /// Whether runs with twice and four times the step say what the step leaves of that which counts:
+  /// where four times the step is far from any order, half of it has to tell.
+  bool are_coarse_bars_resolved() const {
+    JudgingRuns runs;
+    runs.twice_step = &coarse_;
+    runs.four_steps = &coarsest_;
+    return std::all_of(judged_.begin(), judged_.end(), [&](std::size_t i) {
+      return !counts(problem_, problem_.responses[i].name) ||
+             error_bar(run_.analysis, i, runs, order()).is_resolved();
+    });
+  }
+
   void make_bars(Resolution& resolution) const {
     JudgingRuns runs;
-    if (is_time_suspicious_) runs.half_step = &half_step_;
+    if (needs_half_step_) runs.half_step = &half_step_;
     runs.twice_step = &coarse_;
     runs.four_steps = &coarsest_;
     if (has_elements_) runs.elements = {&other_elements_, &coarse_};
@@ -270,16 +289,9 @@ class Judgement {
   std::vector<std::size_t> judged_;
   double space_factor_ = 0.5;
   bool has_elements_ = false, has_modes_ = false, has_tolerance_ = false;
+  bool needs_half_step_ = false;
   bool is_time_suspicious_ = false, is_space_suspicious_ = false, are_modes_suspicious_ = false;
 };
-
-/// Whether an optimum rests on a response; without an objective all are what is asked for.
-bool counts(const ProblemFile& problem, const std::string& response) {
-  if (!problem.objective) return true;
-  return problem.objective->response == response ||
-         std::any_of(problem.constraints.begin(), problem.constraints.end(),
-                     [&](const ConstraintSettings& limit) { return limit.response == response; });
-}
 
 /// A step that brings the largest error below half a percent by order 2, two digits.
 std::string proposed_step(const ProblemFile& problem, double error) {

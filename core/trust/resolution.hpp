@@ -42,7 +42,9 @@ struct Resolution {
 ///    of the limit, and three times the change is taken. If nothing else speaks against the step
 ///    than some of these that are below one percent, a quarter of the step is run and has the last
 ///    word.
-/// Balances of energy and drifts of constraints are errors themselves, and not judged.
+/// Error bars of all responses follow from the same runs (error_bars.hpp), with one of four times
+/// the step, and half of it where these say nothing of a response that counts. Balances of energy
+/// and drifts of constraints are errors themselves, and not judged.
 Resolution judge_resolution(const TrustedRun& run);
 
 /// Doubts from judge_resolution(). Serious beyond ten percent of a response

@@ -41,24 +41,32 @@ TEST(ReadBackSentences, OfAnOptimumThatIsNotVerified) {
 TEST(ReadBackSentences, OfAccuracy) {
   const Report report = run({"accuracy", file, "--set",
                              R"(/accuracy={"steps": ["0.4 ms", "0.2 ms"], "elements": [2, 4],
-                                           "error": 0.5})"});
+                                           "target": 0.5})"});
   const json& reference = report.document.at("reference");
   const json& best = report.document.at("recommended");
   ASSERT_FALSE(best.is_null());
-  expect_shown(behind(report.text, "a reference with step "), "ms", reference.at("step"));
-  EXPECT_EQ(number_in(behind(report.text, "ms and ")), reference.at("elements"));
+  const std::string text = unwrapped(report.text);
+  const std::string of_reference = behind(text, "relative to a reference with a step of ");
+  expect_shown(of_reference, "ms", reference.at("step"));
+  EXPECT_EQ(number_in(behind(of_reference, "ms and ")), reference.at("elements"));
   double error = 0.0, of_gradients = 0.0;
   for (const auto& [name, of] : reference.at("errors").items()) {
     error = std::max(error, of.get<double>());
     of_gradients = std::max(of_gradients, reference.at("gradient_errors").at(name).get<double>());
   }
-  expect_shown(behind(report.text, "Its own error is estimated at "), "1", error);
-  expect_shown(behind(report.text, ", of gradients "), "1", of_gradients);
-  expect_shown(behind(report.text, "Recommended: step "), "ms", best.at("step"));
-  EXPECT_THAT(unwrapped(report.text),
-              testing::HasSubstr(fmt::format("ms, {} elements a segment: the fastest with all "
-                                             "errors below 0.5",
-                                             best.at("elements").get<int>())));
+  expect_shown(behind(text, "whose own error is estimated at "), "1", error);
+  expect_shown(behind(text, ", of gradients "), "1", of_gradients);
+  const std::string of_best = behind(text, "For 50 % take a step of ");
+  expect_shown(of_best, "ms", best.at("step"));
+  EXPECT_EQ(number_in(behind(of_best, "ms and ")), best.at("elements"));
+  expect_shown(behind(of_best, "elements a segment: "), "ms", best.at("seconds"));
+  for (const json& one : report.document.at("recommendations")) {
+    const std::string sentence =
+        fmt::format("For {:g} % {}", 100.0 * one.at("error").get<double>(),
+                    one.at("values").is_null() ? "none of these settings" : "take a step of ");
+    EXPECT_THAT(text, testing::HasSubstr(sentence));
+    if (one.at("values").is_null()) break;  // what is more exact is not said
+  }
   // One row is marked, and it is that one.
   EXPECT_THAT(report.text, testing::ContainsRegex(fmt::format("\n *{:g} +{} .*← recommended\n",
                                                               1e3 * best.at("step").get<double>(),
