@@ -77,7 +77,7 @@ bool is_named(const std::vector<Doubt>& doubts, const std::string& response) {
 }
 
 const char* what_changes(const Refinement& refinement) {
-  if (refinement.more_modes > 0) return "four modes more";
+  if (refinement.more_modes > 0) return "two modes more";
   return refinement.step < 1.0 ? "a quarter of the step" : "four times the elements";
 }
 
@@ -92,7 +92,7 @@ Judged judge(unsigned seed, const SimulatedScene& scene) {
   if (!doubts.empty()) judged.warning = fmt::format("seed {}: {}", seed, doubts.front().text);
   std::vector<Refinement> refinements = {{0.25, 1.0}, {1.0, 4.0}};
   if (has_reduced_beams(scene.analysis->model, scene.problem)) {
-    refinements.push_back({1.0, 1.0, 4});
+    refinements.push_back({1.0, 1.0, 2});
   }
   for (const Refinement& refinement : refinements) {
     const NestedRun fine = make_nested_run(scene.problem, x, refinement);
