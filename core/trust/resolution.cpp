@@ -223,17 +223,39 @@ class Judgement {
       failure = fine.failure;
       return unresolved;
     }
-    bool is_certain = false;
+    std::vector<Unresolved> open;
+    bool rings = false;
     for (const std::size_t i : judged_) {
       const double now = change(found_, fine, i);
       const double before = coarse_.has_failed() ? 0.0 : change(coarse_, found_, i);
       const double error = now * (falls(now, before) ? 1.0 + missing_share() : unknown_factor);
-      if (error <= small_error) continue;
-      unresolved.push_back({i, now, error});
-      is_certain = is_certain || now > small_error || falls(now, before);
+      const bool is_known = now > small_error || falls(now, before), rings_on = rings_in(fine, i);
+      if (error > small_error && is_known) {
+        unresolved.push_back({i, now, error});
+      } else if (error > small_error || rings_on) {
+        open.push_back({i, now, error});
+      }
+      rings = rings || rings_on;
     }
-    if (!unresolved.empty() && !is_certain) ask_finer(fine, unresolved);
+    if (!open.empty() && (unresolved.empty() || rings)) ask_finer(fine, open);
+    for (const Unresolved& one : open) {
+      if (one.error > small_error) unresolved.push_back(one);
+    }
     return sorted(std::move(unresolved));
+  }
+
+  /// Whether half the step changes a history as much as the step itself did: values may agree by
+  /// accident, or all miss what only finer steps see.
+  bool rings_in(const NestedRun& fine, std::size_t i) const {
+    const Eigen::MatrixXd& history = found_.histories[i];
+    if (history.size() == 0 || coarse_.has_failed()) return false;
+    const std::vector<Response>& responses = run_.analysis.responses;
+    const double now = largest_difference(fine.time, fine.histories[i], found_.time, history,
+                                          responses[i].steps(found_.time)),
+                 before =
+                     largest_difference(found_.time, history, coarse_.time, coarse_.histories[i],
+                                        responses[i].steps(coarse_.time));
+    return now > suspicious_difference * magnitude(found_, i) && now > falling_share * before;
   }
 
   /// Whether a change is that of a fine division, a fraction of the one before.
@@ -244,16 +266,18 @@ class Judgement {
   /// What all finer divisions still change, over the last change.
   double missing_share() const { return 1.0 / (std::pow(2.0, order()) - 1.0); }
 
-  /// Keeps of small changes of unknown meaning those that another half of the step confirms.
-  void ask_finer(const NestedRun& fine, std::vector<Unresolved>& unresolved) const {
+  /// Judges changes of unknown meaning by another half of the step.
+  void ask_finer(const NestedRun& fine, std::vector<Unresolved>& open) const {
     const NestedRun finest = make_nested_run(problem_, run_.x, {0.25, 1.0});
     if (finest.has_failed()) return;
-    std::erase_if(unresolved, [&](Unresolved& one) {
-      const double next = change(fine, finest, one.response);
-      if (!falls(next, one.change)) return false;
-      one.error = change(found_, finest, one.response) + missing_share() * next;
-      return one.error <= small_error;
-    });
+    for (Unresolved& one : open) {
+      const double next = change(fine, finest, one.response),
+                   both = change(found_, finest, one.response);
+      one.error = falls(next, one.change) ? both + missing_share() * next
+                                          : std::max({one.change, next, both});
+      one.is_of_quarter = both > one.change;
+      one.change = std::max(one.change, both);
+    }
   }
 
   /// Of elements or modes. Without those that time does not resolve: what space changes of them is
@@ -328,7 +352,10 @@ std::vector<Doubt> doubt_resolution(const TrustedRun& run, const Resolution& fou
     doubts.insert(doubts.end(), more.begin(), more.end());
   };
   if (!found.in_time.empty()) {
-    add(doubt_about(run, found.in_time, "half the step",
+    const bool is_of_quarter = std::any_of(found.in_time.begin(), found.in_time.end(),
+                                           [](const Unresolved& one) { return one.is_of_quarter; });
+    add(doubt_about(run, found.in_time,
+                    is_of_quarter ? "half or a quarter of the step" : "half the step",
                     fmt::format("Try a /simulation/step of {}",
                                 proposed_step(run.problem, found.in_time.front().error))));
   }

@@ -15,6 +15,7 @@ struct Unresolved {
   double change = 0.0;  ///< of its value by a run of half the step, twice the elements, or more
                         ///< modes
   double error = 0.0;   ///< estimate of what is missing to the limit of fine division
+  bool is_of_quarter = false;  ///< the change is that by a quarter of the step, which is larger
 };
 
 /// Responses whose estimated error is above one percent, the worst first; all errors are relative
@@ -40,8 +41,9 @@ struct Resolution {
 ///    of the scheme and the observed change c the error is c / (1 − 2⁻ᵖ) (Richardson). Where the
 ///    change is not a fraction of the one before, as it is of a peak that rings, nothing is known
 ///    of the limit, and three times the change is taken. If nothing else speaks against the step
-///    than some of these that are below one percent, a quarter of the step is run and has the last
-///    word.
+///    than some of these that are below one percent, or if half the step changes a history as much
+///    as the step did, a quarter of the step is run and has the last word.
+///
 /// Error bars of all responses follow from the same runs (error_bars.hpp), with one of four times
 /// the step, and half of it where these say nothing of a response that counts. Balances of energy
 /// and drifts of constraints are errors themselves, and not judged.
