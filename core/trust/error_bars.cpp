@@ -10,8 +10,8 @@ namespace {
 
 /// How far the observed order may be from the promised one.
 constexpr double order_room = 0.5;
-/// On Richardson's estimate, for the terms of higher order.
-constexpr double safety = 1.3;
+/// On estimates, for the terms of higher order and for differences that are small by accident.
+constexpr double safety = 1.5;
 /// Relative differences up to this are resolved, whatever their order.
 constexpr double small_share = 1e-2;
 /// Relative differences up to this are round-off.
@@ -80,7 +80,11 @@ class Bar {
   ErrorPart step(std::optional<double>& order) const {
     if (!is_there(runs_.twice_step)) return unresolved(unknown);
     const double twice = of(*runs_.twice_step);
-    if (is_there(runs_.half_step)) return step_by_half(of(*runs_.half_step), twice, order);
+    if (is_there(runs_.half_step) && is_there(runs_.quarter_step)) {
+      const double half = of(*runs_.half_step);
+      return step_by_finer(of(*runs_.quarter_step), half, value_, order);
+    }
+    if (is_there(runs_.half_step)) return step_by_finer(of(*runs_.half_step), value_, twice, order);
     const double local = local_difference(analysis_, response_, *runs_.twice_step);
     if (!is_there(runs_.four_steps)) return unresolved(std::max(std::abs(value_ - twice), local));
     const Extrapolation found =
@@ -89,15 +93,18 @@ class Bar {
     return found.part;
   }
 
-  ErrorPart step_by_half(double half, double twice, std::optional<double>& order) const {
-    const Extrapolation found = extrapolate(half, value_, twice, order_, 0.0, 0.0);
+  /// From three values whose finest has a smaller step than the simulation.
+  ErrorPart step_by_finer(double fine, double middle, double coarse,
+                          std::optional<double>& order) const {
+    const Extrapolation found = extrapolate(fine, middle, coarse, order_, 0.0, 0.0);
     order = found.order;
-    const double difference = half - value_;
     if (found.part.is_resolved) {
-      const double change = difference + found.part.change;
+      const double change = fine - value_ + found.part.change;
       return {change, safety * std::abs(change), true};
     }
-    const double bound = unknown_factor * std::abs(difference);
+    // Without an order the last change, times three, is what is left.
+    const double left = unknown_factor * std::abs(fine - middle);
+    const double bound = middle == value_ ? left : std::abs(fine - value_) + left;
     return {0.0, bound, bound <= small()};
   }
 
@@ -142,8 +149,8 @@ Extrapolation extrapolate(double fine, double middle, double coarse, double orde
     found.part.bound = safety * remaining * std::max(std::abs(last), local);
     return found;
   }
-  found.part.bound = largest;
   found.part.is_resolved = largest <= small;
+  found.part.bound = found.part.is_resolved ? safety * largest : largest;
   return found;
 }
 

@@ -35,6 +35,7 @@ struct Comparison {
 
 /// Runs that judge a simulation; those that are null were not made.
 struct JudgingRuns {
+  const NestedRun* quarter_step = nullptr;  ///< beside half_step only
   const NestedRun* half_step = nullptr;
   const NestedRun* twice_step = nullptr;
   const NestedRun* four_steps = nullptr;

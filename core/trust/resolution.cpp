@@ -177,23 +177,30 @@ class Judgement {
     return resolution;
   }
 
-  /// Whether runs with twice and four times the step say what the step leaves of that which counts:
-  /// where four times the step is far from any order, half of it has to tell.
+  /// Whether runs say what the step leaves of the responses that count.
+  bool are_resolved(const JudgingRuns& runs) const {
+    return std::all_of(judged_.begin(), judged_.end(), [&](std::size_t i) {
+      return !counts(problem_, problem_.responses[i].name) ||
+             error_bar(run_.analysis, i, runs, order()).step.is_resolved;
+    });
+  }
+
+  /// Where four times the step is far from any order, half of it has to tell.
   bool are_coarse_bars_resolved() const {
     JudgingRuns runs;
     runs.twice_step = &coarse_;
     runs.four_steps = &coarsest_;
-    return std::all_of(judged_.begin(), judged_.end(), [&](std::size_t i) {
-      return !counts(problem_, problem_.responses[i].name) ||
-             error_bar(run_.analysis, i, runs, order()).is_resolved();
-    });
+    return are_resolved(runs);
   }
 
-  void make_bars(Resolution& resolution) const {
+  void make_bars(Resolution& resolution) {
     JudgingRuns runs;
     if (needs_half_step_) runs.half_step = &half_step_;
     runs.twice_step = &coarse_;
     runs.four_steps = &coarsest_;
+    if (quarter_step_ || (needs_half_step_ && !are_resolved(runs))) {
+      runs.quarter_step = &quarter_step();
+    }
     if (has_elements_) runs.elements = {&other_elements_, &coarse_};
     runs.element_factor = space_factor_;
     if (is_space_suspicious_) {
@@ -217,7 +224,7 @@ class Judgement {
     return is_second ? 2 : 1;
   }
 
-  std::vector<Unresolved> weigh_time(const NestedRun& fine, std::string& failure) const {
+  std::vector<Unresolved> weigh_time(const NestedRun& fine, std::string& failure) {
     std::vector<Unresolved> unresolved;
     if (fine.has_failed()) {
       failure = fine.failure;
@@ -266,9 +273,15 @@ class Judgement {
   /// What all finer divisions still change, over the last change.
   double missing_share() const { return 1.0 / (std::pow(2.0, order()) - 1.0); }
 
+  /// Made when it is asked for.
+  const NestedRun& quarter_step() {
+    if (!quarter_step_) quarter_step_ = make_nested_run(problem_, run_.x, {0.25, 1.0});
+    return *quarter_step_;
+  }
+
   /// Judges changes of unknown meaning by another half of the step.
-  void ask_finer(const NestedRun& fine, std::vector<Unresolved>& open) const {
-    const NestedRun finest = make_nested_run(problem_, run_.x, {0.25, 1.0});
+  void ask_finer(const NestedRun& fine, std::vector<Unresolved>& open) {
+    const NestedRun& finest = quarter_step();
     if (finest.has_failed()) return;
     for (Unresolved& one : open) {
       const double next = change(fine, finest, one.response),
@@ -310,6 +323,7 @@ class Judgement {
   const ProblemFile& problem_;
   NestedRun found_, coarse_, coarsest_, other_elements_, other_modes_, other_newton_;
   NestedRun half_step_, twice_elements_, more_modes_;
+  std::optional<NestedRun> quarter_step_;
   std::vector<std::size_t> judged_;
   double space_factor_ = 0.5;
   bool has_elements_ = false, has_modes_ = false, has_tolerance_ = false;

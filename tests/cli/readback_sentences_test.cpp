@@ -59,7 +59,7 @@ TEST(ReadBackSentences, OfAccuracy) {
   const std::string of_best = behind(text, "For 50 % take a step of ");
   expect_shown(of_best, "ms", best.at("step"));
   EXPECT_EQ(number_in(behind(of_best, "ms and ")), best.at("elements"));
-  expect_shown(behind(of_best, "elements a segment: "), "ms", best.at("seconds"));
+  expect_shown(behind(text, "elements a segment: "), "ms", best.at("seconds"));
   for (const json& one : report.document.at("recommendations")) {
     const std::string sentence =
         fmt::format("For {:g} % {}", 100.0 * one.at("error").get<double>(),

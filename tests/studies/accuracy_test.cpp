@@ -58,7 +58,8 @@ TEST(Accuracy, RecommendsTheFastestOfThoseThatAreGoodEnough) {
       ASSERT_TRUE(one.values);
       EXPECT_LE(result.runs[*one.values].simulation_seconds, run.simulation_seconds);
     }
-    if (one.values) EXPECT_LE(counted_error(result, result.runs[*one.values]), one.target);
+    if (!one.values) continue;
+    EXPECT_LE(counted_error(result, result.runs[*one.values]), one.target);
   }
   EXPECT_TRUE(result.recommendations.front().values);
 }

@@ -16,7 +16,7 @@ TEST(Extrapolation, FindsTheLimitOfASecondOrderSequence) {
   EXPECT_NEAR(*found.order, 2.0, 1e-12);
   EXPECT_TRUE(found.part.is_resolved);
   EXPECT_GE(found.part.bound, std::abs(limit - at(1)));
-  EXPECT_LE(found.part.bound, 1.5 * std::abs(limit - at(1)));
+  EXPECT_LE(found.part.bound, 2.0 * std::abs(limit - at(1)));
 }
 
 TEST(Extrapolation, FindsThatOfAFirstOrderSequence) {
@@ -39,7 +39,8 @@ TEST(Extrapolation, TakesTheLargerDifferenceWhereTheOrderIsAnother) {
 TEST(Extrapolation, NeedsNoOrderOfWhatIsSmall) {
   const Extrapolation found = extrapolate(1.0, 1.0001, 1.00005, 2, 0.0, 1e-3);
   EXPECT_TRUE(found.part.is_resolved);
-  EXPECT_NEAR(found.part.bound, 1e-4, 1e-12);
+  EXPECT_GE(found.part.bound, 1e-4);
+  EXPECT_LE(found.part.bound, 2e-4);
 }
 
 /// Two peaks of the same height at other times: the values agree, the histories do not.
@@ -53,7 +54,7 @@ TEST(Extrapolation, DoesNotTrustPeaksThatAgreeByAccident) {
 class ErrorBarOfAValue : public testing::Test {
  protected:
   ErrorBarOfAValue() {
-    analysis_.reductions.push_back({.value = 10.0});
+    analysis_.reductions.emplace_back().value = 10.0;
     analysis_.histories.emplace_back();
   }
   static NestedRun run(double value) {
@@ -108,6 +109,19 @@ TEST_F(ErrorBarOfAValue, TakesThreeTimesTheLastChangeWhereNothingFalls) {
   const ErrorBar bar = error_bar(analysis_, 0, runs, 2);
   EXPECT_NEAR(bar.step.bound, 0.3, 1e-12);
   EXPECT_FALSE(bar.is_resolved());
+}
+
+/// Where half of the step shows no order, a quarter may: 10, 10.1, 10.125 go to 10.133.
+TEST_F(ErrorBarOfAValue, AsksAQuarterOfTheStep) {
+  const NestedRun twice = run(10.1), half = run(10.1), quarter = run(10.125);
+  JudgingRuns runs;
+  runs.twice_step = &twice;
+  runs.half_step = &half;
+  runs.quarter_step = &quarter;
+  const ErrorBar bar = error_bar(analysis_, 0, runs, 2);
+  EXPECT_TRUE(bar.is_resolved());
+  EXPECT_NEAR(bar.step.change, 0.125 + 0.025 / 3, 1e-12);
+  EXPECT_GE(bar.step.bound, 0.133);
 }
 
 TEST_F(ErrorBarOfAValue, IsNotResolvedWhereARunFailed) {
