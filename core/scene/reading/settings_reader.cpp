@@ -218,8 +218,12 @@ OptimizerSettings read_optimizer(const JsonNode& node) {
 }
 
 AccuracySettings read_accuracy(const JsonNode& node, const NumberReader& numbers) {
-  node.allow_keys({"target", "steps", "elements"});
+  node.allow_keys({"target", "steps", "elements", "error"});
   AccuracySettings settings;
+  // The older name was of the study only: it makes no verdict stricter.
+  if (const auto error = node.find("error")) {
+    settings.target = std::max(settings.target, read_tolerance(*error));
+  }
   if (const auto steps = node.find("steps")) {
     for (const JsonNode& step : steps->items()) {
       settings.steps.push_back(numbers.fixed(step, quantities::time, Range::positive));
