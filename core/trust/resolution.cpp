@@ -41,6 +41,18 @@ constexpr double small_tolerance = 1e-8;
 /// The tolerance of the run beside it, times that of the file.
 constexpr double tighter_newton = 1e-3;
 
+/// What the error of a response is compared with: its value and its limits, one of which may be
+/// zero.
+double asked_size(const ProblemFile& problem, const std::string& response, double value) {
+  double size = std::abs(value);
+  for (const ConstraintSettings& limit : problem.constraints) {
+    if (limit.response != response) continue;
+    size =
+        std::max({size, std::abs(limit.lower.value_or(0.0)), std::abs(limit.upper.value_or(0.0))});
+  }
+  return size;
+}
+
 /// Whether an optimum rests on a response; without an objective all are what is asked for.
 bool counts(const ProblemFile& problem, const std::string& response) {
   if (!problem.objective) return true;
@@ -66,7 +78,7 @@ class Judgement {
     make_coarse_runs();
     suspect();
     if (is_suspicious() && leave_out_round_off()) suspect();
-    needs_half_step_ = is_time_suspicious_ || !are_coarse_bars_resolved();
+    needs_half_step_ = is_time_suspicious_ || !do_coarse_runs_suffice();
     std::vector<Refinement> fine;
     if (needs_half_step_) fine.push_back({0.5, 1.0});
     if (is_space_suspicious_) fine.push_back({1.0, 2.0});
@@ -177,20 +189,26 @@ class Judgement {
     return resolution;
   }
 
-  /// Whether runs say what the step leaves of the responses that count.
-  bool are_resolved(const JudgingRuns& runs) const {
+  /// Whether runs say what the step leaves of the responses that count, and that it is within the
+  /// accuracy which the file asks for.
+  bool suffice(const JudgingRuns& runs) const {
     return std::all_of(judged_.begin(), judged_.end(), [&](std::size_t i) {
-      return !counts(problem_, problem_.responses[i].name) ||
-             error_bar(run_.analysis, i, runs, order()).step.is_resolved;
+      const std::string& name = problem_.responses[i].name;
+      if (!counts(problem_, name)) return true;
+      const ErrorPart step = error_bar(run_.analysis, i, runs, order()).step;
+      const double value = found_.values(static_cast<Eigen::Index>(i));
+      const double size =
+          problem_.objective ? asked_size(problem_, name, value) : magnitude(found_, i);
+      return step.is_resolved && step.bound <= problem_.accuracy.target * size;
     });
   }
 
   /// Where four times the step is far from any order, half of it has to tell.
-  bool are_coarse_bars_resolved() const {
+  bool do_coarse_runs_suffice() const {
     JudgingRuns runs;
     runs.twice_step = &coarse_;
     runs.four_steps = &coarsest_;
-    return are_resolved(runs);
+    return suffice(runs);
   }
 
   void make_bars(Resolution& resolution) {
@@ -198,7 +216,7 @@ class Judgement {
     if (needs_half_step_) runs.half_step = &half_step_;
     runs.twice_step = &coarse_;
     runs.four_steps = &coarsest_;
-    if (quarter_step_ || (needs_half_step_ && !are_resolved(runs))) {
+    if (quarter_step_ || (needs_half_step_ && !suffice(runs))) {
       runs.quarter_step = &quarter_step();
     }
     if (has_elements_) runs.elements = {&other_elements_, &coarse_};

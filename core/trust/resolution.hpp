@@ -45,8 +45,9 @@ struct Resolution {
 ///    as the step did, a quarter of the step is run and has the last word.
 ///
 /// Error bars of all responses follow from the same runs (error_bars.hpp), with one of four times
-/// the step, and half and a quarter of it where these say nothing of a response that counts.
-/// Balances of energy and drifts of constraints are errors themselves, and not judged.
+/// the step, and half and a quarter of it where these say nothing of a response that counts, or
+/// more than the accuracy the file asks for. Balances of energy and drifts of constraints are
+/// errors themselves, and not judged.
 Resolution judge_resolution(const TrustedRun& run);
 
 /// Doubts from judge_resolution(). Serious beyond ten percent of a response
