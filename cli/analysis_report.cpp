@@ -1,7 +1,5 @@
 #include "cli/analysis_report.hpp"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "cli/table.hpp"
@@ -20,38 +18,6 @@ Json responses_document(const Analysis& analysis, const ErrorBars& errors) {
   return document;
 }
 
-namespace {
-
-const char* kind_of(const EffectRecord& effect) {
-  switch (effect.kind) {
-    case EffectRecord::Kind::exact:
-      return "exact";
-    case EffectRecord::Kind::estimated:
-      return "estimated";
-    case EffectRecord::Kind::measured:
-      return "measured";
-    default:
-      return "forced";
-  }
-}
-
-}  // namespace
-
-Json effects_document(const Model& model) {
-  Json document = Json::array();
-  for (const EffectRecord& effect : model.effects) {
-    Json entry = {{"name", effect.name},
-                  {"built", effect.is_built},
-                  {"decision", kind_of(effect)},
-                  {"reason", effect.reason}};
-    if (!effect.body.empty()) entry["body"] = effect.body;
-    if (effect.estimate && std::isfinite(*effect.estimate)) entry["estimate"] = *effect.estimate;
-    if (effect.coordinates_saved > 0) entry["coordinates_saved"] = effect.coordinates_saved;
-    document.push_back(std::move(entry));
-  }
-  return document;
-}
-
 std::string responses_text(const ProblemFile& problem, const Analysis& analysis,
                            const ErrorBars& errors) {
   std::vector<Table::Column> columns = {
@@ -65,22 +31,6 @@ std::string responses_text(const ProblemFile& problem, const Analysis& analysis,
                    errors.empty() ? "" : error_text(error_of(errors, i), unit)});
   }
   return table.is_empty() ? "  The file asks for no responses.\n" : table.text();
-}
-
-std::string effects_text(const Model& model) {
-  Table table({{"effect", Table::Align::left},
-               {"of", Table::Align::left},
-               {"built", Table::Align::left},
-               {"decision", Table::Align::left},
-               {"saves"},
-               {"because", Table::Align::left}});
-  for (const EffectRecord& effect : model.effects) {
-    table.add_row({effect.name, effect.body.empty() ? "–" : effect.body,
-                   effect.is_built ? "yes" : "no", kind_of(effect),
-                   effect.coordinates_saved > 0 ? std::to_string(effect.coordinates_saved) : "–",
-                   effect.reason});
-  }
-  return table.text();
 }
 
 std::string size_text(const Analysis& analysis) {

@@ -12,15 +12,9 @@ namespace pleuel {
 /// {NAME: {"value", "unit", "error"}} [SI]; without "error" where none are known
 Json responses_document(const Analysis& analysis, const ErrorBars& errors = {});
 
-/// [{"name", "built", "reason"}]
-Json effects_document(const Model& model);
-
 /// Table of values in engineering units.
 std::string responses_text(const ProblemFile& problem, const Analysis& analysis,
                            const ErrorBars& errors = {});
-
-/// Table: effect, whether it is built, why.
-std::string effects_text(const Model& model);
 
 /// "4514 steps of 2.5e-05 s, 41 coordinates, 24 multipliers"
 std::string size_text(const Analysis& analysis);

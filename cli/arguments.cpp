@@ -69,6 +69,14 @@ void add_design(CLI::App* command, Arguments& arguments) {
       ->type_name("FILE");
 }
 
+void add_accuracy(CLI::App* command, Arguments& arguments) {
+  command
+      ->add_option("--accuracy", arguments.accuracy,
+                   "relative error of what is minimized or limited, such as 0.1%: steps, elements "
+                   "and effects are chosen for it")
+      ->type_name("TARGET");
+}
+
 void add_backend(CLI::App* command, Arguments& arguments) {
   command
       ->add_option("--backend", arguments.backend,
@@ -97,6 +105,7 @@ void add_uncertainty(CLI::App& app, Arguments& arguments) {
       add_file_command(app, arguments, "uncertainty",
                        "deviations and bounds of responses; Monte Carlo as the check");
   add_output(uncertainty, arguments);
+  add_accuracy(uncertainty, arguments);
   add_jobs(uncertainty, arguments);
 }
 
@@ -123,6 +132,7 @@ void add_gradient(CLI::App& app, Arguments& arguments) {
                    "relative step of the differences instead of the file's")
       ->type_name("NUMBER");
   add_jobs(gradient, arguments);
+  add_accuracy(gradient, arguments);
   CLI::Option* histories =
       gradient->add_flag("--histories", arguments.wants_histories,
                          "write the derivatives of all histories into a run folder");
@@ -150,6 +160,7 @@ void add_prices(CLI::App& app, Arguments& arguments) {
                    "the optimum: result.json of an optimization (default: it is looked for first)")
       ->type_name("FILE");
   add_output(prices, arguments);
+  add_accuracy(prices, arguments);
   add_backend(prices, arguments);
   add_method(prices, arguments);
   add_jobs(prices, arguments);
@@ -164,12 +175,16 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   CLI::App* simulate =
       add_file_command(app, arguments, "simulate", "simulate one design, by default the start");
   add_output(simulate, arguments);
+  add_accuracy(simulate, arguments);
+  simulate->add_flag("--effects", arguments.wants_effects,
+                     "show what each effect brings and costs: a simulation more for each");
   add_design(simulate, arguments);
   add_gradient(app, arguments);
   add_invariants(app, arguments);
   CLI::App* optimize =
       add_file_command(app, arguments, "optimize", "find the best design and prove it");
   add_output(optimize, arguments);
+  add_accuracy(optimize, arguments);
   add_design(optimize, arguments);
   add_backend(optimize, arguments);
   add_method(optimize, arguments);
@@ -177,6 +192,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   CLI::App* pareto = add_file_command(app, arguments, "pareto",
                                       "the best designs for a row of values of one limit");
   add_output(pareto, arguments);
+  add_accuracy(pareto, arguments);
   add_backend(pareto, arguments);
   add_method(pareto, arguments);
   add_jobs(pareto, arguments);
@@ -229,6 +245,9 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
     throw InputError(fmt::format("--step must be greater than 0 and less than 1, got {:g}", step));
   }
   arguments.command = app.get_subcommands().front()->get_name();
+  if (arguments.accuracy) {
+    arguments.overrides.push_back("/accuracy/target=" + *arguments.accuracy);
+  }
   return arguments;
 }
 

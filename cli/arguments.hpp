@@ -19,12 +19,14 @@ struct Arguments {
   std::vector<std::string> overrides;           ///< "/json/pointer=value"
   std::optional<std::filesystem::path> output;  ///< run folder
   std::optional<std::filesystem::path> design;  ///< file with another design than the start
+  std::optional<std::string> accuracy;          ///< target; one of the overrides, too
   std::optional<std::string> backend;
   std::optional<std::string> body;  ///< whose invariants are written; by default of all
   std::vector<std::string> methods;
   std::optional<double> difference_step;  ///< relative
   int jobs = available_threads();         ///< simulations at a time
   bool wants_histories = false;           ///< with their derivatives
+  bool wants_effects = false;             ///< what each effect brings and costs
   bool wants_json = false;
   bool overwrites = false;         ///< an older run of the same command in the folder
   std::vector<std::string> words;  ///< the command line as it was

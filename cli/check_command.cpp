@@ -4,6 +4,7 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/derivative_report.hpp"
+#include "cli/effects_report.hpp"
 #include "cli/monitors_report.hpp"
 #include "cli/problem_input.hpp"
 #include "cli/scene_report.hpp"
@@ -27,6 +28,7 @@ struct Findings {
   Freedoms freedoms;
   double simulation_seconds = 0.0, gradient_seconds = 0.0;
   Ties ties;
+  std::vector<EffectInfluence> influences;
   std::vector<DerivativeCheck> derivatives;  ///< empty without variables
   bool is_interrupted = false;               ///< before the derivatives were verified
   std::vector<std::string> warnings;
@@ -46,6 +48,12 @@ Findings examine(const ProblemFile& problem, const Eigen::VectorXd& x, int threa
   findings.freedoms = rigid_freedoms(findings.analysis->model.mechanism, initial);
   findings.ties = find_ties(*findings.analysis);
   warn(texts_of(find_doubts(problem, x, *findings.analysis)));
+  try {
+    findings.influences = effect_influences(problem, x);
+  } catch (const Stopped&) {
+    findings.is_interrupted = true;
+    return findings;
+  }
   if (problem.variables.empty() || problem.responses.empty()) return findings;
   const Stopwatch gradient;
   direct_gradients(*findings.analysis);
@@ -87,7 +95,7 @@ Json make_document(const ProblemFile& problem, const Findings& findings) {
                    {"multipliers", analysis.model.mechanism.system->multipliers()},
                    {"rigid_motion", freedoms_document(findings.freedoms, analysis.model)},
                    {"steps", analysis.trajectory.steps()},
-                   {"effects", effects_document(analysis.model)},
+                   {"effects", effects_document(problem, analysis.model, findings.influences)},
                    {"variables", variables_document(problem)},
                    {"responses", responses_with_verdicts(problem, findings)},
                    {"warnings", findings.warnings},
@@ -117,6 +125,9 @@ std::string make_text(const ProblemFile& problem, const Findings& findings) {
                   bodies_text(analysis.model) + "\n" +
                       freedoms_text(findings.freedoms, analysis.model) + assembly_text(analysis),
                   effects_text(analysis.model));
+  if (!findings.influences.empty()) {
+    text += "\n" + influences_text(problem, values_of(analysis), findings.influences);
+  }
   if (!problem.variables.empty()) text += "\n" + variables_text(problem);
   text += "\n" + (findings.derivatives.empty()
                       ? responses_text(problem, analysis)

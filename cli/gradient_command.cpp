@@ -80,6 +80,7 @@ struct Findings {
   std::vector<MethodResult> results;
   Ties ties;
   std::vector<std::string> warnings;
+  ErrorBars errors;  ///< of the values
 };
 
 Json choice_document(const MethodChoice& choice) {
@@ -88,7 +89,7 @@ Json choice_document(const MethodChoice& choice) {
 
 Json make_document(const ProblemFile& problem, const Findings& findings) {
   const Analysis& analysis = *findings.analysis;
-  Json document = {{"responses", responses_document(analysis)},
+  Json document = {{"responses", responses_document(analysis, findings.errors)},
                    {"seconds", {{"simulate", findings.simulation_seconds}}}};
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     Json& response = document["responses"][analysis.responses[i].name];
@@ -201,7 +202,7 @@ Outcome make_outcome(const Arguments& arguments, const ProblemFile& problem,
 }  // namespace
 
 Outcome run_gradient(const Arguments& arguments) {
-  const ProblemInput input = read_input(arguments);
+  const ProblemInput input = read_input_with_accuracy(arguments);
   const ProblemFile& problem = input.problem;
   std::vector<GradientMethod> methods = chosen_methods(arguments, problem);
   if (problem.variables.empty()) {
@@ -217,7 +218,10 @@ Outcome run_gradient(const Arguments& arguments) {
   findings.results = compute(input, *findings.analysis, methods,
                              {problem.sensitivity.difference_step, arguments.jobs});
   findings.ties = find_ties(*findings.analysis);
-  findings.warnings = texts_of(find_doubts(problem, input.design, *findings.analysis));
+  const Monitors monitors = monitor(findings.analysis->model, findings.analysis->trajectory);
+  Trust trust = judge_run(TrustedRun{problem, input.design, *findings.analysis, monitors});
+  findings.warnings = texts_of(trust.doubts);
+  findings.errors = std::move(trust.errors);
   Outcome outcome = make_outcome(arguments, problem, findings);
   if (record) write_histories(*record, input, *findings.analysis, outcome);
   return outcome;

@@ -13,7 +13,7 @@ std::vector<std::string> header(const Problem& problem) {
   for (const Variable& variable : problem.variables()) {
     titles.push_back("variable:" + variable.name);
   }
-  titles.push_back("failure");
+  titles.insert(titles.end(), {"time_step", "elements", "failure"});
   return titles;
 }
 
@@ -40,7 +40,7 @@ void HistoryCsv::add(const EvaluationRecord& record) {
     add_value(has_failed ? 0.0 : record.constraints(static_cast<Eigen::Index>(i)));
   }
   for (const double value : record.x) csv_.add(value);
-  csv_.add(record.failure);
+  csv_.add(record.time_step).add(record.elements).add(record.failure);
   csv_.end_row();
 }
 

@@ -6,6 +6,7 @@
 #include "cli/command_text.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/effects_report.hpp"
 #include "cli/failed_design.hpp"
 #include "cli/history_csv.hpp"
 #include "cli/iteration_lines.hpp"
@@ -13,6 +14,7 @@
 #include "cli/optimum_document.hpp"
 #include "cli/optimum_report.hpp"
 #include "cli/run_record.hpp"
+#include "cli/setting_report.hpp"
 #include "cli/solve_settings.hpp"
 #include "cli/trajectory_csv.hpp"
 #include "cli/warnings.hpp"
@@ -20,8 +22,11 @@
 #include "core/base/stop.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/trust/doubts.hpp"
+#include "core/trust/nested_runs.hpp"
 #include "optimization/design_problem.hpp"
 #include "optimization/design_solve.hpp"
+#include "optimization/prices.hpp"
+#include "optimization/staged_solve.hpp"
 
 namespace pleuel {
 
@@ -29,7 +34,8 @@ namespace {
 
 /// Simulates the first and the last design for their trajectory files and for what is reported of
 /// them.
-void examine_designs(RunRecord& record, Optimum& optimum) {
+/// @returns the effects that are simulated
+Json examine_designs(RunRecord& record, Optimum& optimum) {
   const auto start = analyze(optimum.problem, optimum.result.history.front().x);
   write_trajectory(record.result("trajectory-start.csv"), *start);
   optimum.start_responses = values_of(*start);
@@ -42,6 +48,43 @@ void examine_designs(RunRecord& record, Optimum& optimum) {
                          ? optimum.result.warnings
                          : texts_of(find_doubts(TrustedRun{optimum.problem, optimum.result.x, *end,
                                                            optimum.monitors}));
+  return effects_document(optimum.problem, end->model, optimum.influences);
+}
+
+/// What each effect brings and costs at an optimum with prices.
+std::vector<EffectInfluence> influences_at(const Optimum& optimum) {
+  if (!has_prices(optimum.result) || !optimum.problem.simulation.checks_resolution) return {};
+  constexpr double factor = 2.0;  // of the step: effects change little of the errors by it
+  std::vector<EffectInfluence> influences;
+  try {
+    influences = effect_influences(refined(optimum.problem, {factor, 1.0}), optimum.result.x);
+  } catch (const Stopped&) {
+    return {};
+  }
+  for (EffectInfluence& one : influences) one.seconds *= factor;
+  return influences;
+}
+
+/// Δf + Σ μ Δc: what changes of responses at the optimum make of it.
+PriceOfChanges price_at(const Optimum& optimum) {
+  return [&optimum](const Eigen::VectorXd& changes) {
+    const ProblemFile& problem = optimum.problem;
+    double price = 0.0;
+    for (std::size_t i = 0; i < problem.responses.size(); ++i) {
+      const double change = changes(static_cast<Eigen::Index>(i));
+      const std::string& name = problem.responses[i].name;
+      if (problem.objective->response == name) price += change;
+      for (std::size_t j = 0; j < problem.constraints.size(); ++j) {
+        if (problem.constraints[j].response != name) continue;
+        price += optimum.result.constraint_multipliers(static_cast<Eigen::Index>(j)) * change;
+      }
+    }
+    return price;
+  };
+}
+
+std::string effects_text_of(const Optimum& optimum, const Eigen::VectorXd& values) {
+  return influences_text(optimum.problem, values, optimum.influences, price_at(optimum));
 }
 
 ExitCode exit_code(const Optimum& optimum) {
@@ -75,8 +118,10 @@ Result interrupted_result(const DesignProblem& problem, const SolveOptions& opti
   return result;
 }
 
-Result solve_visibly(DesignProblem& problem, const SolveOptions& options, RunRecord& run_record,
-                     const Arguments& arguments) {
+StagedSolution solve_visibly(const ProblemInput& input, const SolveOptions& options,
+                             RunRecord& run_record, const Arguments& arguments) {
+  auto first = std::make_unique<DesignProblem>(input.problem, arguments.jobs);
+  const DesignProblem& problem = *first;
   std::FILE* out = arguments.progress();
   show(out, wrapped(fmt::format("{}: minimize {} by {} variables under {} constraints, with {}\n\n",
                                 problem.file().name, problem.objective_name(),
@@ -96,12 +141,15 @@ Result solve_visibly(DesignProblem& problem, const SolveOptions& options, RunRec
     seen.push_back(record);
   };
   try {
-    return solve_design(problem, options, observer, [out](const std::string& notice) {
-      show(out, wrapped("  " + notice, "  ") + "\n");
-    });
+    return solve_in_stages(
+        input.problem, input.design, options, arguments.jobs, observer,
+        [out](const std::string& notice) { show(out, wrapped("  " + notice, "  ") + "\n"); });
   } catch (const Stopped&) {
     if (seen.empty() || seen.front().has_failed()) throw;
-    return interrupted_result(problem, options, seen);
+    StagedSolution solution;
+    solution.result = interrupted_result(problem, options, seen);
+    solution.problem = std::move(first);
+    return solution;
   }
 }
 
@@ -126,21 +174,33 @@ std::string files_text(const RunRecord& record, const Optimum& optimum) {
 Outcome run_optimize(const Arguments& arguments) {
   const ProblemInput input = read_input(arguments);
   const SolveOptions options = solve_options(input.problem, arguments);
-  DesignProblem problem(input.problem, arguments.jobs);
-  if (arguments.design) problem.start_from(input.design);
   RunRecord record(arguments, input, options_document(options, input.problem));
   show_warnings_before(input.problem);
   record.begin_phase("optimize");
-  const Result result = solve_visibly(problem, options, record, arguments);
-  Optimum optimum{input.problem, result, {}, {}, {}, result.warnings, problem.method()};
+  const StagedSolution solution = solve_visibly(input, options, record, arguments);
+  const ProblemFile& solved = solution.problem->file();
+  const Result& result = solution.result;
+  Optimum optimum{solved, result, {}, {}, {}, result.warnings, solution.problem->method()};
   // What has been found is told and written first: the rest is made from it at any time.
-  show(arguments.progress(), optimum_report(optimum));
-  record.write("result.json", optimum_document(optimum));
+  Json effects = Json::array();
+  const auto document = [&] {
+    Json all = optimum_document(optimum);
+    all["effects"] = effects;
+    all["stages"] = stages_document(solution.stages);
+    all["setting"] = {{"step", solved.simulation.step},
+                      {"overrides", overrides_document(input.effective, solved)}};
+    return all;
+  };
+  show(arguments.progress(), optimum_report(optimum) + stages_text(solution.stages));
+  record.write("result.json", document());
   if (optimum.has_design()) {
+    record.begin_phase("effects");
+    optimum.influences = influences_at(optimum);
     record.begin_phase("trajectories");
-    examine_designs(record, optimum);
+    effects = examine_designs(record, optimum);
+    show(arguments.progress(), effects_text_of(optimum, optimum.responses));
   }
-  Outcome outcome{exit_code(optimum), optimum_document(optimum),
+  Outcome outcome{exit_code(optimum), document(),
                   failed_design_text(record, arguments, input.problem, result.history) +
                       resume_text(record, arguments, optimum) + files_text(record, optimum)};
   record.finish(outcome);

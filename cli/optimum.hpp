@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/response/effect_influence.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "optimization/solve.hpp"
@@ -20,6 +21,8 @@ struct Optimum {
   Monitors monitors;                     ///< of the last design; likewise
   std::vector<std::string> warnings;     ///< likewise: what speaks against its numbers
   std::optional<GradientChoice> method;  ///< of the gradients; none if there was none
+  /// Of the last design, by runs of twice the step; empty: not measured.
+  std::vector<EffectInfluence> influences{};
 
   bool has_design() const { return result.evaluation.has_gradients(); }
 

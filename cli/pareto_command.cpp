@@ -6,6 +6,7 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/csv_file.hpp"
+#include "cli/error_report.hpp"
 #include "cli/run_record.hpp"
 #include "cli/solve_settings.hpp"
 #include "cli/table.hpp"
@@ -77,6 +78,7 @@ Json point_document(const ProblemFile& problem, const ParetoPoint& point) {
                    {"variables", Json::object()}};
   if (point.has_design()) {
     document["warnings"] = point.result.warnings;
+    document["error"] = error_document(point.result.error);
     document["objectives"] = {{problem.objective->response, point.result.evaluation.objective},
                               {limited_name(varied_constraint(problem)), point.limited_value}};
     if (has_prices(point.result)) document["multiplier"] = point.multiplier;
@@ -116,6 +118,7 @@ std::vector<Table::Column> columns(const ProblemFile& problem) {
       {fmt::format("limit [{}]", limited.name)},
       {fmt::format("{} [{}]", limited_name(constraint), limited.name)},
       {fmt::format("{} [{}]", objective, goal.name)},
+      {fmt::format("± [{}]", goal.name)},
       {fmt::format("multiplier [{}/{}]", goal.name, limited.name)}};
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     columns.push_back({fmt::format("{} [{}]", problem.variables[i].name, units[i].name)});
@@ -130,12 +133,15 @@ std::string points_text(const ProblemFile& problem, const std::vector<ParetoPoin
   const std::vector<ShownUnit> units = variable_units(problem);
   Table table(columns(problem));
   for (const ParetoPoint& point : points) {
-    std::vector<std::string> cells = {significant(limited.shown(point.limit)), "–", "–", "–"};
+    std::vector<std::string> cells = {significant(limited.shown(point.limit)), "–", "–", "–", "–"};
     if (point.has_design()) {
       cells[1] = significant(limited.shown(point.limited_value));
       cells[2] = significant(goal.shown(point.result.evaluation.objective));
+      if (const auto& error = point.result.error; error && error->is_resolved()) {
+        cells[3] = significant(goal.shown(error->bound()), 2);
+      }
       if (has_prices(point.result))
-        cells[3] = significant(goal.shown(point.multiplier) * limited.factor, 3);
+        cells[4] = significant(goal.shown(point.multiplier) * limited.factor, 3);
     }
     for (std::size_t i = 0; i < problem.variables.size(); ++i) {
       cells.push_back(significant(units[i].shown(point.result.x(static_cast<Eigen::Index>(i)))));
@@ -188,7 +194,7 @@ void show_progress(std::FILE* out, const ProblemFile& problem, const ParetoPoint
 }  // namespace
 
 Outcome run_pareto(const Arguments& arguments) {
-  const ProblemInput input = read_input(arguments);
+  const ProblemInput input = read_input_with_accuracy(arguments);
   const ProblemFile& problem = input.problem;
   if (!problem.pareto) throw InputError("/pareto is missing: it says which limit to vary");
   const SolveOptions options = solve_options(problem, arguments);

@@ -197,7 +197,7 @@ void doubt_design(PricedDesign& design, const PriceList& list) {
 }  // namespace
 
 Outcome run_prices(const Arguments& arguments) {
-  const ProblemInput input = read_input(arguments);
+  const ProblemInput input = read_input_with_accuracy(arguments);
   const SolveOptions options = solve_options(input.problem, arguments);
   RunRecord record(arguments, input, options_document(options, input.problem));
   show_warnings_before(input.problem);

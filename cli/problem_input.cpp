@@ -9,10 +9,12 @@
 
 #include "cli/console.hpp"
 #include "cli/design_file.hpp"
+#include "cli/setting_report.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/scene/reading/override.hpp"
+#include "optimization/staged_solve.hpp"
 
 namespace pleuel {
 
@@ -79,6 +81,17 @@ ProblemInput read_file(const std::filesystem::path& file, const Arguments& argum
 
 ProblemInput read_input(const Arguments& arguments) {
   return read_file(arguments.file, arguments);
+}
+
+ProblemInput read_input_with_accuracy(const Arguments& arguments) {
+  ProblemInput input = read_input(arguments);
+  if (!input.problem.accuracy.chooses_setting || input.problem.responses.empty()) return input;
+  input.choice = choose_accurate_setting(input.problem, input.design, input.problem.accuracy.target,
+                                         coarse_setting(input.problem))
+                     .choice;
+  input.problem = input.choice->problem;
+  show(arguments.progress(), setting_text(input.problem, *input.choice) + "\n");
+  return input;
 }
 
 std::vector<ProblemInput> read_inputs(const Arguments& arguments) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "cli/json.hpp"
 #include "core/scene/problem_file.hpp"
 #include "core/scene/problem_numbers.hpp"
+#include "core/trust/setting_choice.hpp"
 
 namespace pleuel {
 
@@ -21,10 +23,16 @@ struct ProblemInput {
   ProblemText text;        ///< what it was read from
   Json effective;          ///< the file with all overrides applied
   std::string hash;        ///< of the file's text, the overrides and another design: "fnv1a64:…"
+  /// Steps and elements that were chosen at the design; the problem has them.
+  std::optional<SettingChoice> choice;
 };
 
 /// The file of a command that takes one. @throws InputError
 ProblemInput read_input(const Arguments& arguments);
+
+/// The same with steps, elements and effects for the accuracy, where the file or the command line
+/// names one; says so in a line.
+ProblemInput read_input_with_accuracy(const Arguments& arguments);
 
 /// Those of a command that takes several. @throws InputError
 std::vector<ProblemInput> read_inputs(const Arguments& arguments);

@@ -3,11 +3,13 @@
 #include "cli/analysis_report.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/effects_report.hpp"
 #include "cli/limits_report.hpp"
 #include "cli/monitors_report.hpp"
 #include "cli/problem_input.hpp"
 #include "cli/run_record.hpp"
 #include "cli/scene_report.hpp"
+#include "cli/setting_report.hpp"
 #include "cli/stopwatch.hpp"
 #include "cli/trajectory_csv.hpp"
 #include "cli/warnings.hpp"
@@ -27,7 +29,8 @@ struct Simulated {
   double seconds = 0.0;
   std::vector<std::string> warnings{};
   ErrorBars errors{};
-  double check_seconds = 0.0;  ///< of what the warnings are found by
+  std::vector<EffectInfluence> influences{};  ///< if they are asked for
+  double check_seconds = 0.0;                 ///< of what the warnings are found by
   bool is_checked = true;
 };
 
@@ -53,7 +56,7 @@ void check_numbers(const ProblemInput& input, Simulated& run) {
   run.check_seconds = check.seconds();
 }
 
-Json simulation_document(const Simulated& run) {
+Json simulation_document(const ProblemFile& problem, const Simulated& run) {
   const Analysis& analysis = run.analysis;
   const Trajectory& trajectory = analysis.trajectory;
   const System& system = *analysis.model.mechanism.system;
@@ -68,7 +71,7 @@ Json simulation_document(const Simulated& run) {
           {"check_seconds", run.check_seconds},
           {"monitors", monitors_document(run.monitors)},
           {"warnings", run.warnings},
-          {"effects", effects_document(analysis.model)},
+          {"effects", effects_document(problem, analysis.model, run.influences)},
           {"coordinates", system.coordinates()},
           {"multipliers", system.multipliers()}};
 }
@@ -92,6 +95,7 @@ std::string simulation_text(const ProblemFile& problem, const std::string& desig
                   responses_text(problem, analysis, run.errors) + limits_text(problem, x, analysis),
                   monitors_text(run.monitors, analysis.model.mechanism.system->multipliers()) +
                       assembly_text(analysis) + warnings_text(run.warnings));
+  text += influences_text(problem, values_of(analysis), run.influences);
   if (trajectory.split_steps > 0) {
     text += wrapped(
         fmt::format("Newton's method failed in {} steps, which were split; look there with a "
@@ -111,7 +115,7 @@ std::string simulation_text(const ProblemFile& problem, const std::string& desig
 }  // namespace
 
 Outcome run_simulate(const Arguments& arguments) {
-  const ProblemInput input = read_input(arguments);
+  const ProblemInput input = read_input_with_accuracy(arguments);
   RunRecord record(arguments, input, Json::object());
   record.begin_phase("simulate");
   const Stopwatch stopwatch;
@@ -120,13 +124,21 @@ Outcome run_simulate(const Arguments& arguments) {
   record.begin_phase("monitor");
   Simulated run{*analysis, monitor(analysis->model, analysis->trajectory), seconds};
   check_numbers(input, run);
+  if (arguments.wants_effects && run.is_checked) {
+    try {
+      run.influences = effect_influences(input.problem, input.design);
+    } catch (const Stopped&) {
+      run.is_checked = false;
+    }
+  }
   record.begin_phase("write");
   const std::string design = arguments.design ? " at " + arguments.design->string() : "";
   Outcome outcome{run.is_checked ? ExitCode::done : ExitCode::not_verified,
-                  simulation_document(run),
+                  simulation_document(input.problem, run),
                   simulation_text(input.problem, design, input.design, run)};
   outcome.text += fmt::format("Written to {}: trajectory.csv, result.json, run_card.json\n",
                               record.folder().string());
+  if (input.choice) outcome.document["setting"] = setting_document(input, *input.choice);
   outcome.document["constraints"] = limits_document(input.problem, input.design, *analysis);
   record.write("result.json", outcome.document);
   write_trajectory(record.result("trajectory.csv"), *analysis);

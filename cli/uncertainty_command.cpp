@@ -5,6 +5,7 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/csv_file.hpp"
+#include "cli/error_report.hpp"
 #include "cli/run_record.hpp"
 #include "cli/table.hpp"
 #include "cli/warnings.hpp"
@@ -29,8 +30,10 @@ Json sampled_document(const Sampled& sampled) {
           {"highest", sampled.highest}};
 }
 
-Json response_document(const ProblemFile& problem, const UncertainResponse& response,
-                       const std::string& unit) {
+Json response_document(const ProblemFile& problem, const UncertaintyStudy& study,
+                       std::size_t index) {
+  const UncertainResponse& response = study.responses[index];
+  const std::string unit = unit_of(problem.responses[index]).si;
   Json document = {{"value", response.value},
                    {"unit", unit},
                    {"deviation", response.deviation},
@@ -41,6 +44,7 @@ Json response_document(const ProblemFile& problem, const UncertainResponse& resp
     document["shares"][name_of(problem, parameters[i])] =
         response.shares(static_cast<Eigen::Index>(i));
   }
+  if (!study.errors.empty()) document["error"] = error_document(error_of(study.errors, index));
   if (response.sampled) document["sampled"] = sampled_document(*response.sampled);
   return document;
 }
@@ -61,9 +65,7 @@ Json make_document(const ProblemFile& problem, const UncertaintyStudy& study) {
                                              {"interval", parameter.half_width()}};
   }
   for (std::size_t i = 0; i < study.responses.size(); ++i) {
-    const ResponseSettings& response = problem.responses[i];
-    document["responses"][response.name] =
-        response_document(problem, study.responses[i], unit_of(response).si);
+    document["responses"][problem.responses[i].name] = response_document(problem, study, i);
   }
   return document;
 }
@@ -132,6 +134,7 @@ std::string responses_text(const ProblemFile& problem, const UncertaintyStudy& s
                                         {"deviation"},
                                         {"bounds ±"},
                                         {"unit", Table::Align::left},
+                                        {"error of value", Table::Align::left},
                                         {"from", Table::Align::left}};
   const bool is_sampled = study.samples > 1;
   if (is_sampled) {
@@ -150,6 +153,7 @@ std::string responses_text(const ProblemFile& problem, const UncertaintyStudy& s
                                       shown(response.deviation, 3),
                                       shown(response.bound, 3),
                                       unit.name,
+                                      error_text(error_of(study.errors, i), unit),
                                       largest_shares(problem, response)};
     if (response.sampled) {
       cells.insert(cells.end(),
@@ -183,7 +187,7 @@ std::string study_text(const ProblemFile& problem, const UncertaintyStudy& study
 }  // namespace
 
 Outcome run_uncertainty(const Arguments& arguments) {
-  const ProblemInput input = read_input(arguments);
+  const ProblemInput input = read_input_with_accuracy(arguments);
   const ProblemFile& problem = input.problem;
   if (!problem.uncertainty) {
     throw InputError("/uncertainty is missing: it says which parameters are uncertain");

@@ -10,6 +10,7 @@
 #include "core/base/number_text.hpp"
 #include "core/response/describe_tie.hpp"
 #include "core/trust/doubts.hpp"
+#include "core/trust/nested_runs.hpp"
 #include "optimization/broken_limits.hpp"
 #include "optimization/kkt_audit.hpp"
 #include "optimization/margin_problem.hpp"
@@ -33,20 +34,11 @@ constexpr int most_windows = 128;
 /// on a smooth optimum all backends need fewer.
 constexpr int plain_iterations = 40;
 
-void continue_from(const Result& before, Result& result) {
-  result.evaluations += before.evaluations;
-  result.gradient_evaluations += before.gradient_evaluations;
-  result.iterations += before.iterations;
-  result.restarts += before.restarts + 1;
-  result.seconds += before.seconds;
-  result.history.insert(result.history.begin(), before.history.begin(), before.history.end());
-}
-
-/// Records of a run on windows as records of the file, counted on from the run before.
+/// Records of a run on windows as records of the file.
 class Folding {
  public:
   Folding(const PeakProblem& peaks, const DesignProblem& design, const Result& before)
-      : peaks_(peaks), design_(design), before_(before), last_(before.history.back().x) {
+      : peaks_(peaks), design_(design), last_(before.history.back().x) {
     const Eigen::VectorXd& first = before.history.front().x;
     variable_scales_ = variable_scales(design, first);
     constraint_scales_ = constraint_scales(design, before.evaluation, variable_scales_);
@@ -61,9 +53,6 @@ class Folding {
       record.constraints = peaks_.fold_values(record.constraints);
       record.max_violation = max_violation(design_, record.constraints, constraint_scales_);
     }
-    record.evaluation += before_.evaluations;
-    record.iteration += before_.iterations;
-    record.seconds += before_.seconds;
     return record;
   }
 
@@ -75,7 +64,6 @@ class Folding {
  private:
   const PeakProblem& peaks_;
   const DesignProblem& design_;
-  const Result& before_;
   Eigen::VectorXd last_, variable_scales_, constraint_scales_;
 };
 
@@ -128,7 +116,9 @@ Result solve_peaks(DesignProblem& design, int windows, const SolveOptions& optio
   Folding folding(peaks, design, before);
   Observer observe_folded;
   if (observer) {
-    observe_folded = [&](const EvaluationRecord& record) { observer(folding(record)); };
+    observe_folded = [&](const EvaluationRecord& record) {
+      observer(following(folding(record), before));
+    };
   }
   const auto robust = with_margins(peaks, design, peaks.constraint_of_row());
   Result result = solve(robust ? *robust : peaks, options, observe_folded);
@@ -271,9 +261,21 @@ void judge_numbers(DesignProblem& design, Result& result) {
 
 }  // namespace
 
+EvaluationRecord simulated_with(const ProblemFile& file, EvaluationRecord record) {
+  record.time_step = file.simulation.step;
+  record.elements = beam_elements(file);
+  return record;
+}
+
 Result solve_design(DesignProblem& design, const SolveOptions& options, const Observer& observer,
                     const Notice& notice) {
-  Result result = find_optimum(design, options, observer, notice);
+  const ProblemFile& file = design.file();
+  Observer with_setting;
+  if (observer) {
+    with_setting = [&](const EvaluationRecord& record) { observer(simulated_with(file, record)); };
+  }
+  Result result = find_optimum(design, options, with_setting, notice);
+  for (EvaluationRecord& record : result.history) record = simulated_with(file, std::move(record));
   return_to_best(design, options.verdict, result);
   judge_numbers(design, result);
   return result;

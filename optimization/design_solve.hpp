@@ -20,4 +20,7 @@ using Notice = std::function<void(const std::string&)>;
 Result solve_design(DesignProblem& problem, const SolveOptions& options,
                     const Observer& observer = {}, const Notice& notice = {});
 
+/// The record with what it was simulated with.
+EvaluationRecord simulated_with(const ProblemFile& file, EvaluationRecord record);
+
 }  // namespace pleuel

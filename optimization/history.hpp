@@ -33,6 +33,8 @@ struct EvaluationRecord {
   double max_violation = 0.0;   ///< relative, see scaling.hpp
   double step = 0.0;            ///< ‖Δx / s‖∞ from the evaluation before
   double seconds = 0.0;         ///< wall time since the start of solve()
+  double time_step = 0.0;       ///< of the simulation, where one is evaluated [s]
+  int elements = 0;             ///< of all its elastic beams
 
   bool has_failed() const { return !failure.empty(); }
 };

@@ -17,6 +17,9 @@ constexpr double proposed_share = 0.7;
 
 /// What would bring an error below the target.
 std::string advice(const ProblemFile& file, const ErrorBar& bar, double excess) {
+  if (bar.effects.bound > std::max(bar.elements.bound, bar.step.bound)) {
+    return "Try a smaller /effects/tolerance";
+  }
   if (bar.elements.bound > bar.step.bound && bar.elements.is_resolved) {
     return "Try twice the elements";
   }

@@ -78,6 +78,20 @@ class Run {
     return make_result(std::move(verdict));
   }
 
+  Result search() {
+    run_backend(start_, options_.tolerance);
+    Result result;
+    result.status = is_lost_ ? Status::failed : Status::stalled;
+    result.message = backend_reason_;
+    const EvaluationRecord& best = best_record(cache_.history(), options_.verdict.violation);
+    result.x = best.x;
+    result.evaluation.objective = best.objective;
+    result.evaluation.constraints = best.constraints;
+    result.max_violation = best.max_violation;
+    add_counts(result);
+    return result;
+  }
+
  private:
   static constexpr double tolerance_factor = 0.1;
   static constexpr int evaluations_per_iteration = 5;
@@ -260,7 +274,6 @@ class Run {
     if (verdict.status == Status::verified) {
       result.message += "; from one start: other local optima were not looked for";
     }
-    result.backend = options_.backend;
     result.x = std::move(verdict.design.x);
     result.evaluation = std::move(verdict.design.evaluation);
     result.constraint_multipliers =
@@ -269,13 +282,18 @@ class Run {
     result.bound_multipliers = std::move(verdict.audit.bound_multipliers);
     result.kkt_residual = verdict.audit.residual;
     result.max_violation = verdict.design.max_violation;
+    add_counts(result);
+    return result;
+  }
+
+  void add_counts(Result& result) const {
+    result.backend = options_.backend;
     result.evaluations = cache_.evaluations();
     result.gradient_evaluations = cache_.gradient_evaluations();
     result.iterations = cache_.iterations();
     result.restarts = restarts_ + escapes_;
     result.seconds = cache_.seconds();
     result.history = cache_.history();
-    return result;
   }
 
   /// Why the search for an optimum ended where it did.
@@ -317,9 +335,9 @@ class Run {
   std::string backend_reason_ = "nothing, since no variable is free";
 };
 
-}  // namespace
-
-Result solve(Problem& problem, const SolveOptions& options, const Observer& observer) {
+/// What is done with a start that can be evaluated.
+Result run(Problem& problem, const SolveOptions& options, const Observer& observer,
+           Result (Run::*work)()) {
   check_backend(problem, options);
   const EvaluationCache::Watch watch{observer, Clock::now()};
   const Eigen::VectorXd x = checked_start(problem);
@@ -329,7 +347,35 @@ Result solve(Problem& problem, const SolveOptions& options, const Observer& obse
   KnownDesign start{x, std::move(*first.evaluation)};
   EvaluationCache cache = make_cache(problem, start, watch);
   start.max_violation = cache.history().front().max_violation;
-  return Run(cache, start, options).solve();
+  Run one(cache, start, options);
+  return (one.*work)();
+}
+
+}  // namespace
+
+Result solve(Problem& problem, const SolveOptions& options, const Observer& observer) {
+  return run(problem, options, observer, &Run::solve);
+}
+
+Result search(Problem& problem, const SolveOptions& options, const Observer& observer) {
+  return run(problem, options, observer, &Run::search);
+}
+
+void continue_from(const Result& before, Result& result) {
+  for (EvaluationRecord& record : result.history) record = following(std::move(record), before);
+  result.history.insert(result.history.begin(), before.history.begin(), before.history.end());
+  result.evaluations += before.evaluations;
+  result.gradient_evaluations += before.gradient_evaluations;
+  result.iterations += before.iterations;
+  result.restarts += before.restarts + 1;
+  result.seconds += before.seconds;
+}
+
+EvaluationRecord following(EvaluationRecord record, const Result& before) {
+  record.evaluation += before.evaluations;
+  record.iteration += before.iterations;
+  record.seconds += before.seconds;
+  return record;
 }
 
 }  // namespace pleuel

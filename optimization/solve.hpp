@@ -76,4 +76,15 @@ struct Result {
 ///         outside its bounds. A start that cannot be evaluated is not thrown but `failed`.
 Result solve(Problem& problem, const SolveOptions& options, const Observer& observer = {});
 
+/// One run of the backend, and the best design that it saw: not audited, and so never more than
+/// `stalled`; without multipliers.
+/// @throws InputError like solve()
+Result search(Problem& problem, const SolveOptions& options, const Observer& observer = {});
+
+/// Puts what an earlier run of the same optimization did before a result: counts, time, history.
+void continue_from(const Result& before, Result& result);
+
+/// A record as one that follows on a run.
+EvaluationRecord following(EvaluationRecord record, const Result& before);
+
 }  // namespace pleuel

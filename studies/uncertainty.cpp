@@ -83,7 +83,10 @@ class Study {
         deviations_(deviations_of(settings.parameters)),
         analysis_(analyze(problem, x_)),
         with_same_steps_(with_steps_of(analysis_->trajectory, problem)) {
-    study_.doubts = find_doubts(problem, x_, *analysis_);
+    const Monitors monitors = monitor(analysis_->model, analysis_->trajectory);
+    Trust trust = judge_run(TrustedRun{problem, x_, *analysis_, monitors});
+    study_.doubts = std::move(trust.doubts);
+    study_.errors = std::move(trust.errors);
   }
 
   void linearize() {

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "core/base/error_bar.hpp"
 #include "core/scene/problem_file.hpp"
 #include "core/trust/doubt.hpp"
 
@@ -42,6 +43,8 @@ struct UncertaintyStudy {
   int failures = 0;                          ///< that could not
   bool is_interrupted = false;               ///< before all samples were simulated
   std::vector<Doubt> doubts;                 ///< about the values at the design
+  /// Of the values, by steps and elements; one a response, empty where they are not checked.
+  std::vector<std::optional<ErrorBar>> errors;
   double gradient_seconds = 0.0, sampling_seconds = 0.0;
 };
 

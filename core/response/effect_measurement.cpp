@@ -60,6 +60,17 @@ class EffectMeasurement {
  public:
   explicit EffectMeasurement(ProblemFile& problem) : problem_(problem) {}
 
+  void run_together() {
+    const std::vector<Unit> units = left_out(problem_);
+    if (units.empty()) return;
+    reference_ = try_to_analyze(with_all_effects(problem_));
+    const LargestChange change =
+        reference_ ? change_of(problem_)
+                   : LargestChange{std::numeric_limits<double>::infinity(), "the simulation"};
+    const bool is_needed = !(change.relative <= problem_.effects.tolerance);
+    for (const Unit& unit : units) set(unit, is_needed, change);
+  }
+
   void run() {
     std::vector<Unit> units = left_out(problem_);
     if (units.empty()) return;
@@ -153,6 +164,33 @@ void decide_effects(ProblemFile& problem) {
   problem.effects.measured.clear();
   estimate_effects(problem);
   EffectMeasurement(problem).run();
+}
+
+namespace {
+
+ProblemFile starting_at(ProblemFile problem, const Eigen::VectorXd& x) {
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    problem.variables[i].start = x(static_cast<Eigen::Index>(i));
+  }
+  return problem;
+}
+
+}  // namespace
+
+void decide_effects(ProblemFile& problem, const Eigen::VectorXd& x) {
+  ProblemFile there = starting_at(problem, x);
+  estimate_effects(there);
+  std::erase_if(there.effects.measured, [](const auto& entry) { return !entry.second.is_needed; });
+  EffectMeasurement(there).run();
+  problem.effects = there.effects;
+}
+
+void try_to_leave_out(ProblemFile& problem, const Eigen::VectorXd& x) {
+  ProblemFile there = starting_at(problem, x);
+  there.effects.measured.clear();
+  estimate_effects(there);
+  EffectMeasurement(there).run_together();
+  problem.effects = there.effects;
 }
 
 }  // namespace pleuel

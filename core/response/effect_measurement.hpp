@@ -31,4 +31,11 @@ ProblemFile with_all_effects(ProblemFile problem);
 /// cannot be simulated everything is built.
 void decide_effects(ProblemFile& problem);
 
+/// The same at another design. What was decided before to be needed stays.
+void decide_effects(ProblemFile& problem, const Eigen::VectorXd& x);
+
+/// Leaves out at a design what estimates propose, all of it or nothing: with two simulations, where
+/// decide_effects() may need one for each effect of each beam.
+void try_to_leave_out(ProblemFile& problem, const Eigen::VectorXd& x);
+
 }  // namespace pleuel

@@ -172,6 +172,10 @@ struct AccuracySettings {
   std::vector<int> elements;  ///< per segment
   /// Relative error that what is minimized or limited may have.
   double target = 1e-2;
+  /// Whether the file names the target: steps, elements and effects are chosen for it then.
+  bool chooses_setting = false;
+  /// Responses whose accuracy is asked for besides those that are minimized or limited.
+  std::vector<std::string> responses;
 };
 
 /// A variable that is not exactly what it is said to be; of a fixed one (lower == upper) just as of

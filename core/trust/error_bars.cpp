@@ -136,6 +136,13 @@ class Bar {
 
 }  // namespace
 
+int scheme_order(const SimulationSettings& settings) {
+  const bool is_second =
+      settings.scheme == SchemeType::generalized_alpha ||
+      (settings.scheme == SchemeType::newmark && settings.spectral_radius == 1.0);
+  return is_second ? 2 : 1;
+}
+
 Extrapolation extrapolate(double fine, double middle, double coarse, double order, double local,
                           double small) {
   const double last = fine - middle, before = middle - coarse;

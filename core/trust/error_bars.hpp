@@ -9,6 +9,9 @@
 /// How far the responses of a simulation may be from those of an arbitrarily fine one.
 namespace pleuel {
 
+/// The order in the step that a scheme has: 2, or 1 of those that damp by their truncation error.
+int scheme_order(const SimulationSettings& settings);
+
 /// What refinement by two says of the finest of three values, v(h), v(2h), v(4h).
 struct Extrapolation {
   ErrorPart part;

@@ -72,14 +72,21 @@ std::vector<Doubt> doubt_lost_stiffening(const TrustedRun& run) {
 }
 
 void add_left_out_effects(const TrustedRun& run, std::vector<std::optional<ErrorBar>>& errors) {
-  double share = 0.0;
-  for (const auto& [key, effect] : run.problem.effects.measured) {
-    if (!effect.is_needed) share += effect.change;
+  if (!leaves_out_by_measurement(run.analysis.model) || errors.empty()) return;
+  std::unique_ptr<Analysis> complete;
+  try {
+    complete = analyze(with_all_effects(run.problem), run.x);
+  } catch (const SimulationError&) {  // the bar says so
   }
-  if (share == 0.0) return;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     if (!errors[i]) continue;
-    errors[i]->effects.bound += share * std::abs(run.analysis.reductions[i].value);
+    ErrorPart& effects = errors[i]->effects;
+    if (!complete) {
+      effects.is_resolved = false;
+      continue;
+    }
+    effects.change = complete->reductions[i].value - run.analysis.reductions[i].value;
+    effects.bound = std::abs(effects.change);
   }
 }
 

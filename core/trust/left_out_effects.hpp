@@ -12,8 +12,8 @@ std::vector<Doubt> doubt_left_out_effects(const TrustedRun& run);
 /// is switched off: judged by the estimate of the axial force against Euler's load.
 std::vector<Doubt> doubt_lost_stiffening(const TrustedRun& run);
 
-/// Adds what effects that are left out by a tolerance change of each response at most: the sum of
-/// the largest changes that were measured where the decision was made.
+/// Adds to the error of each response what the effects change that are left out by a tolerance: by
+/// one more simulation with all of them.
 void add_left_out_effects(const TrustedRun& run, std::vector<std::optional<ErrorBar>>& errors);
 
 }  // namespace pleuel

@@ -56,6 +56,16 @@ ProblemFile refined(ProblemFile problem, const Refinement& refinement) {
   return problem;
 }
 
+int beam_elements(const ProblemFile& problem) {
+  int count = 0;
+  for (const Body& body : problem.scene.bodies) {
+    const auto* beam = std::get_if<BeamBody>(&body.shape);
+    if (beam == nullptr || beam->is_rigid) continue;
+    for (const Segment& segment : beam->segments) count += segment.elements;
+  }
+  return count;
+}
+
 NestedRun nested_run_of(const Analysis& analysis) {
   return {{}, values_of(analysis), analysis.trajectory.time, analysis.histories};
 }

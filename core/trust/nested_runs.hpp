@@ -45,6 +45,9 @@ std::vector<NestedRun> make_nested_runs(const ProblemFile& problem, const Eigen:
 /// Whether an elastic beam is reduced to modes.
 bool has_reduced_beams(const Model& model, const ProblemFile& problem);
 
+/// The elements of all beams that the file does not call rigid.
+int beam_elements(const ProblemFile& problem);
+
 /// The fewest elements of a segment of an elastic beam; none without such a beam.
 std::optional<int> fewest_elements(const Model& model, const ProblemFile& problem);
 

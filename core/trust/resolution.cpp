@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/relative_error.hpp"
+#include "core/trust/asked_responses.hpp"
 #include "core/trust/nested_runs.hpp"
 #include "core/trust/percent.hpp"
 #include "core/trust/round_off.hpp"
@@ -53,12 +54,10 @@ double asked_size(const ProblemFile& problem, const std::string& response, doubl
   return size;
 }
 
-/// Whether an optimum rests on a response; without an objective all are what is asked for.
-bool counts(const ProblemFile& problem, const std::string& response) {
-  if (!problem.objective) return true;
-  return problem.objective->response == response ||
-         std::any_of(problem.constraints.begin(), problem.constraints.end(),
-                     [&](const ConstraintSettings& limit) { return limit.response == response; });
+/// Whether the accuracy of a response is asked for.
+bool counts(const ProblemFile& problem, std::size_t response) {
+  const std::vector<std::size_t> asked = asked_responses(problem);
+  return std::find(asked.begin(), asked.end(), response) != asked.end();
 }
 
 class Judgement {
@@ -81,7 +80,8 @@ class Judgement {
     needs_half_step_ = is_time_suspicious_ || !do_coarse_runs_suffice();
     std::vector<Refinement> fine;
     if (needs_half_step_) fine.push_back({0.5, 1.0});
-    if (is_space_suspicious_) fine.push_back({1.0, 2.0});
+    needs_twice_elements_ = is_space_suspicious_ || !do_coarse_elements_suffice();
+    if (needs_twice_elements_) fine.push_back({1.0, 2.0});
     if (are_modes_suspicious_) fine.push_back({1.0, 1.0, more_modes});
     Resolution found = weigh(make_nested_runs(problem_, run_.x, fine));
     make_bars(found);
@@ -178,8 +178,8 @@ class Judgement {
     std::size_t next = 0;
     if (needs_half_step_) half_step_ = std::move(fine[next++]);
     if (is_time_suspicious_) resolution.in_time = weigh_time(half_step_, resolution.failure);
+    if (needs_twice_elements_) twice_elements_ = std::move(fine[next++]);
     if (is_space_suspicious_) {
-      twice_elements_ = std::move(fine[next++]);
       resolution.in_space = weigh_division(twice_elements_, resolution.in_time, resolution.failure);
     }
     if (are_modes_suspicious_) {
@@ -191,15 +191,17 @@ class Judgement {
 
   /// Whether runs say what the step leaves of the responses that count, and that it is within the
   /// accuracy which the file asks for.
-  bool suffice(const JudgingRuns& runs) const {
+  bool suffice(const JudgingRuns& runs) const { return suffice(runs, &ErrorBar::step); }
+
+  bool suffice(const JudgingRuns& runs, ErrorPart ErrorBar::*part) const {
     return std::all_of(judged_.begin(), judged_.end(), [&](std::size_t i) {
-      const std::string& name = problem_.responses[i].name;
-      if (!counts(problem_, name)) return true;
-      const ErrorPart step = error_bar(run_.analysis, i, runs, order()).step;
+      if (!counts(problem_, i)) return true;
+      const ErrorPart error = error_bar(run_.analysis, i, runs, order()).*part;
       const double value = found_.values(static_cast<Eigen::Index>(i));
-      const double size =
-          problem_.objective ? asked_size(problem_, name, value) : magnitude(found_, i);
-      return step.is_resolved && step.bound <= problem_.accuracy.target * size;
+      const double size = problem_.objective
+                              ? asked_size(problem_, problem_.responses[i].name, value)
+                              : magnitude(found_, i);
+      return error.is_resolved && error.bound <= problem_.accuracy.target * size;
     });
   }
 
@@ -209,6 +211,15 @@ class Judgement {
     runs.twice_step = &coarse_;
     runs.four_steps = &coarsest_;
     return suffice(runs);
+  }
+
+  /// Half the elements say little of responses that are sampled in space, and of odd numbers.
+  bool do_coarse_elements_suffice() const {
+    if (!has_elements_) return true;
+    JudgingRuns runs;
+    runs.elements = {&other_elements_, &coarse_};
+    runs.element_factor = space_factor_;
+    return suffice(runs, &ErrorBar::elements);
   }
 
   void make_bars(Resolution& resolution) {
@@ -221,7 +232,7 @@ class Judgement {
     }
     if (has_elements_) runs.elements = {&other_elements_, &coarse_};
     runs.element_factor = space_factor_;
-    if (is_space_suspicious_) {
+    if (needs_twice_elements_) {
       runs.elements = {&twice_elements_, &found_};
       runs.element_factor = 2.0;
     }
@@ -234,13 +245,7 @@ class Judgement {
     }
   }
 
-  int order() const {
-    const SimulationSettings& settings = problem_.simulation;
-    const bool is_second =
-        settings.scheme == SchemeType::generalized_alpha ||
-        (settings.scheme == SchemeType::newmark && settings.spectral_radius == 1.0);
-    return is_second ? 2 : 1;
-  }
+  int order() const { return scheme_order(problem_.simulation); }
 
   std::vector<Unresolved> weigh_time(const NestedRun& fine, std::string& failure) {
     std::vector<Unresolved> unresolved;
@@ -345,7 +350,7 @@ class Judgement {
   std::vector<std::size_t> judged_;
   double space_factor_ = 0.5;
   bool has_elements_ = false, has_modes_ = false, has_tolerance_ = false;
-  bool needs_half_step_ = false;
+  bool needs_half_step_ = false, needs_twice_elements_ = false;
   bool is_time_suspicious_ = false, is_space_suspicious_ = false, are_modes_suspicious_ = false;
 };
 
@@ -364,7 +369,8 @@ std::vector<Doubt> doubt_about(const TrustedRun& run, const std::vector<Unresolv
   for (const Unresolved& one : unresolved) {
     const std::string& name = run.analysis.responses[one.response].name;
     doubt.responses.push_back(name);
-    doubt.is_serious = doubt.is_serious || (one.error > serious_error && counts(run.problem, name));
+    doubt.is_serious =
+        doubt.is_serious || (one.error > serious_error && counts(run.problem, one.response));
     changes.push_back(fmt::format("\"{}\" by {} %", name, percent(one.change)));
   }
   doubt.text =

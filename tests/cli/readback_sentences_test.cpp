@@ -38,6 +38,37 @@ TEST(ReadBackSentences, OfAnOptimumThatIsNotVerified) {
   EXPECT_NE(document.at("kkt_residual"), document.at("max_violation"));
 }
 
+/// What was chosen is said, and can be passed on as it is said.
+TEST(ReadBackSentences, OfAChosenSetting) {
+  const Report report = run({"simulate", file, "--accuracy", "0.5%"});
+  const json& setting = report.document.at("setting");
+  EXPECT_EQ(setting.at("target"), 0.005);
+  EXPECT_TRUE(setting.at("met"));
+  const std::string of_setting = behind(report.text, "For 0.5 %: a step of ");
+  expect_shown(of_setting, "ms", setting.at("step"));
+  EXPECT_EQ(number_in(behind(of_setting, "ms and ")), setting.at("elements"));
+  std::vector<std::string> words = {"simulate", file};
+  for (const auto& [pointer, value] : setting.at("overrides").items()) {
+    words.insert(words.end(), {"--set", pointer + "=" + value.dump()});
+  }
+  const Report again = run(words);
+  for (const auto& [name, response] : again.document.at("responses").items()) {
+    const double value = response.at("value");
+    EXPECT_NEAR(report.document.at("responses").at(name).at("value"), value, 1e-9 * std::abs(value))
+        << name;
+  }
+}
+
+TEST(ReadBackSentences, OfWhatEffectsBring) {
+  const Report report = run({"simulate", file, "--effects"});
+  for (const json& effect : report.document.at("effects")) {
+    if (effect.at("name") != "rotary_inertia") continue;
+    EXPECT_EQ(effect.at("influence").size(), report.document.at("responses").size());
+    EXPECT_TRUE(effect.at("seconds").is_number());
+  }
+  EXPECT_THAT(report.text, testing::HasSubstr("largest change of a response"));
+}
+
 TEST(ReadBackSentences, OfAccuracy) {
   const Report report = run({"accuracy", file, "--set",
                              R"(/accuracy={"steps": ["0.4 ms", "0.2 ms"], "elements": [2, 4],

@@ -12,9 +12,17 @@
 namespace pleuel {
 namespace {
 
+AccuracySettings grid(std::vector<double> steps, std::vector<int> elements, double target) {
+  AccuracySettings settings;
+  settings.steps = std::move(steps);
+  settings.elements = std::move(elements);
+  settings.target = target;
+  return settings;
+}
+
 AccuracyStudy study(double target) {
   ProblemFile problem = test::quick_problem();
-  problem.accuracy = AccuracySettings{{4e-4, 2e-4, 1e-4}, {4}, target};
+  problem.accuracy = grid({4e-4, 2e-4, 1e-4}, {4}, target);
   return accuracy_study(problem, start_design(problem));
 }
 
@@ -98,7 +106,7 @@ TEST(Accuracy, TriesStepsAndElementsAroundThoseOfTheFileIfItNamesNone) {
 
 TEST(Accuracy, IsThatOfTheDesignThatIsAskedFor) {
   ProblemFile problem = test::quick_problem();
-  problem.accuracy = AccuracySettings{{2e-4}, {2}, 1e-2};
+  problem.accuracy = grid({2e-4}, {2}, 1e-2);
   const Eigen::VectorXd x = 0.7 * start_design(problem);
   const AccuracyStudy result = accuracy_study(problem, x);
   const ProblemFile same = discretized(problem, result.runs[0].settings);
@@ -139,7 +147,7 @@ TEST(Accuracy, SaysNoErrorBelowThatOfItsReference) {
 
 TEST(Accuracy, AFailingRunIsMarkedAndTheOthersGoOn) {
   ProblemFile problem = test::quick_problem({"/simulation/max_newton_iterations=2"});
-  problem.accuracy = AccuracySettings{{5e-3, 1e-4}, {2}, 1e-3};
+  problem.accuracy = grid({5e-3, 1e-4}, {2}, 1e-3);
   problem.simulation.newton_tolerance = 1e-9;
   const AccuracyStudy result = accuracy_study(problem, start_design(problem));
   EXPECT_FALSE(result.runs[0].failure.empty());

@@ -34,7 +34,7 @@ void read_settings(const JsonNode& root, const NumberReader& numbers, ProblemFil
     problem.pareto = read_pareto(*pareto, problem, numbers);
   }
   if (const auto accuracy = root.find("accuracy")) {
-    problem.accuracy = read_accuracy(*accuracy, numbers);
+    problem.accuracy = read_accuracy(*accuracy, problem.responses, numbers);
   }
   if (const auto uncertainty = root.find("uncertainty")) {
     problem.uncertainty = read_uncertainty(*uncertainty, numbers, problem.variables);

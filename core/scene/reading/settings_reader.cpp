@@ -217,8 +217,23 @@ OptimizerSettings read_optimizer(const JsonNode& node) {
   return settings;
 }
 
-AccuracySettings read_accuracy(const JsonNode& node, const NumberReader& numbers) {
-  node.allow_keys({"target", "steps", "elements", "error"});
+namespace {
+
+std::vector<std::string> read_names(const JsonNode& node,
+                                    const std::vector<ResponseSettings>& responses) {
+  std::vector<std::string> known, names;
+  for (const ResponseSettings& response : responses) known.push_back(response.name);
+  for (const JsonNode& item : node.items()) {
+    names.push_back(read_known_name(item, "response", known));
+  }
+  return names;
+}
+
+}  // namespace
+
+AccuracySettings read_accuracy(const JsonNode& node, const std::vector<ResponseSettings>& responses,
+                               const NumberReader& numbers) {
+  node.allow_keys({"target", "responses", "steps", "elements", "error"});
   AccuracySettings settings;
   // The older name was of the study only: it makes no verdict stricter.
   if (const auto error = node.find("error")) {
@@ -236,7 +251,11 @@ AccuracySettings read_accuracy(const JsonNode& node, const NumberReader& numbers
     }
     if (settings.elements.empty()) elements->fail("must have at least one number");
   }
+  if (const auto names = node.find("responses")) {
+    settings.responses = read_names(*names, responses);
+  }
   if (const auto target = node.find("target")) {
+    settings.chooses_setting = true;
     settings.target = numbers.fixed(*target, quantities::pure_number);
     if (settings.target <= 0.0 || settings.target >= 1.0) {
       target->fail_with_value("must be greater than 0 and less than 1");

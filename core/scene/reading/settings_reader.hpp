@@ -20,7 +20,8 @@ SensitivitySettings read_sensitivity(const JsonNode& node, const NumberReader& n
 /// Whether the backend is there is for the optimizer to say.
 OptimizerSettings read_optimizer(const JsonNode& node);
 
-AccuracySettings read_accuracy(const JsonNode& node, const NumberReader& numbers);
+AccuracySettings read_accuracy(const JsonNode& node, const std::vector<ResponseSettings>& responses,
+                               const NumberReader& numbers);
 UncertaintySettings read_uncertainty(const JsonNode& node, const NumberReader& numbers,
                                      const std::vector<DesignVariable>& variables);
 

@@ -10,6 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/model/effect_estimates.hpp"
+#include "core/response/effect_influence.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/left_out_effects.hpp"
 #include "tests/support/problem_runs.hpp"
@@ -118,6 +119,37 @@ TEST(MeasuredEffects, AreMeasuredAgainAtOtherDesigns) {
   ASSERT_THAT(doubts, testing::SizeIs(1));
   EXPECT_TRUE(doubts[0].is_serious);
   EXPECT_THAT(doubts[0].text, HasSubstr("left out at the start design"));
+}
+
+/// y = −(bending + twist): without torsion the twist is missing, whether the file has it or not.
+TEST(EffectInfluence, IsWhatLeavingAnEffectOutChanges) {
+  const double torsion = 0.05 * std::pow(0.003, 3) / 3 * (1 - 0.63 * 0.003 / 0.05);
+  const double twist = 0.3 * 0.4 * 0.4 * 0.8 / (2.1e11 / 2.6 * torsion);
+  for (const char* choice : {"auto", "on", "off"}) {
+    const ProblemFile problem = read(
+        twisted_bar(0.0, position), {fmt::format(R"(/effects/torsional_elasticity="{}")", choice)});
+    bool has_torsion = false;
+    for (const EffectInfluence& one : effect_influences(problem, start_design(problem))) {
+      EXPECT_EQ(one.body, "bar");
+      if (one.effect != "torsional_elasticity") continue;
+      has_torsion = true;
+      EXPECT_TRUE(one.failure.empty());
+      EXPECT_NEAR(one.changes(0), twist, 1e-3 * twist) << choice;
+    }
+    EXPECT_TRUE(has_torsion) << choice;
+  }
+}
+
+TEST(EffectInfluence, SaysWhatAResponseNeeds) {
+  const ProblemFile problem =
+      read(twisted_bar(0.0, R"({"type": "stress", "body": "bar", "over_time": "max"})"));
+  for (const EffectInfluence& one : effect_influences(problem, start_design(problem))) {
+    if (one.effect == "elasticity") {
+      EXPECT_THAT(one.failure, HasSubstr("rigid"));
+    } else if (one.effect == "rotary_inertia") {
+      EXPECT_TRUE(one.failure.empty());
+    }
+  }
 }
 
 // Estimates against closed forms.

@@ -1,0 +1,28 @@
+#include "core/trust/asked_responses.hpp"
+
+#include <algorithm>
+
+namespace pleuel {
+
+namespace {
+
+bool is_asked(const ProblemFile& problem, const std::string& name) {
+  const std::vector<std::string>& listed = problem.accuracy.responses;
+  return (problem.objective && problem.objective->response == name) ||
+         std::find(listed.begin(), listed.end(), name) != listed.end() ||
+         std::any_of(problem.constraints.begin(), problem.constraints.end(),
+                     [&](const ConstraintSettings& limit) { return limit.response == name; });
+}
+
+}  // namespace
+
+std::vector<std::size_t> asked_responses(const ProblemFile& problem) {
+  std::vector<std::size_t> asked, all;
+  for (std::size_t i = 0; i < problem.responses.size(); ++i) {
+    all.push_back(i);
+    if (is_asked(problem, problem.responses[i].name)) asked.push_back(i);
+  }
+  return asked.empty() ? all : asked;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,190 @@
+#include "optimization/staged_solve.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/response/effect_measurement.hpp"
+
+namespace pleuel {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// The first stage has so many times the target, but no more than this.
+constexpr double coarse_factor = 10.0, coarsest_target = 1e-2;
+/// Of the target, for effects that are left out.
+constexpr double effects_share = 0.2;
+/// How often the setting is chosen at an optimum.
+constexpr int most_rounds = 3;
+/// Of the target: the tolerance of a search that is not the last.
+constexpr double search_share = 0.1;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+bool is_same(const Refinement& one, const Refinement& other) {
+  return one.elements == other.elements && std::abs(std::log(one.step / other.step)) < 0.1;
+}
+
+/// (body, effect) of what is left out by measurement.
+std::vector<std::pair<std::string, std::string>> left_out(const ProblemFile& file) {
+  std::vector<std::pair<std::string, std::string>> names;
+  for (const auto& [name, effect] : file.effects.measured) {
+    if (!effect.is_needed) names.push_back(name);
+  }
+  return names;
+}
+
+class StagedSolve {
+ public:
+  StagedSolve(const ProblemFile& file, const SolveOptions& options, int threads,
+              const Observer& observer, const Notice& notice)
+      : file_(file), options_(options), threads_(threads), observer_(observer), notice_(notice) {}
+
+  StagedSolution run(Eigen::VectorXd x) {
+    if (file_.accuracy.chooses_setting) {
+      run_for_accuracy(x);
+    } else {
+      run_as_it_is(x);
+    }
+    return std::move(solution_);
+  }
+
+ private:
+  void run_for_accuracy(Eigen::VectorXd& x) {
+    const double target = file_.accuracy.target;
+    const double first_target = std::min(coarse_factor * target, std::max(coarsest_target, target));
+    Refinement from = coarse_setting(file_);
+    choose_stage(x, first_target, from);
+    if (!search_from(x)) return;
+    for (int round = 0; round < most_rounds; ++round) {
+      from = solution_.stages.back().setting.setting;
+      choose_stage(x, target, from);
+      if (round > 0 && is_same(from, solution_.stages.back().setting.setting)) {
+        solution_.stages.pop_back();
+        return;
+      }
+      solve_stage();
+      if (solution_.result.status != Status::unresolved) return;
+      x = solution_.result.x;
+    }
+  }
+
+  void run_as_it_is(const Eigen::VectorXd& x) {
+    begin_stage({}, file_, x);
+    solve_stage();
+    for (int round = 1; round < most_rounds && take_effects_back(); ++round) solve_stage();
+  }
+
+  /// @returns whether effects that were left out matter at the design that was found, where the
+  /// next stage begins with them
+  bool take_effects_back() {
+    if (solution_.result.status != Status::unresolved) return false;
+    ProblemFile next = solution_.problem->file();
+    if (next.effects.tolerance <= 0.0) return false;
+    decide_effects(next, solution_.result.x);
+    if (left_out(next) == left_out(solution_.problem->file())) return false;
+    if (notice_) notice_("effects that were left out at the start matter here, and are taken back");
+    begin_stage({}, std::move(next), solution_.result.x);
+    return true;
+  }
+
+  void choose_stage(const Eigen::VectorXd& x, double target, const Refinement& from) {
+    AccurateSetting found = choose_accurate_setting(file_, x, target, from);
+    const SettingChoice& choice = found.choice;
+    if (notice_) {
+      notice_(fmt::format("for {:.3g} % a step of {:.3g} ms and {} elements{}", 100.0 * target,
+                          1e3 * choice.chosen.step, choice.chosen.elements,
+                          choice.is_met ? "" : ", the finest that were tried, which do not do"));
+    }
+    begin_stage({target, choice.chosen, choice.is_met, static_cast<int>(choice.tried.size()), 0,
+                 found.seconds, 0.0},
+                std::move(found.choice.problem), x);
+  }
+
+  void begin_stage(Stage stage, ProblemFile file, const Eigen::VectorXd& x) {
+    solution_.result.seconds += stage.choice_seconds;  // what follows comes after it
+    solution_.stages.push_back(std::move(stage));
+    solution_.problem = std::make_unique<DesignProblem>(std::move(file), threads_);
+    solution_.problem->start_from(x);
+  }
+
+  /// @returns whether the start could be evaluated; x becomes the best design that was seen
+  bool search_from(Eigen::VectorXd& x) {
+    SolveOptions coarse = options_;
+    coarse.tolerance = std::max(options_.tolerance, search_share * solution_.stages.back().target);
+    const ProblemFile& file = solution_.problem->file();
+    Result result = search(*solution_.problem, coarse, [&](const EvaluationRecord& record) {
+      observe(simulated_with(file, record));
+    });
+    for (EvaluationRecord& record : result.history) {
+      record = simulated_with(file, std::move(record));
+    }
+    const bool can_go_on = result.iterations > 0 && !result.history.front().has_failed();
+    if (can_go_on) x = result.x;
+    add(std::move(result));
+    return can_go_on;
+  }
+
+  void solve_stage() {
+    SolveOptions rest = options_;
+    rest.max_iterations = std::max(1, options_.max_iterations - solution_.result.iterations);
+    rest.earlier = {solution_.result.iterations, solution_.result.restarts};
+    add(solve_design(
+        *solution_.problem, rest, [&](const EvaluationRecord& record) { observe(record); },
+        notice_));
+  }
+
+  void observe(const EvaluationRecord& record) const {
+    if (observer_) observer_(following(record, solution_.result));
+  }
+
+  void add(Result result) {
+    Stage& stage = solution_.stages.back();
+    stage.evaluations = result.evaluations;
+    stage.seconds = result.seconds;
+    if (solution_.result.history.empty()) --result.restarts;  // the first run is none
+    continue_from(solution_.result, result);
+    solution_.result = std::move(result);
+  }
+
+  const ProblemFile& file_;
+  const SolveOptions& options_;
+  int threads_;
+  const Observer& observer_;
+  const Notice& notice_;
+  StagedSolution solution_;
+};
+
+}  // namespace
+
+AccurateSetting choose_accurate_setting(const ProblemFile& file, const Eigen::VectorXd& x,
+                                        double target, const Refinement& first) {
+  const auto begin = Clock::now();
+  AccurateSetting found;
+  if (file.effects.tolerance > 0.0) {
+    found.choice = choose_setting(file, x, target, first);
+  } else {
+    found.choice = choose_setting(file, x, (1.0 - effects_share) * target, first);
+    ProblemFile divided = found.choice.problem;
+    divided.effects.tolerance = effects_share * target;
+    try_to_leave_out(divided, x);
+    if (!left_out(divided).empty()) found.choice.problem = std::move(divided);
+  }
+  found.seconds = seconds_since(begin);
+  return found;
+}
+
+StagedSolution solve_in_stages(const ProblemFile& file, const Eigen::VectorXd& start,
+                               const SolveOptions& options, int threads, const Observer& observer,
+                               const Notice& notice) {
+  return StagedSolve(file, options, threads, observer, notice).run(start);
+}
+
+}  // namespace pleuel

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/trust/setting_choice.hpp"
+#include "optimization/design_problem.hpp"
+#include "optimization/design_solve.hpp"
+#include "optimization/solve.hpp"
+
+/// Optimization of a problem file in stages: with coarse settings first where an accuracy is asked
+/// for, and again where effects that were left out matter at the optimum.
+namespace pleuel {
+
+/// A part of an optimization that ran with one setting.
+struct Stage {
+  double target = 0.0;   ///< relative error that its setting was chosen for; 0: it was not chosen
+  TriedSetting setting;  ///< only if it was
+  bool is_met = false;   ///< whether the setting has the target where it was chosen
+  int settings_tried = 0;
+  int evaluations = 0;
+  double choice_seconds = 0.0;  ///< that finding the setting took
+  double seconds = 0.0;         ///< of the evaluations
+};
+
+struct StagedSolution {
+  Result result;                           ///< of all stages together
+  std::unique_ptr<DesignProblem> problem;  ///< that of the last stage
+  std::vector<Stage> stages;
+};
+
+/// Steps, elements and effects for an accuracy at one design: where the file leaves effects open
+/// and gives no tolerance, those are left out that change nothing which is asked for by more than a
+/// fifth of the target.
+struct AccurateSetting {
+  SettingChoice choice;
+  double seconds = 0.0;
+};
+AccurateSetting choose_accurate_setting(const ProblemFile& file, const Eigen::VectorXd& x,
+                                        double target, const Refinement& first);
+
+/// solve_design() for a problem file. Where `accuracy` / `target` is given, the search begins with
+/// what is needed for ten times the target (at most 1 %) at the start, unaudited; then steps,
+/// elements and effects are chosen at the design that it found, for the target itself, and the run
+/// goes on from there to the verdict. Where the error bars do not keep the target at the optimum,
+/// the setting is chosen anew at that design, up to three times. Without a target the file is taken
+/// as it is; effects that were left out by a tolerance but matter at the optimum are taken back,
+/// and the run goes on.
+/// @param start  the first design [SI]
+/// @throws as solve()
+StagedSolution solve_in_stages(const ProblemFile& file, const Eigen::VectorXd& start,
+                               const SolveOptions& options, int threads,
+                               const Observer& observer = {}, const Notice& notice = {});
+
+}  // namespace pleuel

@@ -1,0 +1,126 @@
+#include "core/trust/setting_choice.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/relative_error.hpp"
+#include "core/scene/problem_reader.hpp"
+#include "core/trust/asked_responses.hpp"
+
+/// Chosen settings are compared with runs at an eighth of their step and four times their elements.
+namespace pleuel {
+namespace {
+
+using testing::ElementsAre;
+
+/// A clamped steel beam, 0.3 m long and 20 mm thick, whose tip is pushed with 30 Hz; its lowest
+/// natural frequency is 186 Hz.
+constexpr const char* cantilever = R"({
+  "scene": {
+    "materials": {"m": {"young": 210e9, "poisson": 0.3, "density": 7850}},
+    "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [0.3, 0, 0], "material": "m",
+      "section": {"type": "rectangle", "width": 0.02, "height": 0.02}, "elements": 4,
+      "damping": {"stiffness": 1e-4}}},
+    "joints": {"f": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
+    "loads": {"push": {"type": "force", "body": "b", "at": [0.3, 0, 0], "direction": [0, 1, 0],
+      "value": {"type": "harmonic", "amplitude": 500, "frequency": 30}}}
+  },
+  "simulation": {"end_time": 0.1, "step": 1e-4},
+  "responses": {
+    "stress": {"type": "stress", "body": "b", "over_time": "max"},
+    "tip": {"type": "deflection", "body": "b", "at": 1, "over_time": "max-abs"},
+    "jerk": {"type": "acceleration", "body": "b", "at": 1, "direction": "magnitude",
+             "over_time": "max"}
+  }
+})";
+
+/// All of 500 N at once: the tip swings to twice its deflection at rest.
+const std::string sudden =
+    R"(/scene/loads/push/value={"type": "harmonic", "amplitude": 500, "frequency": 0.1, "phase": 1.5707963})";
+const std::string without_jerk =
+    R"(/responses={"stress": {"type": "stress", "body": "b", "over_time": "max"},
+       "tip": {"type": "deflection", "body": "b", "at": 1, "over_time": "max-abs"}})";
+
+ProblemFile problem_of(const std::vector<std::string>& overrides) {
+  return read_problem_text(cantilever, "cantilever.json", overrides);
+}
+
+SettingChoice choose(const ProblemFile& problem, double target) {
+  return choose_setting(problem, start_design(problem), target, coarse_setting(problem));
+}
+
+/// The largest relative error of the asked responses.
+double true_error(const SettingChoice& choice) {
+  const Eigen::VectorXd x = start_design(choice.problem);
+  const Eigen::VectorXd values = values_of(*analyze(choice.problem, x));
+  const auto exact = analyze(refined(choice.problem, {0.125, 4.0}), x);
+  double error = 0.0;
+  for (const std::size_t i : asked_responses(choice.problem)) {
+    error = std::max(
+        error, value_error(values(static_cast<Eigen::Index>(i)), exact->reductions[i].value, 0.0));
+  }
+  return error;
+}
+
+TEST(SettingChoice, KeepsTheTargetWithTheLeastWork) {
+  const ProblemFile problem = problem_of({without_jerk});
+  double work = 0.0;
+  for (const double target : {1e-2, 1e-3, 1e-4}) {
+    const SettingChoice choice = choose(problem, target);
+    EXPECT_TRUE(choice.is_met) << target;
+    EXPECT_LE(choice.chosen.error, target);
+    EXPECT_LE(true_error(choice), target);
+    EXPECT_GT(choice.chosen.work, work);
+    work = choice.chosen.work;
+  }
+}
+
+/// Eight times the step that was chosen does not do.
+TEST(SettingChoice, IsNotMuchFinerThanNeeded) {
+  const ProblemFile problem = problem_of({without_jerk});
+  const SettingChoice choice = choose(problem, 1e-3);
+  SettingChoice coarser = choice;
+  coarser.problem = refined(choice.problem, {8.0, 1.0});
+  EXPECT_GT(true_error(coarser), 1e-3);
+}
+
+/// Steps of the period of a vibration that they damp out agree with each other: on half of the
+/// truth.
+TEST(SettingChoice, IsNotTakenInByStepsThatAgreeByAccident) {
+  const ProblemFile problem =
+      problem_of({without_jerk, sudden, "/simulation/end_time=1", "/simulation/step=1e-4"});
+  const SettingChoice choice = choose(problem, 1e-2);
+  EXPECT_TRUE(choice.is_met);
+  EXPECT_LE(true_error(choice), 1e-2);
+}
+
+/// At the first instant of an undamped blow the acceleration has no limit of fine elements.
+TEST(SettingChoice, SaysSoWhereNothingThatWasTriedDoes) {
+  const ProblemFile problem = problem_of(
+      {sudden, "/simulation/end_time=0.01", "/scene/bodies/b/damping={\"stiffness\": 0}"});
+  const SettingChoice choice = choose(problem, 1e-4);
+  EXPECT_FALSE(choice.is_met);
+  EXPECT_GT(choice.chosen.error, 1e-4);
+  EXPECT_EQ(choice.chosen.step, choice.tried.back().step);
+}
+
+TEST(AskedResponses, AreAllWhereNothingIsMinimizedLimitedOrListed) {
+  EXPECT_THAT(asked_responses(problem_of({})), ElementsAre(0, 1, 2));
+  EXPECT_THAT(asked_responses(problem_of({"/accuracy={\"responses\": [\"jerk\"]}"})),
+              ElementsAre(2));
+  EXPECT_THAT(asked_responses(problem_of({"/constraints={\"soft\": {\"response\": \"tip\", "
+                                          "\"upper\": 1}}",
+                                          "/accuracy={\"responses\": [\"jerk\"]}"})),
+              ElementsAre(1, 2));
+}
+
+TEST(AccuracyTarget, ChoosesTheSettingOnlyWhereItIsGiven) {
+  EXPECT_FALSE(problem_of({}).accuracy.chooses_setting);
+  EXPECT_FALSE(problem_of({"/accuracy={\"error\": 0.1}"}).accuracy.chooses_setting);
+  EXPECT_TRUE(problem_of({"/accuracy={\"target\": \"0.1 %\"}"}).accuracy.chooses_setting);
+}
+
+}  // namespace
+}  // namespace pleuel
