@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -360,20 +361,25 @@ class ShearDoubts {
     return std::min(largest * share.displacement / range, largest / (1.0 + largest));
   }
 
-  /// π² EI/(κ G A L²), of the weaker plane.
+  /// Shear lowers Euler's load P to P/(1 + s), s = π² EI/(κ G A L²). What buckles first is the
+  /// plane with the smaller load, mostly that in which shear is the smaller part.
   double euler_share(const std::string& name) const {
     const BodyModel& body = model_.body(name);
     const BendingReader reader(run_.problem, run_.x, name);
     const double length = body.beam.node_position(body.beam.node_count() - 1);
     const Eigen::MatrixXd straight = Eigen::MatrixXd::Zero(6, body.beam.node_count());
-    double share = 0.0;
+    double without = std::numeric_limits<double>::infinity(), with = without;  // EI, EI/(1 + s)
     for (int plane = 0; plane < 2; ++plane) {
+      double least = std::numeric_limits<double>::infinity(), share = 0.0;
       for (const ElementBending& element : reader.read(body, straight, plane)) {
+        least = std::min(least, element.stiffness);
         share = std::max(share, element.stiffness / element.shear_stiffness);
       }
+      share *= std::numbers::pi * std::numbers::pi / (length * length);
+      without = std::min(without, least);
+      with = std::min(with, least / (1.0 + share));
     }
-    share *= std::numbers::pi * std::numbers::pi / (length * length);
-    return share / (1.0 + share);
+    return 1.0 - with / without;
   }
 
   /// Half of the ratio of the energies of a mode: ω² is stiffness.

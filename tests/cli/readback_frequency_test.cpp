@@ -117,6 +117,32 @@ TEST_F(ReadBackFrequency, SaysWhichLimitsAreBroken) {
   EXPECT_FALSE(is_kept("upper", hertz * (1 - 1.1e-4)));
 }
 
+/// Of two limits the nearer one is shown: 45.2 Hz between 40 and 47, and between 44 and 60.
+TEST_F(ReadBackFrequency, IsShownAgainstTheNearerOfTwoLimits) {
+  const auto expect_limit = [&](double lower, double upper, bool is_upper) {
+    const ProgramRun run = run_program(
+        folder_.path(),
+        {"simulate", "cantilever.json", "-o", "two", "--overwrite", "--set",
+         fmt::format(
+             R"(/constraints/tuned={{"response": "pitch", "lower": "{} Hz", "upper": "{} Hz"}})",
+             lower, upper),
+         "--set", R"(/constraints/heavy={"response": "mass", "lower": 1})", "--set",
+         "/pareto/constraint=heavy", "--set", "/pareto/from=1 kg", "--set", "/pareto/to=2 kg"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const json tuned =
+        json::parse(read_file(folder_.path() / "two/result.json")).at("constraints").at("tuned");
+    const double expected = 2 * M_PI * (is_upper ? upper : lower);
+    EXPECT_EQ(tuned.at("side"), is_upper ? "upper" : "lower");
+    EXPECT_NEAR(tuned.at("limit"), expected, 1e-9);
+    const TextTable table(run.out, "constraint");
+    const std::string shown = table.text(table.row_of("tuned"), "limit");
+    EXPECT_TRUE(shown.starts_with(is_upper ? "≤" : "≥")) << shown;
+    expect_shown(shown, "Hz", expected);
+  };
+  expect_limit(40, 47, true);
+  expect_limit(44, 60, false);
+}
+
 /// Lower mass asks for 35.4 mm, less deflection for all that is allowed.
 TEST_F(ReadBackFrequency, MarksVariablesAtTheirBounds) {
   const auto report = [&](const std::vector<std::string>& more) {
@@ -140,6 +166,32 @@ TEST_F(ReadBackFrequency, MarksVariablesAtTheirBounds) {
                       "--set", "/scene/bodies/arm/material=iron", "--set",
                       R"(/variables/rho={"start": 7850, "lower": 7850, "upper": 7850})"}),
               ContainsRegex("\n  rho .* fixed\n"));
+}
+
+/// The history of a magnitude is one of magnitudes, of whatever sign the largest is: a press of
+/// 1 kN has F/A = −0.796 MPa everywhere.
+TEST_F(ReadBackFrequency, ComesWithHistoriesOfMagnitudes) {
+  const ProgramRun run = run_program(
+      folder_.path(),
+      {"simulate", "cantilever.json", "-o", "press", "--set",
+       R"(/scene/loads={"f": {"type": "force", "body": "arm", "at": [0.8, 0, 0],
+                              "direction": [-1, 0, 0], "value": 1000}})",
+       "--set", "/simulation/initial_state=quasi-static", "--set", "/scene/gravity=[0, 0, 0]",
+       "--set", R"(/responses/largest={"type": "stress", "part": "axial", "body": "arm",
+                                       "over_time": "max-abs"})",
+       "--set", R"(/responses/highest={"type": "stress", "part": "axial", "body": "arm",
+                                       "over_time": "max"})"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const CsvRows rows = read_csv(folder_.path() / "press/trajectory.csv");
+  const double stress = 1000 / (M_PI / 4 * 0.04 * 0.04);
+  for (std::size_t column = 0; column < rows[0].size(); ++column) {
+    const double sign = rows[0][column] == "largest" ? 1.0 : -1.0;
+    if (rows[0][column] != "largest" && rows[0][column] != "highest") continue;
+    for (std::size_t row = 1; row < rows.size(); ++row) {
+      EXPECT_NEAR(std::stod(rows[row].at(column)), sign * stress, 1e-3 * stress) << rows[0][column];
+    }
+  }
+  EXPECT_EQ(rows[0].size(), 3u);
 }
 
 TEST_F(ReadBackFrequency, VariesAlongAFrontInHertz) {

@@ -28,6 +28,27 @@ TEST(ReadBackSentences, OfSimulate) {
   EXPECT_THAT(report.text, testing::HasSubstr(": 100 steps of 0.0002 s, "));
 }
 
+/// One step that is too long: Newton's method needs it in two halves.
+TEST(ReadBackSentences, OfStepsThatWereSplit) {
+  const TemporaryFolder folder;
+  const auto report = [&](const std::string& step) {
+    const ProgramRun run = run_program(
+        folder.path(), joined(joined({"simulate", file, "-o", "run", "--overwrite"}, quick()),
+                              {"--set", "/simulation/resolution_check=false", "--set",
+                               "/simulation/max_newton_iterations=3", "--set",
+                               "/simulation/step=" + step, "--set", "/simulation/end_time=2 ms"}));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return std::pair(unwrapped(run.out), json::parse(read_file(folder.path() / "run/result.json")));
+  };
+  const auto [split, of_split] = report("2 ms");
+  EXPECT_EQ(of_split.at("split_steps"), 1);
+  EXPECT_EQ(of_split.at("steps"), 2);
+  EXPECT_THAT(split, testing::HasSubstr("Newton's method failed in 1 steps, which were split"));
+  const auto [whole, of_whole] = report("0.1 ms");
+  EXPECT_EQ(of_whole.at("split_steps"), 0);
+  EXPECT_THAT(whole, testing::Not(testing::HasSubstr("Newton's method failed")));
+}
+
 /// With too few iterations: what is left open, and what it took.
 TEST(ReadBackSentences, OfAnOptimumThatIsNotVerified) {
   const Report report = run({"optimize", file, "--set", "/optimizer/max_iterations=2"}, 4);
@@ -69,6 +90,31 @@ TEST(ReadBackSentences, OfWhatEffectsBring) {
   EXPECT_THAT(report.text, testing::HasSubstr("largest change of a response"));
 }
 
+/// An optimum whose numbers are not known as well as the file asks for is not verified, whatever
+/// its gradients say.
+TEST(ReadBackSentences, OfAnOptimumThatIsNotResolved) {
+  const Report report = run({"optimize", file, "--set", "/accuracy/target=1e-6"}, 4);
+  EXPECT_EQ(report.document.at("status"), "unresolved");
+  const std::string text = unwrapped(report.text);
+  EXPECT_THAT(text, testing::HasSubstr(" NOT VERIFIED (unresolved): optimal by its numbers, but "));
+  EXPECT_THAT(text, testing::Not(testing::HasSubstr("VERIFIED:")));
+  // Nor is its design called an optimum in the table.
+  const TextTable table(report.text, "variable");
+  EXPECT_TRUE(table.has("end"));
+  EXPECT_FALSE(table.has("optimum"));
+}
+
+/// Points of which nothing is proven are no front, in the exit code either.
+TEST(ReadBackSentences, OfAFrontThatIsNotVerified) {
+  const Report report =
+      run({"pareto", file, "--set", "/pareto/points=2", "--set", "/optimizer/max_iterations=2"}, 4);
+  EXPECT_EQ(report.document.at("status"), "done");  // all points were looked for
+  for (const json& point : report.document.at("points")) EXPECT_NE(point.at("status"), "verified");
+  const std::string text = unwrapped(report.text);
+  EXPECT_THAT(text, testing::HasSubstr("; 0 of 2 points verified"));
+  EXPECT_THAT(text, testing::HasSubstr("NOT VERIFIED: limit 0.1"));
+}
+
 TEST(ReadBackSentences, OfAccuracy) {
   const Report report = run({"accuracy", file, "--set",
                              R"(/accuracy={"steps": ["0.4 ms", "0.2 ms"], "elements": [2, 4],
@@ -103,6 +149,46 @@ TEST(ReadBackSentences, OfAccuracy) {
                                                               1e3 * best.at("step").get<double>(),
                                                               best.at("elements").get<int>())));
   EXPECT_EQ(report.text.find("← recommended"), report.text.rfind("← recommended"));
+}
+
+/// What nothing drives is left to the forces, be it one freedom only; and a beam is as heavy as all
+/// of its frames.
+TEST(ReadBackSentences, OfMechanismsThatForcesMove) {
+  const TemporaryFolder folder;
+  const auto checked = [&](const std::string& name, const std::vector<std::string>& more) {
+    return unwrapped(
+        run_program(folder.path(), joined({"check", problem(name), "--jobs", "1", "--set",
+                                           "/simulation/resolution_check=false"},
+                                          more))
+            .out);
+  };
+  EXPECT_THAT(checked("hard/dead_centres", {"--set", "/simulation/end_time=4 ms"}),
+              testing::HasSubstr("(none of drives): 1 freedom is left to the forces"));
+  const std::string divided =
+      run_program(folder.path(), joined(joined({"check", file, "--jobs", "1"}, quick()),
+                                        {"--set", "/scene/bodies/rod/frames=3"}))
+          .out;
+  const TextTable bodies(divided, "body");
+  const std::size_t rod = bodies.row_of("rod");
+  EXPECT_EQ(bodies.number(rod, "frames"), 3);
+  // ρ π/4 d² L of 30 mm and 180 mm.
+  expect_shown(bodies.text(rod, "mass [kg]"), "kg", 7850 * M_PI / 4 * 0.03 * 0.03 * 0.18);
+}
+
+/// A sum of variables with its coefficients: 2 · 30 − 30 mm of the 10 mm that are allowed.
+TEST(ReadBackSentences, OfALimitOfVariables) {
+  const Report report =
+      run({"simulate", file, "--set",
+           R"(/constraints/sizes={"linear": {"crank_diameter": 2, "rod_diameter": -1},
+                                  "upper": "10 mm"})"});
+  const json& sizes = report.document.at("constraints").at("sizes");
+  EXPECT_NEAR(sizes.at("value"), 0.03, 1e-15);
+  EXPECT_NEAR(sizes.at("utilisation"), 3.0, 1e-12);
+  EXPECT_EQ(sizes.at("kept"), false);
+  const TextTable table(report.text, "constraint");
+  const std::size_t row = table.row_of("sizes");
+  expect_shown(table.text(row, "value"), "mm", 0.03);
+  EXPECT_NEAR(table.number(row, "used"), 300.0, 1e-9);
 }
 
 /// Crank and rod of eight elements: rigid coordinates x, y, φ of bodies and x, y of the point mass.

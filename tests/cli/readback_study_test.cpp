@@ -96,6 +96,47 @@ TEST(ReadBack, OfAccuracy) {
   }
 }
 
+/// Of all runs that are exact enough in what counts, for values and for gradients, the cheapest.
+TEST(ReadBack, OfRecommendationsForValuesAndForGradients) {
+  const Report report = run({"accuracy", file, "--set",
+                             R"(/accuracy={"steps": ["0.8 ms", "0.4 ms", "0.2 ms"],
+                                           "elements": [2, 4], "target": 0.02})"});
+  const json& document = report.document;
+  const auto worst = [&](const json& errors) {
+    double most = 0.0;
+    for (const json& name : document.at("counted")) {
+      most = std::max(most, errors.at(name.get<std::string>()).get<double>());
+    }
+    return most;
+  };
+  int differing = 0;
+  for (const json& one : document.at("recommendations")) {
+    const double target = one.at("error");
+    for (const bool with_gradients : {false, true}) {
+      const json* best = nullptr;
+      const char* seconds = with_gradients ? "seconds" : "simulation_seconds";
+      for (const json& study_run : document.at("runs")) {
+        if (worst(study_run.at("errors")) > target) continue;
+        if (with_gradients && worst(study_run.at("gradient_errors")) > target) continue;
+        if (best == nullptr || study_run.at(seconds) < best->at(seconds)) best = &study_run;
+      }
+      const json& chosen = one.at(with_gradients ? "gradients" : "values");
+      ASSERT_EQ(chosen.is_null(), best == nullptr) << target << with_gradients;
+      if (best == nullptr) continue;
+      EXPECT_EQ(chosen.at("step"), best->at("settings").at("step")) << target << with_gradients;
+      EXPECT_EQ(chosen.at("elements"), best->at("settings").at("elements"));
+      EXPECT_EQ(chosen.at("seconds"), best->at(seconds));
+    }
+    const bool are_both = one.at("values").is_object() && one.at("gradients").is_object();
+    if (are_both && one.at("values").at("step") != one.at("gradients").at("step")) ++differing;
+  }
+  EXPECT_EQ(document.at("recommended"), document.at("recommendations").at(0).at("values"));
+  EXPECT_EQ(document.at("recommended_for_gradients"),
+            document.at("recommendations").at(0).at("gradients"));
+  // Values to 2 % take the longest step, gradients half of it.
+  EXPECT_GE(differing, 1);
+}
+
 /// Deviations and bounds are made again from gradients of another command.
 TEST(ReadBack, OfUncertainty) {
   const Report report = run({"uncertainty", file, "--set",

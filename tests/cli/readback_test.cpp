@@ -232,6 +232,15 @@ TEST(ReadBack, OfCheck) {
       expect_shown(table.text(row, "adjoint"), "1", derivatives.at("adjoint_error"));
     }
     expect_shown(table.text(row, "noise"), "1", derivatives.at("noise"));
+    // So many decimal digits of them are right, and no more: all of a number of 64 bits are 15.
+    const auto expect_digits = [&](const char* of, double error) {
+      const int digits = derivatives.at("digits").at(of);
+      EXPECT_LE(error, std::pow(10.0, -digits)) << name << ", " << of;
+      if (digits == 15) return;
+      EXPECT_GT(error, std::pow(10.0, -digits - 1)) << name << ", " << of;
+    };
+    expect_digits("value", derivatives.at("noise"));
+    expect_digits("gradient", derivatives.at("error"));
     EXPECT_EQ(table.text(row, "digits"),
               fmt::format("{} / {}", derivatives.at("digits").at("value").get<int>(),
                           derivatives.at("digits").at("gradient").get<int>()));

@@ -40,6 +40,25 @@ TEST(Warnings, OfADesignThatBendsTooFarAreShownByEveryCommandWithNumbers) {
   expect_warned("accuracy", {"--set", R"(/accuracy={"steps": ["1 ms"], "elements": [2]})"});
 }
 
+/// A sentence that is true of many runs is said once, with all of them behind it.
+TEST(Warnings, ThatManyRunsShareNameAllOfThem) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(
+      folder.path(), {"stability", problem("hard/dead_centres"), "-o", "run", "--set",
+                      "/scene/gravity=[0, -981, 0]", "--set", "/simulation/end_time=4 ms"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto document = nlohmann::json::parse(read_file(folder.path() / "run/result.json"));
+  std::string all;
+  for (const auto& formulation : document.at("formulations")) {
+    all += (all.empty() ? "(" : ", ") + ("dead_centres, " + formulation.get<std::string>());
+  }
+  const std::string text = unwrapped(run.out), warning = "Warning: /scene/gravity is 981 m/s²";
+  EXPECT_EQ(document.at("formulations").size(), 7u);
+  EXPECT_THAT(text, HasSubstr(warning));
+  EXPECT_EQ(text.find(warning), text.rfind(warning)) << "said more than once";
+  EXPECT_THAT(text.substr(text.find(warning)), HasSubstr(all + ")"));
+}
+
 /// The sentence is in the documents, too.
 TEST(Warnings, AreAListOfEveryDocument) {
   const TemporaryFolder folder;

@@ -150,6 +150,63 @@ TEST(Verdict, EstimatesWhatIsLeftToTheOptimum) {
   EXPECT_NEAR(verdict.gain_left, 0.5 * k * x * x, 1e-3 * 0.5 * k * x * x);
 }
 
+/// 10 + ½ (x − 1)² of x from 0.5 to 10, begun at 3: near 1 the residual is |x − 1| times the scale
+/// 1 of x over that of the gradient, min(2, f/10) = 1.
+FunctionProblem shallow_bowl() {
+  return {{{"x", 3.0, 0.5, 10.0}}, {}, by_complex_step([](const auto& x) {
+            using Scalar = std::decay_t<decltype(x[0])>;
+            return Vector<Scalar>::Constant(1, 10.0 + 0.5 * (x[0] - 1.0) * (x[0] - 1.0));
+          })};
+}
+
+/// What is allowed of the KKT residual, 1e-3, and no more.
+TEST(Verdict, IsVerifiedUpToTheResidualThatIsAllowed) {
+  FunctionProblem problem = shallow_bowl();
+  const auto verdict_at = [&](double x) {
+    return judge_anew(problem, checked_start(problem), Eigen::VectorXd::Constant(1, x));
+  };
+  for (const double side : {-1.0, 1.0}) {
+    const Verdict within = verdict_at(1.0 + side * 0.95e-3), beyond = verdict_at(1.0 + side * 3e-3);
+    EXPECT_EQ(within.status, Status::verified) << within.message;
+    EXPECT_EQ(beyond.status, Status::stalled);
+    EXPECT_NEAR(beyond.audit.residual, 3e-3, 2e-5);
+    EXPECT_THAT(beyond.message, HasSubstr("not proven optimal: relative KKT residual 0.003"));
+  }
+}
+
+/// x ≥ 1 is what holds x, and 0.05 % of x are left to it: more than the 0.01 % that may be.
+TEST(Verdict, WithSlackAtTheLimitThatHoldsItIsNotVerified) {
+  FunctionProblem problem({{"x", 3.0, 0.5, 10.0}}, {{"least", 1.0, infinity}},
+                          by_complex_step([](const auto& x) {
+                            using Scalar = std::decay_t<decltype(x[0])>;
+                            Vector<Scalar> values(2);
+                            values << x[0], x[0];
+                            return values;
+                          }));
+  const auto verdict_at = [&](double x) {
+    return judge_anew(problem, checked_start(problem), Eigen::VectorXd::Constant(1, x));
+  };
+  const Verdict slack = verdict_at(1.0005);
+  EXPECT_EQ(slack.status, Status::stalled) << slack.message;
+  EXPECT_NEAR(slack.gain_left, 5e-4, 1e-5);
+  EXPECT_EQ(verdict_at(1.00005).status, Status::verified);
+}
+
+/// An optimum of which no design beside it can be evaluated has gradients that nothing proves.
+TEST(Verdict, WithoutDesignsBesideItIsNotVerified) {
+  FunctionProblem bowl = shallow_bowl();
+  const Eigen::VectorXd optimum = Eigen::VectorXd::Ones(1), start = checked_start(bowl);
+  FunctionProblem lonely(bowl.variables(), bowl.constraints(),
+                         [&](const Eigen::VectorXd& x, Request request) {
+                           if (x != optimum && x != start) throw EvaluationFailure("locks");
+                           return bowl.evaluate(x, request);
+                         });
+  EXPECT_EQ(judge_anew(bowl, start, optimum).status, Status::verified);
+  const Verdict verdict = judge_anew(lonely, start, optimum);
+  EXPECT_EQ(verdict.status, Status::stalled) << verdict.message;
+  EXPECT_THAT(verdict.message, HasSubstr("its gradients are unproven"));
+}
+
 /// |x − 0.3| + x/10: the minimum is a kink. Nothing else may be called an optimum.
 TEST(Verdict, BesideAKinkIsNotVerified) {
   for (const std::string& backend : optimizer_names()) {

@@ -58,6 +58,43 @@ TEST(OptimumError, IsComparedWithTheTargetOfTheFile) {
   EXPECT_THAT(strict.message, testing::HasSubstr("Try "));
 }
 
+/// A limit without a price that the error of its value may break, be it an upper or a lower one:
+/// 3 % of 10 mm where the value keeps 0.2 mm of distance from it.
+TEST(OptimumError, OfALimitThatItMayBreakIsAsLargeAsTheTargetAtMost) {
+  const auto complaint = [](const std::string& side, double value, double error) {
+    DesignProblem design(read_problem_text(
+        R"({"scene": {"bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
+              "material": "steel", "elements": 1,
+              "section": {"type": "circle", "diameter": {"variable": "d"}}}},
+            "joints": {"f": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}}},
+          "simulation": {"end_time": 1e-3, "step": 1e-3},
+          "variables": {"d": {"start": 0.02, "lower": 0.01, "upper": 0.03}},
+          "responses": {"m": {"type": "mass"},
+            "sag": {"type": "deflection", "body": "b", "at": 1, "over_time": "max"}},
+          "objective": {"minimize": "m"},
+          "constraints": {"limit": {"response": "sag", ")" +
+            side + R"(": "10 mm"}}})",
+        "limit.json"));
+    Result result;
+    result.status = Status::verified;
+    result.x = Eigen::VectorXd::Constant(1, 0.02);
+    result.evaluation.objective = 1.0;
+    result.evaluation.constraints = Eigen::VectorXd::Constant(1, value);
+    result.evaluation.objective_gradient = Eigen::VectorXd::Zero(1);
+    result.evaluation.constraint_jacobian = Eigen::MatrixXd::Zero(1, 1);
+    result.constraint_multipliers = Eigen::VectorXd::Zero(1);
+    std::vector<std::optional<ErrorBar>> errors(2, ErrorBar{});
+    errors[1]->step.bound = error;
+    return inaccuracy(design, result, errors);
+  };
+  EXPECT_THAT(complaint("upper", 9.8e-3, 0.3e-3), testing::HasSubstr("\"sag\", which is limited"));
+  EXPECT_THAT(complaint("lower", 10.2e-3, 0.3e-3), testing::HasSubstr("± 3.0 % only"));
+  EXPECT_EQ(complaint("upper", 9.6e-3, 0.3e-3), "");
+  EXPECT_EQ(complaint("lower", 10.4e-3, 0.3e-3), "");
+  EXPECT_EQ(complaint("upper", 9.99e-3, 0.09e-3), "");  // within the target of 1 %
+  EXPECT_EQ(complaint("lower", 10.01e-3, 0.09e-3), "");
+}
+
 TEST(OptimumError, IsNotLookedForWhereTheFileLeavesItOut) {
   const Result result =
       optimum("slider_crank", {"/simulation/step=0.2 ms", "/simulation/resolution_check=false"});

@@ -4,6 +4,7 @@
 
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
+#include "sensitivity/sampled_gradients.hpp"
 #include "tests/support/problem_runs.hpp"
 
 namespace pleuel::test {
@@ -79,6 +80,38 @@ TEST(DeflectionAgainstTheRigidMechanism, IsThatFromThePrescribedMotion) {
   for (Eigen::Index k = 0; k < x.size(); ++k) {
     const double angle = crank_angle(run.analysis->trajectory.time(k));
     EXPECT_NEAR(-std::sin(angle) * x(k) + std::cos(angle) * y(k), local(k), 1e-12) << k;
+  }
+}
+
+/// Where the drive is faster, the rigid mechanism is elsewhere at the end, too: by far more than
+/// the deflection changes.
+TEST(DeflectionReferences, LeaveOutHowTheRigidMechanismMovesWithTheDesign) {
+  ProblemFile problem = sample_problem(
+      "slider_crank",
+      {"/simulation/end_time=0.06 s", "/simulation/step=1e-4 s", "/scene/bodies/crank/elements=2",
+       "/scene/bodies/rod/elements=2",
+       R"(/variables/speed={"start": 200, "lower": 100, "upper": 300})",
+       R"(/scene/joints/bearing/drive/speed={"variable": "speed"})",
+       R"(/responses/tip_from_rigid={"type": "deflection", "body": "crank", "at": 1,
+            "against": "rigid-mechanism", "direction": "y", "over_time": "final"})",
+       R"(/responses/tip={"type": "position", "body": "crank", "at": 1, "direction": "y",
+            "over_time": "final"})"});
+  problem.simulation.newton_tolerance = 1e-12;
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const Eigen::MatrixXd wide = central_differences(problem, x, 2e-4) * x.asDiagonal(),
+                        narrow = central_differences(problem, x, 1e-4) * x.asDiagonal();
+  const Eigen::MatrixXd best = (4.0 * narrow - wide) / 3.0;
+  const Eigen::Index i = response_index(problem, "tip_from_rigid"),
+                     tip = response_index(problem, "tip");
+  for (const ExactMethod method : {ExactMethod::direct, ExactMethod::adjoint}) {
+    const Eigen::MatrixXd found =
+        sampled_gradients(*analysis, response_values(*analysis), method) * x.asDiagonal();
+    EXPECT_LE((best.row(i) - found.row(i)).lpNorm<Eigen::Infinity>(),
+              1e-3 * best.row(i).lpNorm<Eigen::Infinity>())
+        << to_string(method);
+    EXPECT_GT(found.row(tip).lpNorm<Eigen::Infinity>(),
+              10.0 * found.row(i).lpNorm<Eigen::Infinity>());
   }
 }
 

@@ -36,6 +36,16 @@ TEST(Noise, OfKnownDeviationIsFoundWithinAFactorOfFour) {
   EXPECT_GE(reliable, 190);
 }
 
+/// Many points tell it better: differences of n numbers have it to 1/√n, 5 % of 400.
+TEST(Noise, OfManyPointsIsTheirDeviation) {
+  std::mt19937 engine;
+  Eigen::VectorXd values(400);
+  for (double& value : values) {
+    value = 2.0 * static_cast<double>(engine()) / std::mt19937::max() - 1.0;
+  }
+  EXPECT_NEAR(noise_of(values) * std::sqrt(3.0), 1.0, 0.15);
+}
+
 /// The first difference of exp over h = 1e-2 is 1e-2, the fifth 1e-10: curvature is no noise.
 TEST(Noise, OfASmoothFunctionIsItsHighDifferences) {
   std::mt19937 engine;

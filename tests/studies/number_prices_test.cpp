@@ -78,6 +78,9 @@ TEST(NumberPrices, OfABoundIsThatOfTheObjective) {
   const NumberPrice* bound = find(list, "/variables/height/lower");
   ASSERT_NE(bound, nullptr);
   EXPECT_NEAR(bound->per_unit, 7850 * 0.4 * 0.03, 1e-6);
+  // The mass goes with the height: a percent of 40 mm is a percent of it.
+  EXPECT_EQ(bound->value, 0.04);
+  EXPECT_NEAR(bound->per_percent(), 0.01 * list.objective, 1e-9);
   EXPECT_EQ(find(list, "/constraints/strength/upper"), nullptr);
   EXPECT_EQ(find(list, "/scene/loads/press/value")->per_unit, 0.0);
 }

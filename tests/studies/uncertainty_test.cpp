@@ -75,6 +75,32 @@ TEST(Uncertainty, SaysWhereFirstOrderIsNotEnough) {
   EXPECT_TRUE(doubts(narrow).empty());
 }
 
+/// A force F sin φ with φ within ± 1.5 rad: its deviation is F √(½ − sin(2a)/(4a)) = 0.690 F, and
+/// by first order F a/√3 = 0.866 F.
+TEST(Uncertainty, SaysWhereSamplesScatterLessThanFirstOrder) {
+  const ProblemFile problem = read_problem_text(
+      R"({"scene": {
+          "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
+            "section": {"type": "rectangle", "width": 0.02, "height": 0.02}, "elements": 1}},
+          "joints": {"f": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
+          "loads": {"p": {"type": "force", "body": "b", "at": [1, 0, 0], "direction": [0, 1, 0],
+            "value": {"type": "harmonic", "amplitude": 1, "frequency": "1e-9 Hz",
+                      "phase": {"variable": "phase"}}}}},
+        "simulation": {"end_time": 2e-3, "step": 1e-3, "initial_state": "quasi-static"},
+        "variables": {"phase": {"start": 0, "lower": -3, "upper": 3}},
+        "uncertainty": {"parameters": {"phase": {"interval": 1.5}}, "samples": 500},
+        "responses": {"sag": {"type": "deflection", "body": "b", "at": 1, "over_time": "final"}}})",
+      "phase.json");
+  const UncertaintyStudy study = uncertainty_study(problem, 2);
+  const UncertainResponse& sag = study.responses[0];
+  const double ratio = std::sqrt(0.5 - std::sin(3.0) / 6.0) / (1.5 / std::sqrt(3.0));
+  EXPECT_NEAR(sag.sampled->deviation / sag.deviation, ratio, 0.05);  // of 500 samples
+  const auto is_that = [](const Doubt& doubt) {
+    return doubt.text.starts_with("\"sag\" is not linear");
+  };
+  EXPECT_EQ(std::count_if(study.doubts.begin(), study.doubts.end(), is_that), 1);
+}
+
 /// Monte Carlo knows no derivative. N samples know a deviation to 1/√(2 (N − 1)) and a mean to
 /// σ/√N: four times that, and what curvature adds: the responses go with d⁻³, so that a relative
 /// deviation of 0.2 % leaves out terms of (0.002)².

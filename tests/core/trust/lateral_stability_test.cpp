@@ -212,6 +212,25 @@ TEST(SidewaysBuckling, OfAColumnOutOfThePlaneOfMotionIsSerious) {
   EXPECT_NE(doubts[0].text.find("about its weak axis"), std::string::npos);
 }
 
+/// The same column with its end in a slide along it, which neither turns nor goes sideways:
+/// P = 4π²EI/L².
+TEST(SidewaysBuckling, OfAColumnInASlideIsThatOfTwoClampedEnds) {
+  const double critical = 4 * pi * pi * young * 0.04 * std::pow(0.002, 3) / 12 / (1.2 * 1.2);
+  const auto pressed = [&](double share) {
+    std::string text = cantilever(share * critical, thin, "{}");
+    text.replace(text.find("[0, -1, 0]"), 10, "[-1, 0, 0]");
+    text.replace(text.find("\"scene\": {"), 10, "\"scene\": {\"gravity\": [0, -1e-3, 0],");
+    const std::string joints = "\"joints\": {";
+    text.insert(text.find(joints) + joints.size(),
+                R"("slide": {"type": "prismatic", "bodies": ["ground", "arm"], "at": [1.2, 0, 0],
+                             "axis": [1, 0, 0]},)");
+    return sideways_doubts_of(text).size();
+  };
+  EXPECT_EQ(pressed(0.5), 0u);
+  EXPECT_EQ(pressed(0.7), 0u);
+  EXPECT_EQ(pressed(0.9), 1u);
+}
+
 /// However many frames it has, and whether their stretches share its elements or divide them.
 TEST(SidewaysBuckling, OfADividedBeamIsThatOfTheWhole) {
   for (const char* frames : {R"(, "frames": 2)", R"(, "frames": 12)"}) {

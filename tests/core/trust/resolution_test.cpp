@@ -146,6 +146,41 @@ TEST(Resolution, IsDoubtedFromOnePercentOfErrorAndSeriousFromTen) {
   for (const int count : near) EXPECT_GT(count, 0) << "no error next to the thresholds";
 }
 
+/// The same block: the step that is proposed leaves half a percent, where order 2 holds.
+TEST(Resolution, ProposesAStepThatIsFineEnoughAndNotMuchFiner) {
+  constexpr double end = 0.1, omega = 60.0;
+  const double exact = end - std::sin(omega * end) / omega;  // F = mω
+  const auto judged = [&](double steps) {
+    const ProblemFile problem = read_problem_text(fmt::format(R"({{"scene": {{
+            "bodies": {{"block": {{"type": "point-mass", "at": [0, 0, 0], "mass": 2}}}},
+            "joints": {{"guide": {{"type": "point-on-line", "bodies": ["ground", "block"],
+                                   "at": [0, 0, 0], "axis": [1, 0, 0]}}}},
+            "loads": {{"push": {{"type": "force", "body": "block", "at": [0, 0, 0],
+              "direction": [1, 0, 0],
+              "value": {{"type": "harmonic", "amplitude": 120, "frequency": 60}}}}}}}},
+          "simulation": {{"end_time": 0.1, "step": {:.17g}}},
+          "responses": {{"x": {{"type": "position", "body": "block", "direction": "x",
+                                "over_time": "final"}}}}}})",
+                                                              end / steps),
+                                                  "block.json");
+    const Eigen::VectorXd x = start_design(problem);
+    const auto analysis = analyze(problem, x);
+    const Monitors monitors = monitor(analysis->model, analysis->trajectory);
+    return std::pair(std::abs(analysis->reductions[0].value / exact - 1.0),
+                     doubts_about({problem, x, *analysis, monitors}));
+  };
+  for (const double steps : {8.0, 10.0, 12.0}) {
+    const auto [error, doubts] = judged(steps);
+    ASSERT_EQ(doubts.size(), 1u) << error;
+    const std::string key = "Try a /simulation/step of ", &text = doubts[0].text;
+    ASSERT_THAT(text, HasSubstr(key));
+    const double proposed = std::stod(text.substr(text.find(key) + key.size()));
+    const auto [left, more] = judged(std::round(end / proposed));
+    EXPECT_LT(left, 0.01) << steps << ": " << error << ", then " << left;
+    EXPECT_GT(left, 0.002) << steps << ": " << error << ", then " << left;
+  }
+}
+
 /// What a run of half the step leaves is as much again in the first order, a third in the second.
 TEST(Resolution, KnowsTheOrderOfTheScheme) {
   const std::vector<std::string> overrides = {"/simulation/scheme=implicit-euler",

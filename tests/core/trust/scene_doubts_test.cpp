@@ -428,6 +428,19 @@ TEST(SizesOutOfProportion, AreSectionsThatAreLargerThanTheBeamIsLong) {
   EXPECT_THAT(with_diameter(2e-5)[0].text, HasSubstr("/scene/bodies/crank is 0.1 m long"));
 }
 
+/// A leaf of 20 mm by 10 µm, however it lies: what is too thin to be meant is so in both
+/// directions.
+TEST(SizesOutOfProportion, AreNotThinLeaves) {
+  const auto with_section = [](const char* section) {
+    return doubts_of(
+        read(crank_rocker(driven, closed), {std::string("/scene/bodies/crank/section=") + section}),
+        doubt_proportions);
+  };
+  EXPECT_THAT(with_section(R"({"type": "rectangle", "width": 0.02, "height": 1e-5})"), IsEmpty());
+  EXPECT_THAT(with_section(R"({"type": "rectangle", "width": 1e-5, "height": 0.02})"), IsEmpty());
+  EXPECT_THAT(with_section(R"({"type": "rectangle", "width": 1e-5, "height": 1e-5})"), SizeIs(1));
+}
+
 // Stiffening that goes with axial elasticity.
 
 /// A pull of 200 N on a rod of 5 mm, 0.3 m long: of its Euler load π² E I/L² = 706 N, 28 %.
@@ -571,6 +584,24 @@ ProblemFile trolley(double from, double way, const std::string& arm) {
                                                               "values": [0, {}]}}}}}}}},
           "simulation": {{"end_time": 0.2, "step": 0.01}}}})",
       arm, from, from, way));
+}
+
+/// A carriage whose line goes past the tip of the arm: its force stays at the tip.
+TEST(SlidingContact, IsNoneWhereTheLineBelongsToTheOtherBody) {
+  const ProblemFile problem = read(
+      R"({"scene": {"gravity": [0, -9.81, 0], "bodies": {
+            "arm": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
+                    "section": {"type": "circle", "diameter": 0.03}, "elements": 5},
+            "carriage": {"type": "rigid", "at": [1, 0, 0], "mass": 1,
+                         "inertia": [0.1, 0.1, 0.1, 0, 0, 0]}},
+          "joints": {"clamp": {"type": "fixed", "bodies": ["ground", "arm"], "at": [0, 0, 0]},
+                     "rail": {"type": "prismatic", "bodies": ["ground", "carriage"],
+                              "at": [1, 0, 0], "axis": [1, 0, 0],
+                              "drive": {"type": "table", "times": [0, 0.2], "values": [0, -0.6]}},
+                     "slot": {"type": "point-on-line", "bodies": ["carriage", "arm"],
+                              "at": [1, 0, 0], "axis": [1, 0, 0]}}},
+          "simulation": {"end_time": 0.2, "step": 0.01}})");
+  EXPECT_THAT(doubts_of(problem, doubt_sliding_contacts), IsEmpty());
 }
 
 TEST(SlidingContact, IsADoubtWhereItTravelsOverAnElasticBeam) {

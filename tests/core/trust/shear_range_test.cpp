@@ -1,7 +1,9 @@
 #include "core/trust/shear_range.hpp"
 
 #include <cmath>
+#include <numbers>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -129,7 +131,31 @@ TEST(ShearRange, ConcernsWhatRestsOnStiffness) {
   EXPECT_EQ(doubts(R"({"type": "stress", "body": "beam", "over_time": "max"})"), 0u);
   EXPECT_EQ(doubts(R"({"type": "mass"})"), 0u);
   EXPECT_EQ(doubts(R"({"type": "frequency", "body": "beam"})"), 1u);
-  EXPECT_EQ(doubts(R"({"type": "buckling", "body": "beam", "over_time": "max"})"), 1u);
+}
+
+/// Shear lowers Euler's load P by P/(κGA) (Timoshenko & Gere, Theory of Elastic Stability, art.
+/// 2.17): π² EI/(κGAL²) of it, with I/A = d²/16 of a circle.
+TEST(ShearRange, OfBucklingIsThatOfEulersLoad) {
+  StubbyBeam beam{R"({"type": "circle", "diameter": 0.5})"};
+  beam.response = R"({"type": "buckling", "body": "beam", "over_time": "max"})";
+  const std::vector<Doubt> doubts = Judged(beam).doubts();
+  ASSERT_EQ(doubts.size(), 1u);
+  const double kappa = 6 * (1 + nu) / (7 + 6 * nu);
+  const double share = std::numbers::pi * std::numbers::pi * 2 * (1 + nu) / kappa * 0.25 / 16;
+  EXPECT_THAT(doubts[0].text, HasSubstr(fmt::format("some {:.2g} %", 100 * share / (1 + share))));
+}
+
+/// A plate of 50 by 500 mm buckles about its weak axis, about which it is slender.
+TEST(ShearRange, OfBucklingIsThatOfThePlaneThatBucklesFirst) {
+  StubbyBeam beam{rectangle(0.5)};
+  beam.response = R"({"type": "buckling", "body": "beam", "over_time": "max"})";
+  EXPECT_TRUE(Judged(beam).doubts().empty());
+  beam.section = R"({"type": "rectangle", "width": 0.4, "height": 0.5})";
+  const std::vector<Doubt> doubts = Judged(beam).doubts();
+  ASSERT_EQ(doubts.size(), 1u);
+  const double share = std::numbers::pi * std::numbers::pi * 2 * (1 + nu) * 0.16 / 12 /
+                       rectangle_shear_coefficient(nu);
+  EXPECT_THAT(doubts[0].text, HasSubstr(fmt::format("some {:.2g} %", 100 * share / (1 + share))));
 }
 
 /// A slider-crank of stubby members in space: its three revolute joints hold the loop three times
