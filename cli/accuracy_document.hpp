@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/json.hpp"
+#include "cli/problem_input.hpp"
+#include "studies/accuracy.hpp"
+
+namespace pleuel {
+
+/// The result of the command accuracy; docs/formats.md.
+Json accuracy_document(const ProblemInput& input, const AccuracyStudy& study);
+
+/// {POINTER: value} of what --set has to change for a setting.
+Json overrides_document(const ProblemInput& input, const Discretization& settings);
+
+/// {"step", "elements"} or {"step", "element_factor"}
+Json settings_document(const Discretization& settings);
+
+/// What speaks against the reference and the setting that is recommended.
+std::vector<std::string> warnings_of(const AccuracyStudy& study);
+
+}  // namespace pleuel
