@@ -2,40 +2,100 @@
 
 #include <fmt/format.h>
 
+#include "cli/accuracy_charts.hpp"
 #include "cli/accuracy_csv.hpp"
 #include "cli/accuracy_document.hpp"
 #include "cli/accuracy_report.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/output_file.hpp"
 #include "cli/run_record.hpp"
+#include "cli/solve_settings.hpp"
 #include "cli/warnings.hpp"
+#include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
+#include "core/base/stop.hpp"
 #include "studies/accuracy.hpp"
+#include "studies/accuracy_optimum.hpp"
 
 namespace pleuel {
 
 namespace {
 
-void show_progress(const std::string& setting, const AccuracyRun& run) {
-  show(stderr,
-       fmt::format("  {}: {}\n", setting, run.has_failed() ? "failed" : duration(run.seconds())));
+void show_progress(const std::string& setting, double seconds, const std::string& failure) {
+  show(stderr, fmt::format("  {}: {}\n", setting, failure.empty() ? duration(seconds) : "failed"));
 }
 
-/// Runs the study, and writes accuracy.csv from its first result on.
-AccuracyStudy study_of(const ProblemFile& problem, const PricedDesign& design, RunRecord& record) {
-  std::optional<AccuracyCsv> csv;
+/// Writes accuracy.csv from the first result on, and tells what is done.
+AccuracyObserver make_observer(const ProblemFile& problem, RunRecord& record,
+                               std::optional<AccuracyCsv>& csv) {
   AccuracyObserver observer;
   observer.run = [&](const AccuracyRun& run) {
     if (!csv) csv.emplace(record.result("accuracy.csv"), problem);
     csv->add(run);
-    show_progress(setting_text(run.settings), run);
+    show_progress(setting_text(run.settings), run.seconds(), run.failure);
   };
   observer.variation = [](const VariedRun& one) {
-    show_progress(variation_text(one.variation), one.run);
+    show_progress(variation_text(one.variation), one.run.seconds(), one.run.failure);
   };
-  AccuracyStudy study = accuracy_study(problem, design, observer);
-  vary_settings(problem, design, study, observer);
-  return study;
+  return observer;
+}
+
+/// The optimum with the setting of the file: that of --design, or what is found from the start.
+Eigen::VectorXd find_optimum(const ProblemInput& input, const Arguments& arguments) {
+  if (arguments.design) return input.design;
+  const Result result = plain_optimum(input.problem, solve_options(input.problem, arguments));
+  if (result.status == Status::interrupted) throw Stopped{};
+  if (result.x.size() == 0 || result.status == Status::failed) {
+    throw SimulationError("there is no optimum to look at: " + result.message);
+  }
+  show(stderr,
+       fmt::format("  optimum with the setting of the file: {}\n", to_string(result.status)));
+  return result.x;
+}
+
+/// What the command found.
+struct Answer {
+  AccuracyStudy study;
+  std::optional<OptimumStudy> optima;
+
+  bool is_interrupted() const { return study.is_interrupted || (optima && optima->is_interrupted); }
+};
+
+Answer find_answer(const ProblemInput& input, const Arguments& arguments, RunRecord& record) {
+  const ProblemFile& problem = input.problem;
+  if (arguments.wants_optimum) record.begin_phase("optimize");
+  const Eigen::VectorXd x = arguments.wants_optimum ? find_optimum(input, arguments) : input.design;
+  record.begin_phase("accuracy");
+  const PricedDesign design(problem, x);
+  std::optional<AccuracyCsv> csv;
+  const AccuracyObserver observer = make_observer(problem, record, csv);
+  Answer answer{accuracy_study(problem, design, observer), std::nullopt};
+  vary_settings(problem, design, answer.study, observer);
+  if (!arguments.wants_optimum || answer.study.is_interrupted) return answer;
+  record.begin_phase("optima");
+  answer.optima = optimum_study(
+      problem, x, answer.study, solve_options(problem, arguments), [](const OptimumRun& run) {
+        show_progress("optimum with " + setting_text(run.settings), run.seconds, run.failure);
+      });
+  return answer;
+}
+
+/// Writes the diagrams that there are numbers for; their names, for people.
+std::string write_charts(const ProblemFile& problem, const Answer& answer, RunRecord& record) {
+  std::string names;
+  const auto write = [&](const char* name, const LogLogChart& chart) {
+    write_file(record.result(name), to_svg(chart));
+    names += fmt::format("{}, ", name);
+  };
+  write("accuracy.svg", value_chart(problem, answer.study));
+  if (!problem.variables.empty()) {
+    write("accuracy-gradients.svg", gradient_chart(problem, answer.study));
+  }
+  if (answer.optima && !answer.optima->reference.has_failed()) {
+    write("accuracy-optimum.svg", optimum_chart(problem, *answer.optima));
+  }
+  return names;
 }
 
 }  // namespace
@@ -43,14 +103,20 @@ AccuracyStudy study_of(const ProblemFile& problem, const PricedDesign& design, R
 Outcome run_accuracy(const Arguments& arguments) {
   const ProblemInput input = read_input(arguments);
   const ProblemFile& problem = input.problem;
-  RunRecord record(arguments, input, Json::object());
+  RunRecord record(arguments, input,
+                   arguments.wants_optimum
+                       ? options_document(solve_options(problem, arguments), problem)
+                       : Json::object());
   show_warnings_before(problem);
-  record.begin_phase("accuracy");
-  const AccuracyStudy study = study_of(problem, PricedDesign(problem, input.design), record);
-  Outcome outcome{study.is_interrupted ? ExitCode::not_verified : ExitCode::done,
-                  accuracy_document(input, study), accuracy_text(problem, study)};
-  outcome.text += fmt::format("\nWritten to {}: accuracy.csv, result.json, run_card.json\n",
-                              record.folder().string());
+  const Answer answer = find_answer(input, arguments, record);
+  const OptimumStudy* optima = answer.optima ? &*answer.optima : nullptr;
+  Outcome outcome{answer.is_interrupted() ? ExitCode::not_verified : ExitCode::done,
+                  accuracy_document(input, answer.study),
+                  accuracy_text(problem, answer.study, optima)};
+  if (optima != nullptr) add_optima(input, *optima, outcome.document);
+  if (answer.is_interrupted()) outcome.document["status"] = study_status(false);
+  outcome.text += fmt::format("\nWritten to {}: accuracy.csv, {}result.json, run_card.json\n",
+                              record.folder().string(), write_charts(problem, answer, record));
   record.finish(outcome);
   return outcome;
 }

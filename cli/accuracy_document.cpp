@@ -144,7 +144,39 @@ void add_variations(const ProblemInput& input, const AccuracyStudy& study, Json&
   }
 }
 
+Json optimum_document(const ProblemInput& input, const OptimumStudy& optima,
+                      const OptimumRun& run) {
+  Json document = {{"settings", settings_document(run.settings)},
+                   {"overrides", overrides_document(input, run.settings)},
+                   {"status", to_string(run.status)},
+                   {"seconds", run.seconds},
+                   {"evaluations", run.evaluations}};
+  if (run.has_failed()) {
+    document["failure"] = run.failure;
+    return document;
+  }
+  document["objective"] = run.objective;
+  document["error"] = run.change;
+  document["relative_error"] = optima.relative_error(run);
+  document["variables"] = Json::object();
+  for (std::size_t i = 0; i < input.problem.variables.size(); ++i) {
+    document["variables"][input.problem.variables[i].name] = run.x(static_cast<Eigen::Index>(i));
+  }
+  return document;
+}
+
 }  // namespace
+
+void add_optima(const ProblemInput& input, const OptimumStudy& optima, Json& document) {
+  document["optimum"] = Json::array();
+  for (const OptimumRun& run : optima.runs) {
+    document["optimum"].push_back(optimum_document(input, optima, run));
+  }
+  document["optimum_reference"] = optimum_document(input, optima, optima.reference);
+  document["optimum_reference"]["error"] = number_or_null(optima.reference_error);
+  document["optimum_reference"]["relative_error"] =
+      optima.reference_error ? Json(optima.relative_floor()) : Json(nullptr);
+}
 
 std::vector<std::string> warnings_of(const AccuracyStudy& study) {
   std::vector<std::string> warnings = texts_of(study.reference.doubts);

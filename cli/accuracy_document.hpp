@@ -6,11 +6,15 @@
 #include "cli/json.hpp"
 #include "cli/problem_input.hpp"
 #include "studies/accuracy.hpp"
+#include "studies/accuracy_optimum.hpp"
 
 namespace pleuel {
 
 /// The result of the command accuracy; docs/formats.md.
 Json accuracy_document(const ProblemInput& input, const AccuracyStudy& study);
+
+/// What whole optimizations add to it.
+void add_optima(const ProblemInput& input, const OptimumStudy& optima, Json& document);
 
 /// {POINTER: value} of what --set has to change for a setting.
 Json overrides_document(const ProblemInput& input, const Discretization& settings);

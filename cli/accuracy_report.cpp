@@ -257,6 +257,77 @@ std::string reference_text(const ProblemFile& problem, const AccuracyStudy& stud
                   check_text(study.check), counted_text(problem, study)));
 }
 
+/// "An optimum to 1 %: 0.05 s with a step of 0.2 ms and 4 elements a segment, +0.24 g off. "
+std::string optimum_sentence(const ProblemFile& problem, const OptimumStudy& optima,
+                             double target) {
+  const OptimumRun* best = nullptr;
+  for (const OptimumRun& run : optima.runs) {
+    if (run.has_failed() || optima.relative_error(run) > target) continue;
+    if (best == nullptr || run.seconds < best->seconds) best = &run;
+  }
+  if (best == nullptr) {
+    return fmt::format("An optimum to {} needs a finer setting than these. ", target_text(target));
+  }
+  const ResponseSettings& objective = find_response(problem, problem.objective->response);
+  return fmt::format("An optimum to {}: {} with {}, {} off. ", target_text(target),
+                     duration(best->seconds), setting_text(best->settings),
+                     change_text(objective, best->change));
+}
+
+std::string optimum_sentences(const ProblemFile& problem, const AccuracyStudy& study,
+                              const OptimumStudy* optima) {
+  if (optima == nullptr || optima->reference.has_failed()) return "";
+  std::string text;
+  for (const Recommendation& one : study.recommendations) {
+    text += optimum_sentence(problem, *optima, one.target);
+  }
+  return text + "\n";
+}
+
+std::string optima_text(const ProblemFile& problem, const OptimumStudy* optima) {
+  if (optima == nullptr) return "";
+  const OptimumRun& reference = optima->reference;
+  if (reference.has_failed()) {
+    return wrapped(fmt::format("No optimum with {} to compare others with: {}",
+                               setting_text(reference.settings), reference.failure)) +
+           "\n\n";
+  }
+  const ResponseSettings& objective = find_response(problem, problem.objective->response);
+  const ShownUnit unit = unit_of(objective);
+  Table table({{"step [ms]"},
+               {"elements"},
+               {"optimum [" + unit.name + "]"},
+               {"off by"},
+               {"relative"},
+               {"seconds"},
+               {"evaluations"},
+               {"status", Table::Align::left}},
+              2);
+  for (const OptimumRun& run : optima->runs) {
+    std::vector<std::string> cells = {fmt::format("{:.4g}", 1e3 * run.settings.step),
+                                      elements_text(run.settings)};
+    if (run.has_failed()) {
+      cells.insert(cells.end(), {"–", "–", "–"});
+    } else {
+      const double error = optima->relative_error(run);
+      cells.insert(cells.end(),
+                   {significant(unit.shown(run.objective), 6), change_text(objective, run.change),
+                    (error <= optima->relative_floor() ? "≤ " : "") + magnitude(error)});
+    }
+    cells.insert(cells.end(), {significant(run.seconds, 2), std::to_string(run.evaluations),
+                               to_string(run.status)});
+    table.add_row(std::move(cells));
+  }
+  const std::string known = optima->reference_error
+                                ? "± " + change_text(objective, *optima->reference_error).substr(1)
+                                : std::string("error not known");
+  return "Whole optimizations:\n\n" + table.text() + "\n" +
+         wrapped(fmt::format("Compared with the optimum of {} {} ({}) with {}, {}.",
+                             significant(unit.shown(reference.objective), 6), unit.name, known,
+                             setting_text(reference.settings), to_string(reference.status))) +
+         "\n\n";
+}
+
 }  // namespace
 
 std::string setting_text(const Discretization& settings) {
@@ -287,13 +358,16 @@ std::string change_text(const ResponseSettings& response, double change) {
   return (change < 0.0 ? "−" : "+") + significant(std::abs(unit.shown(change)), 2) + name;
 }
 
-std::string accuracy_text(const ProblemFile& problem, const AccuracyStudy& study) {
+std::string accuracy_text(const ProblemFile& problem, const AccuracyStudy& study,
+                          const OptimumStudy* optima) {
   const std::size_t all = accuracy_grid(problem).size();
   std::string text = study.is_interrupted ? interrupted_text(study.runs.size(), all, "runs") : "";
   text += wrapped(problem.name + ": " + recommendations_text(study));
+  text += wrapped(optimum_sentences(problem, study, optima));
   text += wrapped(knobs_text(study)) + wrapped(effects_text(problem, study)) + "\n";
-  text += runs_text(problem, study) + "\n" + variations_text(problem, study);
-  return text + reference_text(problem, study) + "\n" + warnings_text(warnings_of(study));
+  text += runs_text(problem, study) + "\n" + optima_text(problem, optima);
+  text += variations_text(problem, study) + reference_text(problem, study) + "\n";
+  return text + warnings_text(warnings_of(study));
 }
 
 }  // namespace pleuel

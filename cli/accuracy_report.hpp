@@ -3,11 +3,14 @@
 #include <string>
 
 #include "studies/accuracy.hpp"
+#include "studies/accuracy_optimum.hpp"
 
 namespace pleuel {
 
 /// What the command accuracy prints: the answer as sentences first, then the tables behind it.
-std::string accuracy_text(const ProblemFile& problem, const AccuracyStudy& study);
+/// @param optima  whole optimizations; null without
+std::string accuracy_text(const ProblemFile& problem, const AccuracyStudy& study,
+                          const OptimumStudy* optima);
 
 /// "a step of 0.2 ms and 4 elements a segment", "… the elements of the file", "… 0.5 times the
 /// elements of the file"
