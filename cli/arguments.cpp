@@ -166,6 +166,18 @@ void add_prices(CLI::App& app, Arguments& arguments) {
   add_jobs(prices, arguments);
 }
 
+void add_accuracy(CLI::App& app, Arguments& arguments) {
+  CLI::App* accuracy =
+      add_file_command(app, arguments, "accuracy",
+                       "errors and times for steps x elements; the cheapest that will do");
+  add_output(accuracy, arguments);
+  add_design(accuracy, arguments);
+  accuracy->add_flag("--optimum", arguments.wants_optimum,
+                     "at the optimum (that of --design, or it is looked for), and with whole "
+                     "optimizations for the settings that are worth it");
+  add_backend(accuracy, arguments);
+}
+
 void add_commands(CLI::App& app, Arguments& arguments) {
   CLI::App* check = add_file_command(
       app, arguments, "check",
@@ -197,11 +209,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   add_method(pareto, arguments);
   add_jobs(pareto, arguments);
   add_prices(app, arguments);
-  CLI::App* accuracy =
-      add_file_command(app, arguments, "accuracy",
-                       "errors and times for steps x elements; the cheapest that will do");
-  add_output(accuracy, arguments);
-  add_design(accuracy, arguments);
+  add_accuracy(app, arguments);
   add_stability(app, arguments);
   add_uncertainty(app, arguments);
   add_command(app, arguments, "backends", "list the optimizers");

@@ -25,6 +25,7 @@ struct Arguments {
   std::vector<std::string> methods;
   std::optional<double> difference_step;  ///< relative
   int jobs = available_threads();         ///< simulations at a time
+  bool wants_optimum = false;             ///< accuracy of it, and of whole optimizations
   bool wants_histories = false;           ///< with their derivatives
   bool wants_effects = false;             ///< what each effect brings and costs
   bool wants_json = false;

@@ -19,13 +19,16 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Everything that a run of any command may leave beside the card.
-constexpr std::array<const char*, 11> result_names = {"history.csv",
+constexpr std::array<const char*, 14> result_names = {"history.csv",
                                                       "result.json",
                                                       "trajectory.csv",
                                                       "trajectory-start.csv",
                                                       "trajectory-optimum.csv",
                                                       "pareto.csv",
                                                       "accuracy.csv",
+                                                      "accuracy.svg",
+                                                      "accuracy-gradients.svg",
+                                                      "accuracy-optimum.svg",
                                                       "stability.csv",
                                                       "uncertainty.csv",
                                                       "gradients.csv",

@@ -1,125 +1,23 @@
 #include "studies/accuracy.hpp"
 
 #include <algorithm>
-#include <ctime>
+#include <cmath>
+#include <memory>
 
 #include "core/base/error.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/base/stop.hpp"
-#include "core/trust/doubts.hpp"
-#include "core/trust/nested_runs.hpp"
-#include "sensitivity/gradients.hpp"
+#include "core/response/analysis.hpp"
 
 namespace pleuel {
 
 namespace {
 
-/// Processor time: what else runs on the machine does not count.
-double seconds_of(const std::function<void()>& work) {
-  const std::clock_t begin = std::clock();
-  work();
-  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-}
-
-/// The least of up to three: caches that others filled only ever add time.
-double least_seconds(const std::function<void()>& work) {
-  constexpr double long_enough = 0.5;  // [s]; beyond this a second measurement says little more
-  double least = seconds_of(work);
-  for (int i = 1; i < 3 && least < long_enough; ++i) least = std::min(least, seconds_of(work));
-  return least;
-}
-
-void keep_values(const Analysis& analysis, AccuracyRun& run) {
-  run.values = values_of(analysis);
-  run.magnitudes = run.values.cwiseAbs();
-  for (Eigen::Index i = 0; i < run.magnitudes.size(); ++i) {
-    const Eigen::MatrixXd& history = analysis.histories[static_cast<std::size_t>(i)];
-    if (history.size() > 0) run.magnitudes(i) = history.cwiseAbs().maxCoeff();
-  }
-  run.steps = analysis.trajectory.steps();
-  run.newton_iterations = analysis.trajectory.newton_iterations;
-  run.factorizations = analysis.trajectory.factorizations;
-}
-
-class Measuring {
- public:
-  Measuring(const ProblemFile& problem, const Eigen::VectorXd& x) : problem_(problem), x_(x) {}
-
-  AccuracyRun measure(const Discretization& settings) const {
-    ProblemFile discrete = discretized(problem_, settings);
-    // The study itself compares steps and elements.
-    discrete.simulation.checks_resolution = false;
-    AccuracyRun run;
-    run.settings = settings;
-    std::unique_ptr<Analysis> analysis;
-    run.simulation_seconds = least_seconds([&] { analysis = analyze(discrete, x_); });
-    keep_values(*analysis, run);
-    run.doubts = find_doubts(discrete, x_, *analysis);
-    if (x_.size() == 0) return run;
-    run.gradient_seconds = least_seconds([&] { run.gradients = direct_gradients(*analysis); });
-    return run;
-  }
-
-  AccuracyRun try_to_measure(const Discretization& settings) const {
-    try {
-      return measure(settings);
-    } catch (const SimulationError& error) {
-      AccuracyRun failed;
-      failed.settings = settings;
-      failed.failure = error.what();
-      return failed;
-    }
-  }
-
-  void compare(AccuracyRun& run, const AccuracyRun& reference) const {
-    if (!run.failure.empty()) return;
-    run.errors.resize(run.values.size());
-    run.gradient_errors.resize(x_.size() > 0 ? run.values.size() : 0);
-    for (Eigen::Index i = 0; i < run.values.size(); ++i) {
-      const double magnitude = reference.magnitudes(i);
-      run.errors(i) = value_error(run.values(i), reference.values(i), magnitude);
-      if (x_.size() == 0) continue;
-      run.gradient_errors(i) =
-          gradient_error(run.gradients.row(i), reference.gradients.row(i), x_, magnitude);
-    }
-  }
-
-  AccuracyRun reference(const std::vector<Discretization>& grid) const {
-    Discretization finest = grid.front();
-    for (const Discretization& one : grid) {
-      finest.step = std::min(finest.step, one.step);
-      finest.elements = std::max(finest.elements, one.elements);
-      finest.factor = std::max(finest.factor, one.factor);
-    }
-    finest.step *= 0.5;
-    finest.elements *= 2;
-    finest.factor *= 2.0;
-    AccuracyRun reference = measure(finest);
-    estimate_errors(reference);
-    return reference;
-  }
-
- private:
-  /// From a run that is coarser by a factor of 4/3 in space and time, of order 2 in both.
-  void estimate_errors(AccuracyRun& reference) const {
-    Discretization coarser = reference.settings;
-    coarser.step *= 4.0 / 3.0;
-    coarser.elements = std::min((3 * coarser.elements + 3) / 4, std::max(coarser.elements - 1, 0));
-    coarser.factor *= 3.0 / 4.0;
-    AccuracyRun other = measure(coarser);
-    compare(other, reference);
-    constexpr double share = 1.0 / (16.0 / 9.0 - 1.0);
-    reference.errors = share * other.errors;
-    reference.gradient_errors = share * other.gradient_errors;
-  }
-
-  const ProblemFile& problem_;
-  const Eigen::VectorXd& x_;
-};
-
+/// Of the file, then by tens.
+constexpr int recommended_targets = 3;
 /// What is closer to the reference than that is to the truth is not known better.
 void raise_to_errors_of(const AccuracyRun& reference, AccuracyRun& run) {
-  if (!run.failure.empty()) return;
+  if (run.has_failed()) return;
   run.errors = run.errors.cwiseMax(reference.errors);
   run.gradient_errors = run.gradient_errors.cwiseMax(reference.gradient_errors);
 }
@@ -140,13 +38,10 @@ std::vector<std::size_t> counted_responses(const ProblemFile& problem) {
   return counted;
 }
 
-double largest(const Eigen::VectorXd& errors, const std::vector<std::size_t>& counted) {
-  double largest = 0.0;
-  if (errors.size() == 0) return largest;
-  for (const std::size_t i : counted) {
-    largest = std::max(largest, errors(static_cast<Eigen::Index>(i)));
-  }
-  return largest;
+/// Errors of the integration: not the same in two formulations, however short the steps are.
+bool is_monitor(const ResponseSettings& response) {
+  return response.type == ResponseType::energy_balance ||
+         response.type == ResponseType::constraint_drift;
 }
 
 Recommendation recommend(const AccuracyStudy& study, double target) {
@@ -158,98 +53,239 @@ Recommendation recommend(const AccuracyStudy& study, double target) {
   };
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
     const AccuracyRun& run = study.runs[i];
-    if (!run.failure.empty() || largest(run.errors, study.counted) > target) continue;
+    if (run.has_failed() || study.counted_error(run.errors) > target) continue;
     improve(best.values, i, run.simulation_seconds,
             best.values ? study.runs[*best.values].simulation_seconds : 0.0);
-    if (largest(run.gradient_errors, study.counted) > target) continue;
+    if (study.counted_error(run.gradient_errors) > target) continue;
     improve(best.gradients, i, run.seconds(),
             best.gradients ? study.runs[*best.gradients].seconds() : 0.0);
   }
   return best;
 }
 
-/// Of a segment of an elastic beam; 0 without any.
-int most_elements(const Scene& scene) {
-  int most = 0;
-  for (const Body& body : scene.bodies) {
-    const auto* beam = std::get_if<BeamBody>(&body.shape);
-    if (beam == nullptr || beam->is_rigid) continue;
-    for (const Segment& segment : beam->segments) most = std::max(most, segment.elements);
+/// The first that is recommended; else the most accurate one.
+std::optional<std::size_t> base_of(const AccuracyStudy& study) {
+  if (study.recommendations.front().values) return study.recommendations.front().values;
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < study.runs.size(); ++i) {
+    if (study.runs[i].has_failed()) continue;
+    const double error = study.counted_error(study.runs[i].errors);
+    if (!best || error < study.counted_error(study.runs[*best].errors)) best = i;
   }
-  return most;
+  return best;
 }
 
-/// Of the file, then by tens.
-constexpr int recommended_targets = 3;
+class Study {
+ public:
+  Study(const ProblemFile& problem, const PricedDesign& design, const AccuracyObserver& observer)
+      : problem_(problem), design_(design), x_(design.x()), observer_(observer) {}
+
+  AccuracyStudy run() {
+    study_.counted = counted_responses(problem_);
+    const std::vector<Discretization> grid = accuracy_grid(problem_);
+    find_reference(finer_than(grid));
+    try {
+      of_reference_ = design_.lagrangian(discretized(problem_, study_.reference.settings));
+      for (const Discretization& settings : grid) add_run(settings);
+      double target = problem_.accuracy.target;
+      for (int i = 0; i < recommended_targets; ++i, target *= 0.1) {
+        study_.recommendations.push_back(recommend(study_, target));
+      }
+      study_.base = base_of(study_);
+    } catch (const Stopped&) {
+      study_.is_interrupted = true;
+    }
+    return std::move(study_);
+  }
+
+ private:
+  void find_reference(const Discretization& settings) {
+    AccuracyRun& reference = study_.reference;
+    const ProblemFile finest = discretized(problem_, settings);
+    reference = measure_run(finest, x_, Timing::once);
+    reference.settings = settings;
+    AccuracyRun coarser =
+        measure_run(discretized(problem_, slightly_coarser(settings)), x_, Timing::once);
+    compare(reference, x_, coarser);
+    reference.errors = richardson_share * coarser.errors;
+    reference.gradient_errors = richardson_share * coarser.gradient_errors;
+    check_reference(finest);
+    if (observer_.run) observer_.run(reference);
+  }
+
+  void check_reference(const ProblemFile& finest) {
+    const Variation other = other_formulation(problem_);
+    study_.check.formulation = other.value;
+    try {
+      find_differences(values_of(*analyze(other.of(finest), x_)));
+      study_.reference.errors = study_.reference.errors.cwiseMax(study_.check.differences);
+    } catch (const SimulationError& error) {
+      study_.check.failure = error.what();
+    } catch (const InputError& error) {
+      study_.check.failure = error.what();
+    }
+  }
+
+  void find_differences(const Eigen::VectorXd& values) {
+    const AccuracyRun& reference = study_.reference;
+    study_.check.differences = Eigen::VectorXd::Zero(values.size());
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      if (is_monitor(problem_.responses[static_cast<std::size_t>(i)])) continue;
+      study_.check.differences(i) =
+          value_error(values(i), reference.values(i), reference.magnitudes(i));
+    }
+  }
+
+  void add_run(const Discretization& settings) {
+    const ProblemFile discrete = discretized(problem_, settings);
+    AccuracyRun run = try_to_measure(discrete, x_, Timing::least);
+    run.settings = settings;
+    compare(study_.reference, x_, run);
+    raise_to_errors_of(study_.reference, run);
+    if (!run.has_failed()) run.optimum_change = design_.change(of_reference_, discrete);
+    study_.runs.push_back(std::move(run));
+    if (observer_.run) observer_.run(study_.runs.back());
+  }
+
+  const ProblemFile& problem_;
+  const PricedDesign& design_;
+  const Eigen::VectorXd& x_;
+  const AccuracyObserver& observer_;
+  AccuracyStudy study_;
+  std::optional<double> of_reference_;  ///< Lagrangian
+};
+
+/// What is changed at the setting that is recommended.
+class Variations {
+ public:
+  Variations(const ProblemFile& problem, const PricedDesign& design, AccuracyStudy& study,
+             const AccuracyObserver& observer)
+      : problem_(problem),
+        design_(design),
+        x_(design.x()),
+        study_(study),
+        observer_(observer),
+        base_(study.runs[*study.base]),
+        discrete_(discretized(problem, base_.settings)) {}
+
+  void add_knobs() {
+    const std::optional<double> of_reference =
+        design_.lagrangian(discretized(problem_, study_.reference.settings));
+    for (const Variation& one : numerical_variations(discrete_)) {
+      VariedRun knob = varied(one);
+      if (!knob.run.has_failed()) {
+        knob.run.optimum_change = design_.change(of_reference, one.of(discrete_));
+      }
+      add(std::move(knob), study_.knobs);
+    }
+  }
+
+  void add_effects() {
+    const std::unique_ptr<Analysis> analysis = analyze(problem_, x_);
+    const std::optional<double> of_file = design_.lagrangian(problem_);
+    for (const Variation& one : effect_variations(problem_, analysis->model)) {
+      VariedRun effect = varied(one);
+      find_influence(one.of(problem_), values_of(*analysis), effect);
+      if (!effect.run.has_failed()) {
+        effect.run.optimum_change = design_.change(of_file, one.of(problem_));
+      }
+      add(std::move(effect), study_.effects);
+    }
+  }
+
+ private:
+  void add(VariedRun run, std::vector<VariedRun>& all) const {
+    all.push_back(std::move(run));
+    if (observer_.variation) observer_.variation(all.back());
+  }
+
+  VariedRun varied(const Variation& variation) const {
+    const ProblemFile changed = variation.of(discrete_);
+    VariedRun varied{variation, try_to_measure(changed, x_, Timing::once)};
+    AccuracyRun& run = varied.run;
+    run.settings = base_.settings;
+    run.settings.step = changed.simulation.step;
+    if (run.has_failed()) return varied;
+    compare(study_.reference, x_, run);
+    raise_to_errors_of(study_.reference, run);
+    const ComparedSeconds seconds =
+        compare_seconds([&] { analyze(changed, x_); }, [&] { analyze(discrete_, x_); });
+    run.simulation_seconds = seconds.one;
+    if (seconds.other > 0.0) varied.time_change = seconds.one / seconds.other - 1.0;
+    return varied;
+  }
+
+  /// With the steps and elements of the file: those of an optimum at the design.
+  void find_influence(const ProblemFile& changed, const Eigen::VectorXd& values,
+                      VariedRun& effect) const {
+    if (effect.run.has_failed()) return;
+    try {
+      effect.influence = values_of(*analyze(changed, x_)) - values;
+    } catch (const SimulationError& error) {
+      effect.run.failure = error.what();
+    }
+  }
+
+  const ProblemFile& problem_;
+  const PricedDesign& design_;
+  const Eigen::VectorXd& x_;
+  AccuracyStudy& study_;
+  const AccuracyObserver& observer_;
+  const AccuracyRun& base_;
+  ProblemFile discrete_;
+};
 
 }  // namespace
 
-ProblemFile discretized(ProblemFile problem, const Discretization& settings) {
-  const double step = problem.simulation.step;
-  problem = refined(std::move(problem), {1.0, settings.elements > 0 ? 1.0 : settings.factor});
-  problem.simulation.step = settings.step;
-  problem.simulation.smallest_step *= settings.step / step;
-  if (settings.elements == 0) return problem;
-  for (Body& body : problem.scene.bodies) {
-    if (auto* beam = std::get_if<BeamBody>(&body.shape)) {
-      for (Segment& segment : beam->segments) segment.elements = settings.elements;
-    }
+double AccuracyStudy::counted_error(const Eigen::VectorXd& errors) const {
+  double largest = 0.0;
+  if (errors.size() == 0) return largest;
+  for (const std::size_t i : counted) {
+    largest = std::max(largest, errors(static_cast<Eigen::Index>(i)));
   }
-  return problem;
+  return largest;
 }
 
-std::vector<Discretization> accuracy_grid(const ProblemFile& problem) {
-  std::vector<double> steps = problem.accuracy.steps;
-  if (steps.empty()) {
-    for (const double factor : {4.0, 2.0, 1.0, 0.5}) {
-      const double step = factor * problem.simulation.step;
-      if (step <= 0.25 * problem.simulation.end_time) steps.push_back(step);
-    }
-    if (steps.empty()) steps.push_back(problem.simulation.step);
-  }
-  std::vector<Discretization> divisions;
-  for (const int elements : problem.accuracy.elements) divisions.push_back({0.0, elements});
-  if (divisions.empty()) {
-    const int most = most_elements(problem.scene);
-    if (most > 1) divisions.push_back({0.0, 0, 0.5});
-    divisions.push_back({0.0, 0, 1.0});
-    if (most > 0) divisions.push_back({0.0, 0, 2.0});
-  }
-  std::vector<Discretization> grid;
-  for (Discretization division : divisions) {
-    for (const double step : steps) {
-      division.step = step;
-      grid.push_back(division);
-    }
-  }
-  return grid;
-}
-
-AccuracyStudy accuracy_study(const ProblemFile& problem, const Eigen::VectorXd& x,
+AccuracyStudy accuracy_study(const ProblemFile& problem, const PricedDesign& design,
                              const AccuracyObserver& observer) {
   if (problem.responses.empty()) throw InputError("/responses is missing: nothing can be compared");
-  const std::vector<Discretization> grid = accuracy_grid(problem);
-  const Measuring measuring(problem, x);
-  AccuracyStudy study;
-  study.counted = counted_responses(problem);
-  study.reference = measuring.reference(grid);
-  if (observer) observer(study.reference);
-  for (const Discretization& settings : grid) {
-    try {
-      study.runs.push_back(measuring.try_to_measure(settings));
-    } catch (const Stopped&) {
-      study.is_interrupted = true;
-      return study;
-    }
-    measuring.compare(study.runs.back(), study.reference);
-    raise_to_errors_of(study.reference, study.runs.back());
-    if (observer) observer(study.runs.back());
+  return Study(problem, design, observer).run();
+}
+
+void vary_settings(const ProblemFile& problem, const PricedDesign& design, AccuracyStudy& study,
+                   const AccuracyObserver& observer) {
+  if (!study.base) return;
+  try {
+    Variations variations(problem, design, study, observer);
+    variations.add_knobs();
+    variations.add_effects();
+  } catch (const SimulationError&) {  // the setting of the file cannot be simulated
+  } catch (const Stopped&) {
+    study.is_interrupted = true;
   }
-  double target = problem.accuracy.target;
-  for (int i = 0; i < recommended_targets; ++i, target *= 0.1) {
-    study.recommendations.push_back(recommend(study, target));
+}
+
+std::optional<double> fitted_order(const AccuracyStudy& study,
+                                   Eigen::VectorXd AccuracyRun::*errors) {
+  const double floor = 3.0 * study.counted_error(study.reference.*errors);
+  int elements = 0;
+  double factor = 0.0;
+  for (const AccuracyRun& run : study.runs) {
+    elements = std::max(elements, run.settings.elements);
+    factor = std::max(factor, run.settings.factor);
   }
-  return study;
+  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+  for (const AccuracyRun& run : study.runs) {
+    const bool is_finest = run.settings.elements == elements && run.settings.factor == factor;
+    if (!is_finest || run.has_failed()) continue;
+    const double error = study.counted_error(run.*errors);
+    if (!(error > floor)) continue;
+    const double s = std::log(run.settings.step), e = std::log(error);
+    n += 1.0, x += s, y += e, xx += s * s, xy += s * e;
+  }
+  const double spread = n * xx - x * x;
+  if (n < 2.0 || !(spread > 0.0)) return std::nullopt;
+  return (n * xy - x * y) / spread;
 }
 
 }  // namespace pleuel

@@ -2,24 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <optional>
 
 #include <fmt/format.h>
 
-#include "optimization/kkt_audit.hpp"
-#include "optimization/margin_problem.hpp"
-#include "optimization/peak_problem.hpp"
-#include "optimization/peak_windows.hpp"
-#include "optimization/prices.hpp"
 #include "optimization/scaling.hpp"
 #include "studies/priced_numbers.hpp"
+#include "studies/row_prices.hpp"
 
 namespace pleuel {
 
 namespace {
 
-constexpr int fewest_windows = 16, most_windows = 128;
 /// What is left of the terms of a price where they cancel, by the round-off of gradients.
 constexpr double round_off = 1e-7;
 /// Of the objective: a percent of a number that changes less of it has no price.
@@ -27,71 +20,30 @@ constexpr double least_change = 1e-10;
 /// Of the magnitude of a limit: what counts as reaching it.
 constexpr double at_limit = 1e-6;
 
-/// A design with its rows (the peaks of all windows) and their gradients.
-class Rows {
+/// How an optimum answers a small change of its rows.
+class Answering {
  public:
-  Rows(const ProblemFile& problem, const Eigen::VectorXd& x, int windows, int threads)
-      : design_(problem, threads),
-        peaks_(design_, windows, x),
-        robust_(with_margins(peaks_, design_, peaks_.constraint_of_row())) {
-    x_ = checked_start(rows());
-    evaluation_ = rows().evaluate(x_, Request::values_and_gradients);
-  }
-
-  Problem& rows() { return robust_ ? *robust_ : peaks_; }
-  const PeakProblem& peaks() const { return peaks_; }
-  DesignProblem& design() { return design_; }
-  const Eigen::VectorXd& x() const { return x_; }
-  const Evaluation& evaluation() const { return evaluation_; }
-
- private:
-  DesignProblem design_;
-  PeakProblem peaks_;
-  std::unique_ptr<Problem> robust_;
-  Eigen::VectorXd x_;  ///< with the peak that is minimized, if one is
-  Evaluation evaluation_;
-};
-
-/// The problem as the file has it, its multipliers, and how it answers a small change.
-class Optimum {
- public:
-  Optimum(const ProblemFile& problem, const Eigen::VectorXd& x, int windows, int threads)
-      : rows_(problem, x, windows, threads) {
-    const Problem& peaks = rows_.rows();
-    const Evaluation& evaluation = rows_.evaluation();
-    scales_ = constraint_scales(peaks, evaluation, variable_scales(peaks, rows_.x()));
-    const double violation = max_violation(peaks, evaluation.constraints, scales_);
-    const KktAudit audit =
-        audit_kkt(peaks, {rows_.x(), evaluation, violation}, evaluation, scales_);
-    residual_ = audit.residual;
-    multipliers_ = prices_of(peaks, evaluation.constraints, audit.constraint_multipliers, scales_);
-    bound_multipliers_ = audit.bound_multipliers;
-  }
-
-  Rows& rows() { return rows_; }
-  double residual() const { return residual_; }
-  const Eigen::VectorXd& multipliers() const { return multipliers_; }
-  const Eigen::VectorXd& bound_multipliers() const { return bound_multipliers_; }
+  explicit Answering(const RowPrices& prices) : prices_(prices) {}
 
   /// The first limit beyond those that decide now which a change of the rows makes a design break
   /// that answers it; empty if there is none.
   /// @param change  of the values of the rows, at the design as it is
   std::string next_limit(const Eigen::VectorXd& change) const {
     const Eigen::VectorXd step = answer(change);
-    const Evaluation& evaluation = rows_.evaluation();
+    const Evaluation& evaluation = rows().evaluation();
     const Eigen::VectorXd values =
         evaluation.constraints + change + evaluation.constraint_jacobian * step;
     const std::vector<Constraint>& constraints = problem().constraints();
     for (Eigen::Index i = 0; i < values.size(); ++i) {
       const Constraint& limits = constraints[static_cast<std::size_t>(i)];
       const double excess = std::max(values(i) - limits.upper, limits.lower - values(i));
-      if (multipliers_(i) == 0.0 && excess > at_limit * scales_(i)) return name_of_row(i);
+      if (!decides(i) && excess > at_limit * prices_.scales()(i)) return name_of_row(i);
     }
     for (Eigen::Index i = 0; i < step.size(); ++i) {
       const Variable& variable = problem().variables()[static_cast<std::size_t>(i)];
-      const double value = rows_.x()(i) + step(i);
+      const double value = rows().x()(i) + step(i);
       const double room = at_limit * std::abs(value);
-      if (bound_multipliers_(i) == 0.0 && !variable.is_fixed() &&
+      if (!is_at_bound(i) && !variable.is_fixed() &&
           (value > variable.upper + room || value < variable.lower - room)) {
         return variable.name;
       }
@@ -100,14 +52,19 @@ class Optimum {
   }
 
  private:
-  const Problem& problem() const { return rows_.peaks(); }
+  const Problem& problem() const { return rows().peaks(); }
+  const DesignRows& rows() const { return prices_.rows(); }
+  bool decides(Eigen::Index row) const { return prices_.multipliers()(row) != 0.0; }
+  bool is_at_bound(Eigen::Index variable) const {
+    return prices_.bound_multipliers()(variable) != 0.0;
+  }
 
   /// A row of a constraint that decides already is another of its peaks.
   std::string name_of_row(Eigen::Index row) const {
     const std::string& name = problem().constraints()[static_cast<std::size_t>(row)].name;
-    for (Eigen::Index i = 0; i < multipliers_.size(); ++i) {
+    for (Eigen::Index i = 0; i < prices_.multipliers().size(); ++i) {
       const bool is_same = problem().constraints()[static_cast<std::size_t>(i)].name == name;
-      if (is_same && multipliers_(i) != 0.0) return "another peak of " + name;
+      if (is_same && decides(i)) return "another peak of " + name;
     }
     return name;
   }
@@ -115,19 +72,19 @@ class Optimum {
   /// The least change of the free variables, in their magnitudes, that keeps the rows which decide
   /// where they are. The whole answer if as many rows decide as there are free variables.
   Eigen::VectorXd answer(const Eigen::VectorXd& change) const {
-    const Eigen::VectorXd s = local_scales(problem(), rows_.x());
+    const Eigen::VectorXd s = local_scales(problem(), rows().x());
     std::vector<Eigen::Index> free, deciding;
     for (Eigen::Index i = 0; i < s.size(); ++i) {
       const bool is_fixed = problem().variables()[static_cast<std::size_t>(i)].is_fixed();
-      if (bound_multipliers_(i) == 0.0 && !is_fixed) free.push_back(i);
+      if (!is_at_bound(i) && !is_fixed) free.push_back(i);
     }
     for (Eigen::Index i = 0; i < change.size(); ++i) {
-      if (multipliers_(i) != 0.0) deciding.push_back(i);
+      if (decides(i)) deciding.push_back(i);
     }
     Eigen::VectorXd step = Eigen::VectorXd::Zero(s.size());
     if (free.empty() || deciding.empty()) return step;
-    const Eigen::MatrixXd scaled = rows_.evaluation().constraint_jacobian * s.asDiagonal();
-    const Eigen::VectorXd magnitudes = scales_(deciding).cwiseInverse();
+    const Eigen::MatrixXd scaled = rows().evaluation().constraint_jacobian * s.asDiagonal();
+    const Eigen::VectorXd magnitudes = prices_.scales()(deciding).cwiseInverse();
     const Eigen::MatrixXd matrix = magnitudes.asDiagonal() * scaled(deciding, free);
     const Eigen::VectorXd right = -magnitudes.cwiseProduct(change(deciding));
     const Eigen::VectorXd found = matrix.completeOrthogonalDecomposition().solve(right);
@@ -137,15 +94,13 @@ class Optimum {
     return step;
   }
 
-  Rows rows_;
-  Eigen::VectorXd scales_, multipliers_, bound_multipliers_;
-  double residual_ = 0.0;
+  const RowPrices& prices_;
 };
 
 /// Prices of variables from the gradient of their problem, at the multipliers of the optimum.
 class Pricing {
  public:
-  Pricing(const Optimum& optimum, const Evaluation& evaluation)
+  Pricing(const RowPrices& optimum, const Evaluation& evaluation)
       : optimum_(optimum), evaluation_(evaluation) {}
 
   void set(Eigen::Index variable, NumberPrice& price) const {
@@ -158,12 +113,12 @@ class Pricing {
     const bool is_noise = std::abs(sum) <= round_off * terms ||
                           std::abs(change) <= least_change * std::abs(evaluation_.objective);
     price.per_unit = is_noise ? 0.0 : sum;
-    price.next_limit =
-        optimum_.next_limit(0.01 * price.value * evaluation_.constraint_jacobian.col(variable));
+    price.next_limit = Answering(optimum_).next_limit(
+        0.01 * price.value * evaluation_.constraint_jacobian.col(variable));
   }
 
  private:
-  const Optimum& optimum_;
+  const RowPrices& optimum_;
   const Evaluation& evaluation_;
 };
 
@@ -182,7 +137,7 @@ Eigen::VectorXd extended_design(const ProblemFile& extended, const Eigen::Vector
   return design;
 }
 
-void add_limits(const ProblemFile& problem, Optimum& optimum, PriceList& list) {
+void add_limits(const ProblemFile& problem, const RowPrices& optimum, PriceList& list) {
   const Eigen::VectorXd multipliers =
       optimum.rows().peaks().fold_multipliers(optimum.multipliers());
   for (std::size_t i = 0; i < problem.constraints.size(); ++i) {
@@ -201,7 +156,7 @@ void add_limits(const ProblemFile& problem, Optimum& optimum, PriceList& list) {
   }
 }
 
-void add_variables(const ProblemFile& problem, const Optimum& optimum, const Pricing& pricing,
+void add_variables(const ProblemFile& problem, const RowPrices& optimum, const Pricing& pricing,
                    PriceList& list) {
   const std::vector<ShownUnit> units = variable_units(problem);
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
@@ -247,12 +202,11 @@ void add_numbers(const ProblemFile& extended, const std::vector<NumberGroup>& gr
 
 PriceList number_prices(const ProblemText& text, const ProblemFile& problem,
                         const Eigen::VectorXd& x, int threads) {
-  DesignProblem design(problem, threads);
-  const int windows = windows_that_part_peaks(design, x, fewest_windows, most_windows);
-  Optimum optimum(problem, x, windows, threads);
+  const int windows = windows_at(problem, x, threads);
+  const RowPrices optimum(problem, x, windows, threads);
   const std::vector<NumberGroup> groups = priced_numbers(text, problem);
   const ProblemFile extended = with_numbers(text, problem, groups);
-  Rows rows(extended, extended_design(extended, x), windows, threads);
+  DesignRows rows(extended, extended_design(extended, x), windows, threads);
   const Pricing pricing(optimum, rows.evaluation());
   PriceList list;
   const Evaluation& evaluation = optimum.rows().evaluation();

@@ -20,10 +20,14 @@ AccuracySettings grid(std::vector<double> steps, std::vector<int> elements, doub
   return settings;
 }
 
+PricedDesign at_start(const ProblemFile& problem) {
+  return {problem, start_design(problem)};
+}
+
 AccuracyStudy study(double target) {
   ProblemFile problem = test::quick_problem();
   problem.accuracy = grid({4e-4, 2e-4, 1e-4}, {4}, target);
-  return accuracy_study(problem, start_design(problem));
+  return accuracy_study(problem, at_start(problem));
 }
 
 /// Of the responses that are minimized or limited.
@@ -98,7 +102,7 @@ TEST(Accuracy, TriesStepsAndElementsAroundThoseOfTheFileIfItNamesNone) {
   problem.accuracy = {};
   const std::vector<Discretization> grid = accuracy_grid(problem);
   EXPECT_EQ(grid.size(), 12u);
-  const AccuracyStudy result = accuracy_study(problem, start_design(problem));
+  const AccuracyStudy result = accuracy_study(problem, at_start(problem));
   EXPECT_EQ(result.runs.size(), 12u);
   EXPECT_DOUBLE_EQ(result.reference.settings.step, problem.simulation.step / 4);
   EXPECT_DOUBLE_EQ(result.reference.settings.factor, 4.0);
@@ -108,7 +112,7 @@ TEST(Accuracy, IsThatOfTheDesignThatIsAskedFor) {
   ProblemFile problem = test::quick_problem();
   problem.accuracy = grid({2e-4}, {2}, 1e-2);
   const Eigen::VectorXd x = 0.7 * start_design(problem);
-  const AccuracyStudy result = accuracy_study(problem, x);
+  const AccuracyStudy result = accuracy_study(problem, {problem, x});
   const ProblemFile same = discretized(problem, result.runs[0].settings);
   EXPECT_EQ(result.runs[0].values, values_of(*analyze(same, x)));
 }
@@ -149,7 +153,7 @@ TEST(Accuracy, AFailingRunIsMarkedAndTheOthersGoOn) {
   ProblemFile problem = test::quick_problem({"/simulation/max_newton_iterations=2"});
   problem.accuracy = grid({5e-3, 1e-4}, {2}, 1e-3);
   problem.simulation.newton_tolerance = 1e-9;
-  const AccuracyStudy result = accuracy_study(problem, start_design(problem));
+  const AccuracyStudy result = accuracy_study(problem, at_start(problem));
   EXPECT_FALSE(result.runs[0].failure.empty());
   EXPECT_TRUE(result.runs[1].failure.empty()) << result.runs[1].failure;
 }
@@ -157,7 +161,7 @@ TEST(Accuracy, AFailingRunIsMarkedAndTheOthersGoOn) {
 TEST(Accuracy, WithoutResponsesThereIsNothingToCompare) {
   ProblemFile problem = test::quick_problem();
   problem.responses.clear();
-  EXPECT_THROW(accuracy_study(problem, start_design(problem)), InputError);
+  EXPECT_THROW(accuracy_study(problem, at_start(problem)), InputError);
 }
 
 }  // namespace

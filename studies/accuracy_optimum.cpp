@@ -1,0 +1,173 @@
+#include "studies/accuracy_optimum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "core/base/stop.hpp"
+#include "optimization/design_solve.hpp"
+#include "studies/row_prices.hpp"
+
+namespace pleuel {
+
+namespace {
+
+constexpr std::size_t most_settings = 6;
+
+bool has_design(Status status) {
+  return status == Status::verified || status == Status::unresolved || status == Status::stalled;
+}
+
+/// Bounds are kept exactly: an optimum may miss them by rounding.
+Eigen::VectorXd within_bounds(const ProblemFile& problem, Eigen::VectorXd x) {
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    double& value = x(static_cast<Eigen::Index>(i));
+    value = std::clamp(value, problem.variables[i].lower, problem.variables[i].upper);
+  }
+  return x;
+}
+
+Result solve_from(ProblemFile problem, const Eigen::VectorXd* start, const SolveOptions& options) {
+  problem.simulation.checks_resolution = false;
+  DesignProblem design(std::move(problem));
+  if (start != nullptr) design.start_from(within_bounds(design.file(), *start));
+  return solve_design(design, options);
+}
+
+void keep(const Result& result, OptimumRun& run) {
+  run.status = result.status;
+  run.evaluations = result.evaluations;
+  if (has_design(result.status)) {
+    run.x = result.x;
+    run.objective = result.evaluation.objective;
+  } else {
+    run.failure = to_string(result.status) + ": " + result.message;
+  }
+}
+
+OptimumRun optimize_with(const ProblemFile& problem, const Discretization& settings,
+                         const SolveOptions& options) {
+  OptimumRun run;
+  run.settings = settings;
+  const ProblemFile discrete = discretized(problem, settings);
+  try {
+    Result result;
+    run.seconds = least_seconds([&] { result = plain_optimum(discrete, options); });
+    if (result.status == Status::interrupted) throw Stopped{};
+    keep(result, run);
+  } catch (const SimulationError& error) {
+    run.failure = error.what();
+  } catch (const InputError& error) {  // a window of time without steps
+    run.failure = error.what();
+  }
+  return run;
+}
+
+OptimumRun find_reference(const ProblemFile& problem, const Eigen::VectorXd& x,
+                          const Discretization& settings, const SolveOptions& options) {
+  OptimumRun run;
+  run.settings = settings;
+  Result result;
+  run.seconds =
+      processor_seconds([&] { result = solve_from(discretized(problem, settings), &x, options); });
+  if (result.status == Status::interrupted) throw Stopped{};
+  keep(result, run);
+  return run;
+}
+
+std::optional<double> error_of(const OptimumRun& reference, const ProblemFile& problem,
+                               const SolveOptions& options) {
+  const ProblemFile finest = discretized(problem, reference.settings);
+  const PricedDesign design(finest, reference.x);
+  const std::optional<double> at_finest = design.lagrangian(finest);
+  const auto coarser =
+      design.change(at_finest, discretized(problem, slightly_coarser(reference.settings)));
+  if (!coarser) return std::nullopt;
+  const auto other = design.change(at_finest, other_formulation(problem).of(finest));
+  const double error =
+      std::max(richardson_share * std::abs(*coarser), std::abs(other.value_or(0.0)));
+  return error + options.tolerance * std::abs(reference.objective);
+}
+
+/// Runs than which no other is faster and more accurate, the fastest first.
+std::vector<std::size_t> efficient_runs(const AccuracyStudy& study) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < study.runs.size(); ++i) {
+    if (!study.runs[i].has_failed()) order.push_back(i);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t one, std::size_t other) {
+    return study.runs[one].seconds() < study.runs[other].seconds();
+  });
+  std::vector<std::size_t> front;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::size_t i : order) {
+    const double error = study.counted_error(study.runs[i].errors);
+    if (error >= least) continue;
+    least = error;
+    front.push_back(i);
+  }
+  return front;
+}
+
+}  // namespace
+
+double OptimumStudy::relative_floor() const {
+  const double size = std::abs(reference.objective);
+  return size > 0.0 ? reference_error.value_or(0.0) / size : 0.0;
+}
+
+double OptimumStudy::relative_error(const OptimumRun& run) const {
+  const double size = std::abs(reference.objective);
+  return std::max(size > 0.0 ? std::abs(run.change) / size : 0.0, relative_floor());
+}
+
+Result plain_optimum(ProblemFile problem, const SolveOptions& options) {
+  return solve_from(std::move(problem), nullptr, options);
+}
+
+std::vector<Discretization> efficient_settings(const AccuracyStudy& study) {
+  std::vector<std::size_t> chosen;
+  const auto choose = [&](std::size_t i) {
+    const bool is_new = std::find(chosen.begin(), chosen.end(), i) == chosen.end();
+    if (is_new && chosen.size() < most_settings) chosen.push_back(i);
+  };
+  for (const Recommendation& one : study.recommendations) {
+    if (one.values) choose(*one.values);
+  }
+  const std::vector<std::size_t> front = efficient_runs(study);
+  // Both ends, then what lies between.
+  if (!front.empty()) choose(front.back());
+  for (const std::size_t i : front) choose(i);
+  std::sort(chosen.begin(), chosen.end(), [&](std::size_t one, std::size_t other) {
+    return study.runs[one].seconds() < study.runs[other].seconds();
+  });
+  std::vector<Discretization> settings;
+  for (const std::size_t i : chosen) settings.push_back(study.runs[i].settings);
+  return settings;
+}
+
+OptimumStudy optimum_study(const ProblemFile& problem, const Eigen::VectorXd& x,
+                           const AccuracyStudy& study, const SolveOptions& options,
+                           const OptimumObserver& observer) {
+  OptimumStudy optima;
+  optima.reference = find_reference(problem, x, study.reference.settings, options);
+  if (observer) observer(optima.reference);
+  try {
+    if (!optima.reference.has_failed()) {
+      optima.reference_error = error_of(optima.reference, problem, options);
+    }
+    for (const Discretization& settings : efficient_settings(study)) {
+      OptimumRun run = optimize_with(problem, settings, options);
+      if (!run.has_failed()) run.change = run.objective - optima.reference.objective;
+      optima.runs.push_back(std::move(run));
+      if (observer) observer(optima.runs.back());
+    }
+  } catch (const Stopped&) {
+    optima.is_interrupted = true;
+  }
+  return optima;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,105 @@
+#include "studies/accuracy_run.hpp"
+
+#include <algorithm>
+#include <ctime>
+#include <memory>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "core/base/relative_error.hpp"
+#include "core/trust/doubts.hpp"
+#include "sensitivity/gradients.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// What repetitions may take [s], and how many there are at most. What takes longer is so much
+/// above the noise that once is enough.
+constexpr double enough = 0.4;
+constexpr int most_repetitions = 5;
+
+void keep_values(const Analysis& analysis, AccuracyRun& run) {
+  run.values = values_of(analysis);
+  run.magnitudes = run.values.cwiseAbs();
+  for (Eigen::Index i = 0; i < run.magnitudes.size(); ++i) {
+    const Eigen::MatrixXd& history = analysis.histories[static_cast<std::size_t>(i)];
+    if (history.size() > 0) run.magnitudes(i) = history.cwiseAbs().maxCoeff();
+  }
+  run.steps = analysis.trajectory.steps();
+  run.newton_iterations = analysis.trajectory.newton_iterations;
+  run.factorizations = analysis.trajectory.factorizations;
+}
+
+}  // namespace
+
+double processor_seconds(const std::function<void()>& work) {
+  const std::clock_t begin = std::clock();
+  work();
+  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+}
+
+double least_seconds(const std::function<void()>& work) {
+  double least = processor_seconds(work);
+  double spent = least;
+  for (int i = 1; i < most_repetitions && spent < enough; ++i) {
+    const double seconds = processor_seconds(work);
+    spent += seconds;
+    least = std::min(least, seconds);
+  }
+  return least;
+}
+
+ComparedSeconds compare_seconds(const std::function<void()>& one,
+                                const std::function<void()>& other) {
+  ComparedSeconds least{processor_seconds(one), processor_seconds(other)};
+  double spent = least.one + least.other;
+  for (int i = 1; i < most_repetitions && spent < 2 * enough; ++i) {
+    const double of_one = processor_seconds(one), of_other = processor_seconds(other);
+    spent += of_one + of_other;
+    least.one = std::min(least.one, of_one);
+    least.other = std::min(least.other, of_other);
+  }
+  return least;
+}
+
+AccuracyRun measure_run(ProblemFile problem, const Eigen::VectorXd& x, Timing timing) {
+  // The study itself compares steps and elements.
+  problem.simulation.checks_resolution = false;
+  const auto seconds_of = timing == Timing::least ? least_seconds : processor_seconds;
+  AccuracyRun run;
+  std::unique_ptr<Analysis> analysis;
+  run.simulation_seconds = seconds_of([&] { analysis = analyze(problem, x); });
+  keep_values(*analysis, run);
+  run.doubts = find_doubts(problem, x, *analysis);
+  if (x.size() == 0) return run;
+  run.gradient_seconds = seconds_of([&] { run.gradients = direct_gradients(*analysis); });
+  return run;
+}
+
+AccuracyRun try_to_measure(const ProblemFile& problem, const Eigen::VectorXd& x, Timing timing) {
+  AccuracyRun failed;
+  try {
+    return measure_run(problem, x, timing);
+  } catch (const SimulationError& error) {
+    failed.failure = error.what();
+  } catch (const InputError& error) {  // a window of time without steps, too many modes …
+    failed.failure = error.what();
+  }
+  return failed;
+}
+
+void compare(const AccuracyRun& reference, const Eigen::VectorXd& x, AccuracyRun& run) {
+  if (run.has_failed()) return;
+  run.errors.resize(run.values.size());
+  run.gradient_errors.resize(x.size() > 0 ? run.values.size() : 0);
+  for (Eigen::Index i = 0; i < run.values.size(); ++i) {
+    const double magnitude = reference.magnitudes(i);
+    run.errors(i) = value_error(run.values(i), reference.values(i), magnitude);
+    if (x.size() == 0) continue;
+    run.gradient_errors(i) =
+        gradient_error(run.gradients.row(i), reference.gradients.row(i), x, magnitude);
+  }
+}
+
+}  // namespace pleuel

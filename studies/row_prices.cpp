@@ -1,0 +1,109 @@
+#include "studies/row_prices.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "optimization/kkt_audit.hpp"
+#include "optimization/peak_windows.hpp"
+#include "optimization/prices.hpp"
+#include "optimization/scaling.hpp"
+
+namespace pleuel {
+
+namespace {
+
+constexpr int fewest_windows = 16, most_windows = 128;
+/// KKT residual up to which multipliers explain a design.
+constexpr double nearly_optimal = 1e-2;
+
+/// Value of a row, or of the same limit in one of the windows beside it, if that is nearer to be
+/// broken: with other steps a peak may cross the border of its window.
+double nearby_value(const std::vector<Constraint>& rows, const Eigen::VectorXd& values,
+                    Eigen::Index row, double multiplier) {
+  const auto name = [&](Eigen::Index i) { return rows[static_cast<std::size_t>(i)].name; };
+  double value = values(row);
+  for (const Eigen::Index other : {row - 1, row + 1}) {
+    if (other < 0 || other >= values.size() || name(other) != name(row)) continue;
+    value = multiplier > 0.0 ? std::max(value, values(other)) : std::min(value, values(other));
+  }
+  return value;
+}
+
+}  // namespace
+
+DesignRows::DesignRows(const ProblemFile& problem, const Eigen::VectorXd& x, int windows,
+                       int threads, Request request)
+    : design_(problem, threads),
+      peaks_(design_, windows, x),
+      robust_(with_margins(peaks_, design_, peaks_.constraint_of_row())) {
+  x_ = checked_start(rows());
+  evaluation_ = rows().evaluate(x_, request);
+}
+
+int windows_at(const ProblemFile& problem, const Eigen::VectorXd& x, int threads) {
+  if (problem.simulation.local_error > 0.0) return 1;
+  DesignProblem design(problem, threads);
+  return windows_that_part_peaks(design, x, fewest_windows, most_windows);
+}
+
+RowPrices::RowPrices(const ProblemFile& problem, const Eigen::VectorXd& x, int windows, int threads)
+    : design_(x), windows_(windows), threads_(threads), rows_(problem, x, windows, threads) {
+  const Problem& peaks = rows_.rows();
+  const Evaluation& evaluation = rows_.evaluation();
+  scales_ = constraint_scales(peaks, evaluation, variable_scales(peaks, rows_.x()));
+  const double violation = max_violation(peaks, evaluation.constraints, scales_);
+  const KktAudit audit = audit_kkt(peaks, {rows_.x(), evaluation, violation}, evaluation, scales_);
+  residual_ = audit.residual;
+  multipliers_ = prices_of(peaks, evaluation.constraints, audit.constraint_multipliers, scales_);
+  bound_multipliers_ = audit.bound_multipliers;
+}
+
+double RowPrices::lagrangian(const ProblemFile& other) const {
+  DesignRows rows(other, design_, windows_, threads_, Request::values);
+  // The bound of the peak that is minimized is that of this design, not of the other problem.
+  const Evaluation evaluation =
+      rows.x() == rows_.x() ? rows.evaluation() : rows.rows().evaluate(rows_.x(), Request::values);
+  double sum = evaluation.objective;
+  for (Eigen::Index i = 0; i < multipliers_.size(); ++i) {
+    const double multiplier = multipliers_(i);
+    if (multiplier == 0.0) continue;
+    sum += multiplier *
+           nearby_value(rows_.rows().constraints(), evaluation.constraints, i, multiplier);
+  }
+  return sum;
+}
+
+PricedDesign::PricedDesign(const ProblemFile& problem, const Eigen::VectorXd& x)
+    : x_(x), has_equal_steps_(problem.simulation.local_error == 0.0) {
+  if (!problem.objective || x.size() == 0 || x == start_design(problem)) return;
+  try {
+    prices_ = std::make_unique<RowPrices>(problem, x, windows_at(problem, x, 1), 1);
+    if (prices_->residual() > nearly_optimal) prices_.reset();
+  } catch (const SimulationError&) {
+    prices_.reset();
+  }
+}
+
+std::optional<double> PricedDesign::lagrangian(const ProblemFile& other) const {
+  const bool has_windows = (other.simulation.local_error == 0.0) == has_equal_steps_;
+  if (!prices_ || !has_windows) return std::nullopt;
+  try {
+    return prices_->lagrangian(other);
+  } catch (const SimulationError&) {
+    return std::nullopt;
+  } catch (const InputError&) {  // windows without steps
+    return std::nullopt;
+  }
+}
+
+std::optional<double> PricedDesign::change(const std::optional<double>& before,
+                                           const ProblemFile& after) const {
+  if (!before) return std::nullopt;
+  const std::optional<double> changed = lagrangian(after);
+  if (!changed) return std::nullopt;
+  return *changed - *before;
+}
+
+}  // namespace pleuel
