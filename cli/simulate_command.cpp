@@ -44,7 +44,8 @@ void check_numbers(const ProblemInput& input, Simulated& run) {
   }
   const Stopwatch check;
   try {
-    Trust trust = judge_run(TrustedRun{input.problem, input.design, run.analysis, run.monitors});
+    Trust trust = judge_run(TrustedRun{input.problem, input.design, run.analysis, run.monitors,
+                                       input.choice ? Scrutiny::close : Scrutiny::usual});
     run.warnings = texts_of(trust.doubts);
     run.errors = std::move(trust.errors);
   } catch (const Stopped&) {

@@ -238,11 +238,11 @@ void judge_numbers(DesignProblem& design, Result& result) {
   if (!result.evaluation.has_gradients()) return;
   const Analysis& analysis = design.analysis_at(result.x);
   const Monitors monitors = monitor(analysis.model, analysis.trajectory);
-  Trust trust = judge_run(TrustedRun{design.file(), result.x, analysis, monitors});
+  Trust trust = judge_run(TrustedRun{design.file(), result.x, analysis, monitors, Scrutiny::close});
   result.warnings = texts_of(trust.doubts);
-  result.error = optimum_error(design, result, trust.errors);
+  result.error = optimum_error(design, result, trust);
   if (result.status == Status::verified) {
-    const std::string inaccurate = inaccuracy(design, result, trust.errors);
+    const std::string inaccurate = inaccuracy(design, result, trust);
     if (has_serious(trust.doubts)) {
       result.status = Status::unresolved;
       result.message =

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -48,6 +49,14 @@ bool may_break(const ConstraintSettings& limit, double value, double error) {
          (limit.lower && value - error < *limit.lower);
 }
 
+/// The evidence of zero, from the runs of another value.
+Evidence nothing_beside(const Evidence& value) {
+  Evidence nothing = value;
+  nothing.add(value, -1.0);
+  nothing.local = 0.0;
+  return nothing;
+}
+
 double nearest_limit(const ConstraintSettings& limit, double value) {
   if (!limit.lower) return *limit.upper;
   if (!limit.upper) return *limit.lower;
@@ -57,23 +66,33 @@ double nearest_limit(const ConstraintSettings& limit, double value) {
 }  // namespace
 
 std::optional<ErrorBar> optimum_error(const DesignProblem& design, const Result& result,
-                                      const std::vector<std::optional<ErrorBar>>& errors) {
-  if (errors.empty() || !has_prices(result)) return std::nullopt;
-  ErrorBar bar;
-  const auto& of_objective = errors[*design.response_of({})];
-  if (of_objective) bar.add(*of_objective);
+                                      const Trust& trust) {
+  if (trust.errors.empty() || !has_prices(result)) return std::nullopt;
+  std::optional<Evidence> sum;
+  ErrorPart effects;
+  const auto add = [&](std::size_t response, double factor) {
+    if (factor == 0.0 || !trust.errors[response]) return;
+    effects.add(trust.errors[response]->effects, factor);
+    if (!sum) {
+      sum = nothing_beside(*trust.evidence[response]);
+      sum->magnitude = std::abs(result.evaluation.objective);
+    }
+    sum->add(*trust.evidence[response], factor);
+  };
+  add(*design.response_of({}), 1.0);
   for (std::size_t i = 0; i < design.constraints().size(); ++i) {
     const auto response = design.response_of({i, std::nullopt});
-    if (!response || !errors[*response]) continue;
-    bar.add(*errors[*response], result.constraint_multipliers(static_cast<Eigen::Index>(i)));
+    if (response) add(*response, result.constraint_multipliers(static_cast<Eigen::Index>(i)));
   }
+  ErrorBar bar = sum ? error_bar(*sum) : ErrorBar();
+  bar.effects = effects;
   return bar;
 }
 
-std::string inaccuracy(const DesignProblem& design, const Result& result,
-                       const std::vector<std::optional<ErrorBar>>& errors) {
-  const std::optional<ErrorBar> bar = optimum_error(design, result, errors);
+std::string inaccuracy(const DesignProblem& design, const Result& result, const Trust& trust) {
+  const std::optional<ErrorBar> bar = optimum_error(design, result, trust);
   if (!bar) return "";
+  const std::vector<std::optional<ErrorBar>>& errors = trust.errors;
   const ProblemFile& file = design.file();
   const std::string of_objective =
       complaint(file, fmt::format("the optimum of {}", design.objective_name()), *bar,

@@ -2,9 +2,9 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "core/base/error_bar.hpp"
+#include "core/trust/doubts.hpp"
 #include "optimization/design_problem.hpp"
 #include "optimization/solve.hpp"
 
@@ -15,15 +15,16 @@ namespace pleuel {
 ///
 ///     f*(fine) − f* ≈ Δf + Σ μ_j Δc_j.
 ///
-/// @param errors  one a response of the file (core/trust/doubts.hpp)
+/// f + Σ μ_j c_j is judged as one value of all the runs: its parts may cancel, which their bars do
+/// not know.
+/// @param trust  of the optimal design, one error a response of the file
 /// @returns nothing where the design has no multipliers that are prices, or no errors are known
 std::optional<ErrorBar> optimum_error(const DesignProblem& design, const Result& result,
-                                      const std::vector<std::optional<ErrorBar>>& errors);
+                                      const Trust& trust);
 
 /// Why the optimum is not known to the accuracy that the file asks for, and what would do; empty if
 /// it is. What counts is the error of the objective at the optimum, and that of each limit which
 /// the error could break.
-std::string inaccuracy(const DesignProblem& design, const Result& result,
-                       const std::vector<std::optional<ErrorBar>>& errors);
+std::string inaccuracy(const DesignProblem& design, const Result& result, const Trust& trust);
 
 }  // namespace pleuel

@@ -53,6 +53,7 @@ Trust judge_run(const TrustedRun& run) {
   Resolution resolution = judge_resolution(run);
   add(doubt_resolution(run, resolution));
   trust.errors = std::move(resolution.bars);
+  trust.evidence = std::move(resolution.evidence);
   add_left_out_effects(run, trust.errors);
   std::stable_partition(doubts.begin(), doubts.end(),
                         [](const Doubt& doubt) { return doubt.is_serious; });

@@ -8,8 +8,15 @@
 #include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"
 #include "core/trust/doubt.hpp"
+#include "core/trust/error_bars.hpp"
 
 namespace pleuel {
+
+/// How much a judgement of errors may cost.
+enum class Scrutiny {
+  usual,  ///< about as much as the simulation, if nothing is suspicious
+  close   ///< three times as much more: with half the step and twice the elements
+};
 
 /// A simulated design, and what its doubts are made from.
 struct TrustedRun {
@@ -17,6 +24,7 @@ struct TrustedRun {
   const Eigen::VectorXd& x;  ///< design variables [SI]
   const Analysis& analysis;
   const Monitors& monitors;  ///< of the analysis
+  Scrutiny scrutiny = Scrutiny::usual;
 };
 
 /// What the file alone says against the numbers to come, at its start design: known before a long
@@ -29,6 +37,7 @@ struct Trust {
   /// One a response, none of those that are errors themselves or round-off; empty where the file
   /// leaves the check of resolution out.
   std::vector<std::optional<ErrorBar>> errors;
+  std::vector<std::optional<Evidence>> evidence;  ///< of the errors by steps and elements
 };
 
 Trust judge_run(const TrustedRun& run);

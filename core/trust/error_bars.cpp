@@ -10,16 +10,21 @@ namespace {
 
 /// How far the observed order may be from the promised one.
 constexpr double order_room = 0.5;
-/// On estimates, for the terms of higher order and for differences that are small by accident.
-constexpr double safety = 1.5;
-/// Relative differences up to this are resolved, whatever their order.
-constexpr double small_share = 1e-2;
+/// On estimates of the promised order, for the terms of higher order and for orders that are seen
+/// by accident; less where a run with a smaller step has seen most of the error already.
+constexpr double order_safety = 2.0, seen_safety = 1.5;
+/// On differences without an order, and on those that fall by two at least: no more is left then.
+constexpr double difference_safety = 2.0, falling_safety = 1.0;
+/// Of Newton's tolerance.
+constexpr double newton_safety = 1.5;
+/// Relative bounds up to this are resolved, whatever the order.
+constexpr double small_share = 0.05;
 /// Relative differences up to this are round-off.
 constexpr double round_off = 1e-13;
-/// What half the step changes says so much of the limit where no order is seen.
-constexpr double unknown_factor = 3.0;
-/// Errors in space: bending has a higher order than two, sampled stress an uneven one.
-constexpr double element_safety = 1.5;
+/// Errors in space, by more and by fewer elements. Bending has a higher order than two; stress, and
+/// what is asked of a place that is a node of one division only, has an uneven one: of a difference
+/// by fewer elements all of it may be missing, in place of the third of order two.
+constexpr double more_elements_safety = 1.5, fewer_elements_safety = 3.0;
 
 const double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -27,12 +32,20 @@ ErrorPart unresolved(double bound) {
   return {0.0, bound, false};
 }
 
-bool is_there(const NestedRun* run) {
-  return run != nullptr && !run->has_failed();
+/// @returns nothing without a run, NaN of one that failed
+std::optional<double> value_of(const NestedRun* run, std::size_t response) {
+  if (run == nullptr) return std::nullopt;
+  return run->has_failed() ? unknown : run->values(static_cast<Eigen::Index>(response));
 }
 
-double value_of(const NestedRun& run, std::size_t response) {
-  return run.values(static_cast<Eigen::Index>(response));
+std::optional<double> difference(const Comparison& comparison, std::size_t response) {
+  if (!comparison.is_asked()) return std::nullopt;
+  return value_of(comparison.run, response).value_or(unknown) -
+         value_of(comparison.beside, response).value_or(unknown);
+}
+
+bool is_there(const std::optional<double>& value) {
+  return value && std::isfinite(*value);
 }
 
 Eigen::Index nearest(const Eigen::VectorXd& times, double time) {
@@ -57,82 +70,63 @@ double local_difference(const Analysis& analysis, std::size_t response, const Ne
   return std::abs(difference);
 }
 
-class Bar {
- public:
-  Bar(const Analysis& analysis, std::size_t response, const JudgingRuns& runs, double order)
-      : analysis_(analysis), response_(response), runs_(runs), order_(order) {
-    value_ = analysis.reductions[response].value;
-    const Eigen::MatrixXd& history = analysis.histories[response];
-    magnitude_ = history.size() > 0 ? history.cwiseAbs().maxCoeff() : std::abs(value_);
+double small(const Evidence& evidence) {
+  return small_share * evidence.magnitude;
+}
+
+/// From three values whose finest has a smaller step than the simulation.
+ErrorPart step_by_finer(const Evidence& evidence, double fine, double middle, double coarse,
+                        std::optional<double>& order) {
+  const Extrapolation found = extrapolate(fine, middle, coarse, evidence.order, 0.0, 0.0);
+  order = found.order;
+  const double change = fine - evidence.value + found.part.change;
+  const double bound = std::abs(fine - evidence.value) + found.part.bound;
+  if (!found.has_promised_order) return {change, bound, bound <= small(evidence)};
+  return {change, std::max(seen_safety * std::abs(change), bound), true};
+}
+
+ErrorPart step_part(const Evidence& runs, std::optional<double>& order) {
+  if (!is_there(runs.twice_step)) return unresolved(unknown);
+  const double twice = *runs.twice_step;
+  if (is_there(runs.half_step)) {
+    const double half = *runs.half_step;
+    return is_there(runs.quarter_step)
+               ? step_by_finer(runs, *runs.quarter_step, half, runs.value, order)
+               : step_by_finer(runs, half, runs.value, twice, order);
   }
-
-  ErrorBar make() {
-    ErrorBar bar;
-    bar.step = step(bar.order);
-    bar.elements = elements();
-    bar.newton = newton();
-    return bar;
+  if (!is_there(runs.four_steps)) {
+    return unresolved(std::max(std::abs(runs.value - twice), runs.local));
   }
+  const Extrapolation found =
+      extrapolate(runs.value, twice, *runs.four_steps, runs.order, runs.local, small(runs));
+  order = found.order;
+  return found.part;
+}
 
- private:
-  double of(const NestedRun& run) const { return value_of(run, response_); }
+/// @param share  of the difference of two runs that is missing in the simulation
+ErrorPart part_of(const Evidence& evidence, const std::optional<double>& difference, double share,
+                  double safety) {
+  if (!difference) return {};
+  if (!std::isfinite(*difference)) return unresolved(unknown);
+  const double change = share * *difference;
+  if (std::abs(change) <= round_off * evidence.magnitude) return {};
+  return {change, safety * std::abs(change), true};
+}
 
-  ErrorPart step(std::optional<double>& order) const {
-    if (!is_there(runs_.twice_step)) return unresolved(unknown);
-    const double twice = of(*runs_.twice_step);
-    if (is_there(runs_.half_step) && is_there(runs_.quarter_step)) {
-      const double half = of(*runs_.half_step);
-      return step_by_finer(of(*runs_.quarter_step), half, value_, order);
-    }
-    if (is_there(runs_.half_step)) return step_by_finer(of(*runs_.half_step), value_, twice, order);
-    const double local = local_difference(analysis_, response_, *runs_.twice_step);
-    if (!is_there(runs_.four_steps)) return unresolved(std::max(std::abs(value_ - twice), local));
-    const Extrapolation found =
-        extrapolate(value_, twice, of(*runs_.four_steps), order_, local, small());
-    order = found.order;
-    return found.part;
+ErrorPart element_part(const Evidence& runs) {
+  if (!runs.more_elements) {
+    return part_of(runs, runs.fewer_elements, -1.0 / 3.0, fewer_elements_safety);
   }
+  return part_of(runs, runs.more_elements, 4.0 / 3.0, more_elements_safety);
+}
 
-  /// From three values whose finest has a smaller step than the simulation.
-  ErrorPart step_by_finer(double fine, double middle, double coarse,
-                          std::optional<double>& order) const {
-    const Extrapolation found = extrapolate(fine, middle, coarse, order_, 0.0, 0.0);
-    order = found.order;
-    if (found.part.is_resolved) {
-      const double change = fine - value_ + found.part.change;
-      return {change, safety * std::abs(change), true};
-    }
-    // Without an order the last change, times three, is what is left.
-    const double left = unknown_factor * std::abs(fine - middle);
-    const double bound = middle == value_ ? left : std::abs(fine - value_) + left;
-    return {0.0, bound, bound <= small()};
+void add_to(std::optional<double>& sum, const std::optional<double>& value, double factor) {
+  if (!value) {
+    sum.reset();
+  } else if (sum) {
+    *sum += factor * *value;
   }
-
-  double small() const { return small_share * magnitude_; }
-
-  ErrorPart elements() const {
-    const double share = runs_.element_factor > 1.0 ? 4.0 / 3.0 : -1.0 / 3.0;
-    ErrorPart part = part_of(runs_.elements, share, element_safety);
-    part.add(part_of(runs_.modes, 1.0, element_safety));
-    return part;
-  }
-
-  ErrorPart newton() const { return part_of(runs_.newton, 1.0, safety); }
-
-  /// @param share  of the difference of both runs that is missing in the simulation
-  ErrorPart part_of(const Comparison& comparison, double share, double factor) const {
-    if (!comparison.is_asked()) return {};
-    if (!is_there(comparison.run) || !is_there(comparison.beside)) return unresolved(unknown);
-    const double change = share * (of(*comparison.run) - of(*comparison.beside));
-    if (std::abs(change) <= round_off * magnitude_) return {};
-    return {change, factor * std::abs(change), true};
-  }
-
-  const Analysis& analysis_;
-  std::size_t response_;
-  const JudgingRuns& runs_;
-  double order_, value_ = 0.0, magnitude_ = 0.0;
-};
+}
 
 }  // namespace
 
@@ -148,22 +142,68 @@ Extrapolation extrapolate(double fine, double middle, double coarse, double orde
   const double last = fine - middle, before = middle - coarse;
   Extrapolation found;
   if (last != 0.0 && last * before > 0.0) found.order = std::log2(before / last);
-  const double largest = std::max({std::abs(last), std::abs(before), local});
-  if (largest <= round_off * std::abs(fine)) return {};
-  if (found.order && std::abs(*found.order - order) <= order_room) {
-    const double remaining = 1.0 / (std::pow(2.0, order) - 1.0);
+  if (std::max({std::abs(last), std::abs(before), local}) <= round_off * std::abs(fine)) return {};
+  const double share = std::pow(2.0, -order), remaining = share / (1.0 - share);
+  found.has_promised_order = found.order && std::abs(*found.order - order) <= order_room;
+  if (found.has_promised_order) {
     found.part.change = remaining * last;
-    found.part.bound = safety * remaining * std::max(std::abs(last), local);
+    found.part.bound = order_safety * remaining * std::max(std::abs(last), local);
     return found;
   }
-  found.part.is_resolved = largest <= small;
-  found.part.bound = found.part.is_resolved ? safety * largest : largest;
+  const bool falls = found.order && *found.order >= 1.0;
+  found.part.bound = (falls ? falling_safety : difference_safety) *
+                     std::max({std::abs(last), share * std::abs(before), local});
+  found.part.is_resolved = found.part.bound <= small;
   return found;
+}
+
+void Evidence::add(const Evidence& other, double factor) {
+  value += factor * other.value;
+  local += std::abs(factor) * other.local;
+  add_to(quarter_step, other.quarter_step, factor);
+  add_to(half_step, other.half_step, factor);
+  add_to(twice_step, other.twice_step, factor);
+  add_to(four_steps, other.four_steps, factor);
+  add_to(more_elements, other.more_elements, factor);
+  add_to(fewer_elements, other.fewer_elements, factor);
+  add_to(modes, other.modes, factor);
+  add_to(newton, other.newton, factor);
+}
+
+Evidence evidence_of(const Analysis& analysis, std::size_t response, const JudgingRuns& runs,
+                     double order) {
+  const Eigen::MatrixXd& history = analysis.histories[response];
+  Evidence evidence;
+  evidence.order = order;
+  evidence.value = analysis.reductions[response].value;
+  evidence.magnitude =
+      history.size() > 0 ? history.cwiseAbs().maxCoeff() : std::abs(evidence.value);
+  if (runs.twice_step != nullptr && !runs.twice_step->has_failed()) {
+    evidence.local = local_difference(analysis, response, *runs.twice_step);
+  }
+  evidence.quarter_step = value_of(runs.quarter_step, response);
+  evidence.half_step = value_of(runs.half_step, response);
+  evidence.twice_step = value_of(runs.twice_step, response);
+  evidence.four_steps = value_of(runs.four_steps, response);
+  evidence.more_elements = difference(runs.more_elements, response);
+  evidence.fewer_elements = difference(runs.fewer_elements, response);
+  evidence.modes = difference(runs.modes, response);
+  evidence.newton = difference(runs.newton, response);
+  return evidence;
+}
+
+ErrorBar error_bar(const Evidence& evidence) {
+  ErrorBar bar;
+  bar.step = step_part(evidence, bar.order);
+  bar.elements = element_part(evidence);
+  bar.elements.add(part_of(evidence, evidence.modes, 1.0, more_elements_safety));
+  bar.newton = part_of(evidence, evidence.newton, 1.0, newton_safety);
+  return bar;
 }
 
 ErrorBar error_bar(const Analysis& analysis, std::size_t response, const JudgingRuns& runs,
                    double order) {
-  return Bar(analysis, response, runs, order).make();
+  return error_bar(evidence_of(analysis, response, runs, order));
 }
 
 }  // namespace pleuel

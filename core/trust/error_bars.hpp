@@ -16,15 +16,17 @@ int scheme_order(const SimulationSettings& settings);
 struct Extrapolation {
   ErrorPart part;
   std::optional<double> order;  ///< log₂ of the ratio of the differences, if both have one sign
+  bool has_promised_order = false;
 };
 
-/// Richardson's estimate (v(h) − v(2h)) / (2ᵖ − 1) where the observed order is p ± 0.5. Elsewhere
-/// the larger difference is the bound, as where a peak rings, or two of them change places: the
-/// difference of two runs may be small by accident then.
+/// Richardson's estimate (v(h) − v(2h)) / (2ᵖ − 1) where the observed order is p ± 0.5. Elsewhere,
+/// as where a peak rings, or two of them change places, the bound is the larger one of
+/// v(h) − v(2h) and of what v(2h) − v(4h) promises of it, (v(2h) − v(4h)) / 2ᵖ: the difference of
+/// two runs may be small by accident. How much is put on top was found in tests/honesty.
 /// @param order  p that is promised
 /// @param local  |y(h) − y(2h)| of the history where the value comes from: peaks can agree by
 ///               accident
-/// @param small  differences below this need no order: they are resolved for what they are
+/// @param small  bounds up to this need no order: they are resolved for what they are
 Extrapolation extrapolate(double fine, double middle, double coarse, double order, double local,
                           double small);
 
@@ -42,14 +44,35 @@ struct JudgingRuns {
   const NestedRun* half_step = nullptr;
   const NestedRun* twice_step = nullptr;
   const NestedRun* four_steps = nullptr;
-  Comparison elements;          ///< with other elements
-  double element_factor = 0.5;  ///< so many times as many
-  Comparison modes;             ///< with more modes
-  Comparison newton;            ///< with a smaller tolerance of Newton's method
+  Comparison more_elements;   ///< with twice the elements
+  Comparison fewer_elements;  ///< with half the elements
+  Comparison modes;           ///< with more modes
+  Comparison newton;          ///< with a smaller tolerance of Newton's method
 };
 
-/// The bar of one response. Where a run is missing or failed, what it would tell is not resolved.
+/// What runs say of one value. Numbers are absent where no run was made, and NaN where it failed.
+struct Evidence {
+  double order = 2.0;      ///< of the scheme
+  double value = 0.0;      ///< of the simulation that is judged
+  double magnitude = 0.0;  ///< what errors are small beside
+  double local = 0.0;      ///< of extrapolate()
+  std::optional<double> quarter_step, half_step, twice_step, four_steps;  ///< values of these runs
+  /// Differences of both runs of a comparison.
+  std::optional<double> more_elements, fewer_elements, modes, newton;
+
+  /// Adds `factor` times the value of another response of the same runs: the evidence of a sum.
+  /// The magnitude stays.
+  void add(const Evidence& other, double factor);
+};
+
 /// @param order  of the scheme
+Evidence evidence_of(const Analysis& analysis, std::size_t response, const JudgingRuns& runs,
+                     double order);
+
+/// The bar of a value. Where a run is missing or failed, what it would tell is not resolved.
+ErrorBar error_bar(const Evidence& evidence);
+
+/// That of one response.
 ErrorBar error_bar(const Analysis& analysis, std::size_t response, const JudgingRuns& runs,
                    double order);
 

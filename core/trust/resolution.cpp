@@ -77,11 +77,10 @@ class Judgement {
     make_coarse_runs();
     suspect();
     if (is_suspicious() && leave_out_round_off()) suspect();
-    needs_half_step_ = is_time_suspicious_ || !do_coarse_runs_suffice();
+    needs_half_step_ = is_close() || is_time_suspicious_ || !do_coarse_runs_suffice();
     std::vector<Refinement> fine;
     if (needs_half_step_) fine.push_back({0.5, 1.0});
-    needs_twice_elements_ = is_space_suspicious_ || !do_coarse_elements_suffice();
-    if (needs_twice_elements_) fine.push_back({1.0, 2.0});
+    if (is_space_suspicious_) fine.push_back({1.0, 2.0});
     if (are_modes_suspicious_) fine.push_back({1.0, 1.0, more_modes});
     Resolution found = weigh(make_nested_runs(problem_, run_.x, fine));
     make_bars(found);
@@ -89,11 +88,14 @@ class Judgement {
   }
 
  private:
+  bool is_close() const { return run_.scrutiny == Scrutiny::close; }
+
   void plan_coarse_runs() {
     const std::optional<int> fewest = fewest_elements(run_.analysis.model, problem_);
     const bool has_few = fewest.value_or(1) <= 2;
     space_factor_ = has_few ? 2.0 : 0.5;
     has_elements_ = fewest.has_value();
+    has_more_elements_ = is_close() && has_elements_ && !has_few;
     has_modes_ = has_reduced_beams(run_.analysis.model, problem_);
     has_tolerance_ = problem_.simulation.newton_tolerance > small_tolerance;
   }
@@ -101,6 +103,7 @@ class Judgement {
   void make_coarse_runs() {
     std::vector<Refinement> refinements = {{2.0, 1.0}, {4.0, 1.0}};
     if (has_elements_) refinements.push_back({2.0, space_factor_});
+    if (has_more_elements_) refinements.push_back({2.0, 2.0});
     if (has_modes_) refinements.push_back({2.0, 1.0, more_modes});
     if (has_tolerance_) refinements.push_back({4.0, 1.0, 0, tighter_newton});
     std::vector<NestedRun> runs = make_nested_runs(problem_, run_.x, refinements);
@@ -108,6 +111,7 @@ class Judgement {
     coarse_ = std::move(runs[next++]);
     coarsest_ = std::move(runs[next++]);
     if (has_elements_) other_elements_ = std::move(runs[next++]);
+    if (has_more_elements_) more_elements_ = std::move(runs[next++]);
     if (has_modes_) other_modes_ = std::move(runs[next++]);
     if (has_tolerance_) other_newton_ = std::move(runs[next++]);
   }
@@ -178,8 +182,8 @@ class Judgement {
     std::size_t next = 0;
     if (needs_half_step_) half_step_ = std::move(fine[next++]);
     if (is_time_suspicious_) resolution.in_time = weigh_time(half_step_, resolution.failure);
-    if (needs_twice_elements_) twice_elements_ = std::move(fine[next++]);
     if (is_space_suspicious_) {
+      twice_elements_ = std::move(fine[next++]);
       resolution.in_space = weigh_division(twice_elements_, resolution.in_time, resolution.failure);
     }
     if (are_modes_suspicious_) {
@@ -191,17 +195,15 @@ class Judgement {
 
   /// Whether runs say what the step leaves of the responses that count, and that it is within the
   /// accuracy which the file asks for.
-  bool suffice(const JudgingRuns& runs) const { return suffice(runs, &ErrorBar::step); }
-
-  bool suffice(const JudgingRuns& runs, ErrorPart ErrorBar::*part) const {
+  bool suffice(const JudgingRuns& runs) const {
     return std::all_of(judged_.begin(), judged_.end(), [&](std::size_t i) {
       if (!counts(problem_, i)) return true;
-      const ErrorPart error = error_bar(run_.analysis, i, runs, order()).*part;
+      const ErrorPart step = error_bar(run_.analysis, i, runs, order()).step;
       const double value = found_.values(static_cast<Eigen::Index>(i));
       const double size = problem_.objective
                               ? asked_size(problem_, problem_.responses[i].name, value)
                               : magnitude(found_, i);
-      return error.is_resolved && error.bound <= problem_.accuracy.target * size;
+      return step.is_resolved && step.bound <= problem_.accuracy.target * size;
     });
   }
 
@@ -213,15 +215,6 @@ class Judgement {
     return suffice(runs);
   }
 
-  /// Half the elements say little of responses that are sampled in space, and of odd numbers.
-  bool do_coarse_elements_suffice() const {
-    if (!has_elements_) return true;
-    JudgingRuns runs;
-    runs.elements = {&other_elements_, &coarse_};
-    runs.element_factor = space_factor_;
-    return suffice(runs, &ErrorBar::elements);
-  }
-
   void make_bars(Resolution& resolution) {
     JudgingRuns runs;
     if (needs_half_step_) runs.half_step = &half_step_;
@@ -230,18 +223,20 @@ class Judgement {
     if (quarter_step_ || (needs_half_step_ && !suffice(runs))) {
       runs.quarter_step = &quarter_step();
     }
-    if (has_elements_) runs.elements = {&other_elements_, &coarse_};
-    runs.element_factor = space_factor_;
-    if (needs_twice_elements_) {
-      runs.elements = {&twice_elements_, &found_};
-      runs.element_factor = 2.0;
+    if (has_elements_) {
+      (space_factor_ > 1.0 ? runs.more_elements : runs.fewer_elements) = {&other_elements_,
+                                                                          &coarse_};
     }
+    if (has_more_elements_) runs.more_elements = {&more_elements_, &coarse_};
+    if (is_space_suspicious_) runs.more_elements = {&twice_elements_, &found_};
     if (has_modes_) runs.modes = {&other_modes_, &coarse_};
     if (are_modes_suspicious_) runs.modes = {&more_modes_, &found_};
     if (has_tolerance_) runs.newton = {&other_newton_, &coarsest_};
     resolution.bars.resize(run_.analysis.responses.size());
+    resolution.evidence.resize(run_.analysis.responses.size());
     for (const std::size_t i : judged_) {
-      resolution.bars[i] = error_bar(run_.analysis, i, runs, order());
+      resolution.evidence[i] = evidence_of(run_.analysis, i, runs, order());
+      resolution.bars[i] = error_bar(*resolution.evidence[i]);
     }
   }
 
@@ -344,13 +339,15 @@ class Judgement {
 
   const TrustedRun& run_;
   const ProblemFile& problem_;
-  NestedRun found_, coarse_, coarsest_, other_elements_, other_modes_, other_newton_;
+  NestedRun found_, coarse_, coarsest_, other_elements_, more_elements_, other_modes_,
+      other_newton_;
   NestedRun half_step_, twice_elements_, more_modes_;
   std::optional<NestedRun> quarter_step_;
   std::vector<std::size_t> judged_;
   double space_factor_ = 0.5;
-  bool has_elements_ = false, has_modes_ = false, has_tolerance_ = false;
-  bool needs_half_step_ = false, needs_twice_elements_ = false;
+  bool has_elements_ = false, has_more_elements_ = false, has_modes_ = false,
+       has_tolerance_ = false;
+  bool needs_half_step_ = false;
   bool is_time_suspicious_ = false, is_space_suspicious_ = false, are_modes_suspicious_ = false;
 };
 

@@ -25,6 +25,7 @@ struct Resolution {
   std::vector<Unresolved> in_modes;  ///< that reductions leave out
   /// One a response; none of those that are errors themselves, or round-off.
   std::vector<std::optional<ErrorBar>> bars;
+  std::vector<std::optional<Evidence>> evidence;  ///< what the bars are made from
   std::string failure;  ///< of a finer run that could not be made; empty: none
 };
 
@@ -46,7 +47,8 @@ struct Resolution {
 ///
 /// Error bars of all responses follow from the same runs (error_bars.hpp), with one of four times
 /// the step, and half and a quarter of it where these say nothing of a response that counts, or
-/// more than the accuracy the file asks for. Balances of energy and drifts of constraints are
+/// more than the accuracy the file asks for. Under close scrutiny half the step is always run, and
+/// twice the elements at twice the step. Balances of energy and drifts of constraints are
 /// errors themselves, and not judged.
 Resolution judge_resolution(const TrustedRun& run);
 

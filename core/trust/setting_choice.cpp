@@ -167,8 +167,7 @@ class Search {
     JudgingRuns judging;
     judging.twice_step = &runs[0];
     judging.four_steps = &runs[1];
-    if (trial.fewest_elements) judging.elements = {&runs[2], &runs[0]};
-    judging.element_factor = 2.0;
+    if (trial.fewest_elements) judging.more_elements = {&runs[2], &runs[0]};
     keep_errors(analysis, judging, trial);
   }
 

@@ -97,7 +97,7 @@ TEST(AccuracyKnobs, IncludeWhatTheFileLeavesOut) {
 /// mass at this speed (at 100 rad/s, 2.5 %, it is 12 % too high).
 TEST(AccuracyKnobs, PricesOfEffectsAreWhatReoptimizingChanges) {
   ProblemFile problem = test::quick_problem({"/scene/joints/bearing/drive/speed=60"});
-  problem.accuracy = AccuracySettings{{2e-4}, {4}, 1e-2};
+  problem.accuracy = test::grid({2e-4}, {4}, 1e-2);
   const auto optimum = [](const ProblemFile& file) {
     DesignProblem design(file);
     return solve_design(design, {.backend = "nlopt-mma"});
@@ -121,7 +121,7 @@ TEST(AccuracyKnobs, PricesOfEffectsAreWhatReoptimizingChanges) {
 
 TEST(AccuracyKnobs, HaveNoPricesAtTheStart) {
   ProblemFile problem = test::quick_problem();
-  problem.accuracy = AccuracySettings{{2e-4}, {2}, 1e-2};
+  problem.accuracy = test::grid({2e-4}, {2}, 1e-2);
   const AccuracyStudy study = varied_study(problem, {problem, start_design(problem)});
   for (const VariedRun& one : study.effects) EXPECT_FALSE(one.run.optimum_change);
   for (const AccuracyRun& run : study.runs) EXPECT_FALSE(run.optimum_change);
@@ -130,7 +130,7 @@ TEST(AccuracyKnobs, HaveNoPricesAtTheStart) {
 /// Three corrections a step where index 3 has one: several times the time, whatever the machine.
 TEST(AccuracyKnobs, TimesAreComparedWithTheSettingThatIsChanged) {
   ProblemFile problem = test::quick_problem();
-  problem.accuracy = AccuracySettings{{2e-4}, {2}, 1e-2};
+  problem.accuracy = test::grid({2e-4}, {2}, 1e-2);
   const AccuracyStudy study = varied_study(problem, {problem, start_design(problem)});
   ASSERT_EQ(study.base, 0u);
   const auto found = std::find_if(study.knobs.begin(), study.knobs.end(), [](const VariedRun& one) {
@@ -142,7 +142,7 @@ TEST(AccuracyKnobs, TimesAreComparedWithTheSettingThatIsChanged) {
 
 TEST(Accuracy, ComparesTheReferenceWithAnotherFormulation) {
   ProblemFile problem = test::quick_problem();
-  problem.accuracy = AccuracySettings{{2e-4}, {2}, 1e-2};
+  problem.accuracy = test::grid({2e-4}, {2}, 1e-2);
   const AccuracyStudy study = accuracy_study(problem, {problem, start_design(problem)});
   EXPECT_EQ(study.check.formulation, "stabilized-index-2");
   EXPECT_EQ(study.check.failure, "");

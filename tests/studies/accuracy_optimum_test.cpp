@@ -32,7 +32,7 @@ TEST(AccuracyOptimum, TriesWhatIsRecommendedAndThanWhichNothingIsBetterInBoth) {
 /// twice its elements.
 TEST(AccuracyOptimum, KnowsHowFarItsReferenceIsOff) {
   ProblemFile problem = test::quick_problem();
-  problem.accuracy = AccuracySettings{{4e-4}, {2}, 1e-2};
+  problem.accuracy = test::grid({4e-4}, {2}, 1e-2);
   const SolveOptions options{.backend = "nlopt-mma"};
   const Eigen::VectorXd x = plain_optimum(problem, options).x;
   const AccuracyStudy study = accuracy_study(problem, {problem, x});

@@ -12,21 +12,13 @@
 namespace pleuel {
 namespace {
 
-AccuracySettings grid(std::vector<double> steps, std::vector<int> elements, double target) {
-  AccuracySettings settings;
-  settings.steps = std::move(steps);
-  settings.elements = std::move(elements);
-  settings.target = target;
-  return settings;
-}
-
 PricedDesign at_start(const ProblemFile& problem) {
   return {problem, start_design(problem)};
 }
 
 AccuracyStudy study(double target) {
   ProblemFile problem = test::quick_problem();
-  problem.accuracy = grid({4e-4, 2e-4, 1e-4}, {4}, target);
+  problem.accuracy = test::grid({4e-4, 2e-4, 1e-4}, {4}, target);
   return accuracy_study(problem, at_start(problem));
 }
 
@@ -110,7 +102,7 @@ TEST(Accuracy, TriesStepsAndElementsAroundThoseOfTheFileIfItNamesNone) {
 
 TEST(Accuracy, IsThatOfTheDesignThatIsAskedFor) {
   ProblemFile problem = test::quick_problem();
-  problem.accuracy = grid({2e-4}, {2}, 1e-2);
+  problem.accuracy = test::grid({2e-4}, {2}, 1e-2);
   const Eigen::VectorXd x = 0.7 * start_design(problem);
   const AccuracyStudy result = accuracy_study(problem, {problem, x});
   const ProblemFile same = discretized(problem, result.runs[0].settings);
@@ -151,7 +143,7 @@ TEST(Accuracy, SaysNoErrorBelowThatOfItsReference) {
 
 TEST(Accuracy, AFailingRunIsMarkedAndTheOthersGoOn) {
   ProblemFile problem = test::quick_problem({"/simulation/max_newton_iterations=2"});
-  problem.accuracy = grid({5e-3, 1e-4}, {2}, 1e-3);
+  problem.accuracy = test::grid({5e-3, 1e-4}, {2}, 1e-3);
   problem.simulation.newton_tolerance = 1e-9;
   const AccuracyStudy result = accuracy_study(problem, at_start(problem));
   EXPECT_FALSE(result.runs[0].failure.empty());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/scene/problem_reader.hpp"
@@ -16,6 +17,15 @@ inline ProblemFile quick_problem(const std::vector<std::string>& more = {}) {
   overrides.insert(overrides.end(), more.begin(), more.end());
   return read_problem(std::string(PLEUEL_SOURCE_DIR) + "/problems/slider_crank_round.json",
                       overrides);
+}
+
+/// What the command accuracy tries.
+inline AccuracySettings grid(std::vector<double> steps, std::vector<int> elements, double target) {
+  AccuracySettings settings;
+  settings.steps = std::move(steps);
+  settings.elements = std::move(elements);
+  settings.target = target;
+  return settings;
 }
 
 }  // namespace pleuel::test
