@@ -84,8 +84,17 @@ std::string order_text(const AccuracyStudy& study, const Measure& measure) {
   return fmt::format("Fitted order of the error in the step: {:.1f}.", *order);
 }
 
+/// "what is minimized or limited", "gradients of what is minimized or limited", "gradients"
+std::string counted_text(const ProblemFile& problem, const AccuracyStudy& study,
+                         const std::string& what) {
+  if (study.counted.size() == problem.responses.size()) return what;
+  const std::string counted = "what is minimized or limited";
+  return what == "responses" ? counted : what + " of " + counted;
+}
+
+/// @param what  "responses" or "gradients"
 LogLogChart study_chart(const ProblemFile& problem, const AccuracyStudy& study,
-                        const Measure& measure, const std::string& what, const std::string& of) {
+                        const Measure& measure, const std::string& what) {
   LogLogChart chart;
   chart.title = fmt::format("{}: what accurate {} cost", problem.name, what);
   chart.notes = {order_text(study, measure)};
@@ -93,7 +102,8 @@ LogLogChart study_chart(const ProblemFile& problem, const AccuracyStudy& study,
     chart.notes.front() +=
         fmt::format(" Other knobs at {}.", setting_text(study.runs[*study.base].settings));
   }
-  chart.x_label = fmt::format("largest relative error of {} [%]", of);
+  chart.x_label =
+      fmt::format("largest relative error of {} [%]", counted_text(problem, study, what));
   chart.series = series_of(study, measure);
   const double floor = study.counted_error(study.reference.*measure.errors);
   if (floor > 0.0) chart.floor = hundred * floor;
@@ -104,15 +114,13 @@ LogLogChart study_chart(const ProblemFile& problem, const AccuracyStudy& study,
 }  // namespace
 
 LogLogChart value_chart(const ProblemFile& problem, const AccuracyStudy& study) {
-  LogLogChart chart =
-      study_chart(problem, study, of_values, "responses", "what is minimized or limited");
+  LogLogChart chart = study_chart(problem, study, of_values, "responses");
   chart.y_label = "processor time of a simulation [ms]";
   return chart;
 }
 
 LogLogChart gradient_chart(const ProblemFile& problem, const AccuracyStudy& study) {
-  LogLogChart chart = study_chart(problem, study, of_gradients, "gradients",
-                                  "gradients of what is minimized or limited");
+  LogLogChart chart = study_chart(problem, study, of_gradients, "gradients");
   chart.y_label = "processor time of a simulation with gradients [ms]";
   return chart;
 }

@@ -110,9 +110,9 @@ std::string recommendations_text(const AccuracyStudy& study) {
   return text + "\n";
 }
 
-/// "13 % less time"
+/// "13 % less time", "the same time"
 std::string time_text(double change) {
-  if (std::abs(change) < 0.005) return "no time";
+  if (std::abs(change) < 0.005) return "the same time";
   return fmt::format("{:.0f} % {} time", 100.0 * std::abs(change), change < 0.0 ? "less" : "more");
 }
 

@@ -15,6 +15,9 @@ namespace {
 
 /// Of the file, then by tens.
 constexpr int recommended_targets = 3;
+/// Times that differ by more need not be compared in turns.
+constexpr double clearly_more = 3.0;
+
 /// What is closer to the reference than that is to the truth is not known better.
 void raise_to_errors_of(const AccuracyRun& reference, AccuracyRun& run) {
   if (run.has_failed()) return;
@@ -208,6 +211,10 @@ class Variations {
     if (run.has_failed()) return varied;
     compare(study_.reference, x_, run);
     raise_to_errors_of(study_.reference, run);
+    if (run.simulation_seconds > clearly_more * base_.simulation_seconds) {
+      varied.time_change = run.simulation_seconds / base_.simulation_seconds - 1.0;
+      return varied;
+    }
     const ComparedSeconds seconds =
         compare_seconds([&] { analyze(changed, x_); }, [&] { analyze(discrete_, x_); });
     run.simulation_seconds = seconds.one;

@@ -14,10 +14,15 @@ namespace pleuel {
 
 namespace {
 
-/// What repetitions may take [s], and how many there are at most. What takes longer is so much
-/// above the noise that once is enough.
-constexpr double enough = 0.4;
-constexpr int most_repetitions = 5;
+/// What repetitions may take [s]: what takes longer is so far above the noise that once is enough.
+constexpr double enough = 0.25;
+/// Measured that often, and what is very short until that time is spent [s].
+constexpr int repetitions = 4;
+constexpr double at_least = 0.03;
+
+bool is_enough(int measurements, double spent) {
+  return spent >= enough || (measurements >= repetitions && spent >= at_least);
+}
 
 void keep_values(const Analysis& analysis, AccuracyRun& run) {
   run.values = values_of(analysis);
@@ -42,7 +47,7 @@ double processor_seconds(const std::function<void()>& work) {
 double least_seconds(const std::function<void()>& work) {
   double least = processor_seconds(work);
   double spent = least;
-  for (int i = 1; i < most_repetitions && spent < enough; ++i) {
+  for (int i = 1; !is_enough(i, spent); ++i) {
     const double seconds = processor_seconds(work);
     spent += seconds;
     least = std::min(least, seconds);
@@ -54,7 +59,7 @@ ComparedSeconds compare_seconds(const std::function<void()>& one,
                                 const std::function<void()>& other) {
   ComparedSeconds least{processor_seconds(one), processor_seconds(other)};
   double spent = least.one + least.other;
-  for (int i = 1; i < most_repetitions && spent < 2 * enough; ++i) {
+  for (int i = 1; !is_enough(i, 0.5 * spent); ++i) {
     const double of_one = processor_seconds(one), of_other = processor_seconds(other);
     spent += of_one + of_other;
     least.one = std::min(least.one, of_one);

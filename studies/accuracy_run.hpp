@@ -41,7 +41,8 @@ enum class Timing { once, least };
 /// Processor time of some work [s]; what else runs on the machine does not count.
 double processor_seconds(const std::function<void()>& work);
 
-/// The least of several, up to half a second in total: caches that others filled only add time.
+/// The least of several, up to a quarter of a second in total: caches that others filled only add
+/// time.
 double least_seconds(const std::function<void()>& work);
 
 /// Processor times of two works, in turns, the least of several of each [s].
