@@ -97,6 +97,8 @@ class Judgement {
     has_elements_ = fewest.has_value();
     has_more_elements_ = is_close() && has_elements_ && !has_few;
     has_modes_ = has_reduced_beams(run_.analysis.model, problem_);
+    // One element may have no more modes, and more elements change nothing without them.
+    has_modes_of_more_elements_ = has_modes_ && has_few;
     has_tolerance_ = problem_.simulation.newton_tolerance > small_tolerance;
   }
 
@@ -105,6 +107,7 @@ class Judgement {
     if (has_elements_) refinements.push_back({2.0, space_factor_});
     if (has_more_elements_) refinements.push_back({2.0, 2.0});
     if (has_modes_) refinements.push_back({2.0, 1.0, more_modes});
+    if (has_modes_of_more_elements_) refinements.push_back({2.0, 2.0, more_modes});
     if (has_tolerance_) refinements.push_back({4.0, 1.0, 0, tighter_newton});
     std::vector<NestedRun> runs = make_nested_runs(problem_, run_.x, refinements);
     std::size_t next = 0;
@@ -113,6 +116,7 @@ class Judgement {
     if (has_elements_) other_elements_ = std::move(runs[next++]);
     if (has_more_elements_) more_elements_ = std::move(runs[next++]);
     if (has_modes_) other_modes_ = std::move(runs[next++]);
+    if (has_modes_of_more_elements_) modes_of_more_elements_ = std::move(runs[next++]);
     if (has_tolerance_) other_newton_ = std::move(runs[next++]);
   }
 
@@ -230,6 +234,7 @@ class Judgement {
     if (has_more_elements_) runs.more_elements = {&more_elements_, &coarse_};
     if (is_space_suspicious_) runs.more_elements = {&twice_elements_, &found_};
     if (has_modes_) runs.modes = {&other_modes_, &coarse_};
+    if (has_modes_of_more_elements_) runs.modes = {&modes_of_more_elements_, &other_elements_};
     if (are_modes_suspicious_) runs.modes = {&more_modes_, &found_};
     if (has_tolerance_) runs.newton = {&other_newton_, &coarsest_};
     resolution.bars.resize(run_.analysis.responses.size());
@@ -340,13 +345,13 @@ class Judgement {
   const TrustedRun& run_;
   const ProblemFile& problem_;
   NestedRun found_, coarse_, coarsest_, other_elements_, more_elements_, other_modes_,
-      other_newton_;
+      modes_of_more_elements_, other_newton_;
   NestedRun half_step_, twice_elements_, more_modes_;
   std::optional<NestedRun> quarter_step_;
   std::vector<std::size_t> judged_;
   double space_factor_ = 0.5;
   bool has_elements_ = false, has_more_elements_ = false, has_modes_ = false,
-       has_tolerance_ = false;
+       has_modes_of_more_elements_ = false, has_tolerance_ = false;
   bool needs_half_step_ = false;
   bool is_time_suspicious_ = false, is_space_suspicious_ = false, are_modes_suspicious_ = false;
 };

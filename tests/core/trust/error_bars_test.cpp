@@ -89,12 +89,12 @@ TEST(Extrapolation, DoesNotTrustPeaksThatAgreeByAccident) {
   EXPECT_GE(found.part.bound, 0.2);
 }
 
-/// A response of which nothing but its value is known.
+/// A response with a history of one instant.
 class ErrorBarOfAValue : public testing::Test {
  protected:
   ErrorBarOfAValue() {
     analysis_.reductions.emplace_back().value = 10.0;
-    analysis_.histories.emplace_back();
+    analysis_.histories.push_back(Eigen::MatrixXd::Constant(1, 1, 10.0));
   }
   static NestedRun run(double value) {
     NestedRun run;
@@ -213,6 +213,16 @@ TEST_F(ErrorBarOfAValue, IsNotResolvedWhereARunFailed) {
   EXPECT_TRUE(error_bar(analysis_, 0, runs, 2).is_resolved());
   runs.fewer_elements = {&broken, &twice};
   EXPECT_FALSE(error_bar(analysis_, 0, runs, 2).is_resolved());
+}
+
+TEST_F(ErrorBarOfAValue, IsExactOfAConstantWhereStepsFailed) {
+  analysis_.histories[0].resize(0, 0);
+  const NestedRun broken = failed();
+  JudgingRuns runs;
+  runs.half_step = runs.twice_step = runs.four_steps = &broken;
+  const ErrorBar bar = error_bar(analysis_, 0, runs, 2);
+  EXPECT_TRUE(bar.is_resolved());
+  EXPECT_EQ(bar.bound(), 0.0);
 }
 
 }  // namespace

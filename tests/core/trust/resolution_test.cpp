@@ -252,6 +252,26 @@ TEST(Resolution, NamesWhatAReductionLeavesOut) {
   EXPECT_THAT(doubts_of(weighing(10)), IsEmpty());
 }
 
+/// One element has no modes beside those of its ends, and more elements with only these bend as
+/// one: the middle of a clamped beam under its weight then sags by 1/24 in place of 17/384 wL⁴/EI.
+TEST(Resolution, HasBarsForModesThatNeedMoreElements) {
+  const ProblemFile problem =
+      read_problem_text(cantilever, "cantilever.json",
+                        {R"(/scene/gravity=[0, -9.81, 0])", "/scene/bodies/b/elements=1",
+                         R"(/scene/bodies/b/reduction={"modes": 0})", "/scene/loads/push/value=0",
+                         "/simulation/initial_state=quasi-static",
+                         R"(/responses={"sag": {"type": "deflection", "body": "b", "at": 0.5,
+                              "over_time": "max-abs"}})",
+                         "/constraints={}", R"(/objective={"minimize": "sag"})"});
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const Monitors monitors = monitor(analysis->model, analysis->trajectory);
+  const Resolution found = judge_resolution({problem, x, *analysis, monitors});
+  const double exact = 17.0 / 384.0 * 24.0 * analysis->reductions[0].value;
+  ASSERT_TRUE(found.bars.at(0));
+  EXPECT_GE(found.bars[0]->elements.bound, exact - analysis->reductions[0].value);
+}
+
 /// In equilibrium under a force across nothing pulls: what is computed of that is round-off.
 TEST(Resolution, IsNotAskedOfRoundOff) {
   const ProblemFile problem =
