@@ -83,9 +83,14 @@ TEST(OptimumError, OfALimitThatItMayBreakIsAsLargeAsTheTargetAtMost) {
     result.evaluation.objective_gradient = Eigen::VectorXd::Zero(1);
     result.evaluation.constraint_jacobian = Eigen::MatrixXd::Zero(1, 1);
     result.constraint_multipliers = Eigen::VectorXd::Zero(1);
-    std::vector<std::optional<ErrorBar>> errors(2, ErrorBar{});
-    errors[1]->step.bound = error;
-    return inaccuracy(design, result, errors);
+    Trust trust;
+    trust.errors.assign(2, ErrorBar{});
+    trust.errors[1]->step.bound = error;
+    Evidence exact;  // of the mass
+    exact.value = 1.0;
+    exact.twice_step = exact.four_steps = 1.0;
+    trust.evidence.assign(2, exact);
+    return inaccuracy(design, result, trust);
   };
   EXPECT_THAT(complaint("upper", 9.8e-3, 0.3e-3), testing::HasSubstr("\"sag\", which is limited"));
   EXPECT_THAT(complaint("lower", 10.2e-3, 0.3e-3), testing::HasSubstr("± 3.0 % only"));
