@@ -56,11 +56,11 @@ TEST(ReadBackErrors, OfSimulateAreThoseOfTheirResponse) {
 }
 
 /// The mass is known exactly: its least value is as uncertain as the limits that decide, by their
-/// multipliers.
-TEST(ReadBackErrors, OfAnOptimumAreThoseOfItsLimitsTimesTheirPrices) {
-  const Report report = run({"optimize", file, "--set", "/accuracy/target=0.1"});
+/// multipliers. The sum is judged as one value: not by the sum of the bars, but by bars of its own.
+TEST(ReadBackErrors, OfAnOptimumAreAboutThoseOfItsLimitsTimesTheirPrices) {
+  const Report report = run({"optimize", file});
   const json& objective = report.document.at("objective");
-  double total = 0.0;
+  double sum = 0.0;
   const std::map<std::string, std::string> responses = {{"crank_strength", "crank_stress"},
                                                         {"rod_strength", "rod_stress"},
                                                         {"rod_stiffness", "rod_bow"},
@@ -68,11 +68,12 @@ TEST(ReadBackErrors, OfAnOptimumAreThoseOfItsLimitsTimesTheirPrices) {
   for (const auto& [name, constraint] : report.document.at("constraints").items()) {
     const json& error = report.document.at("responses").at(responses.at(name)).at("error");
     const double multiplier = constraint.at("multiplier");
-    if (multiplier != 0.0) total += multiplier * error.at("total").get<double>();
+    if (multiplier != 0.0) sum += multiplier * error.at("total").get<double>();
   }
-  ASSERT_GT(total, 0.0);
-  const double value = objective.at("value");
-  EXPECT_NEAR(objective.at("error").at("total"), total, 1e-9 * total);
+  ASSERT_GT(sum, 0.0);
+  const double value = objective.at("value"), total = objective.at("error").at("total");
+  EXPECT_GT(total, sum / 4.0);
+  EXPECT_LT(total, 4.0 * sum);
   const std::string text = unwrapped(report.text);
   const auto behind = [&](const std::string& words) {
     const std::size_t at = text.find(words);
