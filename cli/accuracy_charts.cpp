@@ -16,6 +16,9 @@ namespace {
 /// Milliseconds against percent.
 constexpr double ms = 1e3, hundred = 100.0;
 
+/// A fitted order below this is none.
+constexpr double disorder = 0.3;
+
 /// What a chart shows of a run.
 struct Measure {
   Eigen::VectorXd AccuracyRun::*errors;
@@ -81,6 +84,7 @@ std::vector<ChartSeries> series_of(const AccuracyStudy& study, const Measure& me
 std::string order_text(const AccuracyStudy& study, const Measure& measure) {
   const std::optional<double> order = fitted_order(study, measure.errors);
   if (!order) return "No order could be fitted.";
+  if (*order < disorder) return "Errors do not fall with the step in order.";
   return fmt::format("Fitted order of the error in the step: {:.1f}.", *order);
 }
 

@@ -18,6 +18,10 @@ constexpr int recommended_targets = 3;
 /// Times that differ by more need not be compared in turns.
 constexpr double clearly_more = 3.0;
 
+/// More time that steps which follow the local error may take, relative to equal ones, before
+/// smaller errors are tried.
+constexpr double too_long = 20.0;
+
 /// What is closer to the reference than that is to the truth is not known better.
 void raise_to_errors_of(const AccuracyRun& reference, AccuracyRun& run) {
   if (run.has_failed()) return;
@@ -175,6 +179,7 @@ class Variations {
     const std::optional<double> of_reference =
         design_.lagrangian(discretized(problem_, study_.reference.settings));
     for (const Variation& one : numerical_variations(discrete_)) {
+      if (is_hopeless(one)) continue;
       VariedRun knob = varied(one);
       if (!knob.run.has_failed()) {
         knob.run.optimum_change = design_.change(of_reference, one.of(discrete_));
@@ -200,6 +205,14 @@ class Variations {
   void add(VariedRun run, std::vector<VariedRun>& all) const {
     all.push_back(std::move(run));
     if (observer_.variation) observer_.variation(all.back());
+  }
+
+  /// Smaller local errors only take longer than one that took too long already.
+  bool is_hopeless(const Variation& variation) const {
+    if (variation.knob != "local_error" || study_.knobs.empty()) return false;
+    const VariedRun& last = study_.knobs.back();
+    const bool is_too_long = last.run.has_failed() || last.time_change > too_long;
+    return last.variation.knob == variation.knob && is_too_long;
   }
 
   VariedRun varied(const Variation& variation) const {
