@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "cli/outcome.hpp"
+#include "cli/setting_report.hpp"
 #include "cli/warnings.hpp"
-#include "core/scene/reading/json_text.hpp"
 #include "core/trust/doubts.hpp"
 
 namespace pleuel {
@@ -197,27 +197,7 @@ Json settings_document(const Discretization& settings) {
 }
 
 Json overrides_document(const ProblemInput& input, const Discretization& settings) {
-  Json overrides = {{"/simulation/step", settings.step}};
-  const ProblemFile divided = discretized(input.problem, settings);
-  for (const Body& body : divided.scene.bodies) {
-    const auto* beam = std::get_if<BeamBody>(&body.shape);
-    if (beam == nullptr || beam->is_rigid) continue;
-    const std::string pointer = child_pointer("/scene/bodies", body.name);
-    const Json& written = input.effective[Json::json_pointer(pointer)];
-    if (!written.contains("segments")) {
-      overrides[pointer + "/elements"] = beam->segments.front().elements;
-      continue;
-    }
-    for (std::size_t i = 0; i < beam->segments.size(); ++i) {
-      const std::string place = fmt::format("{}/segments/{}", pointer, i);
-      const Segment& segment = beam->segments[i];
-      overrides[place + "/elements"] = segment.elements;
-      // Without it the lengths of segments would follow the elements.
-      const bool has_share = written["segments"][i].contains("length_fraction");
-      if (!has_share && segment.fraction) overrides[place + "/length_fraction"] = *segment.fraction;
-    }
-  }
-  return overrides;
+  return overrides_document(input.effective, discretized(input.problem, settings));
 }
 
 Json accuracy_document(const ProblemInput& input, const AccuracyStudy& study) {

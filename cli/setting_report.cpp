@@ -49,10 +49,17 @@ Json overrides_document(const Json& effective, const ProblemFile& divided) {
     if (beam == nullptr || beam->is_rigid) continue;
     const std::string pointer = child_pointer("/scene/bodies", body.name);
     const Json& written = effective[Json::json_pointer(pointer)];
+    if (!written.contains("segments")) {
+      overrides[pointer + "/elements"] = beam->segments.front().elements;
+      continue;
+    }
     for (std::size_t i = 0; i < beam->segments.size(); ++i) {
-      const std::string place =
-          written.contains("segments") ? fmt::format("{}/segments/{}", pointer, i) : pointer;
-      overrides[place + "/elements"] = beam->segments[i].elements;
+      const std::string place = fmt::format("{}/segments/{}", pointer, i);
+      const Segment& segment = beam->segments[i];
+      overrides[place + "/elements"] = segment.elements;
+      // Without it the lengths of segments would follow the elements.
+      const bool has_share = written["segments"][i].contains("length_fraction");
+      if (!has_share && segment.fraction) overrides[place + "/length_fraction"] = *segment.fraction;
     }
   }
   return overrides;
