@@ -21,6 +21,8 @@ namespace {
 constexpr double no_change = 1e-9;
 /// Share of the time below which nothing is said to be saved.
 constexpr double least_saving = 0.05;
+/// What processor times differ by from run to run.
+constexpr double time_noise = 0.03;
 /// How many knobs are recommended.
 constexpr std::size_t most_knobs = 2;
 
@@ -112,7 +114,7 @@ std::string recommendations_text(const AccuracyStudy& study) {
 
 /// "13 % less time", "the same time"
 std::string time_text(double change) {
-  if (std::abs(change) < 0.005) return "the same time";
+  if (std::abs(change) < time_noise) return "the same time";
   return fmt::format("{:.0f} % {} time", 100.0 * std::abs(change), change < 0.0 ? "less" : "more");
 }
 
