@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/relative_error.hpp"

@@ -1,8 +1,10 @@
 #include "tests/cli/svg_text.hpp"
 
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
+#include <utility>
 
 namespace pleuel::test {
 

@@ -1,5 +1,10 @@
 #include "studies/accuracy_knobs.hpp"
 
+#include <algorithm>
+#include <string>
+#include <variant>
+#include <vector>
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
