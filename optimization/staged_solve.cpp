@@ -65,14 +65,11 @@ class StagedSolve {
     if (!search_from(x)) return;
     for (int round = 0; round < most_rounds; ++round) {
       from = solution_.stages.back().setting.setting;
-      choose_stage(x, target, from);
-      if (round > 0 && is_same(from, solution_.stages.back().setting.setting)) {
-        solution_.stages.pop_back();
-        return;
-      }
+      if (!choose_stage(x, target, from) && round > 0) return;
       solve_stage();
       if (solution_.result.status != Status::unresolved) return;
       x = solution_.result.x;
+      if (file_.effects.tolerance > 0.0) decide_effects(file_, x);
     }
   }
 
@@ -95,9 +92,14 @@ class StagedSolve {
     return true;
   }
 
-  void choose_stage(const Eigen::VectorXd& x, double target, const Refinement& from) {
+  /// @returns whether the stage differs from the one before; one that does not is not begun if that
+  /// has solved already
+  bool choose_stage(const Eigen::VectorXd& x, double target, const Refinement& from) {
     AccurateSetting found = choose_accurate_setting(file_, x, target, from);
     const SettingChoice& choice = found.choice;
+    const bool is_new = !solution_.problem || !is_same(choice.chosen.setting, from) ||
+                        left_out(choice.problem) != left_out(solution_.problem->file());
+    if (!is_new && solution_.result.evaluation.has_gradients()) return false;
     if (notice_) {
       notice_(fmt::format("for {:.3g} % a step of {:.3g} ms and {} elements{}", 100.0 * target,
                           1e3 * choice.chosen.step, choice.chosen.elements,
@@ -106,6 +108,7 @@ class StagedSolve {
     begin_stage({target, choice.chosen, choice.is_met, static_cast<int>(choice.tried.size()), 0,
                  found.seconds, 0.0},
                 std::move(found.choice.problem), x);
+    return is_new;
   }
 
   void begin_stage(Stage stage, ProblemFile file, const Eigen::VectorXd& x) {
@@ -154,7 +157,7 @@ class StagedSolve {
     solution_.result = std::move(result);
   }
 
-  const ProblemFile& file_;
+  ProblemFile file_;  ///< with the effects that are decided so far
   const SolveOptions& options_;
   int threads_;
   const Observer& observer_;

@@ -1,0 +1,43 @@
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "core/response/effect_measurement.hpp"
+#include "tests/random/simulated_scene.hpp"
+
+/// What a tolerance promises of effects that are left out.
+namespace pleuel::test {
+namespace {
+
+constexpr unsigned first_seed = PLEUEL_FIRST_SEED, end_seed = PLEUEL_END_SEED;
+/// So many seeds at most: each takes some simulations for each of three tolerances.
+constexpr unsigned most_seeds = 45;
+
+int count_left_out(const ProblemFile& problem) {
+  int count = 0;
+  for (const auto& [name, effect] : problem.effects.measured) count += effect.is_needed ? 0 : 1;
+  return count;
+}
+
+TEST(RandomEffects, ThatAreLeftOutChangeNoResponseByMoreThanTheTolerance) {
+  int left_out = 0;
+  for (unsigned seed = first_seed; seed < std::min(end_seed, first_seed + most_seeds); ++seed) {
+    const SimulatedScene scene = simulated_scene(seed);
+    if (!scene.analysis) continue;
+    for (const double tolerance : {0.1, 1e-2, 1e-3}) {
+      ProblemFile lean = scene.problem;
+      lean.effects = {};
+      const ProblemFile complete = lean;
+      lean.effects.tolerance = tolerance;
+      decide_effects(lean);
+      left_out += count_left_out(lean);
+      const Eigen::VectorXd x = start_design(lean);
+      const LargestChange change = largest_change(lean, *analyze(complete, x), *analyze(lean, x));
+      EXPECT_LE(change.relative, tolerance) << "seed " << seed << ": " << change.response;
+    }
+  }
+  EXPECT_GT(left_out, 0) << "nothing was left out: this shows nothing";
+}
+
+}  // namespace
+}  // namespace pleuel::test
