@@ -41,6 +41,16 @@ std::vector<std::pair<std::string, std::string>> left_out(const ProblemFile& fil
   return names;
 }
 
+/// For a stage that is short: what leaving out saves is less than what finding it costs.
+AccurateSetting choose_with_all_effects(const ProblemFile& file, const Eigen::VectorXd& x,
+                                        double target, const Refinement& first) {
+  const auto begin = Clock::now();
+  AccurateSetting found;
+  found.choice = choose_setting(file, x, target, first);
+  found.seconds = seconds_since(begin);
+  return found;
+}
+
 class StagedSolve {
  public:
   StagedSolve(const ProblemFile& file, const SolveOptions& options, int threads,
@@ -95,7 +105,9 @@ class StagedSolve {
   /// @returns whether the stage differs from the one before; one that does not is not begun if that
   /// has solved already
   bool choose_stage(const Eigen::VectorXd& x, double target, const Refinement& from) {
-    AccurateSetting found = choose_accurate_setting(file_, x, target, from);
+    const AccurateSetting found = solution_.problem
+                                      ? choose_accurate_setting(file_, x, target, from)
+                                      : choose_with_all_effects(file_, x, target, from);
     const SettingChoice& choice = found.choice;
     const bool is_new = !solution_.problem || !is_same(choice.chosen.setting, from) ||
                         left_out(choice.problem) != left_out(solution_.problem->file());
@@ -107,7 +119,7 @@ class StagedSolve {
     }
     begin_stage({target, choice.chosen, choice.is_met, static_cast<int>(choice.tried.size()), 0,
                  found.seconds, 0.0},
-                std::move(found.choice.problem), x);
+                choice.problem, x);
     return is_new;
   }
 

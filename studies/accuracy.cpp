@@ -9,6 +9,7 @@
 #include "core/base/relative_error.hpp"
 #include "core/base/stop.hpp"
 #include "core/response/analysis.hpp"
+#include "core/trust/asked_responses.hpp"
 
 namespace pleuel {
 
@@ -28,22 +29,6 @@ void raise_to_errors_of(const AccuracyRun& reference, AccuracyRun& run) {
   if (run.has_failed()) return;
   run.errors = run.errors.cwiseMax(reference.errors);
   run.gradient_errors = run.gradient_errors.cwiseMax(reference.gradient_errors);
-}
-
-std::vector<std::size_t> counted_responses(const ProblemFile& problem) {
-  std::vector<std::size_t> counted;
-  for (std::size_t i = 0; i < problem.responses.size(); ++i) {
-    const std::string& name = problem.responses[i].name;
-    const bool is_limited = std::any_of(
-        problem.constraints.begin(), problem.constraints.end(),
-        [&](const ConstraintSettings& constraint) { return constraint.response == name; });
-    if (is_limited || (problem.objective && problem.objective->response == name)) {
-      counted.push_back(i);
-    }
-  }
-  if (!counted.empty()) return counted;
-  for (std::size_t i = 0; i < problem.responses.size(); ++i) counted.push_back(i);
-  return counted;
 }
 
 /// Errors of the integration: not the same in two formulations, however short the steps are.
@@ -89,7 +74,7 @@ class Study {
       : problem_(problem), design_(design), x_(design.x()), observer_(observer) {}
 
   AccuracyStudy run() {
-    study_.counted = counted_responses(problem_);
+    study_.counted = asked_responses(problem_);
     const std::vector<Discretization> grid = accuracy_grid(problem_);
     find_reference(finer_than(grid));
     try {
