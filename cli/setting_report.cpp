@@ -33,7 +33,7 @@ std::string percent_text(double share) {
 }
 
 std::string error_text(const TriedSetting& setting) {
-  return std::isfinite(setting.error) ? fmt::format("{:.2g} %", 100.0 * setting.error)
+  return std::isfinite(setting.error) ? significant(100.0 * setting.error, 2) + " %"
                                       : std::string("not resolved");
 }
 
@@ -78,16 +78,20 @@ Json setting_document(const ProblemInput& input, const SettingChoice& choice) {
 std::string setting_text(const ProblemFile& problem, const SettingChoice& choice) {
   const std::string target = percent_text(problem.accuracy.target);
   const TriedSetting& chosen = choice.chosen;
-  const std::string setting =
-      fmt::format("a step of {} and {} elements in all", step_text(chosen.step), chosen.elements);
+  const std::string setting = fmt::format(
+      "a step of {}{}", step_text(chosen.step),
+      chosen.elements > 0 ? fmt::format(" and {} elements in all", chosen.elements) : "");
   if (choice.is_met) {
     return wrapped(fmt::format("For {}: {}; \"{}\" is known to {} (settings tried: {}).\n", target,
                                setting, chosen.response, error_text(chosen), choice.tried.size()));
   }
-  return wrapped(fmt::format(
-      "No setting that was tried is known to keep {}; the best of {}, {}, leaves \"{}\" "
-      "at {}.\n",
-      target, choice.tried.size(), setting, chosen.response, error_text(chosen)));
+  const std::string left =
+      std::isfinite(chosen.error)
+          ? fmt::format("leaves \"{}\" at {}", chosen.response, error_text(chosen))
+          : fmt::format("does not resolve \"{}\"", chosen.response);
+  return wrapped(
+      fmt::format("No setting that was tried is known to keep {}; the finest of {}, {}, {}.\n",
+                  target, choice.tried.size(), setting, left));
 }
 
 Json stages_document(const std::vector<Stage>& stages) {
@@ -120,9 +124,10 @@ std::string stages_text(const std::vector<Stage>& stages) {
   for (const Stage& stage : stages) {
     if (stage.target <= 0.0) continue;
     table.add_row({percent_text(stage.target), step_text(stage.setting.step),
-                   std::to_string(stage.setting.elements), error_text(stage.setting),
-                   stage.setting.response, duration(stage.choice_seconds),
-                   std::to_string(stage.evaluations), fmt::format("{:.2f}", stage.seconds)});
+                   stage.setting.elements > 0 ? std::to_string(stage.setting.elements) : "–",
+                   error_text(stage.setting), stage.setting.response,
+                   duration(stage.choice_seconds), std::to_string(stage.evaluations),
+                   fmt::format("{:.2f}", stage.seconds)});
   }
   return table.is_empty() ? "" : table.text() + "\n";
 }

@@ -113,9 +113,10 @@ class StagedSolve {
                         left_out(choice.problem) != left_out(solution_.problem->file());
     if (!is_new && solution_.result.evaluation.has_gradients()) return false;
     if (notice_) {
-      notice_(fmt::format("for {:.3g} % a step of {:.3g} ms and {} elements{}", 100.0 * target,
-                          1e3 * choice.chosen.step, choice.chosen.elements,
-                          choice.is_met ? "" : ", the finest that were tried, which do not do"));
+      notice_(fmt::format(
+          "for {:.3g} % a step of {:.3g} ms{}{}", 100.0 * target, 1e3 * choice.chosen.step,
+          choice.chosen.elements > 0 ? fmt::format(" and {} elements", choice.chosen.elements) : "",
+          choice.is_met ? "" : ", the finest that were tried, which do not do"));
     }
     begin_stage({target, choice.chosen, choice.is_met, static_cast<int>(choice.tried.size()), 0,
                  found.seconds, 0.0},

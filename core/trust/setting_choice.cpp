@@ -20,7 +20,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double coarse_steps = 256.0;
 /// Bounds of the refinement of step and elements, and of the work of one simulation, relative to
 /// the file.
-constexpr double finest_step = 1.0 / 64.0, most_elements = 8.0, most_work = 64.0;
+constexpr double finest_step = 1.0 / 16.0, most_elements = 8.0, most_work = 16.0;
 constexpr int most_tries = 12;
 
 /// Shares of the target that a new step and new elements aim at.
