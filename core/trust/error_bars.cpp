@@ -188,8 +188,9 @@ Evidence evidence_of(const Analysis& analysis, std::size_t response, const Judgi
   evidence.more_elements = difference(runs.more_elements, response);
   evidence.fewer_elements = difference(runs.fewer_elements, response);
   if (history.size() == 0) {  // a constant does not depend on the step, though runs may fail
-    evidence.quarter_step.reset();
-    evidence.half_step.reset();
+    for (auto* run : {&evidence.quarter_step, &evidence.half_step}) {
+      if (*run) *run = evidence.value;
+    }
     evidence.twice_step = evidence.four_steps = evidence.value;
   }
   evidence.modes = difference(runs.modes, response);

@@ -215,6 +215,23 @@ TEST_F(ErrorBarOfAValue, IsNotResolvedWhereARunFailed) {
   EXPECT_FALSE(error_bar(analysis_, 0, runs, 2).is_resolved());
 }
 
+/// As of a mass and the limits that decide on it: the constant takes no evidence away.
+TEST_F(ErrorBarOfAValue, OfASumWithAConstantIsThatOfTheRest) {
+  const NestedRun four = run(11.5), twice = run(10.3), half = run(9.93), quarter = run(9.91);
+  JudgingRuns runs;
+  runs.quarter_step = &quarter;
+  runs.half_step = &half;
+  runs.twice_step = &twice;
+  runs.four_steps = &four;
+  const Evidence varying = evidence_of(analysis_, 0, runs, 2);
+  analysis_.histories[0].resize(0, 0);
+  Evidence sum = evidence_of(analysis_, 0, runs, 2);
+  sum.add(varying, 2.0);
+  const ErrorBar bar = error_bar(sum), of_rest = error_bar(varying);
+  EXPECT_NEAR(bar.step.change, 2.0 * of_rest.step.change, 1e-12);
+  EXPECT_NEAR(bar.step.bound, 2.0 * of_rest.step.bound, 1e-12);
+}
+
 TEST_F(ErrorBarOfAValue, IsExactOfAConstantWhereStepsFailed) {
   analysis_.histories[0].resize(0, 0);
   const NestedRun broken = failed();
