@@ -59,27 +59,27 @@ Json varied_overrides(const ProblemInput& input, const AccuracyRun& base,
   return overrides;
 }
 
-Json knob_document(const ProblemInput& input, const AccuracyRun& base, const VariedRun& varied) {
-  Json document = {{"knob", varied.variation.knob},
+/// What changed, and the failure of a run that did.
+Json variation_document(const char* key, const ProblemInput& input, const AccuracyRun& base,
+                        const VariedRun& varied) {
+  Json document = {{key, varied.variation.knob},
                    {"value", varied.variation.value},
                    {"overrides", varied_overrides(input, base, varied.variation)}};
-  if (varied.run.has_failed()) {
-    document["failure"] = varied.run.failure;
-    return document;
-  }
+  if (varied.run.has_failed()) document["failure"] = varied.run.failure;
+  return document;
+}
+
+Json knob_document(const ProblemInput& input, const AccuracyRun& base, const VariedRun& varied) {
+  Json document = variation_document("knob", input, base, varied);
+  if (varied.run.has_failed()) return document;
   add_measures(input.problem, varied.run, document);
   document["time_change"] = varied.time_change;
   return document;
 }
 
 Json effect_document(const ProblemInput& input, const AccuracyRun& base, const VariedRun& varied) {
-  Json document = {{"effect", varied.variation.knob},
-                   {"value", varied.variation.value},
-                   {"overrides", varied_overrides(input, base, varied.variation)}};
-  if (varied.run.has_failed()) {
-    document["failure"] = varied.run.failure;
-    return document;
-  }
+  Json document = variation_document("effect", input, base, varied);
+  if (varied.run.has_failed()) return document;
   document["influence"] = of_responses(input.problem, varied.influence);
   document["optimum_change"] = number_or_null(varied.run.optimum_change);
   document["seconds"] = varied.run.simulation_seconds;

@@ -135,7 +135,7 @@ std::string influences_text(const ProblemFile& problem, const Eigen::VectorXd& v
     }
     table.add_row(std::move(row));
   }
-  return table.text();
+  return "\n" + table.text() + "\n";
 }
 
 }  // namespace pleuel

@@ -219,7 +219,9 @@ Outcome run_gradient(const Arguments& arguments) {
                              {problem.sensitivity.difference_step, arguments.jobs});
   findings.ties = find_ties(*findings.analysis);
   const Monitors monitors = monitor(findings.analysis->model, findings.analysis->trajectory);
-  Trust trust = judge_run(TrustedRun{problem, input.design, *findings.analysis, monitors});
+  TrustedRun judged{problem, input.design, *findings.analysis, monitors};
+  if (input.choice) judged.known = &input.choice->bars;
+  Trust trust = judge_run(judged);
   findings.warnings = texts_of(trust.doubts);
   findings.errors = std::move(trust.errors);
   Outcome outcome = make_outcome(arguments, problem, findings);

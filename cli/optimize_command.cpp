@@ -25,6 +25,7 @@
 #include "core/trust/nested_runs.hpp"
 #include "optimization/design_problem.hpp"
 #include "optimization/design_solve.hpp"
+#include "optimization/optimum_error.hpp"
 #include "optimization/prices.hpp"
 #include "optimization/staged_solve.hpp"
 
@@ -65,38 +66,28 @@ std::vector<EffectInfluence> influences_at(const Optimum& optimum) {
   return influences;
 }
 
-/// Δf + Σ μ Δc: what changes of responses at the optimum make of it.
-PriceOfChanges price_at(const Optimum& optimum) {
-  return [&optimum](const Eigen::VectorXd& changes) {
-    const ProblemFile& problem = optimum.problem;
-    double price = 0.0;
-    for (std::size_t i = 0; i < problem.responses.size(); ++i) {
-      const double change = changes(static_cast<Eigen::Index>(i));
-      const std::string& name = problem.responses[i].name;
-      if (problem.objective->response == name) price += change;
-      for (std::size_t j = 0; j < problem.constraints.size(); ++j) {
-        if (problem.constraints[j].response != name) continue;
-        price += optimum.result.constraint_multipliers(static_cast<Eigen::Index>(j)) * change;
-      }
-    }
-    return price;
-  };
-}
-
-std::string effects_text_of(const Optimum& optimum, const Eigen::VectorXd& values) {
-  return influences_text(optimum.problem, values, optimum.influences, price_at(optimum));
-}
-
 ExitCode exit_code(const Optimum& optimum) {
   if (optimum.result.status == Status::interrupted) return ExitCode::not_verified;
   if (!optimum.has_design()) return ExitCode::simulation_failed;
   return optimum.result.status == Status::verified ? ExitCode::done : ExitCode::not_verified;
 }
 
-/// The best design so far. Nothing is proven of it.
+/// What was simulated as the last evaluation was: others have other errors.
+History with_last_setting(History seen) {
+  const double step = seen.back().time_step;
+  const int elements = seen.back().elements;
+  std::erase_if(seen, [&](const EvaluationRecord& record) {
+    return record.time_step != step || record.elements != elements;
+  });
+  return seen;
+}
+
+/// The best design so far, by the numbers of the last setting. Nothing is proven of it.
 Result interrupted_result(const DesignProblem& problem, const SolveOptions& options,
                           const History& seen) {
-  const EvaluationRecord& best = best_record(seen, options.verdict.violation);
+  const History last = with_last_setting(seen);
+  const EvaluationRecord& best =
+      best_record(last.front().has_failed() ? seen : last, options.verdict.violation);
   Result result;
   result.status = Status::interrupted;
   result.message = fmt::format(
@@ -186,6 +177,7 @@ Outcome run_optimize(const Arguments& arguments) {
   const auto document = [&] {
     Json all = optimum_document(optimum);
     all["effects"] = effects;
+    if (solution.stages.empty()) return all;  // interrupted
     all["stages"] = stages_document(solution.stages);
     all["setting"] = {{"step", solved.simulation.step},
                       {"overrides", overrides_document(input.effective, solved)}};
@@ -198,7 +190,11 @@ Outcome run_optimize(const Arguments& arguments) {
     optimum.influences = influences_at(optimum);
     record.begin_phase("trajectories");
     effects = examine_designs(record, optimum);
-    show(arguments.progress(), effects_text_of(optimum, optimum.responses));
+    show(arguments.progress(), influences_text(solved, optimum.responses, optimum.influences,
+                                               [&](const Eigen::VectorXd& changes) {
+                                                 return optimum_change(*solution.problem, result,
+                                                                       changes);
+                                               }));
   }
   Outcome outcome{exit_code(optimum), document(),
                   failed_design_text(record, arguments, input.problem, result.history) +

@@ -14,7 +14,6 @@
 #include "core/response/effect_measurement.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/scene/reading/override.hpp"
-#include "optimization/staged_solve.hpp"
 
 namespace pleuel {
 
@@ -86,9 +85,9 @@ ProblemInput read_input(const Arguments& arguments) {
 ProblemInput read_input_with_accuracy(const Arguments& arguments) {
   ProblemInput input = read_input(arguments);
   if (!input.problem.accuracy.chooses_setting || input.problem.responses.empty()) return input;
-  input.choice = choose_accurate_setting(input.problem, input.design, input.problem.accuracy.target,
-                                         coarse_setting(input.problem))
-                     .choice;
+  input.choice =
+      choose_setting_and_effects(input.problem, input.design, input.problem.accuracy.target,
+                                 coarse_setting(input.problem), JudgedBy::this_choice);
   input.problem = input.choice->problem;
   show(arguments.progress(), setting_text(input.problem, *input.choice) + "\n");
   return input;

@@ -89,9 +89,13 @@ std::string setting_text(const ProblemFile& problem, const SettingChoice& choice
       std::isfinite(chosen.error)
           ? fmt::format("leaves \"{}\" at {}", chosen.response, error_text(chosen))
           : fmt::format("does not resolve \"{}\"", chosen.response);
+  const std::string reason = choice.is_out_of_reach
+                                 ? " The modes of reduced beams, or the tolerance of Newton's "
+                                   "method, miss it by themselves."
+                                 : "";
   return wrapped(
-      fmt::format("No setting that was tried is known to keep {}; the finest of {}, {}, {}.\n",
-                  target, choice.tried.size(), setting, left));
+      fmt::format("No setting that was tried is known to keep {}; the finest of {}, {}, {}.{}\n",
+                  target, choice.tried.size(), setting, left, reason));
 }
 
 Json stages_document(const std::vector<Stage>& stages) {

@@ -44,8 +44,9 @@ void check_numbers(const ProblemInput& input, Simulated& run) {
   }
   const Stopwatch check;
   try {
-    Trust trust = judge_run(TrustedRun{input.problem, input.design, run.analysis, run.monitors,
-                                       input.choice ? Scrutiny::close : Scrutiny::usual});
+    TrustedRun judged{input.problem, input.design, run.analysis, run.monitors};
+    if (input.choice) judged.known = &input.choice->bars;
+    Trust trust = judge_run(judged);
     run.warnings = texts_of(trust.doubts);
     run.errors = std::move(trust.errors);
   } catch (const Stopped&) {

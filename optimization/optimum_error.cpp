@@ -49,6 +49,17 @@ bool may_break(const ConstraintSettings& limit, double value, double error) {
          (limit.lower && value - error < *limit.lower);
 }
 
+/// Calls add(response, factor) for what f + Σ μ c is made of: the objective and what is limited.
+template <class Add>
+void for_each_share(const DesignProblem& design, const Result& result, const Add& add) {
+  add(*design.response_of({}), 1.0);
+  for (std::size_t i = 0; i < design.constraints().size(); ++i) {
+    const auto response = design.response_of({i, std::nullopt});
+    const double multiplier = result.constraint_multipliers(static_cast<Eigen::Index>(i));
+    if (response && multiplier != 0.0) add(*response, multiplier);
+  }
+}
+
 /// The evidence of zero, from the runs of another value.
 Evidence nothing_beside(const Evidence& value) {
   Evidence nothing = value;
@@ -70,23 +81,27 @@ std::optional<ErrorBar> optimum_error(const DesignProblem& design, const Result&
   if (trust.errors.empty() || !has_prices(result)) return std::nullopt;
   std::optional<Evidence> sum;
   ErrorPart effects;
-  const auto add = [&](std::size_t response, double factor) {
-    if (factor == 0.0 || !trust.errors[response]) return;
+  for_each_share(design, result, [&](std::size_t response, double factor) {
+    if (!trust.errors[response]) return;
     effects.add(trust.errors[response]->effects, factor);
     if (!sum) {
       sum = nothing_beside(*trust.evidence[response]);
       sum->magnitude = std::abs(result.evaluation.objective);
     }
     sum->add(*trust.evidence[response], factor);
-  };
-  add(*design.response_of({}), 1.0);
-  for (std::size_t i = 0; i < design.constraints().size(); ++i) {
-    const auto response = design.response_of({i, std::nullopt});
-    if (response) add(*response, result.constraint_multipliers(static_cast<Eigen::Index>(i)));
-  }
+  });
   ErrorBar bar = sum ? error_bar(*sum) : ErrorBar();
   bar.effects = effects;
   return bar;
+}
+
+double optimum_change(const DesignProblem& design, const Result& result,
+                      const Eigen::VectorXd& changes) {
+  double change = 0.0;
+  for_each_share(design, result, [&](std::size_t response, double factor) {
+    change += factor * changes(static_cast<Eigen::Index>(response));
+  });
+  return change;
 }
 
 std::string inaccuracy(const DesignProblem& design, const Result& result, const Trust& trust) {

@@ -17,8 +17,6 @@ using Clock = std::chrono::steady_clock;
 
 /// The first stage has so many times the target, but no more than this.
 constexpr double coarse_factor = 10.0, coarsest_target = 1e-2;
-/// Of the target, for effects that are left out.
-constexpr double effects_share = 0.2;
 /// How often the setting is chosen at an optimum.
 constexpr int most_rounds = 3;
 /// Of the target: the tolerance of a search that is not the last.
@@ -39,16 +37,6 @@ std::vector<std::pair<std::string, std::string>> left_out(const ProblemFile& fil
     if (!effect.is_needed) names.push_back(name);
   }
   return names;
-}
-
-/// For a stage that is short: what leaving out saves is less than what finding it costs.
-AccurateSetting choose_with_all_effects(const ProblemFile& file, const Eigen::VectorXd& x,
-                                        double target, const Refinement& first) {
-  const auto begin = Clock::now();
-  AccurateSetting found;
-  found.choice = choose_setting(file, x, target, first);
-  found.seconds = seconds_since(begin);
-  return found;
 }
 
 class StagedSolve {
@@ -105,10 +93,13 @@ class StagedSolve {
   /// @returns whether the stage differs from the one before; one that does not is not begun if that
   /// has solved already
   bool choose_stage(const Eigen::VectorXd& x, double target, const Refinement& from) {
-    const AccurateSetting found = solution_.problem
-                                      ? choose_accurate_setting(file_, x, target, from)
-                                      : choose_with_all_effects(file_, x, target, from);
-    const SettingChoice& choice = found.choice;
+    const auto begin = Clock::now();
+    // In a short stage leaving effects out saves less than finding them costs.
+    const SettingChoice choice =
+        solution_.problem
+            ? choose_setting_and_effects(file_, x, target, from, JudgedBy::coarser_runs)
+            : choose_setting(file_, x, target, from, JudgedBy::coarser_runs);
+    const double seconds = seconds_since(begin);
     const bool is_new = !solution_.problem || !is_same(choice.chosen.setting, from) ||
                         left_out(choice.problem) != left_out(solution_.problem->file());
     if (!is_new && solution_.result.evaluation.has_gradients()) return false;
@@ -119,7 +110,7 @@ class StagedSolve {
           choice.is_met ? "" : ", the finest that were tried, which do not do"));
     }
     begin_stage({target, choice.chosen, choice.is_met, static_cast<int>(choice.tried.size()), 0,
-                 found.seconds, 0.0},
+                 seconds, 0.0},
                 choice.problem, x);
     return is_new;
   }
@@ -179,23 +170,6 @@ class StagedSolve {
 };
 
 }  // namespace
-
-AccurateSetting choose_accurate_setting(const ProblemFile& file, const Eigen::VectorXd& x,
-                                        double target, const Refinement& first) {
-  const auto begin = Clock::now();
-  AccurateSetting found;
-  if (file.effects.tolerance > 0.0) {
-    found.choice = choose_setting(file, x, target, first);
-  } else {
-    found.choice = choose_setting(file, x, (1.0 - effects_share) * target, first);
-    ProblemFile divided = found.choice.problem;
-    divided.effects.tolerance = effects_share * target;
-    try_to_leave_out(divided, x);
-    if (!left_out(divided).empty()) found.choice.problem = std::move(divided);
-  }
-  found.seconds = seconds_since(begin);
-  return found;
-}
 
 StagedSolution solve_in_stages(const ProblemFile& file, const Eigen::VectorXd& start,
                                const SolveOptions& options, int threads, const Observer& observer,

@@ -31,16 +31,6 @@ struct StagedSolution {
   std::vector<Stage> stages;
 };
 
-/// Steps, elements and effects for an accuracy at one design: where the file leaves effects open
-/// and gives no tolerance, those are left out that change nothing which is asked for by more than a
-/// fifth of the target.
-struct AccurateSetting {
-  SettingChoice choice;
-  double seconds = 0.0;
-};
-AccurateSetting choose_accurate_setting(const ProblemFile& file, const Eigen::VectorXd& x,
-                                        double target, const Refinement& first);
-
 /// solve_design() for a problem file. Where `accuracy` / `target` is given, the search begins with
 /// what is needed for ten times the target (at most 1 %) at the start, unaudited; then steps,
 /// elements and effects are chosen at the design that it found, for the target itself, and the run

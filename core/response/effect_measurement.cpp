@@ -166,16 +166,12 @@ void decide_effects(ProblemFile& problem) {
   EffectMeasurement(problem).run();
 }
 
-namespace {
-
 ProblemFile starting_at(ProblemFile problem, const Eigen::VectorXd& x) {
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     problem.variables[i].start = x(static_cast<Eigen::Index>(i));
   }
   return problem;
 }
-
-}  // namespace
 
 void decide_effects(ProblemFile& problem, const Eigen::VectorXd& x) {
   ProblemFile there = starting_at(problem, x);

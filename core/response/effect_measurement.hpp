@@ -19,6 +19,9 @@ struct LargestChange {
 LargestChange largest_change(const ProblemFile& problem, const Analysis& reference,
                              const Analysis& other);
 
+/// The problem with its start at another design.
+ProblemFile starting_at(ProblemFile problem, const Eigen::VectorXd& x);
+
 /// The problem with all effects that the file does not forbid.
 ProblemFile with_all_effects(ProblemFile problem);
 

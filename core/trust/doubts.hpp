@@ -25,6 +25,9 @@ struct TrustedRun {
   const Analysis& analysis;
   const Monitors& monitors;  ///< of the analysis
   Scrutiny scrutiny = Scrutiny::usual;
+  /// Error bars that are known otherwise, as a choice of the setting knows them: one a response, or
+  /// null. They hold where they are narrower, without what is due to effects.
+  const std::vector<std::optional<ErrorBar>>* known = nullptr;
 };
 
 /// What the file alone says against the numbers to come, at its start design: known before a long

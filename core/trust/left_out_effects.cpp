@@ -51,12 +51,9 @@ std::vector<Doubt> doubt_lost_stiffening(const TrustedRun& run) {
       asked.geometric_stiffening == EffectChoice::off) {
     return {};
   }
-  ProblemFile estimated = with_all_effects(run.problem);
+  ProblemFile estimated = starting_at(with_all_effects(run.problem), run.x);
   estimated.effects.axial_elasticity = EffectChoice::automatic;
   estimated.effects.tolerance = small_axial_force;
-  for (std::size_t i = 0; i < estimated.variables.size(); ++i) {
-    estimated.variables[i].start = run.x(static_cast<Eigen::Index>(i));
-  }
   estimate_effects(estimated);
   std::vector<Doubt> doubts;
   for (const auto& [body, estimates] : estimated.effects.estimates) {

@@ -17,6 +17,12 @@ struct Refinement {
   double newton = 1.0;    ///< times the tolerance of Newton's method
 };
 
+/// Refinements that judge what is not divided: so many modes more in each family (with one the next
+/// may be of a symmetry that is not excited), and so many times the tolerance of Newton's method,
+/// where that is above what leaves no error that counts.
+inline constexpr int judging_modes = 2;
+inline constexpr double judging_newton = 1e-3, small_newton_tolerance = 1e-8;
+
 /// What is compared of a run.
 struct NestedRun {
   std::string failure;  ///< empty: it succeeded; else nothing below is known

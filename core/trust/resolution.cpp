@@ -34,14 +34,6 @@ constexpr double falling_share = 0.5;
 /// What is taken then, times the change.
 constexpr double unknown_factor = 3.0;
 
-/// Of a reduction, in each family: with one the next may be of a symmetry that is not excited.
-constexpr int more_modes = 2;
-
-/// Tolerances of Newton's method up to this leave no error that counts.
-constexpr double small_tolerance = 1e-8;
-/// The tolerance of the run beside it, times that of the file.
-constexpr double tighter_newton = 1e-3;
-
 /// What the error of a response is compared with: its value and its limits, one of which may be
 /// zero.
 double asked_size(const ProblemFile& problem, const std::string& response, double value) {
@@ -81,7 +73,7 @@ class Judgement {
     std::vector<Refinement> fine;
     if (needs_half_step_) fine.push_back({0.5, 1.0});
     if (is_space_suspicious_) fine.push_back({1.0, 2.0});
-    if (are_modes_suspicious_) fine.push_back({1.0, 1.0, more_modes});
+    if (are_modes_suspicious_) fine.push_back({1.0, 1.0, judging_modes});
     Resolution found = weigh(make_nested_runs(problem_, run_.x, fine));
     make_bars(found);
     return found;
@@ -99,16 +91,16 @@ class Judgement {
     has_modes_ = has_reduced_beams(run_.analysis.model, problem_);
     // One element may have no more modes, and more elements change nothing without them.
     has_modes_of_more_elements_ = has_modes_ && has_few;
-    has_tolerance_ = problem_.simulation.newton_tolerance > small_tolerance;
+    has_tolerance_ = problem_.simulation.newton_tolerance > small_newton_tolerance;
   }
 
   void make_coarse_runs() {
     std::vector<Refinement> refinements = {{2.0, 1.0}, {4.0, 1.0}};
     if (has_elements_) refinements.push_back({2.0, space_factor_});
     if (has_more_elements_) refinements.push_back({2.0, 2.0});
-    if (has_modes_) refinements.push_back({2.0, 1.0, more_modes});
-    if (has_modes_of_more_elements_) refinements.push_back({2.0, 2.0, more_modes});
-    if (has_tolerance_) refinements.push_back({4.0, 1.0, 0, tighter_newton});
+    if (has_modes_) refinements.push_back({2.0, 1.0, judging_modes});
+    if (has_modes_of_more_elements_) refinements.push_back({2.0, 2.0, judging_modes});
+    if (has_tolerance_) refinements.push_back({4.0, 1.0, 0, judging_newton});
     std::vector<NestedRun> runs = make_nested_runs(problem_, run_.x, refinements);
     std::size_t next = 0;
     coarse_ = std::move(runs[next++]);
@@ -202,7 +194,7 @@ class Judgement {
   bool suffice(const JudgingRuns& runs) const {
     return std::all_of(judged_.begin(), judged_.end(), [&](std::size_t i) {
       if (!counts(problem_, i)) return true;
-      const ErrorPart step = error_bar(run_.analysis, i, runs, order()).step;
+      const ErrorPart step = with_known(i, error_bar(run_.analysis, i, runs, order())).step;
       const double value = found_.values(static_cast<Eigen::Index>(i));
       const double size = problem_.objective
                               ? asked_size(problem_, problem_.responses[i].name, value)
@@ -241,8 +233,15 @@ class Judgement {
     resolution.evidence.resize(run_.analysis.responses.size());
     for (const std::size_t i : judged_) {
       resolution.evidence[i] = evidence_of(run_.analysis, i, runs, order());
-      resolution.bars[i] = error_bar(*resolution.evidence[i]);
+      resolution.bars[i] = with_known(i, error_bar(*resolution.evidence[i]));
     }
+  }
+
+  /// The bar of a response, or what is known of it otherwise if that is narrower.
+  ErrorBar with_known(std::size_t response, const ErrorBar& bar) const {
+    if (!run_.known || run_.known->empty() || !(*run_.known)[response]) return bar;
+    const ErrorBar& known = *(*run_.known)[response];
+    return bar.is_resolved() && bar.bound() <= known.bound() ? bar : known;
   }
 
   int order() const { return scheme_order(problem_.simulation); }
@@ -401,7 +400,7 @@ std::vector<Doubt> doubt_resolution(const TrustedRun& run, const Resolution& fou
   }
   add(doubt_about(run, found.in_space, "twice the elements", "Try more elements"));
   add(doubt_about(run, found.in_modes,
-                  fmt::format("a \"reduction\" of {} modes more in each family", more_modes),
+                  fmt::format("a \"reduction\" of {} modes more in each family", judging_modes),
                   "Try more modes"));
   if (!found.failure.empty()) {
     doubts.push_back(

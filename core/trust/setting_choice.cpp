@@ -1,13 +1,17 @@
 #include "core/trust/setting_choice.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/relative_error.hpp"
+#include "core/response/effect_measurement.hpp"
 #include "core/trust/asked_responses.hpp"
 #include "core/trust/error_bars.hpp"
 
@@ -25,11 +29,19 @@ constexpr int most_tries = 12;
 
 /// Shares of the target that a new step and new elements aim at.
 constexpr double step_aim = 0.5, elements_aim = 0.25;
-/// Steps that are tried on the way back grow by this, and the step of the search at most by that.
-constexpr double growth = 1.4, most_growth = 8.0;
-/// Of the target: what a setting on the way back may make of it, by comparison with one that does.
-/// The bars that judge it later are wider than its error.
-constexpr double back_share = 0.5;
+/// On the way back steps grow by the first of these factors as often as it goes, then once by each
+/// of the others if that goes; in all by `most_growth` at most.
+constexpr std::array growths = {2.0, 1.4142135623730951, 1.189207115002721};
+constexpr double most_growth = 8.0;
+/// Of the target: what comparisons may find of a setting on the way back. Bars by coarser runs,
+/// which judge it later, are wider.
+constexpr double share_of_bars = 0.35;
+/// The error of the finer run over its difference from the one that it confirms, with the order
+/// that is promised (twice Richardson's 1 / (4ᵖ − 1), rounded up), and without one.
+constexpr double left_of_order_2 = 0.15, left_of_order_1 = 0.7, left_without_order = 1.0;
+
+/// Of the target, for effects that are left out.
+constexpr double effects_share = 0.2;
 
 double number_of_steps(const SimulationSettings& settings) {
   return std::ceil(settings.end_time / settings.step * (1 - 1e-12));
@@ -38,29 +50,36 @@ double number_of_steps(const SimulationSettings& settings) {
 /// A setting that was tried, with what the next one follows from.
 struct Trial {
   TriedSetting tried;
-  double by_step = infinite, by_elements = infinite;  ///< parts of errors; infinite: not resolved
+  /// Parts of errors; infinite: not resolved. The last is that of modes and of Newton's tolerance,
+  /// which are not chosen here.
+  double by_step = infinite, by_elements = infinite, by_others = infinite;
   std::optional<int> fewest_elements;
-  Eigen::VectorXd values;  ///< of the responses; empty: not simulated
+  Eigen::VectorXd values;                     ///< of the responses; empty: not simulated
+  Eigen::VectorXd magnitudes;                 ///< what errors of them are small beside
+  std::vector<std::optional<ErrorBar>> bars;  ///< of what is asked for
 
   const Refinement& setting() const { return tried.setting; }
 };
 
 class Search {
  public:
-  Search(const ProblemFile& problem, const Eigen::VectorXd& x, double target)
-      : problem_(problem), x_(x), target_(target), asked_(asked_responses(problem)) {}
+  Search(const ProblemFile& problem, const Eigen::VectorXd& x, double target, JudgedBy judged_by)
+      : problem_(problem),
+        x_(x),
+        target_(target),
+        coarse_target_(judged_by == JudgedBy::this_choice ? target : share_of_bars * target),
+        asked_(asked_responses(problem)) {}
 
   SettingChoice run(const Refinement& first) {
     Trial best = refine(first);
-    if (is_met(best)) {
-      best = with_larger_step(std::move(best));
-      best = with_fewer_elements(std::move(best));
-    }
+    if (is_met(best)) best = coarsened(std::move(best));
     SettingChoice choice;
     choice.is_met = is_met(best);
+    choice.is_out_of_reach = best.by_others > target_;
     choice.chosen = best.tried;
     choice.problem = refined(problem_, best.setting());
     choice.tried = std::move(tried_);
+    if (choice.is_met) choice.bars = std::move(best.bars);
     return choice;
   }
 
@@ -73,8 +92,8 @@ class Search {
     for (int i = 0; i < most_tries && is_within_bounds(next); ++i) {
       trial = measure(next);
       const bool seems_met = is_met(trial);
-      if (seems_met) trial.tried.error = std::max(trial.tried.error, distance_to_finer(trial));
-      if (is_met(trial)) break;
+      if (seems_met) confirm(trial);
+      if (is_met(trial) || (std::isfinite(trial.by_step) && trial.by_others > target_)) break;
       if (seems_met) trial.by_step = infinite;  // runs agreed by accident
       next = finer(trial);
     }
@@ -90,48 +109,75 @@ class Search {
   Refinement finer(const Trial& trial) const {
     const double by_step = trial.by_step / target_, by_elements = trial.by_elements / target_;
     Refinement next = trial.setting();
-    if (!std::isfinite(by_step)) {
+    if (!std::isfinite(by_step) || !std::isfinite(by_elements)) {
       next.step *= 0.5;
       return next;  // what elements change is known once steps are resolved
     }
     if (by_step > step_aim) next.step *= std::clamp(std::sqrt(step_aim / by_step), 0.125, 0.8);
     if (by_elements > 1.0 - step_aim) {
       next.elements *= std::sqrt(by_elements / elements_aim) > 2.0 ? 4.0 : 2.0;
+      next.elements = std::min(next.elements, most_elements);
     }
-    if (by_step <= step_aim && by_elements <= 1.0 - step_aim) next.step *= 0.7;
+    if (by_step <= step_aim && next.elements == trial.setting().elements) next.step *= 0.7;
     return next;
   }
 
-  /// Back to larger steps, as long as their values are those of one that does.
-  Trial with_larger_step(Trial fine) {
-    Trial best = fine;
-    Refinement next = fine.setting();
-    while (next.step < most_growth * fine.setting().step) {
-      next.step *= growth;
-      std::optional<Trial> larger = beside(next, fine);
-      if (!larger) break;
-      best = std::move(*larger);
+  /// Back to fewer elements, which saves most, and to larger steps, as long as the values are those
+  /// of a setting that does. The last halving of elements may not be worth the smaller steps that
+  /// it leaves room for.
+  Trial coarsened(const Trial& fine) {
+    Trial fewest = fine, before = fine;
+    while (fewest.fewest_elements.value_or(1) >= 2) {
+      std::optional<Trial> fewer = beside({fewest.setting().step, 0.5 * fewest.setting().elements},
+                                          fewest, &ErrorBar::elements);
+      if (!fewer) break;
+      before = std::exchange(fewest, std::move(*fewer));
+    }
+    Trial best = with_larger_step(fewest, growths.front());
+    if (before.setting().elements > fewest.setting().elements) {
+      Trial other = with_larger_step(before, 2.0 * best.setting().step / before.setting().step);
+      if (other.tried.work < best.tried.work) best = std::move(other);
     }
     return best;
   }
 
-  Trial with_fewer_elements(Trial fine) {
-    Refinement fewer = fine.setting();
-    fewer.elements *= 0.5;
-    if (fine.fewest_elements.value_or(1) < 2) return fine;
-    const std::optional<Trial> found = beside(fewer, fine);
-    return found ? *found : fine;
+  /// @param first  the growth to begin with
+  Trial with_larger_step(const Trial& fine, double first) {
+    Trial best = fine;
+    const auto grow = [&](double growth) {
+      const double step = growth * best.setting().step;
+      if (step > most_growth * fine.setting().step) return false;
+      std::optional<Trial> larger = beside({step, fine.setting().elements}, fine, &ErrorBar::step);
+      if (larger) best = std::move(*larger);
+      return larger.has_value();
+    };
+    bool goes_on = grow(first);
+    if (!goes_on && first > growths.front()) return best;
+    while (goes_on) goes_on = grow(growths[0]);
+    grow(growths[1]);
+    grow(growths[2]);
+    return best;
   }
 
-  /// A coarser setting, if its values are those of one that does.
-  std::optional<Trial> beside(const Refinement& setting, const Trial& fine) {
+  /// A coarser setting, if its errors are still small: those of the finer one with what differs.
+  std::optional<Trial> beside(const Refinement& setting, const Trial& fine,
+                              ErrorPart ErrorBar::*cause) {
     Trial trial = simulate(setting, [](const ProblemFile&, const Analysis&, Trial&) {});
-    const double error = distance(trial.values, fine) + fine.tried.error;
-    trial.tried.error = error;
-    trial.tried.response = fine.tried.response;
-    trial.fewest_elements = fine.fewest_elements;
+    if (trial.values.size() > 0) {
+      trial.by_others = fine.by_others;
+      trial.magnitudes = fine.magnitudes;
+      trial.bars = fine.bars;
+      for (const std::size_t i : asked_) {
+        const auto index = static_cast<Eigen::Index>(i);
+        ErrorPart& part = (*trial.bars[i]).*cause;
+        const double known = part.bound - std::abs(part.change);
+        part.change += fine.values(index) - trial.values(index);
+        part.bound = std::abs(part.change) + known;
+      }
+      rate(trial);
+    }
     tried_.push_back(trial.tried);
-    return error <= back_share * target_ ? std::optional(trial) : std::nullopt;
+    return trial.tried.error <= coarse_target_ ? std::optional(std::move(trial)) : std::nullopt;
   }
 
   Trial measure(const Refinement& setting) {
@@ -150,6 +196,7 @@ class Search {
     try {
       const auto analysis = analyze(divided, x_);
       trial.values = values_of(*analysis);
+      trial.fewest_elements = fewest_elements(analysis->model, divided);
       trial.tried.work = static_cast<double>(analysis->trajectory.steps()) *
                          analysis->model.mechanism.system->size();
       judge_it(divided, *analysis, trial);
@@ -160,31 +207,64 @@ class Search {
   }
 
   void judge(const ProblemFile& divided, const Analysis& analysis, Trial& trial) const {
-    trial.fewest_elements = fewest_elements(analysis.model, divided);
+    const bool has_modes = has_reduced_beams(analysis.model, divided);
+    const bool has_tolerance = divided.simulation.newton_tolerance > small_newton_tolerance;
     std::vector<Refinement> refinements = {{2.0, 1.0}, {4.0, 1.0}};
-    if (trial.fewest_elements) refinements.push_back({2.0, 2.0});
+    const auto add = [&](bool is_asked, const Refinement& one) {
+      if (is_asked) refinements.push_back(one);
+      return is_asked ? refinements.size() - 1 : 0;
+    };
+    const std::size_t elements = add(trial.fewest_elements.has_value(), {2.0, 2.0});
+    // With twice the elements, of which there may be too few for more modes.
+    const std::size_t modes = add(has_modes, {2.0, 2.0, judging_modes});
+    const std::size_t newton = add(has_tolerance, {4.0, 1.0, 0, judging_newton});
     const std::vector<NestedRun> runs = make_nested_runs(divided, x_, refinements);
     JudgingRuns judging;
     judging.twice_step = &runs[0];
     judging.four_steps = &runs[1];
-    if (trial.fewest_elements) judging.more_elements = {&runs[2], &runs[0]};
+    if (elements > 0) judging.more_elements = {&runs[elements], &runs[0]};
+    if (modes > 0) judging.modes = {&runs[modes], &runs[elements]};
+    if (newton > 0) judging.newton = {&runs[newton], &runs[1]};
     keep_errors(analysis, judging, trial);
   }
 
   void keep_errors(const Analysis& analysis, const JudgingRuns& judging, Trial& trial) const {
-    trial.tried.error = trial.by_step = trial.by_elements = 0.0;
+    trial.magnitudes = trial.values.cwiseAbs();
+    trial.bars.resize(problem_.responses.size());
+    trial.by_step = trial.by_elements = trial.by_others = 0.0;
     for (const std::size_t i : asked_) {
-      const ErrorBar bar = error_bar(analysis, i, judging, scheme_order(problem_.simulation));
-      const double value = analysis.reductions[i].value;
-      const Eigen::MatrixXd& history = analysis.histories[i];
-      const double size = history.size() > 0 ? history.cwiseAbs().maxCoeff() : std::abs(value);
-      const auto relative = [&](bool is_resolved, double bound) {
-        return is_resolved ? value_error(value + bound, value, size) : infinite;
-      };
-      trial.by_step = std::max(trial.by_step, relative(bar.step.is_resolved, bar.step.bound));
-      trial.by_elements =
-          std::max(trial.by_elements, relative(bar.elements.is_resolved, bar.elements.bound));
-      const double error = relative(bar.is_resolved(), bar.bound());
+      const Evidence evidence =
+          evidence_of(analysis, i, judging, scheme_order(problem_.simulation));
+      trial.magnitudes(static_cast<Eigen::Index>(i)) = evidence.magnitude;
+      trial.bars[i] = error_bar(evidence);
+      Evidence without_modes = evidence;
+      without_modes.modes.reset();
+      const ErrorPart elements = error_bar(without_modes).elements;
+      ErrorPart others = trial.bars[i]->newton;
+      if (elements.is_resolved) {  // else nothing is known of modes
+        others.bound += trial.bars[i]->elements.bound - elements.bound;
+        others.is_resolved = others.is_resolved && trial.bars[i]->elements.is_resolved;
+      }
+      trial.by_step = std::max(trial.by_step, relative(trial, i, trial.bars[i]->step));
+      trial.by_elements = std::max(trial.by_elements, relative(trial, i, elements));
+      trial.by_others = std::max(trial.by_others, relative(trial, i, others));
+    }
+    rate(trial);
+  }
+
+  static double relative(const Trial& trial, std::size_t response, const ErrorPart& part) {
+    const auto index = static_cast<Eigen::Index>(response);
+    const double value = trial.values(index);
+    return part.is_resolved ? value_error(value + part.bound, value, trial.magnitudes(index))
+                            : infinite;
+  }
+
+  /// The largest error of what is asked for, by the bars.
+  void rate(Trial& trial) const {
+    trial.tried.error = 0.0;
+    for (const std::size_t i : asked_) {
+      const ErrorBar& bar = *trial.bars[i];
+      const double error = relative(trial, i, {bar.change(), bar.bound(), bar.is_resolved()});
       if (error > trial.tried.error || trial.tried.response.empty()) {
         trial.tried.error = error;
         trial.tried.response = problem_.responses[i].name;
@@ -192,30 +272,46 @@ class Search {
     }
   }
 
-  /// Relative, the largest of what is asked for.
-  double distance_to_finer(const Trial& trial) const {
+  /// Compares with a finer run, which makes the bars narrower where it agrees.
+  void confirm(Trial& trial) const {
     const Refinement finer{std::min(0.25 * trial.setting().step, 1.0), trial.setting().elements};
     const NestedRun run = make_nested_run(problem_, x_, finer);
-    return run.has_failed() ? infinite : distance(run.values, trial);
-  }
-
-  /// Relative to the trial, the largest of what is asked for.
-  double distance(const Eigen::VectorXd& values, const Trial& trial) const {
-    if (values.size() == 0) return infinite;
-    double largest = 0.0;
+    if (run.has_failed()) {
+      trial.tried.error = infinite;
+      return;
+    }
     for (const std::size_t i : asked_) {
       const auto index = static_cast<Eigen::Index>(i);
-      largest = std::max(largest, value_error(values(index), trial.values(index), 0.0));
+      ErrorPart& step = trial.bars[i]->step;
+      step.change = run.values(index) - trial.values(index);
+      step.bound = (1.0 + left_of(*trial.bars[i])) * std::abs(step.change);
     }
-    return largest;
+    rate(trial);
+  }
+
+  double left_of(const ErrorBar& bar) const {
+    const int order = scheme_order(problem_.simulation);
+    if (!bar.order || std::abs(*bar.order - order) > 0.5) return left_without_order;
+    return order == 2 ? left_of_order_2 : left_of_order_1;
   }
 
   const ProblemFile& problem_;
   const Eigen::VectorXd& x_;
-  double target_;
+  double target_, coarse_target_;
   std::vector<std::size_t> asked_;
   std::vector<TriedSetting> tried_;
 };
+
+/// None where no effect can be left out.
+std::optional<ProblemFile> without_small_effects(ProblemFile problem, const Eigen::VectorXd& x,
+                                                 double tolerance) {
+  problem.effects.tolerance = tolerance;
+  try_to_leave_out(problem, x);
+  const auto& measured = problem.effects.measured;
+  const bool leaves_out = std::any_of(measured.begin(), measured.end(),
+                                      [](const auto& entry) { return !entry.second.is_needed; });
+  return leaves_out ? std::optional(std::move(problem)) : std::nullopt;
+}
 
 }  // namespace
 
@@ -223,9 +319,23 @@ Refinement coarse_setting(const ProblemFile& problem) {
   return {std::max(1.0, number_of_steps(problem.simulation) / coarse_steps), 1.0};
 }
 
+SettingChoice choose_setting_and_effects(const ProblemFile& problem, const Eigen::VectorXd& x,
+                                         double target, const Refinement& first,
+                                         JudgedBy judged_by) {
+  const double of_effects = effects_share * target;
+  if (problem.effects.tolerance > 0.0 ||
+      !without_small_effects(refined(problem, first), x, of_effects)) {
+    return choose_setting(problem, x, target, first, judged_by);
+  }
+  SettingChoice choice = choose_setting(problem, x, target - of_effects, first, judged_by);
+  std::optional<ProblemFile> lean = without_small_effects(choice.problem, x, of_effects);
+  if (lean) choice.problem = std::move(*lean);
+  return choice;
+}
+
 SettingChoice choose_setting(const ProblemFile& problem, const Eigen::VectorXd& x, double target,
-                             const Refinement& first) {
-  return Search(problem, x, target).run(first);
+                             const Refinement& first, JudgedBy judged_by) {
+  return Search(problem, x, target, judged_by).run(first);
 }
 
 }  // namespace pleuel

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/base/error_bar.hpp"
 #include "core/trust/nested_runs.hpp"
 
 /// Steps and elements for an accuracy, instead of an accuracy for steps and elements.
@@ -23,24 +25,43 @@ struct SettingChoice {
   ProblemFile problem;  ///< divided as chosen
   TriedSetting chosen;  ///< with the error that was found in the end
   bool is_met = false;  ///< else the finest setting that was tried is chosen
+  /// Whether the modes of reduced beams or the tolerance of Newton's method, which are not chosen,
+  /// miss the target by themselves.
+  bool is_out_of_reach = false;
   std::vector<TriedSetting> tried;
+  /// Of the responses that are asked for, at the design of the choice, without what is due to
+  /// effects; empty where the target is not met.
+  std::vector<std::optional<ErrorBar>> bars;
+};
+
+/// Where the error bars come from that are shown of what runs with the setting.
+enum class JudgedBy {
+  this_choice,  ///< its comparisons with finer runs, at the same design
+  coarser_runs  ///< error_bars.hpp, at other designs; they are wider
 };
 
 /// The coarsest division from which a choice may begin: 256 steps, or those of the file if they are
 /// fewer, and the elements of the file.
 Refinement coarse_setting(const ProblemFile& problem);
 
-/// Chooses steps and elements such that the error bars (error_bars.hpp) of all responses that are
-/// asked for (asked_responses.hpp) are within the target at this design, relative to their values
+/// Chooses steps and elements such that the errors of all responses that are asked for
+/// (asked_responses.hpp) are within the target at this design, relative to their values
 /// (core/base/relative_error.hpp). From `first` on steps and elements are refined as order 2 says,
-/// until the bars are within the target and a run at a quarter of the step, or at the step of the
-/// file if that is smaller, agrees: steps that are far too large may agree with each other, as
-/// vibrations that they do not see are damped out. Then the way goes back to larger steps and to
-/// half the elements, as long as their values are those that were found, to half the target. The
-/// step may end up larger or smaller than that of the file.
+/// until error bars (error_bars.hpp) are within the target and a run at a quarter of the step, or
+/// at the step of the file if that is smaller, agrees: steps that are far too large may agree with
+/// each other, as vibrations that they do not see are damped out. Then the way goes back to fewer
+/// elements and to larger steps, by comparison with these runs: differences are added to the errors
+/// that are known. The step may end up larger or smaller than that of the file.
 /// @param target  relative error, in (0, 1)
 /// @throws Stopped
 SettingChoice choose_setting(const ProblemFile& problem, const Eigen::VectorXd& x, double target,
-                             const Refinement& first);
+                             const Refinement& first, JudgedBy judged_by);
+
+/// The same with effects: where the file gives no tolerance for them, those are left out that
+/// estimates call small and that together change no response by more than a fifth of the target;
+/// the rest is for steps and elements.
+SettingChoice choose_setting_and_effects(const ProblemFile& problem, const Eigen::VectorXd& x,
+                                         double target, const Refinement& first,
+                                         JudgedBy judged_by);
 
 }  // namespace pleuel

@@ -146,6 +146,38 @@ TEST_F(Interrupted, OptimizationKeepsItsBestDesignNotItsLast) {
   }
 }
 
+/// A coarse stage has errors that a fine one has not: the best is that of the last one.
+TEST_F(Interrupted, OptimizationInStagesKeepsTheBestOfItsLastSetting) {
+  const std::string path = folder_.path().string();
+  const ProgramRun run = run_line(
+      folder_.path(),
+      fmt::format("optimize {0} --accuracy 0.1% -o {1}/run >{1}/out & p=$!; i=0; "
+                  "while [ $(awk -F, 'NR == 1 {{for (i = 1; i <= NF; i++) if ($i == "
+                  "\"time_step\") c = i}} NR > 1 {{if (!($c in s)) n++; s[$c] = 1}} "
+                  "END {{print n + 0}}' {1}/run/history.csv 2>/dev/null || echo 0) -lt 2 ] && "
+                  "[ $i -lt 3000 ]; do sleep 0.01; i=$((i + 1)); done; kill -TERM $p; wait $p; "
+                  "echo $?",
+                  problem("slider_crank_round"), path));
+  EXPECT_EQ(run.out, "4\n");
+  const CsvRows rows = read_csv(folder_.path() / "run/history.csv");
+  const auto cell = [&](const std::vector<std::string>& row, const std::string& title) {
+    const auto found = std::find(rows[0].begin(), rows[0].end(), title);
+    return std::stod(row.at(static_cast<std::size_t>(found - rows[0].begin())));
+  };
+  const double step = cell(rows.back(), "time_step");
+  ASSERT_NE(cell(rows[1], "time_step"), step);
+  bool is_of_last_setting = false;
+  for (std::size_t row = 1; row < rows.size(); ++row) {
+    if (cell(rows[row], "time_step") != step) continue;
+    is_of_last_setting =
+        is_of_last_setting || result().at("variables").at("rod_diameter").at("value") ==
+                                  cell(rows[row], "variable:rod_diameter");
+  }
+  EXPECT_TRUE(is_of_last_setting);
+  EXPECT_FALSE(result().contains("stages"));
+  EXPECT_FALSE(result().contains("setting"));
+}
+
 /// Nothing is known of a motion that has not ended; no folder stays.
 TEST_F(Interrupted, SimulationLeavesNothing) {
   const std::string path = folder_.path().string();

@@ -38,9 +38,12 @@ struct Report {
   }
 };
 
+/// @param words  command, file, and options, which come after those of quick()
 inline Report run(const std::vector<std::string>& words, int exit_code = 0) {
   const TemporaryFolder folder;
-  const ProgramRun run = run_program(folder.path(), joined(joined(words, {"-o", "run"}), quick()));
+  const ProgramRun run = run_program(
+      folder.path(), joined(joined(joined({words[0], words[1]}, {"-o", "run"}), quick()),
+                            {words.begin() + 2, words.end()}));
   EXPECT_EQ(run.exit_code, exit_code) << run.err;
   Report report;
   report.text = run.out;

@@ -82,12 +82,65 @@ TEST(ReadBackSentences, OfAChosenSetting) {
 
 TEST(ReadBackSentences, OfWhatEffectsBring) {
   const Report report = run({"simulate", file, "--effects"});
+  const TextTable table(report.text, "without");
+  const json& responses = report.document.at("responses");
+  std::size_t row = 0;
   for (const json& effect : report.document.at("effects")) {
-    if (effect.at("name") != "rotary_inertia") continue;
-    EXPECT_EQ(effect.at("influence").size(), report.document.at("responses").size());
+    if (!effect.contains("influence")) continue;
+    ASSERT_LT(row, table.rows());
+    EXPECT_EQ(table.text(row, "without"), effect.at("name"));
+    EXPECT_EQ(table.text(row, "of"), effect.at("body"));
+    const std::string largest = table.text(row++, "largest change of a response");
+    if (effect.at("influence").is_null()) {
+      EXPECT_EQ(largest, effect.at("failure"));
+      continue;
+    }
+    EXPECT_EQ(effect.at("influence").size(), responses.size());
     EXPECT_TRUE(effect.at("seconds").is_number());
+    // "rod_bow +4.1e-05 mm (+0.14 %)", which stands for all others.
+    const std::string name = largest.substr(0, largest.find(' '));
+    const auto share = [&](const std::string& of) {
+      return effect.at("influence").at(of).get<double>() /
+             responses.at(of).at("value").get<double>();
+    };
+    EXPECT_NEAR(number_in(largest.substr(largest.find('(') + 1)), 100 * share(name),
+                0.06 * std::abs(100 * share(name)))
+        << largest;
+    const std::string unit = largest.substr(0, largest.find(" ("));
+    expect_shown(largest.substr(name.size() + 1), unit.substr(unit.find(' ', name.size() + 1) + 1),
+                 effect.at("influence").at(name));
+    for (const auto& [other, value] : responses.items()) {
+      EXPECT_LE(std::abs(share(other)), std::abs(share(name)) * 1.0001) << other;
+    }
   }
-  EXPECT_THAT(report.text, testing::HasSubstr("largest change of a response"));
+  EXPECT_EQ(row, table.rows());
+  EXPECT_EQ(row, 6u);  // three of the crank, three of the rod
+}
+
+/// Grams: what changes of all responses make of the optimum by the prices of the limits.
+TEST(ReadBackSentences, OfWhatEffectsBringInGrams) {
+  const Report report = run({"optimize", file});
+  const json& document = report.document;
+  const json limits = json::parse(read_file(file)).at("constraints");
+  const TextTable table(report.text, "without");
+  std::size_t row = 0, priced = 0;
+  for (const json& effect : document.at("effects")) {
+    if (!effect.contains("influence")) continue;
+    const std::string shown = table.text(row++, "optimum");
+    if (effect.at("influence").is_null()) {
+      EXPECT_EQ(shown, "–");
+      continue;
+    }
+    double change = effect.at("influence").at(document.at("objective").at("name"));
+    for (const auto& [name, limit] : document.at("constraints").items()) {
+      change += limit.at("multiplier").get<double>() *
+                effect.at("influence").at(limits.at(name).at("response")).get<double>();
+    }
+    expect_shown(shown, "kg", change);
+    ++priced;
+  }
+  EXPECT_EQ(row, table.rows());
+  EXPECT_EQ(priced, 4u);
 }
 
 /// An optimum whose numbers are not known as well as the file asks for is not verified, whatever

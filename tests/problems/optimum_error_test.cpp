@@ -58,6 +58,35 @@ TEST(OptimumError, IsComparedWithTheTargetOfTheFile) {
   EXPECT_THAT(strict.message, testing::HasSubstr("Try "));
 }
 
+/// Changes of the objective count as they are, those of a limited response by what a limit that is
+/// tighter by as much makes of the optimum.
+TEST(OptimumError, IsTheSumOfChangesByTheirPrices) {
+  DesignProblem design(
+      read_problem(std::string(PLEUEL_SOURCE_DIR) + "/problems/slider_crank_round.json",
+                   {"/simulation/step=0.2 ms"}));
+  const Result result = solve_design(design, {});
+  Eigen::VectorXd changes = Eigen::VectorXd::Zero(Eigen::Index(design.file().responses.size()));
+  const auto index_of = [&](const std::string& name) {
+    for (std::size_t i = 0; i < design.file().responses.size(); ++i) {
+      if (design.file().responses[i].name == name) return Eigen::Index(i);
+    }
+    return Eigen::Index(-1);
+  };
+  changes(index_of("crank_and_rod")) = 0.25;
+  EXPECT_DOUBLE_EQ(optimum_change(design, result, changes), 0.25);
+  // A bow that is larger by so much is a limit that is smaller by as much.
+  const double less = 1e-6;
+  changes.setZero();
+  changes(index_of("rod_bow")) = less;
+  const Result tighter =
+      optimum("slider_crank_round",
+              {"/simulation/step=0.2 ms",
+               "/constraints/rod_stiffness/upper=" + std::to_string(200.0 - less * 1e6) + " um"});
+  const double anew = tighter.evaluation.objective - result.evaluation.objective;
+  EXPECT_NEAR(optimum_change(design, result, changes), anew, 0.02 * std::abs(anew));
+  EXPECT_GT(anew, 0.0);
+}
+
 /// A limit without a price that the error of its value may break, be it an upper or a lower one:
 /// 3 % of 10 mm where the value keeps 0.2 mm of distance from it.
 TEST(OptimumError, OfALimitThatItMayBreakIsAsLargeAsTheTargetAtMost) {

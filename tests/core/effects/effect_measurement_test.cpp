@@ -143,13 +143,18 @@ TEST(EffectInfluence, IsWhatLeavingAnEffectOutChanges) {
 TEST(EffectInfluence, SaysWhatAResponseNeeds) {
   const ProblemFile problem =
       read(twisted_bar(0.0, R"({"type": "stress", "body": "bar", "over_time": "max"})"));
+  int of_elasticity = 0, of_rotary_inertia = 0;
   for (const EffectInfluence& one : effect_influences(problem, start_design(problem))) {
     if (one.effect == "elasticity") {
+      ++of_elasticity;
       EXPECT_THAT(one.failure, HasSubstr("rigid"));
     } else if (one.effect == "rotary_inertia") {
+      ++of_rotary_inertia;
       EXPECT_TRUE(one.failure.empty());
     }
   }
+  EXPECT_EQ(of_elasticity, 1);
+  EXPECT_EQ(of_rotary_inertia, 1);
 }
 
 // Estimates against closed forms.

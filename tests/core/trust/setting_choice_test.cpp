@@ -48,7 +48,8 @@ ProblemFile problem_of(const std::vector<std::string>& overrides) {
 }
 
 SettingChoice choose(const ProblemFile& problem, double target) {
-  return choose_setting(problem, start_design(problem), target, coarse_setting(problem));
+  return choose_setting(problem, start_design(problem), target, coarse_setting(problem),
+                        JudgedBy::this_choice);
 }
 
 /// The largest relative error of the asked responses.
@@ -104,6 +105,36 @@ TEST(SettingChoice, SaysSoWhereNothingThatWasTriedDoes) {
   EXPECT_FALSE(choice.is_met);
   EXPECT_GT(choice.chosen.error, 1e-4);
   EXPECT_EQ(choice.chosen.step, choice.tried.back().step);
+}
+
+/// Steps and elements cannot make up for modes that are missing.
+TEST(SettingChoice, KnowsThatModesMissTheTargetByThemselves) {
+  const auto with_modes = [](int modes) {
+    return choose(
+        problem_of({without_jerk, sudden,
+                    "/scene/bodies/b/reduction={\"modes\": " + std::to_string(modes) + "}"}),
+        1e-3);
+  };
+  const SettingChoice one = with_modes(1);
+  EXPECT_FALSE(one.is_met);
+  EXPECT_TRUE(one.is_out_of_reach);
+  EXPECT_GT(one.chosen.error, 1e-3);
+  const SettingChoice six = with_modes(6);
+  EXPECT_TRUE(six.is_met);
+  EXPECT_FALSE(six.is_out_of_reach);
+}
+
+/// Free of the push the tip is back: its place is judged beside the way that it went.
+TEST(SettingChoice, JudgesAValueNearZeroByItsHistory) {
+  const ProblemFile problem = problem_of(
+      {R"(/scene/loads/push/value={"type": "table", "times": [0, 0.01, 0.02],
+           "values": [0, 500, 0], "interpolation": "linear"})",
+       R"(/scene/bodies/b/damping={"stiffness": 1e-3})",
+       R"(/responses={"place": {"type": "position", "body": "b", "at": 1, "direction": "y",
+                                "over_time": "final"}})"});
+  const SettingChoice choice = choose(problem, 1e-3);
+  EXPECT_TRUE(choice.is_met);
+  EXPECT_LE(choice.chosen.step, 1e-2);
 }
 
 TEST(AskedResponses, AreAllWhereNothingIsMinimizedLimitedOrListed) {
