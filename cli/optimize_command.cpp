@@ -41,7 +41,7 @@ Json examine_designs(RunRecord& record, Optimum& optimum) {
   write_trajectory(record.result("trajectory-start.csv"), *start);
   optimum.start_responses = values_of(*start);
   const auto end = analyze(optimum.problem, optimum.result.x);
-  write_trajectory(record.result("trajectory-optimum.csv"), *end);
+  write_trajectory(record.result("trajectory-optimum.csv"), *end, optimum.result.response_bands);
   optimum.responses = values_of(*end);
   optimum.monitors = monitor(end->model, end->trajectory);
   // Of an answer with gradients the doubts are known: they are part of its verdict.

@@ -29,6 +29,7 @@ struct Simulated {
   double seconds = 0.0;
   std::vector<std::string> warnings{};
   ErrorBars errors{};
+  std::vector<Eigen::VectorXd> bands{};       ///< of histories
   std::vector<EffectInfluence> influences{};  ///< if they are asked for
   double check_seconds = 0.0;                 ///< of what the warnings are found by
   bool is_checked = true;
@@ -49,6 +50,7 @@ void check_numbers(const ProblemInput& input, Simulated& run) {
     Trust trust = judge_run(judged);
     run.warnings = texts_of(trust.doubts);
     run.errors = std::move(trust.errors);
+    run.bands = std::move(trust.bands);
   } catch (const Stopped&) {
     run.is_checked = false;
     run.warnings = {
@@ -143,7 +145,7 @@ Outcome run_simulate(const Arguments& arguments) {
   if (input.choice) outcome.document["setting"] = setting_document(input, *input.choice);
   outcome.document["constraints"] = limits_document(input.problem, input.design, *analysis);
   record.write("result.json", outcome.document);
-  write_trajectory(record.result("trajectory.csv"), *analysis);
+  write_trajectory(record.result("trajectory.csv"), *analysis, run.bands);
   record.finish(outcome);
   return outcome;
 }

@@ -1,27 +1,23 @@
 #include "cli/trajectory_csv.hpp"
 
 #include "cli/csv_file.hpp"
+#include "core/response/shown_history.hpp"
 
 namespace pleuel {
 
-namespace {
-
-/// The largest over places; of several that are reduced by magnitude, the largest magnitude.
-Eigen::VectorXd largest_channel(const Response& response, const Eigen::MatrixXd& history) {
-  const bool by_magnitude = response.over_time == OverTime::max_abs && history.rows() > 1;
-  if (by_magnitude) return history.cwiseAbs().colwise().maxCoeff().transpose();
-  return history.colwise().maxCoeff().transpose();
-}
-
-}  // namespace
-
-void write_trajectory(const ResultFile& file, const Analysis& analysis) {
+void write_trajectory(const ResultFile& file, const Analysis& analysis,
+                      const std::vector<Eigen::VectorXd>& bands) {
   std::vector<std::string> header = {"time"};
   std::vector<Eigen::VectorXd> columns = {analysis.trajectory.time};
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     if (!analysis.responses[i].signal) continue;
     header.push_back(analysis.responses[i].name);
-    columns.emplace_back(largest_channel(analysis.responses[i], analysis.histories[i]));
+    columns.emplace_back(shown_history(analysis.responses[i], analysis.histories[i]));
+  }
+  for (std::size_t i = 0; i < bands.size(); ++i) {
+    if (bands[i].size() != analysis.trajectory.time.size()) continue;
+    header.push_back(analysis.responses[i].name + ":error");
+    columns.push_back(bands[i]);
   }
   CsvFile csv(file, header);
   for (Eigen::Index instant = 0; instant < columns.front().size(); ++instant) {

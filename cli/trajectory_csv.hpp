@@ -1,12 +1,16 @@
 #pragma once
 
+#include <vector>
+
 #include "cli/output_file.hpp"
 #include "core/response/analysis.hpp"
 
 namespace pleuel {
 
-/// One line an instant: time, then each response's history (of several channels, such as the
-/// points of a stress, the largest) [SI].
-void write_trajectory(const ResultFile& file, const Analysis& analysis);
+/// One line an instant: time, then each response's history (core/response/shown_history.hpp) [SI],
+/// and `NAME:error`, the half-width of its error band.
+/// @param bands  one a response; those that are empty are left out, as are all of none
+void write_trajectory(const ResultFile& file, const Analysis& analysis,
+                      const std::vector<Eigen::VectorXd>& bands = {});
 
 }  // namespace pleuel

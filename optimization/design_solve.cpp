@@ -257,6 +257,7 @@ void judge_numbers(DesignProblem& design, Result& result) {
     }
   }
   result.response_errors = std::move(trust.errors);
+  result.response_bands = std::move(trust.bands);
 }
 
 }  // namespace

@@ -49,7 +49,8 @@ struct Result {
   std::vector<std::string> warnings;
   /// Of responses and objective by steps, elements and effects; where a design problem knows them.
   std::vector<std::optional<ErrorBar>> response_errors;
-  std::optional<ErrorBar> error;  ///< of the optimal objective
+  std::vector<Eigen::VectorXd> response_bands;  ///< of histories [SI]; empty where none is known
+  std::optional<ErrorBar> error;                ///< of the optimal objective
   std::string backend;
   std::string polished_with;  ///< the backend that refined the answer; empty: nobody did
   Eigen::VectorXd x;          ///< [SI]

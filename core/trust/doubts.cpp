@@ -54,6 +54,7 @@ Trust judge_run(const TrustedRun& run) {
   add(doubt_resolution(run, resolution));
   trust.errors = std::move(resolution.bars);
   trust.evidence = std::move(resolution.evidence);
+  trust.bands = std::move(resolution.bands);
   add_left_out_effects(run, trust.errors);
   std::stable_partition(doubts.begin(), doubts.end(),
                         [](const Doubt& doubt) { return doubt.is_serious; });

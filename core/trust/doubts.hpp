@@ -41,6 +41,7 @@ struct Trust {
   /// leaves the check of resolution out.
   std::vector<std::optional<ErrorBar>> errors;
   std::vector<std::optional<Evidence>> evidence;  ///< of the errors by steps and elements
+  std::vector<Eigen::VectorXd> bands;             ///< of histories (error_bands.hpp)
 };
 
 Trust judge_run(const TrustedRun& run);

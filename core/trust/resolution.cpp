@@ -8,6 +8,7 @@
 
 #include "core/base/relative_error.hpp"
 #include "core/trust/asked_responses.hpp"
+#include "core/trust/error_bands.hpp"
 #include "core/trust/nested_runs.hpp"
 #include "core/trust/percent.hpp"
 #include "core/trust/round_off.hpp"
@@ -229,6 +230,7 @@ class Judgement {
     if (has_modes_of_more_elements_) runs.modes = {&modes_of_more_elements_, &other_elements_};
     if (are_modes_suspicious_) runs.modes = {&more_modes_, &found_};
     if (has_tolerance_) runs.newton = {&other_newton_, &coarsest_};
+    resolution.bands = error_bands(run_.analysis, runs, order());
     resolution.bars.resize(run_.analysis.responses.size());
     resolution.evidence.resize(run_.analysis.responses.size());
     for (const std::size_t i : judged_) {

@@ -26,6 +26,7 @@ struct Resolution {
   /// One a response; none of those that are errors themselves, or round-off.
   std::vector<std::optional<ErrorBar>> bars;
   std::vector<std::optional<Evidence>> evidence;  ///< what the bars are made from
+  std::vector<Eigen::VectorXd> bands;             ///< of histories (error_bands.hpp)
   std::string failure;  ///< of a finer run that could not be made; empty: none
 };
 

@@ -1,0 +1,11 @@
+#include "core/response/shown_history.hpp"
+
+namespace pleuel {
+
+Eigen::VectorXd shown_history(const Response& response, const Eigen::MatrixXd& history) {
+  const bool by_magnitude = response.over_time == OverTime::max_abs && history.rows() > 1;
+  if (by_magnitude) return history.cwiseAbs().colwise().maxCoeff().transpose();
+  return history.colwise().maxCoeff().transpose();
+}
+
+}  // namespace pleuel
