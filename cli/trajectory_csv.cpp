@@ -4,16 +4,11 @@
 
 namespace pleuel {
 
-namespace {
-
-/// The largest over places; of several that are reduced by magnitude, the largest magnitude.
 Eigen::VectorXd largest_channel(const Response& response, const Eigen::MatrixXd& history) {
   const bool by_magnitude = response.over_time == OverTime::max_abs && history.rows() > 1;
   if (by_magnitude) return history.cwiseAbs().colwise().maxCoeff().transpose();
   return history.colwise().maxCoeff().transpose();
 }
-
-}  // namespace
 
 void write_trajectory(const ResultFile& file, const Analysis& analysis) {
   std::vector<std::string> header = {"time"};
