@@ -62,7 +62,8 @@ export interface Chart {
   setCursor(x: number | null): void;
 }
 
-const all: { chart: echarts.ECharts; element: HTMLElement }[] = [];
+const mostEagerCharts = 40;
+let charts = 0;
 
 function axis(options: ChartOptions, which: "x" | "y") {
   const isLog = which === "x" ? options.logX : options.logY;
@@ -74,6 +75,7 @@ function axis(options: ChartOptions, which: "x" | "y") {
     nameGap: 26,
     nameTextStyle: { color: color("soft"), fontSize: 11 },
     scale: which === "y" ? !options.startsAtZero : true,
+    min: which === "x" && !isLog && !options.onPick ? ("dataMin" as const) : undefined,
     max: which === "x" && !isLog && !options.onPick ? ("dataMax" as const) : undefined,
     minInterval: which === "x" && options.wholeX ? 1 : undefined,
     axisLine: { show: which === "x", onZero: false, lineStyle: { color: line } },
@@ -117,7 +119,7 @@ function seriesOption(options: ChartOptions, s: Series, i: number) {
               yAxis: limit.value,
               label: {
                 formatter: limit.label,
-                position: "insideEndTop" as const,
+                position: "insideStartTop" as const,
                 color: color("limit"),
                 fontSize: 11,
               },
@@ -307,20 +309,29 @@ export function lineChart(options: ChartOptions): Chart {
     cursor.style.transform = `translateX(${pixel}px)`;
   };
   const draw = () => chart?.setOption(optionOf(options), true);
-  // Charts measure their place: they begin when they have one.
+  const begin = () => {
+    if (chart || !plot.clientWidth) return;
+    chart = echarts.init(plot, undefined, { renderer: "svg" });
+    draw();
+    // eslint-disable-next-line @typescript-eslint/no-explicit-any
+    chart.on("click", (event: any) => options.onPick?.(event.seriesIndex, event.dataIndex));
+    // eslint-disable-next-line @typescript-eslint/no-explicit-any
+    chart.on("mouseover", (event: any) => options.onHover?.(event.seriesIndex, event.dataIndex));
+    placeCursor();
+  };
+  // Charts measure their place: they begin when they have one, and where there are many when they
+  // come into sight.
+  const isEager = ++charts <= mostEagerCharts;
   new ResizeObserver(() => {
     if (!plot.clientWidth) return;
-    if (!chart) {
-      chart = echarts.init(plot, undefined, { renderer: "svg" });
-      all.push({ chart, element });
-      draw();
-      // eslint-disable-next-line @typescript-eslint/no-explicit-any
-      chart.on("click", (event: any) => options.onPick?.(event.seriesIndex, event.dataIndex));
-      // eslint-disable-next-line @typescript-eslint/no-explicit-any
-      chart.on("mouseover", (event: any) => options.onHover?.(event.seriesIndex, event.dataIndex));
-    } else chart.resize();
+    if (!chart && isEager) begin();
+    else chart?.resize();
     placeCursor();
   }).observe(plot);
+  if (!isEager) {
+    new IntersectionObserver((entries) => entries[0].isIntersecting && begin(), { rootMargin: "300px" }).observe(plot);
+    window.addEventListener("beforeprint", begin);
+  }
   onTheme(draw);
   return {
     element,

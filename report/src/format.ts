@@ -72,7 +72,7 @@ export function engineering(si: string): Unit {
 }
 
 /** Forces, powers and energies of machines in thousands. */
-function inThousands(unit: Unit, size: number): Unit {
+export function inThousands(unit: Unit, size: number): Unit {
   const grows = ["N", "N m", "W", "J"].includes(unit.name);
   return grows && size >= 1e4 ? { ...unit, name: `k${unit.name}`, factor: 1000 * unit.factor } : unit;
 }
@@ -85,7 +85,7 @@ export function pair(before: number, after: number, unit: Unit): string {
 
 /** Where on a body a peak is, lengths in millimetres: "node 0, y = −11.57 mm". */
 export function placeText(place: string | undefined): string {
-  if (!place || place === "reference point") return "";
+  if (!place || place === "reference point" || place === "drive") return "";
   return place
     .replace(/^at ([\d.]+) of the length/, (_, at: string) => `at ${number(100 * Number(at), 3)} % of the length`)
     .replace(/(-?[\d.]+(?:e-?\d+)?) m(?=$|,)/g, (_, metres: string) => `${number(1000 * Number(metres), 4)} mm`);

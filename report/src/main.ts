@@ -1,9 +1,12 @@
 import "./style.css";
 import { readData, type ReportData } from "./data";
 import { h } from "./dom";
-import { accuracyPage, genericPage, paretoPage } from "./pages/studies";
+import { accuracyPage } from "./pages/accuracy";
 import { optimizePage } from "./pages/optimize";
+import { pricesPage } from "./pages/prices";
 import { showPage, simulatePage } from "./pages/simulate";
+import { genericPage, paretoPage } from "./pages/studies";
+import { uncertaintyPage } from "./pages/uncertainty";
 import { startTheme, themeButton } from "./theme";
 
 function pageOf(data: ReportData): HTMLElement[] {
@@ -18,6 +21,10 @@ function pageOf(data: ReportData): HTMLElement[] {
       return paretoPage(data);
     case "accuracy":
       return accuracyPage(data);
+    case "prices":
+      return pricesPage(data);
+    case "uncertainty":
+      return uncertaintyPage(data);
     default:
       return genericPage(data);
   }

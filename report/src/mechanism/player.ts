@@ -87,14 +87,16 @@ export function makePlayer(options: PlayerOptions): Player {
     for (const listener of listeners) listener(time);
   };
   const setPlaying = (value: boolean) => {
+    if (value === isPlaying) return;
     isPlaying = value;
     playButton.textContent = value ? "❚❚" : "▶";
     playButton.classList.toggle("is-playing", value);
+    last = 0;
     if (value) requestAnimationFrame(tick);
   };
   const tick = (now: number) => {
     if (!isPlaying) return;
-    const passed = last && now - last < 200 ? (now - last) / 1000 : 0;
+    const passed = last ? Math.min(now - last, 200) / 1000 : 0;
     last = now;
     if (isVisible) {
       time = (time + (passed * speed * end) / secondsOfLoop) % end;

@@ -58,6 +58,7 @@ export class Stage {
   private selected: number | null = null;
   private visible: boolean[];
   private isStressShown = true;
+  private isDue = false;
 
   constructor(
     private readonly host: HTMLElement,
@@ -148,6 +149,16 @@ export class Stage {
     return { motion: this.motions[main], poses: this.poses[main] };
   }
 
+  /** Where the middle of a body is drawn [px of the page]: for tests. */
+  screenPoint(body: number): { x: number; y: number } {
+    const { poses } = this.mainPoses();
+    const { points } = poses[body];
+    const middle = points.length > 1 ? points[Math.floor(points.length / 2)] : points[0];
+    const p = middle.clone().project(this.camera);
+    const box = this.canvas.getBoundingClientRect();
+    return { x: box.left + ((p.x + 1) / 2) * box.width, y: box.top + ((1 - p.y) / 2) * box.height };
+  }
+
   resetCamera(): void {
     const side = new Vector3().crossVectors(this.view.up, this.view.normal);
     const eye = this.view.isPlanar
@@ -156,7 +167,17 @@ export class Stage {
     this.look(eye);
   }
 
+  /** Draws with the next frame of the browser, once whatever has changed. */
   render(): void {
+    if (this.isDue) return;
+    this.isDue = true;
+    requestAnimationFrame(() => {
+      this.isDue = false;
+      this.draw();
+    });
+  }
+
+  private draw(): void {
     this.renderer.render(this.space, this.camera);
     const { clientWidth: width, clientHeight: height } = this.host;
     for (const label of this.labels) {

@@ -2,7 +2,7 @@
 import { type Chart, lineChart } from "../charts";
 import { type Companion, curveOf, type Meaning, type Picture, type Shown, valueAt } from "../data";
 import { h } from "../dom";
-import { number, percent, placeText, seconds, timeUnit, withUnit, words } from "../format";
+import { inThousands, number, percent, placeText, seconds, timeUnit, withUnit, words } from "../format";
 import type { Pick } from "../mechanism/player";
 
 export interface Inspector {
@@ -24,7 +24,8 @@ export function makeInspector(picture: Picture, main: number, goTo: (time: numbe
   let now = 0;
 
   const chartOf = (quantity: Quantity): HTMLElement | null => {
-    const { meaning } = quantity;
+    const largest = Math.max(...quantity.shown.map((one) => Math.abs(one.value.value)));
+    const meaning = { ...quantity.meaning, unit: inThousands(quantity.meaning.unit, largest / quantity.meaning.unit.factor) };
     const known = quantity.shown.filter((one) => one.value.history);
     if (!known.length) return null;
     const limits = limitsOn(picture, quantity.name);
@@ -52,7 +53,7 @@ export function makeInspector(picture: Picture, main: number, goTo: (time: numbe
               {
                 x: peak.peak_time / unit.factor,
                 y: valueAt(peak.history!, peak.peak_time) / meaning.unit.factor,
-                label: number(peak.value / meaning.unit.factor),
+                label: signed(peak, meaning.unit.factor),
                 color: "accent",
               },
             ],
@@ -65,12 +66,13 @@ export function makeInspector(picture: Picture, main: number, goTo: (time: numbe
 
   const show = (pick: Pick) => {
     charts = [];
-    element.replaceChildren(
-      ...heading(picture, pick, main),
-      ...quantitiesOf(picture, pick, main)
-        .map(chartOf)
-        .filter((one): one is HTMLElement => !!one),
-    );
+    const drawn = quantitiesOf(picture, pick, main)
+      .map(chartOf)
+      .filter((one): one is HTMLElement => !!one);
+    element.replaceChildren(...heading(picture, pick, main), ...drawn.slice(0, 3));
+    if (drawn.length > 3) {
+      element.append(h("details", {}, h("summary.note", {}, `${drawn.length - 3} more`), ...drawn.slice(3)));
+    }
     const isMoving = picture.designs.some((design) => design.motion);
     if (!charts.length && isMoving) element.append(h("p.note", {}, "No history belongs to it. Click another member or joint."));
   };
@@ -82,6 +84,12 @@ export function makeInspector(picture: Picture, main: number, goTo: (time: numbe
       for (const chart of charts) chart.setCursor(time / unit.factor);
     },
   };
+}
+
+/** The result with the sign that the curve has there: magnitudes have none. */
+export function signed(peak: Shown, factor: number): string {
+  const there = valueAt(peak.history!, peak.peak_time!);
+  return number((there < 0 ? -Math.abs(peak.value) : peak.value) / factor);
 }
 
 function peakLine(quantity: Quantity, peak: Shown, goTo: (time: number) => void): HTMLElement {
@@ -102,7 +110,12 @@ export function limitsOn(picture: Picture, response: string): { value: number; s
   const limits: { value: number; side: string }[] = [];
   for (const limit of Object.values(picture.limits)) {
     if (limit.response !== response) continue;
-    if (limit.upper !== undefined) limits.push({ value: limit.upper, side: "≤" });
+    if (limit.upper !== undefined) {
+      limits.push({ value: limit.upper, side: "≤" });
+      const meaning = picture.responses[response];
+      const hasSign = meaning.over_time === "max-abs" && meaning.type !== "stress";
+      if (hasSign) limits.push({ value: -limit.upper, side: "≥" });
+    }
     if (limit.lower !== undefined) limits.push({ value: limit.lower, side: "≥" });
   }
   return limits;
@@ -190,7 +203,7 @@ function quantitiesOf(picture: Picture, pick: Pick, main: number): Quantity[] {
     for (const companion of design.companions ?? []) add(companion, companion as Companion);
   });
   const rank = (quantity: Quantity) => (limitsOn(picture, quantity.name).length ? 0 : quantity.meaning.joint ? 2 : 1);
-  return [...found.values()].sort((a, b) => rank(a) - rank(b)).slice(0, 8);
+  return [...found.values()].sort((a, b) => rank(a) - rank(b)).slice(0, 9);
 }
 
 /** Of a body also what its drive needs. */

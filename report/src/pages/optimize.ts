@@ -30,6 +30,7 @@ export function viewing(picture: Picture, main: number, showsNames = false, show
   });
   player.onTime((time) => inspector.setTime(time));
   const made = player;
+  Object.assign(window, { pleuelPlayer: made });  // for tests
   return {
     element: h("section.card.viewing", { "aria-label": "mechanism" }, made.element, inspector.element),
     player: made,

@@ -2,8 +2,8 @@
 import { lineChart } from "../charts";
 import { curveOf, type Document, type Picture, type ReportData, valueAt } from "../data";
 import { h, section, table } from "../dom";
-import { count, number, seconds, share, timeUnit, withUnit, words } from "../format";
-import { limitsOn, profiles } from "./inspector";
+import { count, inThousands, number, seconds, share, timeUnit, withUnit, words } from "../format";
+import { limitsOn, profiles, signed } from "./inspector";
 import { type Viewing, viewing } from "./optimize";
 import { effectsSection, fact, filesSection, monitorsText, responsesTable, warnings } from "./parts";
 
@@ -78,7 +78,8 @@ export function historiesSection(picture: Picture, shown: Viewing | null): HTMLE
     ...(design.companions ?? []).map((one) => ({ one, meaning: one })),
   ].filter(({ one }) => one.history);
   if (!all.length) return null;
-  const charts = all.map(({ one, meaning }) => {
+  const charts = all.map(({ one, meaning: given }) => {
+    const meaning = { ...given, unit: inThousands(given.unit, Math.abs(one.value) / given.unit.factor) };
     const chart = lineChart({
       title: words(one.name),
       yTitle: meaning.unit.name,
@@ -92,7 +93,7 @@ export function historiesSection(picture: Picture, shown: Viewing | null): HTMLE
       peaks:
         one.peak_time === undefined
           ? []
-          : [{ x: one.peak_time / unit.factor, y: valueAt(one.history!, one.peak_time) / meaning.unit.factor, label: number(one.value / meaning.unit.factor), color: "accent" }],
+          : [{ x: one.peak_time / unit.factor, y: valueAt(one.history!, one.peak_time) / meaning.unit.factor, label: signed(one, meaning.unit.factor), color: "accent" }],
     });
     shown?.player.onTime((time) => chart.setCursor(time / unit.factor));
     return chart.element;

@@ -7,7 +7,8 @@ import { makePlayer } from "../mechanism/player";
 import { effectsSection, filesSection, responsesTable, sentenceCase, verdict, warnings } from "./parts";
 import { profiles } from "./inspector";
 
-function hero(data: ReportData, lead: string, facts: HTMLElement[] = []): HTMLElement {
+/** What a study is of, its verdict and some facts. */
+export function hero(data: ReportData, lead: string, facts: HTMLElement[] = []): HTMLElement {
   const { result, card, picture } = data;
   return h(
     "section.hero",
@@ -47,10 +48,6 @@ export function paretoPage(data: ReportData): HTMLElement[] {
       h("h3", {}, `Point ${chosen.number}: `, withUnit(chosen.point.objectives[objective], unit(objective)), h("span.soft", {}, ` at ${withUnit(chosen.point.objectives[limited], unit(limited))}`)),
       h("p.note", {}, sentenceCase(chosen.point.message ?? "")),
       ...(players.has(index) ? [players.get(index)!] : []),
-      table(
-        [{ title: "variable", left: true }, { title: "value" }],
-        Object.entries(chosen.point.variables as Record<string, number>).map(([name, value]) => [words(name), withUnit(value, picture.variables[name]?.unit ?? engineering(""))]),
-      ),
     );
     players.get(index)?.dispatchEvent(new Event("shown"));
   };
@@ -60,7 +57,7 @@ export function paretoPage(data: ReportData): HTMLElement[] {
     title: `${words(objective)} against ${words(limited)}`,
     xTitle: `${words(limited)} [${unit(limited).name}]`,
     yTitle: unit(objective).name,
-    height: 340,
+    height: 430,
     series: [
       {
         name: "front",
@@ -100,37 +97,13 @@ export function paretoPage(data: ReportData): HTMLElement[] {
 
 function sectionsOf(picture: Picture): HTMLElement {
   return h(
-    "div.grid",
+    "div.sections",
     {},
     picture.scene.bodies.map((body, i) => {
       const drawn = profiles(picture, i, 0);
       return drawn ? h("div", {}, h("b", {}, words(body.name)), drawn) : null;
     }),
   );
-}
-
-export function accuracyPage(data: ReportData): HTMLElement[] {
-  const { result, files } = data;
-  const sentences = textsOf(result);
-  const figures = ["accuracy.svg", "accuracy-gradients.svg"]
-    .filter((name) => files[name])
-    .map((name) => {
-      const image = h("img.figure", { src: `data:image/svg+xml;charset=utf-8,${encodeURIComponent(files[name])}`, alt: name.includes("gradients") ? "work–precision diagram of gradients" : "work–precision diagram" });
-      return h("figure", {}, image);
-    });
-  return [
-    hero(data, sentences.slice(0, 2).join(" ")),
-    figures.length ? section("Work and precision", "Each mark is a setting: its processor time against its largest error that counts.", h("div.columns", {}, figures)) : null,
-    ...genericSections(data),
-    filesSection(data),
-  ].filter((part): part is HTMLElement => !!part);
-}
-
-/** Sentences of a document: texts with several words. */
-function textsOf(document: Document): string[] {
-  return Object.entries(document)
-    .filter(([key, value]) => typeof value === "string" && (value as string).includes(" ") && !["message", "status"].includes(key))
-    .map(([, value]) => sentenceCase(value as string));
 }
 
 /** Any other result: what it says, table by table. */
@@ -188,6 +161,12 @@ function cellText(value: unknown): string {
   if (typeof value === "boolean") return value ? "yes" : "no";
   if (Array.isArray(value)) return value.length > 8 ? `${value.length} entries` : value.map(cellText).join(", ");
   if (typeof value === "object") {
+    const numbers = Object.entries(value as Document).filter((entry): entry is [string, number] => typeof entry[1] === "number");
+    if (numbers.length > 2 && numbers.length === Object.keys(value).length) {
+      // Of many numbers, as errors of responses, the one that decides.
+      const [key, largest] = numbers.reduce((a, b) => (Math.abs(b[1]) > Math.abs(a[1]) ? b : a));
+      return `at most ${number(largest, 3)} (${words(key)})`;
+    }
     return Object.entries(value as Document)
       .map(([key, one]) => `${words(key)} ${cellText(one)}`)
       .join("; ");
@@ -196,7 +175,9 @@ function cellText(value: unknown): string {
 }
 
 function rowsTable(rows: Document[]): HTMLElement {
-  const keys = [...new Set(rows.flatMap((row) => Object.keys(row ?? {})))];
+  const isPlain = (value: unknown) => !(Array.isArray(value) && value.some((one) => typeof one === "string" && one.length > 40));
+  const all = [...new Set(rows.flatMap((row) => Object.keys(row ?? {})))];
+  const keys = all.filter((key) => key !== "warnings" && rows.every((row) => isPlain(row?.[key])) && rows.some((row) => row?.[key] !== null && row?.[key] !== undefined));
   return table(
     keys.map((key) => ({ title: words(key), left: rows.some((row) => typeof row?.[key] !== "number") })),
     rows.map((row) => keys.map((key) => cellText(row?.[key]))),
@@ -208,7 +189,7 @@ function objectsTable(objects: Record<string, Document>): HTMLElement {
 }
 
 /** Histories with bands, derivatives over time: a chart for each column of a CSV file. */
-function csvCharts(data: ReportData): HTMLElement[] {
+export function csvCharts(data: ReportData): HTMLElement[] {
   const { files, picture } = data;
   const sections: HTMLElement[] = [];
   for (const name of ["uncertainty.csv", "gradients.csv"]) {
@@ -234,10 +215,10 @@ function csvCharts(data: ReportData): HTMLElement[] {
         return [lineChart({ title: words(title), yTitle: shown.name, xTitle: `time [${unit.name}]`, series: [{ name: words(title), x: time, y: values, color: "accent" }, ...bands] }).element];
       }
       const variables = header.filter((one) => one.startsWith(`${title}:`));
-      const colors = ["accent", "drive", "load", "limit", "start", "good"];
+      const colors = ["accent", "more", "good", "drive", "limit", "soft"];
       return [
         lineChart({
-          title: `${words(title)}: change by 1 % of each variable`,
+          title: words(title),
           yTitle: shown.name,
           xTitle: `time [${unit.name}]`,
           series: variables.slice(0, 6).map((one, i) => {
@@ -250,7 +231,7 @@ function csvCharts(data: ReportData): HTMLElement[] {
     });
     if (charts.length) {
       sections.push(
-        section(name === "uncertainty.csv" ? "Histories with their scatter" : "Sensitivities over time", "", h("div.grid", {}, charts)),
+        section(name === "uncertainty.csv" ? "Histories with their scatter" : "Sensitivities over time", name === "uncertainty.csv" ? "Two standard deviations on either side." : "What a response changes by if a variable grows by one percent.", h("div.grid", {}, charts)),
       );
     }
   }
