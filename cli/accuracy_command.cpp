@@ -9,6 +9,7 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/output_file.hpp"
+#include "cli/run_picture.hpp"
 #include "cli/run_record.hpp"
 #include "cli/solve_settings.hpp"
 #include "cli/warnings.hpp"
@@ -117,6 +118,7 @@ Outcome run_accuracy(const Arguments& arguments) {
   if (answer.is_interrupted()) outcome.document["status"] = study_status(false);
   outcome.text += fmt::format("\nWritten to {}: accuracy.csv, {}result.json, run_card.json\n",
                               record.folder().string(), write_charts(problem, answer, record));
+  record.show_picture([&] { return run_picture(input.problem, {{"start", input.design}}); });
   record.finish(outcome);
   return outcome;
 }

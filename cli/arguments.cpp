@@ -52,8 +52,14 @@ void add_overwrite(CLI::App* command, Arguments& arguments) {
                     "replace an older run of this command in the same place");
 }
 
+void add_no_report(CLI::App* command, Arguments& arguments) {
+  command->add_flag("--no-report", arguments.leaves_out_report,
+                    "write no report.html; the command report makes it later");
+}
+
 CLI::Option* add_output(CLI::App* command, Arguments& arguments) {
   add_overwrite(command, arguments);
+  add_no_report(command, arguments);
   return command
       ->add_option("-o,--output", arguments.output,
                    "run folder (default: the first of runs/<file>-" + command->get_name() +
@@ -178,6 +184,22 @@ void add_accuracy(CLI::App& app, Arguments& arguments) {
   add_backend(accuracy, arguments);
 }
 
+void add_report(CLI::App& app, Arguments& arguments) {
+  CLI::App* report =
+      add_command(app, arguments, "report", "write report.html into folders of earlier runs");
+  report->add_option("DIR", arguments.files, "run folders")->required();
+}
+
+void add_show(CLI::App& app, Arguments& arguments) {
+  CLI::App* show = add_file_command(app, arguments, "show",
+                                    "draw the mechanism of a file, before anything is simulated");
+  show->add_option("-o,--output", arguments.output,
+                   "the page to write (default: the first of runs/<file>-show.html, …-2 that is "
+                   "not there)")
+      ->type_name("FILE.html");
+  add_design(show, arguments);
+}
+
 void add_commands(CLI::App& app, Arguments& arguments) {
   CLI::App* check = add_file_command(
       app, arguments, "check",
@@ -212,6 +234,8 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   add_accuracy(app, arguments);
   add_stability(app, arguments);
   add_uncertainty(app, arguments);
+  add_report(app, arguments);
+  add_show(app, arguments);
   add_command(app, arguments, "backends", "list the optimizers");
 }
 

@@ -29,6 +29,7 @@ struct Arguments {
   bool wants_histories = false;           ///< with their derivatives
   bool wants_effects = false;             ///< what each effect brings and costs
   bool wants_json = false;
+  bool leaves_out_report = false;  ///< no report.html
   bool overwrites = false;         ///< an older run of the same command in the folder
   std::vector<std::string> words;  ///< the command line as it was
 

@@ -15,6 +15,8 @@ Outcome run_invariants(const Arguments& arguments);
 Outcome run_optimize(const Arguments& arguments);
 Outcome run_pareto(const Arguments& arguments);
 Outcome run_prices(const Arguments& arguments);
+Outcome run_report(const Arguments& arguments);
+Outcome run_show(const Arguments& arguments);
 Outcome run_simulate(const Arguments& arguments);
 Outcome run_stability(const Arguments& arguments);
 

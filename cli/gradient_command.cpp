@@ -5,6 +5,7 @@
 #include "cli/analysis_report.hpp"
 #include "cli/commands.hpp"
 #include "cli/gradients_csv.hpp"
+#include "cli/run_picture.hpp"
 #include "cli/run_record.hpp"
 #include "cli/stopwatch.hpp"
 #include "cli/table.hpp"
@@ -184,6 +185,9 @@ void write_histories(RunRecord& record, const ProblemInput& input, Analysis& ana
   outcome.text +=
       fmt::format("Written to {}: gradients.csv, trajectory.csv, result.json, run_card.json\n",
                   record.folder().string());
+  record.show_picture([&] {
+    return run_picture(input.problem, {{"start", input.design, &analysis}});
+  });
   record.finish(outcome);
 }
 

@@ -20,10 +20,19 @@ namespace fs = std::filesystem;
 
 Outcome run(const Arguments& arguments) {
   static const std::map<std::string, Outcome (*)(const Arguments&)> commands = {
-      {"accuracy", run_accuracy},   {"backends", run_backends},       {"check", run_check},
-      {"gradient", run_gradient},   {"invariants", run_invariants},   {"optimize", run_optimize},
-      {"pareto", run_pareto},       {"prices", run_prices},           {"simulate", run_simulate},
-      {"stability", run_stability}, {"uncertainty", run_uncertainty},
+      {"accuracy", run_accuracy},
+      {"backends", run_backends},
+      {"check", run_check},
+      {"gradient", run_gradient},
+      {"invariants", run_invariants},
+      {"optimize", run_optimize},
+      {"pareto", run_pareto},
+      {"prices", run_prices},
+      {"report", run_report},
+      {"show", run_show},
+      {"simulate", run_simulate},
+      {"stability", run_stability},
+      {"uncertainty", run_uncertainty},
   };
   return commands.at(arguments.command)(arguments);
 }

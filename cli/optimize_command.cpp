@@ -13,6 +13,7 @@
 #include "cli/monitors_report.hpp"
 #include "cli/optimum_document.hpp"
 #include "cli/optimum_report.hpp"
+#include "cli/run_picture.hpp"
 #include "cli/run_record.hpp"
 #include "cli/setting_report.hpp"
 #include "cli/solve_settings.hpp"
@@ -43,6 +44,12 @@ Json examine_designs(RunRecord& record, Optimum& optimum) {
   const auto end = analyze(optimum.problem, optimum.result.x);
   write_trajectory(record.result("trajectory-optimum.csv"), *end, optimum.result.response_bands);
   optimum.responses = values_of(*end);
+  record.show_picture([&] {
+    return run_picture(optimum.problem,
+                       {{"start", optimum.result.history.front().x, start.get()},
+                        {"optimum", optimum.result.x, end.get(), optimum.result.response_bands}});
+  });
+  record.begin_phase("trajectories");
   optimum.monitors = monitor(end->model, end->trajectory);
   // Of an answer with gradients the doubts are known: they are part of its verdict.
   optimum.warnings = optimum.result.evaluation.has_gradients()

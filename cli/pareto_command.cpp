@@ -7,6 +7,7 @@
 #include "cli/console.hpp"
 #include "cli/csv_file.hpp"
 #include "cli/error_report.hpp"
+#include "cli/run_picture.hpp"
 #include "cli/run_record.hpp"
 #include "cli/solve_settings.hpp"
 #include "cli/table.hpp"
@@ -183,6 +184,15 @@ std::string warnings_of_points(const ProblemFile& problem, const std::vector<Par
   return text.empty() ? "" : "\n" + text;
 }
 
+/// The mechanisms of the front, by their numbers from 1.
+Json front_picture(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
+  std::vector<ShownDesign> designs;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].has_design()) designs.push_back({std::to_string(i + 1), points[i].result.x});
+  }
+  return run_picture(problem, designs);
+}
+
 void show_progress(std::FILE* out, const ProblemFile& problem, const ParetoPoint& point) {
   const ShownUnit unit = unit_of(problem, varied_constraint(problem));
   show(out,
@@ -222,6 +232,7 @@ Outcome run_pareto(const Arguments& arguments) {
           verified_points(points), problem.pareto->points, points_text(problem, points),
           doubts_text(problem, points) + warnings_of_points(problem, points),
           record.folder().string())};
+  record.show_picture([&] { return front_picture(problem, points); });
   record.finish(outcome);
   return outcome;
 }

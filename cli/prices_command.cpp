@@ -7,6 +7,7 @@
 #include "cli/console.hpp"
 #include "cli/csv_file.hpp"
 #include "cli/iteration_lines.hpp"
+#include "cli/run_picture.hpp"
 #include "cli/run_record.hpp"
 #include "cli/solve_settings.hpp"
 #include "cli/table.hpp"
@@ -212,6 +213,7 @@ Outcome run_prices(const Arguments& arguments) {
                               record.folder().string());
   record.write("result.json", outcome.document);
   write_csv(record.result("prices.csv"), list);
+  record.show_picture([&] { return run_picture(input.problem, {{"start", input.design}}); });
   record.finish(outcome);
   return outcome;
 }

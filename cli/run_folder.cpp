@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Everything that a run of any command may leave beside the card.
-constexpr std::array<const char*, 14> result_names = {"history.csv",
+constexpr std::array<const char*, 15> result_names = {"history.csv",
                                                       "result.json",
                                                       "trajectory.csv",
                                                       "trajectory-start.csv",
@@ -32,7 +32,8 @@ constexpr std::array<const char*, 14> result_names = {"history.csv",
                                                       "stability.csv",
                                                       "uncertainty.csv",
                                                       "gradients.csv",
-                                                      "failed_design.json"};
+                                                      "failed_design.json",
+                                                      "report.html"};
 
 fs::path usual_folder(const Arguments& arguments) {
   if (arguments.files.size() > 1) return fs::path("runs") / arguments.command;

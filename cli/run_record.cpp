@@ -1,5 +1,8 @@
 #include "cli/run_record.hpp"
 
+#include <fmt/format.h>
+
+#include "cli/report_page.hpp"
 #include "cli/versions.hpp"
 
 namespace pleuel {
@@ -22,7 +25,10 @@ double seconds_since(Clock::time_point begin) {
 }  // namespace
 
 RunRecord::RunRecord(const Arguments& arguments, Json options)
-    : folder_(arguments), begin_(Clock::now()) {
+    : folder_(arguments),
+      program_(arguments.program),
+      makes_report_(!arguments.leaves_out_report && arguments.command != "invariants"),
+      begin_(Clock::now()) {
   card_["finished"] = false;
   card_["command"] = arguments.command;
   card_["arguments"] = arguments.words;
@@ -78,6 +84,7 @@ void RunRecord::write(const std::string& name, const Json& document) {
 void RunRecord::finish(Outcome& outcome) {
   end_phase();
   write("result.json", outcome.document);
+  write_report(outcome);
   phases_["total"] = seconds_since(begin_);
   card_["finished"] = true;
   outcome.unwritten = failures_.files();
@@ -85,6 +92,32 @@ void RunRecord::finish(Outcome& outcome) {
   card_["seconds"] = phases_;
   write(card_name, card_);
   outcome.unwritten = failures_.files();
+}
+
+void RunRecord::show_picture(const std::function<Json()>& make_picture) {
+  if (!makes_report_ || !find_report_template()) return;
+  begin_phase("report");
+  picture_ = make_picture();
+  end_phase();
+}
+
+void RunRecord::write_report(Outcome& outcome) {
+  if (!makes_report_) return;
+  const auto page = find_report_template();
+  if (!page) {
+    outcome.text += missing_template_text(program_, folder());
+    return;
+  }
+  begin_phase("report");
+  Json card = card_;
+  card["finished"] = true;
+  card["exit_code"] = outcome.final_code();
+  card["seconds"] = phases_;
+  card["seconds"]["total"] = seconds_since(begin_);
+  write_file(result(report_name),
+             report_page(*page, report_data(card, outcome.document, picture_, folder())));
+  outcome.text += fmt::format("Report: {}\n", (folder() / report_name).string());
+  end_phase();
 }
 
 void RunRecord::replace_older_run() {

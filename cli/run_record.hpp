@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,18 +41,27 @@ class RunRecord {
   /// Writes a document into the folder, in place of an earlier one of this name.
   void write(const std::string& name, const Json& document);
 
-  /// Writes result.json and the last card, and tells the outcome which files could not be written.
+  /// What the report shows of the mechanism: see run_picture(). Makes it only if there will be a
+  /// report.
+  void show_picture(const std::function<Json()>& make_picture);
+
+  /// Writes result.json, the last card and the report, and tells the outcome which files could not
+  /// be written.
   void finish(Outcome& outcome);
 
  private:
   RunRecord(const Arguments& arguments, Json options);
   void end_phase();
+  void write_report(Outcome& outcome);
   void replace_older_run();
 
   RunFolder folder_;
   WriteFailures failures_;
   Json card_;
   Json phases_ = Json::object();
+  Json picture_;
+  std::string program_;
+  bool makes_report_ = true;
   std::string phase_;
   bool has_results_ = false;
   std::chrono::steady_clock::time_point begin_, phase_begin_;

@@ -7,6 +7,7 @@
 #include "cli/limits_report.hpp"
 #include "cli/monitors_report.hpp"
 #include "cli/problem_input.hpp"
+#include "cli/run_picture.hpp"
 #include "cli/run_record.hpp"
 #include "cli/scene_report.hpp"
 #include "cli/setting_report.hpp"
@@ -146,6 +147,10 @@ Outcome run_simulate(const Arguments& arguments) {
   outcome.document["constraints"] = limits_document(input.problem, input.design, *analysis);
   record.write("result.json", outcome.document);
   write_trajectory(record.result("trajectory.csv"), *analysis, run.bands);
+  record.show_picture([&] {
+    const std::string name = arguments.design ? "design" : "start";
+    return run_picture(input.problem, {{name, input.design, analysis.get(), run.bands}});
+  });
   record.finish(outcome);
   return outcome;
 }

@@ -6,6 +6,7 @@
 #include "cli/console.hpp"
 #include "cli/csv_file.hpp"
 #include "cli/error_report.hpp"
+#include "cli/run_picture.hpp"
 #include "cli/run_record.hpp"
 #include "cli/table.hpp"
 #include "cli/warnings.hpp"
@@ -205,6 +206,7 @@ Outcome run_uncertainty(const Arguments& arguments) {
                               record.folder().string());
   record.write("result.json", outcome.document);
   write_histories(record.result("uncertainty.csv"), problem, study);
+  record.show_picture([&] { return run_picture(input.problem, {{"start", input.design}}); });
   record.finish(outcome);
   return outcome;
 }

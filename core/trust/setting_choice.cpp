@@ -215,6 +215,7 @@ class Search {
       return is_asked ? refinements.size() - 1 : 0;
     };
     const std::size_t elements = add(trial.fewest_elements.has_value(), {2.0, 2.0});
+    const std::size_t fewer = add(trial.fewest_elements.value_or(1) > 1, {2.0, 0.5});
     // With twice the elements, of which there may be too few for more modes.
     const std::size_t modes = add(has_modes, {2.0, 2.0, judging_modes});
     const std::size_t newton = add(has_tolerance, {4.0, 1.0, 0, judging_newton});
@@ -223,6 +224,7 @@ class Search {
     judging.twice_step = &runs[0];
     judging.four_steps = &runs[1];
     if (elements > 0) judging.more_elements = {&runs[elements], &runs[0]};
+    if (fewer > 0) judging.fewer_elements = {&runs[fewer], &runs[0]};
     if (modes > 0) judging.modes = {&runs[modes], &runs[elements]};
     if (newton > 0) judging.newton = {&runs[newton], &runs[1]};
     keep_errors(analysis, judging, trial);

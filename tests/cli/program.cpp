@@ -15,6 +15,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// The page is that of the tests, whether the real one is built or not.
+constexpr const char* report_template = PLEUEL_SOURCE_DIR "/tests/cli/report_template.html";
+
 /// For the shell; no word of these tests has a single quote.
 std::string quoted(const std::string& word) {
   return "'" + word + "'";
@@ -38,8 +41,9 @@ ProgramRun run_line(const fs::path& folder, const std::string& line) {
   const TemporaryFolder streams;
   const fs::path out = streams.path() / "out", err = streams.path() / "err";
   const std::string command =
-      fmt::format("cd {} && {{ {} {}\n}} >{} 2>{}", quoted(folder.string()), quoted(PLEUEL_PROGRAM),
-                  line, quoted(out.string()), quoted(err.string()));
+      fmt::format("cd {} && export PLEUEL_REPORT_TEMPLATE={} && {{ {} {}\n}} >{} 2>{}",
+                  quoted(folder.string()), quoted(report_template), quoted(PLEUEL_PROGRAM), line,
+                  quoted(out.string()), quoted(err.string()));
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
 }

@@ -34,7 +34,8 @@ TEST(RunFolder, OfAnOptimizationHoldsItsEvidence) {
   ASSERT_TRUE(fs::exists(run_folder)) << run.err;
   EXPECT_THAT(files(run_folder),
               ::testing::UnorderedElementsAre("history.csv", "result.json", "run_card.json",
-                                              "trajectory-start.csv", "trajectory-optimum.csv"));
+                                              "trajectory-start.csv", "trajectory-optimum.csv",
+                                              "report.html"));
   EXPECT_EQ(read_file(run_folder / "result.json"), run.out);
   const auto history = read_csv(run_folder / "history.csv");
   EXPECT_EQ(history.size(), 1 + run.document().at("evaluations").get<std::size_t>());

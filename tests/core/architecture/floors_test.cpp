@@ -18,7 +18,7 @@ struct Include {
 std::vector<Include> read_includes() {
   std::vector<Include> includes;
   const fs::path root = PLEUEL_SOURCE_DIR;
-  for (const char* top : {"core", "sensitivity", "optimization", "studies", "cli"}) {
+  for (const char* top : {"core", "sensitivity", "optimization", "studies", "picture", "cli"}) {
     if (!fs::exists(root / top)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
       if (entry.path().extension() != ".hpp" && entry.path().extension() != ".cpp") continue;
@@ -37,7 +37,7 @@ std::vector<Include> read_includes() {
 
 /// The floor that a file or header belongs to: "core/beam", "sensitivity", …; empty if foreign.
 std::string floor_of(const std::string& path) {
-  for (const std::string top : {"sensitivity", "optimization", "studies", "cli"}) {
+  for (const std::string top : {"sensitivity", "optimization", "studies", "picture", "cli"}) {
     if (path.starts_with(top + "/")) return top;
   }
   if (!path.starts_with("core/")) return "";
@@ -66,7 +66,8 @@ const std::map<std::string, Names>& permitted() {
         {"sensitivity", {"core/response"}},
         {"optimization", {"core/base"}},
         {"studies", {"optimization", "sensitivity", "core/trust"}},
-        {"cli", {"studies"}}};
+        {"picture", {"core/response"}},
+        {"cli", {"studies", "picture"}}};
     for (int i = 0; i < 12; ++i) {  // what lies below what lies below …
       for (auto& [floor, names] : below) {
         for (const std::string& name : Names(names))

@@ -169,17 +169,21 @@ TEST_F(ErrorBarOfAValue, AsksAQuarterOfTheStep) {
   EXPECT_GE(bar.step.bound, 0.133);
 }
 
-/// Of order two, more elements leave a third of what they changed; fewer may leave all of it.
+/// Of order two, more elements leave a third of what they changed; fewer may leave all of it, and a
+/// quarter of what they change is not undercut by more elements that agree by accident.
 TEST_F(ErrorBarOfAValue, PrefersMoreElementsToFewer) {
-  const NestedRun twice = run(10.0), four = run(10.0), more = run(10.03), fewer = run(10.6);
+  const NestedRun twice = run(10.0), four = run(10.0), more = run(10.03), fewer = run(10.2),
+                  far = run(10.6);
   JudgingRuns runs;
   runs.twice_step = &twice;
   runs.four_steps = &four;
   runs.fewer_elements = {&fewer, &twice};
-  EXPECT_NEAR(error_bar(analysis_, 0, runs, 2).elements.bound, 0.6, 1e-12);
+  EXPECT_NEAR(error_bar(analysis_, 0, runs, 2).elements.bound, 0.2, 1e-12);
   runs.more_elements = {&more, &twice};
   EXPECT_NEAR(error_bar(analysis_, 0, runs, 2).elements.change, 0.04, 1e-12);
   EXPECT_NEAR(error_bar(analysis_, 0, runs, 2).elements.bound, 0.06, 1e-12);
+  runs.fewer_elements = {&far, &twice};
+  EXPECT_NEAR(error_bar(analysis_, 0, runs, 2).elements.bound, 0.15, 1e-12);
 }
 
 /// 10, 10.3, 11.5 and 20, 19.7, 18.5: as a sum nothing changes, each for itself does.

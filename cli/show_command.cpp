@@ -1,0 +1,109 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cli/commands.hpp"
+#include "cli/effects_report.hpp"
+#include "cli/output_file.hpp"
+#include "cli/problem_input.hpp"
+#include "cli/report_page.hpp"
+#include "cli/run_folder.hpp"
+#include "cli/run_picture.hpp"
+#include "cli/scene_report.hpp"
+#include "cli/warnings.hpp"
+#include "core/base/error.hpp"
+#include "core/integration/freedoms.hpp"
+#include "core/integration/initial_state.hpp"
+#include "core/response/misalignment.hpp"
+#include "core/scene/body_rules.hpp"
+
+/// The mechanism as the file places it, before anything is simulated.
+namespace pleuel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What can be said without a simulation.
+struct Shown {
+  Json document;
+  std::string text;
+};
+
+/// Freedoms and size of the mechanism, if it can be assembled.
+void add_assembly(const ProblemFile& problem, Model& model, Shown& shown,
+                  std::vector<std::string>& warnings) {
+  for (const Misalignment& found : find_misalignments(model, model.mechanism.guess, 1e-6)) {
+    warnings.push_back(found.text());
+  }
+  model.mechanism.starts_in_equilibrium = false;
+  try {
+    const Freedoms freedoms = rigid_freedoms(model.mechanism, initial_state(model.mechanism).state);
+    shown.document["rigid_motion"] = freedoms_document(freedoms, model);
+    shown.text += "\n" + freedoms_text(freedoms, model);
+  } catch (const SimulationError& error) {
+    shown.document["failure"] = error.what();
+    warnings.push_back(fmt::format("the mechanism cannot be assembled: {}", error.what()));
+  }
+  shown.document["steps"] = std::ceil(problem.simulation.end_time / problem.simulation.step);
+}
+
+Shown describe(const ProblemFile& problem, const Eigen::VectorXd& x) {
+  const Eigen::VectorXd start = start_design(problem);
+  Model model = build_model(problem.scene, problem.effects, {start.begin(), start.end()},
+                            {x.begin(), x.end()}, problem.sensitivity.invariants);
+  Shown shown;
+  std::vector<std::string> warnings = impossible_corners(problem);
+  shown.text = problem.name + "\n\n" + bodies_text(model);
+  shown.document = {{"status", "done"},
+                    {"name", problem.name},
+                    {"bodies", bodies_document(model)},
+                    {"coordinates", model.mechanism.system->coordinates()},
+                    {"multipliers", model.mechanism.system->multipliers()},
+                    {"variables", variables_document(problem)},
+                    {"effects", effects_document(problem, model, {})}};
+  add_assembly(problem, model, shown, warnings);
+  shown.document["warnings"] = warnings;
+  shown.text += warnings_text(warnings);
+  return shown;
+}
+
+/// FILE-show.html, or with a number if that is there.
+fs::path free_page(const fs::path& file) {
+  const std::string stem = file.stem().string() + "-show";
+  fs::path page = fs::path("runs") / (stem + ".html");
+  for (int number = 2; fs::exists(page); ++number) {
+    page = fs::path("runs") / fmt::format("{}-{}.html", stem, number);
+  }
+  return page;
+}
+
+}  // namespace
+
+Outcome run_show(const Arguments& arguments) {
+  const ProblemInput input = read_input(arguments);
+  const auto page_template = find_report_template();
+  if (!page_template) {
+    throw InputError(
+        "the template of pages is not built, which takes nodejs and npm: see docs/report.md");
+  }
+  const fs::path page = arguments.output.value_or(free_page(arguments.file));
+  if (fs::is_directory(page)) throw InputError(fmt::format("-o {}: is a folder", page.string()));
+  std::error_code error;  // shows when the file is written
+  if (page.has_parent_path()) fs::create_directories(page.parent_path(), error);
+  Shown shown = describe(input.problem, input.design);
+  const Json card = {{"command", "show"},
+                     {"arguments", arguments.words},
+                     {"input", {{"file", input.file.string()}, {"overrides", arguments.overrides}}},
+                     {"problem", input.effective}};
+  const std::string name = arguments.design ? "design" : "start";
+  const Json picture = run_picture(input.problem, {{name, input.design, nullptr}});
+  WriteFailures failures;
+  write_file({page, &failures},
+             report_page(*page_template, report_data(card, shown.document, picture, "")));
+  shown.document["page"] = page.string();
+  return {ExitCode::done, shown.document, shown.text + fmt::format("Drawn in {}\n", page.string()),
+          failures.files()};
+}
+
+}  // namespace pleuel

@@ -1,0 +1,103 @@
+#include "picture/companions.hpp"
+
+#include <algorithm>
+
+#include "core/base/error.hpp"
+#include "core/response/make_responses.hpp"
+
+namespace pleuel {
+
+namespace {
+
+constexpr int most_instants = 6000;
+/// Multipliers of least norm take a decomposition an instant.
+constexpr int most_instants_if_redundant = 400;
+
+bool is_asked_for(const ProblemFile& problem, const ResponseSettings& wanted) {
+  return std::any_of(
+      problem.responses.begin(), problem.responses.end(), [&](const ResponseSettings& response) {
+        return response.type == wanted.type && response.joint == wanted.joint &&
+               response.bodies == wanted.bodies && is_peak(response.over_time) &&
+               response.direction == wanted.direction && !response.from && !response.to;
+      });
+}
+
+ResponseSettings settings_of(ResponseType type, const std::string& joint, const std::string& name) {
+  ResponseSettings settings;
+  settings.name = name;
+  settings.type = type;
+  settings.joint = joint;
+  settings.over_time = OverTime::max_abs;
+  return settings;
+}
+
+std::vector<ResponseSettings> wanted_settings(const ProblemFile& problem) {
+  std::vector<ResponseSettings> wanted;
+  for (const Joint& joint : problem.scene.joints) {
+    if (!joint.drive) continue;
+    const bool turns = joint.drive->coordinate == DrivenCoordinate::angle;
+    wanted.push_back(
+        settings_of(turns ? ResponseType::drive_torque : ResponseType::drive_force, joint.name,
+                    (turns ? "torque of the drive " : "force of the drive ") + joint.name));
+    wanted.push_back(
+        settings_of(ResponseType::drive_power, joint.name, "power of the drive " + joint.name));
+  }
+  for (const Joint& joint : problem.scene.joints) {
+    wanted.push_back(
+        settings_of(ResponseType::reaction_force, joint.name, "force in the joint " + joint.name));
+    wanted.back().direction = -1;
+  }
+  wanted.push_back(settings_of(ResponseType::kinetic_energy, "", "kinetic energy"));
+  wanted.push_back(settings_of(ResponseType::elastic_energy, "", "elastic energy"));
+  std::erase_if(wanted, [&](const auto& settings) { return is_asked_for(problem, settings); });
+  return wanted;
+}
+
+/// The responses that the model has; settings without one are removed.
+std::vector<Response> possible_responses(std::vector<ResponseSettings>& settings,
+                                         const Model& model) {
+  std::vector<Response> responses;
+  std::vector<ResponseSettings> possible;
+  for (const ResponseSettings& one : settings) {
+    try {
+      std::vector<Response> made = make_responses({one}, model);
+      responses.push_back(std::move(made.front()));
+      possible.push_back(one);
+    } catch (const InputError&) {  // as of energies of a mechanism that is all rigid
+    }
+  }
+  settings = std::move(possible);
+  return responses;
+}
+
+}  // namespace
+
+Companions find_companions(const ProblemFile& problem, const Analysis& analysis) {
+  std::vector<ResponseSettings> settings = wanted_settings(problem);
+  const std::vector<Response> responses = possible_responses(settings, analysis.model);
+  const bool is_redundant = !analysis.model.mechanism.system->left_out().empty();
+  const int steps = analysis.trajectory.steps();
+  const int most = is_redundant ? most_instants_if_redundant : most_instants;
+  const int stride = std::max(1, (steps + most - 1) / most);
+  const Eigen::Index instants = steps / stride + 1;
+  Companions companions;
+  companions.time.resize(instants);
+  for (const ResponseSettings& one : settings) {
+    companions.all.push_back({one, Eigen::VectorXd::Zero(instants)});
+  }
+  State state;
+  for (Eigen::Index i = 0; i < instants; ++i) {
+    const int step = static_cast<int>(i) * stride;
+    analysis.trajectory.load(step, state);
+    companions.time(i) = analysis.trajectory.time(step);
+    for (std::size_t k = 0; k < responses.size(); ++k) {
+      responses[k].signal->observe(state, companions.all[k].history.segment(i, 1));
+    }
+  }
+  for (Companion& companion : companions.all) {
+    companion.value = companion.history.cwiseAbs().maxCoeff(&companion.peak);
+  }
+  return companions;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,196 @@
+#include "picture/motion.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include <Eigen/Geometry>
+
+#include "core/base/error.hpp"
+#include "core/frame/body_frame.hpp"
+#include "core/response/signal_of_body.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Of one beam; thinned where the mesh is finer.
+constexpr std::size_t fewest_stations = 13, most_stations = 33;
+
+ResponseSettings place_settings(const std::string& body, double share, int direction) {
+  ResponseSettings settings;
+  settings.name = body;
+  settings.type = ResponseType::position;
+  settings.bodies = {body};
+  settings.at = share;
+  settings.direction = direction;
+  return settings;
+}
+
+/// Shares of the nodes of a beam, of all its parts.
+std::vector<double> node_shares(const std::vector<const BodyModel*>& parts) {
+  std::vector<double> shares = {0.0};
+  for (const BodyModel* part : parts) {
+    const double length = part->beam.node_position(part->beam.node_count() - 1);
+    for (int node = 1; node < part->beam.node_count(); ++node) {
+      shares.push_back(part->stretch.of_whole(part->beam.node_position(node) / length));
+    }
+  }
+  shares.back() = 1.0;
+  return shares;
+}
+
+/// Every k-th, with both ends.
+std::vector<double> sparser(const std::vector<double>& shares) {
+  if (shares.size() <= most_stations) return shares;
+  const std::size_t stride = (shares.size() + most_stations - 2) / (most_stations - 1);
+  std::vector<double> kept;
+  for (std::size_t i = 0; i + 1 < shares.size(); i += stride) kept.push_back(shares[i]);
+  kept.push_back(shares.back());
+  return kept;
+}
+
+/// With so many points between as make a smooth curve.
+std::vector<double> denser(const std::vector<double>& shares) {
+  const std::size_t between = (fewest_stations - 2) / (shares.size() - 1) + 1;
+  if (shares.size() >= fewest_stations || between < 2) return shares;
+  std::vector<double> all;
+  for (std::size_t i = 0; i + 1 < shares.size(); ++i) {
+    for (std::size_t k = 0; k < between; ++k) {
+      const double part = static_cast<double>(k) / static_cast<double>(between);
+      all.push_back(shares[i] + part * (shares[i + 1] - shares[i]));
+    }
+  }
+  all.push_back(shares.back());
+  return all;
+}
+
+std::vector<double> beam_stations(const std::vector<const BodyModel*>& parts) {
+  const bool is_elastic = std::any_of(parts.begin(), parts.end(),
+                                      [](const BodyModel* part) { return part->is_elastic; });
+  if (!is_elastic) return {0.0, 0.25, 0.5, 0.75, 1.0};
+  return denser(sparser(node_shares(parts)));
+}
+
+int part_at(const std::vector<const BodyModel*>& parts, double share) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (share <= parts[i]->stretch.end + 1e-9) return static_cast<int>(i);
+  }
+  return static_cast<int>(parts.size()) - 1;
+}
+
+/// Observes one body instant by instant.
+class BodySampler {
+ public:
+  BodySampler(const Body& body, const Model& model, Eigen::Index instants)
+      : parts_(model.parts(body.name)) {
+    motion_.body = body.name;
+    if (parts_.front()->is_beam()) {
+      add_beam_stations(model);
+    } else if (parts_.front()->is_imported()) {
+      add_imported_places(model);
+    } else {
+      motion_.stations = {0.0};
+      motion_.parts = {0};
+      add_position(place_settings(body.name, 0.0, 0), model);
+    }
+    motion_.positions.resize(static_cast<Eigen::Index>(positions_.size()), instants);
+    motion_.rotations.resize(4 * static_cast<Eigen::Index>(parts_.size()), instants);
+    motion_.stress.resize(static_cast<Eigen::Index>(stresses_.size()),
+                          stresses_.empty() ? 0 : instants);
+  }
+
+  void see(const State& state, Eigen::Index instant) {
+    for (std::size_t i = 0; i < positions_.size(); ++i) {
+      positions_[i]->observe(state, number_);
+      motion_.positions(static_cast<Eigen::Index>(i), instant) = number_(0);
+    }
+    for (std::size_t i = 0; i < stresses_.size(); ++i) {
+      points_.resize(stresses_[i]->channels());
+      stresses_[i]->observe(state, points_);
+      motion_.stress(static_cast<Eigen::Index>(i), instant) = points_.maxCoeff();
+    }
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      motion_.rotations.block<4, 1>(4 * static_cast<Eigen::Index>(i), instant) =
+          quaternion_of(parts_[i]->frame, state);
+    }
+  }
+
+  BodyMotion take() { return std::move(motion_); }
+
+ private:
+  void add_position(ResponseSettings settings, const Model& model) {
+    for (settings.direction = 0; settings.direction < 3; ++settings.direction) {
+      positions_.push_back(make_signal_of_body(settings, model));
+    }
+  }
+
+  void add_beam_stations(const Model& model) {
+    motion_.stations = beam_stations(parts_);
+    for (const double share : motion_.stations) {
+      motion_.parts.push_back(part_at(parts_, share));
+      add_position(place_settings(motion_.body, share, 0), model);
+    }
+    if (!parts_.front()->is_elastic) return;
+    for (const double share : motion_.stations) {
+      ResponseSettings settings = place_settings(motion_.body, share, 0);
+      settings.type = ResponseType::stress;
+      settings.station = share;
+      try {
+        stresses_.push_back(make_signal_of_body(settings, model));
+      } catch (const InputError&) {  // no such stress of this body
+        stresses_.clear();
+        return;
+      }
+    }
+  }
+
+  void add_imported_places(const Model& model) {
+    std::vector<const BodyPlace*> places;
+    for (const BodyPlace& place : parts_.front()->constants->places) places.push_back(&place);
+    std::stable_sort(places.begin(), places.end(), [](const BodyPlace* a, const BodyPlace* b) {
+      return a->position.x() < b->position.x();
+    });
+    for (const BodyPlace* place : places) {
+      motion_.stations.push_back(place->position.x());
+      motion_.parts.push_back(0);
+      ResponseSettings settings = place_settings(motion_.body, 0.0, 0);
+      settings.place = place->name;
+      add_position(settings, model);
+    }
+  }
+
+  static Eigen::Vector4d quaternion_of(const BodyFrame& frame, const State& state) {
+    const Eigen::VectorXd q = state.q.segment(frame.offset, frame.size()),
+                          v = state.v.segment(frame.offset, frame.size()),
+                          a = state.a.segment(frame.offset, frame.size());
+    return Eigen::Quaterniond(Eigen::Matrix3d(frame_motion<double>(frame, q, v, a).A))
+        .normalized()
+        .coeffs();
+  }
+
+  BodyMotion motion_;
+  std::vector<const BodyModel*> parts_;
+  std::vector<std::unique_ptr<Signal>> positions_, stresses_;
+  Eigen::VectorXd number_ = Eigen::VectorXd::Zero(1), points_;
+};
+
+}  // namespace
+
+Motion sample_motion(const Scene& scene, const Analysis& analysis, const std::vector<int>& steps) {
+  const auto instants = static_cast<Eigen::Index>(steps.size());
+  std::vector<BodySampler> samplers;
+  for (const Body& body : scene.bodies) samplers.emplace_back(body, analysis.model, instants);
+  Motion motion;
+  motion.time.resize(instants);
+  State state;
+  for (Eigen::Index i = 0; i < instants; ++i) {
+    const int step = steps[static_cast<std::size_t>(i)];
+    motion.time(i) = analysis.trajectory.time(step);
+    analysis.trajectory.load(step, state);
+    for (BodySampler& sampler : samplers) sampler.see(state, i);
+  }
+  for (BodySampler& sampler : samplers) motion.bodies.push_back(sampler.take());
+  return motion;
+}
+
+}  // namespace pleuel

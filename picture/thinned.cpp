@@ -1,0 +1,33 @@
+#include "picture/thinned.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+namespace pleuel {
+
+std::vector<int> thinned(const Eigen::VectorXd& values, int most, const std::vector<int>& kept) {
+  const int points = static_cast<int>(values.size());
+  if (points <= most) {
+    std::vector<int> all(static_cast<std::size_t>(points));
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+  std::set<int> chosen = {0, points - 1};
+  for (const int index : kept) {
+    if (index >= 0 && index < points) chosen.insert(index);
+  }
+  const long stretches = std::max(1, most / 2);
+  for (long i = 0; i < stretches; ++i) {
+    const auto begin = static_cast<Eigen::Index>(i * points / stretches);
+    const auto end = static_cast<Eigen::Index>((i + 1) * points / stretches);
+    Eigen::Index lowest = 0, highest = 0;
+    values.segment(begin, end - begin).minCoeff(&lowest);
+    values.segment(begin, end - begin).maxCoeff(&highest);
+    chosen.insert(static_cast<int>(begin + lowest));
+    chosen.insert(static_cast<int>(begin + highest));
+  }
+  return {chosen.begin(), chosen.end()};
+}
+
+}  // namespace pleuel

@@ -1,0 +1,384 @@
+// Line charts with limits, peaks and a cursor; each can be saved as SVG, PNG and CSV.
+import { CustomChart, LineChart, ScatterChart } from "echarts/charts";
+import {
+  DataZoomInsideComponent,
+  GridComponent,
+  LegendComponent,
+  MarkLineComponent,
+  MarkPointComponent,
+  TooltipComponent,
+} from "echarts/components";
+import * as echarts from "echarts/core";
+import { SVGRenderer } from "echarts/renderers";
+import { download, h } from "./dom";
+import { number } from "./format";
+import { color, onTheme } from "./theme";
+
+echarts.use([
+  CustomChart,
+  LineChart,
+  ScatterChart,
+  GridComponent,
+  TooltipComponent,
+  LegendComponent,
+  MarkLineComponent,
+  MarkPointComponent,
+  DataZoomInsideComponent,
+  SVGRenderer,
+]);
+
+export interface Series {
+  name: string;
+  x: number[];
+  y: (number | null)[];
+  band?: number[]; // half-widths of an error band
+  color: string; // name of a colour of the style sheet
+  width?: number;
+  dots?: boolean;
+  line?: boolean;
+  dashed?: boolean;
+  step?: boolean;
+  labels?: string[]; // one a point, for the tooltip
+}
+
+export interface ChartOptions {
+  title: string;
+  series: Series[];
+  xTitle: string;
+  yTitle: string;
+  limits?: { value: number; label: string }[];
+  peaks?: { x: number; y: number; label: string; color: string }[];
+  height?: number;
+  logX?: boolean;
+  logY?: boolean;
+  legend?: boolean;
+  wholeX?: boolean; // the axis counts
+  startsAtZero?: boolean;
+  onPick?: (series: number, index: number) => void;
+  onHover?: (series: number, index: number) => void;
+}
+
+export interface Chart {
+  element: HTMLElement;
+  /** Shows a line at x; nothing hides it. */
+  setCursor(x: number | null): void;
+}
+
+const mostEagerCharts = 40;
+let charts = 0;
+
+function axis(options: ChartOptions, which: "x" | "y") {
+  const isLog = which === "x" ? options.logX : options.logY;
+  const line = color("line");
+  return {
+    type: isLog ? ("log" as const) : ("value" as const),
+    name: which === "x" ? options.xTitle : "",
+    nameLocation: "middle" as const,
+    nameGap: 26,
+    nameTextStyle: { color: color("soft"), fontSize: 11 },
+    scale: which === "y" ? !options.startsAtZero : true,
+    min: which === "x" && !isLog && !options.onPick ? ("dataMin" as const) : undefined,
+    max: which === "x" && !isLog && !options.onPick ? ("dataMax" as const) : undefined,
+    minInterval: which === "x" && options.wholeX ? 1 : undefined,
+    axisLine: { show: which === "x", onZero: false, lineStyle: { color: line } },
+    axisTick: { show: false },
+    axisLabel: {
+      color: color("soft"),
+      fontSize: 11,
+      hideOverlap: true,
+      showMaxLabel: false,
+      formatter: (value: number) => number(value, isLog ? 2 : 6).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, ""),
+    },
+    splitNumber: 4,
+    splitLine: { show: which === "y", lineStyle: { color: line, opacity: 0.6 } },
+    minorSplitLine: { show: false },
+  };
+}
+
+function seriesOption(options: ChartOptions, s: Series, i: number) {
+  const paint = color(s.color);
+  const isDots = s.line === false;
+  return {
+    type: isDots ? ("scatter" as const) : ("line" as const),
+    name: s.name,
+    data: s.x.map((x, k) => [x, s.y[k]]),
+    showSymbol: !!s.dots,
+    symbol: "circle",
+    symbolSize: s.dots ? 7 : 0,
+    step: s.step ? ("end" as const) : undefined,
+    lineStyle: { color: paint, width: s.width ?? 1.6, type: s.dashed ? ("dashed" as const) : ("solid" as const) },
+    itemStyle: { color: paint, borderColor: color("card"), borderWidth: s.dots ? 1 : 0 },
+    emphasis: { disabled: !options.onPick && !s.dots },
+    animation: false,
+    z: 2 + i,
+    markLine:
+      i === 0 && options.limits?.length
+        ? {
+            silent: true,
+            symbol: "none",
+            animation: false,
+            data: options.limits.map((limit) => ({
+              yAxis: limit.value,
+              label: {
+                formatter: limit.label,
+                position: "insideStartTop" as const,
+                color: color("limit"),
+                fontSize: 11,
+              },
+              lineStyle: { color: color("limit"), type: "dashed" as const, width: 1.2 },
+            })),
+          }
+        : undefined,
+    markPoint:
+      i === 0 && options.peaks?.length
+        ? {
+            animation: false,
+            symbol: "circle",
+            symbolSize: 8,
+            silent: true,
+            data: options.peaks.map((peak) => ({
+              coord: [peak.x, peak.y],
+              itemStyle: { color: color("card"), borderColor: color(peak.color), borderWidth: 2 },
+              label: {
+                show: true,
+                formatter: peak.label,
+                position: isLow(options, peak.y) ? ("bottom" as const) : ("top" as const),
+                distance: 5,
+                color: color("ink"),
+                fontSize: 11,
+                fontWeight: 600,
+                textBorderColor: color("card"),
+                textBorderWidth: 3,
+              },
+            })),
+          }
+        : undefined,
+  };
+}
+
+/** The area between y − band and y + band, as one polygon. */
+function bandOption(s: Series) {
+  const side = (sign: number) => s.x.map((x, k) => [x, (s.y[k] ?? 0) + sign * s.band![k]]);
+  const outline = [...side(1), ...side(-1).reverse()];
+  return {
+    type: "custom" as const,
+    data: [outline[0]],
+    silent: true,
+    animation: false,
+    clip: true,
+    tooltip: { show: false },
+    z: 1,
+    // eslint-disable-next-line @typescript-eslint/no-explicit-any
+    renderItem: (_: unknown, api: any) => ({
+      type: "polygon" as const,
+      shape: { points: outline.map((point) => api.coord(point)) },
+      style: { fill: color(s.color), opacity: 0.25 },
+    }),
+  };
+}
+
+/** Whether a mark is at the lower side of the curves. */
+function isLow(options: ChartOptions, y: number): boolean {
+  let [low, high] = [Infinity, -Infinity];
+  for (const s of options.series) for (const one of s.y) if (one !== null) [low, high] = [Math.min(low, one), Math.max(high, one)];
+  return y < low + 0.25 * (high - low);
+}
+
+/** 1, 2 or 5 times a power of ten. */
+function niceStep(size: number): number {
+  const power = 10 ** Math.floor(Math.log10(size));
+  const digit = size / power;
+  return (digit <= 1.2 ? 1 : digit <= 2.5 ? 2 : digit <= 6 ? 5 : 10) * power;
+}
+
+function rangeOf(options: ChartOptions): { min?: number; max?: number; interval?: number } {
+  // A limit that nothing comes near would flatten the curves: it is drawn within twice their range.
+  if (options.logY) return {};
+  let [low, high] = [Infinity, -Infinity];
+  for (const s of options.series) {
+    for (const y of s.y) {
+      if (y === null || !Number.isFinite(y)) continue;
+      low = Math.min(low, y);
+      high = Math.max(high, y);
+    }
+  }
+  if (!(high >= low)) return {};
+  const range = high - low || Math.abs(high) || 1;
+  let hasLimit = false;
+  for (const limit of options.limits ?? []) {
+    if (limit.value > high && limit.value < high + 2 * range) [high, hasLimit] = [limit.value, true];
+    if (limit.value < low && limit.value > low - 2 * range) [low, hasLimit] = [limit.value, true];
+  }
+  const margin = (high - low || Math.abs(high) || 1) * (options.peaks?.length || hasLimit ? 0.16 : 0.04);
+  const hasLow = options.peaks?.some((peak) => isLow(options, peak.y));
+  const [from, to] = [low >= 0 && low < 0.4 * high ? 0 : low - (hasLow ? 1 : 0.25) * margin, high + margin];
+  const step = niceStep((to - from) / 4);
+  return { min: Math.floor(from / step) * step, max: Math.ceil((to / step) * 2 - 1e-9) * (step / 2), interval: step };
+}
+
+function tooltip(options: ChartOptions) {
+  return {
+    trigger: options.onPick || options.onHover ? ("item" as const) : ("axis" as const),
+    backgroundColor: color("card"),
+    borderColor: color("line"),
+    padding: [6, 10],
+    confine: true,
+    textStyle: { color: color("ink"), fontSize: 12 },
+    axisPointer: { lineStyle: { color: color("soft"), type: "dotted" as const } },
+    // eslint-disable-next-line @typescript-eslint/no-explicit-any
+    formatter: (shown: any) => {
+      const items = Array.isArray(shown) ? shown : [shown];
+      const box = h("div", {});
+      items.forEach((item, k) => {
+        const s = options.series[item.seriesIndex];
+        if (!s || !Array.isArray(item.data)) return;
+        if (k === 0) box.append(h("div.soft", {}, s.labels?.[item.dataIndex] ?? `${options.xTitle}: ${number(item.data[0], 5)}`));
+        box.append(
+          h("div", {}, h("span.dot", { style: `background:${color(s.color)}` }), `${s.name}: `, h("b", {}, number(item.data[1], 5))),
+        );
+      });
+      return box;
+    },
+  };
+}
+
+function optionOf(options: ChartOptions): echarts.EChartsCoreOption {
+  const hasLegend = options.legend ?? options.series.length > 1;
+  const range = rangeOf(options);
+  return {
+    animation: false,
+    textStyle: { fontFamily: "inherit" },
+    aria: { enabled: true },
+    grid: { left: 6, right: 14, top: hasLegend ? 30 : 12, bottom: 22, containLabel: true },
+    legend: hasLegend
+      ? {
+          top: 0,
+          left: 0,
+          itemWidth: 16,
+          itemHeight: 8,
+          icon: "roundRect",
+          textStyle: { color: color("soft"), fontSize: 11 },
+          data: options.series.map((s) => s.name),
+        }
+      : undefined,
+    tooltip: tooltip(options),
+    xAxis: axis(options, "x"),
+    yAxis: { ...axis(options, "y"), ...range },
+    dataZoom: [{ type: "inside", zoomOnMouseWheel: "ctrl", moveOnMouseMove: false }],
+    series: [
+      ...options.series.map((s, i) => seriesOption(options, s, i)),
+      ...options.series.flatMap((s) => (s.band ? [bandOption(s)] : [])),
+    ],
+  };
+}
+
+function csvOf(options: ChartOptions): string {
+  const quote = (text: string) => (/[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text);
+  const hasBand = options.series.some((s) => s.band);
+  const lines = [`series,${quote(options.xTitle)},${quote(options.yTitle)}${hasBand ? ",error" : ""}`];
+  for (const s of options.series) {
+    s.x.forEach((x, i) => lines.push(`${quote(s.name)},${x},${s.y[i] ?? ""}${hasBand ? `,${s.band?.[i] ?? ""}` : ""}`));
+  }
+  return lines.join("\n") + "\n";
+}
+
+function svgOf(element: HTMLElement): string {
+  const svg = element.querySelector("svg")?.cloneNode(true) as SVGElement;
+  svg.setAttribute("xmlns", "http://www.w3.org/2000/svg");
+  svg.style.background = color("card");
+  return new XMLSerializer().serializeToString(svg);
+}
+
+function savePng(element: HTMLElement, name: string): void {
+  const { width, height } = element.getBoundingClientRect();
+  const image = new Image();
+  image.onload = () => {
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [2 * width, 2 * height];
+    const context = canvas.getContext("2d")!;
+    context.fillStyle = color("card");
+    context.fillRect(0, 0, canvas.width, canvas.height);
+    context.drawImage(image, 0, 0, canvas.width, canvas.height);
+    canvas.toBlob((blob) => blob && download(`${name}.png`, blob));
+  };
+  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svgOf(element))}`;
+}
+
+export function lineChart(options: ChartOptions): Chart {
+  const plot = h("div.plot", { style: `height:${options.height ?? 190}px` });
+  const cursor = h("div.cursor", { hidden: true });
+  const file = options.title.replace(/[^A-Za-z0-9]+/g, "-").toLowerCase();
+  const element = h(
+    "figure.chart",
+    { "data-title": options.title },
+    h(
+      "figcaption",
+      {},
+      h("span.chart-title", {}, options.title),
+      h("span.soft", {}, options.yTitle ? ` [${options.yTitle}]` : ""),
+      h(
+        "span.saves",
+        {},
+        h("button.quiet", { onclick: () => download(`${file}.svg`, svgOf(plot), "image/svg+xml") }, "SVG"),
+        h("button.quiet", { onclick: () => savePng(plot, file) }, "PNG"),
+        h("button.quiet", { onclick: () => download(`${file}.csv`, csvOf(options), "text/csv") }, "CSV"),
+      ),
+    ),
+    h("div.plot-box", { role: "img", "aria-label": describe(options) }, plot, cursor),
+  );
+  let chart: echarts.ECharts | null = null;
+  let cursorAt: number | null = null;
+  const placeCursor = () => {
+    if (!chart || cursorAt === null) {
+      cursor.hidden = true;
+      return;
+    }
+    const pixel = chart.convertToPixel({ xAxisIndex: 0 }, cursorAt);
+    cursor.hidden = !Number.isFinite(pixel);
+    cursor.style.transform = `translateX(${pixel}px)`;
+  };
+  const draw = () => chart?.setOption(optionOf(options), true);
+  const begin = () => {
+    if (chart || !plot.clientWidth) return;
+    chart = echarts.init(plot, undefined, { renderer: "svg" });
+    draw();
+    // eslint-disable-next-line @typescript-eslint/no-explicit-any
+    chart.on("click", (event: any) => options.onPick?.(event.seriesIndex, event.dataIndex));
+    // eslint-disable-next-line @typescript-eslint/no-explicit-any
+    chart.on("mouseover", (event: any) => options.onHover?.(event.seriesIndex, event.dataIndex));
+    placeCursor();
+  };
+  // Charts measure their place: they begin when they have one, and where there are many when they
+  // come into sight.
+  const isEager = ++charts <= mostEagerCharts;
+  new ResizeObserver(() => {
+    if (!plot.clientWidth) return;
+    if (!chart && isEager) begin();
+    else chart?.resize();
+    placeCursor();
+  }).observe(plot);
+  if (!isEager) {
+    new IntersectionObserver((entries) => entries[0].isIntersecting && begin(), { rootMargin: "300px" }).observe(plot);
+    window.addEventListener("beforeprint", begin);
+  }
+  onTheme(draw);
+  return {
+    element,
+    setCursor(x) {
+      cursorAt = x;
+      placeCursor();
+    },
+  };
+}
+
+/** What a screen reader says. */
+function describe(options: ChartOptions): string {
+  const parts = options.series.map((s) => {
+    const known = s.y.filter((y): y is number => y !== null && Number.isFinite(y));
+    if (!known.length) return s.name;
+    let [low, high] = [known[0], known[0]];
+    for (const y of known) [low, high] = [Math.min(low, y), Math.max(high, y)];
+    return `${s.name} from ${number(low, 3)} to ${number(high, 3)}`;
+  });
+  return `${options.title} [${options.yTitle}] over ${options.xTitle}: ${parts.join("; ")}`;
+}

@@ -1,0 +1,236 @@
+// What the program embeds into the page: docs/report.md. All numbers are in SI units.
+
+export type Vec3 = [number, number, number];
+
+export interface Packed {
+  rows: number;
+  f32: string;
+}
+
+export interface Unit {
+  si: string;
+  name: string;
+  factor: number;
+}
+
+export interface Meaning {
+  type: string;
+  over_time: string;
+  bodies: string[];
+  joint?: string;
+  at?: number;
+  unit: Unit;
+}
+
+export interface Shown {
+  name: string;
+  value: number;
+  peak_time?: number;
+  peak_place?: string;
+  history?: Packed;
+}
+
+export type Companion = Shown & Meaning;
+
+export interface Place {
+  body: number;
+  at: Vec3;
+  share?: number;
+  point?: Vec3;
+}
+
+export interface Segment {
+  begin: number;
+  end: number;
+  text: string;
+  elements: number;
+  outer: [number, number][];
+  inner: [number, number][];
+}
+
+export interface BodyGeometry {
+  origin: Vec3;
+  axes: [Vec3, Vec3, Vec3];
+  length?: number;
+  mass?: number;
+  segments?: Segment[];
+}
+
+export interface Geometry {
+  bodies: BodyGeometry[];
+  joints: { places: [Place, Place]; drive?: Packed }[];
+  loads: { places: Place[]; value?: Packed }[];
+}
+
+export interface BodyMotion {
+  stations: number[];
+  parts: number[];
+  positions: Packed;
+  rotations: Packed;
+  stress?: Packed;
+}
+
+export interface Design {
+  name: string;
+  variables: number[];
+  geometry: Geometry;
+  masses?: Record<string, number>;
+  motion?: { time: Packed; bodies: BodyMotion[] };
+  responses?: Shown[];
+  companions?: Companion[];
+}
+
+export interface SceneBody {
+  name: string;
+  type: "beam" | "rigid" | "point-mass" | "invariants";
+  material?: string;
+  is_rigid?: boolean;
+  frames?: number;
+  strength?: number;
+  stress_limit?: number;
+}
+
+export interface SceneJoint {
+  name: string;
+  type: string;
+  freedom: string;
+  bodies: [string, string];
+  axis: Vec3;
+  second_axis?: Vec3;
+  drive?: "angle" | "displacement";
+}
+
+export interface SceneLoad {
+  name: string;
+  type: "force" | "torque" | "spring" | "joint-force";
+  bodies?: string[];
+  joint?: string;
+  direction?: Vec3;
+  follows_body?: boolean;
+  unit?: string;
+}
+
+export interface Scene {
+  gravity: Vec3;
+  end_time: number;
+  plane_normal?: Vec3;
+  bodies: SceneBody[];
+  joints: SceneJoint[];
+  loads: SceneLoad[];
+}
+
+export interface Picture {
+  name: string;
+  description: string;
+  scene: Scene;
+  variables: Record<string, { start: number; lower: number; upper: number; unit: Unit }>;
+  responses: Record<string, Meaning>;
+  limits: Record<string, { unit: Unit; response?: string; lower?: number; upper?: number }>;
+  objective?: string;
+  designs: Design[];
+}
+
+export interface ErrorBar {
+  total: number | null;
+  step?: number | null;
+  elements?: number | null;
+  newton?: number | null;
+  effects?: number | null;
+}
+
+// Documents of the program are looked at key by key: what is missing is not shown.
+// eslint-disable-next-line @typescript-eslint/no-explicit-any
+export type Document = any;
+
+export interface ReportData {
+  format: number;
+  card: Document;
+  result: Document;
+  picture: Picture | null;
+  files: Record<string, string>;
+}
+
+export function readData(): ReportData | null {
+  const text = document.getElementById("pleuel-data")?.textContent?.trim();
+  return text ? (JSON.parse(text) as ReportData) : null;
+}
+
+const unpackedNumbers = new WeakMap<Packed, Float32Array>();
+
+/** The numbers, column by column. */
+export function unpack(packed: Packed): Float32Array {
+  const known = unpackedNumbers.get(packed);
+  if (known) return known;
+  const text = atob(packed.f32);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
+  const numbers = new Float32Array(bytes.buffer);
+  unpackedNumbers.set(packed, numbers);
+  return numbers;
+}
+
+export interface Curve {
+  x: number[];
+  y: number[];
+  band?: number[]; // half-widths of the error band
+}
+
+/** A curve of two rows, time and value, or three, with the half-width of its band; in the units that people see. */
+export function curveOf(packed: Packed, xFactor = 1, yFactor = 1): Curve {
+  const numbers = unpack(packed);
+  const rows = packed.rows;
+  const curve: Curve = { x: [], y: [] };
+  if (rows > 2) curve.band = [];
+  for (let i = 0; i + rows <= numbers.length; i += rows) {
+    curve.x.push(numbers[i] / xFactor);
+    curve.y.push(numbers[i + 1] / yFactor);
+    curve.band?.push(numbers[i + 2] / yFactor);
+  }
+  return curve;
+}
+
+/** Linear between the points of a curve; constant beyond. */
+export function valueAt(packed: Packed, time: number): number {
+  const numbers = unpack(packed);
+  const rows = packed.rows;
+  const last = numbers.length / rows - 1;
+  if (last < 0) return 0;
+  let low = 0;
+  let high = last;
+  if (time <= numbers[0]) return numbers[1];
+  if (time >= numbers[rows * last]) return numbers[rows * last + 1];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (numbers[rows * middle] <= time) low = middle;
+    else high = middle;
+  }
+  const [t0, t1] = [numbers[rows * low], numbers[rows * high]];
+  const [y0, y1] = [numbers[rows * low + 1], numbers[rows * high + 1]];
+  return t1 > t0 ? y0 + ((y1 - y0) * (time - t0)) / (t1 - t0) : y1;
+}
+
+/** RFC 4180, as the program writes it. */
+export function parseCsv(text: string): { header: string[]; rows: string[][] } {
+  const rows: string[][] = [];
+  let row: string[] = [];
+  let cell = "";
+  let quoted = false;
+  for (let i = 0; i < text.length; i++) {
+    const letter = text[i];
+    if (quoted) {
+      if (letter === '"' && text[i + 1] === '"') cell += text[++i];
+      else if (letter === '"') quoted = false;
+      else cell += letter;
+    } else if (letter === '"') quoted = true;
+    else if (letter === "," || letter === "\n") {
+      row.push(cell.replace(/\r$/, ""));
+      cell = "";
+      if (letter === "\n") {
+        rows.push(row);
+        row = [];
+      }
+    } else cell += letter;
+  }
+  if (cell || row.length) rows.push([...row, cell]);
+  return { header: rows[0] ?? [], rows: rows.slice(1) };
+}

@@ -1,0 +1,58 @@
+import "./style.css";
+import { readData, type ReportData } from "./data";
+import { h } from "./dom";
+import { accuracyPage } from "./pages/accuracy";
+import { optimizePage } from "./pages/optimize";
+import { pricesPage } from "./pages/prices";
+import { showPage, simulatePage } from "./pages/simulate";
+import { genericPage, paretoPage } from "./pages/studies";
+import { uncertaintyPage } from "./pages/uncertainty";
+import { startTheme, themeButton } from "./theme";
+
+function pageOf(data: ReportData): HTMLElement[] {
+  switch (data.card.command) {
+    case "optimize":
+      return optimizePage(data);
+    case "simulate":
+      return simulatePage(data);
+    case "show":
+      return showPage(data);
+    case "pareto":
+      return paretoPage(data);
+    case "accuracy":
+      return accuracyPage(data);
+    case "prices":
+      return pricesPage(data);
+    case "uncertainty":
+      return uncertaintyPage(data);
+    default:
+      return genericPage(data);
+  }
+}
+
+function start(): void {
+  const page = document.getElementById("page")!;
+  const data = readData();
+  startTheme();
+  if (!data) {
+    page.append(h("p.note", {}, "This is the page without data: the program pleuel fills it in."));
+    return;
+  }
+  const name = data.picture?.name ?? data.card.command;
+  document.title = `${name} · ${data.card.command} · Pleuel`;
+  page.append(
+    h(
+      "nav.top",
+      { "aria-label": "report" },
+      h("span.brand", {}, "Pleuel"),
+      h("span.soft", {}, [data.card.command, data.card.input?.file].filter(Boolean).join(" · ")),
+      h("span.spring", {}),
+      h("button.quiet", { onclick: () => window.print(), title: "print" }, "Print"),
+      themeButton(),
+    ),
+    ...pageOf(data),
+    h("footer.soft", {}, `Pleuel ${data.card.versions?.pleuel ?? ""} · space plays, arrows go from instant to instant, Ctrl and wheel zoom`),
+  );
+}
+
+start();

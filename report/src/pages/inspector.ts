@@ -1,0 +1,214 @@
+// What is known of the member or joint that was clicked: its histories with limits and peaks.
+import { type Chart, lineChart } from "../charts";
+import { type Companion, curveOf, type Meaning, type Picture, type Shown, valueAt } from "../data";
+import { h } from "../dom";
+import { inThousands, number, percent, placeText, seconds, timeUnit, withUnit, words } from "../format";
+import type { Pick } from "../mechanism/player";
+
+export interface Inspector {
+  element: HTMLElement;
+  show(pick: Pick): void;
+  setTime(time: number): void;
+}
+
+interface Quantity {
+  name: string;
+  meaning: Meaning;
+  shown: { design: string; isMain: boolean; value: Shown }[];
+}
+
+export function makeInspector(picture: Picture, main: number, goTo: (time: number) => void): Inspector {
+  const element = h("aside.inspector", { "aria-live": "polite" });
+  let charts: Chart[] = [];
+  const unit = timeUnit(picture.scene.end_time);
+  let now = 0;
+
+  const chartOf = (quantity: Quantity): HTMLElement | null => {
+    const largest = Math.max(...quantity.shown.map((one) => Math.abs(one.value.value)));
+    const meaning = { ...quantity.meaning, unit: inThousands(quantity.meaning.unit, largest / quantity.meaning.unit.factor) };
+    const known = quantity.shown.filter((one) => one.value.history);
+    if (!known.length) return null;
+    const limits = limitsOn(picture, quantity.name);
+    const top = known.find((one) => one.isMain) ?? known[0];
+    const peak = top.value;
+    const chart = lineChart({
+      title: words(quantity.name),
+      yTitle: meaning.unit.name,
+      xTitle: `time [${unit.name}]`,
+      height: 150,
+      series: known.map((one) => ({
+        name: one.design,
+        color: one.isMain ? "accent" : "start",
+        width: one.isMain ? 1.8 : 1.2,
+        ...curveOf(one.value.history!, unit.factor, meaning.unit.factor),
+      })),
+      limits: limits.map((limit) => ({
+        value: limit.value / meaning.unit.factor,
+        label: `${limit.side} ${withUnit(limit.value, meaning.unit, 3)}`,
+      })),
+      peaks:
+        peak.peak_time === undefined
+          ? []
+          : [
+              {
+                x: peak.peak_time / unit.factor,
+                y: valueAt(peak.history!, peak.peak_time) / meaning.unit.factor,
+                label: signed(peak, meaning.unit.factor),
+                color: "accent",
+              },
+            ],
+    });
+    chart.setCursor(now / unit.factor);
+    charts.push(chart);
+    chart.element.append(peakLine(quantity, top.value, goTo));
+    return chart.element;
+  };
+
+  const show = (pick: Pick) => {
+    charts = [];
+    const drawn = quantitiesOf(picture, pick, main)
+      .map(chartOf)
+      .filter((one): one is HTMLElement => !!one);
+    element.replaceChildren(...heading(picture, pick, main), ...drawn.slice(0, 3));
+    if (drawn.length > 3) {
+      element.append(h("details", {}, h("summary.note", {}, `${drawn.length - 3} more`), ...drawn.slice(3)));
+    }
+    const isMoving = picture.designs.some((design) => design.motion);
+    if (!charts.length && isMoving) element.append(h("p.note", {}, "No history belongs to it. Click another member or joint."));
+  };
+  return {
+    element,
+    show,
+    setTime(time) {
+      now = time;
+      for (const chart of charts) chart.setCursor(time / unit.factor);
+    },
+  };
+}
+
+/** The result with the sign that the curve has there: magnitudes have none. */
+export function signed(peak: Shown, factor: number): string {
+  const there = valueAt(peak.history!, peak.peak_time!);
+  return number((there < 0 ? -Math.abs(peak.value) : peak.value) / factor);
+}
+
+function peakLine(quantity: Quantity, peak: Shown, goTo: (time: number) => void): HTMLElement {
+  const several = quantity.shown.length > 1;
+  const parts = quantity.shown.map((one) => `${several ? `${one.design} ` : ""}${withUnit(one.value.value, quantity.meaning.unit)}`);
+  const line = h("p.note.peak", {}, parts.join(" → "));
+  if (peak.peak_time !== undefined) {
+    line.append(
+      " · peak at ",
+      h("button.link", { onclick: () => goTo(peak.peak_time!) }, seconds(peak.peak_time)),
+      placeText(peak.peak_place) ? `, ${placeText(peak.peak_place)}` : "",
+    );
+  }
+  return line;
+}
+
+export function limitsOn(picture: Picture, response: string): { value: number; side: string }[] {
+  const limits: { value: number; side: string }[] = [];
+  for (const limit of Object.values(picture.limits)) {
+    if (limit.response !== response) continue;
+    if (limit.upper !== undefined) {
+      limits.push({ value: limit.upper, side: "≤" });
+      const meaning = picture.responses[response];
+      const hasSign = meaning.over_time === "max-abs" && meaning.type !== "stress";
+      if (hasSign) limits.push({ value: -limit.upper, side: "≥" });
+    }
+    if (limit.lower !== undefined) limits.push({ value: limit.lower, side: "≥" });
+  }
+  return limits;
+}
+
+function heading(picture: Picture, pick: Pick, main: number): HTMLElement[] {
+  const { scene } = picture;
+  if (pick.joint !== null) {
+    const joint = scene.joints[pick.joint];
+    return [
+      h("h3", {}, words(joint.name)),
+      h("p.note", {}, `${joint.type} joint of ${words(joint.bodies[0])} and ${words(joint.bodies[1])}: the second ${joint.freedom}`),
+      ...(joint.drive ? [h("p.note", {}, h("span.dot", { style: "background:var(--drive)" }), `driven: its ${joint.drive} is prescribed`)] : []),
+    ];
+  }
+  if (pick.body === null) {
+    return [h("h3", {}, "The whole mechanism"), h("p.note", {}, "Click a member or a joint of the drawing to see what is known of it.")];
+  }
+  const body = scene.bodies[pick.body];
+  const facts: (string | HTMLElement)[] = [];
+  const masses = picture.designs.map((design) => design.masses?.[body.name]);
+  const own = masses[main];
+  if (own !== undefined) {
+    const other = picture.designs.length === 2 ? masses[1 - main] : undefined;
+    facts.push(
+      other !== undefined && Math.abs(other - own) > 1e-9 * other
+        ? `mass ${number(other)} → ${number(own)} kg (${percent(own / other - 1)})`
+        : `mass ${number(own)} kg`,
+    );
+  }
+  if (body.material) facts.push(body.material);
+  const profile = profiles(picture, pick.body, main);
+  return [
+    h("h3", {}, words(body.name), h("span.soft", {}, body.type === "beam" ? (body.is_rigid ? " rigid beam" : " elastic beam") : ` ${body.type}`)),
+    h("p.note", {}, facts.join(" · ")),
+    ...(profile ? [profile] : []),
+  ];
+}
+
+/** Sections of both designs to scale. */
+export function profiles(picture: Picture, body: number, main: number): HTMLElement | null {
+  const shown = picture.designs
+    .map((design, i) => ({ segments: design.geometry.bodies[body].segments, isMain: i === main, name: design.name }))
+    .filter((one) => one.segments);
+  if (!shown.length || picture.designs.length > 2) return null;
+  const count = shown[0].segments!.length;
+  const box = h("div.profiles", {});
+  for (let s = 0; s < count; s++) {
+    const all = shown.flatMap((one) => one.segments![s].outer.flat().map(Math.abs));
+    const size = Math.max(...all);
+    const scale = 30 / size;
+    const path = (points: [number, number][]) =>
+      points.length ? `M${points.map(([y, z]) => `${(z * scale).toFixed(2)},${(-y * scale).toFixed(2)}`).join("L")}Z` : "";
+    const svg = `<svg viewBox="-34 -34 68 68" width="72" height="72" role="img" aria-label="section">${shown
+      .map(
+        (one) =>
+          `<path class="${one.isMain ? "profile-main" : "profile-start"}" fill-rule="evenodd" d="${path(one.segments![s].outer)}${path(one.segments![s].inner)}"/>`,
+      )
+      .join("")}</svg>`;
+    const drawing = h("div.profile", {});
+    drawing.innerHTML = svg;
+    drawing.append(h("span.note", {}, shown.find((one) => one.isMain)!.segments![s].text));
+    box.append(drawing);
+  }
+  return box;
+}
+
+function quantitiesOf(picture: Picture, pick: Pick, main: number): Quantity[] {
+  const found = new Map<string, Quantity>();
+  const body = pick.body === null ? null : picture.scene.bodies[pick.body].name;
+  const joint = pick.joint === null ? null : picture.scene.joints[pick.joint].name;
+  const belongs = (meaning: Meaning) => {
+    if (joint !== null) return meaning.joint === joint;
+    if (body !== null) return meaning.bodies.includes(body) || jointOf(picture, meaning.joint, body);
+    return !meaning.joint && meaning.type !== "stress";
+  };
+  picture.designs.forEach((design, i) => {
+    const add = (value: Shown, meaning: Meaning) => {
+      if (!belongs(meaning) || !value.history) return;
+      const known = found.get(value.name) ?? { name: value.name, meaning, shown: [] };
+      known.shown.push({ design: design.name, isMain: i === main, value });
+      found.set(value.name, known);
+    };
+    for (const response of design.responses ?? []) add(response, picture.responses[response.name]);
+    for (const companion of design.companions ?? []) add(companion, companion as Companion);
+  });
+  const rank = (quantity: Quantity) => (limitsOn(picture, quantity.name).length ? 0 : quantity.meaning.joint ? 2 : 1);
+  return [...found.values()].sort((a, b) => rank(a) - rank(b)).slice(0, 9);
+}
+
+/** Of a body also what its drive needs. */
+function jointOf(picture: Picture, joint: string | undefined, body: string): boolean {
+  if (!joint) return false;
+  const found = picture.scene.joints.find((one) => one.name === joint);
+  return !!found && !!found.drive && found.bodies.includes(body);
+}

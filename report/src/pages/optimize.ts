@@ -1,0 +1,400 @@
+// Of an optimization: what was won, whether to believe it, how it moves, where its limits bite.
+import { lineChart } from "../charts";
+import { type Companion, type Document, type Picture, parseCsv, type ReportData } from "../data";
+import { h, section, table } from "../dom";
+import { errorText, number, pair, percent, placeText, seconds, share, withUnit, words } from "../format";
+import { type Inspector, makeInspector } from "./inspector";
+import { makePlayer, type Player } from "../mechanism/player";
+import { change, effectsSection, fact, filesSection, monitorsText, responsesTable, sentenceCase, verdict, warnings } from "./parts";
+
+export interface Viewing {
+  element: HTMLElement;
+  player: Player;
+  inspector: Inspector;
+  pickBody(name: string | undefined): void;
+}
+
+/** The drawing beside what is known of the member that was clicked. */
+export function viewing(picture: Picture, main: number, showsNames = false, showsAxes = false): Viewing {
+  let player: Player | null = null;
+  const inspector = makeInspector(picture, main, (time) => player?.goTo(time));
+  player = makePlayer({
+    picture,
+    main,
+    showsNames,
+    showsAxes,
+    onPick: (pick) => {
+      player?.select(pick.body);
+      inspector.show(pick);
+    },
+  });
+  player.onTime((time) => inspector.setTime(time));
+  const made = player;
+  Object.assign(window, { pleuelPlayer: made });  // for tests
+  return {
+    element: h("section.card.viewing", { "aria-label": "mechanism" }, made.element, inspector.element),
+    player: made,
+    inspector,
+    pickBody(name) {
+      const body = picture.scene.bodies.findIndex((one) => one.name === name);
+      made.select(body < 0 ? null : body);
+      inspector.show({ body: body < 0 ? null : body, joint: null });
+    },
+  };
+}
+
+export function optimizePage(data: ReportData): HTMLElement[] {
+  const { picture, result } = data;
+  const parts: (HTMLElement | null)[] = [headline(data)];
+  let shown: Viewing | null = null;
+  if (picture && picture.designs.length) {
+    const main = picture.designs.length - 1;
+    shown = viewing(picture, main);
+    parts.push(shown.element);
+    shown.pickBody(mostUsedBody(picture, result));
+  }
+  parts.push(
+    h(
+      "div.columns",
+      {},
+      h("div.stack", {}, limitsSection(data, shown), pricesSection(data)),
+      h("div.stack", {}, variablesSection(data), savingsSection(data)),
+    ),
+    convergenceSection(data),
+    evidenceSection(data),
+    effectsSection(data),
+    filesSection(data),
+  );
+  return parts.filter((part): part is HTMLElement => !!part);
+}
+
+function headline(data: ReportData): HTMLElement {
+  const { result, picture } = data;
+  const objective = result.objective ?? {};
+  const unit = picture?.responses[objective.name]?.unit ?? { si: objective.unit, name: objective.unit, factor: 1 };
+  const hasDesign = objective.value !== undefined;
+  const gain = hasDesign ? objective.value / objective.start - 1 : NaN;
+  const time = result.seconds ?? 0;
+  return h(
+    "section.hero",
+    {},
+    h(
+      "div",
+      {},
+      h("p.eyebrow", {}, data.picture?.name ?? ""),
+      hasDesign
+        ? h("h1", {}, h("span.gain", {}, percent(gain)), h("span.what", {}, ` ${words(objective.name)}`))
+        : h("h1", {}, "No design was found"),
+      hasDesign
+        ? h(
+            "p.numbers",
+            {},
+            h("span.soft", {}, withUnit(objective.start, unit)),
+            " → ",
+            h("b", {}, withUnit(objective.value, unit)),
+            objective.error?.total ? h("span.soft", {}, ` ${errorText(objective.error, unit)}`) : null,
+          )
+        : null,
+      h("p.verdict", {}, verdict(result.status), h("span", {}, ` ${sentenceCase(result.message ?? "")}.`)),
+      warnings(result),
+    ),
+    h(
+      "div.facts",
+      {},
+      ...motorFacts(data),
+      fact(String(result.evaluations ?? "–"), "simulations of designs"),
+      fact(seconds(time), `with ${result.backend ?? ""}`),
+    ),
+  );
+}
+
+/** What the lighter machine asks of its drive. */
+function motorFacts(data: ReportData): HTMLElement[] {
+  return savings(data)
+    .filter((one) => one.type === "drive-torque" || one.type === "drive-power" || one.type === "drive-force")
+    .filter((one) => one.overTime === "max-abs" || one.overTime === "max")
+    .slice(0, 2)
+    .map((one) =>
+      fact(percent(one.after / one.before - 1, 2), one.name, `${withUnit(one.before, one.unit)} → ${withUnit(one.after, one.unit)}`),
+    );
+}
+
+interface Saving {
+  name: string;
+  type: string;
+  overTime: string;
+  before: number;
+  after: number;
+  unit: { si: string; name: string; factor: number };
+}
+
+/** Everything that was neither minimized nor limited, at both designs. */
+function savings(data: ReportData): Saving[] {
+  const { picture } = data;
+  if (!picture || picture.designs.length < 2) return [];
+  const [start, optimum] = [picture.designs[0], picture.designs[picture.designs.length - 1]];
+  const limited = new Set(Object.values(picture.limits).map((limit) => limit.response));
+  const list: Saving[] = [];
+  for (const response of optimum.responses ?? []) {
+    const before = start.responses?.find((one) => one.name === response.name);
+    const meaning = picture.responses[response.name];
+    if (!before || !meaning || limited.has(response.name) || response.name === picture.objective) continue;
+    if (["position", "constraint-drift", "energy-balance", "final"].includes(meaning.type)) continue;
+    list.push({ name: words(response.name), type: meaning.type, overTime: meaning.over_time, before: before.value, after: response.value, unit: meaning.unit });
+  }
+  for (const companion of (optimum.companions ?? []) as Companion[]) {
+    const before = start.companions?.find((one) => one.name === companion.name);
+    if (!before) continue;
+    list.push({ name: words(companion.name), type: companion.type, overTime: companion.over_time, before: before.value, after: companion.value, unit: companion.unit });
+  }
+  return list.filter((one) => Math.abs(one.before) > 0);
+}
+
+function savingsSection(data: ReportData): HTMLElement | null {
+  const all = savings(data);
+  if (!all.length) return null;
+  const largest = Math.max(...all.map((one) => Math.min(Math.abs(one.after / one.before - 1), 2)), 0.01);
+  return section(
+    "What else changed",
+    "Nobody asked for it: the largest values over time, start → optimum.",
+    h(
+      "ul.bars",
+      {},
+      all.map((one) => {
+        const gain = one.after / one.before - 1;
+        const width = (100 * Math.min(Math.abs(gain), largest)) / largest;
+        return h(
+          "li",
+          {},
+          h("span.bar-name", {}, one.name),
+          h("span.bar-numbers", {}, pair(one.before, one.after, one.unit)),
+          h("span.bar-track", {}, h(gain <= 0 ? "span.bar.is-less" : "span.bar.is-more", { style: `width:${width}%` })),
+          h("span.bar-value", {}, change(one.before, one.after)),
+        );
+      }),
+    ),
+  );
+}
+
+function mostUsedBody(picture: Picture, result: Document): string | undefined {
+  let best: string | undefined;
+  let most = -1;
+  for (const [name, limit] of Object.entries(picture.limits)) {
+    const used = result.constraints?.[name]?.utilisation ?? 0;
+    const body = limit.response ? picture.responses[limit.response]?.bodies[0] : undefined;
+    if (body && used > most + 1e-4) [most, best] = [used, body];
+  }
+  return best ?? picture.scene.bodies[0]?.name;
+}
+
+function limitsSection(data: ReportData, shown: Viewing | null): HTMLElement | null {
+  const constraints: Record<string, Document> = data.result.constraints ?? {};
+  const names = Object.keys(constraints);
+  if (!names.length) return null;
+  const { picture } = data;
+  const optimum = picture?.designs[picture.designs.length - 1];
+  const start = picture?.designs[0];
+  const rows = names
+    .map((name) => {
+      const one = constraints[name];
+      const limit = picture?.limits[name];
+      const unit = limit?.unit ?? { si: one.unit, name: one.unit, factor: 1 };
+      const response = limit?.response ? optimum?.responses?.find((r) => r.name === limit.response) : undefined;
+      const before = limit?.response ? start?.responses?.find((r) => r.name === limit.response)?.value : undefined;
+      const usedOf = (value: number) => (one.side === "upper" ? value / one.limit : one.limit / value);
+      const used: number | undefined = one.utilisation;
+      const isActive = (one.multiplier ?? 0) !== 0 || (used !== undefined && used > 0.999);
+      return { name, one, unit, response, before, used, isActive, usedOf };
+    })
+    .sort((a, b) => Number(b.isActive) - Number(a.isActive) || (b.used ?? 0) - (a.used ?? 0));
+  return section(
+    "Where the limits bite",
+    "How far each limit is used: the open mark is the start. The time leads to the instant in the drawing.",
+    h(
+      "ul.limits",
+      {},
+      rows.map(({ name, one, unit, response, before, used, isActive, usedOf }) => {
+        const body = response ? picture!.responses[response.name].bodies[0] : undefined;
+        const place = placeText(response?.peak_place);
+        return h(
+          isActive ? "li.is-active" : "li",
+          {},
+          h(
+            "div.limit-head",
+            {},
+            h("span.bar-name", {}, words(name)),
+            h("span", {}, h("b", {}, withUnit(Math.abs(one.value) < 1e-9 * unit.factor ? 0 : one.value, unit)), h("span.soft", {}, ` ${one.side === "upper" ? "≤" : "≥"} ${withUnit(one.limit, unit)}`)),
+          ),
+          used !== undefined
+            ? h(
+                "div.gauge",
+                { role: "img", "aria-label": `${share(used)} used` },
+                h(isActive ? "span.gauge-fill.is-full" : "span.gauge-fill", { style: `width:${Math.min(100, used * 80)}%` }),
+                before !== undefined && Number.isFinite(usedOf(before))
+                  ? h("span.gauge-start", { title: `start: ${share(usedOf(before))}`, style: `left:${Math.min(98, Math.max(0, usedOf(before)) * 80)}%` })
+                  : null,
+                h("span.gauge-limit", { style: "left:80%" }),
+                h("span.gauge-text", {}, share(used)),
+              )
+            : null,
+          response && response.peak_time !== undefined
+            ? h(
+                "p.note",
+                {},
+                "at ",
+                h(
+                  "button.link",
+                  {
+                    onclick: () => {
+                      shown?.pickBody(body);
+                      shown?.player.goTo(response.peak_time!);
+                      shown?.element.scrollIntoView({ behavior: "smooth", block: "nearest" });
+                    },
+                  },
+                  seconds(response.peak_time),
+                ),
+                place ? `, ${place}` : "",
+              )
+            : !used && isActive
+              ? h("p.note", {}, "binds: a linear constraint of variables")
+              : null,
+        );
+      }),
+    ),
+  );
+}
+
+function pricesSection(data: ReportData): HTMLElement | null {
+  const constraints: Record<string, Document> = data.result.constraints ?? {};
+  const value = data.result.objective?.value;
+  const prices = Object.entries(constraints)
+    .filter(([, one]) => one.multiplier && one.limit)
+    .map(([name, one]) => ({ name, gain: (-Math.abs(one.multiplier) * 0.01 * Math.abs(one.limit)) / Math.abs(value) }))
+    .sort((a, b) => a.gain - b.gain);
+  if (!prices.length) return null;
+  const largest = Math.max(...prices.map((one) => Math.abs(one.gain)));
+  return section(
+    "What a limit costs",
+    `What ${words(data.result.objective.name)} would gain by one percent more of a limit, the design optimal again.`,
+    h(
+      "ul.bars",
+      {},
+      prices.map((one) =>
+        h(
+          "li",
+          {},
+          h("span.bar-name", {}, words(one.name)),
+          h("span.bar-numbers", {}),
+          h("span.bar-track", {}, h("span.bar.is-less", { style: `width:${(100 * Math.abs(one.gain)) / largest}%` })),
+          h("span.bar-value", {}, percent(one.gain, 2)),
+        ),
+      ),
+    ),
+  );
+}
+
+function variablesSection(data: ReportData): HTMLElement | null {
+  const variables: Record<string, Document> = data.result.variables ?? {};
+  const names = Object.keys(variables);
+  if (!names.length) return null;
+  return section(
+    "Variables between their bounds",
+    "The open mark is the start, the full one the optimum.",
+    h(
+      "ul.variables",
+      {},
+      names.map((name) => {
+        const one = variables[name];
+        const unit = data.picture?.variables[name]?.unit ?? { si: one.unit, name: one.unit, factor: 1 };
+        const range = one.upper - one.lower || 1;
+        const at = (x: number) => (100 * (x - one.lower)) / range;
+        const [from, to] = [at(one.start), at(one.value)];
+        const bound = to < 0.01 ? "at its lower bound" : to > 99.99 ? "at its upper bound" : "";
+        return h(
+          "li",
+          {},
+          h(
+            "div.limit-head",
+            {},
+            h("span.bar-name", {}, words(name)),
+            h("span", {}, h("span.soft", {}, `${number(one.start / unit.factor)} → `), h("b", {}, withUnit(one.value, unit))),
+          ),
+          h(
+            "div.range",
+            { role: "img", "aria-label": `between ${withUnit(one.lower, unit)} and ${withUnit(one.upper, unit)}` },
+            h("span.range-path", { style: `left:${Math.min(from, to)}%;width:${Math.abs(to - from)}%` }),
+            h("span.range-start", { style: `left:${from}%` }),
+            h("span.range-end", { style: `left:${to}%` }),
+          ),
+          h("div.range-ends", {}, h("span", {}, withUnit(one.lower, unit, 3)), bound ? h("span.bad", {}, bound) : null, h("span", {}, withUnit(one.upper, unit, 3))),
+        );
+      }),
+    ),
+  );
+}
+
+function convergenceSection(data: ReportData): HTMLElement | null {
+  const text = data.files["history.csv"];
+  if (!text) return null;
+  const { header, rows } = parseCsv(text);
+  const column = (name: string) => header.indexOf(name);
+  const search = rows.filter((row) => row[column("request")] === "gradients" && row[column("purpose")] !== "audit" && row[column("objective")] !== "");
+  if (search.length < 2) return null;
+  const objective = data.result.objective;
+  const unit = data.picture?.responses[objective.name]?.unit ?? { si: "", name: objective.unit, factor: 1 };
+  const x = search.map((_, i) => i + 1);
+  const numbers = (name: string, factor = 1) => search.map((row) => Number(row[column(name)]) / factor);
+  const violation = numbers("max_violation").map((v) => (v > 1e-12 ? 100 * v : null));
+  const labels = search.map((row, i) => `iteration ${i + 1}, ${seconds(Number(row[column("seconds")]))}`);
+  return section(
+    "How it converged",
+    "",
+    h(
+      "div.columns",
+      {},
+      lineChart({
+        title: words(objective.name),
+        yTitle: unit.name,
+        xTitle: "iteration",
+        wholeX: true,
+        height: 210,
+        series: [{ name: words(objective.name), x, y: numbers("objective", unit.factor), color: "accent", dots: true, labels }],
+      }).element,
+      violation.some((v) => v !== null)
+        ? lineChart({
+            title: "largest violation of a limit",
+            yTitle: "% of the limit",
+            xTitle: "iteration",
+            wholeX: true,
+            logY: true,
+            height: 210,
+            series: [{ name: "violation", x, y: violation, color: "limit", dots: true, labels }],
+          }).element
+        : h("p.note", {}, "No design on the way exceeded a limit."),
+    ),
+  );
+}
+
+function evidenceSection(data: ReportData): HTMLElement | null {
+  const { result } = data;
+  const rows: (string | HTMLElement)[][] = [];
+  const add = (what: string, value: string, meaning: string) => rows.push([what, value, h("span.soft", {}, meaning)]);
+  if (result.kkt_residual !== undefined) add("KKT residual", number(result.kkt_residual, 2), "how far the optimality conditions are off, relative: below 1e−3 counts");
+  if (result.max_violation !== undefined) add("violation", number(result.max_violation, 2), "of the true limits, relative");
+  if (result.gradients) add("gradients", result.gradients.method, `because of ${result.gradients.reason}`);
+  if (result.evaluations !== undefined) {
+    add("simulations", String(result.evaluations), `${result.gradient_evaluations} of them with gradients, ${result.failed_evaluations} failed, ${result.restarts} restarts`);
+  }
+  if (result.polished_with) add("polished with", result.polished_with, "refined the answer of the backend");
+  const stages: Document[] = result.stages ?? [];
+  return section(
+    "Why to believe it",
+    monitorsText(result),
+    table([{ title: "evidence", left: true }, { title: "" }, { title: "what it says", left: true }], rows),
+    h("h3", {}, "All responses"),
+    responsesTable(data),
+    stages.length > 1
+      ? h("p.note", {}, `In ${stages.length} stages, each with the steps and elements that its accuracy needs: ${stages.map((stage) => `${seconds(stage.step ?? 0)} steps, ${stage.elements ?? "–"} elements`).join("; ")}.`)
+      : null,
+  );
+}

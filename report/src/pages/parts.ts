@@ -1,0 +1,206 @@
+// Parts that several pages have: headline, warnings, evidence, effects, files.
+import type { Document, Picture, ReportData, Unit } from "../data";
+import { details, download, h, section, table } from "../dom";
+import { engineering, errorText, number, percent, seconds, withUnit, words } from "../format";
+
+const verdicts: Record<string, { text: string; tone: string }> = {
+  verified: { text: "Verified local optimum", tone: "good" },
+  done: { text: "Done", tone: "good" },
+  unresolved: { text: "Optimum of numbers that are not resolved", tone: "warn" },
+  interrupted: { text: "Interrupted", tone: "warn" },
+};
+
+export function verdict(status: string): HTMLElement {
+  const known = verdicts[status] ?? { text: `Not verified: ${status}`, tone: "warn" };
+  return h(`span.badge.${known.tone}`, {}, known.tone === "good" ? "✓ " : "! ", known.text);
+}
+
+export function sentenceCase(text: string): string {
+  return text ? text[0].toUpperCase() + text.slice(1) : text;
+}
+
+export function warnings(result: Document): HTMLElement | null {
+  const list: string[] = result.warnings ?? [];
+  if (!list.length) return null;
+  return h(
+    "div.warnings",
+    { role: "note" },
+    list.length > 2
+      ? h("details", {}, h("summary", {}, `${list.length} warnings`), h("ul", {}, list.map((text) => h("li", {}, sentenceCase(text)))))
+      : list.map((text) => h("p", {}, h("b", {}, "Warning: "), sentenceCase(text))),
+  );
+}
+
+/** Units of responses; those that no picture tells, by their SI unit. */
+export function unitOf(picture: Picture | null, name: string, si: string): Unit {
+  return picture?.responses[name]?.unit ?? engineering(si);
+}
+
+/** All responses with values and what their numbers are known to. */
+export function responsesTable(data: ReportData): HTMLElement | null {
+  const responses: Record<string, Document> = data.result.responses ?? {};
+  const names = Object.keys(responses);
+  if (!names.length) return null;
+  const hasStart = names.some((name) => responses[name].start !== undefined);
+  const hasErrors = names.some((name) => responses[name].error);
+  const rows = names.map((name) => {
+    const one = responses[name];
+    const unit = unitOf(data.picture, name, one.unit);
+    const total = one.error?.total;
+    const row: (Node | string)[] = [words(name)];
+    if (hasStart) row.push(number(one.start / unit.factor));
+    row.push(number(one.value / unit.factor));
+    if (hasStart) row.push(change(one.start, one.value));
+    row.push(unit.name);
+    if (hasErrors) {
+      row.push(
+        one.error === null || one.error === undefined
+          ? "–"
+          : total === null
+            ? h("span.bad", {}, "not resolved")
+            : total === 0
+              ? "exact"
+              : errorText(one.error, { ...unit, name: "1" }),
+        total ? `${number((100 * total) / Math.abs(one.value || 1), 2)} %` : "",
+      );
+    }
+    return row;
+  });
+  return table(
+    [
+      { title: "response", left: true },
+      ...(hasStart ? [{ title: "start" }] : []),
+      { title: hasStart ? "optimum" : "value" },
+      ...(hasStart ? [{ title: "change" }] : []),
+      { title: "unit", left: true },
+      ...(hasErrors ? [{ title: "known to" }, { title: "" }] : []),
+    ],
+    rows,
+  );
+}
+
+export function change(before: number, after: number): HTMLElement | string {
+  if (!Number.isFinite(before) || !before) return "";
+  const share = after / before - 1;
+  return h(share < -5e-4 ? "span.less" : share > 5e-4 ? "span.more" : "span.soft", {}, percent(share));
+}
+
+export function effectsSection(data: ReportData): HTMLElement | null {
+  const effects: Document[] = data.result.effects ?? [];
+  if (!effects.length) return null;
+  const { picture } = data;
+  const objective = picture?.objective;
+  const hasInfluence = effects.some((effect) => effect.influence);
+  const objectiveUnit = objective ? unitOf(picture, objective, "kg") : null;
+  const constraints: Record<string, Document> = data.result.constraints ?? {};
+  /** Δf + Σ μ Δc: what leaving the effect out makes of the optimum. */
+  const worth = (influence: Record<string, number>): number | null => {
+    if (!objective || influence[objective] === undefined) return null;
+    let sum = influence[objective];
+    for (const [name, limit] of Object.entries(picture!.limits)) {
+      const multiplier = constraints[name]?.multiplier;
+      if (!limit.response || multiplier === undefined) continue;
+      sum += multiplier * (influence[limit.response] ?? 0);
+    }
+    return sum;
+  };
+  const most = (influence: Record<string, number>): string => {
+    let text = "nothing";
+    let largest = 1e-8;
+    for (const [name, delta] of Object.entries(influence)) {
+      const value = data.result.responses?.[name]?.value;
+      const relative = Math.abs(delta / value);
+      if (!(relative > largest)) continue;
+      largest = relative;
+      text = `${words(name)} ${percent(delta / Math.abs(value), 2)}`;
+    }
+    return text;
+  };
+  const hasWorth = hasInfluence && effects.some((e) => e.influence && worth(e.influence) !== null) && data.card.command === "optimize";
+  const rows = effects.map((effect) => [
+    effect.name.replace(/[-_]/g, " "),
+    effect.body ? words(effect.body) : "all",
+    effect.built ? h("span.good-text", {}, "built") : h("span.soft", {}, "left out"),
+    ...(hasInfluence ? [effect.influence ? most(effect.influence) : "–"] : []),
+    ...(hasWorth
+      ? [effect.influence && worth(effect.influence) !== null ? smallMass(worth(effect.influence)!, objectiveUnit!) : "–"]
+      : []),
+    ...(hasInfluence ? [effect.seconds !== undefined ? signedMs(effect.seconds) : "–"] : []),
+    h("span.soft", {}, effect.reason ?? ""),
+  ]);
+  return section(
+    "What is simulated",
+    hasInfluence
+      ? "Each effect that was built, what it changes of the numbers, and the time that it takes in one simulation."
+      : "What was built for this scene, and why.",
+    table(
+      [
+        { title: "effect", left: true },
+        { title: "of", left: true },
+        { title: "", left: true },
+        ...(hasInfluence ? [{ title: "changes most", left: true }] : []),
+        ...(hasWorth ? [{ title: "worth" }] : []),
+        ...(hasInfluence ? [{ title: "time" }] : []),
+        { title: "because", left: true },
+      ],
+      rows,
+    ),
+  );
+}
+
+/** Grams say more than thousandths of a kilogram. */
+function smallMass(value: number, unit: Unit): string {
+  if (value === 0) return "0";
+  const sign = value < 0 ? "−" : "+";
+  const size = Math.abs(value);
+  if (unit.si === "kg" && size < 0.1) return `${sign}${number(1000 * size, 2)} g`;
+  return `${sign}${withUnit(size, unit, 2)}`;
+}
+
+function signedMs(value: number): string {
+  return `${value < 0 ? "−" : "+"}${number(Math.abs(1000 * value), 2)} ms`;
+}
+
+/** A chip with a number and what it is. */
+export function fact(value: string, name: string, title = ""): HTMLElement {
+  return h("div.fact", { title }, h("b", {}, value), h("span.soft", {}, name));
+}
+
+export function monitorsText(result: Document): string {
+  const monitors = result.monitors ?? {};
+  const parts: string[] = [];
+  if (monitors.energy_error !== undefined) parts.push(`energy is balanced to ${number(monitors.energy_error, 2)}`);
+  if (monitors.position_drift !== undefined) parts.push(`joints are kept to ${number(monitors.position_drift, 2)} m or rad`);
+  if (monitors.elastic_rotation !== undefined) {
+    parts.push(`elastic rotations are at most ${number((180 / Math.PI) * monitors.elastic_rotation, 2)}°`);
+  }
+  return parts.length ? sentenceCase(parts.join("; ")) + "." : "";
+}
+
+export function filesSection(data: ReportData): HTMLElement {
+  const { card } = data;
+  const phases = Object.entries(card.seconds ?? {}) as [string, number][];
+  const problem = JSON.stringify(card.problem ?? card.problems ?? {}, null, 2);
+  return h(
+    "div.stack",
+    {},
+    details(
+      "Run card",
+      h("p.note", {}, h("code", {}, `pleuel ${(card.arguments ?? []).join(" ")}`)),
+      table(
+        [{ title: "", left: true }, { title: "", left: true }],
+        [
+          ...Object.entries(card.versions ?? {}).map(([name, version]) => [name, String(version)]),
+          ...(card.input?.hash ? [["input", card.input.hash as string]] : []),
+          ...phases.map(([name, time]) => [`time: ${name}`, seconds(time)]),
+        ],
+      ),
+    ),
+    details(
+      "Problem file",
+      h("button.quiet", { onclick: () => download("problem.json", problem, "application/json") }, "save"),
+      h("pre", {}, problem),
+    ),
+    details("Result document", h("pre", {}, JSON.stringify(data.result, null, 2))),
+  );
+}

@@ -1,0 +1,217 @@
+// Of one simulation, and of a mechanism that is only drawn.
+import { lineChart } from "../charts";
+import { curveOf, type Document, type Picture, type ReportData, valueAt } from "../data";
+import { h, section, table } from "../dom";
+import { count, inThousands, number, seconds, share, timeUnit, withUnit, words } from "../format";
+import { limitsOn, profiles, signed } from "./inspector";
+import { type Viewing, viewing } from "./optimize";
+import { effectsSection, fact, filesSection, monitorsText, responsesTable, warnings } from "./parts";
+
+export function simulatePage(data: ReportData): HTMLElement[] {
+  const { picture, result } = data;
+  const parts: (HTMLElement | null)[] = [
+    h(
+      "section.hero",
+      {},
+      h("div", {}, h("p.eyebrow", {}, "simulation"), h("h1", {}, picture?.name ?? ""), h("p.lead", {}, picture?.description ?? ""), limitsSentence(result), warnings(result)),
+      h(
+        "div.facts",
+        {},
+        fact(seconds(picture?.scene.end_time ?? 0), "simulated time"),
+        fact(count(result.steps), "steps"),
+        fact(count(result.coordinates), "coordinates"),
+        fact(seconds(result.seconds), "to simulate"),
+      ),
+    ),
+  ];
+  let shown: Viewing | null = null;
+  if (picture?.designs.length) {
+    shown = viewing(picture, 0);
+    shown.pickBody(undefined);
+    parts.push(shown.element);
+  }
+  parts.push(section("Numbers", monitorsText(result), responsesTable(data), limitsTable(data)));
+  if (picture?.designs[0]?.responses) parts.push(historiesSection(picture, shown));
+  parts.push(effectsSection(data), filesSection(data));
+  return parts.filter((part): part is HTMLElement => !!part);
+}
+
+function limitsSentence(result: Document): HTMLElement | null {
+  const limits = Object.values((result.constraints ?? {}) as Record<string, Document>);
+  if (!limits.length) return null;
+  const broken = Object.entries(result.constraints as Record<string, Document>).filter(([, one]) => one.holds === false || one.utilisation > 1 + 1e-6);
+  return broken.length
+    ? h("p.verdict", {}, h("span.badge.warn", {}, `! ${broken.length} of ${limits.length} limits exceeded`), ` ${broken.map(([name]) => words(name)).join(", ")}`)
+    : h("p.verdict", {}, h("span.badge.good", {}, `✓ all ${limits.length} limits hold`));
+}
+
+function limitsTable(data: ReportData): HTMLElement | null {
+  const constraints: Record<string, Document> = data.result.constraints ?? {};
+  const names = Object.keys(constraints);
+  if (!names.length) return null;
+  return h(
+    "div",
+    {},
+    h("h3", {}, "Limits"),
+    table(
+      [{ title: "limit", left: true }, { title: "value" }, { title: "limit" }, { title: "used" }],
+      names.map((name) => {
+        const one = constraints[name];
+        const unit = data.picture?.limits[name]?.unit ?? { si: one.unit, name: one.unit, factor: 1 };
+        const used: number | undefined = one.utilisation;
+        return [
+          words(name),
+          withUnit(one.value, unit),
+          `${one.side === "lower" ? "≥" : "≤"} ${withUnit(one.limit, unit)}`,
+          used === undefined ? "–" : h(used > 1 + 1e-6 ? "span.bad" : "span", {}, share(used)),
+        ];
+      }),
+    ),
+  );
+}
+
+export function historiesSection(picture: Picture, shown: Viewing | null): HTMLElement | null {
+  const unit = timeUnit(picture.scene.end_time);
+  const design = picture.designs[0];
+  const all = [
+    ...(design.responses ?? []).map((one) => ({ one, meaning: picture.responses[one.name] })),
+    ...(design.companions ?? []).map((one) => ({ one, meaning: one })),
+  ].filter(({ one }) => one.history);
+  if (!all.length) return null;
+  const charts = all.map(({ one, meaning: given }) => {
+    const meaning = { ...given, unit: inThousands(given.unit, Math.abs(one.value) / given.unit.factor) };
+    const chart = lineChart({
+      title: words(one.name),
+      yTitle: meaning.unit.name,
+      xTitle: `time [${unit.name}]`,
+      height: 180,
+      series: [{ name: words(one.name), color: "accent", ...curveOf(one.history!, unit.factor, meaning.unit.factor) }],
+      limits: limitsOn(picture, one.name).map((limit) => ({
+        value: limit.value / meaning.unit.factor,
+        label: `${limit.side} ${withUnit(limit.value, meaning.unit, 3)}`,
+      })),
+      peaks:
+        one.peak_time === undefined
+          ? []
+          : [{ x: one.peak_time / unit.factor, y: valueAt(one.history!, one.peak_time) / meaning.unit.factor, label: signed(one, meaning.unit.factor), color: "accent" }],
+    });
+    shown?.player.onTime((time) => chart.setCursor(time / unit.factor));
+    return chart.element;
+  });
+  return section("Histories", "Responses of the file, then what else is known: drives, joints, energies.", h("div.grid", {}, charts));
+}
+
+/** `pleuel show`: as the file places it. */
+export function showPage(data: ReportData): HTMLElement[] {
+  const { picture, result } = data;
+  if (!picture) return [];
+  const { scene } = picture;
+  const free = result.rigid_motion?.free as number | undefined;
+  const shown = viewing(picture, 0, true, true);
+  const parts: (HTMLElement | null)[] = [
+    h(
+      "section.hero",
+      {},
+      h(
+        "div",
+        {},
+        h("p.eyebrow", {}, "drawn before anything is simulated"),
+        h("h1", {}, picture.name),
+        h("p.lead", {}, picture.description),
+        result.failure ? h("p.verdict", {}, h("span.badge.warn", {}, "! cannot be assembled")) : null,
+        free !== undefined
+          ? h(
+              "p.verdict",
+              {},
+              h(`span.badge.${free > 0 ? "warn" : "good"}`, {}, free > 0 ? `${free} free` : "no freedom left"),
+              ` ${result.rigid_motion.coordinates} coordinates of rigid motion, ${result.rigid_motion.constraints} independent constraints, ${result.rigid_motion.drives} of them of drives: ${
+                free > 0 ? `${free} freedom${free > 1 ? "s are" : " is"} left to the forces. Is that meant?` : "the drives prescribe the motion."
+              }`,
+            )
+          : null,
+        warnings(result),
+      ),
+      h(
+        "div.facts",
+        {},
+        fact(String(scene.bodies.length), "bodies"),
+        fact(String(scene.joints.length), "joints"),
+        fact(count(result.steps), "steps"),
+        fact(count(result.coordinates), "coordinates"),
+      ),
+    ),
+    shown.element,
+    section(
+      "Bodies",
+      "Axes in the drawing: x red along the beam, y green, z blue. Sections are drawn with y up and z to the right.",
+      table(
+        [{ title: "body", left: true }, { title: "kind", left: true }, { title: "section", left: true }, { title: "mass [kg]" }, { title: "coordinates" }],
+        scene.bodies.map((body, i) => {
+          const known = (result.bodies ?? []).find((one: Document) => one.name === body.name) ?? {};
+          return [
+            words(body.name),
+            `${body.is_rigid ? "rigid " : ""}${body.type}${body.material ? `, ${body.material}` : ""}`,
+            profiles(picture, i, 0) ?? "–",
+            number(known.mass),
+            count(known.coordinates),
+          ];
+        }),
+      ),
+    ),
+    section(
+      "Joints",
+      "",
+      table(
+        [{ title: "joint", left: true }, { title: "kind", left: true }, { title: "the second body", left: true }, { title: "of", left: true }, { title: "drive", left: true }],
+        scene.joints.map((joint) => [
+          words(joint.name),
+          joint.type,
+          joint.freedom,
+          `${words(joint.bodies[0])} – ${words(joint.bodies[1])}`,
+          joint.drive ? h("span.drive-text", {}, `${joint.drive} prescribed`) : "–",
+        ]),
+      ),
+    ),
+    lawsSection(picture),
+    variablesTable(picture),
+    effectsSection(data),
+    filesSection(data),
+  ];
+  shown.pickBody(undefined);
+  return parts.filter((part): part is HTMLElement => !!part);
+}
+
+function lawsSection(picture: Picture): HTMLElement | null {
+  const unit = timeUnit(picture.scene.end_time);
+  const { geometry } = picture.designs[0];
+  const charts: HTMLElement[] = [];
+  const add = (title: string, yTitle: string, color: string, curve: { x: number[]; y: number[] }) =>
+    charts.push(lineChart({ title, yTitle, xTitle: `time [${unit.name}]`, height: 160, series: [{ name: title, color, ...curve }] }).element);
+  picture.scene.joints.forEach((joint, j) => {
+    const law = geometry.joints[j].drive;
+    if (!law) return;
+    const isAngle = joint.drive === "angle";
+    add(`drive of ${words(joint.name)}`, isAngle ? "°" : "mm", "drive", curveOf(law, unit.factor, isAngle ? Math.PI / 180 : 1e-3));
+  });
+  picture.scene.loads.forEach((load, l) => {
+    const law = geometry.loads[l].value;
+    if (law) add(words(load.name), load.unit ?? "", "load", curveOf(law, unit.factor));
+  });
+  return charts.length ? section("Drives and loads over time", "", h("div.grid", {}, charts)) : null;
+}
+
+function variablesTable(picture: Picture): HTMLElement | null {
+  const names = Object.keys(picture.variables);
+  if (!names.length) return null;
+  return section(
+    "Design variables",
+    "",
+    table(
+      [{ title: "variable", left: true }, { title: "start" }, { title: "lower" }, { title: "upper" }, { title: "unit", left: true }],
+      names.map((name) => {
+        const { start, lower, upper, unit } = picture.variables[name];
+        return [words(name), number(start / unit.factor), number(lower / unit.factor), number(upper / unit.factor), unit.name];
+      }),
+    ),
+  );
+}

@@ -1,0 +1,240 @@
+// Of fronts, accuracy and the other studies.
+import { lineChart } from "../charts";
+import { type Document, parseCsv, type Picture, type ReportData, type Unit } from "../data";
+import { h, section, table } from "../dom";
+import { engineering, number, timeUnit, withUnit, words } from "../format";
+import { makePlayer } from "../mechanism/player";
+import { effectsSection, filesSection, responsesTable, sentenceCase, verdict, warnings } from "./parts";
+import { profiles } from "./inspector";
+
+/** What a study is of, its verdict and some facts. */
+export function hero(data: ReportData, lead: string, facts: HTMLElement[] = []): HTMLElement {
+  const { result, card, picture } = data;
+  return h(
+    "section.hero",
+    {},
+    h(
+      "div",
+      {},
+      h("p.eyebrow", {}, card.command),
+      h("h1", {}, picture?.name ?? (card.inputs ? `${card.inputs.length} files` : "")),
+      lead ? h("p.lead", {}, lead) : null,
+      result.status ? h("p.verdict", {}, verdict(result.status), result.message ? ` ${sentenceCase(result.message)}.` : "") : null,
+      warnings(result),
+    ),
+    facts.length ? h("div.facts", {}, facts) : null,
+  );
+}
+
+export function paretoPage(data: ReportData): HTMLElement[] {
+  const { result, picture } = data;
+  const points: Document[] = result.points ?? [];
+  const [objective, limited] = Object.keys(result.units ?? {});
+  const unit = (name: string): Unit =>
+    picture?.responses[name]?.unit ?? picture?.limits[name]?.unit ?? engineering(result.units[name]);
+  const known = points.map((point, i) => ({ point, number: i + 1 })).filter(({ point }) => point.objectives?.[objective] !== undefined);
+  const verified = points.filter((point) => point.status === "verified").length;
+  const drawing = h("div.front-drawing", {});
+  const players = new Map<number, HTMLElement>();
+  const show = (index: number) => {
+    const chosen = known[index];
+    if (!chosen || !picture) return;
+    const design = picture.designs.find((one) => one.name === String(chosen.number));
+    if (design && !players.has(index)) {
+      const one: Picture = { ...picture, designs: [{ ...design }] };
+      players.set(index, h("div", {}, makePlayer({ picture: one, main: 0, onPick: () => undefined }).element, sectionsOf(one)));
+    }
+    drawing.replaceChildren(
+      h("h3", {}, `Point ${chosen.number}: `, withUnit(chosen.point.objectives[objective], unit(objective)), h("span.soft", {}, ` at ${withUnit(chosen.point.objectives[limited], unit(limited))}`)),
+      h("p.note", {}, sentenceCase(chosen.point.message ?? "")),
+      ...(players.has(index) ? [players.get(index)!] : []),
+    );
+    players.get(index)?.dispatchEvent(new Event("shown"));
+  };
+  const x = known.map(({ point }) => point.objectives[limited] / unit(limited).factor);
+  const y = known.map(({ point }) => point.objectives[objective] / unit(objective).factor);
+  const front = lineChart({
+    title: `${words(objective)} against ${words(limited)}`,
+    xTitle: `${words(limited)} [${unit(limited).name}]`,
+    yTitle: unit(objective).name,
+    height: 430,
+    series: [
+      {
+        name: "front",
+        x,
+        y,
+        color: "accent",
+        dots: true,
+        labels: known.map(({ point, number: n }) => `point ${n}: ${point.status}${point.dominated ? ", dominated" : ""}`),
+      },
+    ],
+    onPick: (_series, index) => show(index),
+    onHover: (_series, index) => show(index),
+  });
+  show(Math.floor(known.length / 2));
+  return [
+    hero(data, `${words(objective ?? "")} against the limit of ${words(result.constraint ?? "")}: ${verified} of ${points.length} points verified.`),
+    h("section.card.front", { "aria-label": "front" }, h("div", {}, h("p.note", {}, "Point at a mark to see its mechanism."), front.element), drawing),
+    section(
+      "Points",
+      "",
+      table(
+        [{ title: "" }, { title: `limit [${unit(limited).name}]` }, { title: `${words(objective)} [${unit(objective).name}]` }, { title: "±" }, { title: `slope [${unit(objective).name}/${unit(limited).name}]` }, ...Object.keys(picture?.variables ?? {}).map((name) => ({ title: `${words(name)} [${picture!.variables[name].unit.name}]` })), { title: "status", left: true }],
+        points.map((point, i) => [
+          String(i + 1),
+          number(point.limit / unit(limited).factor),
+          number(point.objectives?.[objective] / unit(objective).factor),
+          point.error?.total ? number(point.error.total / unit(objective).factor, 2) : "–",
+          point.multiplier !== undefined ? number((-point.multiplier / unit(objective).factor) * unit(limited).factor, 3) : "–",
+          ...Object.entries(picture?.variables ?? {}).map(([name, variable]) => number(point.variables[name] / variable.unit.factor)),
+          `${point.status}${point.dominated ? ", dominated" : ""}`,
+        ]),
+      ),
+    ),
+    filesSection(data),
+  ];
+}
+
+function sectionsOf(picture: Picture): HTMLElement {
+  return h(
+    "div.sections",
+    {},
+    picture.scene.bodies.map((body, i) => {
+      const drawn = profiles(picture, i, 0);
+      return drawn ? h("div", {}, h("b", {}, words(body.name)), drawn) : null;
+    }),
+  );
+}
+
+/** Any other result: what it says, table by table. */
+export function genericPage(data: ReportData): HTMLElement[] {
+  const { picture } = data;
+  const parts: (HTMLElement | null)[] = [hero(data, picture?.description ?? "")];
+  if (picture?.designs.length && picture.designs[0].motion) parts.push(genericDrawing(picture));
+  parts.push(...csvCharts(data), ...genericSections(data), effectsSection(data), filesSection(data));
+  return parts.filter((part): part is HTMLElement => !!part);
+}
+
+function genericDrawing(picture: Picture): HTMLElement {
+  return h("section.card", {}, makePlayer({ picture, main: 0, onPick: () => undefined }).element);
+}
+
+const shownElsewhere = new Set(["status", "message", "warnings", "effects", "responses", "monitors", "seconds"]);
+
+function genericSections(data: ReportData): HTMLElement[] {
+  const { result } = data;
+  const sections: HTMLElement[] = [];
+  if (result.responses && Object.values(result.responses).some((one) => typeof (one as Document)?.value === "number")) {
+    const simple = Object.values(result.responses as Record<string, Document>).every((one) => one.error !== undefined || Object.keys(one).length <= 3);
+    if (simple) {
+      const shown = responsesTable(data);
+      if (shown) sections.push(section("Responses", "", shown));
+    } else sections.push(section("Responses", "", objectsTable(result.responses)));
+  }
+  const plain: [string, string][] = [];
+  for (const [key, value] of Object.entries(result)) {
+    if (shownElsewhere.has(key) || value === null) continue;
+    if (typeof value === "number" || typeof value === "string" || typeof value === "boolean") {
+      plain.push([words(key), typeof value === "number" ? number(value, 5) : String(value)]);
+    } else if (Array.isArray(value) && value.length && typeof value[0] === "object") {
+      sections.push(section(sentenceCase(words(key)), "", rowsTable(value)));
+    } else if (!Array.isArray(value) && isTableOfObjects(value as Document)) {
+      sections.push(section(sentenceCase(words(key)), "", objectsTable(value as Document)));
+    } else if (!Array.isArray(value)) {
+      sections.push(section(sentenceCase(words(key)), "", rowsTable([value as Document])));
+    }
+  }
+  if (plain.length) {
+    sections.push(section("In short", "", table([{ title: "", left: true }, { title: "", left: true }], plain)));
+  }
+  return sections;
+}
+
+function isTableOfObjects(value: Document): boolean {
+  const entries = Object.values(value);
+  return entries.length > 0 && entries.every((one) => one && typeof one === "object" && !Array.isArray(one));
+}
+
+function cellText(value: unknown): string {
+  if (value === null || value === undefined) return "–";
+  if (typeof value === "number") return number(value, 4);
+  if (typeof value === "boolean") return value ? "yes" : "no";
+  if (Array.isArray(value)) return value.length > 8 ? `${value.length} entries` : value.map(cellText).join(", ");
+  if (typeof value === "object") {
+    const numbers = Object.entries(value as Document).filter((entry): entry is [string, number] => typeof entry[1] === "number");
+    if (numbers.length > 2 && numbers.length === Object.keys(value).length) {
+      // Of many numbers, as errors of responses, the one that decides.
+      const [key, largest] = numbers.reduce((a, b) => (Math.abs(b[1]) > Math.abs(a[1]) ? b : a));
+      return `at most ${number(largest, 3)} (${words(key)})`;
+    }
+    return Object.entries(value as Document)
+      .map(([key, one]) => `${words(key)} ${cellText(one)}`)
+      .join("; ");
+  }
+  return String(value);
+}
+
+function rowsTable(rows: Document[]): HTMLElement {
+  const isPlain = (value: unknown) => !(Array.isArray(value) && value.some((one) => typeof one === "string" && one.length > 40));
+  const all = [...new Set(rows.flatMap((row) => Object.keys(row ?? {})))];
+  const keys = all.filter((key) => key !== "warnings" && rows.every((row) => isPlain(row?.[key])) && rows.some((row) => row?.[key] !== null && row?.[key] !== undefined));
+  return table(
+    keys.map((key) => ({ title: words(key), left: rows.some((row) => typeof row?.[key] !== "number") })),
+    rows.map((row) => keys.map((key) => cellText(row?.[key]))),
+  );
+}
+
+function objectsTable(objects: Record<string, Document>): HTMLElement {
+  return rowsTable(Object.entries(objects).map(([name, one]) => ({ name: words(name), ...one })));
+}
+
+/** Histories with bands, derivatives over time: a chart for each column of a CSV file. */
+export function csvCharts(data: ReportData): HTMLElement[] {
+  const { files, picture } = data;
+  const sections: HTMLElement[] = [];
+  for (const name of ["uncertainty.csv", "gradients.csv"]) {
+    if (!files[name]) continue;
+    const { header, rows } = parseCsv(files[name]);
+    const stride = Math.max(1, Math.floor(rows.length / 1500));
+    const kept = rows.filter((_, i) => i % stride === 0 || i === rows.length - 1);
+    const unit = timeUnit(Number(rows[rows.length - 1]?.[0] ?? 1));
+    const time = kept.map((row) => Number(row[0]) / unit.factor);
+    const column = (title: string, factor = 1) => kept.map((row) => Number(row[header.indexOf(title)]) / factor);
+    const own = header.filter((title) => title !== "time" && !title.includes(":"));
+    const charts = own.flatMap((title) => {
+      const shown = picture?.responses[title]?.unit ?? engineering("");
+      const values = column(title, shown.factor);
+      if (name === "uncertainty.csv") {
+        const deviation = header.includes(`${title}:deviation`) ? column(`${title}:deviation`, shown.factor) : null;
+        const bands = deviation
+          ? [
+              { name: "+ 2 deviations", x: time, y: values.map((v, i) => v + 2 * deviation[i]), color: "start", width: 1, dashed: true },
+              { name: "− 2 deviations", x: time, y: values.map((v, i) => v - 2 * deviation[i]), color: "start", width: 1, dashed: true },
+            ]
+          : [];
+        return [lineChart({ title: words(title), yTitle: shown.name, xTitle: `time [${unit.name}]`, series: [{ name: words(title), x: time, y: values, color: "accent" }, ...bands] }).element];
+      }
+      const variables = header.filter((one) => one.startsWith(`${title}:`));
+      const colors = ["accent", "more", "good", "drive", "limit", "soft"];
+      return [
+        lineChart({
+          title: words(title),
+          yTitle: shown.name,
+          xTitle: `time [${unit.name}]`,
+          series: variables.slice(0, 6).map((one, i) => {
+            const variable = one.slice(title.length + 1);
+            const size = picture?.variables[variable]?.start ?? 1;
+            return { name: words(variable), x: time, y: column(one, shown.factor).map((d) => 0.01 * size * d), color: colors[i] };
+          }),
+        }).element,
+      ];
+    });
+    if (charts.length) {
+      sections.push(
+        section(name === "uncertainty.csv" ? "Histories with their scatter" : "Sensitivities over time", name === "uncertainty.csv" ? "Two standard deviations on either side." : "What a response changes by if a variable grows by one percent.", h("div.grid", {}, charts)),
+      );
+    }
+  }
+  return sections;
+}
+

@@ -1,0 +1,193 @@
+// The pages in a real browser: Debian's Chromium without a screen.
+//
+//   PLEUEL=build/release/bin/pleuel CHROMIUM=/usr/bin/chromium node report/test/browser_test.mjs
+//
+// Screenshots of every page in both schemes and widths are left in build/release/report/screenshots.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { dirname, join, resolve } from "node:path";
+import { after, before, test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { chromium } from "playwright-core";
+
+const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
+const program = resolve(process.env.PLEUEL ?? join(root, "build/release/bin/pleuel"));
+const shots = resolve(process.env.SCREENSHOTS ?? join(root, "build/release/report/screenshots"));
+const executablePath = process.env.CHROMIUM ?? "/usr/bin/chromium";
+const drawing = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+const folder = mkdtempSync(join(tmpdir(), "pleuel-pages-"));
+
+// Coarse steps and the ramp only: a run takes a second.
+const quick = [
+  ["--set", "/simulation/step=0.2 ms"],
+  ["--set", "/simulation/end_time=20 ms"],
+  ["--set", "/scene/joints/bearing/drive/ramp=20 ms"],
+].flat();
+const problem = (name) => join(root, "problems", `${name}.json`);
+
+/** Name of the page: command line that makes it. */
+const runs = {
+  optimize: ["optimize", problem("slider_crank"), ...quick],
+  simulate: ["simulate", problem("robot_arm"), "--set", "/simulation/step=2 ms"],
+  pareto: ["pareto", problem("slider_crank"), ...quick, "--set", "/pareto/points=3"],
+  gradient: ["gradient", problem("slider_crank"), ...quick, "--histories"],
+};
+const pageOf = (name) => join(folder, name === "show" ? "show.html" : `${name}/report.html`);
+
+let browser;
+
+before(async () => {
+  mkdirSync(shots, { recursive: true });
+  for (const [name, words] of Object.entries(runs)) {
+    const words_ = [...words, "-o", join(folder, name)];
+    try {
+      execFileSync(program, words_, { stdio: "pipe" });
+    } catch (error) {
+      if (error.status !== 4) throw error; // ended without a verified optimum: a page all the same
+    }
+  }
+  execFileSync(program, ["show", problem("robot_arm"), "-o", pageOf("show")], { stdio: "pipe" });
+  browser = await chromium.launch({ executablePath, args: drawing });
+});
+
+after(async () => {
+  await browser?.close();
+  rmSync(folder, { recursive: true });
+});
+
+async function open(name, { width = 1280, height = 900, scheme = "light", from = browser } = {}) {
+  const tab = await from.newPage({
+    viewport: { width, height },
+    colorScheme: scheme,
+    reducedMotion: "reduce",
+    acceptDownloads: true,
+  });
+  const complaints = [];
+  tab.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
+  tab.on("pageerror", (error) => complaints.push(String(error)));
+  await tab.goto(`file://${pageOf(name)}`);
+  await tab.waitForSelector("footer");
+  await tab.waitForTimeout(300);
+  return { tab, complaints };
+}
+
+const result = (name) => JSON.parse(readFileSync(join(folder, name, "result.json"), "utf8"));
+
+/** What the CSV button of a chart saves. */
+async function savedCurve(tab, title) {
+  const chart = tab.locator(`figure[data-title="${title}"]`).first();
+  await chart.scrollIntoViewIfNeeded();
+  const [file] = await Promise.all([tab.waitForEvent("download"), chart.getByText("CSV").click()]);
+  const lines = readFileSync(await file.path(), "utf8").trim().split("\n").slice(1);
+  return lines.map((line) => line.split(",")).map(([series, x, y]) => ({ series, x: Number(x), y: Number(y) }));
+}
+
+for (const name of [...Object.keys(runs), "show"]) {
+  test(`${name}: no complaints and nothing beside the page, wide and narrow, light and dark`, async () => {
+    for (const width of [1280, 390]) {
+      for (const scheme of ["light", "dark"]) {
+        const { tab, complaints } = await open(name, { width, scheme });
+        const wide = await tab.evaluate(() => document.documentElement.scrollWidth);
+        assert.ok(wide <= width, `${width} px: the page is ${wide} px wide`);
+        await tab.screenshot({ path: join(shots, `${name}-${width}-${scheme}.png`), fullPage: true });
+        assert.deepEqual(complaints, []);
+        await tab.close();
+      }
+    }
+  });
+}
+
+test("an optimization begins with what was won and the verdict", async () => {
+  const { tab } = await open("optimize");
+  const { objective, status } = result("optimize");
+  const gain = Math.abs(100 * (objective.value / objective.start - 1)).toFixed(1);
+  assert.ok((await tab.locator("h1").innerText()).includes(`${gain} %`));
+  assert.match(await tab.locator(".hero .badge").innerText(), status === "verified" ? /Verified/ : /./);
+  await tab.close();
+});
+
+test("charts hold the numbers of result.json", async () => {
+  const { tab } = await open("optimize");
+  const { responses } = result("optimize");
+  const curve = await savedCurve(tab, "crank stress");
+  const highest = (series) => Math.max(...curve.filter((point) => point.series === series).map((point) => point.y));
+  // Between steps the peak is that of a parabola.
+  const near = (shown, value) => assert.ok(Math.abs(shown - value) < 3e-3 * value, `${shown} is not ${value}`);
+  near(highest("optimum"), responses.crank_stress.value / 1e6);
+  near(highest("start"), responses.crank_stress.start / 1e6);
+  const label = await tab.locator('figure[data-title="crank stress"] svg').first().innerHTML();
+  assert.ok(label.includes((responses.crank_stress.value / 1e6).toPrecision(4)), "the peak is labelled with the result");
+  await tab.close();
+});
+
+test("the mechanism moves when it is played, and stands when it is stopped", async () => {
+  const { tab } = await open("optimize");
+  const picture = () => tab.locator(".stage canvas").screenshot();
+  const clock = () => tab.locator(".clock").innerText();
+  const still = await picture();
+  await tab.keyboard.press(" ");
+  await tab.waitForTimeout(900);
+  await tab.keyboard.press(" ");
+  const moved = await picture();
+  assert.notDeepEqual(still, moved);
+  assert.notEqual(await clock(), "0 s / 20 ms");
+  const stopped = await clock();
+  await tab.waitForTimeout(300);
+  assert.equal(await clock(), stopped);
+  await tab.keyboard.press("ArrowRight");
+  assert.notEqual(await clock(), stopped);
+  await tab.close();
+});
+
+test("a click on a member shows what is known of it", async () => {
+  const { tab } = await open("optimize");
+  const bodies = ["crank", "rod"];
+  for (const [index, name] of bodies.entries()) {
+    await tab.evaluate(() => window.pleuelPlayer.goTo(0.012));
+    await tab.evaluate(() => window.pleuelPlayer.stage.canvas.scrollIntoView({ block: "center" }));
+    const { x, y } = await tab.evaluate((i) => window.pleuelPlayer.stage.screenPoint(i), index);
+    await tab.mouse.click(x, y);
+    assert.match(await tab.locator(".inspector h3").first().innerText(), new RegExp(name));
+    assert.ok((await tab.locator(`.inspector figure[data-title="${name} stress"]`).count()) === 1);
+  }
+  await tab.close();
+});
+
+test("a limit leads to its instant", async () => {
+  const { tab } = await open("optimize");
+  const link = tab.locator(".limits .link").first();
+  const instant = await link.innerText();
+  await link.click();
+  assert.ok((await tab.locator(".clock").innerText()).startsWith(instant));
+  await tab.close();
+});
+
+test("the scheme can be changed", async () => {
+  const { tab } = await open("simulate");
+  const paper = () => tab.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
+  const before = await paper();
+  await tab.getByLabel("light or dark").click();
+  assert.notEqual(await paper(), before);
+  await tab.close();
+});
+
+test("without WebGL everything but the drawing is there", async () => {
+  const plain = await chromium.launch({ executablePath, args: ["--no-sandbox", "--disable-gpu", "--disable-software-rasterizer", "--disable-3d-apis"] });
+  const { tab } = await open("optimize", { from: plain });
+  assert.equal(await tab.locator(".no-drawing").count(), 1);
+  assert.ok((await tab.locator(".limits li").count()) >= 4);
+  assert.ok((await tab.locator(".inspector figure svg").count()) >= 1);
+  await plain.close();
+});
+
+test("a page of a run opens soon", async () => {
+  const begin = Date.now();
+  const { tab } = await open("optimize");
+  // Loading, drawing and 300 ms of waiting; on a loaded machine of two cores.
+  assert.ok(Date.now() - begin < 8000);
+  const spent = await tab.evaluate(() => performance.getEntriesByType("navigation")[0].domInteractive);
+  assert.ok(spent < 6000, `interactive after ${spent} ms`);
+  await tab.close();
+});

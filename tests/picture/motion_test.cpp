@@ -1,0 +1,106 @@
+#include "picture/motion.hpp"
+
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "picture/frames_of_motion.hpp"
+#include "tests/picture/picture_problems.hpp"
+
+namespace pleuel::test {
+namespace {
+
+constexpr double pi = 3.141592653589793;
+
+std::vector<int> all_steps(const Analysis& analysis) {
+  std::vector<int> steps(static_cast<std::size_t>(analysis.trajectory.steps()) + 1);
+  std::iota(steps.begin(), steps.end(), 0);
+  return steps;
+}
+
+Eigen::Quaterniond rotation_at(const BodyMotion& body, Eigen::Index instant) {
+  return Eigen::Quaterniond(Eigen::Vector4d(body.rotations.col(instant).head(4)));
+}
+
+/// A drive of constant speed ω: every place of a rigid arm is at s (cos ωt, sin ωt).
+TEST(Motion, OfARigidArmIsACircle) {
+  const ProblemFile rigid = turning_arm(R"("rigid": true)");
+  const auto analysis = analyze(rigid, start_design(rigid));
+  const Motion motion = sample_motion(rigid.scene, *analysis, all_steps(*analysis));
+  const BodyMotion& arm = motion.bodies.front();
+  const std::size_t last = arm.stations.size() - 1;
+  for (Eigen::Index i = 0; i < motion.time.size(); ++i) {
+    const double angle = 20.0 * motion.time(i);
+    const Eigen::Vector3d tip = arm.positions.col(i).tail<3>();
+    EXPECT_NEAR(tip.x(), 0.4 * std::cos(angle), 1e-9);
+    EXPECT_NEAR(tip.y(), 0.4 * std::sin(angle), 1e-9);
+    const Eigen::Vector3d x = rotation_at(arm, i) * Eigen::Vector3d::UnitX();
+    EXPECT_NEAR(x.x(), std::cos(angle), 1e-9);
+    EXPECT_NEAR(x.y(), std::sin(angle), 1e-9);
+    EXPECT_LT((motion.bodies[1].positions.col(i) - tip).norm(), 1e-8) << "the ball is on the tip";
+  }
+  EXPECT_EQ(arm.stations[last], 1.0);
+  EXPECT_EQ(arm.stress.size(), 0) << "a rigid body has no stress";
+}
+
+/// Whatever coordinates the beam has.
+class MotionOfBeams : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(MotionOfBeams, EqualsTheResponsesOfTheSamePlaces) {
+  const ProblemFile problem = turning_arm(GetParam());
+  const auto analysis = analyze(problem, start_design(problem));
+  const Motion motion = sample_motion(problem.scene, *analysis, all_steps(*analysis));
+  const BodyMotion& arm = motion.bodies.front();
+  for (Eigen::Index i = 0; i < motion.time.size(); ++i) {
+    const Eigen::Vector3d tip = arm.positions.col(i).tail<3>();
+    EXPECT_NEAR(tip.x(), analysis->histories[2](0, i), 1e-12);
+    EXPECT_NEAR(tip.y(), analysis->histories[3](0, i), 1e-12);
+    EXPECT_EQ(arm.stress(0, i), analysis->histories[1].col(i).maxCoeff());
+  }
+}
+
+/// No place sees more than the largest stress of the body, and the clamped end sees it.
+TEST_P(MotionOfBeams, HasTheLargestStressOfTheBody) {
+  const ProblemFile problem = turning_arm(GetParam());
+  const auto analysis = analyze(problem, start_design(problem));
+  const Motion motion = sample_motion(problem.scene, *analysis, all_steps(*analysis));
+  const double largest = analysis->histories[0].maxCoeff();
+  EXPECT_NEAR(motion.bodies.front().stress.maxCoeff(), largest, 1e-9 * largest);
+}
+
+INSTANTIATE_TEST_SUITE_P(Beams, MotionOfBeams,
+                         ::testing::Values(R"("frame": "tangent")", R"("frame": "chord")",
+                                           R"("frame": "mean-axis")",
+                                           R"("reduction": {"modes": 2})", R"("frames": 2)"));
+
+TEST(FramesOfMotion, AreCloseTogetherAndHaveThePeaks) {
+  const ProblemFile problem =
+      turning_arm(R"("frame": "tangent")", {"/scene/joints/hub/drive/speed=60"});
+  const auto analysis = analyze(problem, start_design(problem));
+  const std::vector<int> steps = frames_of_motion(*analysis, 1000);
+  const Motion motion = sample_motion(problem.scene, *analysis, steps);
+  EXPECT_EQ(steps.front(), 0);
+  EXPECT_EQ(steps.back(), analysis->trajectory.steps());
+  for (std::size_t i = 1; i < steps.size(); ++i) {
+    EXPECT_GT(steps[i], steps[i - 1]);
+    const double turn =
+        rotation_at(motion.bodies.front(), static_cast<Eigen::Index>(i))
+            .angularDistance(rotation_at(motion.bodies.front(), static_cast<Eigen::Index>(i) - 1));
+    EXPECT_LT(turn, 6.0 * pi / 180.0);  // 4 degrees, and up to a step of 1.7 more
+  }
+  for (const Sample& sample : analysis->reductions.front().samples) {
+    EXPECT_NE(std::find(steps.begin(), steps.end(), sample.step), steps.end());
+  }
+}
+
+TEST(FramesOfMotion, AreNoMoreThanAskedForAndThePeaks) {
+  const ProblemFile problem = turning_arm(R"("frame": "tangent")");
+  const auto analysis = analyze(problem, start_design(problem));
+  const std::size_t peaks = 4 * 3;  // four responses, up to three samples each
+  EXPECT_LE(frames_of_motion(*analysis, 20).size(), 20 + 1 + peaks);
+}
+
+}  // namespace
+}  // namespace pleuel::test
