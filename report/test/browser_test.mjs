@@ -64,6 +64,7 @@ async function open(name, { width = 1280, height = 900, scheme = "light", from =
     reducedMotion: "reduce",
     acceptDownloads: true,
   });
+  tab.setDefaultTimeout(120000); // of machines that do other things besides
   const complaints = [];
   tab.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
   tab.on("pageerror", (error) => complaints.push(String(error)));

@@ -349,7 +349,7 @@ export class Stage {
         high[i] = Math.max(high[i], d.dot(axis));
       });
     }
-    const margin = 0.085 * this.view.size;
+    const margin = (this.options.showsAxes ? 0.16 : 0.085) * this.view.size;
     const [middleX, middleY] = [0, 1].map((i) => (low[i] + high[i]) / 2);
     const half = Math.max((high[1] - low[1]) / 2 + margin, (((high[0] - low[0]) / 2 + margin) * height) / width);
     this.camera.top = middleY + half;
