@@ -64,6 +64,7 @@ async function open(name, { width = 1280, height = 900, scheme = "light", from =
     reducedMotion: "reduce",
     acceptDownloads: true,
   });
+  tab.setDefaultTimeout(120000); // of machines that do other things besides
   const complaints = [];
   tab.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
   tab.on("pageerror", (error) => complaints.push(String(error)));
@@ -126,13 +127,13 @@ test("the mechanism moves when it is played, and stands when it is stopped", asy
   const { tab } = await open("optimize");
   const picture = () => tab.locator(".stage canvas").screenshot();
   const clock = () => tab.locator(".clock").innerText();
+  await tab.evaluate(() => window.pleuelPlayer.goTo(0.012)); // it stands nearly still before
   const still = await picture();
   await tab.keyboard.press(" ");
-  await tab.waitForTimeout(900);
+  await tab.waitForFunction(() => window.pleuelPlayer.state().time > 0.014);
   await tab.keyboard.press(" ");
   const moved = await picture();
   assert.notDeepEqual(still, moved);
-  assert.notEqual(await clock(), "0 s / 20 ms");
   const stopped = await clock();
   await tab.waitForTimeout(300);
   assert.equal(await clock(), stopped);

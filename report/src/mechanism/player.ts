@@ -48,6 +48,7 @@ export function makePlayer(options: PlayerOptions): Player {
   const { picture } = options;
   const end = picture.scene.end_time;
   const isMoving = picture.designs.some((design) => design.motion);
+  const hasStress = picture.designs.some((design) => design.motion?.bodies.some((body) => body.stress));
   const listeners: ((time: number) => void)[] = [];
   const host = h("div.stage", {
     tabindex: 0,
@@ -140,7 +141,7 @@ export function makePlayer(options: PlayerOptions): Player {
         slider,
         clock,
         choice("speed", speeds(end), "1", (value) => (speed = Number(value))),
-        choice(
+        hasStress && choice(
           "deformation",
           scales.map((s) => [String(s), `× ${s}`]),
           String(scale),
@@ -165,7 +166,7 @@ export function makePlayer(options: PlayerOptions): Player {
         }),
       );
     }
-    if (isMoving) {
+    if (hasStress) {
       corner.append(
         choice("colour", [["stress", "stress"], ["plain", "plain"]], "stress", (value) => {
           shown.setStressShown(value === "stress");

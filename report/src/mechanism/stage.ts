@@ -215,7 +215,15 @@ export class Stage {
     if (Math.abs(up.dot(normal)) > 0.95) up = Math.abs(normal.y) > 0.9 ? new Vector3(0, 0, 1) : new Vector3(0, 1, 0);
     if (plane) up.addScaledVector(normal, -up.dot(normal)).normalize();
     else if (gravity.length() > 0 && Math.abs(normal.dot(up)) > 0.5) normal.set(0, 0, 1);
-    return { size, normal, up, isPlanar: !!plane };
+    return { size, symbolSize: Math.min(size, 14 * this.closestJoints()), normal, up, isPlanar: !!plane };
+  }
+
+  /** Of the places of joints that are apart, the typical distance to the next one [m]. */
+  private closestJoints(): number {
+    const places = this.motions[0].design.geometry.joints.map((joint) => new Vector3(...joint.places[0].at));
+    const distances = places.map((p) => Math.min(...places.map((q) => p.distanceTo(q)).filter((d) => d > 1e-9)));
+    const known = distances.filter(Number.isFinite).sort((a, b) => a - b);
+    return known.length ? known[Math.floor(known.length / 2)] : Infinity;
   }
 
   /** Places that all motions reach. */
@@ -241,7 +249,7 @@ export class Stage {
   private makeActor(motion: Motion, isGhost: boolean): Actor {
     const { scene } = this.options;
     const group = new Group();
-    const size = this.view.size;
+    const size = this.view.symbolSize;
     const members = scene.bodies.map((body, i) =>
       makeMember(i, body, motion.design.geometry.bodies[i], motion, size),
     );
@@ -349,7 +357,7 @@ export class Stage {
         high[i] = Math.max(high[i], d.dot(axis));
       });
     }
-    const margin = 0.085 * this.view.size;
+    const margin = (this.options.showsAxes ? 0.16 : 0.085) * this.view.size;
     const [middleX, middleY] = [0, 1].map((i) => (low[i] + high[i]) / 2);
     const half = Math.max((high[1] - low[1]) / 2 + margin, (((high[0] - low[0]) / 2 + margin) * height) / width);
     this.camera.top = middleY + half;

@@ -25,6 +25,7 @@ import type { BodyPose, Motion } from "./pose";
 
 export interface View {
   size: number; // of the mechanism [m]
+  symbolSize: number; // of a mechanism that symbols are made for: smaller where joints are close [m]
   normal: Vector3; // of what is looked at: the plane of motion, or from the side
   up: Vector3;
   isPlanar: boolean;
@@ -142,7 +143,7 @@ export function jointSymbol(motion: Motion, j: number, view: View): Symbol3 {
   const joint = motion.scene.joints[j];
   const places = motion.design.geometry.joints[j].places;
   const object = new Group();
-  const r = 0.02 * view.size;
+  const r = 0.02 * view.symbolSize;
   const axis = new Vector3(...joint.axis).normalize();
   const isGrounded = joint.bodies.includes("ground");
   const slides = ["prismatic", "point-on-line", "cylindrical"].includes(joint.type);
@@ -277,7 +278,7 @@ function straightArrow(name: string, r: number): Arrow {
 export function loadSymbol(motion: Motion, l: number, view: View): Symbol3 | null {
   const load = motion.scene.loads[l];
   const geometry = motion.design.geometry.loads[l];
-  const r = 0.02 * view.size;
+  const r = 0.02 * view.symbolSize;
   const value = geometry.value;
   if (load.type === "spring") return springSymbol(motion, l, r);
   if ((load.type !== "force" && load.type !== "torque") || !value || !load.direction) return null;

@@ -12,7 +12,7 @@ export function pricesPage(data: ReportData): HTMLElement[] {
   const value = result.objective?.value || 1;
   const prices = Object.entries((result.prices ?? {}) as Record<string, Document>)
     .map(([pointer, one]) => ({ pointer, one, gain: one.per_percent / Math.abs(value) }))
-    .filter(({ gain }) => gain)
+    .filter(({ gain }) => Math.abs(gain) > 5e-5)
     .slice(0, most);
   const largest = Math.max(...prices.map(({ gain }) => Math.abs(gain)), 1e-12);
   const bars = prices.map(({ pointer, one, gain }) => {

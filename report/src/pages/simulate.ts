@@ -70,6 +70,9 @@ function limitsTable(data: ReportData): HTMLElement | null {
   );
 }
 
+/** Of mechanisms with many joints the forces in them are shown one by one. */
+const mostCharts = 24;
+
 export function historiesSection(picture: Picture, shown: Viewing | null): HTMLElement | null {
   const unit = timeUnit(picture.scene.end_time);
   const design = picture.designs[0];
@@ -78,7 +81,9 @@ export function historiesSection(picture: Picture, shown: Viewing | null): HTMLE
     ...(design.companions ?? []).map((one) => ({ one, meaning: one })),
   ].filter(({ one }) => one.history);
   if (!all.length) return null;
-  const charts = all.map(({ one, meaning: given }) => {
+  const hasMany = all.length > mostCharts;
+  const drawn = hasMany ? all.filter(({ meaning }) => meaning.type !== "reaction-force") : all;
+  const charts = drawn.map(({ one, meaning: given }) => {
     const meaning = { ...given, unit: inThousands(given.unit, Math.abs(one.value) / given.unit.factor) };
     const chart = lineChart({
       title: words(one.name),
@@ -98,7 +103,10 @@ export function historiesSection(picture: Picture, shown: Viewing | null): HTMLE
     shown?.player.onTime((time) => chart.setCursor(time / unit.factor));
     return chart.element;
   });
-  return section("Histories", "Responses of the file, then what else is known: drives, joints, energies.", h("div.grid", {}, charts));
+  const note = hasMany
+    ? "Responses of the file, then drives and energies. Click a joint in the drawing for the force in it."
+    : "Responses of the file, then what else is known: drives, joints, energies.";
+  return section("Histories", note, h("div.grid", {}, charts));
 }
 
 /** `pleuel show`: as the file places it. */

@@ -155,14 +155,14 @@ function isTableOfObjects(value: Document): boolean {
   return entries.length > 0 && entries.every((one) => one && typeof one === "object" && !Array.isArray(one));
 }
 
-function cellText(value: unknown): string {
+function cellText(value: unknown, key = ""): string {
   if (value === null || value === undefined) return "–";
   if (typeof value === "number") return number(value, 4);
   if (typeof value === "boolean") return value ? "yes" : "no";
-  if (Array.isArray(value)) return value.length > 8 ? `${value.length} entries` : value.map(cellText).join(", ");
+  if (Array.isArray(value)) return value.length > 8 ? `${value.length} entries` : value.map((one) => cellText(one)).join(", ");
   if (typeof value === "object") {
     const numbers = Object.entries(value as Document).filter((entry): entry is [string, number] => typeof entry[1] === "number");
-    if (numbers.length > 2 && numbers.length === Object.keys(value).length) {
+    if (key.endsWith("errors") && numbers.length > 2 && numbers.length === Object.keys(value).length) {
       // Of many numbers, as errors of responses, the one that decides.
       const [key, largest] = numbers.reduce((a, b) => (Math.abs(b[1]) > Math.abs(a[1]) ? b : a));
       return `at most ${number(largest, 3)} (${words(key)})`;
@@ -180,7 +180,7 @@ function rowsTable(rows: Document[]): HTMLElement {
   const keys = all.filter((key) => key !== "warnings" && rows.every((row) => isPlain(row?.[key])) && rows.some((row) => row?.[key] !== null && row?.[key] !== undefined));
   return table(
     keys.map((key) => ({ title: words(key), left: rows.some((row) => typeof row?.[key] !== "number") })),
-    rows.map((row) => keys.map((key) => cellText(row?.[key]))),
+    rows.map((row) => keys.map((key) => cellText(row?.[key], key))),
   );
 }
 
@@ -195,7 +195,7 @@ export function csvCharts(data: ReportData): HTMLElement[] {
   for (const name of ["uncertainty.csv", "gradients.csv"]) {
     if (!files[name]) continue;
     const { header, rows } = parseCsv(files[name]);
-    const stride = Math.max(1, Math.floor(rows.length / 1500));
+    const stride = Math.max(1, Math.floor(rows.length / 700));
     const kept = rows.filter((_, i) => i % stride === 0 || i === rows.length - 1);
     const unit = timeUnit(Number(rows[rows.length - 1]?.[0] ?? 1));
     const time = kept.map((row) => Number(row[0]) / unit.factor);
@@ -208,8 +208,8 @@ export function csvCharts(data: ReportData): HTMLElement[] {
         const deviation = header.includes(`${title}:deviation`) ? column(`${title}:deviation`, shown.factor) : null;
         const bands = deviation
           ? [
-              { name: "+ 2 deviations", x: time, y: values.map((v, i) => v + 2 * deviation[i]), color: "start", width: 1, dashed: true },
-              { name: "− 2 deviations", x: time, y: values.map((v, i) => v - 2 * deviation[i]), color: "start", width: 1, dashed: true },
+              { name: "+ 2 deviations", x: time, y: values.map((v, i) => v + 2 * deviation[i]), color: "start", width: 1 },
+              { name: "− 2 deviations", x: time, y: values.map((v, i) => v - 2 * deviation[i]), color: "start", width: 1 },
             ]
           : [];
         return [lineChart({ title: words(title), yTitle: shown.name, xTitle: `time [${unit.name}]`, series: [{ name: words(title), x: time, y: values, color: "accent" }, ...bands] }).element];
