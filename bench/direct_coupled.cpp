@@ -57,7 +57,7 @@ class CoupledBody final : public BorrowedTerm {
     products_.v = state.v.segment(frame.offset + m, n);
     products_.a = state.a.segment(frame.offset + m, n);
     for (const auto& [variable, seeded] : model_.beam_x) {
-      const Invariants<double> change = derivative_of(beam_invariants(seeded, *model_.coordinates));
+      const Invariants<double> change = derivative_of(beam_invariants(seeded, model_.coordinates));
       evaluate_body(change, motion, gravity_, products_);
       auto column = columns.col(variable);
       add_body_forces(change, frame, motion, products_, frame.offset, column);

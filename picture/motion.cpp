@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 
 #include <Eigen/Geometry>
 
@@ -145,16 +146,16 @@ class BodySampler {
   }
 
   void add_imported_places(const Model& model) {
-    std::vector<const BodyPlace*> places;
-    for (const BodyPlace& place : parts_.front()->constants->places) places.push_back(&place);
-    std::stable_sort(places.begin(), places.end(), [](const BodyPlace* a, const BodyPlace* b) {
-      return a->position.x() < b->position.x();
-    });
-    for (const BodyPlace* place : places) {
-      motion_.stations.push_back(place->position.x());
+    const BodyPlaces& places = parts_.front()->places;
+    std::vector<int> order(static_cast<std::size_t>(places.size()));
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return places.positions(0, a) < places.positions(0, b); });
+    for (const int place : order) {
+      motion_.stations.push_back(places.positions(0, place));
       motion_.parts.push_back(0);
       ResponseSettings settings = place_settings(motion_.body, 0.0, 0);
-      settings.place = place->name;
+      settings.place = places.names[static_cast<std::size_t>(place)];
       add_position(settings, model);
     }
   }

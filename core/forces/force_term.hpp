@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/forces/force_data.hpp"
-#include "core/forces/marker_forces.hpp"
+#include "core/frame/marker_kinematics.hpp"
+#include "core/frame/number_data.hpp"
 #include "core/system/term.hpp"
 
 namespace pleuel {
@@ -13,11 +13,11 @@ namespace pleuel {
 ///
 ///     struct Law {
 ///       static constexpr std::size_t marker_count;
-///       template <class Scalar> using Data;         // its numbers, see force_data.hpp
+///       template <class Scalar> using Data;         // its numbers, see number_data.hpp
 ///       std::string name;
 ///       // Q
 ///       template <class Scalar>
-///       void add_forces(const Data<Scalar>&, double time, MarkerForces<Scalar, …>&) const;
+///       void add_forces(const Data<Scalar>&, double time, MarkerKinematics<Scalar, …>&) const;
 ///       // whether ∂Q(row)/∂(col) or its rate can differ from zero
 ///       bool couples(const LocalCoordinate& row, const LocalCoordinate& col) const;
 ///     };
@@ -117,7 +117,7 @@ class ForceTerm : public Term {
 
  private:
   template <class Scalar>
-  using Local = typename MarkerForces<Scalar, marker_count>::Coordinates;
+  using Local = typename MarkerKinematics<Scalar, marker_count>::Coordinates;
   /// Columns at a time: few forces in joints and springs depend on more.
   static constexpr int width = max_marker_size;
   using Wide = DualOf<width>;
@@ -133,7 +133,7 @@ class ForceTerm : public Term {
   template <class Scalar>
   Local<Scalar> evaluate(const Data<Scalar>& data, double time, const Local<Scalar>& q,
                          const Local<Scalar>& v) const {
-    MarkerForces<Scalar, marker_count> markers(markers_, q, v);
+    MarkerKinematics<Scalar, marker_count> markers(markers_, q.data(), v.data());
     law_.add_forces(data, time, markers);
     return markers.forces();
   }

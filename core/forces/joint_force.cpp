@@ -18,7 +18,7 @@ struct JointForceLaw {
   template <class Scalar>
   using Data = JointForceData<Scalar>;
   template <class Scalar>
-  using Markers = MarkerForces<Scalar, 2>;
+  using Markers = MarkerKinematics<Scalar, 2>;
 
   std::string name;
   RelativeCoordinate coordinate;
@@ -59,7 +59,7 @@ struct JointForceLaw {
   template <class Scalar>
   void add_planar_moment(const Data<Scalar>& data, double time, Markers<Scalar>& markers) const {
     const Scalar s = sense * (markers.planar_angle(1) - markers.planar_angle(0) - data.offset);
-    const Scalar rate = sense * (markers.planar_rate(1) - markers.planar_rate(0));
+    const Scalar rate = sense * (markers.planar_angle(1, 1) - markers.planar_angle(0, 1));
     const Scalar moment = sense * force<Scalar>(data, time, s, rate);
     markers.add_planar_torque(1, moment);
     markers.add_planar_torque(0, -moment);

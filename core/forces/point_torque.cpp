@@ -16,7 +16,8 @@ struct PointTorqueLaw {
   LoadDirection load_direction;
 
   template <class Scalar>
-  void add_forces(const Data<Scalar>& data, double time, MarkerForces<Scalar, 1>& marker) const {
+  void add_forces(const Data<Scalar>& data, double time,
+                  MarkerKinematics<Scalar, 1>& marker) const {
     const Vector3<Scalar> local =
         load_direction == LoadDirection::body
             ? marker.local_direction(0, data.direction)

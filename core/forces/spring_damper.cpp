@@ -20,7 +20,8 @@ struct SpringDamperLaw {
   std::string name;
 
   template <class Scalar>
-  void add_forces(const Data<Scalar>& data, double time, MarkerForces<Scalar, 2>& markers) const {
+  void add_forces(const Data<Scalar>& data, double time,
+                  MarkerKinematics<Scalar, 2>& markers) const {
     using std::sqrt;
     const Vector3<Scalar> D =
         markers.position(1, data.points[1]) - markers.position(0, data.points[0]);

@@ -37,6 +37,15 @@ struct JointData {
   Scalar offset = Scalar(0);                ///< of planar_angle [rad]
   Scalar length = Scalar(0);                ///< of distance [m]
   TimeLaw<Scalar> drive;
+
+  template <class Function, class... Data>
+  static void visit(Function&& function, Data&... data) {
+    for (std::size_t m = 0; m < 2; ++m) function(data.points[m]...);
+    function(data.directions...);
+    function(data.offset...);
+    function(data.length...);
+    function(data.drive...);
+  }
 };
 
 struct JointTopology {

@@ -1,30 +1,15 @@
 #pragma once
 
-#include "core/frame/elastic_rotation.hpp"
+#include "core/frame/marker_kinematics.hpp"
 #include "core/joints/joint.hpp"
 #include "core/system/term.hpp"
 
 /// The equations of a joint in any scalar type: value, tangent and design derivative are one text.
 ///
-/// All equations are linear or bilinear in vectors attached to a marker,
-///     points: y = r + A (p₀ + u),    directions: y = A R(ψ) s
-/// (u, ψ: elastic displacement and rotation, R: elastic_rotation.hpp), so that Φ̇ and Φ̈ follow by
-/// Leibniz' rule, and the generalized forces Φ_qᵀ λ by the transposed derivatives of y.
+/// All equations are linear or bilinear in points and directions attached to a marker
+/// (marker_kinematics.hpp), so that Φ̇ and Φ̈ follow by Leibniz' rule, and the generalized forces
+/// Φ_qᵀ λ by the transposed derivatives of these vectors.
 namespace pleuel {
-
-/// Coordinates of one marker: frame coordinates, then its active elastic ones.
-template <class Scalar>
-struct MarkerMotion {
-  FrameMotion<Scalar> frame;
-  std::array<Vector3<Scalar>, 3> u, psi;  ///< value, rate, acceleration
-  ElasticRotation<Scalar> turn;           ///< by ψ
-  /// Of that turn against the frame, local axes.
-  Vector3<Scalar> spin = Vector3<Scalar>::Constant(Scalar(0)), spin_rate = spin;
-};
-
-/// A vector with its first two time derivatives.
-template <class Scalar>
-using Motion = std::array<Vector3<Scalar>, 3>;
 
 /// What a joint does to its second body, global axes: Φ_qᵀ λ is a load on the left-hand side, so
 ///     force = −(∂Φ/∂P₂)ᵀ λ at P₂,    moment = −(∂Φ/∂θ₂)ᵀ λ about P₂
@@ -37,87 +22,30 @@ struct Wrench {
 template <class Scalar>
 class JointEvaluation {
  public:
-  JointEvaluation(const JointTopology& topology, const JointData<Scalar>& data, double time)
-      : topology_(topology), data_(data) {
+  using Kinematics = MarkerKinematics<Scalar, 2>;
+
+  /// @param q, v, a   local coordinates: first marker's, then second marker's
+  JointEvaluation(const JointTopology& topology, const JointData<Scalar>& data, double time,
+                  const Scalar* q, const Scalar* v, const Scalar* a)
+      : topology_(topology), data_(data), markers_(topology.markers, q, v, a) {
     if (topology.is_driven) drive_ = data.drive.at(time);
   }
 
-  /// @param q, v, a   local coordinates: first marker's, then second marker's
-  void set_state(const Scalar* q, const Scalar* v, const Scalar* a) {
-    int first = 0;
-    for (std::size_t m = 0; m < 2; ++m) {
-      start_[m] = first;
-      first += set_marker(m, q + first, v + first, a + first);
-    }
-  }
-
-  /// Adds Φ_qᵀ λ to `forces` (local coordinates) and writes the equations at the level.
-  void evaluate(ConstraintLevel level, const Scalar* lambda, Scalar* forces, Scalar* equations) {
-    forces_ = forces;
-    wrench_ = {};
+  /// Writes the equations at the level.
+  void evaluate(ConstraintLevel level, const Scalar* lambda, Scalar* equations) {
     for (std::size_t i = 0; i < topology_.equations.size(); ++i) {
       equations[i] = evaluate_equation(topology_.equations[i], level, lambda[i]);
     }
   }
 
-  /// What the joint did to its second body in the last evaluation.
+  /// Φ_qᵀ λ on the local coordinates.
+  const typename Kinematics::Coordinates& forces() const { return markers_.forces(); }
+
+  /// What the joint does to its second body.
   const Wrench<Scalar>& wrench() const { return wrench_; }
 
  private:
-  int set_marker(std::size_t m, const Scalar* q, const Scalar* v, const Scalar* a) {
-    const Marker& marker = topology_.markers[m];
-    MarkerMotion<Scalar>& motion = markers_[m];
-    using Map = Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>>;
-    int next = marker.frame.size();
-    motion.frame = frame_motion<Scalar>(marker.frame, Map(q, next), Map(v, next), Map(a, next));
-    if (marker.frame.rotation == RotationCoordinates::angle) {
-      angles_[m] = {q[next - 1], v[next - 1], a[next - 1]};
-    }
-    for (int i = 0; i < 6; ++i) {
-      auto& target = i < 3 ? motion.u : motion.psi;
-      const bool is_active = marker.elastic[static_cast<std::size_t>(i)] >= 0;
-      target[0](i % 3) = is_active ? q[next] : Scalar(0);
-      target[1](i % 3) = is_active ? v[next] : Scalar(0);
-      target[2](i % 3) = is_active ? a[next] : Scalar(0);
-      if (is_active) ++next;
-    }
-    if (!marker.turns()) return next;
-    motion.turn = ElasticRotation<Scalar>(motion.psi[0]);
-    motion.spin = motion.turn.spin(motion.psi[1]);
-    motion.spin_rate = motion.turn.spin_rate(motion.psi[1], motion.psi[2]);
-    return next;
-  }
-
-  Motion<Scalar> to_global(std::size_t m, const Motion<Scalar>& s) const {
-    const FrameMotion<Scalar>& frame = markers_[m].frame;
-    return {Vector3<Scalar>(frame.A * s[0]), Vector3<Scalar>(frame.A_dot * s[0] + frame.A * s[1]),
-            Vector3<Scalar>(frame.A_ddot * s[0] + 2.0 * (frame.A_dot * s[1]) + frame.A * s[2])};
-  }
-
-  Motion<Scalar> local_point(std::size_t m) const {
-    Motion<Scalar> s = markers_[m].u;
-    s[0] += data_.points[m];
-    return s;
-  }
-
-  Motion<Scalar> point(std::size_t m) const {
-    Motion<Scalar> y = to_global(m, local_point(m));
-    y[0] += markers_[m].frame.r;
-    y[1] += markers_[m].frame.r_dot;
-    y[2] += markers_[m].frame.r_ddot;
-    return y;
-  }
-
-  /// R s with its time derivatives, s moving in the undeformed marker.
-  Motion<Scalar> local_direction(std::size_t m, const Motion<Scalar>& s) const {
-    const MarkerMotion<Scalar>& motion = markers_[m];
-    const Vector3<Scalar> turned = motion.turn.turned(s[0]), moved = motion.turn.turned(s[1]);
-    const Vector3<Scalar> carried = motion.spin.cross(turned);
-    return {turned, Vector3<Scalar>(carried + moved),
-            Vector3<Scalar>(motion.spin_rate.cross(turned) +
-                            motion.spin.cross(Vector3<Scalar>(carried + 2.0 * moved)) +
-                            motion.turn.turned(s[2]))};
-  }
+  Motion<Scalar> point(std::size_t m) const { return markers_.point(m, data_.points[m]); }
 
   Motion<Scalar> fixed_direction(int index) const {
     const Vector3<Scalar> zero = Vector3<Scalar>::Constant(Scalar(0));
@@ -137,43 +65,16 @@ class JointEvaluation {
             Vector3<Scalar>(drive_.acceleration * tangent - rate2 * normal)};
   }
 
-  /// Generalized forces of a force g (global axes) on the point of a marker.
+  /// Of a force g, global axes.
   void apply_to_point(std::size_t m, const Vector3<Scalar>& g) {
     if (m == 1) wrench_.force -= g;
-    apply_to_frame(m, g, markers_[m].u[0] + data_.points[m]);
-    const BodyFrame& frame = topology_.markers[m].frame;
-    for (int i = 0; i < frame.translations(); ++i) {
-      forces_[start_[m] + i] += frame.basis.col(i).template cast<Scalar>().dot(g);
-    }
-    apply_to_elastic(m, 0, markers_[m].frame.A.transpose() * g);
+    markers_.add_force(m, g, data_.points[m]);
   }
 
   /// … of g = ∂(…)/∂d on the direction d = A R s of a marker.
   void apply_to_direction(std::size_t m, const Vector3<Scalar>& g, const Vector3<Scalar>& s) {
-    const MarkerMotion<Scalar>& motion = markers_[m];
-    const Vector3<Scalar> turned = motion.turn.turned(s);
-    apply_to_frame(m, g, turned);
-    if (m == 1) wrench_.moment -= Vector3<Scalar>(motion.frame.A * turned).cross(g);
-    const Vector3<Scalar> local = motion.frame.A.transpose() * g;
-    apply_to_elastic(m, 3, motion.turn.generalized(turned.cross(local)));
-  }
-
-  void apply_to_frame(std::size_t m, const Vector3<Scalar>& g, const Vector3<Scalar>& s) {
-    const BodyFrame& frame = topology_.markers[m].frame;
-    for (int i = 0; i < frame.rotations(); ++i) {
-      const Vector3<Scalar> lever = markers_[m].frame.A_p[static_cast<std::size_t>(i)] * s;
-      forces_[start_[m] + frame.translations() + i] += lever.dot(g);
-    }
-  }
-
-  void apply_to_elastic(std::size_t m, int first, const Vector3<Scalar>& local) {
-    const Marker& marker = topology_.markers[m];
-    int position = start_[m] + marker.frame.size();
-    for (int i = 0; i < 6; ++i) {
-      if (marker.elastic[static_cast<std::size_t>(i)] < 0) continue;
-      if (i / 3 == first / 3) forces_[position] += local(i % 3);
-      ++position;
-    }
+    if (m == 1) wrench_.moment -= markers_.direction(m, s).cross(g);
+    markers_.add_to_direction(m, g, s);
   }
 
   static Scalar dot_at(ConstraintLevel level, const Motion<Scalar>& a, const Motion<Scalar>& b) {
@@ -217,7 +118,7 @@ class JointEvaluation {
 
   Scalar on_plane(const JointEquation& equation, ConstraintLevel level, const Scalar& lambda) {
     const Motion<Scalar> s = fixed_direction(equation.first);
-    const Motion<Scalar> d = to_global(0, local_direction(0, s));
+    const Motion<Scalar> d = markers_.direction(0, s);
     Motion<Scalar> difference = point(1);
     const Motion<Scalar> start = point(0);
     for (std::size_t i = 0; i < 3; ++i) difference[i] -= start[i];
@@ -262,28 +163,21 @@ class JointEvaluation {
   Scalar directions(ConstraintLevel level, const Scalar& lambda, const Motion<Scalar>& local_first,
                     int second) {
     const Motion<Scalar> local_second = fixed_direction(second);
-    const Motion<Scalar> d1 = to_global(0, local_direction(0, local_first));
-    const Motion<Scalar> d2 = to_global(1, local_direction(1, local_second));
+    const Motion<Scalar> d1 = markers_.direction(0, local_first);
+    const Motion<Scalar> d2 = markers_.direction(1, local_second);
     apply_to_direction(0, Vector3<Scalar>(lambda * d2[0]), local_first[0]);
     apply_to_direction(1, Vector3<Scalar>(lambda * d1[0]), local_second[0]);
     return dot_at(level, d1, d2);
   }
 
-  /// φ + nᵀψ of a body that moves in a plane; zero for the ground. n is the normal in local axes.
   Scalar planar_angle(const JointEquation& equation, ConstraintLevel level, const Scalar& lambda) {
-    Scalar difference(0);
+    const auto order = static_cast<std::size_t>(level);
+    const Scalar difference =
+        equation.sense * (markers_.planar_angle(1, order) - markers_.planar_angle(0, order));
     Eigen::Vector3d axis = Eigen::Vector3d::Zero();
     for (std::size_t m = 0; m < 2; ++m) {
-      const BodyFrame& frame = topology_.markers[m].frame;
-      if (frame.rotations() == 0) continue;
-      axis = equation.sense * frame.axis;
-      const double sign = m == 0 ? -equation.sense : equation.sense;
-      const auto order = static_cast<std::size_t>(level);
-      const Vector3<Scalar> normal = markers_[m].frame.G.col(0);
-      const Scalar elastic = normal.dot(markers_[m].psi[order]);
-      difference += sign * (angles_[m][order] + elastic);
-      forces_[start_[m] + frame.translations()] += sign * lambda;
-      apply_to_elastic(m, 3, Vector3<Scalar>((sign * lambda) * normal));
+      if (markers_.turns(m)) axis = equation.sense * topology_.markers[m].frame.axis;
+      markers_.add_planar_torque(m, (m == 0 ? -equation.sense : equation.sense) * lambda);
     }
     wrench_.moment -= lambda * axis.template cast<Scalar>();
     const Scalar prescribed = equation.is_driven ? drive_at(level) : Scalar(0);
@@ -293,11 +187,8 @@ class JointEvaluation {
 
   const JointTopology& topology_;
   const JointData<Scalar>& data_;
+  Kinematics markers_;
   TimeValue<Scalar> drive_{Scalar(0), Scalar(0), Scalar(0)};
-  std::array<MarkerMotion<Scalar>, 2> markers_;
-  std::array<std::array<Scalar, 3>, 2> angles_{};
-  std::array<int, 2> start_{};
-  Scalar* forces_ = nullptr;
   Wrench<Scalar> wrench_;
 };
 

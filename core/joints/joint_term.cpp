@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
+#include "core/frame/number_data.hpp"
 #include "core/joints/joint_linearization.hpp"
-#include "core/joints/joint_numbers.hpp"
+#include "core/joints/joint_residual.hpp"
 
 namespace pleuel {
 
@@ -16,7 +17,7 @@ class JointTerm : public Term {
       : topology_(std::move(topology)),
         data_(std::move(data)),
         dual_data_(cast_data<WideDual>(data_)),
-        coordinates_(local_coordinates(topology_)) {
+        coordinates_(coordinate_indices(topology_.markers)) {
     for (const auto& [variable, derivative] : derivatives) {
       derivatives_.push_back({variable, seed_data(data_, derivative)});
     }
@@ -118,7 +119,8 @@ class JointTerm : public Term {
   };
   template <class Scalar>
   struct Result {
-    std::array<Scalar, max_slots> forces, equations;
+    typename JointEvaluation<Scalar>::Kinematics::Coordinates forces;
+    std::array<Scalar, max_slots> equations;
   };
 
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
@@ -196,11 +198,11 @@ class JointTerm : public Term {
   template <class Scalar>
   Result<Scalar> evaluate(const JointData<Scalar>& data, const Local<Scalar>& local, double time,
                           ConstraintLevel level) const {
+    JointEvaluation<Scalar> evaluation(topology_, data, time, local.q.data(), local.v.data(),
+                                       local.a.data());
     Result<Scalar> result;
-    for (int i = 0; i < local_size(); ++i) result.forces[index(i)] = Scalar(0);
-    JointEvaluation<Scalar> evaluation(topology_, data, time);
-    evaluation.set_state(local.q.data(), local.v.data(), local.a.data());
-    evaluation.evaluate(level, local.lambda.data(), result.forces.data(), result.equations.data());
+    evaluation.evaluate(level, local.lambda.data(), result.equations.data());
+    result.forces = evaluation.forces();
     return result;
   }
 

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "core/joints/joint_residual.hpp"
+#include "core/joints/joint.hpp"
 #include "core/system/term.hpp"
 
 namespace pleuel {

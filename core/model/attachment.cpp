@@ -1,6 +1,5 @@
 #include "core/model/attachment.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <map>
 
@@ -21,22 +20,56 @@ Attachment::Attachment(const std::string& body, Point at, const std::vector<Body
   }
   assert(body_ != nullptr);
   if (const auto* imported = std::get_if<ImportedBody>(&body_->shape)) {
-    imported_place_ = place_at(*imported, at_, context.start);
-  } else if (is_elastic()) {
-    place_ = find_place(model_->beam, share_along(beam_body(), at_, context.start));
+    point_ = point_of(*model_, place_at(*imported, at_, context.start));
+  } else if (model_->is_elastic) {
+    const double share = share_along(std::get<BeamBody>(body_->shape), at_, context.start);
+    point_ = point_of(*model_, find_place(model_->beam, share));
+  }
+  if (point_) set_rows();
+  is_direct_ = are_coordinates();
+}
+
+/// A place moves with few of the coordinates, if they are nodal ones.
+void Attachment::set_rows() {
+  std::set<int> used;
+  const auto add_used = [&used](const SparseMatrix& shape) {
+    for (int row = 0; row < 6; ++row) {
+      for (SparseMatrix::InnerIterator entry(shape, row); entry; ++entry) {
+        if (entry.value() != 0.0) used.insert(static_cast<int>(entry.col()));
+      }
+    }
+  };
+  add_used(point_->shape);
+  for (const auto& [variable, change] : point_->derivatives) add_used(change.shape);
+  const std::vector<int> columns(used.begin(), used.end());
+  for (int column : columns) rows_.coordinates.push_back(model_->elastic_offset() + column);
+  const auto part = [&columns](const SparseMatrix& shape) {
+    return Eigen::MatrixXd(Eigen::MatrixXd(shape)(Eigen::all, columns));
+  };
+  rows_.values = part(point_->shape);
+  for (const auto& [variable, change] : point_->derivatives) {
+    Eigen::MatrixXd rows = part(change.shape);
+    if (!rows.isZero(0.0)) rows_.derivatives.push_back({variable, std::move(rows)});
   }
 }
 
-bool Attachment::is_direct() const {
-  return !is_elastic() || (model_->is_beam() && place_.is_node() && !model_->basis);
+bool Attachment::are_coordinates() const {
+  if (!rows_.derivatives.empty()) return false;
+  const auto ones = rows_.values.array() == 1.0;
+  const auto entries = rows_.values.array() != 0.0;
+  return ones.count() == entries.count() && (entries.colwise().count() == 1).all() &&
+         (entries.rowwise().count() <= 1).all();
 }
 
 Marker Attachment::marker() const {
   Marker marker;
   marker.frame = model_ ? model_->frame : ground_frame();
-  if (!is_elastic() || !is_direct()) return marker;
+  if (!is_direct()) return marker;
   for (int i = 0; i < 6; ++i) {
-    marker.elastic[static_cast<std::size_t>(i)] = model_->coordinate(place_.node(), i);
+    for (std::size_t k = 0; k < rows_.coordinates.size(); ++k) {
+      if (rows_.values(i, static_cast<Eigen::Index>(k)) == 0.0) continue;
+      marker.elastic[static_cast<std::size_t>(i)] = rows_.coordinates[k];
+    }
   }
   return marker;
 }
@@ -66,83 +99,6 @@ void Attachment::add_variables(std::set<int>& variables) const {
   }
 }
 
-/// In the nodal coordinates of a body (or of its nodal view), numbered as that body does.
-Attachment::Rows Attachment::nodal_rows(const BodyModel& body) const {
-  Rows rows;
-  std::vector<int> local;
-  for (int i = 0; i < 12; ++i) {
-    const int index = body.coordinate(place_.element + i / 6, i % 6);
-    if (index < 0) continue;
-    local.push_back(i);
-    rows.coordinates.push_back(index);
-  }
-  const auto element = static_cast<std::size_t>(place_.element);
-  const auto all = Eigen::all;
-  rows.values = place_shape(place_, body.beam.elements[element].length)(all, local);
-  for (const auto& [variable, beam] : body.beam_x) {
-    const Eigen::MatrixXd change =
-        derivative_matrix(place_shape(place_, beam.elements[element].length));
-    if (!change.isZero(0.0)) rows.derivatives.push_back({variable, change(all, local)});
-  }
-  return rows;
-}
-
-Attachment::Rows Attachment::imported_rows() const {
-  const auto stack = [](const BodyPlace& place) {
-    Eigen::MatrixXd rows(6, place.displacement.cols());
-    rows << Eigen::MatrixXd(place.displacement), Eigen::MatrixXd(place.rotation);
-    return rows;
-  };
-  const Eigen::MatrixXd values = stack(imported_place(*model_->constants));
-  std::vector<DesignDerivative<Eigen::MatrixXd>> changes;
-  for (const auto& [variable, change] : model_->constants_x) {
-    changes.push_back({variable, stack(imported_place(change))});
-  }
-  // A place moves with few of the coordinates, if they are nodal ones.
-  std::vector<int> used;
-  for (int i = 0; i < model_->elastic_size(); ++i) {
-    const bool moves = !values.col(i).isZero(0.0) ||
-                       std::any_of(changes.begin(), changes.end(), [i](const auto& change) {
-                         return !change.data.col(i).isZero(0.0);
-                       });
-    if (moves) used.push_back(i);
-  }
-  Rows rows;
-  for (int i : used) rows.coordinates.push_back(model_->elastic_offset() + i);
-  rows.values = values(Eigen::all, used);
-  for (const auto& [variable, change] : changes) {
-    if (!change.isZero(0.0)) rows.derivatives.push_back({variable, change(Eigen::all, used)});
-  }
-  return rows;
-}
-
-Attachment::Rows Attachment::displacement_rows() const {
-  if (!is_elastic()) return {{}, Eigen::MatrixXd::Zero(6, 0), {}};
-  if (model_->is_imported()) return imported_rows();
-  if (!model_->basis) return nodal_rows(*model_);
-  const Rows nodal = nodal_rows(*model_->nodal);
-  const CoordinateMap& map = model_->map;
-  Rows rows;
-  // Without the columns of the frame.
-  const int frame = model_->frame.size(), columns = map.columns() - frame;
-  rows.coordinates.assign(map.coordinates.begin() + frame, map.coordinates.end());
-  const auto part = [&](const Eigen::MatrixXd& matrix) -> Eigen::MatrixXd {
-    return matrix(nodal.coordinates, Eigen::lastN(columns));
-  };
-  rows.values = nodal.values * part(map.rows);
-  std::map<int, Eigen::MatrixXd> derivatives;
-  const auto add = [&](int variable, const Eigen::MatrixXd& change) {
-    auto [entry, is_new] = derivatives.try_emplace(variable, change);
-    if (!is_new) entry->second += change;
-  };
-  for (const auto& [variable, change] : nodal.derivatives) add(variable, change * part(map.rows));
-  for (const auto& [variable, change] : map.derivatives) add(variable, nodal.values * part(change));
-  for (auto& [variable, change] : derivatives) {
-    rows.derivatives.push_back({variable, std::move(change)});
-  }
-  return rows;
-}
-
 namespace {
 
 /// Grows the map by the coordinates of one attachment.
@@ -152,7 +108,7 @@ class LocalNumbering {
     const int frame = marker.frame.size(), first = size_;
     for (int i = 0; i < frame; ++i) set(size_++, column(marker.frame.offset + i), 1.0);
     marker.frame.offset = first;
-    const Attachment::Rows rows = attachment.displacement_rows();
+    const Attachment::Rows& rows = attachment.displacement_rows();
     for (int i = 0; i < 6; ++i) {
       int& local = marker.elastic[static_cast<std::size_t>(i)];
       local = -1;

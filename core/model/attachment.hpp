@@ -2,9 +2,9 @@
 
 #include <span>
 
-#include "core/beam/beam_place.hpp"
 #include "core/frame/marker.hpp"
 #include "core/model/body_builder.hpp"
+#include "core/model/body_point.hpp"
 #include "core/system/coordinate_map.hpp"
 
 namespace pleuel {
@@ -19,7 +19,7 @@ class Attachment {
   bool is_ground() const { return body_ == nullptr; }
   bool turns() const { return model_ == nullptr || model_->frame.rotations() > 0; }
   /// Whether its displacements are coordinates themselves, so that a marker can name them.
-  bool is_direct() const;
+  bool is_direct() const { return is_direct_; }
   const BodyModel* model() const { return model_; }
   /// Whether it lies as a beam; then its axes in global ones at t = 0 (of the start design).
   std::optional<Eigen::Matrix3d> beam_axes() const;
@@ -32,11 +32,7 @@ class Attachment {
   template <class Scalar>
   Vector3<Scalar> local_point(const Design<Scalar>& design) const {
     if (is_ground()) return resolve_point(at_, design);
-    if (model_->is_imported()) return imported_point(design);
-    if (is_elastic()) {
-      const Beam<Scalar> beam = resolve_beam(beam_body(), model_->mesh, context_.scene, design);
-      return {position_of(beam, place_), Scalar(0), Scalar(0)};
-    }
+    if (point_) return point_at(design);
     const Pose<Scalar> pose = body_pose(*body_, design);
     return pose.rotation.transpose() * (resolve_point(at_, design) - pose.origin);
   }
@@ -67,25 +63,20 @@ class Attachment {
     Eigen::MatrixXd values;  ///< 6 × coordinates
     std::vector<DesignDerivative<Eigen::MatrixXd>> derivatives;
   };
-  Rows displacement_rows() const;
+  const Rows& displacement_rows() const { return rows_; }
 
  private:
-  bool is_elastic() const { return model_ != nullptr && model_->is_elastic; }
-  const BeamBody& beam_body() const { return std::get<BeamBody>(body_->shape); }
-  Rows nodal_rows(const BodyModel& body) const;
-  Rows imported_rows() const;
-  const BodyPlace& imported_place(const BodyConstants& constants) const {
-    return constants.places[static_cast<std::size_t>(imported_place_)];
-  }
+  void set_rows();
+  bool are_coordinates() const;
 
+  /// Exact to first order about the design of the model.
   template <class Scalar>
-  Vector3<Scalar> imported_point(const Design<Scalar>& design) const {
-    const Vector3<double>& position = imported_place(*model_->constants).position;
-    Vector3<Scalar> point = position.template cast<Scalar>();
-    for (const auto& [variable, change] : model_->constants_x) {
+  Vector3<Scalar> point_at(const Design<Scalar>& design) const {
+    Vector3<Scalar> point = point_->position.template cast<Scalar>();
+    for (const auto& [variable, change] : point_->derivatives) {
       const auto i = static_cast<std::size_t>(variable);
       const Scalar distance = design[i] - context_.design[i];
-      for (int k = 0; k < 3; ++k) point(k) += distance * imported_place(change).position(k);
+      for (int k = 0; k < 3; ++k) point(k) += distance * change.position(k);
     }
     return point;
   }
@@ -94,8 +85,9 @@ class Attachment {
   Point at_;
   const Body* body_ = nullptr;
   const BodyModel* model_ = nullptr;
-  BeamPlace place_;
-  int imported_place_ = -1;
+  std::optional<BodyPoint> point_;  ///< of elastic beams and of bodies from files
+  Rows rows_{{}, Eigen::MatrixXd::Zero(6, 0), {}};
+  bool is_direct_ = true;
 };
 
 /// A unit vector normal to the axis of a joint, from which its angle counts. Elastic rotations are

@@ -7,6 +7,7 @@
 #include "core/beam/elastic_basis.hpp"
 #include "core/model/attached_points.hpp"
 #include "core/model/beam_mesh.hpp"
+#include "core/model/beam_shapes.hpp"
 #include "core/model/invariant_derivatives.hpp"
 
 namespace pleuel {
@@ -70,26 +71,26 @@ class BasisBuilder {
     }
   }
 
-  /// @param nodal  invariants in the nodal coordinates of the model, with derivatives
-  void build(const Invariants<double>& nodal,
-             const std::vector<DesignDerivative<Invariants<double>>>& nodal_x) {
+  /// Sets the invariants in the coordinates of the basis.
+  /// @param nodal  those in the nodal coordinates of the model, with derivatives
+  BasisWithDerivatives build(const Invariants<double>& nodal,
+                             const std::vector<DesignDerivative<Invariants<double>>>& nodal_x) {
     const NodalMatrices matrices = matrices_of(nodal, positions(), 1.0);
     std::vector<NodalMatrices> changes;
     for (std::size_t k = 0; k < nodal_x.size(); ++k) {
       changes.push_back(matrices_of(nodal_x[k].data, position_changes(k), 0.0));
     }
     BasisWithDerivatives deformations = deformations_of(matrices, changes);
-    const BasisWithDerivatives basis =
+    BasisWithDerivatives basis =
         is_mean_axis() ? mean_axis_basis(matrices, changes, deformations, motions_) : deformations;
-    model_.basis = basis.basis;
     model_.invariants = project_invariants(nodal, basis.basis);
     for (std::size_t k = 0; k < nodal_x.size(); ++k) {
-      model_.basis_x.push_back({nodal_x[k].variable, basis.derivatives[k]});
       model_.invariants_x.push_back(
           {nodal_x[k].variable,
            project_derivative(nodal, nodal_x[k].data, basis.basis, basis.derivatives[k])});
     }
     damp_modes();
+    return basis;
   }
 
  private:
@@ -118,7 +119,7 @@ class BasisBuilder {
       const int j = (i + 1) % 3, k = (i + 2) % 3;
       matrices.momentum.row(3 + i) = nodal.mixed.row(3 * j + k) - nodal.mixed.row(3 * k + j);
     }
-    matrices.rigid = rigid_displacements(*model_.coordinates, x, translation);
+    matrices.rigid = rigid_displacements(model_.coordinates, x, translation);
     return matrices;
   }
 
@@ -136,7 +137,7 @@ class BasisBuilder {
     std::vector<int> free;
     for (int node = 0; node < clamped_.node_count(); ++node) {
       for (int i = 0; i < 6; ++i) {
-        if (clamped_.index(node, i) >= 0) free.push_back(model_.coordinates->index(node, i));
+        if (clamped_.index(node, i) >= 0) free.push_back(model_.coordinates.index(node, i));
       }
     }
     return free;
@@ -157,7 +158,7 @@ class BasisBuilder {
       reduced.derivatives.assign(changes.size(), Eigen::MatrixXd::Zero(size, size));
     }
     const auto expand = [&](const Eigen::MatrixXd& part) {
-      Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(model_.coordinates->size(), part.cols());
+      Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(model_.coordinates.size(), part.cols());
       whole(free, Eigen::all) = part;
       return whole;
     };
@@ -237,33 +238,10 @@ class BasisBuilder {
   std::vector<int> motions_;
 };
 
-/// The same body in nodal coordinates with local numbers, and the way from there.
-void set_nodal_view(BodyModel& model) {
-  const int frame = model.frame.size(), nodal = model.coordinates->size();
-  const int columns = frame + static_cast<int>(model.basis->cols());
-  auto view = std::make_unique<BodyModel>();
-  view->name = model.name;
-  view->stretch = model.stretch;
-  view->condition = model.condition;
-  view->frame = model.frame;
-  view->frame.offset = 0;
-  view->coordinates = model.coordinates;
-  view->beam = model.beam;
-  view->beam_x = model.beam_x;
-  view->mesh = model.mesh;
-  view->has_stiffening = model.has_stiffening;
-  view->is_elastic = true;
-  model.nodal = std::move(view);
-  CoordinateMap& map = model.map;
-  for (int i = 0; i < columns; ++i) map.coordinates.push_back(model.frame.offset + i);
-  map.rows = Eigen::MatrixXd::Zero(frame + nodal, columns);
-  map.rows.topLeftCorner(frame, frame).setIdentity();
-  map.rows.bottomRightCorner(nodal, columns - frame) = *model.basis;
-  for (const auto& [variable, change] : model.basis_x) {
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(frame + nodal, columns);
-    rows.bottomRightCorner(nodal, columns - frame) = change;
-    if (!change.isZero(0.0)) map.derivatives.push_back({variable, std::move(rows)});
-  }
+SparseMatrix identity(int size) {
+  SparseMatrix matrix(size, size);
+  matrix.setIdentity();
+  return matrix;
 }
 
 }  // namespace
@@ -271,6 +249,7 @@ void set_nodal_view(BodyModel& model) {
 void set_beam(const BeamBody& beam, const Body& body, const BuildContext& context,
               BodyModel& model) {
   const BeamEffects& effects = context.effects_of(model.name);
+  model.kind = BodyKind::beam;
   model.condition = beam.frame;
   if (beam.part) {
     model.stretch = {beam.part->begin, beam.part->end, beam.part->first_element};
@@ -294,22 +273,28 @@ void set_beam(const BeamBody& beam, const Body& body, const BuildContext& contex
 
   const RotaryInertia rotary =
       effects.rotary_inertia ? RotaryInertia::included : RotaryInertia::neglected;
-  const Invariants<double> nodal = beam_invariants(model.beam, *model.coordinates, rotary);
+  const Invariants<double> nodal = beam_invariants(model.beam, model.coordinates, rotary);
   std::vector<DesignDerivative<Invariants<double>>> nodal_x;
   for (int variable : variables_of(body, context.scene)) {
     nodal_x.push_back(
         {variable, differentiate_invariants(context, variable, [&](const auto& design) {
            return beam_invariants(resolve_beam(beam, model.mesh, context.scene, design),
-                                  *model.coordinates, rotary);
+                                  model.coordinates, rotary);
          })});
   }
-  if (effects.elasticity && (is_mean_axis || beam.reduction)) {
-    BasisBuilder(beam, body, context, active, model).build(nodal, nodal_x);
-    set_nodal_view(model);
+  model.has_basis = effects.elasticity && (is_mean_axis || beam.reduction);
+  SparseMatrix basis = identity(nodal.size());
+  std::vector<SparseMatrix> basis_x(nodal_x.size(), SparseMatrix(nodal.size(), nodal.size()));
+  if (model.has_basis) {
+    const BasisWithDerivatives modes =
+        BasisBuilder(beam, body, context, active, model).build(nodal, nodal_x);
+    basis = modes.basis.sparseView();
+    for (std::size_t k = 0; k < basis_x.size(); ++k) basis_x[k] = modes.derivatives[k].sparseView();
   } else {
     model.invariants = nodal;
     model.invariants_x = std::move(nodal_x);
   }
+  set_shapes(basis, basis_x, model);
 }
 
 }  // namespace pleuel

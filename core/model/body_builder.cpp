@@ -95,7 +95,7 @@ BodyModel make_body_model(const Body& body, const BuildContext& context, int off
   }
   model.mass = model.invariants.mass;
   model.mass_x = Eigen::VectorXd::Zero(context.variables());
-  for (const auto& [variable, change] : model.invariants_x) model.mass_x(variable) = change.mass;
+  for (const auto& [variable, change] : model.invariants_x) model.mass_x(variable) += change.mass;
   return model;
 }
 

@@ -158,7 +158,7 @@ class ModelBuilder {
     int count = 0;
     for (const BodyModel& body : model_.bodies) {
       count += body.frame.rotations() > 0 ? 3 : 1;
-      if (body.is_beam() && !body.basis) count += body.elastic_size();
+      if (body.is_beam() && !body.has_basis) count += body.elastic_size();
     }
     return count;
   }
@@ -325,51 +325,24 @@ class ModelBuilder {
     }
   }
 
+  /// The largest displacement of a place by a unit of a coordinate counts, or the mean one of the
+  /// body.
   void set_elastic_scale(const BodyModel& body, double size) {
-    if (body.is_imported()) set_imported_scale(body, size);
-    if (!body.is_beam()) return;
-    if (body.basis) {
-      set_basis_scale(body, size);
-      return;
+    const Invariants<double>& invariants = body.invariants;
+    Eigen::VectorXd largest(body.elastic_size());
+    for (int k = 0; k < largest.size(); ++k) {
+      const double square = invariants.mass_matrix(invariants.pattern.find(k, k));
+      largest(k) = std::sqrt(square / invariants.mass) / size;
     }
-    for (int node = 0; node < body.coordinates->node_count(); ++node) {
-      for (int i = 0; i < 6; ++i) {
-        if (body.coordinate(node, i) < 0) continue;
-        model_.mechanism.scale(body.coordinate(node, i)) = elastic_scale * (i < 3 ? size : 1.0);
+    const SparseMatrix& shape = body.places.shape;
+    for (int row = 0; row < shape.outerSize(); ++row) {
+      const double unit = row % 6 < 3 ? size : 1.0;
+      for (SparseMatrix::InnerIterator entry(shape, row); entry; ++entry) {
+        largest(entry.col()) = std::max(largest(entry.col()), std::abs(entry.value()) / unit);
       }
     }
-  }
-
-  /// The largest displacement at a place counts, or the mean one of the body.
-  void set_imported_scale(const BodyModel& body, double size) {
-    const BodyConstants& constants = *body.constants;
-    const Eigen::VectorXd squares = constants.mass_matrix.diagonal() / constants.mass;
-    for (int k = 0; k < body.elastic_size(); ++k) {
-      double largest = std::sqrt(squares(k)) / size;
-      for (const BodyPlace& place : constants.places) {
-        for (int i = 0; i < 3; ++i) {
-          largest = std::max({largest, std::abs(place.displacement.coeff(i, k)) / size,
-                              std::abs(place.rotation.coeff(i, k))});
-        }
-      }
-      model_.mechanism.scale(body.elastic_offset() + k) = elastic_scale / largest;
-    }
-  }
-
-  /// The largest displacement of a unit of each coordinate of a basis counts.
-  void set_basis_scale(const BodyModel& body, double size) {
-    const BodyModel& nodal = *body.nodal;
-    for (Eigen::Index k = 0; k < body.basis->cols(); ++k) {
-      double largest = 0.0;
-      for (int node = 0; node < nodal.coordinates->node_count(); ++node) {
-        for (int i = 0; i < 6; ++i) {
-          const int row = nodal.coordinates->index(node, i);
-          if (row < 0) continue;
-          largest = std::max(largest, std::abs((*body.basis)(row, k)) / (i < 3 ? size : 1.0));
-        }
-      }
-      model_.mechanism.scale(body.elastic_offset() + k) = elastic_scale / largest;
-    }
+    model_.mechanism.scale.segment(body.elastic_offset(), body.elastic_size()) =
+        elastic_scale * largest.cwiseInverse();
   }
 
   const Scene& scene_;

@@ -39,9 +39,7 @@ struct Deformation {
 class QuasiStaticBeam {
  public:
   explicit QuasiStaticBeam(const BodyModel& body)
-      : body_(body),
-        nodal_(body.basis ? *body.nodal : body),
-        stiffness_(dense_matrix(body.invariants.pattern, body.invariants.stiffness)) {
+      : body_(body), stiffness_(dense_matrix(body.invariants.pattern, body.invariants.stiffness)) {
     for (const auto& element : body.beam.elements) {
       for (const auto& point : element.section.points) {
         depth_ = std::max({depth_, std::abs(point.y), std::abs(point.z)});
@@ -52,11 +50,11 @@ class QuasiStaticBeam {
   /// @param forces  elastic rows of the residual with undeformed bodies
   void add(const Eigen::VectorXd& forces, double step) {
     const Eigen::VectorXd q = -stiffness_.solve(forces);
-    Eigen::VectorXd d = body_.basis ? Eigen::VectorXd(*body_.basis * q) : q;
+    Nodal d = body_.places.displacements(q);
     measure(d, largest_.displacement, largest_.axial, largest_.twist);
     note_axial_force(d);
     if (count_ >= 2) {
-      const Eigen::VectorXd rate = (d - 2.0 * last_ + before_) / (step * step);
+      const Nodal rate = (d - 2.0 * last_ + before_) / (step * step);
       measure(rate, largest_.acceleration, largest_.axial_acceleration,
               largest_.twist_acceleration);
     }
@@ -68,35 +66,30 @@ class QuasiStaticBeam {
   const Deformation& largest() const { return largest_; }
 
  private:
-  int row(int node, int i) const { return nodal_.coordinates->index(node, i); }
+  /// u v w θx θy θz, a column each node.
+  using Nodal = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-  void measure(const Eigen::VectorXd& d, double& all, double& axial, double& twist) const {
-    for (int node = 0; node < nodal_.coordinates->node_count(); ++node) {
-      for (int i = 0; i < 4; ++i) {
-        if (row(node, i) < 0) continue;
-        const double size = std::abs(d(row(node, i))) * (i == 3 ? depth_ : 1.0);
-        all = std::max(all, size);
-        if (i == 0) axial = std::max(axial, size);
-        if (i == 3) twist = std::max(twist, size);
-      }
-    }
+  void measure(const Nodal& d, double& all, double& axial, double& twist) const {
+    const double along = d.row(0).lpNorm<Eigen::Infinity>();
+    const double turned = d.row(3).lpNorm<Eigen::Infinity>() * depth_;
+    all = std::max({all, d.middleRows(1, 2).lpNorm<Eigen::Infinity>(), along, turned});
+    axial = std::max(axial, along);
+    twist = std::max(twist, turned);
   }
 
-  void note_axial_force(const Eigen::VectorXd& d) {
-    for (int e = 0; e + 1 < nodal_.coordinates->node_count(); ++e) {
-      const auto at = [&](int node) { return row(node, 0) < 0 ? 0.0 : d(row(node, 0)); };
+  void note_axial_force(const Nodal& d) {
+    for (int e = 0; e + 1 < d.cols(); ++e) {
       const auto& element = body_.beam.elements[static_cast<std::size_t>(e)];
       const double force =
-          element.young * element.section.area / element.length * (at(e + 1) - at(e));
+          element.young * element.section.area / element.length * (d(0, e + 1) - d(0, e));
       largest_.axial_force = std::max(largest_.axial_force, std::abs(force));
     }
   }
 
   const BodyModel& body_;
-  const BodyModel& nodal_;
   Eigen::LLT<Eigen::MatrixXd> stiffness_;
   double depth_ = 0.0;
-  Eigen::VectorXd last_, before_;
+  Nodal last_, before_;
   int count_ = 0;
   Deformation largest_;
 };
@@ -106,10 +99,9 @@ double euler_load(const BodyModel& body, const BeamBody& beam) {
   double stiffness = std::numeric_limits<double>::infinity();
   const NodalFlags bends = [&] {
     NodalFlags flags{};
-    const BodyModel& nodal = body.basis ? *body.nodal : body;
-    for (int node = 0; node < nodal.coordinates->node_count(); ++node) {
+    for (int node = 0; node < body.coordinates.node_count(); ++node) {
       for (int i = 0; i < 6; ++i) {
-        if (nodal.coordinates->index(node, i) >= 0) flags[static_cast<std::size_t>(i)] = true;
+        if (body.coordinates.index(node, i) >= 0) flags[static_cast<std::size_t>(i)] = true;
       }
     }
     return flags;

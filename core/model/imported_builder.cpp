@@ -6,8 +6,6 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
-#include "core/effects/geometric_stiffening.hpp"
-#include "core/system/projected_term.hpp"
 
 namespace pleuel {
 
@@ -109,39 +107,35 @@ Invariants<double> invariants_of(const BodyConstants& constants, const Arrangeme
   return invariants;
 }
 
+BodyPlaces places_of(const BodyConstants& constants, bool is_elastic) {
+  const auto count = static_cast<Eigen::Index>(constants.places.size());
+  BodyPlaces places;
+  places.positions.resize(3, count);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const BodyPlace& place = constants.places[static_cast<std::size_t>(i)];
+    places.names.push_back(place.name);
+    places.positions.col(i) = place.position;
+    for (Eigen::Index k = 0; is_elastic && k < 3; ++k) {
+      for (SparseMatrix::InnerIterator entry(place.displacement, k); entry; ++entry) {
+        entries.emplace_back(6 * i + k, entry.col(), entry.value());
+      }
+      for (SparseMatrix::InnerIterator entry(place.rotation, k); entry; ++entry) {
+        entries.emplace_back(6 * i + 3 + k, entry.col(), entry.value());
+      }
+    }
+  }
+  places.shape.resize(6 * count, is_elastic ? constants.size() : 0);
+  places.shape.setFromTriplets(entries.begin(), entries.end());
+  return places;
+}
+
 Invariants<double> rigid_part(const BodyConstants& constants) {
   return rigid_invariants<double>(constants.mass, constants.first_moment, constants.second_moment);
 }
 
-/// Adds the derivatives of the file, and what they change where they may be continued.
 bool is_positive(const Eigen::VectorXd& numbers) {
   return (numbers.array() > 0.0).all();
-}
-
-void set_constants(const ImportedBody& imported, const Body& body, const BuildContext& context,
-                   BodyModel& model) {
-  model.constants = imported.file->constants;
-  for (const ImportedVariable& of : imported.variables) {
-    const ConstantsDerivative& derivative = imported.file->design[of.in_design];
-    model.constants_x.push_back({of.number.variable, *derivative.derivative});
-    const double distance = resolve(of.number, context.design) - derivative.value;
-    if (std::abs(distance) <= rounding_tolerance * std::abs(derivative.value)) continue;
-    if (!imported.is_linear) {
-      throw InputError(fmt::format(
-          "/scene/bodies/{}/file is known at the design {} = {:.12g} only, not at {:.12g}: write "
-          "{} anew for that design, or continue it linearly with \"other_designs\": \"linear\"",
-          body.name, derivative.variable, derivative.value, derivative.value + distance,
-          imported.source));
-    }
-    add_constants(*model.constants, distance, *derivative.derivative);
-    if (!(model.constants->mass > 0.0) || !is_positive(model.constants->mass_matrix.diagonal()) ||
-        !is_positive(model.constants->stiffness.diagonal())) {
-      throw SimulationError(
-          fmt::format("/scene/bodies/{}/file, continued to {} = {:.6g}, is no body any more: its "
-                      "mass, inertia or stiffness is not positive",
-                      body.name, derivative.variable, derivative.value + distance));
-    }
-  }
 }
 
 /// Effects that are part of the numbers of a file cannot be taken out of them.
@@ -167,30 +161,66 @@ void check_effects(const ImportedBody& imported, const Body& body, const EffectS
 
 }  // namespace
 
+BodyConstants constants_at(const ImportedBody& imported, const Body& body,
+                           const Design<double>& design) {
+  BodyConstants constants = imported.file->constants;
+  for (const ImportedVariable& of : imported.variables) {
+    const ConstantsDerivative& derivative = imported.file->design[of.in_design];
+    const double distance = resolve(of.number, design) - derivative.value;
+    if (std::abs(distance) <= rounding_tolerance * std::abs(derivative.value)) continue;
+    if (!imported.is_linear) {
+      throw InputError(fmt::format(
+          "/scene/bodies/{}/file is known at the design {} = {:.12g} only, not at {:.12g}: write "
+          "{} anew for that design, or continue it linearly with \"other_designs\": \"linear\"",
+          body.name, derivative.variable, derivative.value, derivative.value + distance,
+          imported.source));
+    }
+    add_constants(constants, distance, *derivative.derivative);
+    if (!(constants.mass > 0.0) || !is_positive(constants.mass_matrix.diagonal()) ||
+        !is_positive(constants.stiffness.diagonal())) {
+      throw SimulationError(
+          fmt::format("/scene/bodies/{}/file, continued to {} = {:.6g}, is no body any more: its "
+                      "mass, inertia or stiffness is not positive",
+                      body.name, derivative.variable, derivative.value + distance));
+    }
+  }
+  return constants;
+}
+
 void set_imported(const ImportedBody& imported, const Body& body, const BuildContext& context,
                   BodyModel& model) {
   const EffectSettings& settings = context.effects;
-  set_constants(imported, body, context, model);
+  model.kind = BodyKind::imported;
   model.is_elastic = settings.elasticity != EffectChoice::off;
-  const auto add = [&model](const auto& invariants) {
-    for (const auto& [variable, change] : model.constants_x) {
-      model.invariants_x.push_back({variable, invariants(change)});
-    }
-  };
-  if (!model.is_elastic) {
-    model.invariants = rigid_part(*model.constants);
-    add(rigid_part);
-  } else {
-    check_effects(imported, body, settings);
-    model.has_stiffening =
-        settings.geometric_stiffening != EffectChoice::off && model.constants->stretching;
-    ArrangementFinder finder(model.constants->size());
-    finder.add(*model.constants);
-    for (const auto& [variable, change] : model.constants_x) finder.add(change);
-    const Arrangement arrangement = finder.find();
-    model.invariants = invariants_of(*model.constants, arrangement);
-    add([&](const BodyConstants& change) { return invariants_of(change, arrangement); });
+  const BodyConstants constants = constants_at(imported, body, context.design);
+  std::vector<std::pair<int, const BodyConstants*>> changes;
+  for (const ImportedVariable& of : imported.variables) {
+    changes.emplace_back(of.number.variable, &*imported.file->design[of.in_design].derivative);
   }
+  // Value and derivatives of a part that is made of the constants.
+  const auto set = [&](auto& value, auto& derivatives, const auto& make) {
+    value = make(constants);
+    for (const auto& [variable, change] : changes) derivatives.push_back({variable, make(*change)});
+  };
+  set(model.places, model.places_x,
+      [&](const BodyConstants& of) { return places_of(of, model.is_elastic); });
+  if (!model.is_elastic) {
+    set(model.invariants, model.invariants_x, rigid_part);
+    return;
+  }
+  check_effects(imported, body, settings);
+  ArrangementFinder finder(constants.size());
+  finder.add(constants);
+  for (const auto& [variable, change] : changes) finder.add(*change);
+  const Arrangement arrangement = finder.find();
+  set(model.invariants, model.invariants_x,
+      [&](const BodyConstants& of) { return invariants_of(of, arrangement); });
+  if (constants.stress) {
+    set(model.stress, model.stress_x, [](const BodyConstants& of) { return *of.stress; });
+  }
+  model.has_stiffening = settings.geometric_stiffening != EffectChoice::off && constants.stretching;
+  if (!model.has_stiffening) return;
+  set(model.stretching, model.stretching_x, [](const BodyConstants& of) { return *of.stretching; });
 }
 
 std::vector<EffectRecord> imported_records(const ImportedBody& imported,
@@ -219,79 +249,6 @@ std::vector<EffectRecord> imported_records(const ImportedBody& imported,
   records.push_back(
       {"geometric_stiffening", model.name, model.has_stiffening, kind(choice), reason, {}, 0});
   return records;
-}
-
-namespace {
-
-/// The way from the body's coordinates to the displacements that stretch it.
-CoordinateMap map_of(const BodyModel& model) {
-  CoordinateMap map;
-  for (int i = 0; i < model.elastic_size(); ++i) {
-    map.coordinates.push_back(model.elastic_offset() + i);
-  }
-  map.rows = Eigen::MatrixXd(model.constants->stretching->displacements);
-  for (const auto& [variable, change] : model.constants_x) {
-    Eigen::MatrixXd rows(change.stretching->displacements);
-    if (!rows.isZero(0.0)) map.derivatives.push_back({variable, std::move(rows)});
-  }
-  return map;
-}
-
-/// Where the displacements that stretch a body are coordinates of it themselves: their indices in
-/// q.
-std::optional<std::vector<int>> find_coordinates(const BodyModel& model) {
-  const SparseMatrix& rows = model.constants->stretching->displacements;
-  std::vector<int> coordinates;
-  for (int row = 0; row < rows.outerSize(); ++row) {
-    int entries = 0;
-    for (SparseMatrix::InnerIterator entry(rows, row); entry; ++entry) {
-      if (entry.value() != 1.0 || ++entries > 1) return std::nullopt;
-      coordinates.push_back(model.elastic_offset() + static_cast<int>(entry.col()));
-    }
-    if (entries == 0) return std::nullopt;
-  }
-  for (const auto& [variable, change] : model.constants_x) {
-    const SparseMatrix& of = change.stretching->displacements;
-    if (of.nonZeros() > 0 && !of.coeffs().isZero(0.0)) return std::nullopt;
-  }
-  return coordinates;
-}
-
-std::vector<StiffeningDerivative> differentiate_stiffening(const Stretching& change) {
-  std::vector<StiffeningDerivative> derivatives;
-  for (std::size_t e = 0; e < change.elements.size(); ++e) {
-    const StretchedElement& element = change.elements[e];
-    StiffeningDerivative derivative{static_cast<int>(e), element.axial_stiffness, change.damping,
-                                    element.slopes};
-    const bool is_zero = derivative.axial_stiffness == 0.0 && derivative.damping == 0.0 &&
-                         derivative.slopes.isZero(0.0);
-    if (!is_zero) derivatives.push_back(std::move(derivative));
-  }
-  return derivatives;
-}
-
-}  // namespace
-
-std::unique_ptr<Term> make_imported_stiffening(const BodyModel& model, int coordinates) {
-  const Stretching& stretching = *model.constants->stretching;
-  const std::optional<std::vector<int>> direct = find_coordinates(model);
-  std::vector<StiffeningElement> elements;
-  for (const StretchedElement& element : stretching.elements) {
-    elements.push_back(
-        {element.displacements, element.elongation, element.axial_stiffness, element.slopes});
-    if (!direct) continue;
-    for (int& index : elements.back().coordinates)
-      index = (*direct)[static_cast<std::size_t>(index)];
-  }
-  std::vector<DesignDerivative<std::vector<StiffeningDerivative>>> derivatives;
-  for (const auto& [variable, change] : model.constants_x) {
-    auto changes = differentiate_stiffening(*change.stretching);
-    if (!changes.empty()) derivatives.push_back({variable, std::move(changes)});
-  }
-  auto term = std::make_unique<GeometricStiffening>(model.name, std::move(elements),
-                                                    stretching.damping, derivatives);
-  if (direct) return term;
-  return std::make_unique<ProjectedTerm>(std::move(term), map_of(model), coordinates);
 }
 
 int place_at(const ImportedBody& imported, const Point& point, const Design<double>& start) {

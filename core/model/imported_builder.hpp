@@ -14,9 +14,11 @@ void set_imported(const ImportedBody& imported, const Body& body, const BuildCon
 std::vector<EffectRecord> imported_records(const ImportedBody& imported,
                                            const EffectSettings& settings, const BodyModel& model);
 
-/// Geometric stiffening of such a body.
-/// @param coordinates  of the whole system
-std::unique_ptr<Term> make_imported_stiffening(const BodyModel& model, int coordinates);
+/// What its file says of it, continued to a design.
+/// @throws InputError      where the file holds for another design only
+/// @throws SimulationError where it is no body any more
+BodyConstants constants_at(const ImportedBody& imported, const Body& body,
+                           const Design<double>& design);
 
 /// Index of the place that a point of the scene is at.
 int place_at(const ImportedBody& imported, const Point& point, const Design<double>& start);

@@ -1,5 +1,6 @@
 #include "core/model/joint_builder.hpp"
 
+#include "core/frame/number_data.hpp"
 #include "core/joints/joint_term.hpp"
 #include "core/scene/visit_numbers.hpp"
 #include "core/system/projected_term.hpp"
@@ -272,20 +273,9 @@ class JointBuilder {
   void differentiate() {
     for (int variable : variables()) {
       const JointData<Dual> seeded = resolve_data(context_.seeded(variable));
-      JointData<double> derivative;
-      bool is_zero = true;
-      const auto part = [&](const Dual& number) {
-        is_zero = is_zero && derivative_of(number) == 0.0;
-        return derivative_of(number);
-      };
-      for (std::size_t m = 0; m < 2; ++m) derivative.points[m] = seeded.points[m].unaryExpr(part);
-      for (const auto& direction : seeded.directions) {
-        derivative.directions.emplace_back(direction.unaryExpr(part));
+      if (auto change = derivative_data(seeded)) {
+        model_.derivatives.push_back({variable, std::move(*change)});
       }
-      derivative.offset = part(seeded.offset);
-      derivative.length = part(seeded.length);
-      derivative.drive = seeded.drive.transformed<double>(part);
-      if (!is_zero) model_.derivatives.push_back({variable, std::move(derivative)});
     }
   }
 

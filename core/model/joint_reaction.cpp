@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/joints/joint_numbers.hpp"
+#include "core/frame/number_data.hpp"
 #include "core/joints/joint_residual.hpp"
 
 namespace pleuel {
@@ -39,13 +39,10 @@ Local<Scalar> load(const JointReaction& reaction, const State& state) {
 template <class Scalar>
 Eigen::Matrix<Scalar, 6, 1> evaluate(const JointTopology& topology, const JointData<Scalar>& data,
                                      const Local<Scalar>& local, double time) {
-  std::array<Scalar, max_coordinates> forces;
   std::array<Scalar, max_equations> equations;
-  forces.fill(Scalar(0));
-  JointEvaluation<Scalar> evaluation(topology, data, time);
-  evaluation.set_state(local.q.data(), local.v.data(), local.a.data());
-  evaluation.evaluate(ConstraintLevel::position, local.lambda.data(), forces.data(),
-                      equations.data());
+  JointEvaluation<Scalar> evaluation(topology, data, time, local.q.data(), local.v.data(),
+                                     local.a.data());
+  evaluation.evaluate(ConstraintLevel::position, local.lambda.data(), equations.data());
   Eigen::Matrix<Scalar, 6, 1> result;
   result << evaluation.wrench().force, evaluation.wrench().moment;
   return result;
@@ -59,7 +56,7 @@ struct JointReaction::Numbers {
 };
 
 JointReaction::JointReaction(const JointModel& joint)
-    : joint_(joint), coordinates_(local_coordinates(joint.topology)) {
+    : joint_(joint), coordinates_(coordinate_indices(joint.topology.markers)) {
   auto numbers = std::make_unique<Numbers>();
   numbers->constants = cast_data<WideDual>(joint.data);
   for (const auto& [variable, derivative] : joint.derivatives) {

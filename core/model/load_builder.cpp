@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "core/forces/force_data.hpp"
+#include "core/frame/number_data.hpp"
 #include "core/forces/joint_force.hpp"
 #include "core/forces/point_force.hpp"
 #include "core/forces/point_torque.hpp"

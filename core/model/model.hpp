@@ -10,6 +10,7 @@
 #include "core/integration/mechanism.hpp"
 #include "core/joints/joint.hpp"
 #include "core/model/beam_mesh.hpp"
+#include "core/model/elastic_body.hpp"
 #include "core/model/motion_plane.hpp"
 #include "core/scene/problem_file.hpp"
 #include "core/system/coordinate_map.hpp"
@@ -28,48 +29,36 @@ struct BeamStretch {
   double of_whole(double share) const { return begin + share * (end - begin); }
 };
 
-/// A body of the model: what responses need to know of it. A beam that is divided into frames is
-/// several of them, one a frame, all with the name of the beam.
-struct BodyModel {
+enum class BodyKind { rigid, beam, imported };
+
+/// A body of the model: what joints, loads and responses need to know of it. A beam that is divided
+/// into frames is several of them, one a frame, all with the name of the beam.
+struct BodyModel : ElasticBody {
   std::string name;
-  BeamStretch stretch;
-  ReferenceCondition condition = ReferenceCondition::tangent;  ///< of a beam
+  BodyKind kind = BodyKind::rigid;
   BodyFrame frame;         ///< its coordinates begin at frame.offset, the elastic ones follow
   double mass = 0.0;       ///< [kg]
   Eigen::VectorXd mass_x;  ///< derivatives with respect to all design variables
-
-  /// Inertia, stiffness and damping in the elastic coordinates of the body, and their derivatives.
-  Invariants<double> invariants;
-  std::vector<DesignDerivative<Invariants<double>>> invariants_x;
-
   bool has_stiffening = false;
   bool is_elastic = false;
 
-  // Beams only:
-  std::optional<ElasticCoordinates> coordinates;  ///< nodal
+  // What a beam is made of: for section forces, and for judgements on beams.
+  BeamStretch stretch;
+  ReferenceCondition condition = ReferenceCondition::tangent;
   Beam<double> beam;
-  std::vector<std::pair<int, Beam<Dual>>> beam_x;  ///< for each variable the beam depends on
+  std::vector<std::pair<int, Beam<Dual>>> beam_x;  ///< in the order of the other derivatives
   BeamMesh mesh;
+  /// Which nodal displacements it has. They are its elastic coordinates, unless it has a basis of
+  /// modes or of the mean axis.
+  ElasticCoordinates coordinates = ElasticCoordinates(0, {});
+  bool has_basis = false;
 
-  // Imported bodies only: their constants at the present design.
-  std::optional<BodyConstants> constants;
-  std::vector<DesignDerivative<BodyConstants>> constants_x;
-
-  // Beams with a basis (mean axis, modes): d = Z q_f. All that is written in nodal displacements
-  // sees `nodal`, the same body with local numbers: frame, then nodal coordinates; `map` leads
-  // there.
-  std::optional<Eigen::MatrixXd> basis;
-  std::vector<DesignDerivative<Eigen::MatrixXd>> basis_x;
-  std::unique_ptr<BodyModel> nodal;
-  CoordinateMap map;
-
-  bool is_beam() const { return coordinates.has_value(); }
-  bool is_imported() const { return constants.has_value(); }
+  bool is_beam() const { return kind == BodyKind::beam; }
+  bool is_imported() const { return kind == BodyKind::imported; }
   int elastic_offset() const { return frame.offset + frame.size(); }
-  int elastic_size() const { return invariants.size(); }
-  /// Index in q of a nodal displacement of a body without basis, or −1.
+  /// Index in q of a nodal displacement of a beam without basis, or −1.
   int coordinate(int node, int displacement) const {
-    const int index = coordinates->index(node, displacement);
+    const int index = coordinates.index(node, displacement);
     return index < 0 ? -1 : elastic_offset() + index;
   }
 };

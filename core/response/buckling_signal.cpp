@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/response/section_signal.hpp"
+#include "core/response/section_stations.hpp"
 
 namespace pleuel {
 
@@ -102,14 +102,12 @@ class CompressionQuantity {
 
 std::unique_ptr<Signal> make_buckling_signal(const BodyModel& body,
                                              const Eigen::Vector3d& gravity) {
-  return std::make_unique<SectionSignal<BucklingQuantity>>(body, gravity, StationChoice{},
-                                                           BucklingQuantity(body));
+  return make_section_signal(body, gravity, {}, BucklingQuantity(body));
 }
 
 std::unique_ptr<Signal> make_compression_signal(const BodyModel& body,
                                                 const Eigen::Vector3d& gravity) {
-  return std::make_unique<SectionSignal<CompressionQuantity>>(body, gravity, StationChoice{},
-                                                              CompressionQuantity());
+  return make_section_signal(body, gravity, {}, CompressionQuantity());
 }
 
 std::vector<EulerLoad> euler_loads(const BodyModel& body, int variables) {

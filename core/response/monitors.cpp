@@ -57,24 +57,11 @@ class Monitoring {
   }
 
   void observe_rotations(const BodyModel& body) {
-    const auto q = state_.q.segment(body.elastic_offset(), body.elastic_size());
-    if (body.is_imported()) {
-      for (const BodyPlace& place : body.constants->places) {
-        note_rotation(body, (place.rotation * q).cwiseAbs().maxCoeff());
-      }
-      return;
-    }
-    const ElasticCoordinates& nodal = body.basis ? *body.nodal->coordinates : *body.coordinates;
-    for (int node = 0; node < nodal.node_count(); ++node) {
-      for (int i = 3; i < 6; ++i) {
-        const int index = nodal.index(node, i);
-        if (index < 0) continue;
-        note_rotation(body, std::abs(body.basis ? body.basis->row(index).dot(q) : q(index)));
-      }
-    }
-  }
-
-  void note_rotation(const BodyModel& body, double rotation) {
+    if (body.places.size() == 0) return;
+    const double rotation =
+        body.places.displacements(state_.q.segment(body.elastic_offset(), body.elastic_size()))
+            .bottomRows(3)
+            .lpNorm<Eigen::Infinity>();
     if (rotation <= monitors_.elastic_rotation) return;
     monitors_.elastic_rotation = rotation;
     monitors_.most_bent = body.name;

@@ -1,137 +1,135 @@
 #include "core/response/motion_signals.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 
-#include "core/beam/beam_place.hpp"
-#include "core/response/body_signal.hpp"
-#include "core/response/place_kinematics.hpp"
-#include "core/response/signal_sum.hpp"
+#include "core/response/body_state.hpp"
 #include "core/response/vector_component.hpp"
 
 namespace pleuel {
 
 namespace {
 
-/// Displacement of the beam axis at a place, local axes; or its rate, from nodal rates.
-template <class Scalar, class Nodal>
-Vector3<Scalar> displacement(const Beam<Scalar>& beam, const BeamPlace& place, Nodal&& nodal) {
-  const Scalar& length = beam.elements[static_cast<std::size_t>(place.element)].length;
-  Eigen::Matrix<Scalar, 12, 1> q;
-  for (int i = 0; i < 12; ++i) q(i) = nodal(i / 6, i % 6);
-  return axis_shape(place.xi, length) * q;
-}
+/// A formula in the frame and in p, ṗ, p̈ of a point.
+using PointDual = DualOf<3 * most_frame_coordinates + 9>;
 
-class DeflectionSignal final : public BodySignal<DeflectionSignal, 1> {
+class MotionSignal final : public Signal {
  public:
-  DeflectionSignal(const BodyModel& body, double at, int direction)
-      : BodySignal(body), at_(at), place_(find_place(body.beam, at)), direction_(direction) {}
+  MotionSignal(const BodyModel& body, NamedPoint point, int direction, TimeDerivative derivative)
+      : body_(body), point_(std::move(point)), direction_(direction), derivative_(derivative) {}
 
   int channels() const override { return 1; }
   std::string describe(int) const override {
-    return fmt::format("at {:g} of the length", body().stretch.of_whole(at_));
+    return fmt::format("{}, {}", point_.name, component_name(direction_));
   }
-  LocalPlace place(int) const { return {place_.element, 2}; }
-
-  template <class Scalar>
-  Scalar evaluate(const Beam<Scalar>& beam, const LocalMotion<Scalar>& motion, int) const {
-    return displacement<Scalar>(beam, place_, [&](int node, int i) {
-      return motion.q[static_cast<std::size_t>(nodal(node, i))];
-    })(direction_);
+  void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
+    const BodyState of_body(body_, state);
+    values(0) = evaluate<double>(of_body.frame(), of_body.motion(point_.point));
+  }
+  void add_gradient(const State& state, int, double weight, SignalGradient& gradient) override {
+    const BodyState of_body(body_, state);
+    const PointMotion fixed = of_body.motion(point_.point);
+    std::array<Vector3<PointDual>, 3> motion;
+    for (std::size_t k = 0; k < 3; ++k) {
+      motion[k] = fixed[k].cast<PointDual>();
+      for (int i = 0; i < 3; ++i) {
+        motion[k](i).derivatives()[first_of(k) + i] = 1.0;
+      }
+    }
+    const auto slopes =
+        evaluate<PointDual>(of_body.seeded_frame<PointDual>(), motion).derivatives();
+    PointMotion of_point;
+    for (std::size_t k = 0; k < 3; ++k) {
+      of_point[k] = weight * slopes.template segment<3>(first_of(k));
+    }
+    BodyGradient writer(body_, of_body, gradient);
+    writer.add_frame(weight, slopes);
+    writer.add_point(point_.point, of_point);
+    for (const auto& [variable, change] : point_.point.derivatives) {
+      writer.add_point_change(variable, change, of_point);
+    }
   }
 
  private:
-  double at_;
-  BeamPlace place_;
+  static int first_of(std::size_t derivative) {
+    return 3 * (most_frame_coordinates + static_cast<int>(derivative));
+  }
+
+  template <class Scalar>
+  Scalar evaluate(const FrameMotion<Scalar>& frame,
+                  const std::array<Vector3<Scalar>, 3>& motion) const {
+    return component_of<Scalar>(place_motion<Scalar>(frame, motion, derivative_), direction_);
+  }
+
+  const BodyModel& body_;
+  NamedPoint point_;
+  int direction_;
+  TimeDerivative derivative_;
+};
+
+class DeflectionSignal final : public Signal {
+ public:
+  DeflectionSignal(const BodyModel& body, NamedPoint point, int direction)
+      : body_(body), point_(std::move(point)), direction_(direction) {}
+
+  int channels() const override { return 1; }
+  std::string describe(int) const override { return point_.name; }
+  void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
+    values(0) = product(point_.point.shape, direction_, BodyState(body_, state).q());
+  }
+  void add_gradient(const State& state, int, double weight, SignalGradient& gradient) override {
+    const BodyState of_body(body_, state);
+    BodyGradient writer(body_, of_body, gradient);
+    writer.add_elastic(weight, point_.point.shape, direction_);
+    for (const auto& [variable, change] : point_.point.derivatives) {
+      writer.add_design(variable, weight * product(change.shape, direction_, of_body.q()));
+    }
+  }
+
+ private:
+  const BodyModel& body_;
+  NamedPoint point_;
   int direction_;
 };
 
-class PlaceSignal final : public BodySignal<PlaceSignal> {
+class AxisSignal final : public Signal {
  public:
-  PlaceSignal(const BodyModel& body, const PlaceMotion& motion, TimeDerivative derivative)
-      : BodySignal(body), motion_(motion), derivative_(derivative) {
-    if (body.is_beam()) place_ = find_place(body.beam, motion.at);
-  }
-
-  int channels() const override { return 1; }
-  std::string describe(int) const override {
-    const std::string place =
-        body().is_beam() ? fmt::format("at {:g} of the length", body().stretch.of_whole(motion_.at))
-                         : "reference point";
-    return fmt::format("{}, {}", place, component_name(motion_.direction));
-  }
-  LocalPlace place(int) const { return {place_.element, body().is_beam() ? 2 : 0}; }
-
-  template <class Scalar>
-  Scalar evaluate(const Beam<Scalar>& beam, const LocalMotion<Scalar>& motion, int) const {
-    const FrameMotion<Scalar> frame = this->frame(motion);
-    std::array<Vector3<Scalar>, 3> p;
-    for (auto& vector : p) vector.setConstant(Scalar(0));
-    if (body().is_beam()) {
-      const auto elastic = [&](const auto& nodes) {
-        return displacement<Scalar>(beam, place_, [&](int node, int i) {
-          return nodes[static_cast<std::size_t>(nodal(node, i))];
-        });
-      };
-      p = {elastic(motion.q), elastic(motion.v), elastic(motion.a)};
-      p[0](0) += position_of(beam, place_);
-    }
-    return component_of<Scalar>(place_motion<Scalar>(frame, p, derivative_), motion_.direction);
-  }
-
- private:
-  PlaceMotion motion_;
-  TimeDerivative derivative_;
-  BeamPlace place_;
-};
-
-class AxisSignal final : public BodySignal<AxisSignal, 1> {
- public:
-  AxisSignal(const BodyModel& body, int axis) : BodySignal(body), axis_(axis) {}
+  AxisSignal(const BodyModel& body, int axis) : body_(body), axis_(axis) {}
 
   int channels() const override { return 3; }
   std::string describe(int channel) const override {
     return fmt::format("axis of the body frame, {}", component_name(channel));
   }
-  LocalPlace place(int) const { return {}; }
-
-  template <class Scalar>
-  Scalar evaluate(const Beam<Scalar>&, const LocalMotion<Scalar>& motion, int channel) const {
-    return this->frame(motion).A(channel, axis_);
+  void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
+    values = BodyState(body_, state).frame().A.col(axis_);
+  }
+  void add_gradient(const State& state, int channel, double weight,
+                    SignalGradient& gradient) override {
+    const BodyState of_body(body_, state);
+    const FrameDual component = of_body.seeded_frame<FrameDual>().A(channel, axis_);
+    BodyGradient(body_, of_body, gradient).add_frame(weight, component.derivatives());
   }
 
  private:
+  const BodyModel& body_;
   int axis_;
 };
 
 }  // namespace
 
+std::unique_ptr<Signal> make_deflection_signal(const BodyModel& body, NamedPoint point,
+                                               int direction) {
+  return std::make_unique<DeflectionSignal>(body, std::move(point), direction);
+}
+
 std::unique_ptr<Signal> make_axis_signal(const BodyModel& body, int axis) {
   return std::make_unique<AxisSignal>(body, axis);
 }
 
-std::unique_ptr<Signal> make_deflection_signal(const BodyModel& body, double at, int direction) {
-  return std::make_unique<DeflectionSignal>(body, at, direction);
-}
-
-std::unique_ptr<Signal> make_chord_deflection_signal(const BodyModel& body, double at,
-                                                     int direction) {
-  std::vector<SignalSum::Part> parts;
-  parts.push_back({1.0, make_deflection_signal(body, at, direction)});
-  parts.push_back({at - 1.0, make_deflection_signal(body, 0.0, direction)});
-  parts.push_back({-at, make_deflection_signal(body, 1.0, direction)});
-  return std::make_unique<SignalSum>(std::move(parts));
-}
-
-std::unique_ptr<Signal> make_position_signal(const BodyModel& body, const PlaceMotion& motion) {
-  return std::make_unique<PlaceSignal>(body, motion, TimeDerivative::none);
-}
-
-std::unique_ptr<Signal> make_velocity_signal(const BodyModel& body, const PlaceMotion& motion) {
-  return std::make_unique<PlaceSignal>(body, motion, TimeDerivative::first);
-}
-
-std::unique_ptr<Signal> make_acceleration_signal(const BodyModel& body, const PlaceMotion& motion) {
-  return std::make_unique<PlaceSignal>(body, motion, TimeDerivative::second);
+std::unique_ptr<Signal> make_motion_signal(const BodyModel& body, NamedPoint point, int direction,
+                                           TimeDerivative derivative) {
+  return std::make_unique<MotionSignal>(body, std::move(point), direction, derivative);
 }
 
 }  // namespace pleuel

@@ -6,13 +6,12 @@
 
 #include "core/response/buckling_signal.hpp"
 #include "core/response/divided_deflection.hpp"
-#include "core/response/imported_signals.hpp"
-#include "core/response/imported_stress_signal.hpp"
 #include "core/response/motion_signals.hpp"
-#include "core/response/projected_signal.hpp"
+#include "core/response/point_stress_signal.hpp"
 #include "core/response/response.hpp"
 #include "core/response/scaled_signal.hpp"
 #include "core/response/signal_list.hpp"
+#include "core/response/signal_sum.hpp"
 #include "core/response/stress_signal.hpp"
 
 namespace pleuel {
@@ -25,36 +24,34 @@ class BodySignalMaker {
       : settings_(settings), model_(model), body_(body) {}
 
   std::unique_ptr<Signal> make() const {
-    const bool needs_section_forces =
-        settings_.type == ResponseType::stress || settings_.type == ResponseType::buckling;
-    if (needs_section_forces && body_.is_beam()) check_section_forces();
-    if (body_.is_imported()) return make_imported_signal();
-    return in_coordinates([&](const BodyModel& body) { return make_body_signal(body); });
+    switch (settings_.type) {
+      case ResponseType::stress:
+        return make_stress();
+      case ResponseType::buckling:
+        check_section_forces();
+        return make_buckling_signal(body_, model_.gravity);
+      case ResponseType::deflection:
+        return make_deflection();
+      case ResponseType::position:
+        return make_motion(TimeDerivative::none);
+      case ResponseType::velocity:
+        return make_motion(TimeDerivative::first);
+      default:
+        return make_motion(TimeDerivative::second);
+    }
   }
 
   /// Compressive axial force.
   std::unique_ptr<Signal> make_compression() const {
     check_section_forces();
-    return in_coordinates(
-        [&](const BodyModel& body) { return make_compression_signal(body, model_.gravity); });
+    return make_compression_signal(body_, model_.gravity);
   }
 
   /// Where an axis of the body frame points.
-  std::unique_ptr<Signal> make_axis(int axis) const {
-    return in_coordinates([&](const BodyModel& body) { return make_axis_signal(body, axis); });
-  }
+  std::unique_ptr<Signal> make_axis(int axis) const { return make_axis_signal(body_, axis); }
 
  private:
   [[noreturn]] void fail(const std::string& why) const { refuse_response(settings_.name, why); }
-
-  /// @param make  a signal of the body itself, or with a basis of the one in the coordinates of its
-  ///              elements
-  template <class Make>
-  std::unique_ptr<Signal> in_coordinates(const Make& make) const {
-    if (!body_.basis) return make(body_);
-    return std::make_unique<ProjectedSignal>(make(*body_.nodal), body_.map,
-                                             model_.mechanism.system->variables());
-  }
 
   /// Section forces come from strain.
   void check_section_forces() const {
@@ -76,66 +73,66 @@ class BodySignalMaker {
   }
 
   bool has_displacement(int direction) const {
-    const ElasticCoordinates& coordinates = *body_.coordinates;
+    const ElasticCoordinates& coordinates = body_.coordinates;
     for (int node = 0; node < coordinates.node_count(); ++node) {
       if (coordinates.index(node, direction) >= 0) return true;
     }
     return false;
   }
 
-  std::unique_ptr<Signal> make_body_signal(const BodyModel& body) const {
-    const PlaceMotion place{settings_.at, settings_.direction};
-    switch (settings_.type) {
-      case ResponseType::stress:
-        return make_stress_signal(body, model_.gravity, settings_.part,
-                                  {settings_.segment, settings_.station});
-      case ResponseType::buckling:
-        return make_buckling_signal(body, model_.gravity);
-      case ResponseType::deflection:
-        return make_deflection(body);
-      case ResponseType::position:
-        return make_position_signal(body, place);
-      case ResponseType::velocity:
-        return make_velocity_signal(body, place);
-      default:
-        return make_acceleration_signal(body, place);
+  std::unique_ptr<Signal> make_stress() const {
+    if (body_.is_imported()) {
+      if (!body_.is_elastic) fail(fmt::format("\"{}\" is rigid", body_.name));
+      return make_point_stress_signal(body_, model_.gravity, settings_.part);
     }
+    check_section_forces();
+    return make_stress_signal(body_, model_.gravity, settings_.part,
+                              {settings_.segment, settings_.station});
   }
 
-  std::unique_ptr<Signal> make_imported_signal() const {
-    const bool needs_strain =
-        settings_.type == ResponseType::stress || (settings_.type == ResponseType::deflection &&
-                                                   settings_.against == DeflectionReference::frame);
-    if (needs_strain && !body_.is_elastic) fail(fmt::format("\"{}\" is rigid", body_.name));
-    const auto motion = [&](TimeDerivative derivative) {
-      return make_imported_motion_signal(body_, settings_.place, settings_.direction, derivative);
-    };
-    switch (settings_.type) {
-      case ResponseType::stress:
-        return make_imported_stress_signal(body_, model_.gravity, settings_.part);
-      case ResponseType::velocity:
-        return motion(TimeDerivative::first);
-      case ResponseType::acceleration:
-        return motion(TimeDerivative::second);
-      case ResponseType::deflection:
-        if (settings_.against == DeflectionReference::frame) {
-          return make_imported_deflection_signal(body_, settings_.place, settings_.direction);
-        }
-        [[fallthrough]];
-      default:  // also against the rigid mechanism, see make_deflection()
-        return motion(TimeDerivative::none);
-    }
+  /// The point that the response looks at.
+  NamedPoint point() const {
+    if (body_.is_beam()) return point_along(settings_.at);
+    if (!body_.is_imported()) return {{}, "reference point"};
+    const std::vector<std::string>& names = body_.places.names;
+    const auto found = std::find(names.begin(), names.end(), settings_.place);
+    return {point_of(body_, static_cast<int>(found - names.begin())),
+            fmt::format("at \"{}\"", settings_.place)};
   }
 
-  std::unique_ptr<Signal> make_deflection(const BodyModel& body) const {
+  NamedPoint point_along(double share) const {
+    return {point_of(body_, find_place(body_.beam, share)),
+            fmt::format("at {:g} of the length", body_.stretch.of_whole(share))};
+  }
+
+  std::unique_ptr<Signal> make_motion(TimeDerivative derivative) const {
+    return make_motion_signal(body_, point(), settings_.direction, derivative);
+  }
+
+  std::unique_ptr<Signal> make_deflection() const {
     switch (settings_.against) {
       case DeflectionReference::frame:
-        return make_deflection_signal(body, settings_.at, settings_.direction);
+        if (body_.is_imported() && !body_.is_elastic) {
+          fail(fmt::format("\"{}\" is rigid", body_.name));
+        }
+        return make_deflection_signal(body_, point(), settings_.direction);
       case DeflectionReference::chord:
-        return make_chord_deflection_signal(body, settings_.at, settings_.direction);
+        return make_chord_deflection();
       default:  // the position in the rigid mechanism is taken off afterwards
-        return make_position_signal(body, {settings_.at, settings_.direction});
+        return make_motion(TimeDerivative::none);
     }
+  }
+
+  /// Against the straight line through both ends of a beam, whatever its frame.
+  std::unique_ptr<Signal> make_chord_deflection() const {
+    const double at = settings_.at;
+    std::vector<SignalSum::Part> parts;
+    for (const auto& [factor, share] :
+         {std::pair(1.0, at), std::pair(at - 1.0, 0.0), std::pair(-at, 1.0)}) {
+      parts.push_back(
+          {factor, make_deflection_signal(body_, point_along(share), settings_.direction)});
+    }
+    return std::make_unique<SignalSum>(std::move(parts));
   }
 
   const ResponseSettings& settings_;

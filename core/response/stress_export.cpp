@@ -6,12 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "core/response/element_forces.hpp"
+#include "core/response/section_forces.hpp"
 #include "core/response/stress_signal.hpp"
 
 namespace pleuel {
-
-using Eigen::MatrixXd;
 
 namespace {
 
@@ -22,20 +20,15 @@ constexpr int outline_points = 32;
 }  // namespace
 
 StressExport::StressExport(const BodyModel& body, const std::vector<NamedPlace>& places)
-    : body_(body), nodal_(body), places_(places), stations_(find_stations(body, {})) {
+    : body_(body), places_(places), stations_(find_stations(body, {})) {
   find_stress_places();
-}
-
-const SectionProperties<double>& StressExport::section_of(int station) const {
-  const int element = stations_[static_cast<std::size_t>(station)].elements.front();
-  return body_.beam.elements[static_cast<std::size_t>(element)].section;
 }
 
 void StressExport::find_stress_places() {
   const bool is_planar = body_.frame.rotation == RotationCoordinates::angle;
   for (int s = 0; s < static_cast<int>(stations_.size()); ++s) {
     const std::string node = fmt::format("node {}", stations_[static_cast<std::size_t>(s)].place);
-    const SectionProperties<double>& section = section_of(s);
+    const SectionProperties<double>& section = section_of(body_.beam, s);
     if (section.is_round() && !is_planar) {
       for (int i = 0; i < outline_points; ++i) {
         const double angle = 2.0 * std::numbers::pi * i / outline_points;
@@ -63,111 +56,81 @@ StressPoint<Scalar> StressExport::point_of(const SectionProperties<Scalar>& sect
           sqrt(c * c * shear_y * shear_y + s * s * shear_z * shear_z)};
 }
 
-/// σ_xx and τ of a point per unit of: twelve coordinates of an element, elongation, three
-/// accelerations of either node.
-template <class Scalar>
-Eigen::Matrix<Scalar, 2, 19> StressExport::unit_stresses(const BeamElement<Scalar>& element,
-                                                         const SectionProperties<Scalar>& section,
-                                                         const StressPlace& place, double xi) {
-  const StressPoint<Scalar> point = point_of(section, place);
-  Eigen::Matrix<Scalar, 2, 19> columns;
-  for (int i = 0; i < 19; ++i) {
-    Eigen::Matrix<Scalar, 19, 1> unit = Eigen::Matrix<Scalar, 19, 1>::Constant(Scalar(0));
-    unit(i) = Scalar(1);
-    const SectionForces<Scalar> forces =
-        element_forces<Scalar>(element, unit.template head<12>(), unit(12),
-                               {unit.template segment<3>(13), unit.template segment<3>(16)}, xi);
-    columns(0, i) = forces.axial / section.area - forces.moment_z * point.y / section.inertia_z +
-                    forces.moment_y * point.z / section.inertia_y;
-    columns(1, i) = forces.torque * point.shear;
-  }
-  return columns;
-}
-
-int StressExport::place_of_node(int node) const {
-  const double x = body_.beam.node_position(node);
-  const auto nearest = std::min_element(places_.begin(), places_.end(),
-                                        [x](const NamedPlace& a, const NamedPlace& b) {
-                                          return std::abs(a.x - x) < std::abs(b.x - x);
-                                        });
-  return static_cast<int>(nearest - places_.begin());
-}
-
+/// σ_xx and τ_xy of all points from the section forces of all stations, six rows a point.
 /// @param number  Scalar → double: value or derivative
 template <class Scalar, class Number>
-StressExport::Rows StressExport::rows_of(const Beam<Scalar>& beam, const Number& number) const {
-  const auto rows = 6 * static_cast<Eigen::Index>(stress_places_.size());
-  const auto elements = static_cast<Eigen::Index>(beam.elements.size());
-  Rows result{MatrixXd::Zero(rows, nodal_.nodal_size()),
-              MatrixXd::Zero(rows, 3 * static_cast<Eigen::Index>(places_.size())),
-              MatrixXd::Zero(rows, elements)};
-  for (std::size_t i = 0; i < stress_places_.size(); ++i) {
-    const Station& station = stations_[static_cast<std::size_t>(stress_places_[i].station)];
-    const auto& section = beam.elements[static_cast<std::size_t>(station.elements.front())].section;
-    const double share = 1.0 / static_cast<double>(station.elements.size());
-    for (int e : station.elements) {
-      const BeamElement<Scalar>& element = beam.elements[static_cast<std::size_t>(e)];
-      const auto unit =
-          unit_stresses<Scalar>(element, section, stress_places_[i], station.place - e);
-      MatrixXd columns(2, 19);
-      for (int c = 0; c < 19; ++c) {
-        for (int r = 0; r < 2; ++r) columns(r, c) = share * number(unit(r, c));
-      }
-      add_element(static_cast<Eigen::Index>(6 * i), e, columns, result);
-      // A force N instead of the strain: σ = N/A.
-      result.of_stretching(static_cast<Eigen::Index>(6 * i), e) =
-          share * number(Scalar(1.0 / section.area));
-    }
+SparseMatrix StressExport::stress_of_forces(const Beam<Scalar>& beam, const Number& number) const {
+  std::vector<Eigen::Triplet<double>> entries;
+  int row = 0;
+  for (const StressPlace& place : stress_places_) {
+    const SectionProperties<Scalar>& section = section_of(beam, place.station);
+    const StressPoint<Scalar> point = point_of(section, place);
+    const Scalar normal[] = {1.0 / section.area, point.z / section.inertia_y,
+                             -point.y / section.inertia_z};
+    const int column = section_force_count * place.station;
+    for (int i = 0; i < 3; ++i) entries.emplace_back(row, column + i, number(normal[i]));
+    entries.emplace_back(row + 3, column + 3, number(point.shear));
+    row += 6;
   }
-  return result;
+  SparseMatrix matrix(row, section_force_count * static_cast<Eigen::Index>(stations_.size()));
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
 }
 
-void StressExport::add_element(Eigen::Index row, int e, const MatrixXd& columns, Rows& rows) const {
-  MatrixXd strain = columns.leftCols(12);
-  strain.col(0) -= columns.col(12);
-  strain.col(6) += columns.col(12);
-  const MatrixXd nodal = nodal_.scatter(e, strain);
-  for (int r = 0; r < 2; ++r) {  // σ_xx and τ_xy of six
-    const Eigen::Index at = row + (r == 0 ? 0 : 3);
-    rows.of_nodal.row(at) += nodal.row(r);
-    for (int end : {0, 1}) {
-      rows.of_accelerations.row(at).segment(3 * place_of_node(e + end), 3) +=
-          columns.row(r).segment(13 + 3 * end, 3);
-    }
-  }
+SparseMatrix StressExport::stress_of_forces() const {
+  return stress_of_forces(body_.beam, [](double number) { return number; });
 }
 
-StressRecovery StressExport::recovery_of(const Rows& rows, const MatrixXd& of_coordinates) const {
+/// Accelerations of the nodes as those of the named places.
+SparseMatrix StressExport::of_named_places(const SparseMatrix& of_nodes) const {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int node = 0; node < body_.beam.node_count(); ++node) {
+    const double x = body_.beam.node_position(node);
+    const auto nearest = std::min_element(places_.begin(), places_.end(),
+                                          [x](const NamedPlace& a, const NamedPlace& b) {
+                                            return std::abs(a.x - x) < std::abs(b.x - x);
+                                          });
+    for (int i = 0; i < 3; ++i) {
+      entries.emplace_back(3 * node + i, 3 * (nearest - places_.begin()) + i, 1.0);
+    }
+  }
+  SparseMatrix nodes(of_nodes.cols(), 3 * static_cast<Eigen::Index>(places_.size()));
+  nodes.setFromTriplets(entries.begin(), entries.end());
+  return of_nodes * nodes;
+}
+
+StressRecovery StressExport::recovery_of(const Recovery& stress, double strength) const {
   StressRecovery recovery;
   for (const StressPlace& place : stress_places_) recovery.points.push_back(place.name);
-  recovery.of_coordinates = of_coordinates.sparseView();
-  recovery.of_accelerations = rows.of_accelerations.sparseView();
-  if (body_.has_stiffening) {
-    recovery.of_stretching = rows.of_stretching.sparseView();
-  } else {
-    recovery.of_stretching.resize(rows.of_stretching.rows(), 0);
-  }
+  recovery.strength = strength;
+  recovery.of_coordinates = stress.of_coordinates.pruned();
+  recovery.of_accelerations = of_named_places(stress.of_accelerations).pruned();
+  recovery.of_stretching = stress.of_stretching.pruned();
   return recovery;
-}
-
-StressExport::Rows StressExport::values() const {
-  return rows_of(body_.beam, [](double number) { return number; });
 }
 
 StressRecovery StressExport::value() const {
-  const Rows rows = values();
-  StressRecovery recovery = recovery_of(rows, nodal_.reduce(rows.of_nodal));
-  recovery.strength = body_.beam.elements.front().strength;
-  return recovery;
+  const SparseMatrix stress = stress_of_forces();
+  const Recovery forces = section_force_recovery(body_, stations_);
+  return recovery_of({stress * forces.of_coordinates, stress * forces.of_accelerations,
+                      stress * forces.of_stretching},
+                     body_.beam.elements.front().strength);
 }
 
 StressRecovery StressExport::derivative(std::size_t k) const {
   const Beam<Dual>& beam = body_.beam_x[k].second;
-  const Rows rows = rows_of(beam, [](const Dual& number) { return derivative_of(number); });
-  const MatrixXd of_coordinates = nodal_.reduce_derivative(values().of_nodal, rows.of_nodal, k);
-  StressRecovery recovery = recovery_of(rows, of_coordinates);
-  recovery.strength = derivative_of(beam.elements.front().strength);
-  return recovery;
+  const SparseMatrix stress = stress_of_forces();
+  const SparseMatrix stress_x =
+      stress_of_forces(beam, [](const Dual& number) { return derivative_of(number); });
+  const Recovery forces = section_force_recovery(body_, stations_);
+  const Recovery forces_x = section_force_derivative(body_, stations_, k);
+  const auto change = [&](const SparseMatrix Recovery::*part) {
+    return SparseMatrix(SparseMatrix(stress * (forces_x.*part)) +
+                        SparseMatrix(stress_x * (forces.*part)));
+  };
+  return recovery_of({change(&Recovery::of_coordinates), change(&Recovery::of_accelerations),
+                      change(&Recovery::of_stretching)},
+                     derivative_of(beam.elements.front().strength));
 }
 
 }  // namespace pleuel

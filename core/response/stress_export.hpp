@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/response/named_places.hpp"
-#include "core/response/nodal_map.hpp"
 #include "core/response/station.hpp"
+#include "core/section/section_stress.hpp"
 
 namespace pleuel {
 
@@ -19,36 +19,30 @@ class StressExport {
   StressRecovery derivative(std::size_t k) const;
 
  private:
-  /// A number of stress, of one point of one station.
+  /// A point of one station.
   struct StressPlace {
     std::string name;
     int station;
     int point;           ///< of the section, or −1: on its outline
     double angle = 0.0;  ///< on the outline
   };
-  /// The matrices of the recovery in nodal coordinates.
-  struct Rows {
-    Eigen::MatrixXd of_nodal, of_accelerations, of_stretching;
-  };
 
-  const SectionProperties<double>& section_of(int station) const;
+  template <class Scalar>
+  const SectionProperties<Scalar>& section_of(const Beam<Scalar>& beam, int station) const {
+    const int element = stations_[static_cast<std::size_t>(station)].elements.front();
+    return beam.elements[static_cast<std::size_t>(element)].section;
+  }
   void find_stress_places();
   template <class Scalar>
   static StressPoint<Scalar> point_of(const SectionProperties<Scalar>& section,
                                       const StressPlace& place);
-  template <class Scalar>
-  static Eigen::Matrix<Scalar, 2, 19> unit_stresses(const BeamElement<Scalar>& element,
-                                                    const SectionProperties<Scalar>& section,
-                                                    const StressPlace& place, double xi);
-  int place_of_node(int node) const;
   template <class Scalar, class Number>
-  Rows rows_of(const Beam<Scalar>& beam, const Number& number) const;
-  void add_element(Eigen::Index row, int e, const Eigen::MatrixXd& columns, Rows& rows) const;
-  StressRecovery recovery_of(const Rows& rows, const Eigen::MatrixXd& of_coordinates) const;
-  Rows values() const;
+  SparseMatrix stress_of_forces(const Beam<Scalar>& beam, const Number& number) const;
+  SparseMatrix stress_of_forces() const;
+  SparseMatrix of_named_places(const SparseMatrix& of_nodes) const;
+  StressRecovery recovery_of(const Recovery& stress, double strength) const;
 
   const BodyModel& body_;
-  NodalMap nodal_;
   const std::vector<NamedPlace>& places_;
   std::vector<Station> stations_;
   std::vector<StressPlace> stress_places_;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/response/section_signal.hpp"
+#include "core/response/section_stations.hpp"
 
 namespace pleuel {
 
@@ -111,8 +111,7 @@ std::vector<int> distinct_stress_points(const BodyModel& body,
 
 std::unique_ptr<Signal> make_stress_signal(const BodyModel& body, const Eigen::Vector3d& gravity,
                                            StressPart part, const StationChoice& stations) {
-  return std::make_unique<SectionSignal<StressQuantity>>(body, gravity, stations,
-                                                         StressQuantity(part));
+  return make_section_signal(body, gravity, stations, StressQuantity(part));
 }
 
 }  // namespace pleuel

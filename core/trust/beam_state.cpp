@@ -8,16 +8,7 @@ namespace pleuel {
 
 Eigen::MatrixXd nodal_displacements(const BodyModel& body, const State& state) {
   const auto q = state.q.segment(body.elastic_offset(), body.elastic_size());
-  const ElasticCoordinates& nodal = body.basis ? *body.nodal->coordinates : *body.coordinates;
-  const Eigen::VectorXd values = body.basis ? Eigen::VectorXd(*body.basis * q) : Eigen::VectorXd(q);
-  Eigen::MatrixXd displacements = Eigen::MatrixXd::Zero(6, nodal.node_count());
-  for (int node = 0; node < nodal.node_count(); ++node) {
-    for (int i = 0; i < 6; ++i) {
-      const int index = nodal.index(node, i);
-      if (index >= 0) displacements(i, node) = values(index);
-    }
-  }
-  return displacements;
+  return body.places.displacements(q);
 }
 
 double elongation_of(const BodyModel& body, const Eigen::MatrixXd& nodal, int element) {
@@ -52,10 +43,8 @@ void note_beam(const BodyModel& body, const State& state, int step, LargestDefor
 
 void note_imported(const BodyModel& body, const State& state, int step,
                    LargestDeformation& largest) {
-  const auto q = state.q.segment(body.elastic_offset(), body.elastic_size());
-  for (const BodyPlace& place : body.constants->places) {
-    keep_larger((place.rotation * q).norm(), step, largest.bending, largest.bending_step);
-  }
+  const double turned = nodal_displacements(body, state).bottomRows(3).colwise().norm().maxCoeff();
+  keep_larger(turned, step, largest.bending, largest.bending_step);
 }
 
 }  // namespace

@@ -7,8 +7,9 @@
 
 namespace pleuel {
 
-/// Displacements u v w θx θy θz of the nodes of an elastic beam against its frame, 6 × nodes; zero
-/// where there is no coordinate. Of a reduced beam those that its modes make.
+/// Displacements u v w θx θy θz of the nodes of an elastic beam (or of the places of an imported
+/// body) against its frame, 6 × nodes; zero where there is no coordinate. Of a reduced beam those
+/// that its modes make.
 Eigen::MatrixXd nodal_displacements(const BodyModel& body, const State& state);
 
 /// Δu of an element, with the shortening by bending where geometric stiffening is built [m].

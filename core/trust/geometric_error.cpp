@@ -184,7 +184,7 @@ class ExactBeam {
 
   /// Whether the model has a nodal displacement (0 … 5) at all.
   bool has_coordinate(int displacement) const {
-    const ElasticCoordinates& nodal = body_.basis ? *body_.nodal->coordinates : *body_.coordinates;
+    const ElasticCoordinates& nodal = body_.coordinates;
     for (int node = 0; node < nodal.node_count(); ++node) {
       if (nodal.index(node, displacement) >= 0) return true;
     }

@@ -16,14 +16,14 @@ inline Eigen::MatrixXd change_of_basis(const pleuel::Model& model, const pleuel:
   Eigen::MatrixXd b = Eigen::MatrixXd::Identity(n, n);
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const pleuel::BodyModel& body = model.bodies[i];
-    if (!body.basis) continue;
-    Eigen::MatrixXd expected = *body.basis;
-    for (const auto& [k, derivative] : body.basis_x) {
-      if (k == variable) expected += change * derivative;
+    if (!body.has_basis) continue;
+    Eigen::MatrixXd expected(body.places.shape);
+    for (const auto& [k, derivative] : body.places_x) {
+      if (k == variable) expected += change * derivative.shape;
     }
     const int first = body.elastic_offset(), size = body.elastic_size();
     b.block(first, first, size, size) =
-        neighbour.bodies[i].basis->colPivHouseholderQr().solve(expected);
+        Eigen::MatrixXd(neighbour.bodies[i].places.shape).colPivHouseholderQr().solve(expected);
   }
   return b;
 }

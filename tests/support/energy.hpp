@@ -19,12 +19,12 @@ inline double energy_of(pleuel::Model& model, const pleuel::State& state) {
       energy -= body.mass * model.gravity.dot(body.frame.origin + body.frame.basis * u);
       continue;
     }
-    const auto invariants = beam_invariants(body.beam, *body.coordinates);
+    const auto invariants = beam_invariants(body.beam, body.coordinates);
     const auto motion =
         frame_motion<double>(body.frame, state.q.segment(body.frame.offset, body.frame.size()),
                              state.v.segment(body.frame.offset, body.frame.size()),
                              state.a.segment(body.frame.offset, body.frame.size()));
-    const Eigen::VectorXd q = state.q.segment(body.elastic_offset(), body.coordinates->size());
+    const Eigen::VectorXd q = state.q.segment(body.elastic_offset(), body.coordinates.size());
     const Eigen::Vector3d first = invariants.first_moment + invariants.shape * q;
     energy -= model.gravity.dot(body.mass * motion.r + motion.A * first);
     energy += 0.5 * q.dot(dense(invariants.pattern, invariants.stiffness) * q);

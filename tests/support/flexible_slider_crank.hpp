@@ -81,11 +81,11 @@ inline Modes modes_at(double x) {
 
 /// Nodal displacements of the four modes in the coordinates of a chord frame, n × 4.
 inline Eigen::MatrixXd basis_of(const BodyModel& rod) {
-  Eigen::MatrixXd z = Eigen::MatrixXd::Zero(rod.coordinates->size(), 4);
-  for (int node = 0; node < rod.coordinates->node_count(); ++node) {
+  Eigen::MatrixXd z = Eigen::MatrixXd::Zero(rod.coordinates.size(), 4);
+  for (int node = 0; node < rod.coordinates.node_count(); ++node) {
     const Modes modes = modes_at(rod.beam.node_position(node));
     const auto set = [&](int displacement, int mode, double value) {
-      const int row = rod.coordinates->index(node, displacement);
+      const int row = rod.coordinates.index(node, displacement);
       if (row >= 0) z(row, mode) = value;
     };
     for (int k = 0; k < 2; ++k) {

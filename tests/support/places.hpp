@@ -7,16 +7,7 @@
 /// local axes.
 inline Eigen::VectorXd nodal_displacements(const pleuel::BodyModel& body,
                                            const pleuel::State& state) {
-  const pleuel::BodyModel& nodal = body.nodal ? *body.nodal : body;
-  Eigen::VectorXd local = state.q;
-  if (body.nodal) local = body.map.rows * state.q(body.map.coordinates);
-  const int nodes = body.coordinates->node_count();
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(6 * nodes);
-  for (int i = 0; i < 6 * nodes; ++i) {
-    const int index = nodal.coordinate(i / 6, i % 6);
-    if (index >= 0) all(i) = local(index);
-  }
-  return all;
+  return body.places.shape * state.q.segment(body.elastic_offset(), body.elastic_size());
 }
 
 /// The frame of a body in an instant.

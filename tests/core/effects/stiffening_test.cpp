@@ -103,7 +103,7 @@ struct RotatingCantilever {
   }
   static void stretch(Model& model, State& state) {
     const BodyModel& body = model.body("beam");
-    const int first = body.elastic_offset(), n = body.coordinates->size();
+    const int first = body.elastic_offset(), n = body.coordinates.size();
     for (int iteration = 0; iteration < 5; ++iteration) {
       state.q.segment(first, n) -= tangent(model, state, {.q = 1.0})
                                        .block(first, first, n, n)

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "core/base/rotation_vector.hpp"
-#include "core/forces/force_data.hpp"
+#include "core/frame/number_data.hpp"
 #include "core/forces/joint_force.hpp"
 #include "core/forces/point_force.hpp"
 #include "core/forces/point_torque.hpp"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/joints/joint_numbers.hpp"
+#include "core/frame/number_data.hpp"
 #include "core/joints/joint_residual.hpp"
 #include "tests/support/differences.hpp"
 
@@ -72,22 +72,21 @@ class JointEquations : public testing::TestWithParam<EquationKind> {
 TEST_P(JointEquations, ByHandAreThoseOfTheTemplate) {
   JointLinearization joint(topology_, data_, time_, q_.data(), size);
   joint.evaluate(equation_);
-  std::array<Wide, size> q, rest, forces;
+  std::array<Wide, size> q, rest;
   for (std::size_t i = 0; i < size; ++i) {
     q[i] = Wide(q_[i]);
     q[i].derivatives()[static_cast<int>(i)] = 1.0;
-    rest[i] = forces[i] = Wide(0.0);
+    rest[i] = Wide(0.0);
   }
   const JointData<Wide> wide_data = cast_data<Wide>(data_);
-  JointEvaluation<Wide> evaluation(topology_, wide_data, time_);
-  evaluation.set_state(q.data(), rest.data(), rest.data());
+  JointEvaluation<Wide> evaluation(topology_, wide_data, time_, q.data(), rest.data(), rest.data());
   const Wide one(1.0);
   Wide value;
-  evaluation.evaluate(ConstraintLevel::position, &one, forces.data(), &value);
+  evaluation.evaluate(ConstraintLevel::position, &one, &value);
   EXPECT_NEAR(value.value(), joint.value(), 1e-14);
   EXPECT_LE((value.derivatives() - joint.gradient()).lpNorm<Eigen::Infinity>(), 1e-13);
   for (int i = 0; i < size; ++i) {
-    const Wide& force = forces[static_cast<std::size_t>(i)];
+    const Wide& force = evaluation.forces()[static_cast<std::size_t>(i)];
     EXPECT_NEAR(force.value(), joint.gradient()(i), 1e-13) << i;
     EXPECT_LE((force.derivatives().transpose() - joint.hessian().row(i)).lpNorm<Eigen::Infinity>(),
               1e-13)

@@ -18,7 +18,7 @@ constexpr double length = 0.8, width = 0.02, height = 0.03, density = 7850, grav
 /// Elastic coordinates at which the beam rests in its (possibly turning) frame.
 void find_rest(Model& model, State& state) {
   const BodyModel& body = model.body("beam");
-  const int first = body.elastic_offset(), n = body.coordinates->size();
+  const int first = body.elastic_offset(), n = body.coordinates.size();
   for (int iteration = 0; iteration < 8; ++iteration) {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(n);
     Eigen::MatrixXd tangent = Eigen::MatrixXd::Zero(n, n);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -8,7 +9,7 @@
 
 namespace pleuel {
 
-/// What a local coordinate of a force element moves.
+/// What a local coordinate of a joint or a force element moves.
 enum class CoordinatePart {
   translation,   ///< of the frame
   rotation,      ///< of the frame
@@ -42,7 +43,20 @@ std::vector<LocalCoordinate> local_coordinates(const std::array<Marker, Count>& 
   return all;
 }
 
-/// Kinematics of the markers of a force element, and the generalized forces of what acts on them.
+/// Their indices in q.
+template <std::size_t Count>
+std::vector<int> coordinate_indices(const std::array<Marker, Count>& markers) {
+  std::vector<int> indices;
+  for (const LocalCoordinate& local : local_coordinates(markers)) indices.push_back(local.index);
+  return indices;
+}
+
+/// A vector with its first two time derivatives.
+template <class Scalar>
+using Motion = std::array<Vector3<Scalar>, 3>;
+
+/// Kinematics of the markers of a joint or a force element, and the generalized forces of what acts
+/// on them.
 ///
 /// Points and directions are attached to a marker by their undeformed local vectors p and s, with
 /// the elastic displacement u and rotation ψ of the marker, R = exp(ψ̃) (elastic_rotation.hpp):
@@ -50,19 +64,20 @@ std::vector<LocalCoordinate> local_coordinates(const std::array<Marker, Count>& 
 /// Forces enter by their virtual work, so that they are the exact gradients of what was computed
 /// from P and d.
 template <class Scalar, std::size_t Count>
-class MarkerForces {
+class MarkerKinematics {
  public:
   static constexpr int max_size = static_cast<int>(Count) * max_marker_size;
   using Vector = Vector3<Scalar>;
   using Coordinates = std::array<Scalar, static_cast<std::size_t>(max_size)>;
 
-  /// @param q, v  local coordinates and their rates
-  MarkerForces(const std::array<Marker, Count>& markers, const Coordinates& q, const Coordinates& v)
+  /// @param q, v, a  local coordinates and their rates; without a there are no accelerations
+  MarkerKinematics(const std::array<Marker, Count>& markers, const Scalar* q, const Scalar* v,
+                   const Scalar* a = nullptr)
       : markers_(markers) {
     int first = 0;
     for (std::size_t m = 0; m < Count; ++m) {
       start_[m] = first;
-      first += set_marker(m, q.data() + first, v.data() + first);
+      first += set_marker(m, q + first, v + first, a == nullptr ? nullptr : a + first);
     }
     for (Scalar& force : forces_) force = Scalar(0);
   }
@@ -71,11 +86,21 @@ class MarkerForces {
 
   Vector position(std::size_t m, const Vector& p) const {
     const MarkerState& state = states_[m];
-    return state.frame.r + state.frame.A * (p + state.u);
+    return state.frame.r + state.frame.A * (p + state.u[0]);
   }
   Vector velocity(std::size_t m, const Vector& p) const {
     const MarkerState& state = states_[m];
-    return state.frame.r_dot + state.frame.A_dot * (p + state.u) + state.frame.A * state.u_dot;
+    return state.frame.r_dot + state.frame.A_dot * (p + state.u[0]) + state.frame.A * state.u[1];
+  }
+  /// P with its time derivatives.
+  Motion<Scalar> point(std::size_t m, const Vector& p) const {
+    const MarkerState& state = states_[m];
+    const FrameMotion<Scalar>& frame = state.frame;
+    Motion<Scalar> y = to_global(m, {Vector(p + state.u[0]), state.u[1], state.u[2]});
+    y[0] += frame.r;
+    y[1] += frame.r_dot;
+    y[2] += frame.r_ddot;
+    return y;
   }
 
   /// R s
@@ -89,16 +114,25 @@ class MarkerForces {
     return state.frame.A_dot * turned + state.frame.A * state.spin.cross(turned);
   }
 
+  /// d with its time derivatives, s moving in the undeformed marker.
+  Motion<Scalar> direction(std::size_t m, const Motion<Scalar>& s) const {
+    const MarkerState& state = states_[m];
+    const Vector turned = state.turn.turned(s[0]), moved = state.turn.turned(s[1]);
+    const Vector carried = state.spin.cross(turned);
+    return to_global(
+        m, {turned, Vector(carried + moved),
+            Vector(state.spin_rate.cross(turned) + state.spin.cross(Vector(carried + 2.0 * moved)) +
+                   state.turn.turned(s[2]))});
+  }
+
   /// φ + nᵀψ of a body that moves in a plane with normal n (local axes), counting whole turns; zero
   /// for what does not turn.
-  Scalar planar_angle(std::size_t m) const {
+  /// @param order  of the time derivative, 0 … 2
+  Scalar planar_angle(std::size_t m, std::size_t order = 0) const {
     if (!turns(m)) return Scalar(0);
-    return states_[m].angle + states_[m].frame.G.col(0).dot(states_[m].psi);
+    return states_[m].angle[order] + states_[m].frame.G.col(0).dot(states_[m].psi[order]);
   }
-  Scalar planar_rate(std::size_t m) const {
-    if (!turns(m)) return Scalar(0);
-    return states_[m].angle_rate + states_[m].frame.G.col(0).dot(states_[m].psi_dot);
-  }
+  bool turns(std::size_t m) const { return markers_[m].frame.rotations() > 0; }
 
   /// Force F on the point p: Q += (∂P/∂q)ᵀ F. Global axes.
   void add_force(std::size_t m, const Vector& F, const Vector& p) {
@@ -107,7 +141,7 @@ class MarkerForces {
       const Vector along = frame.basis.col(i).template cast<Scalar>();
       force(start_[m] + i) += along.dot(F);
     }
-    add_lever(m, F, p + states_[m].u);
+    add_lever(m, F, p + states_[m].u[0]);
     add_elastic(m, CoordinatePart::displacement, states_[m].frame.A.transpose() * F);
   }
 
@@ -139,37 +173,49 @@ class MarkerForces {
  private:
   struct MarkerState {
     FrameMotion<Scalar> frame;
-    Vector u, u_dot, psi, psi_dot;
-    ElasticRotation<Scalar> turn;               ///< by ψ
-    Vector spin = Vector::Constant(Scalar(0));  ///< of that turn against the frame, local axes
-    Scalar angle = Scalar(0), angle_rate = Scalar(0);
+    Motion<Scalar> u, psi;
+    ElasticRotation<Scalar> turn;  ///< by ψ
+    /// Of that turn against the frame, local axes.
+    Vector spin = Vector::Constant(Scalar(0)), spin_rate = spin;
+    std::array<Scalar, 3> angle;  ///< of motion in a plane, with its time derivatives
   };
 
-  int set_marker(std::size_t m, const Scalar* q, const Scalar* v) {
+  int set_marker(std::size_t m, const Scalar* q, const Scalar* v, const Scalar* a) {
     const Marker& marker = markers_[m];
     MarkerState& state = states_[m];
     using Local = Eigen::Matrix<Scalar, Eigen::Dynamic, 1, 0, max_marker_size, 1>;
     using Map = Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>>;
-    int next = marker.frame.size();
-    state.frame = frame_motion<Scalar>(marker.frame, Map(q, next), Map(v, next),
-                                       Local(Local::Constant(next, Scalar(0))));
-    if (marker.frame.rotation == RotationCoordinates::angle) {
-      state.angle = q[next - 1];
-      state.angle_rate = v[next - 1];
+    const int size = marker.frame.size();
+    const Local rest = Local::Constant(a == nullptr ? size : 0, Scalar(0));
+    state.frame = frame_motion<Scalar>(marker.frame, Map(q, size), Map(v, size),
+                                       Map(a == nullptr ? rest.data() : a, size));
+    const std::size_t orders = a == nullptr ? 2 : 3;
+    const std::array<const Scalar*, 3> rates = {q, v, a};
+    for (std::size_t order = 0; order < orders; ++order) {
+      if (marker.frame.rotation == RotationCoordinates::angle) {
+        state.angle[order] = rates[order][size - 1];
+      }
+      const Scalar* next = rates[order] + size;
+      for (int i = 0; i < 6; ++i) {
+        const bool is_active = marker.elastic[static_cast<std::size_t>(i)] >= 0;
+        (i < 3 ? state.u : state.psi)[order](i % 3) = is_active ? *next++ : Scalar(0);
+      }
     }
-    for (int i = 0; i < 6; ++i) {
-      const bool is_active = marker.elastic[static_cast<std::size_t>(i)] >= 0;
-      (i < 3 ? state.u : state.psi)(i % 3) = is_active ? q[next] : Scalar(0);
-      (i < 3 ? state.u_dot : state.psi_dot)(i % 3) = is_active ? v[next] : Scalar(0);
-      if (is_active) ++next;
+    if (marker.turns()) {
+      state.turn = ElasticRotation<Scalar>(state.psi[0]);
+      state.spin = state.turn.spin(state.psi[1]);
+      if (a != nullptr) state.spin_rate = state.turn.spin_rate(state.psi[1], state.psi[2]);
     }
-    if (!marker.turns()) return next;
-    state.turn = ElasticRotation<Scalar>(state.psi);
-    state.spin = state.turn.spin(state.psi_dot);
-    return next;
+    return size + static_cast<int>(std::count_if(marker.elastic.begin(), marker.elastic.end(),
+                                                 [](int index) { return index >= 0; }));
   }
 
-  bool turns(std::size_t m) const { return markers_[m].frame.rotations() > 0; }
+  Motion<Scalar> to_global(std::size_t m, const Motion<Scalar>& s) const {
+    const FrameMotion<Scalar>& frame = states_[m].frame;
+    return {Vector(frame.A * s[0]), Vector(frame.A_dot * s[0] + frame.A * s[1]),
+            Vector(frame.A_ddot * s[0] + 2.0 * (frame.A_dot * s[1]) + frame.A * s[2])};
+  }
+
   Scalar& force(int i) { return forces_[static_cast<std::size_t>(i)]; }
 
   /// g · ∂A/∂(rotation coordinate) s

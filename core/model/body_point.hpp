@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "core/beam/beam_place.hpp"
+#include "core/model/model.hpp"
+
+namespace pleuel {
+
+/// Where a point of a body is, and how it moves with the elastic coordinates; or the derivatives.
+struct PointShape {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< undeformed, local axes [m]
+  SparseMatrix shape = SparseMatrix(6, 0);             ///< u v w θx θy θz = shape · q_f
+};
+
+/// What joints and loads hold on to, and where responses look. By default the origin of a frame.
+struct BodyPoint : PointShape {
+  std::vector<DesignDerivative<PointShape>> derivatives;  ///< as those of the body
+};
+
+/// One of the places of a body.
+BodyPoint point_of(const BodyModel& body, int place);
+
+/// A place of a beam. Between two nodes it moves with both (core/beam/beam_shape.hpp).
+BodyPoint point_of(const BodyModel& body, const BeamPlace& place);
+
+}  // namespace pleuel

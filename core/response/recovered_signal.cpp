@@ -1,0 +1,257 @@
+#include "core/response/recovered_signal.hpp"
+
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "core/response/body_state.hpp"
+#include "core/response/place_kinematics.hpp"
+
+namespace pleuel {
+
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// The axial forces N = κ ½ dᵀ Ĝ d of the members of geometric stiffening.
+class StretchingForces {
+ public:
+  explicit StretchingForces(const BodyModel& body) : body_(body) {}
+
+  double force(int member, const BodyState& state) const {
+    const StretchedElement& element = member_of(body_.stretching, member);
+    const VectorXd d = displacements(body_.stretching, element, state);
+    return 0.5 * element.axial_stiffness * d.dot(element.slopes * d);
+  }
+
+  void add_gradient(int member, double slope, const BodyState& state, BodyGradient& writer) const {
+    const Stretching& stretching = body_.stretching;
+    const StretchedElement& element = member_of(stretching, member);
+    const VectorXd d = displacements(stretching, element, state);
+    const VectorXd bent = element.slopes * d;
+    for (Eigen::Index i = 0; i < d.size(); ++i) {
+      writer.add_elastic(slope * element.axial_stiffness * bent(i), stretching.displacements,
+                         element.displacements[static_cast<std::size_t>(i)]);
+    }
+    for (const auto& [variable, all] : body_.stretching_x) {
+      const StretchedElement& change = member_of(all, member);
+      const double square =
+          change.axial_stiffness * d.dot(bent) + element.axial_stiffness * d.dot(change.slopes * d);
+      const double moved = element.axial_stiffness * bent.dot(displacements(all, element, state));
+      writer.add_design(variable, slope * (0.5 * square + moved));
+    }
+  }
+
+ private:
+  static const StretchedElement& member_of(const Stretching& stretching, int member) {
+    return stretching.elements[static_cast<std::size_t>(member)];
+  }
+  static VectorXd displacements(const Stretching& stretching, const StretchedElement& element,
+                                const BodyState& state) {
+    VectorXd d(static_cast<Eigen::Index>(element.displacements.size()));
+    for (Eigen::Index i = 0; i < d.size(); ++i) {
+      d(i) = product(stretching.displacements, element.displacements[static_cast<std::size_t>(i)],
+                     state.q());
+    }
+    return d;
+  }
+
+  const BodyModel& body_;
+};
+
+/// Rows of displacements only, three a place.
+SparseMatrix displacement_rows(const BodyPlaces& places) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index row = 0; row < places.shape.rows(); ++row) {
+    if (row % 6 >= 3) continue;
+    for (SparseMatrix::InnerIterator entry(places.shape, row); entry; ++entry) {
+      entries.emplace_back(row / 6 * 3 + row % 6, entry.col(), entry.value());
+    }
+  }
+  SparseMatrix rows(3 * places.size(), places.shape.cols());
+  rows.setFromTriplets(entries.begin(), entries.end());
+  return rows;
+}
+
+class RecoveredSignal final : public Signal {
+ public:
+  RecoveredSignal(const BodyModel& body, const Vector3d& gravity,
+                  std::unique_ptr<Stations> stations)
+      : body_(body),
+        gravity_(gravity),
+        stations_(std::move(stations)),
+        recovery_(stations_->recovery()),
+        displacement_(displacement_rows(body.places)),
+        forces_(body) {}
+
+  int channels() const override { return stations_->channels(); }
+  std::string describe(int channel) const override { return stations_->describe(channel); }
+
+  void observe(const State& state, Eigen::Ref<VectorXd> values) override {
+    const BodyState of_body(body_, state);
+    numbers_.noalias() = recovery_.of_coordinates * of_body.q();
+    if (recovery_.of_accelerations.nonZeros() > 0) {
+      set_accelerations(of_body);
+      numbers_.noalias() += recovery_.of_accelerations * accelerations_;
+    }
+    if (body_.has_stiffening && recovery_.of_stretching.nonZeros() > 0) {
+      stretching_.resize(recovery_.of_stretching.cols());
+      for (int e = 0; e < stretching_.size(); ++e) stretching_(e) = forces_.force(e, of_body);
+      numbers_.noalias() += recovery_.of_stretching * stretching_;
+    }
+    for (int channel = 0; channel < channels(); ++channel) {
+      values(channel) = stations_->value(
+          channel, numbers_.data() + stations_->numbers() * stations_->station(channel));
+    }
+  }
+
+  void add_gradient(const State& state, int channel, double weight,
+                    SignalGradient& gradient) override {
+    prepare_derivatives();
+    const BodyState of_body(body_, state);
+    BodyGradient writer(body_, of_body, gradient);
+    const int station = stations_->station(channel);
+    const Near& near = near_[static_cast<std::size_t>(station)];
+    set_near(near, of_body);
+    const Eigen::Index first = stations_->numbers() * station;
+    const Stations::Numbers numbers = recovered(recovery_, first, of_body);
+    const Stations::Numbers slopes = weight * stations_->slopes(channel, numbers.data());
+    for (Eigen::Index i = 0; i < slopes.size(); ++i) {
+      writer.add_elastic(slopes(i), recovery_.of_coordinates, first + i);
+    }
+    add_accelerations(near, first, slopes, of_body, writer);
+    for (int member : near.members) {
+      const double slope = slope_of(recovery_.of_stretching, first, member, slopes);
+      forces_.add_gradient(member, slope, of_body, writer);
+    }
+    for (std::size_t k = 0; k < changes_.size(); ++k) {
+      writer.add_design(body_.places_x[k].variable,
+                        slopes.dot(recovered(changes_[k], first, of_body)) +
+                            weight * stations_->design_slope(channel, numbers.data(), k));
+    }
+  }
+
+ private:
+  /// Places and members that the numbers of a station come from.
+  struct Near {
+    std::set<int> places, members;
+  };
+
+  /// Of all places against free fall, local axes.
+  void set_accelerations(const BodyState& state) {
+    const FrameMotion<double> frame = state.frame();
+    positions_ = body_.places.positions.reshaped();
+    positions_.noalias() += displacement_ * state.q();
+    rates_.noalias() = displacement_ * state.v();
+    accelerations_.noalias() = displacement_ * state.a();
+    for (Eigen::Index i = 0; i < accelerations_.size(); i += 3) {
+      accelerations_.segment<3>(i) = local_acceleration<double>(
+          frame, gravity_,
+          {positions_.segment<3>(i), rates_.segment<3>(i), accelerations_.segment<3>(i)});
+    }
+  }
+
+  /// Of those that one station needs; the others are left as they are.
+  void set_near(const Near& near, const BodyState& state) {
+    const FrameMotion<double> frame = state.frame();
+    accelerations_.resize(displacement_.rows());
+    stretching_.resize(recovery_.of_stretching.cols());
+    for (int place : near.places) {
+      accelerations_.segment<3>(3 * place) =
+          local_acceleration<double>(frame, gravity_, motion(place, state));
+    }
+    for (int member : near.members) stretching_(member) = forces_.force(member, state);
+  }
+
+  PointMotion motion(int place, const BodyState& state) const {
+    return state.motion(body_.places.positions.col(place), displacement_, 3 * place);
+  }
+
+  /// The numbers of a station, from accelerations and stretching that are set.
+  Stations::Numbers recovered(const Recovery& recovery, Eigen::Index first,
+                              const BodyState& state) const {
+    Stations::Numbers numbers(stations_->numbers());
+    for (Eigen::Index i = 0; i < numbers.size(); ++i) {
+      numbers(i) = product(recovery.of_coordinates, first + i, state.q()) +
+                   product(recovery.of_accelerations, first + i, accelerations_);
+      if (!body_.has_stiffening) continue;
+      numbers(i) += product(recovery.of_stretching, first + i, stretching_);
+    }
+    return numbers;
+  }
+
+  /// Σ slopes · column
+  static double slope_of(const SparseMatrix& rows, Eigen::Index first, Eigen::Index column,
+                         const Stations::Numbers& slopes) {
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < slopes.size(); ++i) {
+      sum += slopes(i) * rows.coeff(first + i, column);
+    }
+    return sum;
+  }
+
+  void add_accelerations(const Near& near, Eigen::Index first, const Stations::Numbers& slopes,
+                         const BodyState& state, BodyGradient& writer) const {
+    if (near.places.empty()) return;
+    const FrameMotion<double> frame = state.frame();
+    const FrameMotion<FrameDual> seeded = state.seeded_frame<FrameDual>();
+    for (int place : near.places) {
+      Vector3d slope;
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        slope(k) = slope_of(recovery_.of_accelerations, first, 3 * place + k, slopes);
+      }
+      if (slope.isZero(0.0)) continue;
+      std::array<Vector3<FrameDual>, 3> fixed;
+      const PointMotion moved = motion(place, state);
+      for (std::size_t k = 0; k < 3; ++k) fixed[k] = moved[k].cast<FrameDual>();
+      const auto acceleration = local_acceleration<FrameDual>(seeded, gravity_, fixed);
+      for (int k = 0; k < 3; ++k) writer.add_frame(slope(k), acceleration(k).derivatives());
+      writer.add_place(place,
+                       {frame.omega.cross(frame.omega.cross(slope)) - frame.alpha.cross(slope),
+                        2.0 * slope.cross(frame.omega), slope});
+    }
+  }
+
+  void prepare_derivatives() {
+    if (!near_.empty()) return;
+    near_.resize(static_cast<std::size_t>(recovery_.of_coordinates.rows() / stations_->numbers()));
+    note_near(recovery_);
+    for (std::size_t k = 0; k < body_.places_x.size(); ++k) {
+      changes_.push_back(stations_->recovery_derivative(k));
+      note_near(changes_.back());
+    }
+  }
+
+  void note_near(const Recovery& recovery) {
+    const auto note = [&](const SparseMatrix& rows, Eigen::Index divisor, auto part) {
+      for (Eigen::Index row = 0; row < rows.rows(); ++row) {
+        Near& near = near_[static_cast<std::size_t>(row / stations_->numbers())];
+        for (SparseMatrix::InnerIterator entry(rows, row); entry; ++entry) {
+          (near.*part).insert(static_cast<int>(entry.col() / divisor));
+        }
+      }
+    };
+    note(recovery.of_accelerations, 3, &Near::places);
+    if (body_.has_stiffening) note(recovery.of_stretching, 1, &Near::members);
+  }
+
+  const BodyModel& body_;
+  Vector3d gravity_;
+  std::unique_ptr<Stations> stations_;
+  Recovery recovery_;
+  SparseMatrix displacement_;  ///< of all places, 3 places × n
+  StretchingForces forces_;
+  std::vector<Recovery> changes_;  ///< derivatives of the recovery, once they are needed
+  std::vector<Near> near_;         ///< of each station
+  VectorXd numbers_, positions_, rates_, accelerations_, stretching_;  ///< scratch
+};
+
+}  // namespace
+
+std::unique_ptr<Signal> make_recovered_signal(const BodyModel& body, const Vector3d& gravity,
+                                              std::unique_ptr<Stations> stations) {
+  return std::make_unique<RecoveredSignal>(body, gravity, std::move(stations));
+}
+
+}  // namespace pleuel

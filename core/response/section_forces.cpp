@@ -1,0 +1,142 @@
+#include "core/response/section_forces.hpp"
+
+#include <utility>
+
+#include "core/beam/beam_shape.hpp"
+
+namespace pleuel {
+
+namespace {
+
+constexpr int axial = 0, moment_y = 1, moment_z = 2, torque = 3;
+
+/// The section forces at a place of an element, as rows.
+template <class Scalar>
+struct ElementForces {
+  Eigen::Matrix<Scalar, section_force_count, 12> of_coordinates;
+  /// Of those of both nodes against free fall, local axes.
+  Eigen::Matrix<Scalar, section_force_count, 6> of_accelerations;
+
+  ElementForces(const BeamElement<Scalar>& element, double xi) {
+    set_strain(element, xi);
+    set_inertia(element, xi);
+  }
+
+ private:
+  void set_strain(const BeamElement<Scalar>& element, double xi) {
+    const SectionProperties<Scalar>& section = element.section;
+    const Scalar& length = element.length;
+    of_coordinates.setConstant(Scalar(0));
+    of_coordinates(axial, 6) = element.young * section.area / length;
+    of_coordinates(axial, 0) = -of_coordinates(axial, 6);
+    of_coordinates(torque, 9) = element.shear * section.torsion / length;
+    of_coordinates(torque, 3) = -of_coordinates(torque, 9);
+    of_coordinates.row(moment_z) =
+        element.young * section.inertia_z * deflection_y_row(xi, length, 2);
+    of_coordinates.row(moment_y) =
+        -(element.young * section.inertia_y) * deflection_z_row(xi, length, 2);
+  }
+
+  /// What the linear load w = w₁ + ξ Δ does in a clamped element: EI v″ and EA u' with M″ = w,
+  /// N' = −w, and no displacement at the ends.
+  void set_inertia(const BeamElement<Scalar>& element, double xi) {
+    const Scalar density = -element.density * element.section.area;
+    const Scalar along = density * element.length, across = along * element.length;
+    const double along_start = 0.5 - xi, along_change = 1.0 / 6 - xi * xi / 2;
+    const double start = xi * xi / 2 - xi / 2 + 1.0 / 12;
+    const double change = xi * xi * xi / 6 - 3 * xi / 20 + 1.0 / 30;
+    of_accelerations.setConstant(Scalar(0));
+    of_accelerations(axial, 0) = along * (along_start - along_change);
+    of_accelerations(axial, 3) = along * along_change;
+    of_accelerations(moment_z, 1) = across * (start - change);
+    of_accelerations(moment_z, 4) = across * change;
+    of_accelerations(moment_y, 2) = across * (change - start);
+    of_accelerations(moment_y, 5) = across * -change;
+  }
+};
+
+/// Writes dense blocks of neighbouring columns.
+class RowWriter {
+ public:
+  RowWriter(Eigen::Index rows, Eigen::Index columns) : rows_(rows, columns) {}
+
+  template <class Block>
+  void add(Eigen::Index row, Eigen::Index column, const Block& block) {
+    for (Eigen::Index i = 0; i < block.rows(); ++i) {
+      for (Eigen::Index j = 0; j < block.cols(); ++j) {
+        if (block(i, j) != 0.0) entries_.emplace_back(row + i, column + j, block(i, j));
+      }
+    }
+  }
+  SparseMatrix finish() {
+    rows_.setFromTriplets(entries_.begin(), entries_.end());
+    return std::move(rows_);
+  }
+
+ private:
+  SparseMatrix rows_;
+  std::vector<Eigen::Triplet<double>> entries_;
+};
+
+/// The strain's part of nodal displacements, and the load's of nodal accelerations.
+struct NodalRows {
+  SparseMatrix of_displacements, of_accelerations;
+};
+
+/// @param number  Scalar → double: value or derivative
+template <class Scalar, class Number>
+NodalRows nodal_rows(const Beam<Scalar>& beam, const std::vector<Station>& stations,
+                     const Number& number) {
+  const auto rows = section_force_count * static_cast<Eigen::Index>(stations.size());
+  RowWriter displacements(rows, 6 * beam.node_count()), accelerations(rows, 3 * beam.node_count());
+  Eigen::Index row = 0;
+  for (const Station& station : stations) {
+    const double share = 1.0 / static_cast<double>(station.elements.size());
+    for (int e : station.elements) {
+      const ElementForces<Scalar> forces(beam.elements[static_cast<std::size_t>(e)],
+                                         station.place - e);
+      const auto scaled = [&](const Scalar& entry) { return share * number(entry); };
+      displacements.add(row, 6 * e, forces.of_coordinates.unaryExpr(scaled).eval());
+      accelerations.add(row, 3 * e, forces.of_accelerations.unaryExpr(scaled).eval());
+    }
+    row += section_force_count;
+  }
+  return {displacements.finish(), accelerations.finish()};
+}
+
+NodalRows values(const BodyModel& body, const std::vector<Station>& stations) {
+  return nodal_rows(body.beam, stations, [](double number) { return number; });
+}
+
+}  // namespace
+
+Recovery section_force_recovery(const BodyModel& body, const std::vector<Station>& stations) {
+  NodalRows rows = values(body, stations);
+  RowWriter stretching(rows.of_displacements.rows(),
+                       static_cast<Eigen::Index>(body.stretching.elements.size()));
+  for (std::size_t s = 0; body.has_stiffening && s < stations.size(); ++s) {
+    const double share = 1.0 / static_cast<double>(stations[s].elements.size());
+    for (int e : stations[s].elements) {
+      stretching.add(section_force_count * static_cast<Eigen::Index>(s) + axial, e,
+                     Eigen::Matrix<double, 1, 1>(share));
+    }
+  }
+  return {rows.of_displacements * body.places.shape, std::move(rows.of_accelerations),
+          stretching.finish()};
+}
+
+Recovery section_force_derivative(const BodyModel& body, const std::vector<Station>& stations,
+                                  std::size_t k) {
+  NodalRows change = nodal_rows(body.beam_x[k].second, stations,
+                                [](const Dual& number) { return derivative_of(number); });
+  SparseMatrix of_coordinates = change.of_displacements * body.places.shape;
+  const SparseMatrix& shape_x = body.places_x[k].data.shape;
+  if (shape_x.nonZeros() > 0) {
+    of_coordinates += SparseMatrix(values(body, stations).of_displacements * shape_x);
+  }
+  SparseMatrix of_stretching(of_coordinates.rows(),
+                             static_cast<Eigen::Index>(body.stretching.elements.size()));
+  return {std::move(of_coordinates), std::move(change.of_accelerations), std::move(of_stretching)};
+}
+
+}  // namespace pleuel

@@ -1,0 +1,138 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/response/recovered_signal.hpp"
+#include "core/response/section_forces.hpp"
+
+namespace pleuel {
+
+/// The same beam in another scalar type, as constants.
+template <class To>
+Beam<To> cast_beam(const Beam<double>& beam) {
+  Beam<To> cast;
+  for (const BeamElement<double>& from : beam.elements) {
+    BeamElement<To> element;
+    element.length = To(from.length);
+    element.young = To(from.young);
+    element.shear = To(from.shear);
+    element.density = To(from.density);
+    element.strength = To(from.strength);
+    const SectionProperties<double>& section = from.section;
+    element.section.area = To(section.area);
+    element.section.inertia_y = To(section.inertia_y);
+    element.section.inertia_z = To(section.inertia_z);
+    element.section.torsion = To(section.torsion);
+    element.section.radius_y = To(section.radius_y);
+    element.section.radius_z = To(section.radius_z);
+    for (const StressPoint<double>& point : section.points) {
+      element.section.points.push_back({To(point.y), To(point.z), To(point.shear)});
+    }
+    cast.elements.push_back(std::move(element));
+  }
+  return cast;
+}
+
+/// What is made of the section forces of a beam. Quantity is a formula for any scalar type:
+///     std::vector<int> points(const BodyModel&, const SectionProperties<double>&) const;
+///     template <class Scalar> Scalar evaluate(const Beam<Scalar>&,
+///         const SectionProperties<Scalar>&, const SectionForces<Scalar>&, int point) const;
+/// One channel a station and point; points from 0 are those of the section, negative ones belong to
+/// the quantity.
+template <class Quantity>
+class SectionStations final : public Stations {
+ public:
+  SectionStations(const BodyModel& body, const StationChoice& choice, Quantity quantity)
+      : body_(body), quantity_(std::move(quantity)), stations_(find_stations(body, choice)) {
+    for (int s = 0; s < static_cast<int>(stations_.size()); ++s) {
+      for (int point : quantity_.points(body, section_of(body.beam, s))) {
+        channels_.push_back({s, point});
+      }
+    }
+  }
+
+  int numbers() const override { return section_force_count; }
+  Recovery recovery() const override { return section_force_recovery(body_, stations_); }
+  Recovery recovery_derivative(std::size_t k) const override {
+    return section_force_derivative(body_, stations_, k);
+  }
+
+  int channels() const override { return static_cast<int>(channels_.size()); }
+  int station(int channel) const override { return at(channel).station; }
+  std::string describe(int channel) const override {
+    const auto& [station, index] = at(channel);
+    const double place =
+        body_.stretch.first_element + stations_[static_cast<std::size_t>(station)].place;
+    if (index < 0) {
+      std::string what;
+      if constexpr (requires { quantity_.name(index); }) what = quantity_.name(index);
+      return fmt::format("node {}{}", place, what);
+    }
+    const auto& point = section_of(body_.beam, station).points[static_cast<std::size_t>(index)];
+    return fmt::format("node {}, y = {:.4g} m, z = {:.4g} m", place, point.y, point.z);
+  }
+
+  double value(int channel, const double* numbers) const override {
+    return evaluate(body_.beam, channel, section_forces(numbers));
+  }
+
+  Numbers slopes(int channel, const double* numbers) override {
+    if (!cast_) cast_ = std::make_unique<const Beam<ForcesDual>>(cast_beam<ForcesDual>(body_.beam));
+    std::array<ForcesDual, section_force_count> seeded;
+    for (int i = 0; i < section_force_count; ++i) {
+      seeded[static_cast<std::size_t>(i)] = {numbers[i], ForcesDual::Derivatives::Unit(i)};
+    }
+    return evaluate(*cast_, channel, section_forces(seeded.data())).derivatives();
+  }
+
+  double design_slope(int channel, const double* numbers, std::size_t k) const override {
+    const SectionForces<Dual> fixed{numbers[0], numbers[1], numbers[2], numbers[3]};
+    return derivative_of(evaluate(body_.beam_x[k].second, channel, fixed));
+  }
+
+ private:
+  using ForcesDual = DualOf<section_force_count>;
+
+  /// One number of a station.
+  struct Channel {
+    int station;
+    int point;  ///< as Quantity names it
+  };
+
+  const Channel& at(int channel) const { return channels_[static_cast<std::size_t>(channel)]; }
+
+  template <class Scalar>
+  const SectionProperties<Scalar>& section_of(const Beam<Scalar>& beam, int station) const {
+    const int element = stations_[static_cast<std::size_t>(station)].elements.front();
+    return beam.elements[static_cast<std::size_t>(element)].section;
+  }
+
+  template <class Scalar>
+  Scalar evaluate(const Beam<Scalar>& beam, int channel,
+                  const SectionForces<Scalar>& forces) const {
+    const auto& [station, point] = at(channel);
+    return quantity_.evaluate(beam, section_of(beam, station), forces, point);
+  }
+
+  const BodyModel& body_;
+  Quantity quantity_;
+  std::vector<Station> stations_;
+  std::vector<Channel> channels_;
+  std::unique_ptr<const Beam<ForcesDual>> cast_;  ///< large: made once
+};
+
+/// @param gravity  [m/s²], global axes
+template <class Quantity>
+std::unique_ptr<Signal> make_section_signal(const BodyModel& body, const Eigen::Vector3d& gravity,
+                                            const StationChoice& choice, Quantity quantity) {
+  return make_recovered_signal(
+      body, gravity,
+      std::make_unique<SectionStations<Quantity>>(body, choice, std::move(quantity)));
+}
+
+}  // namespace pleuel
