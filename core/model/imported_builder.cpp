@@ -14,7 +14,7 @@ namespace pleuel {
 namespace {
 
 /// Variables that differ by less are at the design of the file: rounding of written units.
-constexpr double rounding_tolerance = 1e-9;
+constexpr double place_tolerance = 1e-9;
 
 /// The pattern and the pairs that the constants and all their derivatives need.
 struct Arrangement {
@@ -125,7 +125,7 @@ void set_constants(const ImportedBody& imported, const Body& body, const BuildCo
     const ConstantsDerivative& derivative = imported.file->design[of.in_design];
     model.constants_x.push_back({of.number.variable, *derivative.derivative});
     const double distance = resolve(of.number, context.design) - derivative.value;
-    if (std::abs(distance) <= rounding_tolerance * std::abs(derivative.value)) continue;
+    if (std::abs(distance) <= place_tolerance * std::abs(derivative.value)) continue;
     if (!imported.is_linear) {
       throw InputError(fmt::format(
           "/scene/bodies/{}/file is known at the design {} = {:.12g} only, not at {:.12g}: write "
