@@ -43,7 +43,7 @@ AccuracyObserver make_observer(const ProblemFile& problem, RunRecord& record,
 }
 
 /// The optimum with the setting of the file: that of --design, or what is found from the start.
-Eigen::VectorXd find_optimum(const ProblemInput& input, const Arguments& arguments) {
+Eigen::VectorXd find_optimal_design(const ProblemInput& input, const Arguments& arguments) {
   if (arguments.design) return input.design;
   const Result result = plain_optimum(input.problem, solve_options(input.problem, arguments));
   if (result.status == Status::interrupted) throw Stopped{};
@@ -66,7 +66,8 @@ struct Answer {
 Answer find_answer(const ProblemInput& input, const Arguments& arguments, RunRecord& record) {
   const ProblemFile& problem = input.problem;
   if (arguments.wants_optimum) record.begin_phase("optimize");
-  const Eigen::VectorXd x = arguments.wants_optimum ? find_optimum(input, arguments) : input.design;
+  const Eigen::VectorXd x =
+      arguments.wants_optimum ? find_optimal_design(input, arguments) : input.design;
   record.begin_phase("accuracy");
   const PricedDesign design(problem, x);
   std::optional<AccuracyCsv> csv;

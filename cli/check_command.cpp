@@ -23,7 +23,7 @@ namespace pleuel {
 
 namespace {
 
-struct Findings {
+struct Examination {
   std::unique_ptr<Analysis> analysis;
   Freedoms freedoms;
   double simulation_seconds = 0.0, gradient_seconds = 0.0;
@@ -34,8 +34,8 @@ struct Findings {
   std::vector<std::string> warnings;
 };
 
-Findings examine(const ProblemFile& problem, const Eigen::VectorXd& x, int threads) {
-  Findings findings;
+Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x, int threads) {
+  Examination findings;
   const auto warn = [&](const std::vector<std::string>& sentences) {
     findings.warnings.insert(findings.warnings.end(), sentences.begin(), sentences.end());
   };
@@ -72,7 +72,7 @@ Findings examine(const ProblemFile& problem, const Eigen::VectorXd& x, int threa
   return findings;
 }
 
-Json responses_with_verdicts(const ProblemFile& problem, const Findings& findings) {
+Json responses_with_verdicts(const ProblemFile& problem, const Examination& findings) {
   Json document = responses_document(*findings.analysis);
   for (std::size_t i = 0; i < findings.derivatives.size(); ++i) {
     document[findings.analysis->responses[i].name]["derivatives"] =
@@ -86,7 +86,7 @@ Json responses_with_verdicts(const ProblemFile& problem, const Findings& finding
   return document;
 }
 
-Json make_document(const ProblemFile& problem, const Findings& findings) {
+Json check_document(const ProblemFile& problem, const Examination& findings) {
   const Analysis& analysis = *findings.analysis;
   Json document = {{"status", study_status(!findings.is_interrupted)},
                    {"name", problem.name},
@@ -104,7 +104,7 @@ Json make_document(const ProblemFile& problem, const Findings& findings) {
   return document;
 }
 
-std::string time_text(const ProblemFile& problem, const Findings& findings) {
+std::string time_text(const ProblemFile& problem, const Examination& findings) {
   std::string text = "\nTime: one simulation " + duration(findings.simulation_seconds);
   if (findings.derivatives.empty()) return text + "\n";
   text += ", its gradients " + duration(findings.gradient_seconds) + " more";
@@ -116,7 +116,7 @@ std::string time_text(const ProblemFile& problem, const Findings& findings) {
   return wrapped(text, "  ") + "\n";
 }
 
-std::string make_text(const ProblemFile& problem, const Findings& findings) {
+std::string make_text(const ProblemFile& problem, const Examination& findings) {
   const Analysis& analysis = *findings.analysis;
   std::string text =
       findings.is_interrupted ? "INTERRUPTED before the derivatives were verified\n\n" : "";
@@ -143,9 +143,9 @@ Outcome run_check(const Arguments& arguments) {
   const ProblemInput input = read_input(arguments);
   const ProblemFile& problem = input.problem;
   show_warnings_before(problem);
-  const Findings findings = examine(problem, input.design, arguments.jobs);
+  const Examination findings = examine(problem, input.design, arguments.jobs);
   return {findings.is_interrupted ? ExitCode::not_verified : ExitCode::done,
-          make_document(problem, findings), make_text(problem, findings)};
+          check_document(problem, findings), make_text(problem, findings)};
 }
 
 }  // namespace pleuel

@@ -13,7 +13,7 @@ namespace pleuel {
 
 namespace {
 
-constexpr const char* file_name = "failed_design.json";
+constexpr const char* dossier_name = "failed_design.json";
 
 /// For the folder in which the optimization was called. Where gradients were asked for, they are
 /// what may have failed.
@@ -24,18 +24,18 @@ std::string command_again(const RunRecord& record, const Arguments& arguments,
       std::any_of(problem.constraints.begin(), problem.constraints.end(),
                   [](const ConstraintSettings& constraint) { return constraint.deviations > 0.0; });
   return command_at(takes_gradients ? "gradient" : "simulate", arguments,
-                    record.folder() / file_name);
+                    record.folder() / dossier_name);
 }
 
 }  // namespace
 
 void write_failed_design(RunRecord& record, const Arguments& arguments, const ProblemFile& problem,
                          const EvaluationRecord& failed) {
-  record.write(file_name, {{"evaluation", failed.evaluation},
-                           {"request", to_string(failed.request)},
-                           {"failure", failed.failure},
-                           {"command", command_again(record, arguments, problem, failed)},
-                           {"variables", variables_document(problem, failed.x)}});
+  record.write(dossier_name, {{"evaluation", failed.evaluation},
+                              {"request", to_string(failed.request)},
+                              {"failure", failed.failure},
+                              {"command", command_again(record, arguments, problem, failed)},
+                              {"variables", variables_document(problem, failed.x)}});
 }
 
 std::string failed_design_text(const RunRecord& record, const Arguments& arguments,
@@ -46,7 +46,7 @@ std::string failed_design_text(const RunRecord& record, const Arguments& argumen
   return fmt::format(
       "{} of {} evaluations failed; the last such design is in {}, and this runs it again:\n"
       "  {}\n",
-      count_failures(history), history.size(), (record.folder() / file_name).string(),
+      count_failures(history), history.size(), (record.folder() / dossier_name).string(),
       command_again(record, arguments, problem, *last));
 }
 

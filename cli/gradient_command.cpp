@@ -74,7 +74,7 @@ Json gradients_document(const ProblemFile& problem, const std::vector<MethodResu
   return document;
 }
 
-struct Findings {
+struct MethodFindings {
   std::unique_ptr<Analysis> analysis;
   double simulation_seconds = 0.0;
   std::optional<MethodChoice> choice;  ///< if it was left to the program
@@ -88,7 +88,7 @@ Json choice_document(const MethodChoice& choice) {
   return {{"method", to_string(choice.method)}, {"reason", choice.reason}};
 }
 
-Json make_document(const ProblemFile& problem, const Findings& findings) {
+Json gradient_document(const ProblemFile& problem, const MethodFindings& findings) {
   const Analysis& analysis = *findings.analysis;
   Json document = {{"responses", responses_document(analysis, findings.errors)},
                    {"seconds", {{"simulate", findings.simulation_seconds}}}};
@@ -111,7 +111,7 @@ Json make_document(const ProblemFile& problem, const Findings& findings) {
   return document;
 }
 
-std::vector<Table::Column> columns(const std::vector<MethodResult>& results) {
+std::vector<Table::Column> method_columns(const std::vector<MethodResult>& results) {
   std::vector<Table::Column> columns = {{"response", Table::Align::left},
                                         {"variable", Table::Align::left}};
   for (const MethodResult& result : results) columns.push_back({to_string(result.method)});
@@ -132,7 +132,7 @@ double spread(const std::vector<MethodResult>& results, Eigen::Index i, Eigen::I
 
 std::string gradients_text(const ProblemFile& problem, const std::vector<MethodResult>& results) {
   const std::vector<ShownUnit> variable_unit = variable_units(problem);
-  Table table(columns(results), 2);
+  Table table(method_columns(results), 2);
   for (std::size_t i = 0; i < problem.responses.size(); ++i) {
     const ShownUnit value_unit = unit_of(problem.responses[i]);
     for (std::size_t j = 0; j < problem.variables.size(); ++j) {
@@ -192,8 +192,8 @@ void write_histories(RunRecord& record, const ProblemInput& input, Analysis& ana
 }
 
 Outcome make_outcome(const Arguments& arguments, const ProblemFile& problem,
-                     const Findings& findings) {
-  return {ExitCode::done, make_document(problem, findings),
+                     const MethodFindings& findings) {
+  return {ExitCode::done, gradient_document(problem, findings),
           fmt::format("Gradients at {} of {}\n\n{}{}{}{}{}{}",
                       arguments.design ? "the design" : "the start", problem.name,
                       gradients_text(problem, findings.results),
@@ -214,7 +214,7 @@ Outcome run_gradient(const Arguments& arguments) {
   }
   std::optional<RunRecord> record;  // before the work: the folder may not be free
   if (arguments.wants_histories) record.emplace(arguments, input, Json::object());
-  Findings findings;
+  MethodFindings findings;
   const Stopwatch stopwatch;
   findings.analysis = analyze(problem, input.design);
   findings.simulation_seconds = stopwatch.seconds();

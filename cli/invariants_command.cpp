@@ -51,7 +51,7 @@ std::vector<InvariantsFile> export_bodies(const Arguments& arguments, const Prob
 
 /// In a folder of their own, where no name of a body can be that of another result. Names of bodies
 /// may hold what names of files cannot.
-std::string file_name(const std::string& body) {
+std::string constants_file_name(const std::string& body) {
   std::string name = body + ".json";
   std::replace(name.begin(), name.end(), '/', '_');
   return name;
@@ -129,7 +129,7 @@ Outcome run_invariants(const Arguments& arguments) {
   record.begin_phase("write");
   std::vector<fs::path> paths;
   for (const InvariantsFile& file : files) {
-    const ResultFile written = record.result(fs::path("bodies") / file_name(file.body));
+    const ResultFile written = record.result(fs::path("bodies") / constants_file_name(file.body));
     const fs::path& path = written.path;
     if (std::find(paths.begin(), paths.end(), path) != paths.end()) {
       throw InputError(fmt::format("two bodies would be written to {}: use --body", path.string()));

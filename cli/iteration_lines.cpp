@@ -11,7 +11,7 @@ namespace pleuel {
 
 namespace {
 
-constexpr const char* columns = "  {:>9}  {:>16}  {:>13}  {:>9}  {:>9}\n";
+constexpr const char* line_columns = "  {:>9}  {:>16}  {:>13}  {:>9}  {:>9}\n";
 
 /// What happened and where; history.csv keeps the rest of the sentence.
 std::string first_clause(const std::string& message) {
@@ -33,7 +33,7 @@ const char* describe(Purpose purpose) {
 
 IterationLines::IterationLines(std::FILE* out, const ProblemFile& problem)
     : out_(out), unit_(unit_of(find_response(problem, problem.objective->response))) {
-  show(out_, fmt::format(columns, "iteration", fmt::format("objective [{}]", unit_.name),
+  show(out_, fmt::format(line_columns, "iteration", fmt::format("objective [{}]", unit_.name),
                          "max violation", "step", "seconds"));
 }
 
@@ -48,9 +48,10 @@ void IterationLines::see(const EvaluationRecord& record) {
     show(out_, fmt::format("  evaluation {} failed: {}\n", record.evaluation,
                            first_clause(record.failure)));
   } else if (purpose_ != Purpose::audit && record.iteration > iteration_) {
-    show(out_, fmt::format(columns, record.iteration, significant(unit_.shown(record.objective), 6),
-                           magnitude(record.max_violation), magnitude(step_),
-                           fmt::format("{:.1f}", record.seconds)));
+    show(out_,
+         fmt::format(line_columns, record.iteration, significant(unit_.shown(record.objective), 6),
+                     magnitude(record.max_violation), magnitude(step_),
+                     fmt::format("{:.1f}", record.seconds)));
     iteration_ = record.iteration;
     step_ = 0.0;
   }

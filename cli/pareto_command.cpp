@@ -109,7 +109,7 @@ Json make_document(const ProblemFile& problem, const std::vector<ParetoPoint>& p
   return document;
 }
 
-std::vector<Table::Column> columns(const ProblemFile& problem) {
+std::vector<Table::Column> design_columns(const ProblemFile& problem) {
   const ConstraintSettings& constraint = varied_constraint(problem);
   const std::string& objective = problem.objective->response;
   const std::vector<ShownUnit> units = variable_units(problem);
@@ -132,7 +132,7 @@ std::string points_text(const ProblemFile& problem, const std::vector<ParetoPoin
   const ShownUnit limited = unit_of(problem, varied_constraint(problem));
   const ShownUnit goal = unit_of(find_response(problem, problem.objective->response));
   const std::vector<ShownUnit> units = variable_units(problem);
-  Table table(columns(problem));
+  Table table(design_columns(problem));
   for (const ParetoPoint& point : points) {
     std::vector<std::string> cells = {significant(limited.shown(point.limit)), "–", "–", "–", "–"};
     if (point.has_design()) {

@@ -28,7 +28,7 @@ std::string step_text(double step) {
   return significant(1e3 * step, 3) + " ms";
 }
 
-std::string percent_text(double share) {
+std::string target_text(double share) {
   return fmt::format("{:.3g} %", 100.0 * share);
 }
 
@@ -76,7 +76,7 @@ Json setting_document(const ProblemInput& input, const SettingChoice& choice) {
 }
 
 std::string setting_text(const ProblemFile& problem, const SettingChoice& choice) {
-  const std::string target = percent_text(problem.accuracy.target);
+  const std::string target = target_text(problem.accuracy.target);
   const TriedSetting& chosen = choice.chosen;
   const std::string setting = fmt::format(
       "a step of {}{}", step_text(chosen.step),
@@ -127,7 +127,7 @@ std::string stages_text(const std::vector<Stage>& stages) {
                {"seconds"}});
   for (const Stage& stage : stages) {
     if (stage.target <= 0.0) continue;
-    table.add_row({percent_text(stage.target), step_text(stage.setting.step),
+    table.add_row({target_text(stage.target), step_text(stage.setting.step),
                    stage.setting.elements > 0 ? std::to_string(stage.setting.elements) : "–",
                    error_text(stage.setting), stage.setting.response,
                    duration(stage.choice_seconds), std::to_string(stage.evaluations),

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "optimization/problem.hpp"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "optimization/history.hpp"
 #include "optimization/problem.hpp"

@@ -151,7 +151,7 @@ double gradient_scale(const Problem& problem, const KnownDesign& design, const E
 
 /// How far multipliers are from explaining the design: by all variables together, and by the worst
 /// one, which may be ten times as far off (verdict.hpp).
-double distance(const KktAudit& audit) {
+double distance_from_optimum(const KktAudit& audit) {
   return std::max(audit.residual, 0.1 * audit.variable_residuals().maxCoeff());
 }
 
@@ -187,7 +187,7 @@ KktAudit audit_kkt(const Problem& problem, const KnownDesign& design, const Eval
   for (int pass = 0; pass < weighted_passes; ++pass) {
     const Eigen::VectorXd weights = (audit.terms / gradients).cwiseMax(least_part).cwiseInverse();
     KktAudit weighted = audit_with(weights);
-    if (!(distance(weighted) < distance(audit))) break;
+    if (!(distance_from_optimum(weighted) < distance_from_optimum(audit))) break;
     audit = std::move(weighted);
   }
   return audit;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/dense_solvers.hpp"
 #include "optimization/generic_numbers.hpp"
 
 namespace pleuel {
@@ -57,10 +58,10 @@ LowestCurvature lowest_curvature(const HessianProduct& product, const Eigen::Mat
   if (lowest.products == 0) return lowest;
   const Eigen::MatrixXd form = directions.transpose() * images;
   lowest.form = 0.5 * (form + form.transpose());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(lowest.form);
-  lowest.curvature = eigen.eigenvalues()[0];
+  const SymmetricModes modes = symmetric_modes(lowest.form);
+  lowest.curvature = modes.values[0];
   lowest.directions = directions;
-  lowest.direction = (directions * eigen.eigenvectors().col(0)).normalized();
+  lowest.direction = (directions * modes.vectors.col(0)).normalized();
   return lowest;
 }
 

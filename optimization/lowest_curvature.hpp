@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 namespace pleuel {
 

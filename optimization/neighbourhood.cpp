@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/dense_solvers.hpp"
 #include "optimization/lowest_curvature.hpp"
 #include "optimization/scaling.hpp"
 
@@ -91,7 +92,7 @@ class Rows {
   /// The shortest step, in variables divided by s, that changes the constraints by −excess.
   Eigen::VectorXd step_against(const Eigen::VectorXd& excess) const {
     const Eigen::VectorXd right = excess(indices_).cwiseQuotient(lengths_);
-    return -matrix_.completeOrthogonalDecomposition().solve(right);
+    return -least_norm_solution(matrix_, right);
   }
 
  private:
@@ -112,11 +113,7 @@ Eigen::MatrixXd tangent_basis(const Eigen::MatrixXd& rows, const Holding& holdin
   for (Eigen::Index k = 0; k < count; ++k) basis(free[static_cast<std::size_t>(k)], k) = 1.0;
   if (rows.rows() == 0 || count == 0) return basis;
   const Eigen::MatrixXd columns = (rows * basis).transpose();
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-  qr.setThreshold(1e-6);
-  qr.compute(columns);
-  const Eigen::MatrixXd q = qr.householderQ();
-  return basis * q.rightCols(count - qr.rank());
+  return basis * PivotedQr(columns, 1e-6).normal_space();
 }
 
 class Exploration {
@@ -172,13 +169,13 @@ class Exploration {
         s_.cwiseProduct(here.objective_gradient +
                         here.constraint_jacobian.transpose() * multipliers_ + bound_multipliers_);
     const Eigen::VectorXd open = basis_.transpose() * gradient;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(lowest.form);
+    const SymmetricModes modes = symmetric_modes(lowest.form);
     const Eigen::VectorXd slopes =
-        eigen.eigenvectors().transpose() * (lowest.directions.transpose() * gradient);
+        modes.vectors.transpose() * (lowest.directions.transpose() * gradient);
     const double rest = std::sqrt(std::max(0.0, open.squaredNorm() - slopes.squaredNorm()));
-    double sum = gain_along(rest, eigen.eigenvalues()[0]);
+    double sum = gain_along(rest, modes.values[0]);
     for (Eigen::Index k = 0; k < slopes.size(); ++k) {
-      sum += gain_along(slopes[k], eigen.eigenvalues()[k]);
+      sum += gain_along(slopes[k], modes.values[k]);
     }
     return sum;
   }

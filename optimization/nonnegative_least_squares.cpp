@@ -3,12 +3,14 @@
 #include <limits>
 #include <vector>
 
+#include "core/base/dense_solvers.hpp"
+
 namespace pleuel {
 
 namespace {
 
 /// Part of ‖b‖ below which the correlation of a unit column with the residual is rounding.
-constexpr double rounding = 1e-13;
+constexpr double slope_rounding = 1e-13;
 
 class LawsonHanson {
  public:
@@ -33,14 +35,14 @@ class LawsonHanson {
     for (const Eigen::Index j : passive_) slope[j] = 0.0;
     Eigen::Index best = -1;
     const double steepest = slope.size() > 0 ? slope.maxCoeff(&best) : 0.0;
-    return steepest > rounding * right_.norm() ? best : -1;
+    return steepest > slope_rounding * right_.norm() ? best : -1;
   }
 
   /// Unconstrained least squares on the passive columns; those that would turn negative leave.
   void move_to_passive_solution() {
     while (!passive_.empty()) {
       const Eigen::MatrixXd columns = matrix_(Eigen::all, passive_);
-      const Eigen::VectorXd target = columns.colPivHouseholderQr().solve(right_);
+      const Eigen::VectorXd target = PivotedQr(columns).solve(right_);
       const double step = longest_step(target);
       for (Eigen::Index k = 0; k < target.size(); ++k) {
         z_[passive_[k]] += step * (target[k] - z_[passive_[k]]);

@@ -32,8 +32,7 @@ PeakProblem::PeakProblem(DesignProblem& problem, int windows)
 PeakProblem::PeakProblem(DesignProblem& problem, int windows, const Eigen::VectorXd& start)
     : problem_(problem), windows_(windows), variables_(problem.variables()) {
   const ProblemFile& file = problem.file();
-  const SimulationSettings& settings = file.simulation;
-  const int samples = step_count({.end_time = settings.end_time, .step = settings.step}) + 1;
+  const int samples = step_count(file.simulation) + 1;
   windows_ = std::min(windows_, samples);
   for (std::size_t i = 0; i < variables_.size(); ++i) {
     Variable& variable = variables_[i];

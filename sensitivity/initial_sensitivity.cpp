@@ -8,6 +8,7 @@
 #include "core/integration/damped_start.hpp"
 #include "core/integration/equilibrium.hpp"
 #include "core/integration/linear_solver.hpp"
+#include "core/system/linear_forces.hpp"
 
 namespace pleuel {
 
@@ -54,25 +55,18 @@ class InitialDifferentiation {
     return std::move(sensitivity_);
   }
 
-  /// The part of R_q and R_x that is linear in the multipliers: (Φ_qᵀ μ)_q and (Φ_qᵀ μ)_x.
+  /// The derivatives of Φ_qᵀ μ: (Φ_qᵀ μ)_q and (Φ_qᵀ μ)_x.
   struct Curvature {
     System::Matrix q;
     Eigen::MatrixXd x;
   };
   Curvature curvature(const State& state, const Eigen::VectorXd& multipliers) {
-    State with = state, without = state;
-    with.lambda = multipliers;
-    without.lambda.setZero();
-    Curvature result{system_.make_matrix(), {}};
-    System::Matrix subtracted = system_.make_matrix();
-    Eigen::MatrixXd subtracted_x;
-    const Weights position{.q = 1.0};
-    system_.tangent(with, position, ConstraintLevel::position, result.q);
-    system_.tangent(without, position, ConstraintLevel::position, subtracted);
-    system_.design_derivative(with, ConstraintLevel::position, result.x);
-    system_.design_derivative(without, ConstraintLevel::position, subtracted_x);
-    result.q -= subtracted;
-    result.x -= subtracted_x;
+    LinearForces forces(system_);
+    forces.set(state, multipliers);
+    Curvature result{system_.make_matrix(), forces.design_derivative()};
+    forces.tangent(result.q);
+    const Eigen::Index of_multipliers = result.q.nonZeros() - result.q.outerIndexPtr()[n_];
+    result.q.coeffs().tail(of_multipliers).setZero();
     return result;
   }
 

@@ -68,9 +68,10 @@ std::optional<std::size_t> base_of(const AccuracyStudy& study) {
   return best;
 }
 
-class Study {
+class RefinementStudy {
  public:
-  Study(const ProblemFile& problem, const PricedDesign& design, const AccuracyObserver& observer)
+  RefinementStudy(const ProblemFile& problem, const PricedDesign& design,
+                  const AccuracyObserver& observer)
       : problem_(problem), design_(design), x_(design.x()), observer_(observer) {}
 
   AccuracyStudy run() {
@@ -255,7 +256,7 @@ double AccuracyStudy::counted_error(const Eigen::VectorXd& errors) const {
 AccuracyStudy accuracy_study(const ProblemFile& problem, const PricedDesign& design,
                              const AccuracyObserver& observer) {
   if (problem.responses.empty()) throw InputError("/responses is missing: nothing can be compared");
-  return Study(problem, design, observer).run();
+  return RefinementStudy(problem, design, observer).run();
 }
 
 void vary_settings(const ProblemFile& problem, const PricedDesign& design, AccuracyStudy& study,

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/dense_solvers.hpp"
 #include "optimization/scaling.hpp"
 #include "studies/priced_numbers.hpp"
 #include "studies/row_prices.hpp"
@@ -87,7 +88,7 @@ class Answering {
     const Eigen::VectorXd magnitudes = prices_.scales()(deciding).cwiseInverse();
     const Eigen::MatrixXd matrix = magnitudes.asDiagonal() * scaled(deciding, free);
     const Eigen::VectorXd right = -magnitudes.cwiseProduct(change(deciding));
-    const Eigen::VectorXd found = matrix.completeOrthogonalDecomposition().solve(right);
+    const Eigen::VectorXd found = least_norm_solution(matrix, right);
     for (std::size_t k = 0; k < free.size(); ++k) {
       step(free[k]) = s(free[k]) * found(static_cast<Eigen::Index>(k));
     }

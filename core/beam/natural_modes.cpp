@@ -1,13 +1,14 @@
 #include "core/beam/natural_modes.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <utility>
+
+#include "core/base/dense_solvers.hpp"
 
 namespace pleuel {
 
-// The solver stands here alone: it takes the compiler seconds wherever it is used.
 NaturalModes natural_modes(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass);
-  return {solver.eigenvalues(), solver.eigenvectors()};
+  SymmetricModes modes = symmetric_modes(stiffness, mass);
+  return {std::move(modes.values), std::move(modes.vectors)};
 }
 
 }  // namespace pleuel

@@ -13,9 +13,9 @@ namespace pleuel {
 
 namespace {
 
-constexpr int max_iterations = 20;
+constexpr int max_corrections = 20;
 /// Newton's method ends at this change of scaled coordinates, or where it no longer shrinks.
-constexpr double tolerance = 1e-15, round_off = 1e-9;
+constexpr double correction_tolerance = 1e-15, correction_round_off = 1e-9;
 /// Probes that do not converge are made so often half as long.
 constexpr int max_halvings = 6;
 /// Probes agree with the acceleration of the start up to this share of the largest one.
@@ -123,7 +123,7 @@ bool DampedStart::make_probe(Probe& probe) {
   correction.setZero();
   equations.apply(correction, state);
   double previous = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+  for (int iteration = 0; iteration < max_corrections; ++iteration) {
     equations.linearize(state, correction, matrix);
     if (!solver.factorize(matrix)) return false;
     correction *= -1.0;
@@ -132,7 +132,7 @@ bool DampedStart::make_probe(Probe& probe) {
     const double size =
         correction.head(n).cwiseQuotient(mechanism_.scale).lpNorm<Eigen::Infinity>();
     if (!std::isfinite(size)) return false;
-    if (size < tolerance || (size < round_off && size > 0.3 * previous)) {
+    if (size < correction_tolerance || (size < correction_round_off && size > 0.3 * previous)) {
       probe.increment = state.increment;
       probe.v = state.v;
       probe.a = state.a;

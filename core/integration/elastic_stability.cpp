@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-
+#include "core/base/dense_solvers.hpp"
 #include "core/integration/axial_strains.hpp"
 
 namespace pleuel {
@@ -14,19 +11,16 @@ namespace pleuel {
 namespace {
 
 /// Rows that depend on others by less than this, relative to the largest, are no constraints.
-constexpr double rank_tolerance = 1e-10;
+constexpr double row_rank_tolerance = 1e-10;
 /// Eigenvalues below this share of the largest are round-off.
-constexpr double round_off = 1e-13;
+constexpr double eigenvalue_round_off = 1e-13;
 /// What of a matrix counts as not symmetric.
 constexpr double asymmetry = 1e-7;
 
 /// An orthonormal basis of {x : rows x = 0}.
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& rows, Eigen::Index columns) {
   if (rows.rows() == 0) return Eigen::MatrixXd::Identity(columns, columns);
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.transpose());
-  qr.setThreshold(rank_tolerance);
-  const Eigen::MatrixXd q = qr.householderQ();
-  return q.rightCols(columns - qr.rank());
+  return PivotedQr(rows.transpose(), row_rank_tolerance).normal_space();
 }
 
 /// S R_q S and Φ_q S, dense.
@@ -65,7 +59,7 @@ std::string owner(const Mechanism& mechanism, const Eigen::VectorXd& deformation
 }
 
 int count_negative(const Eigen::VectorXcd& eigenvalues) {
-  const double limit = round_off * eigenvalues.cwiseAbs().maxCoeff();
+  const double limit = eigenvalue_round_off * eigenvalues.cwiseAbs().maxCoeff();
   return static_cast<int>(
       std::count_if(eigenvalues.begin(), eigenvalues.end(), [limit](const auto& value) {
         return value.real() < -limit && std::abs(value.imag()) <= limit;
@@ -111,18 +105,16 @@ ElasticStability elastic_stability(Mechanism& mechanism, const State& state) {
   if (z.cols() == 0) return {};
   const Eigen::MatrixXd stiffness = deformation_stiffness(mechanism, state, z);
   const Eigen::MatrixXd symmetric = symmetric_part(stiffness);
-  if (Eigen::LLT<Eigen::MatrixXd>(symmetric).info() == Eigen::Success) return {};
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(symmetric);
+  if (is_positive_definite(symmetric)) return {};
+  const SymmetricModes modes = symmetric_modes(symmetric);
   ElasticStability result;
   const bool is_conservative = is_symmetric(stiffness);
-  result.negative =
-      is_conservative
-          ? count_negative(modes.eigenvalues().cast<std::complex<double>>())
-          : count_negative(Eigen::EigenSolver<Eigen::MatrixXd>(stiffness, false).eigenvalues());
+  result.negative = is_conservative ? count_negative(modes.values.cast<std::complex<double>>())
+                                    : count_negative(eigenvalues_of(stiffness));
   const bool may_be_held =
       result.negative % 2 == 0 && (!is_conservative || has_gyroscopic_forces(mechanism, state, z));
   result.is_stable = result.negative == 0 || may_be_held;
-  if (!result.is_stable) result.where = owner(mechanism, z * modes.eigenvectors().col(0));
+  if (!result.is_stable) result.where = owner(mechanism, z * modes.vectors.col(0));
   return result;
 }
 
@@ -143,13 +135,10 @@ double buckling_load_factor(Mechanism& mechanism, const State& unloaded, const S
            scaled.transpose() * (coupling * scaled);
   };
   const Eigen::MatrixXd elastic = stiffness(unloaded);
-  if (Eigen::LLT<Eigen::MatrixXd>(elastic).info() != Eigen::Success) return none;
+  if (!is_positive_definite(elastic)) return none;
   // −ΔK φ = μ K₀ φ, s = 1/μ
   const Eigen::MatrixXd change = (elastic - stiffness(loaded)) / share;
-  const double largest = Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(
-                             change, elastic, Eigen::EigenvaluesOnly)
-                             .eigenvalues()
-                             .maxCoeff();
+  const double largest = symmetric_eigenvalues(change, elastic).maxCoeff();
   return largest > 0.0 ? 1.0 / largest : none;
 }
 

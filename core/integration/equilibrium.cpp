@@ -4,14 +4,15 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/QR>
 #include <Eigen/SparseLU>
 #include <fmt/format.h>
 
+#include "core/base/dense_solvers.hpp"
 #include "core/base/error.hpp"
 #include "core/base/rotation_vector.hpp"
 #include "core/integration/configuration.hpp"
 #include "core/integration/elastic_stability.hpp"
+#include "core/system/linear_forces.hpp"
 
 namespace pleuel {
 
@@ -19,28 +20,28 @@ namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-constexpr int max_iterations = 25;
+constexpr int max_newton_steps = 25;
 /// Newton's method ends at this change of scaled coordinates.
-constexpr double tolerance = 1e-13;
+constexpr double newton_tolerance = 1e-13;
 /// Or where it gets no further, at this share of the largest deformation.
 constexpr double stuck_share = 1e-9;
 /// Or where it gets no further and each equation is met to this share of its terms. Stiff elements
 /// leave such changes of the coordinates as round-off makes of it, some n⁴ of it for n elements.
-constexpr double round_off = 1e-12;
+constexpr double balance_round_off = 1e-12;
 /// Where the whole load is too much for Newton's method it comes in parts, down to this one.
 constexpr double smallest_part = 1.0 / 1024;
 /// The share of the loads from which their effect on the stiffness is taken.
 constexpr double small_load = 1e-3;
 /// Rows of Φ_q of the frames that depend on the others by less than this are closed by deformation.
-constexpr double rank_tolerance = 1e-9;
+constexpr double frame_rank_tolerance = 1e-9;
 
 /// A block of the Jacobian: some rows and columns of a tangent of the system.
-struct Block {
+struct PlacedBlock {
   int from_row, rows, from_col, cols;  ///< in the tangent
   int to_row, to_col;                  ///< in the Jacobian
 };
 
-void add_block(const System::Matrix& matrix, const Block& block, Triplets& entries) {
+void add_block(const System::Matrix& matrix, const PlacedBlock& block, Triplets& entries) {
   for (int col = block.from_col; col < block.from_col + block.cols; ++col) {
     for (System::Matrix::InnerIterator it(matrix, col); it; ++it) {
       const int row = static_cast<int>(it.row()) - block.from_row;
@@ -48,14 +49,6 @@ void add_block(const System::Matrix& matrix, const Block& block, Triplets& entri
       entries.emplace_back(block.to_row + row, block.to_col + col - block.from_col, it.value());
     }
   }
-}
-
-/// Multipliers μ of an assembly in place of λ: R then holds Φ_qᵀ μ.
-State with_multipliers(State state, const Eigen::VectorXd& multipliers) {
-  state.v.setZero();
-  state.a.setZero();
-  state.lambda = multipliers;
-  return state;
 }
 
 /// Constraints that the frames alone cannot meet, as others hold them: combinations y of the rows
@@ -79,16 +72,13 @@ std::vector<bool> closed_by_deformation(Mechanism& mechanism) {
   Eigen::MatrixXd of_frames = phi(rows, Eigen::all);
   const Eigen::VectorXd elastic = of_frames(Eigen::all, mechanism.elastic).rowwise().norm();
   of_frames(Eigen::all, mechanism.elastic).setZero();
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(of_frames);
-  qr.setThreshold(rank_tolerance);
-  const Eigen::Index count = of_frames.rows() - qr.rank();
-  if (count == 0) return is_closed;
-  const Eigen::MatrixXd q = qr.householderQ();
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> choice(q.rightCols(count).transpose() *
-                                                           elastic.asDiagonal());
+  const PivotedQr qr(of_frames, frame_rank_tolerance);
+  if (qr.rank() == of_frames.rows()) return is_closed;
+  const PivotedQr choice(qr.normal_space().transpose() * elastic.asDiagonal());
+  const std::vector<int> order = choice.order();
   for (Eigen::Index i = 0; i < choice.rank(); ++i) {
-    const Eigen::Index row = choice.colsPermutation().indices()(i);
-    is_closed[static_cast<std::size_t>(rows[static_cast<std::size_t>(row)])] = true;
+    const auto row = static_cast<std::size_t>(order[static_cast<std::size_t>(i)]);
+    is_closed[static_cast<std::size_t>(rows[row])] = true;
   }
   return is_closed;
 }
@@ -137,15 +127,13 @@ Eigen::VectorXd Equilibrium::of_deformation(const Eigen::VectorXd& multipliers) 
 Eigen::VectorXd Equilibrium::residual(const InitialState& at) const {
   const State& state = at.state;
   const Eigen::VectorXd& weight = mechanism_.assembly_weight;
-  Eigen::VectorXd all(3 * n_ + 3 * m_), part, with, without;
+  Eigen::VectorXd all(3 * n_ + 3 * m_), part;
   system_.residual(state, ConstraintLevel::acceleration, part);
   all.head(n_ + m_) = part;
+  LinearForces constraints(system_);
   const auto forces = [&](const Eigen::VectorXd& multipliers) -> Eigen::VectorXd {
-    State moved = with_multipliers(state, multipliers);
-    system_.residual(moved, ConstraintLevel::position, with);
-    moved.lambda.setZero();
-    system_.residual(moved, ConstraintLevel::position, without);
-    return (with - without).head(n_);
+    constraints.set(state, multipliers);
+    return constraints.residual().head(n_);
   };
   const Eigen::VectorXd d = difference(mechanism_.rotations, state.q, mechanism_.guess.q);
   Eigen::VectorXd position = weight.cwiseProduct(d) + forces(of_frames(at.position_multipliers));
@@ -170,8 +158,8 @@ Eigen::SparseMatrix<double> Equilibrium::jacobian(const InitialState& at) const 
   const int n = n_, m = m_, lambda = 3 * n, mu = lambda + m, nu = mu + m;
   const int position = n + m, velocity = 2 * n + 2 * m;
   Triplets entries;
-  System::Matrix matrix = system_.make_matrix(), without = system_.make_matrix();
-  const auto add = [&](const Weights& weights, ConstraintLevel level, const Block& block) {
+  System::Matrix matrix = system_.make_matrix();
+  const auto add = [&](const Weights& weights, ConstraintLevel level, const PlacedBlock& block) {
     system_.tangent(state, weights, level, matrix);
     add_block(matrix, block, entries);
   };
@@ -184,15 +172,13 @@ Eigen::SparseMatrix<double> Equilibrium::jacobian(const InitialState& at) const 
   add({.q = 1.0}, ConstraintLevel::velocity, {n, m, 0, n, velocity + n, 0});
   add({.q = 1.0}, ConstraintLevel::position, {n, m, 0, n, velocity + n, n});  // Φ̇_v = Φ_q
 
-  // Φ_qᵀ μ, Φ_qᵀ ν and their derivatives
+  // The derivatives of Φ_qᵀ μ and Φ_qᵀ ν
+  LinearForces constraints(system_);
   const auto add_forces = [&](const Eigen::VectorXd& multipliers, int row, int column,
                               Triplets& to) {
-    State moved = with_multipliers(state, multipliers);
-    system_.tangent(moved, {.q = 1.0}, ConstraintLevel::position, matrix);
-    moved.lambda.setZero();
-    system_.tangent(moved, {.q = 1.0}, ConstraintLevel::position, without);
+    constraints.set(state, multipliers);
+    constraints.tangent(matrix);
     add_block(matrix, {0, n, n, m, row, column}, to);
-    matrix -= without;
     add_block(matrix, {0, n, 0, n, row, 0}, to);
   };
   add_forces(at.velocity_multipliers, velocity, nu, entries);
@@ -256,19 +242,17 @@ Eigen::SparseMatrix<double> Equilibrium::jacobian(const InitialState& at) const 
 Eigen::MatrixXd Equilibrium::design_derivative(const InitialState& at) const {
   const State& state = at.state;
   const int n = n_, m = m_, position = n + m, velocity = 2 * n + 2 * m;
-  Eigen::MatrixXd all(3 * n + 3 * m, system_.variables()), part, without;
+  Eigen::MatrixXd all(3 * n + 3 * m, system_.variables()), part;
   system_.design_derivative(state, ConstraintLevel::acceleration, part);
   all.topRows(n + m) = part;
   system_.design_derivative(state, ConstraintLevel::position, part);
   all.middleRows(position + n, m) = part.bottomRows(m);
   system_.design_derivative(state, ConstraintLevel::velocity, part);
   all.bottomRows(m) = part.bottomRows(m);
+  LinearForces constraints(system_);
   const auto forces = [&](const Eigen::VectorXd& multipliers) -> Eigen::MatrixXd {
-    State moved = with_multipliers(state, multipliers);
-    system_.design_derivative(moved, ConstraintLevel::position, part);
-    moved.lambda.setZero();
-    system_.design_derivative(moved, ConstraintLevel::position, without);
-    return (part - without).topRows(n);
+    constraints.set(state, multipliers);
+    return constraints.design_derivative().topRows(n);
   };
   const Eigen::VectorXd d = difference(mechanism_.rotations, state.q, mechanism_.guess.q);
   Eigen::MatrixXd guess_x = mechanism_.guess_q_x;
@@ -314,7 +298,7 @@ bool Equilibrium::solve_from(const Eigen::VectorXd& target, InitialState& at) {
   Eigen::SparseLU<Eigen::SparseMatrix<double>> factors;
   Eigen::VectorXd strains = strains_.at(at.state.q);
   double previous = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+  for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
     const Eigen::SparseMatrix<double> matrix = mixed_jacobian(at, strains);
     if (iteration == 0) factors.analyzePattern(matrix);
     factors.factorize(matrix);
@@ -324,14 +308,14 @@ bool Equilibrium::solve_from(const Eigen::VectorXd& target, InitialState& at) {
     if (!step.allFinite()) return false;
     const double size = step.head(n_).cwiseQuotient(mechanism_.scale).lpNorm<Eigen::Infinity>();
     const bool is_stuck = size > 0.3 * previous;
-    const bool is_met = is_stuck && backward_error(matrix, unknowns(at), left) < round_off;
+    const bool is_met = is_stuck && backward_error(matrix, unknowns(at), left) < balance_round_off;
     strains = strains_.predicted(at.state.q, step.head(n_));
     advance_by(step, at);
     const double deformation = at.state.q(mechanism_.elastic)
                                    .cwiseQuotient(mechanism_.scale(mechanism_.elastic))
                                    .lpNorm<Eigen::Infinity>();
     const bool is_round_off = is_stuck && size < stuck_share * std::max(1.0, deformation);
-    if (size < tolerance || is_round_off || is_met) return true;
+    if (size < newton_tolerance || is_round_off || is_met) return true;
     previous = size;
   }
   return false;

@@ -3,8 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/QR>
-
+#include "core/base/dense_solvers.hpp"
 #include "core/integration/configuration.hpp"
 #include "core/integration/initial_state.hpp"
 
@@ -58,8 +57,7 @@ bool close(const Mechanism& mechanism, const std::vector<int>& rigid, State& sta
     Eigen::VectorXd open = residual.tail(m);
     for (const int row : mechanism.system->left_out()) open(row) = 0.0;
     if (open.lpNorm<Eigen::Infinity>() <= closed) return true;
-    const Eigen::VectorXd step =
-        rigid_jacobian(mechanism, state, rigid).completeOrthogonalDecomposition().solve(open);
+    const Eigen::VectorXd step = least_norm_solution(rigid_jacobian(mechanism, state, rigid), open);
     Eigen::VectorXd change = Eigen::VectorXd::Zero(state.q.size());
     for (std::size_t j = 0; j < rigid.size(); ++j) {
       change(rigid[j]) = -mechanism.scale(rigid[j]) * step(static_cast<Eigen::Index>(j));
@@ -80,9 +78,7 @@ Freedoms rigid_freedoms(const Mechanism& mechanism, const State& state) {
   if (rigid.empty() || mechanism.system->multipliers() == 0) return freedoms;
   Eigen::MatrixXd jacobian = rigid_jacobian(mechanism, state, rigid);
   normalize_rows(jacobian);
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposition(jacobian);
-  decomposition.setThreshold(independent);
-  freedoms.constraints = static_cast<int>(decomposition.rank());
+  freedoms.constraints = static_cast<int>(PivotedQr(jacobian, independent).rank());
   return freedoms;
 }
 
@@ -93,10 +89,7 @@ Eigen::MatrixXd free_motions(const Mechanism& mechanism, const State& state) {
   if (mechanism.system->multipliers() > 0) {
     Eigen::MatrixXd jacobian = rigid_jacobian(mechanism, state, rigid);
     normalize_rows(jacobian);
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposition(jacobian.transpose());
-    decomposition.setThreshold(independent);
-    const Eigen::MatrixXd all = decomposition.householderQ() * basis;
-    basis = all.rightCols(size - decomposition.rank());
+    basis = PivotedQr(jacobian.transpose(), independent).normal_space();
   }
   Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(state.q.size(), basis.cols());
   for (Eigen::Index j = 0; j < size; ++j) {

@@ -15,7 +15,7 @@ namespace pleuel {
 
 namespace {
 
-constexpr int max_iterations = 50;
+constexpr int max_assembly_steps = 50;
 
 void factorize_or_throw(LinearSolver& solver, const System::Matrix& matrix, const char* what) {
   if (solver.factorize(matrix)) return;
@@ -91,7 +91,7 @@ void assemble_positions(Mechanism& mechanism, LinearSolver& solver, System::Matr
   Eigen::VectorXd residual;
   State at = initial.state;
   double previous = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+  for (int iteration = 0; iteration < max_assembly_steps; ++iteration) {
     system.residual(at, ConstraintLevel::position, residual);
     const double violation = m > 0 ? residual.tail(m).lpNorm<Eigen::Infinity>() : 0.0;
     projection_matrix(mechanism, at, matrix);

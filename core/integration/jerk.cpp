@@ -3,6 +3,7 @@
 #include "core/base/error.hpp"
 #include "core/integration/configuration.hpp"
 #include "core/integration/linear_solver.hpp"
+#include "core/system/linear_forces.hpp"
 
 namespace pleuel {
 
@@ -79,16 +80,12 @@ Eigen::MatrixXd ConstrainedJerk::differentiate(const Eigen::MatrixXd& q, const E
   columns += matrix.leftCols(n) * a;
   rhs.bottomRows(m) += columns.bottomRows(m) / interval_;
 
-  // The change of M j + Φ_qᵀ μ and Φ_q j: what of R is linear in a and λ
-  State at = start_;
-  for (const double sign : {1.0, -1.0}) {
-    at.a = sign > 0.0 ? value_ : Eigen::VectorXd::Zero(n);
-    at.lambda = sign > 0.0 ? multipliers_ : Eigen::VectorXd::Zero(m);
-    system_.design_derivative(at, level, columns);
-    system_.tangent(at, {.q = 1.0}, level, matrix);
-    columns += matrix.leftCols(n) * q;
-    rhs -= sign * columns;
-  }
+  // The change of M j + Φ_qᵀ μ and Φ_q j
+  LinearForces forces(system_, level);
+  forces.set(start_, value_, multipliers_);
+  forces.tangent(matrix);
+  rhs -= forces.design_derivative();
+  rhs -= matrix.leftCols(n) * q;
   solve(rhs);
   return rhs.topRows(n);
 }

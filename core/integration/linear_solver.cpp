@@ -14,7 +14,7 @@ namespace pleuel {
 namespace {
 
 /// Backward errors up to this are round-off: measured 1e-17 to 2e-15.
-constexpr double round_off = 1e-14;
+constexpr double refined_round_off = 1e-14;
 /// Where refinement leaves more than this, the pivots are no good.
 constexpr double poor = 1e-10;
 /// Where pivots on the diagonal make entries grow all the same, the largest one is the pivot.
@@ -189,7 +189,7 @@ struct LinearSolver::Implementation {
     residual.resizeLike(rhs);  // here, not in the step that first needs it
     solve_scaled(is_transposed, x);
     estimate_backward_error(is_transposed, x);
-    if (backward_error <= round_off) return;
+    if (backward_error <= refined_round_off) return;
     residual = rhs;
     subtract_product(is_transposed, x, residual);
     solve_scaled(is_transposed, residual);

@@ -11,20 +11,20 @@ namespace pleuel {
 namespace {
 
 /// Corrections that are smaller, relative to the scale of the coordinates, are round-off.
-constexpr double tolerance = 1e-13;
+constexpr double projection_tolerance = 1e-13;
 /// Those below this that no longer shrink are, too.
-constexpr double round_off = 1e-9;
-constexpr int max_iterations = 20;
+constexpr double projection_round_off = 1e-9;
+constexpr int max_projections = 20;
 constexpr Weights by_q{.q = 1.0};
 
 /// Calls correct(), which returns the size of a correction, until that is round-off.
 template <class Correct>
 bool converges(const Correct& correct) {
   double previous = 0.0;
-  for (int iteration = 1; iteration <= max_iterations; ++iteration) {
+  for (int iteration = 1; iteration <= max_projections; ++iteration) {
     const double size = correct();
-    if (size <= tolerance) return true;
-    if (iteration > 1 && size > 0.5 * previous) return size <= round_off;
+    if (size <= projection_tolerance) return true;
+    if (iteration > 1 && size > 0.5 * previous) return size <= projection_round_off;
     previous = size;
   }
   return false;
@@ -47,13 +47,13 @@ Projection::Projection(Mechanism& mechanism)
       at_rest_(drifted_),
       projected_(drifted_),
       step_(system_.size()),
-      zero_(Eigen::VectorXd::Zero(system_.coordinates())),
       position_rows_(matrix_),
       velocity_rows_(matrix_),
       rate_rows_(matrix_),
-      pull_of_positions_q_(matrix_),
-      pull_of_velocities_q_(matrix_),
-      scratch_(matrix_) {}
+      position_forces_(system_),
+      velocity_forces_(system_),
+      position_forces_q_(matrix_),
+      velocity_forces_q_(matrix_) {}
 
 bool Projection::apply(State& state) {
   drifted_.time = at_rest_.time = projected_.time = state.time;
@@ -91,7 +91,8 @@ bool Projection::close_positions() {
 
 bool Projection::close_velocities() {
   epsilon_.set_zero(system_);
-  const double speed = start_.cwiseQuotient(mechanism_.scale).lpNorm<Eigen::Infinity>() + round_off;
+  const double speed =
+      start_.cwiseQuotient(mechanism_.scale).lpNorm<Eigen::Infinity>() + projection_round_off;
   return converges([&] {
     system_.residual(projected_, ConstraintLevel::velocity, residual_);
     const double size = correct(velocity_solver_, epsilon_);
@@ -118,35 +119,10 @@ void Projection::linearize(const State& drifted) {
     if (matrix_.innerIndexPtr()[k] >= n) matrix_.valuePtr()[k] = position_rows_.valuePtr()[k];
   }
   if (!position_solver_.factorize(matrix_)) fail();
-  set_tangent(pull_of_positions(), pull_of_positions_q_);
-  set_tangent(pull_of_velocities(), pull_of_velocities_q_);
-}
-
-void Projection::Pull::hold() const {
-  at_rest.a = a;
-  at_rest.lambda = lambda;
-}
-
-void Projection::Pull::release() const {
-  at_rest.a.setZero();
-  at_rest.lambda.setZero();
-}
-
-void Projection::set_tangent(const Pull& pull, System::Matrix& tangent) {
-  system_.tangent(pull.at_rest, by_q, ConstraintLevel::position, scratch_);
-  pull.hold();
-  system_.tangent(pull.at_rest, by_q, ConstraintLevel::position, tangent);
-  pull.release();
-  tangent -= scratch_;
-}
-
-Eigen::MatrixXd Projection::design_derivative(const Pull& pull) {
-  Eigen::MatrixXd with, without;
-  system_.design_derivative(pull.at_rest, ConstraintLevel::position, without);
-  pull.hold();
-  system_.design_derivative(pull.at_rest, ConstraintLevel::position, with);
-  pull.release();
-  return (with - without).topRows(system_.coordinates());
+  position_forces_.set(drifted_, delta_.multipliers);
+  position_forces_.tangent(position_forces_q_);
+  velocity_forces_.set(at_rest_, epsilon_.move, epsilon_.multipliers);
+  velocity_forces_.tangent(velocity_forces_q_);
 }
 
 // With s⁻ = T(δ)⁻ᵀ s_q of rotations:
@@ -160,7 +136,7 @@ void Projection::differentiate(Eigen::MatrixXd& q, Eigen::MatrixXd& v) {
   Eigen::MatrixXd rhs;
   system_.design_derivative(projected_, ConstraintLevel::position, rhs);
   rhs.topRows(n) =
-      (pull_of_positions_q_.leftCols(n) * q).topRows(n) + design_derivative(pull_of_positions());
+      (position_forces_q_.leftCols(n) * q + position_forces_.design_derivative()).topRows(n);
   pleuel::pull_back(rotations, delta_.move, q);
   rhs.bottomRows(m) += (position_rows_.leftCols(n) * q).bottomRows(m);
   rhs *= -1.0;
@@ -170,7 +146,7 @@ void Projection::differentiate(Eigen::MatrixXd& q, Eigen::MatrixXd& v) {
 
   system_.design_derivative(projected_, ConstraintLevel::velocity, rhs);
   rhs.topRows(n) =
-      (pull_of_velocities_q_.leftCols(n) * q).topRows(n) + design_derivative(pull_of_velocities());
+      (velocity_forces_q_.leftCols(n) * q + velocity_forces_.design_derivative()).topRows(n);
   rhs.bottomRows(m) += (velocity_rows_.leftCols(n) * v + rate_rows_.leftCols(n) * q).bottomRows(m);
   rhs *= -1.0;
   velocity_solver_.solve(rhs);
@@ -183,43 +159,28 @@ void Projection::pull_back(Columns q, Columns v, Columns sums) {
   const Rotations& rotations = mechanism_.rotations;
   Eigen::MatrixXd mu = Eigen::MatrixXd::Zero(n + m, q.cols()), forces = mu, constraints = mu;
   const auto split = [&] {
-    forces.topRows(n) = mu.topRows(n);
-    constraints.bottomRows(m) = mu.bottomRows(m);
+    forces.topRows(n) = -mu.topRows(n);
+    constraints.bottomRows(m) = -mu.bottomRows(m);
   };
   mu.topRows(n) = v;
   velocity_solver_.solve_transposed(mu);
   split();
-  v -= velocity_rows_.leftCols(n).transpose() * constraints;
-  q -= rate_rows_.leftCols(n).transpose() * constraints;
-  q -= pull_of_velocities_q_.leftCols(n).transpose() * forces;
-  add_constraint_sums(ConstraintLevel::velocity, constraints, sums);
-  add_sums(pull_of_velocities(), forces, sums);
+  v += velocity_rows_.leftCols(n).transpose() * constraints;
+  q += rate_rows_.leftCols(n).transpose() * constraints;
+  q += velocity_forces_q_.leftCols(n).transpose() * forces;
+  system_.add_design_sums(projected_, ConstraintLevel::velocity, constraints, sums);
+  velocity_forces_.add_design_sums(forces, sums);
 
   push_forward_transposed(rotations, delta_.move, q);
   mu.setZero();
   mu.topRows(n) = q;
   position_solver_.solve_transposed(mu);
   split();
-  q -= position_rows_.leftCols(n).transpose() * constraints;
+  q += position_rows_.leftCols(n).transpose() * constraints;
   pull_back_transposed(rotations, delta_.move, q);
-  q -= pull_of_positions_q_.leftCols(n).transpose() * forces;
-  add_constraint_sums(ConstraintLevel::position, constraints, sums);
-  add_sums(pull_of_positions(), forces, sums);
-}
-
-/// −μᵀ Φ_x or −μᵀ Φ̇_x at the projected state.
-void Projection::add_constraint_sums(ConstraintLevel level, const ConstColumns& mu, Columns sums) {
-  const Eigen::MatrixXd rows = -mu;
-  system_.add_design_sums(projected_, level, rows, sums);
-}
-
-/// −μᵀ (M a + Φ_qᵀ λ)_x.
-void Projection::add_sums(const Pull& pull, const ConstColumns& mu, Columns sums) {
-  system_.add_design_sums(pull.at_rest, ConstraintLevel::position, mu, sums);
-  const Eigen::MatrixXd rows = -mu;
-  pull.hold();
-  system_.add_design_sums(pull.at_rest, ConstraintLevel::position, rows, sums);
-  pull.release();
+  q += position_forces_q_.leftCols(n).transpose() * forces;
+  system_.add_design_sums(projected_, ConstraintLevel::position, constraints, sums);
+  position_forces_.add_design_sums(forces, sums);
 }
 
 }  // namespace pleuel

@@ -4,6 +4,7 @@
 
 #include "core/integration/linear_solver.hpp"
 #include "core/integration/mechanism.hpp"
+#include "core/system/linear_forces.hpp"
 
 namespace pleuel {
 
@@ -47,20 +48,6 @@ class Projection {
   /// size relative to the scale of the coordinates
   double correct(LinearSolver& solver, Change& change);
 
-  /// M a + Φ_qᵀ λ at rest: what of R is linear in both.
-  struct Pull {
-    State& at_rest;  ///< v, a and λ zero
-    const Eigen::VectorXd &a, &lambda;
-    void hold() const;
-    void release() const;
-  };
-  Pull pull_of_positions() { return {drifted_, zero_, delta_.multipliers}; }
-  Pull pull_of_velocities() { return {at_rest_, epsilon_.move, epsilon_.multipliers}; }
-  void set_tangent(const Pull& pull, System::Matrix& tangent);
-  Eigen::MatrixXd design_derivative(const Pull& pull);
-  void add_sums(const Pull& pull, const ConstColumns& mu, Columns sums);
-  void add_constraint_sums(ConstraintLevel level, const ConstColumns& mu, Columns sums);
-
   Mechanism& mechanism_;
   System& system_;
   System::Matrix matrix_;
@@ -69,14 +56,15 @@ class Projection {
   State projected_;
   Eigen::VectorXd start_;  ///< velocities before
   Change delta_, epsilon_;
-  Eigen::VectorXd residual_, step_, zero_;
+  Eigen::VectorXd residual_, step_;
 
   // Of linearize():
   System::Matrix position_rows_;  ///< Φ_q(q*) T(δ)
   System::Matrix velocity_rows_;  ///< Φ_q(q*)
   System::Matrix rate_rows_;      ///< Φ̇_q(q*, v*)
-  System::Matrix pull_of_positions_q_, pull_of_velocities_q_;
-  System::Matrix scratch_;
+  LinearForces position_forces_;  ///< Φ_q(q)ᵀ η
+  LinearForces velocity_forces_;  ///< M(q*) ε + Φ_q(q*)ᵀ ν
+  System::Matrix position_forces_q_, velocity_forces_q_;
 };
 
 }  // namespace pleuel

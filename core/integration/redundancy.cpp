@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/QR>
-
+#include "core/base/dense_solvers.hpp"
 #include "core/integration/configuration.hpp"
 
 namespace pleuel {
@@ -18,7 +17,7 @@ constexpr double small = 1e-3;
 /// The independent constraints are closed to a tenth of this. One that is independent at its end
 /// is off by small².
 constexpr double closed = 1e-10;
-constexpr int max_iterations = 20;
+constexpr int max_closing_steps = 20;
 /// What opens by more, of the way that is moved, does not follow from the others but from a drive.
 constexpr double most_misaligned = 3e-2;
 
@@ -66,7 +65,7 @@ class MovedMechanism {
   bool move(const Eigen::VectorXd& scaled, double time, const std::vector<int>& kept) {
     add(scaled);
     state_.time += time;
-    for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    for (int iteration = 0; iteration < max_closing_steps; ++iteration) {
       const Eigen::VectorXd open = constraints()(kept);
       if (open.size() == 0 || open.lpNorm<Eigen::Infinity>() <= 0.1 * closed) return true;
       const Eigen::MatrixXd rows = jacobian()(kept, Eigen::all);
@@ -78,7 +77,7 @@ class MovedMechanism {
  private:
   static Eigen::VectorXd least_norm(const Eigen::MatrixXd& rows, const Eigen::VectorXd& rhs) {
     if (rows.rows() == 0) return Eigen::VectorXd::Zero(rows.cols());
-    return rows.completeOrthogonalDecomposition().solve(rhs);
+    return least_norm_solution(rows, rhs);
   }
 
   void add(const Eigen::VectorXd& scaled) {
@@ -105,10 +104,9 @@ RankedRows rank(Eigen::MatrixXd rows) {
   for (auto row : rows.rowwise()) {
     if (row.norm() > 0.0) row.normalize();
   }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.transpose());
-  const auto& order = qr.colsPermutation().indices();
-  RankedRows ranked{{order.begin(), order.end()}, Eigen::VectorXd::Zero(rows.rows())};
-  const Eigen::VectorXd diagonal = qr.matrixQR().diagonal().cwiseAbs();
+  const PivotedQr qr(rows.transpose());
+  RankedRows ranked{qr.order(), Eigen::VectorXd::Zero(rows.rows())};
+  const Eigen::VectorXd diagonal = qr.pivots();
   if (diagonal.size() > 0 && diagonal(0) > 0.0) {
     ranked.pivots.head(diagonal.size()) = diagonal / diagonal(0);
   }
@@ -124,7 +122,7 @@ Eigen::VectorXd part_across(const Eigen::MatrixXd& jacobian, int row,
                             const std::vector<int>& others) {
   const Eigen::MatrixXd rows = jacobian(others, Eigen::all);
   const Eigen::VectorXd whole = jacobian.row(row).transpose();
-  return whole - rows.completeOrthogonalDecomposition().solve(rows * whole);
+  return whole - least_norm_solution(rows, rows * whole);
 }
 
 /// The rows of which a row is made, after the largest factor.
@@ -132,8 +130,7 @@ std::vector<int> rows_that_make(const Eigen::MatrixXd& jacobian, int row,
                                 const std::vector<int>& others) {
   constexpr double counts = 0.05;
   const Eigen::MatrixXd columns = jacobian(others, Eigen::all).transpose();
-  const Eigen::VectorXd factors =
-      columns.completeOrthogonalDecomposition().solve(jacobian.row(row).transpose());
+  const Eigen::VectorXd factors = least_norm_solution(columns, jacobian.row(row).transpose());
   std::vector<int> found;
   if (factors.size() == 0) return found;
   const double largest = factors.lpNorm<Eigen::Infinity>();

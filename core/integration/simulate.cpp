@@ -12,7 +12,7 @@
 
 namespace pleuel {
 
-int step_count(const SimulationOptions& options) {
+int step_count(const TimeIntegration& options) {
   // A step that divides the time up to round-off is not shortened.
   return std::max(1, static_cast<int>(std::ceil(options.end_time / options.step * (1 - 1e-12))));
 }

@@ -4,30 +4,16 @@
 #include <limits>
 #include <memory>
 
+#include "core/base/time_integration.hpp"
 #include "core/integration/mechanism.hpp"
 #include "core/integration/scheme.hpp"
 
 namespace pleuel {
 
-struct SimulationOptions {
-  double end_time = 0.0;         ///< [s]; the start is t = 0
-  double step = 0.0;             ///< [s]; shortened so that it divides the time
-  double spectral_radius = 0.8;  ///< ρ∞ of the scheme
-  /// Newton's method ends when the error left in any coordinate, relative to its scale, is
-  /// estimated to be below this. Gradients by differences need a tight one.
-  double newton_tolerance = 1e-10;
-  int max_newton_iterations = 20;
-  SchemeType scheme = SchemeType::generalized_alpha;
-  Formulation formulation = {};
-  /// What the local errors of the coordinates within one step may add up to, each relative to its
-  /// scale: steps are halved, again and again, until that holds. 0: all steps are equal.
-  /// Generalized-α only, and not index 3.
-  double local_error = 0.0;
-  double smallest_step = 0.0;  ///< of those halves [s]; 0: a 1024th of the step
+/// The steps that are asked for, and what else a simulation has to know.
+struct SimulationOptions : TimeIntegration {
   /// Where something that acts jumps or has a kink [s], in any order: steps end there.
   std::vector<double> breaks = {};
-  /// To repeat a sequence of steps: the instants of another simulation, in place of control.
-  std::vector<double> instants = {};
   /// What the states of the trajectory may take [byte]. Where they do not fit, some are kept as
   /// checkpoints, and the stretches between are simulated again when they are asked for.
   double memory = std::numeric_limits<double>::infinity();
@@ -94,7 +80,7 @@ struct Trajectory {
 };
 
 /// Number of equal steps of a simulation without breaks: the last time is end_time exactly.
-int step_count(const SimulationOptions& options);
+int step_count(const TimeIntegration& options);
 
 /// The instants of a simulation without control and splits. Between two breaks steps are equal, as
 /// few as are no longer than asked for, so that their size changes little from one stretch to the

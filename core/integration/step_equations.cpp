@@ -68,7 +68,8 @@ StepEquations::StepEquations(Mechanism& mechanism, const Scheme& scheme,
       scheme_(scheme),
       formulation_(formulation),
       level_{level_of(formulation.constraints), 1.0},
-      matrices_(4, system_.make_matrix()) {
+      matrices_(4, system_.make_matrix()),
+      shift_forces_(system_) {
   set_scheme(scheme);
   const double b = formulation.baumgarte;
   if (formulation.constraints == ConstraintForm::index_1 && b > 0.0) {
@@ -305,27 +306,16 @@ void StepEquations::pull_back(const StepState& state, const ConstColumns& y, Col
   if (is_stabilized()) pull_back_old_constraints(state, y, old_q, sums);
 }
 
-/// The rows of the shift, −(Φ_q(q)ᵀ η)_q s_q − (Φ_q(q)ᵀ η)_x, and of Φ(q⁺), −Φ_x. Constraint forces
-/// are the part of the residual that is linear in the multipliers.
+/// The rows of the shift, −(Φ_q(q)ᵀ η)_q s_q − (Φ_q(q)ᵀ η)_x, and of Φ(q⁺), −Φ_x.
 void StepEquations::differentiate_old_constraints(const StepState& state,
                                                   const Eigen::MatrixXd& old_q,
                                                   Eigen::MatrixXd& rhs) {
   const int n = system_.coordinates(), m = system_.multipliers();
-  auto shift_rows = rhs.middleRows(n + m, n);
-  shift_rows.setZero();
-  State& at = constraints_at_;
-  at = old_;
-  for (double sign : {1.0, -1.0}) {
-    if (sign > 0.0) {
-      at.lambda = state.eta;
-    } else {
-      at.lambda.setZero();
-    }
-    system_.tangent(at, {.q = 1.0}, ConstraintLevel::position, matrices_.front());
-    system_.design_derivative(at, ConstraintLevel::position, other_columns_);
-    other_columns_.noalias() += matrices_.front().leftCols(n) * old_q;
-    shift_rows -= sign * other_columns_.topRows(n);
-  }
+  shift_forces_.set(old_, state.eta);
+  shift_forces_.tangent(matrices_.front());
+  other_columns_ = shift_forces_.design_derivative();
+  other_columns_.noalias() += matrices_.front().leftCols(n) * old_q;
+  rhs.middleRows(n + m, n) = -other_columns_.topRows(n);
   system_.design_derivative(state, ConstraintLevel::position, other_columns_);
   rhs.bottomRows(m) = -other_columns_.bottomRows(m);
 }
@@ -334,20 +324,12 @@ void StepEquations::differentiate_old_constraints(const StepState& state,
 void StepEquations::pull_back_old_constraints(const StepState& state, const ConstColumns& y,
                                               Columns old_q, Columns sums) {
   const int n = system_.coordinates(), m = system_.multipliers();
-  State& at = constraints_at_;
-  at = old_;
   other_mu_.setZero(n + m, y.cols());
-  for (double sign : {1.0, -1.0}) {
-    if (sign > 0.0) {
-      at.lambda = state.eta;
-    } else {
-      at.lambda.setZero();
-    }
-    other_mu_.topRows(n) = -sign * y.middleRows(n + m, n);
-    system_.tangent(at, {.q = 1.0}, ConstraintLevel::position, matrices_.front());
-    old_q.noalias() += matrices_.front().leftCols(n).transpose() * other_mu_;
-    system_.add_design_sums(at, ConstraintLevel::position, other_mu_, sums);
-  }
+  other_mu_.topRows(n) = -y.middleRows(n + m, n);
+  shift_forces_.set(old_, state.eta);
+  shift_forces_.tangent(matrices_.front());
+  old_q.noalias() += matrices_.front().leftCols(n).transpose() * other_mu_;
+  shift_forces_.add_design_sums(other_mu_, sums);
   other_mu_.topRows(n).setZero();
   other_mu_.bottomRows(m) = -y.bottomRows(m);
   system_.add_design_sums(state, ConstraintLevel::position, other_mu_, sums);

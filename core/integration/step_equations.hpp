@@ -5,6 +5,7 @@
 #include "core/base/time_integration.hpp"
 #include "core/integration/mechanism.hpp"
 #include "core/integration/scheme.hpp"
+#include "core/system/linear_forces.hpp"
 
 namespace pleuel {
 
@@ -103,8 +104,8 @@ class StepEquations {
   /// Where entries of the system's pattern stand in the four blocks of the pattern (−1: nowhere).
   std::vector<int> slots_11_, slots_12_, slots_21_, slots_22_;
   std::vector<System::Matrix> matrices_, other_matrices_;
-  System::Matrix turned_;  ///< scratch
-  State constraints_at_;   ///< scratch
+  System::Matrix turned_;      ///< scratch
+  LinearForces shift_forces_;  ///< Φ_q(q)ᵀ η of the old state
   Eigen::VectorXd residual_, other_residual_;
   Eigen::MatrixXd columns_, other_columns_, mu_, other_mu_;
 };

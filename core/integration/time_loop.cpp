@@ -17,7 +17,7 @@ namespace {
 /// Factors are renewed where the corrections shrink by less than this.
 constexpr double slow_rate = 0.1;
 /// Scaled corrections below this that no longer shrink are round-off.
-constexpr double round_off = 1e-9;
+constexpr double newton_round_off = 1e-9;
 
 /// Constraints of index 1 may drift so far, relative to the largest scale of a coordinate.
 constexpr double most_drift = 1e-2;
@@ -328,7 +328,7 @@ std::optional<TimeLoop::Failure> TimeLoop::correct(bool is_careful) {
     }
     if (error <= options_.newton_tolerance) return std::nullopt;
     const bool is_slow = iteration > 1 && size > slow_rate * previous;
-    if (is_slow && is_fresh && size < round_off) return std::nullopt;
+    if (is_slow && is_fresh && size < newton_round_off) return std::nullopt;
     is_stale = is_slow;
     previous = size;
   }

@@ -13,7 +13,7 @@ namespace {
 /// A node at a place has to be so far from others, in lengths of the element.
 constexpr double least_distance = 0.01;
 /// Shares of the length that differ by less are the same.
-constexpr double rounding_tolerance = 1e-9;
+constexpr double node_tolerance = 1e-9;
 
 /// Shares of the length of the whole beam, from the beginning of its part, at which joints and
 /// loads act, ascending.
@@ -62,7 +62,7 @@ BeamMesh make_mesh(const Body& body, const Scene& scene, const Design<double>& s
   double node_share = 0.0;
   for (int node = 0; node <= static_cast<int>(mesh.elements.size()); ++node) {
     const bool is_attached = std::any_of(attached.begin(), attached.end(), [&](double share) {
-      return std::abs(share - node_share) <= rounding_tolerance;
+      return std::abs(share - node_share) <= node_tolerance;
     });
     if (is_attached) mesh.attached_nodes.push_back(node);
     if (node < static_cast<int>(mesh.elements.size())) {

@@ -8,7 +8,6 @@
 #include "core/model/divided_beams.hpp"
 #include "core/model/imported_builder.hpp"
 #include "core/model/invariant_derivatives.hpp"
-#include "core/model/stiffening_builder.hpp"
 #include "core/scene/body_rules.hpp"
 
 namespace pleuel {
@@ -99,13 +98,9 @@ BodyModel make_body_model(const Body& body, const BuildContext& context, int off
   return model;
 }
 
-std::vector<std::unique_ptr<Term>> make_body_terms(const BodyModel& model,
-                                                   const BuildContext& context, int coordinates) {
-  std::vector<std::unique_ptr<Term>> terms;
-  terms.push_back(std::make_unique<FloatingFrameBody>(model.name, model.frame, model.invariants,
-                                                      model.invariants_x, context.gravity));
-  if (model.has_stiffening) terms.push_back(make_stiffening(model, coordinates));
-  return terms;
+std::unique_ptr<Term> make_body_term(const BodyModel& model, const BuildContext& context) {
+  return std::make_unique<FloatingFrameBody>(model.name, model.frame, model.invariants,
+                                             model.invariants_x, context.gravity);
 }
 
 }  // namespace pleuel

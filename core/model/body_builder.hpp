@@ -30,10 +30,8 @@ struct BuildContext {
 /// @throws SimulationError if there is no such body at this design (core/scene/body_rules.hpp)
 BodyModel make_body_model(const Body& body, const BuildContext& context, int offset);
 
-/// Inertia, elasticity and, for beams, geometric stiffening.
-/// @param coordinates  of the whole system
-std::vector<std::unique_ptr<Term>> make_body_terms(const BodyModel& model,
-                                                   const BuildContext& context, int coordinates);
+/// Inertia, elasticity, damping and weight.
+std::unique_ptr<Term> make_body_term(const BodyModel& model, const BuildContext& context);
 
 /// Entry by entry.
 Invariants<double> derivative_of(const Invariants<Dual>& invariants);

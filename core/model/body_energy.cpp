@@ -1,9 +1,6 @@
 #include "core/model/body_energy.hpp"
 
 #include <array>
-#include <cassert>
-
-#include "core/effects/floating_frame_body.hpp"
 
 namespace pleuel {
 
@@ -234,16 +231,9 @@ BodyEnergy energy_of_bodies(const Model& model, const State& state) {
 
 TermsBesidesBodies terms_besides_bodies(const Model& model) {
   TermsBesidesBodies besides;
-  // build_model() begins with the terms of the bodies, see make_body_terms().
-  auto next = model.mechanism.system->terms().begin();
-  for (const BodyModel& body : model.bodies) {
-    assert(dynamic_cast<const FloatingFrameBody*>(next->get()));
-    ++next;
-    if (body.has_stiffening) besides.stiffening.push_back((next++)->get());
-  }
-  for (; next != model.mechanism.system->terms().end(); ++next) {
-    besides.acting.push_back(next->get());
-  }
+  for (const auto& [body, term] : model.terms.stiffening) besides.stiffening.push_back(term);
+  besides.acting = model.terms.joints;
+  besides.acting.insert(besides.acting.end(), model.terms.loads.begin(), model.terms.loads.end());
   return besides;
 }
 

@@ -6,12 +6,14 @@
 
 #include "core/base/error.hpp"
 #include "core/integration/redundancy.hpp"
+#include "core/model/body_builder.hpp"
 #include "core/model/divided_beams.hpp"
 #include "core/model/drive_rows.hpp"
 #include "core/model/imported_builder.hpp"
 #include "core/model/joint_builder.hpp"
 #include "core/model/load_builder.hpp"
 #include "core/model/model.hpp"
+#include "core/model/stiffening_builder.hpp"
 
 namespace pleuel {
 
@@ -163,11 +165,18 @@ class ModelBuilder {
     return count;
   }
 
+  Term* add_term(std::unique_ptr<Term> term) {
+    terms_.push_back(std::move(term));
+    return terms_.back().get();
+  }
+
   void add_body_terms() {
     bool has_damping = false;
-    for (const BodyModel& body : model_.bodies) {
-      for (auto& term : make_body_terms(body, context_, coordinates_)) {
-        terms_.push_back(std::move(term));
+    for (std::size_t i = 0; i < model_.bodies.size(); ++i) {
+      const BodyModel& body = model_.bodies[i];
+      model_.terms.bodies.push_back(add_term(make_body_term(body, context_)));
+      if (body.has_stiffening) {
+        model_.terms.stiffening.emplace_back(i, add_term(make_stiffening(body, coordinates_)));
       }
       if (body.frame.rotation == RotationCoordinates::rotation_vector) {
         model_.mechanism.rotations.push_back(body.frame.offset + body.frame.translations());
@@ -219,13 +228,15 @@ class ModelBuilder {
       JointModel& added = model_.joints.back();
       added.is_division = static_cast<int>(model_.joints.size()) <= divisions_;
       multipliers_ += added.equations();
-      if (added.equations() > 0) terms_.push_back(make_joint_term(added, coordinates_));
+      if (added.equations() == 0) continue;
+      model_.terms.joints.push_back(add_term(make_joint_term(added, coordinates_)));
     }
   }
 
   void add_loads() {
     for (const Load& load : context_.scene.loads) {
-      terms_.push_back(make_load_term(load, model_.bodies, context_, coordinates_));
+      model_.terms.loads.push_back(
+          add_term(make_load_term(load, model_.bodies, context_, coordinates_)));
     }
   }
 

@@ -15,7 +15,7 @@ namespace pleuel {
 namespace {
 
 /// Places nearer to the end of a stretch than this share of the beam belong to it.
-constexpr double rounding_tolerance = 1e-9;
+constexpr double part_tolerance = 1e-9;
 
 /// Elements so many that each frame has one.
 std::vector<Segment> refine_segments(const BeamBody& beam) {
@@ -171,8 +171,7 @@ class Division {
     if (found == parts_.end()) return;
     for (const Body& part : found->second) {
       body = part.name;
-      if (share_along(std::get<BeamBody>(part.shape), at, start_) <= 1.0 + rounding_tolerance)
-        return;
+      if (share_along(std::get<BeamBody>(part.shape), at, start_) <= 1.0 + part_tolerance) return;
     }
   }
 

@@ -12,7 +12,7 @@ namespace pleuel {
 namespace {
 
 /// Variables that differ by less are at the design of the file: rounding of written units.
-constexpr double rounding_tolerance = 1e-9;
+constexpr double design_tolerance = 1e-9;
 
 /// The pattern and the pairs that the constants and all their derivatives need.
 struct Arrangement {
@@ -167,7 +167,7 @@ BodyConstants constants_at(const ImportedBody& imported, const Body& body,
   for (const ImportedVariable& of : imported.variables) {
     const ConstantsDerivative& derivative = imported.file->design[of.in_design];
     const double distance = resolve(of.number, design) - derivative.value;
-    if (std::abs(distance) <= rounding_tolerance * std::abs(derivative.value)) continue;
+    if (std::abs(distance) <= design_tolerance * std::abs(derivative.value)) continue;
     if (!imported.is_linear) {
       throw InputError(fmt::format(
           "/scene/bodies/{}/file is known at the design {} = {:.12g} only, not at {:.12g}: write "

@@ -9,7 +9,7 @@ namespace pleuel {
 
 namespace {
 
-bool are_parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+bool is_along(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::abs(a.dot(b)) > 0.5;  // of unit vectors that are parallel or normal
 }
 
@@ -130,7 +130,7 @@ class JointBuilder {
   /// What is left of a joint in motion in a plane that it is symmetric about.
   void add_planar_equations(const MotionPlane& plane) {
     const Eigen::Vector3d axis = to_vector(joint_.axis).normalized();
-    const bool is_normal = are_parallel(axis, plane.normal);
+    const bool is_normal = is_along(axis, plane.normal);
     switch (joint_.type) {
       case JointType::revolute:
       case JointType::spherical:
@@ -175,7 +175,7 @@ class JointBuilder {
   }
 
   bool holds_planar_angle(const Eigen::Vector3d& axis, const MotionPlane& plane) const {
-    const bool is_normal = are_parallel(axis, plane.normal);
+    const bool is_normal = is_along(axis, plane.normal);
     switch (joint_.type) {
       case JointType::fixed:
       case JointType::prismatic:
@@ -184,8 +184,7 @@ class JointBuilder {
       case JointType::planar:
         return !is_normal;
       case JointType::universal:
-        return !is_normal &&
-               !are_parallel(to_vector(joint_.second_axis).normalized(), plane.normal);
+        return !is_normal && !is_along(to_vector(joint_.second_axis).normalized(), plane.normal);
       default:
         return false;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/beam/beam_invariants.hpp"
@@ -14,6 +15,7 @@
 #include "core/model/motion_plane.hpp"
 #include "core/scene/problem_file.hpp"
 #include "core/system/coordinate_map.hpp"
+#include "core/system/term.hpp"
 
 namespace pleuel {
 
@@ -95,9 +97,19 @@ struct EffectRecord {
   int coordinates_saved = 0;
 };
 
+/// The terms of the system by what they stand for. They belong to the system.
+struct ModelTerms {
+  std::vector<Term*>
+      bodies;  ///< inertia, elasticity, damping and weight of Model::bodies, in order
+  std::vector<std::pair<std::size_t, Term*>> stiffening;  ///< which body, its geometric stiffening
+  std::vector<Term*> joints;                              ///< with their drives
+  std::vector<Term*> loads;                               ///< with springs and dampers
+};
+
 /// The mechanism that a scene calls for, at one design.
 struct Model {
   Mechanism mechanism;
+  ModelTerms terms;
   std::vector<BodyModel> bodies;
   /// Beams that are divided, as if they were not: for their constants. They have no coordinates in
   /// the system.

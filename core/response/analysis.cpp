@@ -99,19 +99,10 @@ Reduction reduce_history(const Response& response, const Eigen::VectorXd& time,
 }
 
 SimulationOptions options_of(const ProblemFile& problem) {
-  const SimulationSettings& settings = problem.simulation;
-  return {settings.end_time,
-          settings.step,
-          settings.spectral_radius,
-          settings.newton_tolerance,
-          settings.max_newton_iterations,
-          settings.scheme,
-          settings.formulation,
-          settings.local_error,
-          settings.smallest_step,
-          time_breaks(problem.scene, settings.step),
-          settings.instants,
-          problem.sensitivity.memory};
+  SimulationOptions options{problem.simulation};
+  options.breaks = time_breaks(problem.scene, options.step);
+  options.memory = problem.sensitivity.memory;
+  return options;
 }
 
 /// @throws the error, with the joints that may be its cause

@@ -21,7 +21,7 @@ constexpr double round_off = 1e-9;
 /// One effect of one body: (body, name of the effect), as in EffectSettings::measured.
 using Unit = std::pair<std::string, std::string>;
 
-double magnitude(const Analysis& analysis, std::size_t response) {
+double magnitude_of(const Analysis& analysis, std::size_t response) {
   const Eigen::MatrixXd& history = analysis.histories[response];
   const double value = std::abs(analysis.reductions[response].value);
   const OverTime over_time = analysis.responses[response].over_time;
@@ -138,7 +138,7 @@ LargestChange largest_change(const ProblemFile& problem, const Analysis& referen
   std::map<std::string, double> floors;
   for (std::size_t i = 0; i < problem.responses.size(); ++i) {
     double& floor = floors[reference.responses[i].unit];
-    floor = std::max(floor, round_off * magnitude(reference, i));
+    floor = std::max(floor, round_off * magnitude_of(reference, i));
   }
   LargestChange largest;
   for (std::size_t i = 0; i < problem.responses.size(); ++i) {
@@ -146,7 +146,7 @@ LargestChange largest_change(const ProblemFile& problem, const Analysis& referen
     const double value = reference.reductions[i].value;
     const double difference = std::abs(other.reductions[i].value - value);
     if (difference <= floors[reference.responses[i].unit]) continue;
-    const double scale = std::max(std::abs(value), near_zero * magnitude(reference, i));
+    const double scale = std::max(std::abs(value), near_zero * magnitude_of(reference, i));
     const double change =
         scale > 0.0 ? difference / scale : std::numeric_limits<double>::infinity();
     if (!(change <= largest.relative)) largest = {change, problem.responses[i].name};

@@ -108,13 +108,10 @@ std::vector<const BodyModel*> bodies_of(const Model& model, const std::vector<st
 
 /// The terms of geometric stiffening of some bodies.
 std::vector<Term*> stiffening_of(const Model& model, const std::vector<const BodyModel*>& bodies) {
-  const std::vector<Term*> all = terms_besides_bodies(model).stiffening;
-  auto next = all.begin();
   std::vector<Term*> chosen;
-  for (const BodyModel& body : model.bodies) {
-    if (!body.has_stiffening) continue;
-    if (std::find(bodies.begin(), bodies.end(), &body) != bodies.end()) chosen.push_back(*next);
-    ++next;
+  for (const auto& [body, term] : model.terms.stiffening) {
+    if (std::find(bodies.begin(), bodies.end(), &model.bodies[body]) == bodies.end()) continue;
+    chosen.push_back(term);
   }
   return chosen;
 }

@@ -4,10 +4,10 @@
 #include <array>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 
+#include "core/base/dense_solvers.hpp"
 #include "core/base/error.hpp"
 
 namespace pleuel {
@@ -105,9 +105,7 @@ namespace {
 /// s of ω² = 1/θ − σ² for the eigenvalues θ of a symmetric F.
 Eigen::VectorXcd conservative_eigenvalues(const Eigen::MatrixXd& flexibility, double sigma) {
   const Eigen::VectorXd theta =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 * (flexibility + flexibility.transpose()),
-                                                     Eigen::EigenvaluesOnly)
-          .eigenvalues();
+      symmetric_eigenvalues(0.5 * (flexibility + flexibility.transpose()));
   Eigen::VectorXcd values(theta.size());
   for (Eigen::Index i = 0; i < theta.size(); ++i) {
     values(i) = std::sqrt(std::complex<double>(sigma * sigma - 1.0 / theta(i), 0.0));
@@ -125,7 +123,7 @@ Eigen::VectorXcd gyroscopic_eigenvalues(const Eigen::MatrixXd& flexibility,
   inverse.bottomLeftCorner(n, n).diagonal().array() += 1.0 / sigma;
   inverse.topRightCorner(n, n) = -sigma * flexibility;
   inverse.bottomRightCorner(n, n) = -sigma * flexibility;
-  const Eigen::VectorXcd theta = Eigen::EigenSolver<Eigen::MatrixXd>(inverse, false).eigenvalues();
+  const Eigen::VectorXcd theta = eigenvalues_of(inverse);
   return sigma + theta.array().inverse();
 }
 

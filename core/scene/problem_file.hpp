@@ -48,21 +48,7 @@ struct EffectSettings {
   std::map<std::pair<std::string, std::string>, MeasuredEffect> measured = {};
 };
 
-struct SimulationSettings {
-  double end_time = 0.0;  ///< [s]
-  double step = 0.0;      ///< [s]
-  SchemeType scheme = SchemeType::generalized_alpha;
-  double spectral_radius = 0.8;  ///< ρ∞ of the scheme, in [0, 1]
-  Formulation formulation;
-  /// Newton's method ends when the error left, relative to the scale of each coordinate, is
-  /// estimated to be below this.
-  double newton_tolerance = 1e-10;
-  int max_newton_iterations = 20;
-  /// What the local errors of the positions within one step may add up to; 0: all steps are equal.
-  double local_error = 0.0;
-  double smallest_step = 0.0;  ///< with local_error [s]; 0: a 1024th of the step
-  /// Not of a file: the instants of a simulation to be repeated step by step [s].
-  std::vector<double> instants;
+struct SimulationSettings : TimeIntegration {
   /// Starts from elastic equilibrium under the initial accelerations, without vibration.
   bool quasi_static_start = false;
   /// Whether runs with other steps and elements judge what is resolved (core/trust/resolution.hpp).

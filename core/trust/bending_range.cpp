@@ -15,7 +15,7 @@ namespace pleuel {
 namespace {
 
 /// Errors that are as good as none, relative.
-constexpr double tolerable = 0.01;
+constexpr double tolerable_bending = 0.01;
 /// Deformations that cannot be more than half of that off: errors grow as the square of rotations
 /// by bending, but as the first power of twist, which turns the axes of bending.
 constexpr double small_bending = 0.05, small_twist = 0.004, small_strain = 0.005;
@@ -55,11 +55,11 @@ Finding find_in(const TrustedRun& run, const BodyModel& body, const LargestDefor
 /// Errors fall as the square of the number of frames.
 int frames_for(double error, std::size_t frames) {
   constexpr double reserve = 1.1, most = 10.0;
-  const double factor = reserve * std::sqrt(std::min(error, most) / tolerable);
+  const double factor = reserve * std::sqrt(std::min(error, most) / tolerable_bending);
   return static_cast<int>(std::ceil(static_cast<double>(frames) * factor));
 }
 
-std::string percent(double share) {
+std::string rounded_percent(double share) {
   return share < 1.0 ? fmt::format("some {:.2g} %", 100.0 * share) : "100 % or more";
 }
 
@@ -75,7 +75,7 @@ std::string sentence(const std::string& body, const Finding& finding, std::size_
   const std::string what = fmt::format(
       "\"{}\" deforms until it has turned by {:.3g} rad against its frame: too far for linear "
       "elasticity, which is {} off there ({}).",
-      body, finding.rotation, percent(most), error.most());
+      body, finding.rotation, rounded_percent(most), error.most());
   if (finding.is_imported) {
     return what +
            " Do not trust these numbers; import it in several bodies, joined by fixed joints.";
@@ -99,7 +99,7 @@ std::vector<Doubt> doubt_bending_range(const TrustedRun& run) {
   }
   std::vector<Doubt> doubts;
   for (const auto& [body, finding] : worst) {
-    if (finding.error.largest() <= tolerable) continue;
+    if (finding.error.largest() <= tolerable_bending) continue;
     doubts.push_back({sentence(body, finding, model.parts(body).size()), true});
   }
   return doubts;

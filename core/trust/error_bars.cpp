@@ -20,7 +20,7 @@ constexpr double newton_safety = 1.5;
 /// Relative bounds up to this are resolved, whatever the order.
 constexpr double small_share = 0.05;
 /// Relative differences up to this are round-off.
-constexpr double round_off = 1e-13;
+constexpr double value_round_off = 1e-13;
 /// Errors in space, by more and by fewer elements. Bending has a higher order than two; stress, and
 /// what is asked of a place that is a node of one division only, has an uneven one: of a difference
 /// by fewer elements all of it may be missing, in place of the third of order two.
@@ -112,7 +112,7 @@ ErrorPart part_of(const Evidence& evidence, const std::optional<double>& differe
   if (!difference) return {};
   if (!std::isfinite(*difference)) return unresolved(unknown);
   const double change = share * *difference;
-  if (std::abs(change) <= round_off * evidence.magnitude) return {};
+  if (std::abs(change) <= value_round_off * evidence.magnitude) return {};
   return {change, safety * std::abs(change), true};
 }
 
@@ -149,7 +149,8 @@ Extrapolation extrapolate(double fine, double middle, double coarse, double orde
   const double last = fine - middle, before = middle - coarse;
   Extrapolation found;
   if (last != 0.0 && last * before > 0.0) found.order = std::log2(before / last);
-  if (std::max({std::abs(last), std::abs(before), local}) <= round_off * std::abs(fine)) return {};
+  if (std::max({std::abs(last), std::abs(before), local}) <= value_round_off * std::abs(fine))
+    return {};
   const double share = std::pow(2.0, -order), remaining = share / (1.0 - share);
   found.has_promised_order = found.order && std::abs(*found.order - order) <= order_room;
   if (found.has_promised_order) {

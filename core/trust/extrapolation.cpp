@@ -9,7 +9,7 @@ namespace pleuel {
 
 namespace {
 
-constexpr double harmless = 1e-4;
+constexpr double harmless_kink = 1e-4;
 
 /// The variables by which a body is not that of its file, with both values; empty if it is.
 std::string moved_variables(const ImportedBody& imported, const ProblemFile& problem,
@@ -24,7 +24,7 @@ std::string moved_variables(const ImportedBody& imported, const ProblemFile& pro
     const double size =
         derivative.value != 0.0 ? std::abs(derivative.value) : variable.upper - variable.lower;
     const double value = resolve(of.number, design);
-    if (std::abs(value - derivative.value) <= harmless * size) continue;
+    if (std::abs(value - derivative.value) <= harmless_kink * size) continue;
     moved.push_back(fmt::format("{} = {:.6g} instead of {:.6g} {}", derivative.variable, value,
                                 derivative.value, derivative.unit));
   }

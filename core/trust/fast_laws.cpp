@@ -193,12 +193,9 @@ std::vector<Doubt> doubt_fast_laws(const TrustedRun& run) {
 }
 
 std::vector<Doubt> doubt_fast_laws_before(const ProblemFile& problem) {
-  const SimulationSettings& settings = problem.simulation;
-  if (settings.local_error > 0.0) return {};
-  SimulationOptions options;
-  options.end_time = settings.end_time;
-  options.step = settings.step;
-  options.breaks = time_breaks(problem.scene, settings.step);
+  if (problem.simulation.local_error > 0.0) return {};
+  SimulationOptions options{problem.simulation};
+  options.breaks = time_breaks(problem.scene, options.step);
   const std::vector<double> instants = regular_instants(options);
   const Eigen::VectorXd x = start_design(problem);
   return find_fast_laws(problem.scene, Design<double>(x.begin(), x.end()),

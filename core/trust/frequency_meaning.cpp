@@ -16,7 +16,7 @@ namespace pleuel {
 namespace {
 
 /// Relative change of a frequency by the stress of the start that is worth a word.
-constexpr double small_change = 1e-2;
+constexpr double small_shift = 1e-2;
 
 std::vector<const Response*> frequencies_of_mechanism(const TrustedRun& run) {
   std::vector<const Response*> found;
@@ -78,7 +78,7 @@ void add_missing_stress(const TrustedRun& run, const std::vector<const Response*
     const int mode = *response->mechanism_mode;
     if (mode >= stressed.size()) continue;
     const double change = std::abs(stressed(mode) - response->constant);
-    if (change <= small_change * std::abs(response->constant)) continue;
+    if (change <= small_shift * std::abs(response->constant)) continue;
     doubts.push_back(
         {fmt::format("the frequency \"{}\" is {:.5g} rad/s for members that start undeformed; the "
                      "stress of the motion and the loads at t = 0 is missing in it, with which it "
@@ -130,7 +130,7 @@ void add_turning(const TrustedRun& run, const std::vector<const Response*>& resp
     const int mode = *response->mechanism_mode;
     if (mode >= turning.size()) continue;
     const double change = std::abs(turning(mode) - response->constant);
-    if (change <= small_change * std::abs(response->constant)) continue;
+    if (change <= small_shift * std::abs(response->constant)) continue;
     doubts.push_back(
         {fmt::format("the frequency \"{}\" is not high against the speed at which the mechanism "
                      "moves at t = 0: it is {:.5g} rad/s in axes that stand still, and {:.5g} "

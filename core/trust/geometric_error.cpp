@@ -33,7 +33,7 @@ using Eigen::Vector3d;
 /// Pieces of an element that are integrated as one.
 constexpr int pieces = 4;
 /// Rotations, and displacements over the length, that say nothing.
-constexpr double round_off = 1e-9;
+constexpr double shape_round_off = 1e-9;
 
 /// The middle of a piece in the linear solution.
 struct Piece {
@@ -197,7 +197,7 @@ class ExactBeam {
       largest = std::max(largest, linear[i].curvature.norm());
       change = std::max(change, (pieces_[i].curvature - linear[i].curvature).norm());
     }
-    if (largest * length() > round_off) error.curvature = change / largest;
+    if (largest * length() > shape_round_off) error.curvature = change / largest;
   }
 
   void compare_shapes(const Shape& exact, const std::vector<Piece>& linear,
@@ -221,10 +221,10 @@ class ExactBeam {
                    rotation_vector(rotation_of(rotation).transpose() * exact.rotation[i]).norm());
       if (node < last) x += body_.beam.elements[static_cast<std::size_t>(node)].length;
     }
-    if (sideways > round_off * length()) error.deflection = sideways_error / sideways;
-    if (turned > round_off) error.rotation = turned_error / turned;
+    if (sideways > shape_round_off * length()) error.deflection = sideways_error / sideways;
+    if (turned > shape_round_off) error.rotation = turned_error / turned;
     const double along = body_.has_stiffening ? axial_scale(linear) : length();
-    if (along > round_off * length()) error.position = along_error / along;
+    if (along > shape_round_off * length()) error.position = along_error / along;
   }
 
   /// From the axis to the farthest stress point of a section [m].

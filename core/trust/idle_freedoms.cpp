@@ -4,10 +4,10 @@
 #include <cmath>
 #include <set>
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/base/dense_solvers.hpp"
 #include "core/integration/freedoms.hpp"
 #include "core/model/body_energy.hpp"
 #include "core/trust/connections.hpp"
@@ -21,7 +21,7 @@ constexpr double visible = 1e-6;
 /// Instants at which loads are looked at.
 constexpr int instants = 200;
 /// Of the scale of a coordinate.
-constexpr double stands_still = 1e-9;
+constexpr double idle_speed = 1e-9;
 
 std::string quoted(const std::vector<std::string>& names) {
   return fmt::format("\"{}\"", fmt::join(names, "\", \""));
@@ -35,12 +35,8 @@ auto rows_of(const BodyModel& body, const Eigen::MatrixXd& motions) {
 /// Columns: an orthonormal basis of those combinations of motions that leave rows at rest.
 Eigen::MatrixXd at_rest(const Eigen::MatrixXd& motions, const Eigen::MatrixXd& rows) {
   if (rows.rows() == 0 || motions.cols() == 0) return motions;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.transpose());
-  qr.setThreshold(visible);
-  const bool is_zero = rows.lpNorm<Eigen::Infinity>() <= visible;
-  const Eigen::Index rank = is_zero ? 0 : qr.rank();
-  const Eigen::MatrixXd all = qr.householderQ();
-  return motions * all.rightCols(motions.cols() - rank);
+  if (rows.lpNorm<Eigen::Infinity>() <= visible) return motions;
+  return motions * PivotedQr(rows.transpose(), visible).normal_space();
 }
 
 /// The state of the trajectory with the fewest free motions: no dead centre.
@@ -124,7 +120,7 @@ class IdleFreedoms {
       trajectory.load(step, state);
       const auto change = (state.q - start.q).cwiseQuotient(model_.mechanism.scale).eval();
       if (change.segment(body.frame.offset, body.frame.size()).lpNorm<Eigen::Infinity>() >
-          stands_still) {
+          idle_speed) {
         return true;
       }
     }

@@ -11,7 +11,7 @@ namespace pleuel {
 
 namespace {
 
-constexpr double small_change = 0.01;
+constexpr double small_correction = 0.01;
 
 using Velocity = std::array<Number, 3>;
 
@@ -45,8 +45,8 @@ class InitialMotion {
   void compare(const std::string& body, const char* what, const char* unit, int offset, int size) {
     const Eigen::VectorXd asked = asked_.v.segment(offset, size);
     const Eigen::VectorXd found = start_.v.segment(offset, size);
-    if (!((found - asked).norm() > small_change * asked.norm())) return;
-    const bool is_turned = std::abs(found.norm() - asked.norm()) <= small_change * asked.norm();
+    if (!((found - asked).norm() > small_correction * asked.norm())) return;
+    const bool is_turned = std::abs(found.norm() - asked.norm()) <= small_correction * asked.norm();
     doubts_.push_back(
         {fmt::format(
              "the initial {0} of \"{1}\" is {2:.4g} {3}{4} instead of the {5:.4g} {3} of the "

@@ -18,7 +18,7 @@ constexpr double hardly_meant = 1e-3;
 /// Of joints that lock a body altogether.
 constexpr double locking = 3e-2;
 /// [rad], or of the mechanism's size.
-constexpr double stands_still = 1e-3;
+constexpr double idle_way = 1e-3;
 
 struct Pose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -57,7 +57,7 @@ bool moves(const Joint& joint, const TrustedRun& run) {
     const Pose pose = relative_pose(joint, model, state);
     const double way = (pose.position - start.position).lpNorm<Eigen::Infinity>() / size;
     const double turn = (pose.rotation - start.rotation).lpNorm<Eigen::Infinity>();
-    if (std::max(way, turn) > stands_still) return true;
+    if (std::max(way, turn) > idle_way) return true;
   }
   return false;
 }

@@ -8,9 +8,9 @@
 #include <numbers>
 #include <optional>
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 
+#include "core/base/dense_solvers.hpp"
 #include "core/beam/beam_shape.hpp"
 #include "core/beam/elastic_basis.hpp"
 #include "core/beam/natural_modes.hpp"
@@ -23,7 +23,7 @@ namespace pleuel {
 namespace {
 
 /// Errors that are as good as none, relative.
-constexpr double tolerable = 0.01;
+constexpr double tolerable_shear = 0.01;
 /// From here on numbers are those of another beam. Below, that shear is missing is a property of
 /// the theory that is used, as good as it is for most machines.
 constexpr double alarming = 0.1;
@@ -284,14 +284,11 @@ class ShearDoubts {
         Eigen::MatrixXd(matrix).bottomLeftCorner(m, n) * mechanism.scale.asDiagonal();
     Eigen::MatrixXd of_frames = all(rows, Eigen::all);
     of_frames(Eigen::all, mechanism.elastic).setZero();
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(of_frames);
-    qr.setThreshold(1e-9);
-    const Eigen::Index beyond = of_frames.rows() - qr.rank();
-    if (beyond == 0) return std::nullopt;
+    const PivotedQr qr(of_frames, 1e-9);
+    if (qr.rank() == of_frames.rows()) return std::nullopt;
     const Eigen::VectorXd lambda = state.lambda(rows);
     if (lambda.isZero(0.0)) return 0.0;
-    const Eigen::MatrixXd q = qr.householderQ();
-    return (q.rightCols(beyond).transpose() * lambda).norm() / lambda.norm();
+    return (qr.normal_space().transpose() * lambda).norm() / lambda.norm();
   }
 
   void add_doubt(const std::string& body, const ShearShare& share,
@@ -300,7 +297,7 @@ class ShearDoubts {
     std::vector<std::string> responses;
     for (std::size_t i = 0; i < run_.problem.responses.size(); ++i) {
       const double error = error_of(i, body, share);
-      if (error <= tolerable) continue;
+      if (error <= tolerable_shear) continue;
       worst = std::max(worst, error);
       responses.push_back(run_.problem.responses[i].name);
     }

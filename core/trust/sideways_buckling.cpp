@@ -23,7 +23,7 @@ constexpr double normal = 0.1;
 /// Below this share of the loads of the simplest closed forms (squared moment, axial force) nothing
 /// can buckle: a free end under a constant moment takes half of that of supported ends, a free
 /// column a quarter.
-constexpr double harmless = 0.05;
+constexpr double harmless_load = 0.05;
 
 /// What joints hold of a body in space, as if its neighbours were rigid.
 class Supports {
@@ -223,7 +223,7 @@ class SidewaysBuckling {
 
   std::vector<Doubt> find() {
     find_worst();
-    if (worst_ < harmless) return {};
+    if (worst_ < harmless_load) return {};
     std::vector<LateralSupport> supports = Supports(run_, body_, beam_, plane_).find();
     double factor = factor_of(supports, load_);
     if (std::isnan(factor)) {  // nothing keeps it from turning about its axis

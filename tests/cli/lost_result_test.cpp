@@ -25,7 +25,7 @@ std::string optimization(const std::string& folder) {
   return line_of({"optimize", problem("slider_crank_round"), "-o", folder});
 }
 
-nlohmann::json read_json(const fs::path& path) {
+nlohmann::json read_json_if_whole(const fs::path& path) {
   return nlohmann::json::parse(read_file(path), nullptr, /*allow_exceptions=*/false);
 }
 
@@ -52,7 +52,7 @@ TEST_F(LostResult, OfAFullDiskIsNotTheVerdict) {
   EXPECT_THAT(run.out, HasSubstr("VERIFIED: "));
   EXPECT_THAT(run.err, AllOf(HasSubstr("run/trajectory-start.csv cannot be written: "),
                              HasSubstr("run/trajectory-optimum.csv")));
-  EXPECT_EQ(read_json(folder_.path() / "run/result.json").value("status", ""), "verified");
+  EXPECT_EQ(read_json_if_whole(folder_.path() / "run/result.json").value("status", ""), "verified");
   // What is there is whole lines.
   EXPECT_THAT(read_file(folder_.path() / "run/trajectory-start.csv"), EndsWith("\n"));
 }
@@ -68,8 +68,9 @@ TEST_F(LostResult, OfClosedStreamsIsWhatTheyWouldHaveShown) {
   EXPECT_EQ(run_line(folder_.path(), optimization("run") + ">&- 2>&- <&-; echo $?").out, "0\n");
   const auto history = read_csv(folder_.path() / "run/history.csv");
   for (const auto& row : history) EXPECT_GE(row.size() + 1, history.front().size());
-  EXPECT_EQ(history.size(),
-            1 + read_json(folder_.path() / "run/result.json").at("evaluations").get<std::size_t>());
+  EXPECT_EQ(history.size(), 1 + read_json_if_whole(folder_.path() / "run/result.json")
+                                    .at("evaluations")
+                                    .get<std::size_t>());
 }
 
 TEST_F(LostResult, OfAFullStandardErrorIsNothingElse) {
@@ -83,14 +84,16 @@ TEST_F(LostResult, OfAFullStandardErrorIsNothingElse) {
 
 TEST_F(LostResult, OfAPipeThatNobodyReadsIsNotTheRun) {
   run_line(folder_.path(), optimization("run") + "| true");
-  EXPECT_EQ(read_json(folder_.path() / "run/run_card.json").value("finished", false), true);
+  EXPECT_EQ(read_json_if_whole(folder_.path() / "run/run_card.json").value("finished", false),
+            true);
 }
 
 TEST_F(LostResult, OfAStandardOutputThatIsFullIsAFailure) {
   const ProgramRun run = run_line(folder_.path(), optimization("run") + ">/dev/full; echo $?");
   EXPECT_EQ(run.out, "1\n");
   EXPECT_THAT(run.err, HasSubstr("standard output cannot be written"));
-  EXPECT_EQ(read_json(folder_.path() / "run/run_card.json").value("finished", false), true);
+  EXPECT_EQ(read_json_if_whole(folder_.path() / "run/run_card.json").value("finished", false),
+            true);
 }
 
 /// A pipe without a writer would be waited for.
@@ -120,7 +123,8 @@ TEST_F(LostResult, OfTwoRunsInOneFolderIsNone) {
   const ProgramRun run = run_line(folder_.path(), line);
   EXPECT_EQ(run.out, "2\n4\n");
   EXPECT_THAT(run.err, HasSubstr("one: another run is at work"));
-  EXPECT_EQ(read_json(folder_.path() / "one/result.json").value("status", ""), "interrupted");
+  EXPECT_EQ(read_json_if_whole(folder_.path() / "one/result.json").value("status", ""),
+            "interrupted");
 }
 
 TEST_F(LostResult, OfABodyThatIsCalledResultIsNot) {
@@ -135,14 +139,15 @@ TEST_F(LostResult, OfABodyThatIsCalledResultIsNot) {
     const ProgramRun run =
         run_program(folder_.path(), {"invariants", "renamed.json", "-o", "run", "--overwrite"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    const nlohmann::json result = read_json(folder_.path() / "run/result.json");
+    const nlohmann::json result = read_json_if_whole(folder_.path() / "run/result.json");
     ASSERT_TRUE(result.contains("bodies")) << name;
     EXPECT_EQ(result.at("bodies").size(), 2u);
-    EXPECT_EQ(read_json(folder_.path() / "run/run_card.json").value("finished", false), true);
+    EXPECT_EQ(read_json_if_whole(folder_.path() / "run/run_card.json").value("finished", false),
+              true);
     for (const auto& body : result.at("bodies")) {
       const fs::path file = folder_.path() / body.at("file").get<std::string>();
       EXPECT_EQ(file.parent_path(), folder_.path() / "run/bodies");
-      EXPECT_EQ(read_json(file).value("format", ""), "pleuel-invariants");
+      EXPECT_EQ(read_json_if_whole(file).value("format", ""), "pleuel-invariants");
     }
   }
 }

@@ -78,7 +78,7 @@ std::vector<std::string> table_row(const std::string& text, const std::string& n
 }
 
 /// A number of a table, with five digits (prices: three), against the document.
-void expect_shown(const std::string& word, double value, double digits = 1e-4) {
+void expect_number_shown(const std::string& word, double value, double digits = 1e-4) {
   EXPECT_NEAR(std::stod(word), value, digits * std::abs(value)) << word;
 }
 
@@ -91,10 +91,10 @@ TEST(Optimize, ShowsTheNumbersOfItsDocumentInUnitsOfTheUser) {
   EXPECT_THAT(run.out, HasSubstr("VERIFIED"));
   for (const auto& [name, variable] : document.at("variables").items()) {
     const auto row = table_row(run.out, name);  // name, start, optimum, lower, upper, unit
-    expect_shown(row.at(1), 1e3 * variable.at("start").get<double>());
-    expect_shown(row.at(2), 1e3 * variable.at("value").get<double>());
-    expect_shown(row.at(3), 1e3 * variable.at("lower").get<double>());
-    expect_shown(row.at(4), 1e3 * variable.at("upper").get<double>());
+    expect_number_shown(row.at(1), 1e3 * variable.at("start").get<double>());
+    expect_number_shown(row.at(2), 1e3 * variable.at("value").get<double>());
+    expect_number_shown(row.at(3), 1e3 * variable.at("lower").get<double>());
+    expect_number_shown(row.at(4), 1e3 * variable.at("upper").get<double>());
     EXPECT_EQ(row.at(5), "mm");
   }
   const double objective = document.at("objective").at("value");
@@ -106,9 +106,9 @@ TEST(Optimize, ShowsTheNumbersOfItsDocumentInUnitsOfTheUser) {
     const double unit = is_stress ? 1e6 : 1e-3;
     const double value = constraint.at("value"), limit = constraint.at("limit");
     const double price = constraint.at("multiplier");
-    expect_shown(row.at(1), value / unit);
+    expect_number_shown(row.at(1), value / unit);
     EXPECT_EQ(row.at(2), "≤");
-    expect_shown(row.at(3), limit / unit);
+    expect_number_shown(row.at(3), limit / unit);
     EXPECT_EQ(row.at(4), is_stress ? "MPa" : "mm");
     EXPECT_NEAR(std::stod(row.at(5)), 100.0 * value / limit, 0.05 + 1e-9);
     if (price == 0.0) {
@@ -117,7 +117,7 @@ TEST(Optimize, ShowsTheNumbersOfItsDocumentInUnitsOfTheUser) {
       continue;
     }
     ++priced;
-    expect_shown(row.at(7), price * unit, 5e-3);
+    expect_number_shown(row.at(7), price * unit, 5e-3);
     // More room for stress or deflection saves mass: the sign is minus.
     EXPECT_THAT(row.at(8), ::testing::StartsWith("−"));
     EXPECT_NEAR(std::stod(row.at(8).substr(std::string("−").size())), price * limit / objective,
@@ -162,8 +162,8 @@ TEST(Optimize, StartsInItsTablesWhereTheRunBegan) {
   const auto document = nlohmann::json::parse(read_file(folder.path() / "run/result.json"));
   EXPECT_EQ(document.at("variables").at("crank_diameter").at("start"), 0.025) << run.err;
   EXPECT_EQ(document.at("variables").at("rod_diameter").at("start"), 0.020);
-  expect_shown(table_row(run.out, "crank_diameter").at(1), 25.0);
-  expect_shown(table_row(run.out, "rod_diameter").at(1), 20.0);
+  expect_number_shown(table_row(run.out, "crank_diameter").at(1), 25.0);
+  expect_number_shown(table_row(run.out, "rod_diameter").at(1), 20.0);
 }
 
 TEST(Optimize, CannotVerifyWhatNoDesignCanKeep) {

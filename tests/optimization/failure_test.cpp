@@ -59,9 +59,9 @@ const std::vector<MishapCase>& mishaps() {
   return list;
 }
 
-using Case = std::tuple<std::string, std::size_t>;
+using FailingCase = std::tuple<std::string, std::size_t>;
 
-class FailingEvaluations : public testing::TestWithParam<Case> {
+class FailingEvaluations : public testing::TestWithParam<FailingCase> {
  protected:
   SolveOptions options_{.backend = std::get<0>(GetParam())};
   Mishap mishap_ = mishaps()[std::get<1>(GetParam())].mishap;
@@ -111,14 +111,14 @@ TEST_P(FailingEvaluations, AtTheStartEndTheRunWithTheReason) {
   EXPECT_EQ(result.history.size(), 1u);
 }
 
-std::string name_of_case(const testing::TestParamInfo<Case>& tested) {
+std::string name_of_case(const testing::TestParamInfo<FailingCase>& tested) {
   std::string name = std::get<0>(tested.param);
   std::erase(name, '-');
   return name + mishaps()[std::get<1>(tested.param)].name;
 }
 
-std::vector<Case> failing_cases() {
-  std::vector<Case> cases;
+std::vector<FailingCase> failing_cases() {
+  std::vector<FailingCase> cases;
   for (const std::string& backend : optimizer_names()) {
     for (std::size_t i = 0; i < mishaps().size(); ++i) cases.emplace_back(backend, i);
   }

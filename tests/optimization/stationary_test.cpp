@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -15,7 +15,7 @@ namespace {
 
 /// The optimum with all effects and steps of 25 µs, which three backends find (optimum_test.cpp)
 /// [kg].
-constexpr double optimum = 0.319445;
+constexpr double known_optimum = 0.319445;
 
 ProblemFile slider_crank(const std::vector<std::string>& overrides) {
   return read_problem(std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems" / "slider_crank.json",
@@ -39,9 +39,9 @@ TEST(StagedSolve, BeginsCoarseAndKeepsItsTargetAtTheOptimum) {
   const StagedSolution solution = solve(file);
   const Result& result = solution.result;
   EXPECT_EQ(result.status, Status::verified) << result.message;
-  EXPECT_NEAR(result.evaluation.objective, optimum, 1e-2 * optimum);
+  EXPECT_NEAR(result.evaluation.objective, known_optimum, 1e-2 * known_optimum);
   ASSERT_TRUE(result.error);
-  EXPECT_LE(result.error->bound(), 1e-2 * optimum);
+  EXPECT_LE(result.error->bound(), 1e-2 * known_optimum);
   ASSERT_GE(solution.stages.size(), 2u);
   EXPECT_GT(solution.stages.front().setting.step, 4.0 * file.simulation.step);
   EXPECT_LT(solution.stages.back().setting.step, solution.stages.front().setting.step);
@@ -89,14 +89,14 @@ TEST(StagedSolve, TakesEffectsBackThatMatterAtTheOptimum) {
   DesignProblem lean(file);
   const Result without = solve_design(lean, options_of(file));
   EXPECT_EQ(without.status, Status::unresolved);
-  EXPECT_GT(without.evaluation.objective, 1.01 * optimum);
+  EXPECT_GT(without.evaluation.objective, 1.01 * known_optimum);
   const StagedSolution solution = solve(file);
   EXPECT_EQ(solution.stages.size(), 2u);
   EXPECT_EQ(solution.result.status, Status::verified) << solution.result.message;
-  EXPECT_NEAR(solution.result.evaluation.objective, optimum, 0.01 * optimum);
+  EXPECT_NEAR(solution.result.evaluation.objective, known_optimum, 0.01 * known_optimum);
   ASSERT_TRUE(solution.result.error);
   EXPECT_GT(solution.result.error->effects.bound, 0.0);
-  EXPECT_LE(std::abs(solution.result.evaluation.objective - optimum),
+  EXPECT_LE(std::abs(solution.result.evaluation.objective - known_optimum),
             solution.result.error->bound());
 }
 

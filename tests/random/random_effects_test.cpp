@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "core/response/effect_measurement.hpp"
+#include "tests/random/seeds.hpp"
 #include "tests/random/simulated_scene.hpp"
 
 /// What a tolerance promises of effects that are left out.
 namespace pleuel::test {
 namespace {
 
-constexpr unsigned first_seed = PLEUEL_FIRST_SEED, end_seed = PLEUEL_END_SEED;
 /// So many seeds at most: each takes some simulations for each of three tolerances.
 constexpr unsigned most_seeds = 45;
 

@@ -12,15 +12,12 @@
 #include "core/trust/doubts.hpp"
 #include "core/trust/nested_runs.hpp"
 #include "core/trust/resolution.hpp"
+#include "tests/random/seeds.hpp"
 #include "tests/random/simulated_scene.hpp"
 
 /// What warnings about resolution are worth, over all random mechanisms together.
 namespace pleuel::test {
 namespace {
-
-constexpr unsigned first_seed = PLEUEL_FIRST_SEED, end_seed = PLEUEL_END_SEED;
-/// So many of the seeds have to run, with margin for other compilers.
-constexpr int least_scenes = PLEUEL_LEAST_SCENES;
 
 /// Runs something for each seed, several at a time. @return one result a seed
 template <class Result, class Make>

@@ -11,6 +11,7 @@
 #include "core/base/relative_error.hpp"
 #include "core/response/monitors.hpp"
 #include "sensitivity/gradients.hpp"
+#include "tests/random/seeds.hpp"
 #include "tests/random/simulated_scene.hpp"
 
 /// Laws that hold for every mechanism, tried on random ones. The seeds are fixed by the build.
@@ -194,7 +195,7 @@ TEST_P(RandomScene, HasTheSameGradientsByAllMethods) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomScene, testing::Range(PLEUEL_FIRST_SEED, PLEUEL_END_SEED));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomScene, testing::Range(first_seed, end_seed));
 
 }  // namespace
 }  // namespace pleuel::test

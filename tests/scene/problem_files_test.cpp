@@ -19,7 +19,7 @@ ProblemFile read_file(const std::string& name) {
   return read_problem(std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems" / name);
 }
 
-const BeamBody& beam(const ProblemFile& problem, std::size_t body) {
+const BeamBody& beam_of(const ProblemFile& problem, std::size_t body) {
   return std::get<BeamBody>(problem.scene.bodies[body].shape);
 }
 
@@ -27,7 +27,7 @@ double start_mass(const ProblemFile& problem) {
   double mass = 0.0;
   Design<double> start;
   for (const DesignVariable& variable : problem.variables) start.push_back(variable.start);
-  for (const Segment& segment : beam(problem, 0).segments) {
+  for (const Segment& segment : beam_of(problem, 0).segments) {
     const auto& circle = std::get<CircleSection>(segment.section);
     const double diameter = resolve(circle.diameter, start);
     mass += 0.25 * pi * diameter * diameter * 0.12 * 7850.0 * segment.elements / 8.0;
@@ -50,14 +50,14 @@ TEST_P(SliderCrank, HasTheCommonMechanism) {
   EXPECT_EQ(scene.materials[0].young.constant, 2.1e11);
   EXPECT_EQ(scene.materials[0].poisson.constant, 0.3);
   EXPECT_EQ(scene.materials[0].density.constant, 7850.0);
-  EXPECT_EQ(beam(problem, 0).to[0].constant, 0.12);
-  EXPECT_EQ(beam(problem, 1).from[0].constant, 0.12);
-  EXPECT_EQ(beam(problem, 1).to[0].constant, 0.3);
-  EXPECT_EQ(beam(problem, 0).frame, ReferenceCondition::tangent);
-  EXPECT_EQ(beam(problem, 1).frame, ReferenceCondition::chord);
+  EXPECT_EQ(beam_of(problem, 0).to[0].constant, 0.12);
+  EXPECT_EQ(beam_of(problem, 1).from[0].constant, 0.12);
+  EXPECT_EQ(beam_of(problem, 1).to[0].constant, 0.3);
+  EXPECT_EQ(beam_of(problem, 0).frame, ReferenceCondition::tangent);
+  EXPECT_EQ(beam_of(problem, 1).frame, ReferenceCondition::chord);
   for (std::size_t i : {0U, 1U}) {
-    EXPECT_EQ(beam(problem, i).damping.stiffness.constant, 1e-5);
-    EXPECT_EQ(beam(problem, i).damping.mass.constant, 0.0);
+    EXPECT_EQ(beam_of(problem, i).damping.stiffness.constant, 1e-5);
+    EXPECT_EQ(beam_of(problem, i).damping.mass.constant, 0.0);
   }
   EXPECT_EQ(std::get<PointMass>(scene.bodies[2].shape).mass.constant, 0.2826);
   for (const Number& component : scene.gravity) EXPECT_EQ(component.constant, 0.0);
@@ -122,10 +122,10 @@ TEST(RectangularSliderCrank, HasFourVariablesAndProportions) {
   ASSERT_EQ(problem.variables.size(), 4U);
   EXPECT_EQ(problem.variables[0].start, 0.02);  // crank width
   EXPECT_EQ(problem.variables[3].start, 0.03);  // rod height
-  const auto& rod = std::get<RectangleSection>(beam(problem, 1).segments[0].section);
+  const auto& rod = std::get<RectangleSection>(beam_of(problem, 1).segments[0].section);
   EXPECT_EQ(rod.width.variable, 2);
   EXPECT_EQ(rod.height.variable, 3);
-  EXPECT_EQ(beam(problem, 1).segments[0].elements, 6);
+  EXPECT_EQ(beam_of(problem, 1).segments[0].elements, 6);
   const std::vector<std::pair<int, double>> proportion = {{3, 1.0}, {2, -2.0}};
   EXPECT_EQ(problem.constraints.size(), 6U);
   EXPECT_EQ(problem.constraints[5].linear, proportion);
@@ -136,7 +136,7 @@ TEST(RoundSliderCrank, HasTwoVariables) {
   const ProblemFile problem = read_file("slider_crank_round.json");
   EXPECT_EQ(problem.variables.size(), 2U);
   EXPECT_EQ(problem.constraints.size(), 4U);
-  EXPECT_EQ(std::get<CircleSection>(beam(problem, 1).segments[0].section).diameter.variable, 1);
+  EXPECT_EQ(std::get<CircleSection>(beam_of(problem, 1).segments[0].section).diameter.variable, 1);
 }
 
 TEST(TaperedSliderCrank, HasAVariableAndAStressLimitForEachSegment) {
@@ -145,7 +145,7 @@ TEST(TaperedSliderCrank, HasAVariableAndAStressLimitForEachSegment) {
   EXPECT_EQ(problem.constraints.size(), 10U);
   for (int i = 0; i < 8; ++i) {
     const std::size_t body = i < 4 ? 0 : 1;
-    const Segment& segment = beam(problem, body).segments[static_cast<std::size_t>(i % 4)];
+    const Segment& segment = beam_of(problem, body).segments[static_cast<std::size_t>(i % 4)];
     EXPECT_EQ(segment.elements, 2);
     EXPECT_EQ(std::get<CircleSection>(segment.section).diameter.variable, i);
     const ResponseSettings& stress = problem.responses[static_cast<std::size_t>(1 + i)];
@@ -165,12 +165,14 @@ TEST(ExudynSliderCrank, HasTheDataOfTheReference) {
   const ProblemFile problem = read_file("slider_crank_exudyn.json");
   EXPECT_TRUE(problem.variables.empty());
   EXPECT_FALSE(problem.objective.has_value());
-  EXPECT_EQ(beam(problem, 0).to[0].constant, 0.15);
-  EXPECT_EQ(beam(problem, 1).to[0].constant, 0.45);
-  EXPECT_EQ(std::get<CircleSection>(beam(problem, 0).segments[0].section).diameter.constant, 0.03);
-  EXPECT_EQ(std::get<CircleSection>(beam(problem, 1).segments[0].section).diameter.constant, 0.01);
-  EXPECT_EQ(beam(problem, 0).segments[0].elements, 8);
-  EXPECT_EQ(beam(problem, 1).damping.stiffness.constant, 0.0);
+  EXPECT_EQ(beam_of(problem, 0).to[0].constant, 0.15);
+  EXPECT_EQ(beam_of(problem, 1).to[0].constant, 0.45);
+  EXPECT_EQ(std::get<CircleSection>(beam_of(problem, 0).segments[0].section).diameter.constant,
+            0.03);
+  EXPECT_EQ(std::get<CircleSection>(beam_of(problem, 1).segments[0].section).diameter.constant,
+            0.01);
+  EXPECT_EQ(beam_of(problem, 0).segments[0].elements, 8);
+  EXPECT_EQ(beam_of(problem, 1).damping.stiffness.constant, 0.0);
   EXPECT_EQ(std::get<PointMass>(problem.scene.bodies[2].shape).mass.constant, 0.5);
   const auto& drive = std::get<RampToSpeedDrive>(problem.scene.joints[0].drive->motion);
   EXPECT_EQ(drive.speed.constant, 150.0);
@@ -184,7 +186,8 @@ TEST(ExudynSliderCrank, TakesTheOtherRodByAnOverride) {
   const ProblemFile problem =
       read_problem(std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems/slider_crank_exudyn.json",
                    {"/scene/bodies/rod/section/diameter=30 mm"});
-  EXPECT_EQ(std::get<CircleSection>(beam(problem, 1).segments[0].section).diameter.constant, 0.03);
+  EXPECT_EQ(std::get<CircleSection>(beam_of(problem, 1).segments[0].section).diameter.constant,
+            0.03);
 }
 
 TEST(GoodProblem, KeepsWhatItSaysInTheOrderOfTheFile) {
@@ -196,9 +199,9 @@ TEST(GoodProblem, KeepsWhatItSaysInTheOrderOfTheFile) {
   EXPECT_DOUBLE_EQ(problem.scene.materials[1].density.constant, 2700.0);
   EXPECT_EQ(problem.scene.bodies[3].name, "wheel");
   EXPECT_EQ(std::get<RigidBody>(problem.scene.bodies[3].shape).inertia[2].constant, 0.2);
-  EXPECT_EQ(beam(problem, 0).damping.mass.constant, 2.0);
-  EXPECT_EQ(beam(problem, 1).reference->at(2), 1.0);
-  EXPECT_EQ(beam(problem, 1).segments[1].fraction, 0.75);
+  EXPECT_EQ(beam_of(problem, 0).damping.mass.constant, 2.0);
+  EXPECT_EQ(beam_of(problem, 1).reference->at(2), 1.0);
+  EXPECT_EQ(beam_of(problem, 1).segments[1].fraction, 0.75);
   EXPECT_EQ(problem.scene.joints[1].type, JointType::fixed);
   EXPECT_EQ(problem.scene.joints[4].type, JointType::point_on_line);
   EXPECT_THAT(problem.scene.joints[4].axis, ElementsAre(1.0, 0.0, 0.0));

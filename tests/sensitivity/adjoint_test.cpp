@@ -38,9 +38,9 @@ NamedRun projected_run(const std::string& name, SchemeType scheme) {
   return run;
 }
 
-using Case = std::tuple<int, NamedRun>;
+using AdjointCase = std::tuple<int, NamedRun>;
 
-class Adjoint : public testing::TestWithParam<Case> {
+class Adjoint : public testing::TestWithParam<AdjointCase> {
  protected:
   /// J_k = Σ weights · (q, v, a, λ) of the instants `first`, first + 3 …: different weights for
   /// each.
@@ -134,7 +134,7 @@ TEST_P(Adjoint, MayBeginWithLaterFunctions) {
   EXPECT_LE((late - always).lpNorm<Eigen::Infinity>(), 1e-14 * always.lpNorm<Eigen::Infinity>());
 }
 
-std::string case_name(const testing::TestParamInfo<Case>& info) {
+std::string adjoint_case_name(const testing::TestParamInfo<AdjointCase>& info) {
   const auto sample = static_cast<std::size_t>(std::get<0>(info.param));
   return all_samples()[sample].name + std::get<1>(info.param).name;
 }
@@ -153,6 +153,6 @@ INSTANTIATE_TEST_SUITE_P(
                         projected_run("ProjectedNewmark", newmark),
                         named_run("Newmark", newmark, index_3),
                         named_run("ImplicitEuler", implicit_euler, stabilized_index_2))),
-    case_name);
+    adjoint_case_name);
 
 }  // namespace

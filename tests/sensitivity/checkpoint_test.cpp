@@ -7,6 +7,7 @@
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/method_choice.hpp"
 #include "tests/support/problem_runs.hpp"
+#include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
 
 /// Trajectories that do not fit into the memory: the same numbers, bit by bit, for at most one more
@@ -76,9 +77,6 @@ TEST_P(Checkpoints, LeadToTheSameStatesBitByBit) {
   }
 }
 
-std::string sample_name(const testing::TestParamInfo<int>& info) {
-  return all_samples()[static_cast<std::size_t>(info.param)].name;
-}
 INSTANTIATE_TEST_SUITE_P(Samples, Checkpoints, testing::Range(0, sample_count), sample_name);
 
 /// Steps that were halved where Newton's method failed are halved again.

@@ -15,7 +15,7 @@ namespace {
 
 using namespace pleuel;
 
-struct Case {
+struct StartCase {
   int sample;
   double looseness;  ///< of the given positions and velocities, 0: consistent
 };
@@ -27,7 +27,7 @@ Eigen::VectorXd stacked(const State& state) {
   return all;
 }
 
-class StartSensitivity : public testing::TestWithParam<Case> {
+class StartSensitivity : public testing::TestWithParam<StartCase> {
  protected:
   SampleScene sample_ = all_samples()[static_cast<std::size_t>(GetParam().sample)];
 
@@ -108,17 +108,18 @@ TEST_P(StartSensitivity, IsTheDifferenceOfStartsOfNeighbouringDesigns) {
   }
 }
 
-std::string case_name(const testing::TestParamInfo<Case>& info) {
+std::string start_case_name(const testing::TestParamInfo<StartCase>& info) {
   return all_samples()[static_cast<std::size_t>(info.param.sample)].name +
          (info.param.looseness == 0.0 ? "Consistent" : "Loose");
 }
-std::vector<Case> all_cases() {
-  std::vector<Case> cases;
+std::vector<StartCase> all_cases() {
+  std::vector<StartCase> cases;
   for (double looseness : {0.0, 0.01}) {
     for (int sample = 0; sample < sample_count; ++sample) cases.push_back({sample, looseness});
   }
   return cases;
 }
-INSTANTIATE_TEST_SUITE_P(Samples, StartSensitivity, testing::ValuesIn(all_cases()), case_name);
+INSTANTIATE_TEST_SUITE_P(Samples, StartSensitivity, testing::ValuesIn(all_cases()),
+                         start_case_name);
 
 }  // namespace

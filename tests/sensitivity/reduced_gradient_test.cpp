@@ -2,6 +2,7 @@
 
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
+#include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
 
 namespace {
@@ -75,9 +76,6 @@ TEST_P(ReducedBodies, HaveTheGradientsOfModelsThatAreReducedAnew) {
   }
 }
 
-std::string sample_name(const testing::TestParamInfo<int>& info) {
-  return all_samples()[static_cast<std::size_t>(info.param)].name;
-}
 /// The reduced samples.
 INSTANTIATE_TEST_SUITE_P(Samples, ReducedBodies, testing::Values(5, 6), sample_name);
 

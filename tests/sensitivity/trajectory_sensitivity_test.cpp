@@ -43,9 +43,9 @@ std::array<Eigen::VectorXd, 4> end_of(const Trajectory& trajectory) {
           trajectory.lambda.col(last)};
 }
 
-using Case = std::tuple<int, NamedFormulation>;
+using DirectCase = std::tuple<int, NamedFormulation>;
 
-class DirectDifferentiation : public testing::TestWithParam<Case> {
+class DirectDifferentiation : public testing::TestWithParam<DirectCase> {
  protected:
   SampleScene sample_ = all_samples()[static_cast<std::size_t>(std::get<0>(GetParam()))];
   SimulationOptions options_ = short_run(std::get<1>(GetParam()).formulation);
@@ -127,7 +127,7 @@ TEST_P(DifferentiatedConstraints, AreKept) {
       });
 }
 
-std::string case_name(const testing::TestParamInfo<Case>& info) {
+std::string direct_case_name(const testing::TestParamInfo<DirectCase>& info) {
   const auto sample = static_cast<std::size_t>(std::get<0>(info.param));
   return all_samples()[sample].name + std::get<1>(info.param).name;
 }
@@ -135,10 +135,10 @@ INSTANTIATE_TEST_SUITE_P(Samples, DirectDifferentiation,
                          testing::Combine(testing::Range(0, sample_count),
                                           testing::Values(index_3, stabilized, baumgarte,
                                                           projected)),
-                         case_name);
+                         direct_case_name);
 INSTANTIATE_TEST_SUITE_P(Samples, DifferentiatedConstraints,
                          testing::Combine(testing::Range(0, sample_count),
                                           testing::Values(index_3, stabilized, projected)),
-                         case_name);
+                         direct_case_name);
 
 }  // namespace

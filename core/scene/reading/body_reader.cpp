@@ -3,13 +3,12 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/reading/limits.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 
 namespace pleuel {
 namespace {
 
-constexpr int most_elements = 10000;
-constexpr int most_modes = 1000;
 constexpr int most_frames = 1000;
 
 enum class BodyType { beam, rigid, point_mass, imported };

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/scene/reading/geometry.hpp"
+#include "core/scene/reading/limits.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 
 namespace pleuel {
@@ -13,8 +14,6 @@ namespace {
 /// Points may be off a beam by this share of its length, and off a point mass by this share of the
 /// scene: far more than what rounding of written numbers costs, far less than what is meant.
 constexpr double placement_tolerance = 1e-6;
-/// Points closer than this, compared with their distance from the origin, are the same.
-constexpr double rounding_tolerance = 1e-9;
 
 /// A point that belongs to a body.
 struct PlacedPoint {

@@ -5,12 +5,11 @@
 #include <fmt/format.h>
 
 #include "core/scene/reading/body_response_reader.hpp"
+#include "core/scene/reading/limits.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 
 namespace pleuel {
 namespace {
-
-constexpr int most_modes = 1000;
 
 // Responses with a history.
 

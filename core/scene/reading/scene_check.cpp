@@ -6,6 +6,7 @@
 
 #include "core/scene/body_rules.hpp"
 #include "core/scene/reading/geometry.hpp"
+#include "core/scene/reading/limits.hpp"
 #include "core/scene/reading/mechanism_check.hpp"
 #include "core/scene/reading/placement_check.hpp"
 #include "core/scene/reading/sample.hpp"
@@ -13,9 +14,6 @@
 
 namespace pleuel {
 namespace {
-
-/// Directions closer than this are rounding.
-constexpr double rounding_tolerance = 1e-9;
 
 /// A beam, or a body that lies as one.
 template <class Beam>

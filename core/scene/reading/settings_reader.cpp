@@ -7,12 +7,12 @@
 #include <fmt/format.h>
 
 #include "core/base/machine_memory.hpp"
+#include "core/scene/reading/limits.hpp"
 #include "core/scene/sample_extent.hpp"
 
 namespace pleuel {
 namespace {
 
-constexpr int most_elements = 10000;
 constexpr int most_iterations = 1000000;
 constexpr int most_samples = 10000000;
 constexpr double most_steps = 1e9;

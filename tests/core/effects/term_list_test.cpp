@@ -88,6 +88,22 @@ TEST(TermList, FollowsTheToleranceOfTheUser) {
   EXPECT_EQ(model.body("rod").elastic_size(), 3 * 9 - 3);
 }
 
+TEST(TermList, SaysWhatEachTermStandsFor) {
+  const Model model = model_of(sample_problem("four_bar"));
+  const auto& [bodies, stiffening, joints, loads] = model.terms;
+  ASSERT_EQ(bodies.size(), 3U);
+  ASSERT_EQ(stiffening.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(bodies[i]->name(), "inertia and elasticity of " + model.bodies[i].name);
+    const auto& [body, term] = stiffening[i];
+    EXPECT_EQ(term->name(), "geometric stiffening of " + model.bodies[body].name);
+  }
+  ASSERT_EQ(joints.size(), 4U);
+  EXPECT_EQ(joints.front()->name(), "joint crank_bearing");
+  ASSERT_EQ(loads.size(), 1U);
+  EXPECT_EQ(loads.front()->name(), "joint force work");
+}
+
 /// Wherever the plane lies, and however many loads there are in it.
 TEST(TermList, OfASceneInATiltedPlaneIsThatOfThePlane) {
   SampleScene sample = planar_sample();

@@ -8,7 +8,7 @@ namespace {
 
 using namespace pleuel;
 
-constexpr auto level = ConstraintLevel::position;
+constexpr auto at_position = ConstraintLevel::position;
 
 class EveryForce : public testing::TestWithParam<ForceSample> {
  protected:
@@ -26,7 +26,7 @@ class EveryForce : public testing::TestWithParam<ForceSample> {
           [&](double s) {
             State moved = state_;
             shift(moved, s * Eigen::VectorXd::Unit(n_, j));
-            return residual_of(*term_, moved, level);
+            return residual_of(*term_, moved, at_position);
           },
           1e-3);
       const double scale = std::max(expected.lpNorm<Eigen::Infinity>(), 1.0);
@@ -39,17 +39,17 @@ class EveryForce : public testing::TestWithParam<ForceSample> {
 /// Rotation vectors are perturbed from the right: A exp(ε̃).
 TEST_P(EveryForce, HasTheTangentOfItsResidualInThePositions) {
   expect_derivative(
-      tangent_of(*term_, state_, {.q = 1.0}, level),
+      tangent_of(*term_, state_, {.q = 1.0}, at_position),
       [&](State& at, const Eigen::VectorXd& step) { at.q = sample_.advanced(state_.q, step); });
 }
 
 TEST_P(EveryForce, HasTheTangentOfItsResidualInTheVelocities) {
-  expect_derivative(tangent_of(*term_, state_, {.v = 1.0}, level),
+  expect_derivative(tangent_of(*term_, state_, {.v = 1.0}, at_position),
                     [&](State& at, const Eigen::VectorXd& step) { at.v += step; });
 }
 
 TEST_P(EveryForce, HasTheWeightedSumOfItsTangents) {
-  const auto part = [&](const Weights& w) { return tangent_of(*term_, state_, w, level); };
+  const auto part = [&](const Weights& w) { return tangent_of(*term_, state_, w, at_position); };
   const Eigen::MatrixXd sum = 0.7 * part({.q = 1.0}) - 1.3 * part({.v = 1.0});
   const Eigen::MatrixXd difference = part({0.7, -1.3, 2.1}) - sum;
   EXPECT_LE(difference.norm(), 1e-13 * std::max(sum.norm(), 1.0));  // round-off
@@ -61,23 +61,24 @@ TEST_P(EveryForce, HasOneResidualHoweverItIsAskedFor) {
   const std::array<Weights, 2> weights = {Weights{0.7, -1.3, 2.1}, Weights{.v = 1.0}};
   std::vector<double> values(2 * entries.size());
   Eigen::VectorXd residual = Eigen::VectorXd::Zero(n_);
-  term_->linearize(state_, weights, level, residual,
+  term_->linearize(state_, weights, at_position, residual,
                    {values.data(), static_cast<std::ptrdiff_t>(entries.size())});
-  EXPECT_EQ(residual, residual_of(*term_, state_, level));
+  EXPECT_EQ(residual, residual_of(*term_, state_, at_position));
   Eigen::MatrixXd second = Eigen::MatrixXd::Zero(n_, n_);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     second(entries[i].first, entries[i].second) += values[entries.size() + i];
   }
-  EXPECT_EQ(second, tangent_of(*term_, state_, weights[1], level));
+  EXPECT_EQ(second, tangent_of(*term_, state_, weights[1], at_position));
 }
 
 /// Each number of the data is a variable; the term is built anew with neighbouring numbers.
 TEST_P(EveryForce, HasTheDesignDerivativeOfItsResidual) {
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n_, sample_.numbers);
-  term_->add_design_derivative(state_, level, columns);
+  term_->add_design_derivative(state_, at_position, columns);
   for (int j = 0; j < sample_.numbers; ++j) {
     const Eigen::VectorXd found = derivative_at_zero(
-        [&](double s) { return residual_of(*sample_.make_shifted(j, s), state_, level); }, 1e-3);
+        [&](double s) { return residual_of(*sample_.make_shifted(j, s), state_, at_position); },
+        1e-3);
     const double scale = std::max(columns.lpNorm<Eigen::Infinity>(), 1.0);
     // As for the tangent.
     EXPECT_LE((found - columns.col(j)).lpNorm<Eigen::Infinity>(), 1e-9 * scale) << "number " << j;
@@ -91,7 +92,7 @@ class EverySpatialForce : public EveryForce {};
 TEST_P(EverySpatialForce, DeclaresOnlyBlocksThatCanDifferFromZero) {
   EntryList entries;
   term_->declare_entries(entries);
-  const Eigen::MatrixXd tangent = tangent_of(*term_, state_, {0.7, -1.3, 0.0}, level);
+  const Eigen::MatrixXd tangent = tangent_of(*term_, state_, {0.7, -1.3, 0.0}, at_position);
   for (const auto& [row, col] : entries) {
     const auto block = tangent.block<3, 3>(row / 3 * 3, col / 3 * 3);
     EXPECT_GT(block.norm(), 1e-3) << "row " << row << ", column " << col;

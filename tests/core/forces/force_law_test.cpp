@@ -17,7 +17,7 @@ using namespace pleuel;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr auto level = ConstraintLevel::position;
+constexpr auto position_level = ConstraintLevel::position;
 
 TimeLaw<double> constant(double value) {
   return {TimeLaw<double>::Kind::polynomial, {value}, {}};
@@ -39,7 +39,7 @@ class EveryInternalForce : public testing::TestWithParam<ForceSample> {
 /// R = ∂(½ k (s − s₀)²)/∂q.
 TEST_P(EveryInternalForce, HasASpringWithAPotential) {
   const double stretch = sample_.coordinate(state_.q) - sample_.rest;
-  const VectorXd found = residual_of(*sample_.make_spring(), state_, level);
+  const VectorXd found = residual_of(*sample_.make_spring(), state_, position_level);
   for (Eigen::Index i = 0; i < state_.q.size(); ++i) {
     const double expected = sample_.stiffness * stretch * slope(VectorXd::Unit(state_.q.size(), i));
     EXPECT_NEAR(found(i), expected, 1e-9 * std::max(found.lpNorm<Eigen::Infinity>(), 1.0)) << i;
@@ -49,7 +49,7 @@ TEST_P(EveryInternalForce, HasASpringWithAPotential) {
 /// R · v = c ṡ²; ω is the rate of right perturbations.
 TEST_P(EveryInternalForce, HasADamperThatTakesEnergyByTheSquareOfTheRate) {
   const double rate = slope(state_.v);
-  const VectorXd found = residual_of(*sample_.make_damper(), state_, level);
+  const VectorXd found = residual_of(*sample_.make_damper(), state_, position_level);
   const double expected = sample_.damping * rate * rate;
   EXPECT_NEAR(found.dot(state_.v), expected, 1e-9 * std::max(expected, 1.0));
 }
@@ -59,7 +59,7 @@ class EveryInternalForceInSpace : public EveryInternalForce {};
 /// Sums over the frames: forces are the translation rows, moments about the origin of space
 /// r × F + A T with the rotation rows T (body axes).
 TEST_P(EveryInternalForceInSpace, HasNeitherTotalForceNorTotalMoment) {
-  const VectorXd residual = residual_of(*sample_.make(), state_, level);
+  const VectorXd residual = residual_of(*sample_.make(), state_, position_level);
   Vector3d force = Vector3d::Zero(), moment = Vector3d::Zero();
   for (const Marker& marker : sample_.mount.markers) {
     const int first = marker.frame.offset;
@@ -76,7 +76,7 @@ TEST_P(EveryInternalForceInSpace, HasNeitherTotalForceNorTotalMoment) {
 /// Turning everything turns forces, and leaves moments and elastic forces, which are in body axes.
 TEST_P(EveryInternalForceInSpace, IsTheSameInATurnedSpace) {
   const auto term = sample_.make();
-  const VectorXd before = residual_of(*term, state_, level);
+  const VectorXd before = residual_of(*term, state_, position_level);
   const Eigen::Matrix3d turn = rotation_of(Vector3d(0.4, -1.1, 0.7));
   State turned = state_;
   VectorXd expected = before;
@@ -88,7 +88,7 @@ TEST_P(EveryInternalForceInSpace, IsTheSameInATurnedSpace) {
         rotation_vector(turn * rotation_of(state_.q.segment<3>(first + 3)));
     expected.segment<3>(first) = turn * before.segment<3>(first);
   }
-  EXPECT_LE(relative_difference(residual_of(*term, turned, level), expected), 1e-13);
+  EXPECT_LE(relative_difference(residual_of(*term, turned, position_level), expected), 1e-13);
 }
 
 const auto name_of = [](const auto& test) { return test.param.name; };
@@ -112,7 +112,7 @@ class PointLoad : public testing::Test {
 /// R = −∂(F · P)/∂q with P = r + A (p + u): a weight has a potential.
 TEST_F(PointLoad, InSpaceIsTheGradientOfForceTimesPosition) {
   const auto term = make_point_force_term({"f", marker_}, {point_, direction_, constant(7.0)}, {});
-  const VectorXd found = residual_of(*term, state_, level);
+  const VectorXd found = residual_of(*term, state_, position_level);
   for (Eigen::Index i = 0; i < state_.q.size(); ++i) {
     const auto potential = [&](double s) {
       const VectorXd q = moving_.advanced(state_.q, s * VectorXd::Unit(state_.q.size(), i));
@@ -127,7 +127,7 @@ TEST_F(PointLoad, InSpaceIsTheGradientOfForceTimesPosition) {
 TEST_F(PointLoad, OnTheBodyTurnsWithIt) {
   const auto term = make_point_force_term({"f", marker_, LoadDirection::body},
                                           {point_, direction_, constant(7.0)}, {});
-  const VectorXd Q = -residual_of(*term, state_, level);
+  const VectorXd Q = -residual_of(*term, state_, position_level);
   const Vector3d local = 7.0 * (rotation_of(psi_) * direction_);
   EXPECT_LE((Q.head<3>() - A_ * local).norm(), 1e-14);
   EXPECT_LE((Q.segment<3>(3) - (point_ + u_).cross(local)).norm(), 1e-14);
@@ -142,7 +142,7 @@ TEST_F(PointLoad, InSpaceAndOnTheBodyAgreeBeforeAnyRotation) {
   for (LoadDirection direction : {LoadDirection::space, LoadDirection::body}) {
     const auto term =
         make_point_force_term({"f", marker_, direction}, {point_, direction_, constant(7.0)}, {});
-    forces[static_cast<int>(direction)] = residual_of(*term, state_, level);
+    forces[static_cast<int>(direction)] = residual_of(*term, state_, position_level);
   }
   EXPECT_LE((forces[0] - forces[1]).norm(), 1e-14);
 }
@@ -160,7 +160,7 @@ TEST_F(PointLoad, OfATorqueDoesItsWorkOnTheRotationOfItsMarker) {
   const Vector3d following = 7.0 * (marker_at(state_.q) * direction_);
   for (const auto& [term, torque] :
        {std::pair{in_space.get(), fixed}, {on_body.get(), following}}) {
-    const VectorXd Q = -residual_of(*term, state_, level);
+    const VectorXd Q = -residual_of(*term, state_, position_level);
     for (Eigen::Index i = 0; i < Q.size(); ++i) {
       const Vector3d turned = derivative_at_zero(
           [&](double s) -> Vector3d {
@@ -178,7 +178,7 @@ TEST_F(PointLoad, OfATorqueDoesItsWorkOnTheRotationOfItsMarker) {
 TEST_F(PointLoad, HasTheValueOfItsTimeLaw) {
   const TimeLaw<double> law{TimeLaw<double>::Kind::polynomial, {2.0, 3.0}, {}};
   const auto term = make_point_force_term({"f", marker_}, {point_, direction_, law}, {});
-  const VectorXd Q = -residual_of(*term, state_, level);
+  const VectorXd Q = -residual_of(*term, state_, position_level);
   EXPECT_LE((Q.head<3>() - 2.39 * direction_).norm(), 1e-14);
 }
 
@@ -204,7 +204,7 @@ TEST(JointForce, TurnsTheSecondBodyAboutTheAxisAndTheFirstBack) {
   VectorXd expected = VectorXd::Zero(12);
   expected(5) = 0.5;
   expected(11) = -0.5;
-  EXPECT_LE((-residual_of(*term, state, level) - expected).norm(), 1e-14);
+  EXPECT_LE((-residual_of(*term, state, position_level) - expected).norm(), 1e-14);
 }
 
 /// 6 (s − 0.2) with s = 7 rad, more than a turn.
@@ -219,7 +219,7 @@ TEST(JointForce, CountsWholeTurnsInThePlane) {
   const auto term = make_joint_force_term({"j", {ground, wheel}}, data, {});
   State state(1, 0);
   state.q(0) = 7.0;
-  EXPECT_NEAR(residual_of(*term, state, level)(0), 40.8, 1e-13);
+  EXPECT_NEAR(residual_of(*term, state, position_level)(0), 40.8, 1e-13);
 }
 
 template <class Function>
@@ -239,10 +239,11 @@ TEST(SpringDamper, SaysWhereItsEndsCoincide) {
       make_spring_damper_term({"buffer", {ground, mass}}, {.stiffness = 1.0, .damping = 1.0}, {});
   State state(3, 0);
   state.time = 0.25;
-  const std::string from_residual = message_of([&] { residual_of(*term, state, level); });
+  const std::string from_residual = message_of([&] { residual_of(*term, state, position_level); });
   EXPECT_THAT(from_residual, testing::HasSubstr("buffer"));
   EXPECT_THAT(from_residual, testing::HasSubstr("t = 0.25 s"));
-  EXPECT_EQ(message_of([&] { tangent_of(*term, state, {.q = 1.0}, level); }), from_residual);
+  EXPECT_EQ(message_of([&] { tangent_of(*term, state, {.q = 1.0}, position_level); }),
+            from_residual);
 }
 
 TEST(JointForce, SaysWhereItsAngleHasNoValue) {
@@ -254,7 +255,8 @@ TEST(JointForce, SaysWhereItsAngleHasNoValue) {
   const auto term =
       make_joint_force_term({"hinge", {ground, body}, RelativeCoordinate::angle}, data, {});
   const State state(6, 0);
-  EXPECT_THAT(message_of([&] { residual_of(*term, state, level); }), testing::HasSubstr("hinge"));
+  EXPECT_THAT(message_of([&] { residual_of(*term, state, position_level); }),
+              testing::HasSubstr("hinge"));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/integration/simulate.hpp"
+#include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
 
 // Counts every allocation of this executable: the allocator of the C library stands behind
@@ -69,9 +70,6 @@ TEST(TimeLoop, IsWatchedByACounterThatCounts) {
   EXPECT_GT(allocations, before);
 }
 
-std::string sample_name(const testing::TestParamInfo<int>& info) {
-  return all_samples()[static_cast<std::size_t>(info.param)].name;
-}
 INSTANTIATE_TEST_SUITE_P(Samples, TimeLoop, testing::Range(0, sample_count), sample_name);
 
 #endif

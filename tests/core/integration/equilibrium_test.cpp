@@ -11,6 +11,7 @@
 #include "sensitivity/initial_sensitivity.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/problem_runs.hpp"
+#include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
 
 namespace {
@@ -171,9 +172,6 @@ TEST_P(EquilibriumOfASample, HasOnePatternOfItsJacobian) {
   EXPECT_TRUE(same(at_rest.innerIndexPtr(), loaded.innerIndexPtr(), at_rest.nonZeros()));
 }
 
-std::string sample_name(const testing::TestParamInfo<int>& info) {
-  return all_samples()[static_cast<std::size_t>(info.param)].name;
-}
 INSTANTIATE_TEST_SUITE_P(Samples, EquilibriumOfASample, testing::Values(0, 2), sample_name);
 
 }  // namespace

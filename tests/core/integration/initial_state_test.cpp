@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/integration/configuration.hpp"
 #include "core/integration/simulate.hpp"
+#include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
 
 namespace {
@@ -72,9 +73,6 @@ TEST_P(StartOfAMechanism, IsTheNearestOneToWhatWasGiven) {
   expect_nearest(initial.state.v - mechanism.guess.v, initial.velocity_multipliers);
 }
 
-std::string sample_name(const testing::TestParamInfo<int>& info) {
-  return all_samples()[static_cast<std::size_t>(info.param)].name;
-}
 INSTANTIATE_TEST_SUITE_P(Samples, StartOfAMechanism, testing::Range(0, sample_count), sample_name);
 
 /// q² + 1 = 0 has no solution.

@@ -66,7 +66,7 @@ TEST_P(EverySchemeOrder, IsThatOfItsTheory) {
 
 /// ρ∞ = 1 keeps for ever what round-off and the start leave in λ, and little by little in v.
 TEST_F(SchemeOrder, IsLostByTheMultipliersWithoutNumericalDamping) {
-  const Orders orders = observe({.spectral_radius = 1.0});
+  const Orders orders = observe({{.spectral_radius = 1.0}});
   EXPECT_NEAR(orders.q, 2.0, 0.1);
   EXPECT_LT(orders.lambda, 0.5);  // measured: 0.00
 }

@@ -40,7 +40,7 @@ Outcome run(const std::array<double, 3>& axis, EffectChoice spatial) {
   effects.spatial_motion = spatial;
   Model model = build_model(driven_bar(axis), effects, {}, {});
   const Trajectory trajectory =
-      simulate(model.mechanism, {.end_time = 0.05, .step = 1e-3, .spectral_radius = 0.8});
+      simulate(model.mechanism, {{.end_time = 0.05, .step = 1e-3, .spectral_radius = 0.8}});
   const BodyModel& bar = model.body("bar");
   const Eigen::VectorXd q =
       trajectory.q.col(trajectory.steps()).segment(bar.frame.offset, bar.frame.size());
@@ -103,7 +103,7 @@ double turn_of(const Scene& scene, EffectChoice spatial, double end_time) {
   EXPECT_EQ(model.body("second").frame.rotation == RotationCoordinates::angle,
             spatial == EffectChoice::automatic);
   const Trajectory trajectory =
-      simulate(model.mechanism, {.end_time = end_time, .step = 1e-3, .spectral_radius = 0.8});
+      simulate(model.mechanism, {{.end_time = end_time, .step = 1e-3, .spectral_radius = 0.8}});
   State state;
   trajectory.load(trajectory.steps(), state);
   const FrameMotion<double> motion = frame_of(model.body("second"), state);
@@ -151,7 +151,7 @@ TEST(Drive, OfBothFreedomsOfACylindricalJointMakesAScrew) {
   scene.joints.push_back(slide);
   Model model = build_model(scene, {}, {}, {});
   const Trajectory trajectory =
-      simulate(model.mechanism, {.end_time = 0.1, .step = 1e-3, .spectral_radius = 0.8});
+      simulate(model.mechanism, {{.end_time = 0.1, .step = 1e-3, .spectral_radius = 0.8}});
   State state;
   trajectory.load(trajectory.steps(), state);
   const FrameMotion<double> motion = frame_of(model.body("second"), state);

@@ -2,6 +2,7 @@
 
 #include "core/integration/simulate.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
 
 namespace {
@@ -165,9 +166,6 @@ TEST(Mechanisms, OfAPlaneMoveInSpaceAsInThePlane) {
   }
 }
 
-std::string sample_name(const testing::TestParamInfo<int>& info) {
-  return all_samples()[static_cast<std::size_t>(info.param)].name;
-}
 INSTANTIATE_TEST_SUITE_P(Samples, Mechanisms, testing::Range(0, sample_count), sample_name);
 
 /// Torques about an axis in the plane, and forces along its normal, are no matter of a plane.

@@ -8,6 +8,7 @@
 #include "tests/core/response/response_samples.hpp"
 #include "tests/support/energy.hpp"
 #include "tests/support/problem_runs.hpp"
+#include "tests/support/sample_name.hpp"
 
 /// Energies and errors of the time integration as responses; their gradients are tested with those
 /// of all signals.
@@ -146,9 +147,6 @@ TEST_P(EverySample, DriftsAsTheMonitorsSay) {
   EXPECT_LE(velocity, 1.125 * monitors.velocity_drift);
 }
 
-std::string sample_name(const testing::TestParamInfo<int>& info) {
-  return all_samples()[static_cast<std::size_t>(info.param)].name;
-}
 INSTANTIATE_TEST_SUITE_P(Samples, EverySample, testing::Range(0, sample_count), sample_name);
 
 /// Index 1 drifts by something that depends on the design, and its gradient says how; index 3 keeps

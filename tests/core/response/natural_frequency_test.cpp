@@ -7,6 +7,7 @@
 #include "core/response/mechanism_modes.hpp"
 #include "tests/core/response/response_samples.hpp"
 #include "tests/support/differences.hpp"
+#include "tests/support/sample_name.hpp"
 
 namespace {
 
@@ -184,9 +185,6 @@ TEST_P(BodyFrequencies, HaveTheDerivativesOfDifferences) {
   }
 }
 
-std::string sample_name(const testing::TestParamInfo<int>& info) {
-  return all_samples()[static_cast<std::size_t>(info.param)].name;
-}
 INSTANTIATE_TEST_SUITE_P(Samples, BodyFrequencies, testing::Range(0, sample_count), sample_name);
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "core/response/analysis.hpp"
 #include "tests/core/response/response_samples.hpp"
 #include "tests/support/dense.hpp"
+#include "tests/support/sample_name.hpp"
 
 namespace {
 
@@ -51,9 +52,6 @@ TEST_P(EveryReaction, IsWhatTheTermDoesToTheFrameOfTheSecondBody) {
   }
 }
 
-std::string sample_name(const testing::TestParamInfo<int>& info) {
-  return all_samples()[static_cast<std::size_t>(info.param)].name;
-}
 INSTANTIATE_TEST_SUITE_P(Samples, EveryReaction, testing::Range(0, sample_count), sample_name);
 
 constexpr double mass = 0.7, length = 0.4, speed = 3.0, gravity = 9.81;

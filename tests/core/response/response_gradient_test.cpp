@@ -3,6 +3,7 @@
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/core/response/response_samples.hpp"
+#include "tests/support/sample_name.hpp"
 
 namespace {
 
@@ -72,9 +73,6 @@ TEST_P(GradientsOfResponses, AreThoseOfDifferencesOfSimulations) {
   }
 }
 
-std::string sample_name(const testing::TestParamInfo<int>& info) {
-  return all_samples()[static_cast<std::size_t>(info.param)].name;
-}
 INSTANTIATE_TEST_SUITE_P(Samples, GradientsOfResponses, testing::Range(0, sample_count),
                          sample_name);
 

@@ -4,6 +4,7 @@
 #include "core/response/analysis.hpp"
 #include "tests/core/response/response_samples.hpp"
 #include "tests/support/differences.hpp"
+#include "tests/support/sample_name.hpp"
 
 namespace {
 
@@ -131,9 +132,6 @@ TEST_P(EverySignal, OfAMotionFollowsTheSimulatedPosition) {
   }
 }
 
-std::string sample_name(const testing::TestParamInfo<int>& info) {
-  return all_samples()[static_cast<std::size_t>(info.param)].name;
-}
 INSTANTIATE_TEST_SUITE_P(Samples, EverySignal, testing::Range(0, sample_count), sample_name);
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "tests/support/dense.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/random_state.hpp"
+#include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
 
 namespace {
@@ -264,10 +265,6 @@ std::string case_name(const testing::TestParamInfo<Case>& info) {
   const char* levels[] = {"Position", "Velocity", "Acceleration"};
   return all_samples()[static_cast<std::size_t>(info.param.sample)].name +
          levels[static_cast<int>(info.param.level)];
-}
-
-std::string sample_name(const testing::TestParamInfo<int>& info) {
-  return all_samples()[static_cast<std::size_t>(info.param)].name;
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, EveryTerm, testing::ValuesIn(all_cases()), case_name);

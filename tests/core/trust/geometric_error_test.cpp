@@ -15,15 +15,15 @@ namespace {
 
 using ::testing::HasSubstr;
 
-struct Judged {
+struct BentBeam {
   ProblemFile problem;
   Eigen::VectorXd x;
   std::unique_ptr<Analysis> analysis;
   Monitors monitors;
 
-  explicit Judged(ProblemFile file)
+  explicit BentBeam(ProblemFile file)
       : problem(std::move(file)), x(start_design(problem)), analysis(analyze(problem, x)) {}
-  explicit Judged(const BentCantilever& cantilever) : Judged(cantilever.problem()) {}
+  explicit BentBeam(const BentCantilever& cantilever) : BentBeam(cantilever.problem()) {}
 
   double value(const std::string& response) const {
     return analysis->reductions[static_cast<std::size_t>(response_index(problem, response))].value;
@@ -53,7 +53,7 @@ TEST(GeometricError, OfDeflectionIsThatAgainstTheElastica) {
   for (const ElasticaTip& exact : elastica_tips) {
     BentCantilever cantilever = pushed(exact.load);
     cantilever.stiffening = "off";
-    const Judged run(cantilever);
+    const BentBeam run(cantilever);
     const double deflection = relative(run.value("y"), exact.deflection);
     EXPECT_NEAR(run.value("y"), exact.load / 3.0, 1e-6);
     EXPECT_LT(std::abs(std::log(run.error().deflection / deflection)), std::log(1.1)) << exact.load;
@@ -64,7 +64,7 @@ TEST(GeometricError, OfDeflectionIsThatAgainstTheElastica) {
 TEST(GeometricError, OfShorteningIsThatAgainstTheElastica) {
   for (std::size_t i : {0u, 1u}) {
     const ElasticaTip& exact = elastica_tips[i];
-    const Judged run(pushed(exact.load));
+    const BentBeam run(pushed(exact.load));
     const double shortening = relative(1.0 - run.value("x"), exact.shortening);
     EXPECT_LT(std::abs(std::log(run.error().position / shortening)), std::log(1.2)) << exact.load;
   }
@@ -76,38 +76,38 @@ TEST(GeometricError, KnowsAboutMissingShortening) {
   BentCantilever cantilever;
   cantilever.moment_z = 0.3 * BentCantilever::bending_stiffness;
   cantilever.stiffening = "off";
-  const Judged run(cantilever);
+  const BentBeam run(cantilever);
   EXPECT_NEAR(run.error().position, 1.0 - std::sin(0.3) / 0.3, 1e-3);
   EXPECT_NEAR(run.error().deflection, relative(0.15, (1.0 - std::cos(0.3)) / 0.3), 1e-3);
 }
 
 /// The same beam in other frames: against the chord, and in space, with modes.
 TEST(GeometricError, IsOfTheSameSizeInSpaceAndWithModes) {
-  const double alone = Judged(pushed(0.5)).error().deflection;
+  const double alone = BentBeam(pushed(0.5)).error().deflection;
   BentCantilever spatial = pushed(0.5);
   spatial.motion = "on";
-  EXPECT_NEAR(Judged(spatial).error().deflection, alone, 1e-3 * alone);
+  EXPECT_NEAR(BentBeam(spatial).error().deflection, alone, 1e-3 * alone);
   BentCantilever reduced = pushed(0.5);
   reduced.more = R"(, "reduction": {"modes": 4})";
-  EXPECT_NEAR(Judged(reduced).error().deflection, alone, 0.05 * alone);
+  EXPECT_NEAR(BentBeam(reduced).error().deflection, alone, 0.05 * alone);
   BentCantilever oblique;
   oblique.force_y = 0.6 * 50.0;
   oblique.force_z = 0.8 * 50.0;
-  EXPECT_NEAR(Judged(oblique).error().deflection, alone, 0.02 * alone);
+  EXPECT_NEAR(BentBeam(oblique).error().deflection, alone, 0.02 * alone);
 }
 
 /// At an error of 1 % of deflection (α = 0.3) there is a doubt, at 0.3 % (α = 0.16) there is none.
 TEST(BendingRange, IsLeftAtAnErrorOfOnePercent) {
-  ASSERT_EQ(Judged(pushed(0.32)).doubts().size(), 1u);
-  EXPECT_TRUE(Judged(pushed(0.32)).doubts().front().is_serious);
-  EXPECT_TRUE(Judged(pushed(0.16)).doubts().empty());
-  EXPECT_TRUE(Judged(pushed(-0.16)).doubts().empty());
+  ASSERT_EQ(BentBeam(pushed(0.32)).doubts().size(), 1u);
+  EXPECT_TRUE(BentBeam(pushed(0.32)).doubts().front().is_serious);
+  EXPECT_TRUE(BentBeam(pushed(0.16)).doubts().empty());
+  EXPECT_TRUE(BentBeam(pushed(-0.16)).doubts().empty());
   // Of the elastica: without stiffening the deflection α/3 is 1 % off at α = 0.297; with it the
   // shortening α²/15 is 1.2 % off at 0.25, 1 % at 0.23.
   const auto doubts = [](double alpha, const char* stiffening) {
     BentCantilever cantilever = pushed(alpha);
     cantilever.stiffening = stiffening;
-    return Judged(cantilever).doubts().size();
+    return BentBeam(cantilever).doubts().size();
   };
   EXPECT_EQ(doubts(0.285, "off"), 0u);
   EXPECT_EQ(doubts(0.308, "off"), 1u);
@@ -120,7 +120,7 @@ TEST(BendingRange, NamesFramesThatCure) {
   for (const ElasticaTip& exact : {elastica_tips[1], elastica_tips[2], elastica_tips[3]}) {
     BentCantilever cantilever = pushed(exact.load);
     cantilever.stiffening = "off";  // in one frame it finds no equilibrium that far
-    const std::vector<Doubt> doubts = Judged(cantilever).doubts();
+    const std::vector<Doubt> doubts = BentBeam(cantilever).doubts();
     ASSERT_EQ(doubts.size(), 1u);
     const std::string& text = doubts.front().text;
     EXPECT_THAT(text, HasSubstr("\"beam\""));
@@ -128,7 +128,7 @@ TEST(BendingRange, NamesFramesThatCure) {
     cantilever.frames = std::stoi(text.substr(text.find(key) + key.size()));
     EXPECT_LE(cantilever.frames, 12);
     cantilever.stiffening = "on";
-    const Judged cured(cantilever);
+    const BentBeam cured(cantilever);
     EXPECT_LE(relative(cured.value("y"), exact.deflection), 0.01) << exact.load;
     EXPECT_TRUE(cured.doubts().empty()) << exact.load;
   }
@@ -138,13 +138,13 @@ TEST(BendingRange, NamesFramesThatCure) {
 TEST(BendingRange, IsLeftByLargeStretching) {
   BentCantilever cantilever;
   cantilever.force_x = 0.02 * 1.2e11 * 1e-4;  // ε E A
-  const std::vector<Doubt> doubts = Judged(cantilever).doubts();
+  const std::vector<Doubt> doubts = BentBeam(cantilever).doubts();
   ASSERT_EQ(doubts.size(), 1u);
   EXPECT_THAT(doubts.front().text, HasSubstr("stretched by 2 %"));
   cantilever.force_x *= 0.49;
-  EXPECT_TRUE(Judged(cantilever).doubts().empty());
+  EXPECT_TRUE(BentBeam(cantilever).doubts().empty());
   cantilever.force_x *= 0.51 / 0.49;
-  EXPECT_EQ(Judged(cantilever).doubts().size(), 1u);
+  EXPECT_EQ(BentBeam(cantilever).doubts().size(), 1u);
 }
 
 }  // namespace

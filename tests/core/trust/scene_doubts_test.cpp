@@ -37,7 +37,7 @@ std::vector<Doubt> doubts_of(const ProblemFile& problem, FindDoubts find) {
   return find(TrustedRun{problem, x, *analysis, monitors});
 }
 
-ProblemFile read(const std::string& text, const std::vector<std::string>& overrides = {}) {
+ProblemFile read_scene(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return read_problem_text(text, "test.json", overrides);
 }
 
@@ -76,7 +76,7 @@ class SlightlyTiltedHinges : public TiltedHinges {};
 /// The door falls like a pendulum, from rest at the horizontal: the force of both hinges together
 /// is below 1.5 m g + m g (vertical), each carries at most all of it.
 TEST_P(NearlyAlignedHinges, Swing) {
-  const ProblemFile problem = read(text_);
+  const ProblemFile problem = read_scene(text_);
   const auto analysis = analyze(problem, start_design(problem));
   EXPECT_THAT(analysis->model.mechanism.system->left_out(), SizeIs(5));
   EXPECT_LE(analysis->reductions[0].value, 3.0 * 10 * 9.81);
@@ -86,7 +86,7 @@ TEST_P(NearlyAlignedHinges, Swing) {
 }
 
 TEST_P(SlightlyTiltedHinges, AreNamed) {
-  const std::vector<Doubt> doubts = doubts_of(read(text_), doubt_misaligned_joints);
+  const std::vector<Doubt> doubts = doubts_of(read_scene(text_), doubt_misaligned_joints);
   ASSERT_THAT(doubts, SizeIs(1));
   EXPECT_TRUE(doubts[0].is_serious);
   EXPECT_THAT(doubts[0].text, HasSubstr("\"low\", \"high\""));
@@ -107,14 +107,14 @@ INSTANTIATE_TEST_SUITE_P(Tilts, SlightlyTiltedHinges,
 TEST(MisalignedJoints, LockABodyAlsoWhereItIsCarriedAway) {
   const auto doubts_with = [](double tilt) {
     return doubts_of(
-        read(door(tilt),
-             {R"(/scene/bodies/carriage={"type": "rigid", "at": [0, 0, 0], "mass": 5,
+        read_scene(door(tilt),
+                   {R"(/scene/bodies/carriage={"type": "rigid", "at": [0, 0, 0], "mass": 5,
                   "inertia": [1, 1, 1, 0, 0, 0]})",
-              R"(/scene/joints/rail={"type": "prismatic", "bodies": ["ground", "carriage"],
+                    R"(/scene/joints/rail={"type": "prismatic", "bodies": ["ground", "carriage"],
                   "at": [0, 0, 0], "axis": [0, 1, 0],
                   "drive": {"type": "polynomial", "coefficients": [0, 0, 20]}})",
-              R"(/scene/joints/low/bodies=["carriage", "door"])",
-              R"(/scene/joints/high/bodies=["carriage", "door"])"}),
+                    R"(/scene/joints/low/bodies=["carriage", "door"])",
+                    R"(/scene/joints/high/bodies=["carriage", "door"])"}),
         doubt_misaligned_joints);
   };
   EXPECT_THAT(doubts_with(0.0), IsEmpty());
@@ -128,7 +128,7 @@ TEST(MisalignedJoints, LockABodyAlsoWhereItIsCarriedAway) {
 /// Two ball joints make a hinge however near they are; so do points of a body that are a hundredth
 /// of the mechanism apart.
 TEST(MisalignedJoints, AreNotTwoBallJointsThatMakeAHinge) {
-  const ProblemFile problem = read(
+  const ProblemFile problem = read_scene(
       R"({"scene": {"gravity": [0, -9.81, 0],
           "bodies": {"door": {"type": "rigid", "at": [0.5, 0, 0], "mass": 10, "inertia": [1, 1, 1, 0, 0, 0]}},
           "joints": {"low": {"type": "spherical", "bodies": ["ground", "door"], "at": [0, 0, -0.01]},
@@ -159,7 +159,7 @@ TEST(MisalignedJoints, OfALoopInSpaceThatIsDrivenAreRedundant) {
         tilt);
   };
   const auto torque = [&](double tilt) {
-    const ProblemFile problem = read(loop(tilt));
+    const ProblemFile problem = read_scene(loop(tilt));
     return analyze(problem, start_design(problem))->reductions[0].value;
   };
   const double expected = torque(0.0);
@@ -205,11 +205,12 @@ const std::string closed =
     R"(, "D": {"type": "revolute", "bodies": ["ground", "rocker"], "at": [0.4, 0, 0]})";
 
 TEST(IdleFreedoms, AreNotInADrivenMechanism) {
-  EXPECT_THAT(doubts_of(read(crank_rocker(driven, closed)), doubt_idle_freedoms), IsEmpty());
+  EXPECT_THAT(doubts_of(read_scene(crank_rocker(driven, closed)), doubt_idle_freedoms), IsEmpty());
 }
 
 TEST(IdleFreedoms, OfAForgottenDriveAreNamedByBody) {
-  const std::vector<Doubt> doubts = doubts_of(read(crank_rocker("", closed)), doubt_idle_freedoms);
+  const std::vector<Doubt> doubts =
+      doubts_of(read_scene(crank_rocker("", closed)), doubt_idle_freedoms);
   ASSERT_THAT(doubts, SizeIs(1));
   EXPECT_TRUE(doubts[0].is_serious);
   EXPECT_THAT(doubts[0].text,
@@ -219,7 +220,8 @@ TEST(IdleFreedoms, OfAForgottenDriveAreNamedByBody) {
 }
 
 TEST(IdleFreedoms, OfAForgottenJointAreNamedByBody) {
-  const std::vector<Doubt> doubts = doubts_of(read(crank_rocker(driven, "")), doubt_idle_freedoms);
+  const std::vector<Doubt> doubts =
+      doubts_of(read_scene(crank_rocker(driven, "")), doubt_idle_freedoms);
   ASSERT_THAT(doubts, SizeIs(1));
   EXPECT_TRUE(doubts[0].is_serious);
   EXPECT_THAT(doubts[0].text,
@@ -241,8 +243,9 @@ TEST(IdleFreedoms, AreNotWhereSomethingActs) {
                  "value": {"type": "table", "times": [0, 0.01, 0.02], "values": [0, 1, 0]}})"),
        load(R"({"type": "spring", "bodies": ["ground", "rocker"],
                  "at": [[0.5, 0.2, 0], [0.4, 0.2, 0]], "stiffness": 100})")}) {
-    EXPECT_THAT(doubts_of(read(crank_rocker("", closed), {override_text}), doubt_idle_freedoms),
-                IsEmpty())
+    EXPECT_THAT(
+        doubts_of(read_scene(crank_rocker("", closed), {override_text}), doubt_idle_freedoms),
+        IsEmpty())
         << override_text;
   }
 }
@@ -280,20 +283,20 @@ TEST(UnconnectedBodies, AreNamed) {
       R"(/scene/bodies/other={"type": "point-mass", "at": [0.3, 0.3, 0], "mass": 1})";
   const std::string tie =
       R"(/scene/joints/tie={"type": "distance", "bodies": ["stray", "other"], "at": [0.2, 0.3, 0], "to": [0.3, 0.3, 0]})";
-  const std::vector<Doubt> still =
-      doubts_of(read(crank_rocker(driven, closed), {stray, other, tie}), doubt_unconnected_bodies);
+  const std::vector<Doubt> still = doubts_of(
+      read_scene(crank_rocker(driven, closed), {stray, other, tie}), doubt_unconnected_bodies);
   ASSERT_THAT(still, SizeIs(1));
   EXPECT_THAT(still[0].text, HasSubstr("connects \"stray\", \"other\" with the ground"));
   EXPECT_FALSE(still[0].is_serious) << "no response looks at it";
   const std::vector<Doubt> falling =
-      doubts_of(read(crank_rocker(driven, closed, "[0, -9.81, 0]"),
-                     {stray, other, tie, R"(/responses/y={"type": "position", "body": "stray",
+      doubts_of(read_scene(crank_rocker(driven, closed, "[0, -9.81, 0]"),
+                           {stray, other, tie, R"(/responses/y={"type": "position", "body": "stray",
                                  "direction": "y", "over_time": "final"})"}),
                 doubt_unconnected_bodies);
   ASSERT_THAT(falling, SizeIs(1));
   EXPECT_TRUE(falling[0].is_serious);
-  EXPECT_THAT(doubts_of(read(crank_rocker(driven, closed),
-                             {stray_with(R"(, "velocity": [1, 2, 0])"), other, tie}),
+  EXPECT_THAT(doubts_of(read_scene(crank_rocker(driven, closed),
+                                   {stray_with(R"(, "velocity": [1, 2, 0])"), other, tie}),
                         doubt_unconnected_bodies),
               IsEmpty());
 }
@@ -354,7 +357,7 @@ TEST(SizesOutOfProportion, BeginWhereTheyAreSaidTo) {
 TEST(SizesOutOfProportion, ArePointsFarAwayAndInertiaOfOtherUnits) {
   const auto with = [](const std::string& body, const std::string& at) {
     return doubts_of(
-        read(
+        read_scene(
             crank_rocker(driven, closed),
             {"/scene/bodies/more=" + body,
              R"(/scene/joints/tie={"type": "distance", "bodies": ["ground", "more"], "at": [0.1, 0.1, 0], "to": )" +
@@ -384,7 +387,7 @@ TEST(SizesOutOfProportion, ArePointsFarAwayAndInertiaOfOtherUnits) {
 TEST(SizesOutOfProportion, BeginAtTenTimesTheInertiaAndAHundredTimesTheDistance) {
   // Bar of 1 m, and a wheel at its end: nothing else has a place.
   const auto doubts = [](double inertia, double at) {
-    ProblemFile problem = read(crank_rocker(driven, closed));
+    ProblemFile problem = read_scene(crank_rocker(driven, closed));
     const Eigen::VectorXd x = start_design(problem);
     const auto analysis = analyze(problem, x);
     const Monitors monitors = monitor(analysis->model, analysis->trajectory);
@@ -405,7 +408,7 @@ TEST(SizesOutOfProportion, BeginAtTenTimesTheInertiaAndAHundredTimesTheDistance)
 
 /// Of the largest energy, one percent may be missing.
 TEST(EnergyBalance, IsDoubtedAboveOnePercent) {
-  const ProblemFile problem = read(crank_rocker(driven, closed));
+  const ProblemFile problem = read_scene(crank_rocker(driven, closed));
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
   Monitors monitors = monitor(analysis->model, analysis->trajectory);
@@ -419,8 +422,8 @@ TEST(EnergyBalance, IsDoubtedAboveOnePercent) {
 
 TEST(SizesOutOfProportion, AreSectionsThatAreLargerThanTheBeamIsLong) {
   const auto with_diameter = [](double diameter) {
-    return doubts_of(read(crank_rocker(driven, closed),
-                          {fmt::format("/scene/bodies/crank/section/diameter={}", diameter)}),
+    return doubts_of(read_scene(crank_rocker(driven, closed),
+                                {fmt::format("/scene/bodies/crank/section/diameter={}", diameter)}),
                      doubt_proportions);
   };
   EXPECT_THAT(with_diameter(0.02), IsEmpty());
@@ -434,9 +437,9 @@ TEST(SizesOutOfProportion, AreSectionsThatAreLargerThanTheBeamIsLong) {
 /// directions.
 TEST(SizesOutOfProportion, AreNotThinLeaves) {
   const auto with_section = [](const char* section) {
-    return doubts_of(
-        read(crank_rocker(driven, closed), {std::string("/scene/bodies/crank/section=") + section}),
-        doubt_proportions);
+    return doubts_of(read_scene(crank_rocker(driven, closed),
+                                {std::string("/scene/bodies/crank/section=") + section}),
+                     doubt_proportions);
   };
   EXPECT_THAT(with_section(R"({"type": "rectangle", "width": 0.02, "height": 1e-5})"), IsEmpty());
   EXPECT_THAT(with_section(R"({"type": "rectangle", "width": 1e-5, "height": 0.02})"), IsEmpty());
@@ -448,7 +451,7 @@ TEST(SizesOutOfProportion, AreNotThinLeaves) {
 /// A pull of 200 N on a rod of 5 mm, 0.3 m long: of its Euler load π² E I/L² = 706 N, 28 %.
 TEST(LostStiffening, IsADoubtWhereAxialForcesAreLarge) {
   const auto problem_with = [](double force) {
-    return read(fmt::format(
+    return read_scene(fmt::format(
         R"({{"scene": {{"materials": {{"m": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
           "bodies": {{"rod": {{"type": "beam", "from": [0, 0, 0], "to": [0.3, 0, 0], "material": "m",
               "section": {{"type": "circle", "diameter": 0.005}}, "elements": 2, "frame": "chord"}}}},
@@ -476,7 +479,7 @@ TEST(LostStiffening, IsADoubtWhereAxialForcesAreLarge) {
 /// A rigid-looking body whose file knows its mass at h = 30 mm and how it changes; only the doubt's
 /// own decision is looked at.
 TEST(Extrapolation, IsADoubtWhereTheDesignHasLeftThatOfTheFile) {
-  ProblemFile problem = read(crank_rocker(driven, closed));
+  ProblemFile problem = read_scene(crank_rocker(driven, closed));
   const Eigen::VectorXd x0 = start_design(problem);
   const auto analysis = analyze(problem, x0);
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
@@ -512,7 +515,7 @@ TEST(Extrapolation, IsADoubtWhereTheDesignHasLeftThatOfTheFile) {
 
 /// A bar of 1 m on a hinge, whose frame is at its left end.
 ProblemFile turning_bar(double hinge, const std::string& velocity) {
-  return read(fmt::format(
+  return read_scene(fmt::format(
       R"({{"scene": {{"bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
           "material": "steel", "section": {{"type": "circle", "diameter": 0.03}}, "rigid": true,
           "elements": 1, "angular_velocity": [0, 0, 10], "velocity": {}}}}},
@@ -538,7 +541,7 @@ TEST(InitialMotion, IsADoubtWhereJointsChangeWhatTheFileGives) {
 TEST(InitialMotion, InAnotherDirectionIsADoubt) {
   const auto doubts = [](double angle) {
     return doubts_of(
-        read(fmt::format(
+        read_scene(fmt::format(
             R"({{"scene": {{"bodies": {{"block": {{"type": "rigid", "at": [0, 0, 0], "mass": 1,
                 "inertia": [1, 1, 1, 0, 0, 0], "velocity": [{:.12g}, {:.12g}, 0]}}}},
               "joints": {{"slide": {{"type": "prismatic", "bodies": ["ground", "block"],
@@ -556,7 +559,7 @@ TEST(InitialMotion, InAnotherDirectionIsADoubt) {
 
 /// An elastic member begins without elastic rates, and takes the velocity of what it carries.
 TEST(InitialMotion, OfAMassOnAnElasticMemberIsADoubt) {
-  const std::vector<Doubt> doubts = doubts_of(read(
+  const std::vector<Doubt> doubts = doubts_of(read_scene(
                                                   R"({"scene": {"bodies": {
             "arm": {"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "material": "steel",
                     "section": {"type": "circle", "diameter": 0.02}, "elements": 2},
@@ -573,7 +576,7 @@ TEST(InitialMotion, OfAMassOnAnElasticMemberIsADoubt) {
 
 /// ½ J ω² = ½ k φ² at φ = ω √(J/k): with J = 0.1 kg m², k = 10 N m/rad a tenth of ω [s].
 ProblemFile spring_rotor(double speed, const std::string& effects) {
-  return read(fmt::format(
+  return read_scene(fmt::format(
       R"({{"scene": {{"bodies": {{"rotor": {{"type": "rigid", "at": [0, 0, 0], "mass": 1,
           "inertia": [0.1, 0.1, 0.1, 0, 0, 0], "angular_velocity": [0, 0, {}]}}}},
           "joints": {{"bearing": {{"type": "revolute", "bodies": ["ground", "rotor"], "at": [0, 0, 0]}}}},
@@ -606,7 +609,7 @@ TEST(JointTurns, AreNoneOfADamper) {
 
 /// A mass that is moved along a horizontal arm of 1 m, or beyond its end.
 ProblemFile trolley(double from, double way, const std::string& arm) {
-  return read(fmt::format(
+  return read_scene(fmt::format(
       R"({{"scene": {{"gravity": [0, -9.81, 0], "bodies": {{
             "arm": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
                      "section": {{"type": "circle", "diameter": 0.03}}, "elements": 5{}}},
@@ -621,7 +624,7 @@ ProblemFile trolley(double from, double way, const std::string& arm) {
 
 /// A carriage whose line goes past the tip of the arm: its force stays at the tip.
 TEST(SlidingContact, IsNoneWhereTheLineBelongsToTheOtherBody) {
-  const ProblemFile problem = read(
+  const ProblemFile problem = read_scene(
       R"({"scene": {"gravity": [0, -9.81, 0], "bodies": {
             "arm": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
                     "section": {"type": "circle", "diameter": 0.03}, "elements": 5},

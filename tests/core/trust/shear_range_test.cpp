@@ -47,13 +47,13 @@ struct StubbyBeam {
   }
 };
 
-struct Judged {
+struct ShearedBeam {
   ProblemFile problem;
   Eigen::VectorXd x;
   std::unique_ptr<Analysis> analysis;
   Monitors monitors;
 
-  explicit Judged(const StubbyBeam& beam)
+  explicit ShearedBeam(const StubbyBeam& beam)
       : problem(beam.problem()), x(start_design(problem)), analysis(analyze(problem, x)) {}
   double share() const {
     State state;
@@ -81,11 +81,13 @@ TEST(ShearShare, IsThatOfTimoshenkosClosedForm) {
         StubbyBeam beam{section};
         beam.response = R"({"type": "mass"})";
         beam.frames = frames;
-        EXPECT_NEAR(Judged(beam).share(), 3.0 * ratio, 1e-3 * ratio) << size << is_round << frames;
+        EXPECT_NEAR(ShearedBeam(beam).share(), 3.0 * ratio, 1e-3 * ratio)
+            << size << is_round << frames;
         beam.is_pinned = true;
         for (const std::string frame : {"chord", "tangent", "mean-axis"}) {
           beam.frame = frame;
-          EXPECT_NEAR(Judged(beam).share(), 12.0 * ratio, 0.01 * ratio) << size << frame << frames;
+          EXPECT_NEAR(ShearedBeam(beam).share(), 12.0 * ratio, 0.01 * ratio)
+              << size << frame << frames;
         }
       }
     }
@@ -94,13 +96,13 @@ TEST(ShearShare, IsThatOfTimoshenkosClosedForm) {
 
 /// The case of h/L = 0.5 is 16 % too stiff; slender beams are left in peace.
 TEST(ShearRange, IsLeftByStubbyBeams) {
-  const std::vector<Doubt> doubts = Judged(StubbyBeam{rectangle(0.5)}).doubts();
+  const std::vector<Doubt> doubts = ShearedBeam(StubbyBeam{rectangle(0.5)}).doubts();
   ASSERT_EQ(doubts.size(), 1u);
   EXPECT_THAT(doubts.front().text, HasSubstr("\"beam\" is stubby"));
   EXPECT_THAT(doubts.front().text, HasSubstr("some 16 %"));
   EXPECT_EQ(doubts.front().responses, std::vector<std::string>{"asked"});
   EXPECT_TRUE(doubts.front().is_serious);
-  EXPECT_TRUE(Judged(StubbyBeam{rectangle(0.05)}).doubts().empty());
+  EXPECT_TRUE(ShearedBeam(StubbyBeam{rectangle(0.05)}).doubts().empty());
 }
 
 /// Timoshenko's share of the deflection s/(1 + s), s = 3EI/(κGAL²) = ½ (1 + ν)/κ (h/L)²: 1 % where
@@ -109,9 +111,9 @@ TEST(ShearRange, IsLeftAtOnePercentAndSeriousAtTen) {
   const double unit = 0.5 * (1 + nu) / rectangle_shear_coefficient(nu);
   const auto height_with = [&](double share) { return std::sqrt(share / (1 - share) / unit); };
   const auto doubts = [&](double share) {
-    return Judged(StubbyBeam{
-                      fmt::format(R"({{"type": "rectangle", "width": 0.05, "height": {:.12g}}})",
-                                  height_with(share))})
+    return ShearedBeam(StubbyBeam{fmt::format(
+                           R"({{"type": "rectangle", "width": 0.05, "height": {:.12g}}})",
+                           height_with(share))})
         .doubts();
   };
   EXPECT_TRUE(doubts(0.0097).empty());
@@ -126,7 +128,7 @@ TEST(ShearRange, ConcernsWhatRestsOnStiffness) {
   const auto doubts = [](const std::string& response) {
     StubbyBeam beam{rectangle(0.5)};
     beam.response = response;
-    return Judged(beam).doubts().size();
+    return ShearedBeam(beam).doubts().size();
   };
   EXPECT_EQ(doubts(R"({"type": "stress", "body": "beam", "over_time": "max"})"), 0u);
   EXPECT_EQ(doubts(R"({"type": "mass"})"), 0u);
@@ -138,7 +140,7 @@ TEST(ShearRange, ConcernsWhatRestsOnStiffness) {
 TEST(ShearRange, OfBucklingIsThatOfEulersLoad) {
   StubbyBeam beam{R"({"type": "circle", "diameter": 0.5})"};
   beam.response = R"({"type": "buckling", "body": "beam", "over_time": "max"})";
-  const std::vector<Doubt> doubts = Judged(beam).doubts();
+  const std::vector<Doubt> doubts = ShearedBeam(beam).doubts();
   ASSERT_EQ(doubts.size(), 1u);
   const double kappa = 6 * (1 + nu) / (7 + 6 * nu);
   const double share = std::numbers::pi * std::numbers::pi * 2 * (1 + nu) / kappa * 0.25 / 16;
@@ -149,9 +151,9 @@ TEST(ShearRange, OfBucklingIsThatOfEulersLoad) {
 TEST(ShearRange, OfBucklingIsThatOfThePlaneThatBucklesFirst) {
   StubbyBeam beam{rectangle(0.5)};
   beam.response = R"({"type": "buckling", "body": "beam", "over_time": "max"})";
-  EXPECT_TRUE(Judged(beam).doubts().empty());
+  EXPECT_TRUE(ShearedBeam(beam).doubts().empty());
   beam.section = R"({"type": "rectangle", "width": 0.4, "height": 0.5})";
-  const std::vector<Doubt> doubts = Judged(beam).doubts();
+  const std::vector<Doubt> doubts = ShearedBeam(beam).doubts();
   ASSERT_EQ(doubts.size(), 1u);
   const double share = std::numbers::pi * std::numbers::pi * 2 * (1 + nu) * 0.16 / 12 /
                        rectangle_shear_coefficient(nu);

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "core/system/system.hpp"
+
+namespace pleuel {
+
+/// What of the equations of motion is linear in accelerations and multipliers, at a position and a
+/// time:
+///     F(q, t; a, λ) = R(q, 0, a, λ, t) − R(q, 0, 0, 0, t) = [ M a + Φ_qᵀ λ ; Φ_q a or 0 ]  (n + m)
+/// with Φ_q a on the acceleration level of constraints, zero on the others. Rows of constraints
+/// that are left out say λ_i.
+class LinearForces {
+ public:
+  explicit LinearForces(System& system, ConstraintLevel level = ConstraintLevel::position);
+
+  /// Goes to time and position of a state, with these a and λ. Nothing else of the state matters.
+  void set(const State& place, const Eigen::VectorXd& a, const Eigen::VectorXd& lambda);
+  /// With a = 0: forces of constraints.
+  void set(const State& place, const Eigen::VectorXd& lambda);
+
+  /// F, n + m entries; valid until the next call.
+  const Eigen::VectorXd& residual();
+
+  /// [ F_q, F_λ ] into a matrix from System::make_matrix().
+  void tangent(System::Matrix& matrix);
+
+  /// ∂F/∂x at fixed q, a and λ, (n + m) × variables; valid until the next call.
+  const Eigen::MatrixXd& design_derivative();
+
+  /// sums += those of μᵀ ∂F/∂x (System::add_design_sums); μ is (n + m) × any number.
+  void add_design_sums(const ConstColumns& mu, Columns sums);
+
+ private:
+  System& system_;
+  ConstraintLevel level_;
+  State with_, without_;  ///< at rest, with a and λ and without them
+  Eigen::VectorXd residual_, residual_without_;
+  System::Matrix tangent_without_;
+  Eigen::MatrixXd columns_, columns_without_, minus_mu_;
+};
+
+}  // namespace pleuel
