@@ -14,6 +14,9 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
+/// Displacements of a member, twelve at most: no heap.
+using MemberVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 12, 1>;
+
 /// The axial forces N = κ ½ dᵀ Ĝ d of the members of geometric stiffening.
 class StretchingForces {
  public:
@@ -21,15 +24,15 @@ class StretchingForces {
 
   double force(int member, const BodyState& state) const {
     const StretchedElement& element = member_of(body_.stretching, member);
-    const VectorXd d = displacements(body_.stretching, element, state);
-    return 0.5 * element.axial_stiffness * d.dot(element.slopes * d);
+    const MemberVector d = displacements(body_.stretching, element, state);
+    return 0.5 * element.axial_stiffness * d.dot(element.slopes.lazyProduct(d));
   }
 
   void add_gradient(int member, double slope, const BodyState& state, BodyGradient& writer) const {
     const Stretching& stretching = body_.stretching;
     const StretchedElement& element = member_of(stretching, member);
-    const VectorXd d = displacements(stretching, element, state);
-    const VectorXd bent = element.slopes * d;
+    const MemberVector d = displacements(stretching, element, state);
+    const MemberVector bent = element.slopes.lazyProduct(d);
     for (Eigen::Index i = 0; i < d.size(); ++i) {
       writer.add_elastic(slope * element.axial_stiffness * bent(i), stretching.displacements,
                          element.displacements[static_cast<std::size_t>(i)]);
@@ -47,9 +50,9 @@ class StretchingForces {
   static const StretchedElement& member_of(const Stretching& stretching, int member) {
     return stretching.elements[static_cast<std::size_t>(member)];
   }
-  static VectorXd displacements(const Stretching& stretching, const StretchedElement& element,
-                                const BodyState& state) {
-    VectorXd d(static_cast<Eigen::Index>(element.displacements.size()));
+  static MemberVector displacements(const Stretching& stretching, const StretchedElement& element,
+                                    const BodyState& state) {
+    MemberVector d(static_cast<Eigen::Index>(element.displacements.size()));
     for (Eigen::Index i = 0; i < d.size(); ++i) {
       d(i) = product(stretching.displacements, element.displacements[static_cast<std::size_t>(i)],
                      state.q());
