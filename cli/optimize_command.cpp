@@ -6,6 +6,7 @@
 #include "cli/command_text.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/drives_report.hpp"
 #include "cli/effects_report.hpp"
 #include "cli/failed_design.hpp"
 #include "cli/history_csv.hpp"
@@ -34,10 +35,14 @@ namespace pleuel {
 
 namespace {
 
-/// Simulates the first and the last design for their trajectory files and for what is reported of
-/// them.
-/// @returns the effects that are simulated
-Json examine_designs(RunRecord& record, Optimum& optimum) {
+/// What is told of the first and the last design.
+struct Examined {
+  Json effects = Json::array();  ///< that are simulated
+  std::string drives;            ///< what they need at both designs, for people
+};
+
+/// Simulates both for their trajectory files and for what is reported of them.
+Examined examine_designs(RunRecord& record, Optimum& optimum) {
   const auto start = analyze(optimum.problem, optimum.result.history.front().x);
   write_trajectory(record.result("trajectory-start.csv"), *start);
   optimum.start_responses = values_of(*start);
@@ -56,7 +61,8 @@ Json examine_designs(RunRecord& record, Optimum& optimum) {
                          ? optimum.result.warnings
                          : texts_of(find_doubts(TrustedRun{optimum.problem, optimum.result.x, *end,
                                                            optimum.monitors}));
-  return effects_document(optimum.problem, end->model, optimum.influences);
+  return {effects_document(optimum.problem, end->model, optimum.influences),
+          drives_text(optimum.problem, *start, *end)};
 }
 
 /// What each effect brings and costs at an optimum with prices.
@@ -196,12 +202,13 @@ Outcome run_optimize(const Arguments& arguments) {
     record.begin_phase("effects");
     optimum.influences = influences_at(optimum);
     record.begin_phase("trajectories");
-    effects = examine_designs(record, optimum);
-    show(arguments.progress(), influences_text(solved, optimum.responses, optimum.influences,
-                                               [&](const Eigen::VectorXd& changes) {
-                                                 return optimum_change(*solution.problem, result,
-                                                                       changes);
-                                               }));
+    Examined examined = examine_designs(record, optimum);
+    effects = std::move(examined.effects);
+    const auto price = [&](const Eigen::VectorXd& changes) {
+      return optimum_change(*solution.problem, result, changes);
+    };
+    show(arguments.progress(),
+         examined.drives + influences_text(solved, optimum.responses, optimum.influences, price));
   }
   Outcome outcome{exit_code(optimum), document(),
                   failed_design_text(record, arguments, input.problem, result.history) +

@@ -31,7 +31,7 @@ ResponseSettings settings_of(ResponseType type, const std::string& joint, const 
   return settings;
 }
 
-std::vector<ResponseSettings> wanted_settings(const ProblemFile& problem) {
+std::vector<ResponseSettings> drive_settings(const ProblemFile& problem) {
   std::vector<ResponseSettings> wanted;
   for (const Joint& joint : problem.scene.joints) {
     if (!joint.drive) continue;
@@ -42,6 +42,11 @@ std::vector<ResponseSettings> wanted_settings(const ProblemFile& problem) {
     wanted.push_back(
         settings_of(ResponseType::drive_power, joint.name, "power of the drive " + joint.name));
   }
+  return wanted;
+}
+
+std::vector<ResponseSettings> wanted_settings(const ProblemFile& problem) {
+  std::vector<ResponseSettings> wanted = drive_settings(problem);
   for (const Joint& joint : problem.scene.joints) {
     wanted.push_back(
         settings_of(ResponseType::reaction_force, joint.name, "force in the joint " + joint.name));
@@ -70,10 +75,7 @@ std::vector<Response> possible_responses(std::vector<ResponseSettings>& settings
   return responses;
 }
 
-}  // namespace
-
-Companions find_companions(const ProblemFile& problem, const Analysis& analysis) {
-  std::vector<ResponseSettings> settings = wanted_settings(problem);
+Companions observe(std::vector<ResponseSettings> settings, const Analysis& analysis) {
   const std::vector<Response> responses = possible_responses(settings, analysis.model);
   const bool is_redundant = !analysis.model.mechanism.system->left_out().empty();
   const int steps = analysis.trajectory.steps();
@@ -98,6 +100,16 @@ Companions find_companions(const ProblemFile& problem, const Analysis& analysis)
     companion.value = companion.history.cwiseAbs().maxCoeff(&companion.peak);
   }
   return companions;
+}
+
+}  // namespace
+
+Companions find_companions(const ProblemFile& problem, const Analysis& analysis) {
+  return observe(wanted_settings(problem), analysis);
+}
+
+Companions find_drive_efforts(const ProblemFile& problem, const Analysis& analysis) {
+  return observe(drive_settings(problem), analysis);
 }
 
 }  // namespace pleuel

@@ -25,4 +25,7 @@ struct Companions {
 /// moderate length, at evenly chosen ones of a longer one.
 Companions find_companions(const ProblemFile& problem, const Analysis& analysis);
 
+/// Efforts and powers of all drives, in their order; of each drive the effort first.
+Companions find_drive_efforts(const ProblemFile& problem, const Analysis& analysis);
+
 }  // namespace pleuel

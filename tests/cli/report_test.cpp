@@ -115,6 +115,20 @@ TEST_F(OptimizationReport, ShowsThePlacesOfTheTrajectory) {
   }
 }
 
+/// The drive's torque is a response, too: its peak between steps, on a parabola.
+TEST_F(OptimizationReport, SummarySaysWhatTheDriveNeeds) {
+  const json torque =
+      json::parse(read_file(folder() / "one/result.json")).at("responses").at("torque_peak");
+  const std::string begin = "Drive bearing: torque ", arrow = " → ";
+  const std::size_t at = run_.out.find(begin);
+  ASSERT_NE(at, std::string::npos) << run_.out;
+  const std::size_t between = run_.out.find(arrow, at);
+  const double before = std::stod(run_.out.substr(at + begin.size()));
+  const double after = std::stod(run_.out.substr(between + arrow.size()));
+  EXPECT_NEAR(before, torque.at("start").get<double>(), 2e-3 * before);
+  EXPECT_NEAR(after, torque.at("value").get<double>(), 2e-3 * after);
+}
+
 /// The command makes from the card what the run made from its own numbers.
 TEST_F(OptimizationReport, CanBeMadeLater) {
   const fs::path page = folder() / "one/report.html";
