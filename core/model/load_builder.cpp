@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cassert>
 
-#include "core/frame/number_data.hpp"
 #include "core/forces/joint_force.hpp"
 #include "core/forces/point_force.hpp"
 #include "core/forces/point_torque.hpp"
 #include "core/forces/spring_damper.hpp"
+#include "core/frame/number_data.hpp"
 #include "core/scene/visit_numbers.hpp"
 #include "core/system/projected_term.hpp"
 

@@ -4,11 +4,11 @@
 #include <random>
 
 #include "core/base/rotation_vector.hpp"
-#include "core/frame/number_data.hpp"
 #include "core/forces/joint_force.hpp"
 #include "core/forces/point_force.hpp"
 #include "core/forces/point_torque.hpp"
 #include "core/forces/spring_damper.hpp"
+#include "core/frame/number_data.hpp"
 
 using namespace pleuel;
 using Eigen::Vector3d;
