@@ -9,6 +9,7 @@
 #include "cli/report_page.hpp"
 #include "cli/run_folder.hpp"
 #include "cli/run_picture.hpp"
+#include "cli/trajectory_csv.hpp"
 #include "cli/wrapped_text.hpp"
 #include "core/base/error.hpp"
 #include "core/response/effect_measurement.hpp"
@@ -67,21 +68,24 @@ struct Redone {
   std::string name;
   Eigen::VectorXd x;
   std::unique_ptr<Analysis> analysis;
+  fs::path trajectory{};  ///< with the bands of its histories; empty: there is none
 };
 
 Json picture_of(const ProblemFile& problem, const std::vector<Redone>& designs) {
   std::vector<ShownDesign> shown;
   for (const Redone& design : designs) {
     shown.push_back({design.name, design.x, design.analysis.get()});
+    if (design.analysis) shown.back().bands = read_bands(design.trajectory, *design.analysis);
   }
   return run_picture(problem, shown);
 }
 
-Json optimum_picture(const ProblemFile& problem, const Json& result) {
+Json optimum_picture(const ProblemFile& problem, const Json& result, const fs::path& folder) {
   std::vector<Redone> designs;
   for (const auto& [name, key] : {std::pair{"start", "start"}, std::pair{"optimum", "value"}}) {
     const auto x = design_in(result, problem, key);
-    if (x) designs.push_back({name, *x, analyze(problem, *x)});
+    const fs::path trajectory = folder / fmt::format("trajectory-{}.csv", name);
+    if (x) designs.push_back({name, *x, analyze(problem, *x), trajectory});
   }
   return picture_of(problem, designs);
 }
@@ -99,7 +103,8 @@ Json front_picture(const ProblemFile& problem, const Json& result) {
 }
 
 /// @param card  of a run whose design was given by --design: its values are not in the card
-Json single_picture(const ProblemFile& problem, const Json& card, bool is_simulated) {
+/// @param trajectory  file of a run that simulated the design; empty: it did not
+Json single_picture(const ProblemFile& problem, const Json& card, const fs::path& trajectory) {
   const bool has_other_design = card.at("input").contains("design");
   Eigen::VectorXd x = start_design(problem);
   if (has_other_design) {
@@ -109,18 +114,19 @@ Json single_picture(const ProblemFile& problem, const Json& card, bool is_simula
     x = *given;
   }
   std::vector<Redone> designs;
-  designs.push_back({has_other_design ? "design" : "start", x, nullptr});
-  if (is_simulated) designs.back().analysis = analyze(problem, x);
+  designs.push_back({has_other_design ? "design" : "start", x, nullptr, trajectory});
+  if (!trajectory.empty()) designs.back().analysis = analyze(problem, x);
   return picture_of(problem, designs);
 }
 
-Json picture_of_run(const Json& card, const Json& result) {
+Json picture_of_run(const Json& card, const Json& result, const fs::path& folder) {
   if (!card.contains("problem")) return nullptr;  // of several files
   const ProblemFile problem = problem_of(card, result);
   const std::string command = card.at("command").get<std::string>();
-  if (command == "optimize") return optimum_picture(problem, result);
+  if (command == "optimize") return optimum_picture(problem, result, folder);
   if (command == "pareto") return front_picture(problem, result);
-  return single_picture(problem, card, command == "simulate");
+  return single_picture(problem, card,
+                        command == "simulate" ? folder / "trajectory.csv" : fs::path());
 }
 
 /// @returns what the user is told
@@ -130,7 +136,7 @@ std::string make_report(const fs::path& page, const fs::path& folder, WriteFailu
   Json picture;
   std::string note;
   try {
-    picture = picture_of_run(card, result);
+    picture = picture_of_run(card, result, folder);
   } catch (const std::exception& error) {
     note = wrapped(fmt::format("Without the mechanism: {}\n", error.what()), "  ");
   }

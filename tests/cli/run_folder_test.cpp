@@ -94,7 +94,7 @@ TEST(RunFolder, TrajectoryHasALineAnInstantAndAColumnAResponse) {
   const auto rows = read_csv(folder.path() / "one/trajectory.csv");
   ASSERT_EQ(rows.size(), 1u + 101u);  // 20 ms in steps of 0.2 ms, and the start
   EXPECT_EQ(rows.front().front(), "time");
-  EXPECT_EQ(rows.front().size(), 1u + 7u);  // all responses of the file but the mass
+  EXPECT_EQ(rows.front().size(), 1u + 2 * 7u);  // all responses of the file but the mass, and bands
   EXPECT_NEAR(std::stod(rows.back().front()), 0.02, 1e-15);
 }
 
