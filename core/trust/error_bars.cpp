@@ -25,9 +25,11 @@ constexpr double value_round_off = 1e-13;
 /// what is asked of a place that is a node of one division only, has an uneven one: of a difference
 /// by fewer elements all of it may be missing, in place of the third of order two.
 constexpr double more_elements_safety = 1.5, fewer_elements_safety = 3.0;
-/// Of a difference by fewer elements, where that by more elements says less: order two leaves a
-/// third of it. Peaks of stress lie at nodes, so that two divisions can agree by accident.
-constexpr double least_share_of_fewer = 0.25;
+/// Peaks of stress lie at nodes, so that two divisions can agree by accident. Where differences by
+/// fewer and by more elements do not approach the limit from one side, this share of the larger one
+/// may be missing (order two: a third); where they fall by more than `most_fall` (order four: 16),
+/// the other one, as an uneven division tells little of a place that is none of its nodes.
+constexpr double share_of_turning = 0.25, share_of_falling = 0.1, most_fall = 40.0;
 
 const double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -121,8 +123,13 @@ ErrorPart element_part(const Evidence& runs) {
     return part_of(runs, runs.fewer_elements, -1.0 / 3.0, fewer_elements_safety);
   }
   ErrorPart part = part_of(runs, runs.more_elements, 4.0 / 3.0, more_elements_safety);
-  if (is_there(runs.fewer_elements)) {
-    part.bound = std::max(part.bound, least_share_of_fewer * std::abs(*runs.fewer_elements));
+  if (!is_there(runs.more_elements) || !is_there(runs.fewer_elements)) return part;
+  const double more = *runs.more_elements, fewer = *runs.fewer_elements;
+  if (std::abs(fewer) <= value_round_off * runs.magnitude) return part;
+  const bool turns = more * fewer >= 0.0;
+  if (turns || std::abs(fewer) > most_fall * std::abs(more)) {
+    const double share = turns ? share_of_turning : share_of_falling;
+    part.bound = std::max(part.bound, share * std::abs(fewer));
   }
   return part;
 }

@@ -169,11 +169,11 @@ TEST_F(ErrorBarOfAValue, AsksAQuarterOfTheStep) {
   EXPECT_GE(bar.step.bound, 0.133);
 }
 
-/// Of order two, more elements leave a third of what they changed; fewer may leave all of it, and a
-/// quarter of what they change is not undercut by more elements that agree by accident.
+/// Of order two, more elements leave a third of what they changed; fewer may leave all of it. Where
+/// more elements agree by accident, to the same side or almost, fewer have a say.
 TEST_F(ErrorBarOfAValue, PrefersMoreElementsToFewer) {
-  const NestedRun twice = run(10.0), four = run(10.0), more = run(10.03), fewer = run(10.2),
-                  far = run(10.6);
+  const NestedRun twice = run(10.0), four = run(10.0), more = run(10.03), fewer = run(9.8),
+                  far = run(8.6), other_side = run(10.6);
   JudgingRuns runs;
   runs.twice_step = &twice;
   runs.four_steps = &four;
@@ -182,8 +182,10 @@ TEST_F(ErrorBarOfAValue, PrefersMoreElementsToFewer) {
   runs.more_elements = {&more, &twice};
   EXPECT_NEAR(error_bar(analysis_, 0, runs, 2).elements.change, 0.04, 1e-12);
   EXPECT_NEAR(error_bar(analysis_, 0, runs, 2).elements.bound, 0.06, 1e-12);
-  runs.fewer_elements = {&far, &twice};
+  runs.fewer_elements = {&other_side, &twice};
   EXPECT_NEAR(error_bar(analysis_, 0, runs, 2).elements.bound, 0.15, 1e-12);
+  runs.fewer_elements = {&far, &twice};
+  EXPECT_NEAR(error_bar(analysis_, 0, runs, 2).elements.bound, 0.14, 1e-12);
 }
 
 /// 10, 10.3, 11.5 and 20, 19.7, 18.5: as a sum nothing changes, each for itself does.
