@@ -26,21 +26,30 @@ def processor_time():
     return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
 
 
+def value_at(document, pointer):
+    for key in pointer.split("/")[1:]:
+        document = document[int(key)] if isinstance(document, list) else document[key]
+    return document
+
+
 class Problem:
     def __init__(self, program, name, folder):
         self.program, self.folder = program, folder
         self.file = os.path.join(os.path.dirname(__file__), "..", "problems", name + ".json")
         with open(self.file, encoding="utf-8") as text:
             document = json.load(text)
-        self.elements = {body: values["elements"]
-                         for body, values in document["scene"]["bodies"].items()
-                         if "elements" in values}
+        self.elements, self.fractions = {}, []
+        for pointer, value in json.loads(self.run([], "--accuracy", "1%")[1])["setting"]["overrides"].items():
+            if pointer.endswith("/elements"):
+                self.elements[pointer] = value_at(document, pointer)
+            if pointer.endswith("/length_fraction"):
+                self.fractions.append((pointer, value))
         self.asked = {limit["response"] for limit in document["constraints"].values()
                       if "response" in limit}
         self.asked.add(document["objective"]["minimize"])
 
     def run(self, overrides, *options):
-        command = [self.program, "simulate", self.file, "--json", "--overwrite", "-o",
+        command = [self.program, "simulate", self.file, "--json", "--no-report", "--overwrite", "-o",
                    self.folder, *options]
         for pointer, value in overrides:
             command += ["--set", f"{pointer}={value}"]
@@ -61,9 +70,8 @@ class Problem:
         return values, best
 
     def divided(self, step, factor):
-        return [("/simulation/step", step)] + [
-            (f"/scene/bodies/{body}/elements", max(1, round(factor * n)))
-            for body, n in self.elements.items()]
+        return [("/simulation/step", step), *self.fractions] + [
+            (pointer, max(1, round(factor * n))) for pointer, n in self.elements.items()]
 
     def error(self, values, exact):
         return max(abs(values[name] - exact[name]) / max(abs(exact[name]), 1e-30)

@@ -88,6 +88,8 @@ std::string setting_text(const ProblemFile& problem, const SettingChoice& choice
   const std::string left =
       std::isfinite(chosen.error)
           ? fmt::format("leaves \"{}\" at {}", chosen.response, error_text(chosen))
+      : chosen.response.empty()
+          ? "cannot be simulated, or is too large for what a load or a drive does"
           : fmt::format("does not resolve \"{}\"", chosen.response);
   const std::string reason = choice.is_out_of_reach
                                  ? " The modes of reduced beams, or the tolerance of Newton's "

@@ -24,6 +24,17 @@ std::vector<Doubt> find_doubts_before(const ProblemFile& problem) {
   return doubt_fast_laws_before(problem);
 }
 
+namespace {
+
+/// What acts between two instants is seen by no run with larger steps, which judge the error.
+void leave_steps_unresolved(const TrustedRun& run, std::vector<std::optional<ErrorBar>>& errors) {
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    if (errors[i] && run.analysis.histories[i].size() > 0) errors[i]->step.is_resolved = false;
+  }
+}
+
+}  // namespace
+
 Trust judge_run(const TrustedRun& run) {
   Trust trust;
   std::vector<Doubt>& doubts = trust.doubts;
@@ -55,6 +66,7 @@ Trust judge_run(const TrustedRun& run) {
   trust.errors = std::move(resolution.bars);
   trust.evidence = std::move(resolution.evidence);
   trust.bands = std::move(resolution.bands);
+  if (!doubt_fast_laws(run).empty()) leave_steps_unresolved(run, trust.errors);
   add_left_out_effects(run, trust.errors);
   std::stable_partition(doubts.begin(), doubts.end(),
                         [](const Doubt& doubt) { return doubt.is_serious; });

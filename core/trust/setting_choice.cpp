@@ -13,6 +13,7 @@
 #include "core/base/relative_error.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/trust/asked_responses.hpp"
+#include "core/trust/doubts.hpp"
 #include "core/trust/error_bars.hpp"
 
 namespace pleuel {
@@ -22,6 +23,8 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 constexpr double coarse_steps = 256.0;
+/// Of a motion, where the file has no fewer: runs of so few may agree on having seen nothing.
+constexpr double fewest_steps = 64.0;
 /// Bounds of the refinement of step and elements, and of the work of one simulation, relative to
 /// the file.
 constexpr double finest_step = 1.0 / 16.0, most_elements = 8.0, most_work = 16.0;
@@ -75,7 +78,7 @@ class Search {
     if (is_met(best)) best = coarsened(std::move(best));
     SettingChoice choice;
     choice.is_met = is_met(best);
-    choice.is_out_of_reach = best.by_others > target_;
+    choice.is_out_of_reach = std::isfinite(best.by_step) && best.by_others > target_;
     choice.chosen = best.tried;
     choice.problem = refined(problem_, best.setting());
     choice.tried = std::move(tried_);
@@ -147,6 +150,7 @@ class Search {
     const auto grow = [&](double growth) {
       const double step = growth * best.setting().step;
       if (step > most_growth * fine.setting().step) return false;
+      if (step > 1.0 && number_of_steps(problem_.simulation) / step < fewest_steps) return false;
       std::optional<Trial> larger = beside({step, fine.setting().elements}, fine, &ErrorBar::step);
       if (larger) best = std::move(*larger);
       return larger.has_value();
@@ -194,6 +198,7 @@ class Search {
     Trial trial;
     trial.tried = {setting, divided.simulation.step, beam_elements(divided), infinite, "", 0.0};
     try {
+      if (!find_doubts_before(starting_at(divided, x_)).empty()) return trial;
       const auto analysis = analyze(divided, x_);
       trial.values = values_of(*analysis);
       trial.fewest_elements = fewest_elements(analysis->model, divided);

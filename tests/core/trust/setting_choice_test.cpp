@@ -137,6 +137,18 @@ TEST(SettingChoice, JudgesAValueNearZeroByItsHistory) {
   EXPECT_LE(choice.chosen.step, 1e-2);
 }
 
+/// A blow between the instants of the file: runs that do not see it agree that nothing moves.
+TEST(SettingChoice, SeesABlowBetweenTheSteps) {
+  const ProblemFile problem = problem_of(
+      {R"(/scene/loads/push/value={"type": "table", "times": [0, 0.07, 0.0703, 0.0706],
+           "values": [0, 0, 500, 0], "interpolation": "linear"})",
+       R"(/responses={"tip": {"type": "deflection", "body": "b", "at": 1, "over_time": "max-abs"}})",
+       "/simulation/step=2e-4"});
+  const SettingChoice choice = choose(problem, 1e-2);
+  EXPECT_TRUE(choice.is_met);
+  EXPECT_LE(true_error(choice), 1e-2);
+}
+
 TEST(AskedResponses, AreAllWhereNothingIsMinimizedLimitedOrListed) {
   EXPECT_THAT(asked_responses(problem_of({})), ElementsAre(0, 1, 2));
   EXPECT_THAT(asked_responses(problem_of({"/accuracy={\"responses\": [\"jerk\"]}"})),
