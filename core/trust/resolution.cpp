@@ -226,6 +226,8 @@ class Judgement {
     }
     if (has_more_elements_) runs.more_elements = {&more_elements_, &coarse_};
     if (is_space_suspicious_) runs.more_elements = {&twice_elements_, &found_};
+    // Beside more elements fewer would make most bars too wide (tests/honesty).
+    if (runs.more_elements.is_asked()) runs.fewer_elements = {};
     if (has_modes_) runs.modes = {&other_modes_, &coarse_};
     if (has_modes_of_more_elements_) runs.modes = {&modes_of_more_elements_, &other_elements_};
     if (are_modes_suspicious_) runs.modes = {&more_modes_, &found_};
