@@ -6,6 +6,7 @@
 #include "cli/packed_numbers.hpp"
 #include "cli/scene_picture.hpp"
 #include "core/response/shown_history.hpp"
+#include "core/scene/response_names.hpp"
 #include "core/scene/response_quantity.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "picture/companions.hpp"
@@ -25,25 +26,9 @@ Json unit_document(const ShownUnit& unit) {
   return {{"si", unit.si}, {"name", unit.name}, {"factor", unit.factor}};
 }
 
-const char* to_text(OverTime kind) {
-  static constexpr const char* names[] = {"max",  "min",      "max-abs", "rms",
-                                          "mean", "integral", "final"};
-  return names[static_cast<int>(kind)];
-}
-
-const char* to_text(ResponseType type) {
-  static constexpr const char* names[] = {"mass",           "stress",          "deflection",
-                                          "position",       "velocity",        "acceleration",
-                                          "drive-torque",   "drive-force",     "drive-power",
-                                          "reaction-force", "reaction-moment", "frequency",
-                                          "buckling",       "kinetic-energy",  "elastic-energy",
-                                          "energy-balance", "constraint-drift"};
-  return names[static_cast<int>(type)];
-}
-
 Json meaning_document(const ResponseSettings& response) {
-  Json document = {{"type", to_text(response.type)},
-                   {"over_time", to_text(response.over_time)},
+  Json document = {{"type", word_of(response_types, response.type)},
+                   {"over_time", word_of(over_time_kinds, response.over_time)},
                    {"bodies", response.bodies},
                    {"unit", unit_document(unit_of(response))}};
   if (!response.joint.empty()) document["joint"] = response.joint;

@@ -11,6 +11,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{
             "/responses/speed/type", R"("velocty")",
             R"(/responses/speed/type must be "mass", "stress", "deflection", "position", "velocity", "acceleration", "drive-torque", "drive-force", "drive-power", "reaction-force", "reaction-moment", "frequency", "buckling", "kinetic-energy", "elastic-energy", "energy-balance" or "constraint-drift", got "velocty"; did you mean "velocity"?)"},
+        BadEdit{
+            "/responses/time", R"({"type": "mass"})",
+            R"(/responses/time has a name that files of histories need for their own columns: "time" and "…:error")"},
+        BadEdit{
+            "/responses/speed:error", R"({"type": "mass"})",
+            R"(/responses/speed:error has a name that files of histories need for their own columns: "time" and "…:error")"},
         BadEdit{"/responses/speed/at", "remove", R"(/responses/speed is missing the key "at")"},
         BadEdit{"/responses/speed/direction", R"("norm")",
                 R"(/responses/speed/direction must be "x", "y", "z" or "magnitude", got "norm")"},

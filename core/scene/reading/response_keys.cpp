@@ -3,21 +3,12 @@
 #include <fmt/format.h>
 
 #include "core/scene/reading/scene_reader.hpp"
+#include "core/scene/response_names.hpp"
 
 namespace pleuel {
 namespace {
 
 constexpr int magnitude = -1;  // ResponseSettings::direction
-
-OverTime read_over_time(const JsonNode& node) {
-  return read_choice<OverTime>(node, {{"max", OverTime::max},
-                                      {"min", OverTime::min},
-                                      {"max-abs", OverTime::max_abs},
-                                      {"rms", OverTime::rms},
-                                      {"mean", OverTime::mean},
-                                      {"integral", OverTime::integral},
-                                      {"final", OverTime::final}});
-}
 
 }  // namespace
 
@@ -71,7 +62,7 @@ void read_window(const JsonNode& node, const ResponseContext& context, ResponseS
 
 void read_history(const JsonNode& node, const ResponseContext& context,
                   ResponseSettings& response) {
-  response.over_time = read_over_time(node.at("over_time"));
+  response.over_time = read_choice(node.at("over_time"), over_time_kinds);
   read_window(node, context, response);
 }
 

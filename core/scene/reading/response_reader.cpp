@@ -7,6 +7,7 @@
 #include "core/scene/reading/body_response_reader.hpp"
 #include "core/scene/reading/limits.hpp"
 #include "core/scene/reading/scene_reader.hpp"
+#include "core/scene/response_names.hpp"
 
 namespace pleuel {
 namespace {
@@ -114,31 +115,19 @@ void read_frequency(const JsonNode& node, const Scene& scene, ResponseSettings& 
   if (const auto mode = node.find("mode")) response.mode = mode->whole_number(1, most_modes) - 1;
 }
 
-ResponseType read_response_type(const JsonNode& node) {
-  return read_choice<ResponseType>(node, {{"mass", ResponseType::mass},
-                                          {"stress", ResponseType::stress},
-                                          {"deflection", ResponseType::deflection},
-                                          {"position", ResponseType::position},
-                                          {"velocity", ResponseType::velocity},
-                                          {"acceleration", ResponseType::acceleration},
-                                          {"drive-torque", ResponseType::drive_torque},
-                                          {"drive-force", ResponseType::drive_force},
-                                          {"drive-power", ResponseType::drive_power},
-                                          {"reaction-force", ResponseType::reaction_force},
-                                          {"reaction-moment", ResponseType::reaction_moment},
-                                          {"frequency", ResponseType::frequency},
-                                          {"buckling", ResponseType::buckling},
-                                          {"kinetic-energy", ResponseType::kinetic_energy},
-                                          {"elastic-energy", ResponseType::elastic_energy},
-                                          {"energy-balance", ResponseType::energy_balance},
-                                          {"constraint-drift", ResponseType::constraint_drift}});
+/// Names of columns in files of histories (docs/formats.md).
+void check_column(const std::string& name, const JsonNode& node) {
+  if (name == "time" || name.ends_with(":error")) {
+    node.fail(
+        "has a name that files of histories need for their own columns: \"time\" and \"…:error\"");
+  }
 }
 
 ResponseSettings read_response(const std::string& name, const JsonNode& node,
                                const ResponseContext& context) {
   ResponseSettings response;
   response.name = name;
-  response.type = read_response_type(node.at("type"));
+  response.type = read_choice(node.at("type"), response_types);
   switch (response.type) {
     case ResponseType::mass:
       read_mass(node, context.scene, response);
@@ -188,6 +177,7 @@ ResponseSettings read_response(const std::string& name, const JsonNode& node,
 std::vector<ResponseSettings> read_responses(const JsonNode& node, const ResponseContext& context) {
   std::vector<ResponseSettings> responses;
   for (const auto& [name, response] : node.members()) {
+    check_column(name, response);
     responses.push_back(read_response(name, response, context));
   }
   return responses;

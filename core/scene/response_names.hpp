@@ -1,0 +1,35 @@
+#pragma once
+
+#include "core/scene/choices.hpp"
+#include "core/scene/problem_file.hpp"
+
+/// The words of problem files for kinds of responses.
+namespace pleuel {
+
+inline constexpr Choice<ResponseType> response_types[] = {
+    {"mass", ResponseType::mass},
+    {"stress", ResponseType::stress},
+    {"deflection", ResponseType::deflection},
+    {"position", ResponseType::position},
+    {"velocity", ResponseType::velocity},
+    {"acceleration", ResponseType::acceleration},
+    {"drive-torque", ResponseType::drive_torque},
+    {"drive-force", ResponseType::drive_force},
+    {"drive-power", ResponseType::drive_power},
+    {"reaction-force", ResponseType::reaction_force},
+    {"reaction-moment", ResponseType::reaction_moment},
+    {"frequency", ResponseType::frequency},
+    {"buckling", ResponseType::buckling},
+    {"kinetic-energy", ResponseType::kinetic_energy},
+    {"elastic-energy", ResponseType::elastic_energy},
+    {"energy-balance", ResponseType::energy_balance},
+    {"constraint-drift", ResponseType::constraint_drift},
+};
+
+inline constexpr Choice<OverTime> over_time_kinds[] = {
+    {"max", OverTime::max},     {"min", OverTime::min},   {"max-abs", OverTime::max_abs},
+    {"rms", OverTime::rms},     {"mean", OverTime::mean}, {"integral", OverTime::integral},
+    {"final", OverTime::final},
+};
+
+}  // namespace pleuel
