@@ -6,9 +6,9 @@
 
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
-#include "core/trust/doubts.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
+#include "tests/core/trust/doubts_of.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/problem_runs.hpp"
 
@@ -16,6 +16,8 @@
 namespace {
 
 using namespace pleuel;
+using test::doubts_of;
+using test::read_scene;
 
 constexpr double young = 2.1e11, poisson = 0.3, density = 7850.0, length = 0.8;
 constexpr double width = 0.01, height = 0.03;  // along z, out of the plane, and along y
@@ -212,23 +214,17 @@ std::string pendulum(const std::string& gravity) {
                      gravity);
 }
 
-std::vector<Doubt> doubts_of(const std::string& text) {
-  const ProblemFile problem = read_problem_text(text, "a.json");
-  const Eigen::VectorXd x = start_design(problem);
-  return find_doubts(problem, x, *analyze(problem, x));
-}
-
 /// γ² = m g L/(I + m L²): upside down it falls as exp(γt).
 TEST(FrequencyOfAMechanism, OfAnUnstableModeIsNegativeAndMentioned) {
   const double expected = std::sqrt(0.7 * 9.81 * 0.4 / (0.03 + 0.7 * 0.16));
   const std::string text = pendulum("[0, -9.81, 0]");
   EXPECT_NEAR(values(text)(0), -expected, 1e-8);
   EXPECT_NEAR(values(pendulum("[0, 9.81, 0]"))(0), expected, 1e-8);
-  const std::vector<Doubt> doubts = doubts_of(text);
+  const std::vector<Doubt> doubts = doubts_of(read_scene(text));
   ASSERT_EQ(doubts.size(), 1u);
   EXPECT_NE(doubts[0].text.find("is unstable where it starts"), std::string::npos);
   EXPECT_EQ(doubts[0].responses, std::vector<std::string>{"f"});
-  EXPECT_TRUE(doubts_of(pendulum("[0, 9.81, 0]")).empty());
+  EXPECT_TRUE(doubts_of(read_scene(pendulum("[0, 9.81, 0]"))).empty());
 }
 
 /// η = Ω √(ρAL⁴/EI) = 4 lifts the first flap frequency from λ = 3.516 to 5.585 (Wright et al.
@@ -253,12 +249,12 @@ TEST(FrequencyOfAMechanism, OfARotatingBeamSaysThatTheStressIsMissing) {
     }
     return false;
   };
-  EXPECT_TRUE(mentions_stress(doubts_of(rotating("consistent"))));
-  EXPECT_FALSE(mentions_stress(doubts_of(rotating("quasi-static"))));
+  EXPECT_TRUE(mentions_stress(doubts_of(read_scene(rotating("consistent")))));
+  EXPECT_FALSE(mentions_stress(doubts_of(read_scene(rotating("quasi-static")))));
   // λ² = 3.516² + 1.193 η² (Southwell): a change of one percent, which is worth a word, at η =
   // 0.456.
-  EXPECT_FALSE(mentions_stress(doubts_of(rotating("consistent", 0.44))));
-  EXPECT_TRUE(mentions_stress(doubts_of(rotating("consistent", 0.47))));
+  EXPECT_FALSE(mentions_stress(doubts_of(read_scene(rotating("consistent", 0.44)))));
+  EXPECT_TRUE(mentions_stress(doubts_of(read_scene(rotating("consistent", 0.47)))));
 }
 
 /// A clamp that is there twice holds as once.

@@ -30,7 +30,7 @@ struct BentBeam {
   }
   GeometricError error() const {
     State state;
-    analysis->trajectory.load(analysis->trajectory.steps(), state);
+    analysis->trajectory.states->load(analysis->trajectory.steps(), state);
     const BodyModel& body = analysis->model.bodies.front();
     return estimate_geometric_error(body, nodal_displacements(body, state));
   }

@@ -57,7 +57,7 @@ struct ShearedBeam {
       : problem(beam.problem()), x(start_design(problem)), analysis(analyze(problem, x)) {}
   double share() const {
     State state;
-    analysis->trajectory.load(0, state);
+    analysis->trajectory.states->load(0, state);
     return shear_share(problem, x, analysis->model, "beam", state).along_y;
   }
   std::vector<Doubt> doubts() const { return doubt_shear_range({problem, x, *analysis, monitors}); }

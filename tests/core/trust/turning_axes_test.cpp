@@ -29,7 +29,7 @@ ProblemFile blade(const std::string& frame, double speed = 50.0) {
 
 Eigen::VectorXd frequencies(const Analysis& analysis) {
   State state;
-  analysis.trajectory.load(0, state);
+  analysis.trajectory.states->load(0, state);
   if (analysis.full) state = analysis.full->initial->state;
   return frequencies_in_turning_axes(analysis.full ? analysis.full->model : analysis.model, state);
 }

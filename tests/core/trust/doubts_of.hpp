@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/response/analysis.hpp"
+#include "core/scene/problem_reader.hpp"
+#include "core/trust/doubts.hpp"
+
+namespace pleuel::test {
+
+using FindDoubts = std::vector<Doubt> (*)(const TrustedRun&);
+
+/// What one kind of doubt says of the start design of a problem.
+inline std::vector<Doubt> doubts_of(const ProblemFile& problem, FindDoubts find) {
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const Monitors monitors = monitor(analysis->model, analysis->trajectory);
+  return find(TrustedRun{problem, x, *analysis, monitors});
+}
+
+/// What all kinds of doubts say of it.
+inline std::vector<Doubt> doubts_of(const ProblemFile& problem) {
+  const Eigen::VectorXd x = start_design(problem);
+  return find_doubts(problem, x, *analyze(problem, x));
+}
+
+inline ProblemFile read_scene(const std::string& text,
+                              const std::vector<std::string>& overrides = {}) {
+  return read_problem_text(text, "test.json", overrides);
+}
+
+}  // namespace pleuel::test

@@ -1,0 +1,119 @@
+/// Freedoms that nothing moves, and bodies that nothing holds.
+
+#include "core/trust/idle_freedoms.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/trust/misaligned_joints.hpp"
+#include "core/trust/proportions.hpp"
+#include "tests/core/trust/crank_rocker.hpp"
+#include "tests/core/trust/doubts_of.hpp"
+#include "tests/support/problem_runs.hpp"
+
+namespace pleuel::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+TEST(IdleFreedoms, AreNotInADrivenMechanism) {
+  EXPECT_THAT(doubts_of(read_scene(crank_rocker(driven, closed)), doubt_idle_freedoms), IsEmpty());
+}
+
+TEST(IdleFreedoms, OfAForgottenDriveAreNamedByBody) {
+  const std::vector<Doubt> doubts =
+      doubts_of(read_scene(crank_rocker("", closed)), doubt_idle_freedoms);
+  ASSERT_THAT(doubts, SizeIs(1));
+  EXPECT_TRUE(doubts[0].is_serious);
+  EXPECT_THAT(doubts[0].text,
+              HasSubstr("\"crank\", \"coupler\", \"rocker\" can move freely (one free motion)"));
+  EXPECT_THAT(doubts[0].text, HasSubstr("nothing moves there"));
+  EXPECT_THAT(doubts[0].responses, testing::ElementsAre("v"));
+}
+
+TEST(IdleFreedoms, OfAForgottenJointAreNamedByBody) {
+  const std::vector<Doubt> doubts =
+      doubts_of(read_scene(crank_rocker(driven, "")), doubt_idle_freedoms);
+  ASSERT_THAT(doubts, SizeIs(1));
+  EXPECT_TRUE(doubts[0].is_serious);
+  EXPECT_THAT(doubts[0].text,
+              HasSubstr("\"coupler\", \"rocker\" can move freely (2 free motions)"));
+  EXPECT_THAT(doubts[0].text, HasSubstr("only the inertia"));
+}
+
+/// Weight, a spring, a damper or a motor, a push, a start that moves: all of these are meant.
+TEST(IdleFreedoms, AreNotWhereSomethingActs) {
+  const auto load = [](const std::string& text) { return "/scene/loads={\"load\": " + text + "}"; };
+  const std::string crank_joint = R"("type": "joint", "joint": "A")";
+  for (
+      const std::string& override_text :
+      {std::string("/scene/gravity=[0, -9.81, 0]"),
+       std::string("/scene/bodies/crank/angular_velocity=[0, 0, 3]"),
+       load(
+           R"({"type": "force", "body": "rocker", "at": [0.4, 0.2, 0], "direction": [1, 0, 0], "value": 1})"),
+       load(R"({"type": "force", "body": "rocker", "at": [0.4, 0.2, 0], "direction": [1, 0, 0],
+                 "value": {"type": "table", "times": [0, 0.01, 0.02], "values": [0, 1, 0]}})"),
+       load(R"({"type": "spring", "bodies": ["ground", "rocker"],
+                 "at": [[0.5, 0.2, 0], [0.4, 0.2, 0]], "stiffness": 100})")}) {
+    EXPECT_THAT(
+        doubts_of(read_scene(crank_rocker("", closed), {override_text}), doubt_idle_freedoms),
+        IsEmpty())
+        << override_text;
+  }
+}
+
+TEST(IdleFreedoms, AreNotInTheProblemsOfTheHouse) {
+  for (const char* name :
+       {"spatial_slider_crank", "robot_arm", "four_bar", "hard/dead_centres", "hard/free_vibration",
+        "hard/bricard", "hard/flyball_governor", "hard/squeezer", "hard/change_point"}) {
+    ProblemFile problem = sample_problem(name);
+    problem.simulation.end_time = 2.0 * problem.simulation.step;
+    problem.responses.clear();
+    for (const FindDoubts find : {doubt_idle_freedoms, doubt_unconnected_bodies, doubt_proportions,
+                                  doubt_misaligned_joints}) {
+      EXPECT_THAT(doubts_of(problem, find), IsEmpty()) << name;
+    }
+  }
+}
+
+/// The spin of a rod between ball joints does nothing.
+TEST(IdleFreedoms, AreNotTheSpinOfARodBetweenBallJoints) {
+  ProblemFile problem = sample_problem("spatial_slider_crank", {"/simulation/end_time=2 ms"});
+  for (Joint& joint : problem.scene.joints) {
+    if (joint.name == "slider_pin") joint.type = JointType::spherical;
+  }
+  EXPECT_THAT(doubts_of(problem, doubt_idle_freedoms), IsEmpty());
+}
+
+TEST(UnconnectedBodies, AreNamed) {
+  const auto stray_with = [](const std::string& more) {
+    return R"(/scene/bodies/stray={"type": "point-mass", "at": [0.2, 0.3, 0], "mass": 1)" + more +
+           "}";
+  };
+  const std::string stray = stray_with("");
+  const std::string other =
+      R"(/scene/bodies/other={"type": "point-mass", "at": [0.3, 0.3, 0], "mass": 1})";
+  const std::string tie =
+      R"(/scene/joints/tie={"type": "distance", "bodies": ["stray", "other"], "at": [0.2, 0.3, 0], "to": [0.3, 0.3, 0]})";
+  const std::vector<Doubt> still = doubts_of(
+      read_scene(crank_rocker(driven, closed), {stray, other, tie}), doubt_unconnected_bodies);
+  ASSERT_THAT(still, SizeIs(1));
+  EXPECT_THAT(still[0].text, HasSubstr("connects \"stray\", \"other\" with the ground"));
+  EXPECT_FALSE(still[0].is_serious) << "no response looks at it";
+  const std::vector<Doubt> falling =
+      doubts_of(read_scene(crank_rocker(driven, closed, "[0, -9.81, 0]"),
+                           {stray, other, tie, R"(/responses/y={"type": "position", "body": "stray",
+                                 "direction": "y", "over_time": "final"})"}),
+                doubt_unconnected_bodies);
+  ASSERT_THAT(falling, SizeIs(1));
+  EXPECT_TRUE(falling[0].is_serious);
+  EXPECT_THAT(doubts_of(read_scene(crank_rocker(driven, closed),
+                                   {stray_with(R"(, "velocity": [1, 2, 0])"), other, tie}),
+                        doubt_unconnected_bodies),
+              IsEmpty());
+}
+
+}  // namespace
+}  // namespace pleuel::test

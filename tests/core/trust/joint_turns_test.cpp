@@ -1,0 +1,50 @@
+/// Springs in joints that turn.
+
+#include "core/trust/joint_turns.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/core/trust/doubts_of.hpp"
+
+namespace pleuel::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+/// ½ J ω² = ½ k φ² at φ = ω √(J/k): with J = 0.1 kg m², k = 10 N m/rad a tenth of ω [s].
+ProblemFile spring_rotor(double speed, const std::string& effects) {
+  return read_scene(fmt::format(
+      R"({{"scene": {{"bodies": {{"rotor": {{"type": "rigid", "at": [0, 0, 0], "mass": 1,
+          "inertia": [0.1, 0.1, 0.1, 0, 0, 0], "angular_velocity": [0, 0, {}]}}}},
+          "joints": {{"bearing": {{"type": "revolute", "bodies": ["ground", "rotor"], "at": [0, 0, 0]}}}},
+          "loads": {{"coil": {{"type": "joint", "joint": "bearing", "stiffness": 10}}}}}},
+          "effects": {}, "simulation": {{"end_time": 0.4, "step": 0.002}}}})",
+      speed, effects));
+}
+
+TEST(JointTurns, AreADoubtBeyondHalfATurnInSpace) {
+  const std::string space = R"({"spatial_motion": "on"})";
+  EXPECT_THAT(doubts_of(spring_rotor(30, space), doubt_joint_turns), IsEmpty());
+  const std::vector<Doubt> doubts = doubts_of(spring_rotor(33, space), doubt_joint_turns);
+  ASSERT_THAT(doubts, SizeIs(1));
+  EXPECT_TRUE(doubts[0].is_serious);
+  EXPECT_THAT(doubts[0].text, HasSubstr("the joint \"bearing\" turns by more than half a turn"));
+  EXPECT_THAT(doubts_of(spring_rotor(60, "{}"), doubt_joint_turns), IsEmpty()) << "counted";
+}
+
+/// A damper does not ask how often it has turned.
+TEST(JointTurns, AreNoneOfADamper) {
+  ProblemFile problem = spring_rotor(60, R"({"spatial_motion": "on"})");
+  EXPECT_THAT(doubts_of(problem, doubt_joint_turns), SizeIs(1));
+  auto& coil = std::get<JointForce>(problem.scene.loads[0].element);
+  coil.stiffness = 0.0;
+  coil.damping = 1e-3;
+  EXPECT_THAT(doubts_of(problem, doubt_joint_turns), IsEmpty());
+}
+
+}  // namespace
+}  // namespace pleuel::test

@@ -1,0 +1,150 @@
+/// Sizes that are units forgotten, or a zero too many.
+
+#include "core/trust/proportions.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/core/trust/crank_rocker.hpp"
+#include "tests/core/trust/doubts_of.hpp"
+#include "tests/support/problem_runs.hpp"
+
+namespace pleuel::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+struct Slip {
+  const char* override_text;
+  const char* pointer;
+};
+class SizesOutOfProportion : public testing::TestWithParam<Slip> {};
+
+/// Each of them is a unit forgotten, or a zero too many.
+TEST_P(SizesOutOfProportion, AreNamedByTheirPlaceInTheFile) {
+  const ProblemFile problem =
+      sample_problem("slider_crank", {"/simulation/end_time=0.1 ms", GetParam().override_text});
+  const std::vector<Doubt> doubts = doubts_of(problem, doubt_proportions);
+  ASSERT_THAT(doubts, SizeIs(1));
+  EXPECT_FALSE(doubts[0].is_serious);
+  EXPECT_THAT(doubts[0].text, HasSubstr(GetParam().pointer));
+}
+INSTANTIATE_TEST_SUITE_P(
+    Slips, SizesOutOfProportion,
+    testing::Values(Slip{"/scene/materials/steel/density=7.85", "/scene/materials/steel/density"},
+                    Slip{"/scene/materials/steel/density=7.85e6", "/scene/materials/steel/density"},
+                    Slip{"/scene/materials/steel/young=2.1e5", "/scene/materials/steel/young"},
+                    Slip{"/scene/materials/steel/young=2.1e20", "/scene/materials/steel/young"},
+                    Slip{"/scene/gravity=[0, -9810, 0]", "/scene/gravity"}));
+
+/// Just within and just beyond what is said of each: from foams to osmium, from rubber to what is
+/// meant as rigid, from half a metre to 250 m/s².
+TEST(SizesOutOfProportion, BeginWhereTheyAreSaidTo) {
+  struct Edge {
+    const char *pointer, *within, *beyond;
+  };
+  for (const Edge& edge : {Edge{"/scene/materials/steel/density", "10.1", "9.9"},
+                           Edge{"/scene/materials/steel/density", "24900", "25100"},
+                           Edge{"/scene/materials/steel/young", "1.01e6", "0.99e6"},
+                           Edge{"/scene/materials/steel/young", "0.99e18", "1.01e18"},
+                           Edge{"/scene/gravity", "[0, 0.51, 0]", "[0, 0.49, 0]"},
+                           Edge{"/scene/gravity", "[0, 249, 0]", "[0, 251, 0]"}}) {
+    // Rubber rods are for no motion: the doubt looks at numbers only.
+    ProblemFile problem = sample_problem("slider_crank", {"/simulation/end_time=0.1 ms"});
+    const Eigen::VectorXd x = start_design(problem);
+    const auto analysis = analyze(problem, x);
+    const Monitors monitors = monitor(analysis->model, analysis->trajectory);
+    const auto count = [&](const char* value) {
+      problem.scene =
+          sample_problem("slider_crank", {std::string(edge.pointer) + "=" + value}).scene;
+      return doubt_proportions(TrustedRun{problem, x, *analysis, monitors}).size();
+    };
+    EXPECT_EQ(count(edge.within), 0u) << edge.pointer << " " << edge.within;
+    EXPECT_EQ(count(edge.beyond), 1u) << edge.pointer << " " << edge.beyond;
+  }
+}
+
+/// Bodies that a massless rod holds: where they are, and what they weigh, are their own business.
+TEST(SizesOutOfProportion, ArePointsFarAwayAndInertiaOfOtherUnits) {
+  const auto with = [](const std::string& body, const std::string& at) {
+    return doubts_of(
+        read_scene(
+            crank_rocker(driven, closed),
+            {"/scene/bodies/more=" + body,
+             R"(/scene/joints/tie={"type": "distance", "bodies": ["ground", "more"], "at": [0.1, 0.1, 0], "to": )" +
+                 at + "}"}),
+        doubt_proportions);
+  };
+  const auto point = [&](const std::string& at) {
+    return with(R"({"type": "point-mass", "mass": 1, "at": )" + at + "}", at);
+  };
+  EXPECT_THAT(point("[3, 0, 0]"), IsEmpty());
+  ASSERT_THAT(point("[100, 0, 0]"), SizeIs(1));
+  EXPECT_THAT(point("[100, 0, 0]")[0].text, HasSubstr("/scene/bodies/more/at is"));
+  const std::string near = "[0.2, 0.1, 0]";
+  const auto heavy = [&](const char* inertia) {
+    return with(
+        fmt::format(
+            R"({{"type": "rigid", "at": {0}, "mass": 1, "inertia": [{1}, {1}, {1}, 0, 0, 0]}})",
+            near, inertia),
+        near);
+  };
+  EXPECT_THAT(heavy("1e-2"), IsEmpty());
+  ASSERT_THAT(heavy("1e2"), SizeIs(1));
+  EXPECT_THAT(heavy("1e2")[0].text, HasSubstr("/scene/bodies/more/inertia"));
+}
+
+/// A radius of gyration of ten times the mechanism's size; a hundred times its size away.
+TEST(SizesOutOfProportion, BeginAtTenTimesTheInertiaAndAHundredTimesTheDistance) {
+  // Bar of 1 m, and a wheel at its end: nothing else has a place.
+  const auto doubts = [](double inertia, double at) {
+    ProblemFile problem = read_scene(crank_rocker(driven, closed));
+    const Eigen::VectorXd x = start_design(problem);
+    const auto analysis = analyze(problem, x);
+    const Monitors monitors = monitor(analysis->model, analysis->trajectory);
+    problem.scene = {};
+    problem.scene.bodies = {
+        {"one", PointMass{{0.0, 0.0, 0.0}, 1.0}},
+        {"two", PointMass{{1.0, 0.0, 0.0}, 1.0}},
+        {"three", PointMass{{0.5, 0.0, 0.0}, 1.0}},
+        {"four", PointMass{{0.3, 0.0, 0.0}, 1.0}},
+        {"wheel", RigidBody{{at, 0.0, 0.0}, 2.0, {inertia, 0.1, 0.1, 0.0, 0.0, 0.0}}}};
+    return doubt_proportions(TrustedRun{problem, x, *analysis, monitors}).size();
+  };
+  EXPECT_EQ(doubts(2.0 * 9.9 * 9.9, 1.0), 0u);
+  EXPECT_EQ(doubts(2.0 * 10.1 * 10.1, 1.0), 1u);
+  EXPECT_EQ(doubts(1.0, 1.0 + 99.0), 0u);
+  EXPECT_EQ(doubts(1.0, 1.0 + 101.0), 1u);
+}
+
+TEST(SizesOutOfProportion, AreSectionsThatAreLargerThanTheBeamIsLong) {
+  const auto with_diameter = [](double diameter) {
+    return doubts_of(read_scene(crank_rocker(driven, closed),
+                                {fmt::format("/scene/bodies/crank/section/diameter={}", diameter)}),
+                     doubt_proportions);
+  };
+  EXPECT_THAT(with_diameter(0.02), IsEmpty());
+  ASSERT_THAT(with_diameter(0.2), SizeIs(1));
+  EXPECT_THAT(with_diameter(0.2)[0].text, HasSubstr("/scene/bodies/crank/section"));
+  ASSERT_THAT(with_diameter(2e-5), SizeIs(1));
+  EXPECT_THAT(with_diameter(2e-5)[0].text, HasSubstr("/scene/bodies/crank is 0.1 m long"));
+}
+
+/// A leaf of 20 mm by 10 µm, however it lies: what is too thin to be meant is so in both
+/// directions.
+TEST(SizesOutOfProportion, AreNotThinLeaves) {
+  const auto with_section = [](const char* section) {
+    return doubts_of(read_scene(crank_rocker(driven, closed),
+                                {std::string("/scene/bodies/crank/section=") + section}),
+                     doubt_proportions);
+  };
+  EXPECT_THAT(with_section(R"({"type": "rectangle", "width": 0.02, "height": 1e-5})"), IsEmpty());
+  EXPECT_THAT(with_section(R"({"type": "rectangle", "width": 1e-5, "height": 0.02})"), IsEmpty());
+  EXPECT_THAT(with_section(R"({"type": "rectangle", "width": 1e-5, "height": 1e-5})"), SizeIs(1));
+}
+
+}  // namespace
+}  // namespace pleuel::test

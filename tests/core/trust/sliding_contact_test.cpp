@@ -1,0 +1,64 @@
+/// What slides along beams.
+
+#include "core/trust/sliding_contact.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/core/trust/doubts_of.hpp"
+
+namespace pleuel::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+/// A mass that is moved along a horizontal arm of 1 m, or beyond its end.
+ProblemFile trolley(double from, double way, const std::string& arm) {
+  return read_scene(fmt::format(
+      R"({{"scene": {{"gravity": [0, -9.81, 0], "bodies": {{
+            "arm": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
+                     "section": {{"type": "circle", "diameter": 0.03}}, "elements": 5{}}},
+            "trolley": {{"type": "point-mass", "at": [{}, 0, 0], "mass": 1}}}},
+          "joints": {{"clamp": {{"type": "fixed", "bodies": ["ground", "arm"], "at": [0, 0, 0]}},
+                      "rail": {{"type": "point-on-line", "bodies": ["arm", "trolley"], "at": [{}, 0, 0],
+                                "axis": [1, 0, 0], "drive": {{"type": "table", "times": [0, 0.2],
+                                                              "values": [0, {}]}}}}}}}},
+          "simulation": {{"end_time": 0.2, "step": 0.01}}}})",
+      arm, from, from, way));
+}
+
+/// A carriage whose line goes past the tip of the arm: its force stays at the tip.
+TEST(SlidingContact, IsNoneWhereTheLineBelongsToTheOtherBody) {
+  const ProblemFile problem = read_scene(
+      R"({"scene": {"gravity": [0, -9.81, 0], "bodies": {
+            "arm": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
+                    "section": {"type": "circle", "diameter": 0.03}, "elements": 5},
+            "carriage": {"type": "rigid", "at": [1, 0, 0], "mass": 1,
+                         "inertia": [0.1, 0.1, 0.1, 0, 0, 0]}},
+          "joints": {"clamp": {"type": "fixed", "bodies": ["ground", "arm"], "at": [0, 0, 0]},
+                     "rail": {"type": "prismatic", "bodies": ["ground", "carriage"],
+                              "at": [1, 0, 0], "axis": [1, 0, 0],
+                              "drive": {"type": "table", "times": [0, 0.2], "values": [0, -0.6]}},
+                     "slot": {"type": "point-on-line", "bodies": ["carriage", "arm"],
+                              "at": [1, 0, 0], "axis": [1, 0, 0]}}},
+          "simulation": {"end_time": 0.2, "step": 0.01}})");
+  EXPECT_THAT(doubts_of(problem, doubt_sliding_contacts), IsEmpty());
+}
+
+TEST(SlidingContact, IsADoubtWhereItTravelsOverAnElasticBeam) {
+  const std::vector<Doubt> doubts = doubts_of(trolley(0.2, 0.6, ""), doubt_sliding_contacts);
+  ASSERT_THAT(doubts, SizeIs(1));
+  EXPECT_TRUE(doubts[0].is_serious);
+  EXPECT_THAT(doubts[0].text, HasSubstr("\"trolley\" slides 0.6 m along the elastic beam \"arm\""));
+  EXPECT_THAT(doubts_of(trolley(0.2, 0.6, R"(, "frames": 2)"), doubt_sliding_contacts), SizeIs(1));
+  EXPECT_THAT(doubts_of(trolley(0.2, 0.01, ""), doubt_sliding_contacts), IsEmpty());
+  EXPECT_THAT(doubts_of(trolley(1.0, 0.6, ""), doubt_sliding_contacts), IsEmpty());
+  EXPECT_THAT(doubts_of(trolley(0.2, 0.6, R"(, "rigid": true)"), doubt_sliding_contacts),
+              IsEmpty());
+}
+
+}  // namespace
+}  // namespace pleuel::test
