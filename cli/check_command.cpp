@@ -44,7 +44,7 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x, int th
   findings.analysis = analyze(problem, x);
   findings.simulation_seconds = simulation.seconds();
   State initial;
-  findings.analysis->trajectory.load(0, initial);
+  findings.analysis->trajectory.states->load(0, initial);
   findings.freedoms = rigid_freedoms(findings.analysis->model.mechanism, initial);
   findings.ties = find_ties(*findings.analysis);
   warn(texts_of(find_doubts(problem, x, *findings.analysis)));

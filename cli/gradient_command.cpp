@@ -103,10 +103,10 @@ Json gradient_document(const ProblemFile& problem, const MethodFindings& finding
   for (const MethodResult& result : findings.results) {
     document["seconds"][to_string(result.method)] = result.seconds;
   }
-  if (const auto& repeated = analysis.trajectory.repeated) {
-    document["memory"] = {{"checkpoints", repeated->checkpoints()},
-                          {"most_states", repeated->most_held()},
-                          {"repeated_steps", repeated->repeated_steps()}};
+  if (const RecomputedStates* states = analysis.trajectory.recomputed()) {
+    document["memory"] = {{"checkpoints", states->checkpoints()},
+                          {"most_states", states->most_held()},
+                          {"repeated_steps", states->recomputed_steps()}};
   }
   return document;
 }
@@ -159,12 +159,12 @@ std::string choice_text(const std::optional<MethodChoice>& choice) {
 
 /// What it took that the trajectory does not fit into the memory.
 std::string memory_text(const Trajectory& trajectory) {
-  if (!trajectory.repeated) return "";
-  const RepeatedStates& repeated = *trajectory.repeated;
+  const RecomputedStates* states = trajectory.recomputed();
+  if (!states) return "";
   return fmt::format(
       "\nMemory: {} checkpoints, at most {} states at once; {} steps simulated again for the {} of "
       "the trajectory\n",
-      repeated.checkpoints(), repeated.most_held(), repeated.repeated_steps(), trajectory.steps());
+      states->checkpoints(), states->most_held(), states->recomputed_steps(), trajectory.steps());
 }
 
 std::string seconds_text(const std::vector<MethodResult>& results, double simulation_seconds) {

@@ -74,14 +74,14 @@ Json response_document(const ShownDesign& design, std::size_t i) {
   const Response& response = analysis.responses[i];
   const Reduction& reduction = analysis.reductions[i];
   Json document = {{"name", response.name}, {"value", reduction.value}};
-  if (!response.signal) return document;
+  if (!response.history()) return document;
   std::vector<int> kept;
-  if (is_peak(response.over_time) && !reduction.samples.empty()) {
+  if (response.is_peak_over_time() && !reduction.samples.empty()) {
     const Sample& peak = *std::max_element(
         reduction.samples.begin(), reduction.samples.end(),
         [](const Sample& a, const Sample& b) { return std::abs(a.weight) < std::abs(b.weight); });
     document["peak_time"] = analysis.trajectory.time(peak.step);
-    document["peak_place"] = response.signal->describe(peak.channel);
+    document["peak_place"] = response.history()->signal->describe(peak.channel);
     for (const Sample& sample : reduction.samples) kept.push_back(sample.step);
   }
   document["history"] =

@@ -98,7 +98,7 @@ std::string freedoms_text(const Freedoms& freedoms, const Model& model) {
 std::string assembly_text(const Analysis& analysis) {
   const Mechanism& mechanism = analysis.model.mechanism;
   State initial;
-  analysis.trajectory.load(0, initial);
+  analysis.trajectory.states->load(0, initial);
   Eigen::VectorXd shift = difference(mechanism.rotations, initial.q, mechanism.guess.q).cwiseAbs();
   for (const int i : mechanism.elastic) shift(i) = 0.0;
   // Where members start deformed, frames of one beam stand along its curve.

@@ -31,7 +31,7 @@ Ties find_ties(Analysis& analysis) {
 }
 
 Json tie_document(const Tie& tie, const Response& response) {
-  const Signal& signal = *response.signal;
+  const Signal& signal = *response.history()->signal;
   return {
       {"times", {tie.peaks.time, tie.peaks.other_time}},
       {"places", {signal.describe(tie.peaks.channel), signal.describe(tie.peaks.other_channel)}},

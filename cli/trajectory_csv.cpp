@@ -15,7 +15,7 @@ void write_trajectory(const ResultFile& file, const Analysis& analysis,
   std::vector<std::string> header = {"time"};
   std::vector<Eigen::VectorXd> columns = {analysis.trajectory.time};
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
-    if (!analysis.responses[i].signal) continue;
+    if (!analysis.responses[i].history()) continue;
     header.push_back(analysis.responses[i].name);
     columns.emplace_back(shown_history(analysis.responses[i], analysis.histories[i]));
   }
@@ -38,7 +38,7 @@ std::vector<Eigen::VectorXd> read_bands(const std::filesystem::path& file,
   if (!std::getline(stream, line)) return {};
   std::vector<std::size_t> shown;  // the responses with histories, whose columns come in this order
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
-    if (analysis.responses[i].signal) shown.push_back(i);
+    if (analysis.responses[i].history()) shown.push_back(i);
   }
   const Eigen::Index instants = analysis.trajectory.time.size();
   std::vector<Eigen::VectorXd> bands(analysis.responses.size());

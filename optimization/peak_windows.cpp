@@ -58,7 +58,7 @@ std::vector<Reduction> peaks_of_windows(const Analysis& analysis, std::size_t re
                                         int windows) {
   const Response& observed = analysis.responses[response];
   const Eigen::VectorXd& time = analysis.trajectory.time;
-  return reduce_windows(observed.over_time, time, analysis.histories[response], windows,
+  return reduce_windows(observed.history()->over_time, time, analysis.histories[response], windows,
                         observed.steps(time), analysis.breaks);
 }
 

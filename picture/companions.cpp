@@ -90,10 +90,10 @@ Companions observe(std::vector<ResponseSettings> settings, const Analysis& analy
   State state;
   for (Eigen::Index i = 0; i < instants; ++i) {
     const int step = static_cast<int>(i) * stride;
-    analysis.trajectory.load(step, state);
+    analysis.trajectory.states->load(step, state);
     companions.time(i) = analysis.trajectory.time(step);
     for (std::size_t k = 0; k < responses.size(); ++k) {
-      responses[k].signal->observe(state, companions.all[k].history.segment(i, 1));
+      responses[k].history()->signal->observe(state, companions.all[k].history.segment(i, 1));
     }
   }
   for (Companion& companion : companions.all) {

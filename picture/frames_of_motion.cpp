@@ -35,7 +35,7 @@ double largest_turn(const Analysis& analysis) {
   std::vector<double> turned(analysis.model.bodies.size(), 0.0);
   State state;
   for (int step = 0; step <= steps; step += stride) {
-    analysis.trajectory.load(step, state);
+    analysis.trajectory.states->load(step, state);
     std::vector<Eigen::Matrix3d> now;
     for (const BodyModel& body : analysis.model.bodies) now.push_back(rotation_of(body, state));
     for (std::size_t i = 0; i < before.size(); ++i) turned[i] += angle_between(before[i], now[i]);
@@ -46,7 +46,7 @@ double largest_turn(const Analysis& analysis) {
 
 void add_peaks(const Analysis& analysis, std::set<int>& steps) {
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
-    if (!analysis.responses[i].signal || !is_peak(analysis.responses[i].over_time)) continue;
+    if (!analysis.responses[i].is_peak_over_time()) continue;
     for (const Sample& sample : analysis.reductions[i].samples) steps.insert(sample.step);
   }
 }

@@ -187,7 +187,7 @@ Motion sample_motion(const Scene& scene, const Analysis& analysis, const std::ve
   for (Eigen::Index i = 0; i < instants; ++i) {
     const int step = steps[static_cast<std::size_t>(i)];
     motion.time(i) = analysis.trajectory.time(step);
-    analysis.trajectory.load(step, state);
+    analysis.trajectory.states->load(step, state);
     for (BodySampler& sampler : samplers) sampler.see(state, i);
   }
   for (BodySampler& sampler : samplers) motion.bodies.push_back(sampler.take());

@@ -41,13 +41,13 @@ class AdjointRun {
   }
 
   Eigen::MatrixXd run(const FunctionDerivatives& derivatives) {
-    trajectory_.load(trajectory_.steps(), state_);
+    trajectory_.states->load_record(trajectory_.steps(), state_);
     for (int step = trajectory_.steps(); step > 0; --step) {
       check_stop();
       active_ = derivatives(step, state_, adjoint_);
-      trajectory_.load(step - 1, old_);
+      trajectory_.states->load_record(step - 1, old_);
       if (active_ > 0) go_back(step);
-      std::swap(static_cast<State&>(state_), static_cast<State&>(old_));
+      std::swap(static_cast<RecordedState&>(state_), static_cast<RecordedState&>(old_));
     }
     const StateSensitivity start = initial_sensitivity(mechanism_, initial_state(mechanism_));
     const Eigen::MatrixXd of_steps =
@@ -66,7 +66,7 @@ class AdjointRun {
 
   /// From derivatives with respect to the end of a step to those with respect to its beginning.
   void go_back(int step) {
-    project(step);
+    project();
     prepare(step);
     solve();
     if (!y_.leftCols(active_).allFinite()) {
@@ -86,9 +86,11 @@ class AdjointRun {
     adjoint_.lambda.setZero();
   }
 
-  void project(int step) {
+  /// Leaves the state as it was before the projection.
+  void project() {
     if (!projection_) return;
-    trajectory_.load_drifted(step, state_);
+    state_.q = state_.drifted_q;
+    state_.v = state_.drifted_v;
     projection_->linearize(state_);
     projection_->pull_back(adjoint_.q.leftCols(active_), adjoint_.v.leftCols(active_),
                            sums_.leftCols(active_));
@@ -99,7 +101,6 @@ class AdjointRun {
     equations_.set_scheme(scheme_);
     equations_.begin(old_);
     state_.increment = difference(mechanism_.rotations, state_.q, old_.q);
-    trajectory_.load_eta(step, state_.eta);
     equations_.linearize_sensitivities(state_, matrix_);
     if (!solver_.factorize(matrix_)) {
       throw SimulationError(

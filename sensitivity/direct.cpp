@@ -34,7 +34,7 @@ class DirectDifferentiation {
   }
 
   void run(const SensitivityObserver& observer) {
-    trajectory_.load(0, state_);
+    trajectory_.states->load(0, state_);
     observer(0, state_, sensitivity_);
     sensitivity_ = first_step_sensitivity(mechanism_, trajectory_, state_, std::move(sensitivity_));
     for (int step = 1; step <= trajectory_.steps(); ++step) {
@@ -43,12 +43,12 @@ class DirectDifferentiation {
       equations_.set_scheme(scheme_);
       equations_.begin(state_);
       old_q_ = state_.q;
-      trajectory_.load_drifted(step, state_);
+      trajectory_.states->load_record(step, state_);
+      swap_projected();
       state_.increment = difference(rotations_, state_.q, old_q_);
-      trajectory_.load_eta(step, state_.eta);
       predict();
       solve(step);
-      project(step);
+      project();
       observer(step, state_, sensitivity_);
     }
   }
@@ -102,11 +102,18 @@ class DirectDifferentiation {
     push_forward(rotations_, state_.increment, sensitivity_.q);
   }
 
-  void project(int step) {
+  /// From the state after the projection to that before it, and back.
+  void swap_projected() {
+    if (!projection_) return;
+    state_.q.swap(state_.drifted_q);
+    state_.v.swap(state_.drifted_v);
+  }
+
+  void project() {
     if (!projection_) return;
     projection_->linearize(state_);
     projection_->differentiate(sensitivity_.q, sensitivity_.v);
-    trajectory_.load(step, state_);
+    swap_projected();
   }
 
   Mechanism& mechanism_;

@@ -8,7 +8,7 @@ namespace {
 
 /// The rows of the signal that make the history: of a balance both, amount and rate.
 std::vector<int> channels_of(const Response& response, const HistoryGradients& history) {
-  if (response.is_balance) return {0, 1};
+  if (response.is_balance()) return {0, 1};
   return {history.place};
 }
 
@@ -32,9 +32,9 @@ std::vector<HistoryGradients> history_gradients(Analysis& analysis) {
   std::vector<SampledValue> values;
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     const Response& response = analysis.responses[i];
-    if (!response.signal) continue;
+    if (!response.history()) continue;
     const auto& samples = analysis.reductions[i].samples;
-    const int place = samples.empty() || response.is_balance ? 0 : samples.front().channel;
+    const int place = samples.empty() || response.is_balance() ? 0 : samples.front().channel;
     histories.push_back({i, place, analysis.histories[i].row(place).transpose(), {}});
     for (const int channel : channels_of(response, histories.back())) {
       for (int step = 0; step < time.size(); ++step) {
@@ -52,7 +52,7 @@ std::vector<HistoryGradients> history_gradients(Analysis& analysis) {
   for (HistoryGradients& history : histories) {
     const Response& response = analysis.responses[history.response];
     history.gradients = take();
-    if (response.is_balance) {
+    if (response.is_balance()) {
       history.gradients = balance_gradients(response, time, history.gradients, take());
     }
   }

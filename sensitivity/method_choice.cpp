@@ -32,39 +32,29 @@ Trajectory last_steps(const Trajectory& all, int steps) {
   part.scheme_type = all.scheme_type;
   part.spectral_radius = all.spectral_radius;
   part.formulation = all.formulation;
+  part.has_constraints = all.has_constraints;
   part.time = all.time.tail(steps + 1);
-  for (auto* matrix : {&part.q, &part.v, &part.a}) matrix->resize(all.q.rows(), steps + 1);
-  part.lambda.resize(all.lambda.rows(), steps + 1);
-  part.eta.resize(all.eta.rows(), steps + 1);
-  const Eigen::Index projected = all.is_projected() ? all.q.rows() : 0;
-  for (auto* matrix : {&part.drifted_q, &part.drifted_v}) matrix->resize(projected, steps + 1);
-  State state;
-  Eigen::VectorXd eta;
+  RecordedState state;
+  all.states->load_record(all.steps(), state);
+  StateColumns columns(state, steps + 1);
   for (int i = 0; i <= steps; ++i) {
-    all.load(all.steps() - steps + i, state);
-    all.load_eta(all.steps() - steps + i, eta);
-    part.q.col(i) = state.q;
-    part.v.col(i) = state.v;
-    part.a.col(i) = state.a;
-    part.lambda.col(i) = state.lambda;
-    part.eta.col(i) = eta;
-    if (!all.is_projected()) continue;
-    all.load_drifted(all.steps() - steps + i, state);
-    part.drifted_q.col(i) = state.q;
-    part.drifted_v.col(i) = state.v;
+    all.states->load_record(all.steps() - steps + i, state);
+    columns.set(i, state);
   }
+  part.states = std::make_shared<StoredStates>(std::move(columns));
   return part;
 }
 
 /// What it takes to simulate so many steps again, where the trajectory does not hold its states:
 /// each of the two methods has to go through all of them once.
 double seconds_of_repetition(const Trajectory& trajectory, int steps) {
-  if (!trajectory.repeated) return 0.0;
-  const int before = trajectory.repeated->repeated_steps();
+  const RecomputedStates* states = trajectory.recomputed();
+  if (!states) return 0.0;
+  const int before = states->recomputed_steps();
   State state;
-  const double seconds = seconds_of([&] { trajectory.load(1, state); });
-  const int repeated = trajectory.repeated->repeated_steps() - before;
-  return repeated > 0 ? seconds * steps / repeated : 0.0;
+  const double seconds = seconds_of([&] { trajectory.states->load(1, state); });
+  const int recomputed = states->recomputed_steps() - before;
+  return recomputed > 0 ? seconds * steps / recomputed : 0.0;
 }
 
 /// How much of the time the adjoints of the values are alive, in columns: a value counts from its
@@ -113,7 +103,7 @@ MethodChoice choose_method(Analysis& analysis, const std::vector<SampledValue>& 
   return {cheaper_method(direct, adjoint),
           fmt::format("{}: direct takes {:.2g} times as long as the adjoint in a short stretch{}",
                       counts, direct / adjoint,
-                      analysis.trajectory.repeated ? ", which both have simulated again" : "")};
+                      analysis.trajectory.recomputed() ? ", which both have simulated again" : "")};
 }
 
 }  // namespace pleuel

@@ -86,13 +86,15 @@ class SampledGradients {
   void add_value(std::size_t i, const SampledValue& value) {
     const Response& response = analysis_.responses[value.response];
     const auto row = static_cast<Eigen::Index>(i);
-    if (response.mechanism_mode) {
-      gradients_.row(row) = frequency_gradient(*response.mechanism_mode);
-    } else if (!response.signal) {
-      gradients_.row(row) = response.constant_x.transpose();
-    }
-    for (const Sample& sample : value.samples) {
-      uses_[sample.step].push_back({row, response.signal.get(), sample.channel, sample.weight});
+    if (const auto* constant = std::get_if<DesignConstant>(&response.source)) {
+      gradients_.row(row) = constant->derivatives.transpose();
+    } else if (response.frequency()) {
+      gradients_.row(row) = frequency_gradient(response.frequency()->mode);
+    } else {
+      Signal* signal = response.history()->signal.get();
+      for (const Sample& sample : value.samples) {
+        uses_[sample.step].push_back({row, signal, sample.channel, sample.weight});
+      }
     }
   }
 
@@ -148,9 +150,9 @@ std::vector<SampledValue> rigid_values(const Analysis& analysis,
                                        std::vector<Eigen::Index>& rows) {
   std::vector<SampledValue> rigid;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto& response = analysis.responses[values[i].response].rigid_response;
-    if (!response) continue;
-    rigid.push_back({*response, values[i].samples});
+    const ResponseHistory* history = analysis.responses[values[i].response].history();
+    if (!history || !history->rigid_response) continue;
+    rigid.push_back({*history->rigid_response, values[i].samples});
     rows.push_back(static_cast<Eigen::Index>(i));
   }
   return rigid;

@@ -1,34 +1,45 @@
 #pragma once
 
-#include "core/integration/simulate.hpp"
-#include "core/integration/step_equations.hpp"
+#include "core/integration/state_columns.hpp"
 
 namespace pleuel {
 
-/// The states of consecutive instants, a column each. Their times are kept elsewhere.
+/// The states of consecutive instants.
 class StateWindow {
  public:
-  /// Room for so many states of this size; holds none.
-  void resize(const StepState& like, Eigen::Index columns);
-  void make_room(Eigen::Index columns);
-  /// Empty, with this instant to come.
-  void clear(Eigen::Index next);
-  void push(const StepState& state);
+  /// Of no capacity.
+  StateWindow() = default;
+  /// @param like  a state of the same size
+  StateWindow(const RecordedState& like, Eigen::Index capacity) : columns_(like, capacity) {}
 
-  Eigen::Index capacity() const { return q_.cols(); }
-  bool is_full() const { return count_ == capacity(); }
+  /// Makes it empty, with this instant to come.
+  void clear(Eigen::Index next) {
+    first_ = next;
+    count_ = 0;
+  }
+
+  /// Where there are more states than expected, it grows.
+  void push(const RecordedState& state) {
+    if (count_ == columns_.capacity()) columns_.resize(count_ + count_ / 8 + 64);
+    columns_.set(count_++, state);
+  }
+
   bool holds(Eigen::Index instant) const { return instant >= first_ && instant < first_ + count_; }
-  void load(Eigen::Index instant, State& state) const;
-  void load_eta(Eigen::Index instant, Eigen::VectorXd& eta) const;
-  /// q and v before the projection only.
-  void load_drifted(Eigen::Index instant, State& state) const;
+  void load(Eigen::Index instant, State& state) const { columns_.load(instant - first_, state); }
+  void load_record(Eigen::Index instant, RecordedState& state) const {
+    columns_.load_record(instant - first_, state);
+  }
 
-  /// Gives all states to a trajectory.
-  void move_to(Trajectory& trajectory);
+  /// All states; leaves none.
+  StateColumns take() {
+    if (count_ < columns_.capacity()) columns_.resize(count_);
+    count_ = 0;
+    return std::move(columns_);
+  }
 
  private:
   Eigen::Index first_ = 0, count_ = 0;
-  Eigen::MatrixXd q_, v_, a_, lambda_, eta_, drifted_q_, drifted_v_;
+  StateColumns columns_;
 };
 
 }  // namespace pleuel

@@ -4,20 +4,18 @@
 
 #include "core/base/time_integration.hpp"
 #include "core/integration/mechanism.hpp"
+#include "core/integration/recorded_state.hpp"
 #include "core/integration/scheme.hpp"
 #include "core/system/linear_forces.hpp"
 
 namespace pleuel {
 
 /// The state at the end of a step while it is looked for.
-struct StepState : State {
+struct StepState : RecordedState {
   Eigen::VectorXd w;          ///< algorithmic acceleration of the scheme (n)
   Eigen::VectorXd increment;  ///< q = (q of the old state) ⊕ increment (n)
-  // Stabilized index 2 only:
-  Eigen::VectorXd shift;  ///< δ, the part of the increment that closes the constraints (n)
-  Eigen::VectorXd eta;    ///< η, the multipliers that pull it (m)
-  // Index 1 with projection only: q and v before it (n).
-  Eigen::VectorXd drifted_q, drifted_v;
+  /// δ, the part of the increment that closes the constraints; of the stabilized index 2 only (n).
+  Eigen::VectorXd shift;
 };
 
 /// The equations of one step of a scheme in a formulation, for Newton's method, direct

@@ -1,6 +1,7 @@
-#include <cmath>
+#include "core/integration/trajectory.hpp"
 
-#include "core/integration/simulate.hpp"
+#include <cmath>
+#include <stdexcept>
 
 namespace pleuel {
 
@@ -15,35 +16,14 @@ constexpr double small_change = 0.3;
 
 }  // namespace
 
-void Trajectory::load(int step, State& state) const {
-  if (repeated) {
-    repeated->load(step, state);
-    return;
-  }
-  state.time = time(step);
-  state.q = q.col(step);
-  state.v = v.col(step);
-  state.a = a.col(step);
-  state.lambda = lambda.col(step);
+StateColumns& Trajectory::columns() const {
+  auto* stored = dynamic_cast<StoredStates*>(states.get());
+  if (!stored) throw std::logic_error("the states of the trajectory are not held in memory");
+  return stored->columns();
 }
 
-void Trajectory::load_eta(int step, Eigen::VectorXd& to) const {
-  if (repeated) {
-    repeated->load_eta(step, to);
-  } else {
-    to = eta.col(step);
-  }
-}
-
-void Trajectory::load_drifted(int step, State& state) const {
-  load(step, state);
-  if (!is_projected()) return;
-  if (repeated) {
-    repeated->load_drifted(step, state);
-  } else {
-    state.q = drifted_q.col(step);
-    state.v = drifted_v.col(step);
-  }
+RecomputedStates* Trajectory::recomputed() const {
+  return dynamic_cast<RecomputedStates*>(states.get());
 }
 
 double Trajectory::step_size(int step) const {
@@ -61,7 +41,7 @@ Scheme Trajectory::scheme_of(int step) const {
 }
 
 double Trajectory::weight_of_start_jerk() const {
-  if (lambda.rows() == 0 || formulation.constraints != ConstraintForm::index_3) return 0.0;
+  if (!has_constraints || formulation.constraints != ConstraintForm::index_3) return 0.0;
   return -scheme_of(1).local_error / step_size(1);
 }
 

@@ -162,7 +162,7 @@ class Estimation {
     std::optional<LeastNorm> norm;
     if (!rigid_.mechanism.system->left_out().empty()) norm.emplace(rigid_.mechanism);
     for (int step = 0; step <= trajectory.steps(); ++step) {
-      trajectory.load(step, rigid);
+      trajectory.states->load(step, rigid);
       if (norm) {
         norm->set(rigid);
         rigid.lambda = norm->apply(rigid.lambda);

@@ -36,21 +36,21 @@ void set_full_mechanism(const ProblemFile& problem, const Design<double>& start,
 /// The whole mechanism's frequencies at the initial state.
 void set_mechanism_frequencies(Analysis& analysis) {
   Eigen::VectorXd& frequencies = analysis.mechanism_frequencies;
-  for (Response& response : analysis.responses) {
-    if (!response.mechanism_mode) continue;
+  for (const Response& response : analysis.responses) {
+    if (!response.frequency()) continue;
     if (frequencies.size() == 0 && analysis.full) {
       frequencies =
           mechanism_frequencies(analysis.full->model.mechanism, analysis.full->initial->state);
     } else if (frequencies.size() == 0) {
       State initial;
-      analysis.trajectory.load(0, initial);
+      analysis.trajectory.states->load(0, initial);
       frequencies = mechanism_frequencies(analysis.model.mechanism, initial);
     }
-    if (*response.mechanism_mode >= frequencies.size()) {
+    const int mode = response.frequency()->mode;
+    if (mode >= frequencies.size()) {
       refuse_response(response.name, fmt::format("the mechanism has {} natural frequencies, not {}",
-                                                 frequencies.size(), *response.mechanism_mode + 1));
+                                                 frequencies.size(), mode + 1));
     }
-    response.constant = frequencies(*response.mechanism_mode);
   }
 }
 
@@ -80,19 +80,15 @@ void set_rigid_mechanism(const ProblemFile& problem, const Eigen::VectorXd& x, A
         fmt::format("the mechanism without elasticity, which a deflection is measured against: {}",
                     error.what()));
   }
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < problem.responses.size(); ++i) {
-    if (problem.responses[i].against == DeflectionReference::rigid_mechanism) {
-      analysis.responses[i].rigid_response = next++;
-    }
-  }
 }
 
 /// Reduces a history over time; that of a balance becomes the error at each instant.
 Reduction reduce_history(const Response& response, const Eigen::VectorXd& time,
                          const BrokenInstants& breaks, Eigen::MatrixXd& history) {
   const StepRange range = response.steps(time);
-  if (!response.is_balance) return reduce(response.over_time, time, history, range, breaks);
+  if (!response.is_balance()) {
+    return reduce(response.history()->over_time, time, history, range, breaks);
+  }
   Reduction reduction = reduce_balance(time, history, range);
   history = balance_history(time, history, range);
   return reduction;
@@ -120,7 +116,7 @@ SimulationOptions options_of(const ProblemFile& problem) {
 void require_memory(const std::vector<Response>& responses, const SimulationOptions& options) {
   double channels = 1.0;  // the time
   for (const Response& response : responses) {
-    if (response.signal) channels += response.signal->channels();
+    if (response.history()) channels += response.history()->signal->channels();
   }
   const double steps = options.end_time / options.step;
   const double needed = sizeof(double) * channels * steps, there = machine_memory();
@@ -135,8 +131,9 @@ void require_memory(const std::vector<Response>& responses, const SimulationOpti
 /// The history of a response, measured against the rigid mechanism if need be.
 Eigen::MatrixXd against_rigid(const Response& response, Eigen::MatrixXd history,
                               const Analysis& analysis) {
-  if (!response.rigid_response) return history;
-  const Eigen::MatrixXd& rigid = analysis.rigid->histories[*response.rigid_response];
+  const std::optional<std::size_t>& reference = response.history()->rigid_response;
+  if (!reference) return history;
+  const Eigen::MatrixXd& rigid = analysis.rigid->histories[*reference];
   if (rigid.cols() != history.cols()) {
     throw SimulationError(fmt::format(
         "the deflection \"{}\" cannot be compared with the mechanism without elasticity: steps had "
@@ -144,6 +141,20 @@ Eigen::MatrixXd against_rigid(const Response& response, Eigen::MatrixXd history,
         response.name));
   }
   return history - rigid;
+}
+
+/// The number of a response; its history becomes that which is reduced.
+Reduction reduce_response(std::size_t i, Analysis& analysis) {
+  const Response& response = analysis.responses[i];
+  if (response.history()) {
+    Eigen::MatrixXd& history = analysis.histories[i];
+    history = against_rigid(response, std::move(history), analysis);
+    return reduce_history(response, analysis.trajectory.time, analysis.breaks, history);
+  }
+  Reduction constant;
+  constant.value = response.frequency() ? analysis.mechanism_frequencies(response.frequency()->mode)
+                                        : std::get<DesignConstant>(response.source).value;
+  return constant;
 }
 
 }  // namespace
@@ -198,16 +209,7 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   set_mechanism_frequencies(*analysis);
   set_rigid_mechanism(problem, x, *analysis);
   for (std::size_t i = 0; i < analysis->responses.size(); ++i) {
-    const Response& response = analysis->responses[i];
-    Reduction reduction;
-    if (response.signal) {
-      Eigen::MatrixXd& history = analysis->histories[i];
-      history = against_rigid(response, std::move(history), *analysis);
-      reduction = reduce_history(response, analysis->trajectory.time, analysis->breaks, history);
-    } else {
-      reduction.value = response.constant;
-    }
-    analysis->reductions.push_back(std::move(reduction));
+    analysis->reductions.push_back(reduce_response(i, *analysis));
   }
   require_finite(*analysis);
   return analysis;

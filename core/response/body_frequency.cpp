@@ -15,7 +15,7 @@ constexpr double coincidence = 1e-6;
 
 }  // namespace
 
-FrequencyWithDerivatives body_frequency(const BodyModel& body, int mode, int variables) {
+DesignConstant body_frequency(const BodyModel& body, int mode, int variables) {
   if (mode >= body.elastic_size()) {
     throw InputError(fmt::format("the body \"{}\" has {} natural frequencies, not {}", body.name,
                                  body.elastic_size(), mode + 1));
@@ -28,7 +28,7 @@ FrequencyWithDerivatives body_frequency(const BodyModel& body, int mode, int var
   const double square = modes.lambda(mode);
   const Eigen::Array<bool, Eigen::Dynamic, 1> coincides =
       (modes.lambda.array() - square).abs() <= coincidence * square;
-  FrequencyWithDerivatives frequency;
+  DesignConstant frequency;
   frequency.value = std::sqrt(square);
   frequency.derivatives = Eigen::VectorXd::Zero(variables);
   for (const auto& [variable, change] : body.invariants_x) {

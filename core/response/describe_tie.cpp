@@ -5,9 +5,10 @@
 namespace pleuel {
 
 std::string describe_tie(const PeakTie& tie, const Response& response) {
+  const Signal& signal = *response.history()->signal;
   return fmt::format("at {:.5g} s ({}) and at {:.5g} s ({})", tie.time,
-                     response.signal->describe(tie.channel), tie.other_time,
-                     response.signal->describe(tie.other_channel));
+                     signal.describe(tie.channel), tie.other_time,
+                     signal.describe(tie.other_channel));
 }
 
 }  // namespace pleuel

@@ -24,8 +24,8 @@ using Unit = std::pair<std::string, std::string>;
 double magnitude_of(const Analysis& analysis, std::size_t response) {
   const Eigen::MatrixXd& history = analysis.histories[response];
   const double value = std::abs(analysis.reductions[response].value);
-  const OverTime over_time = analysis.responses[response].over_time;
-  if (history.size() == 0 || over_time == OverTime::integral) return value;
+  const bool is_integral = analysis.responses[response].is_reduced_by(OverTime::integral);
+  if (history.size() == 0 || is_integral) return value;
   return std::max(value, history.cwiseAbs().maxCoeff());
 }
 

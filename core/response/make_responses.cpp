@@ -1,6 +1,7 @@
 #include "core/response/make_responses.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -18,16 +19,17 @@ namespace pleuel {
 
 namespace {
 
-void set_mass(const ResponseSettings& settings, const Model& model, Response& response) {
-  response.constant_x = Eigen::VectorXd::Zero(model.mechanism.system->variables());
+DesignConstant mass_of(const ResponseSettings& settings, const Model& model) {
+  DesignConstant mass{0.0, Eigen::VectorXd::Zero(model.mechanism.system->variables())};
   for (const BodyModel& body : model.bodies) {
     const bool is_counted = settings.bodies.empty() ||
                             std::find(settings.bodies.begin(), settings.bodies.end(), body.name) !=
                                 settings.bodies.end();
     if (!is_counted) continue;
-    response.constant += body.mass;
-    response.constant_x += body.mass_x;
+    mass.value += body.mass;
+    mass.derivatives += body.mass_x;
   }
+  return mass;
 }
 
 class ResponseMaker {
@@ -41,55 +43,17 @@ class ResponseMaker {
         norm_(std::move(norm)) {}
 
   Response make() {
-    response_.name = settings_.name;
-    response_.unit = quantity_of(settings_).unit;
-    response_.over_time = settings_.over_time;
-    response_.from = settings_.from;
-    response_.to = settings_.to;
-    switch (settings_.type) {
-      case ResponseType::mass:
-        set_mass(settings_, model_, response_);
-        break;
-      case ResponseType::frequency:
-        set_frequency();
-        break;
-      case ResponseType::stress:
-      case ResponseType::buckling:
-      case ResponseType::deflection:
-      case ResponseType::position:
-      case ResponseType::velocity:
-      case ResponseType::acceleration:
-        response_.signal = make_signal_of_body(settings_, model_);
-        break;
-      case ResponseType::drive_torque:
-      case ResponseType::drive_force:
-        set_multiplier_signal(make_drive_effort_signal(driven_joint()));
-        break;
-      case ResponseType::drive_power:
-        set_multiplier_signal(make_drive_power_signal(driven_joint()));
-        break;
-      case ResponseType::reaction_force:
-        set_reaction(ReactionPart::Kind::force);
-        break;
-      case ResponseType::reaction_moment:
-        set_reaction(ReactionPart::Kind::moment);
-        break;
-      case ResponseType::kinetic_energy:
-        response_.signal = make_kinetic_energy_signal(model_, settings_.bodies);
-        break;
-      case ResponseType::elastic_energy:
-        response_.signal = make_elastic_energy_signal(model_, settings_.bodies);
-        break;
-      case ResponseType::energy_balance:
-        response_.signal = make_energy_and_power_signal(model_);
-        response_.is_balance = true;
-        break;
-      case ResponseType::constraint_drift:
-        if (model_.mechanism.system->multipliers() == 0) fail("the mechanism has no constraints");
-        response_.signal = make_drift_signal(model_, settings_.level);
-        break;
+    Response response{settings_.name, std::string(quantity_of(settings_).unit), {}};
+    if (settings_.type == ResponseType::mass) {
+      response.source = mass_of(settings_, model_);
+    } else if (settings_.type != ResponseType::frequency) {
+      response.source = history();
+    } else if (settings_.bodies.empty()) {
+      response.source = InitialFrequency{settings_.mode};
+    } else {
+      response.source = frequency_of_body();
     }
-    return std::move(response_);
+    return response;
   }
 
  private:
@@ -97,15 +61,51 @@ class ResponseMaker {
 
   int variables() const { return model_.mechanism.system->variables(); }
 
-  void set_frequency() {
-    if (settings_.bodies.empty()) {
-      response_.mechanism_mode = settings_.mode;
-      return;
+  ResponseHistory history() {
+    ResponseHistory history{make_signal(), settings_.over_time, settings_.from, settings_.to};
+    if (settings_.type == ResponseType::energy_balance) {
+      history.transform = HistoryTransform::balance;
     }
+    return history;
+  }
+
+  std::unique_ptr<Signal> make_signal() {
+    switch (settings_.type) {
+      case ResponseType::stress:
+      case ResponseType::buckling:
+      case ResponseType::deflection:
+      case ResponseType::position:
+      case ResponseType::velocity:
+      case ResponseType::acceleration:
+        return make_signal_of_body(settings_, model_);
+      case ResponseType::drive_torque:
+      case ResponseType::drive_force:
+        return of_multipliers(make_drive_effort_signal(driven_joint()));
+      case ResponseType::drive_power:
+        return of_multipliers(make_drive_power_signal(driven_joint()));
+      case ResponseType::reaction_force:
+        return make_reaction(ReactionPart::Kind::force);
+      case ResponseType::reaction_moment:
+        return make_reaction(ReactionPart::Kind::moment);
+      case ResponseType::kinetic_energy:
+        return make_kinetic_energy_signal(model_, settings_.bodies);
+      case ResponseType::elastic_energy:
+        return make_elastic_energy_signal(model_, settings_.bodies);
+      case ResponseType::energy_balance:
+        return make_energy_and_power_signal(model_);
+      case ResponseType::constraint_drift:
+        if (model_.mechanism.system->multipliers() == 0) fail("the mechanism has no constraints");
+        return make_drift_signal(model_, settings_.level);
+      case ResponseType::mass:
+      case ResponseType::frequency:
+        break;
+    }
+    throw std::logic_error("a response without a signal");
+  }
+
+  DesignConstant frequency_of_body() const {
     const BodyModel& body = with_all_modes_.body(settings_.bodies.front());
-    const FrequencyWithDerivatives frequency = body_frequency(body, settings_.mode, variables());
-    response_.constant = frequency.value;
-    response_.constant_x = frequency.derivatives;
+    return body_frequency(body, settings_.mode, variables());
   }
 
   const JointModel& driven_joint() const {
@@ -114,29 +114,25 @@ class ResponseMaker {
     return joint;
   }
 
-  void set_reaction(ReactionPart::Kind kind) {
+  std::unique_ptr<Signal> make_reaction(ReactionPart::Kind kind) const {
     const JointModel& joint = model_.joint(settings_.joint);
     auto signal = make_reaction_signal(joint, {kind, settings_.direction});
     if (joint.map) {
       signal = std::make_unique<ProjectedSignal>(std::move(signal), *joint.map, variables());
     }
-    set_multiplier_signal(std::move(signal));
+    return of_multipliers(std::move(signal));
   }
 
   /// Where constraints are redundant, multipliers are those of least norm.
-  void set_multiplier_signal(std::unique_ptr<Signal> signal) {
-    if (norm_) {
-      response_.signal = std::make_unique<LeastNormSignal>(std::move(signal), norm_, model_);
-    } else {
-      response_.signal = std::move(signal);
-    }
+  std::unique_ptr<Signal> of_multipliers(std::unique_ptr<Signal> signal) const {
+    if (!norm_) return signal;
+    return std::make_unique<LeastNormSignal>(std::move(signal), norm_, model_);
   }
 
   const ResponseSettings& settings_;
   const Model& model_;
   const Model& with_all_modes_;
   std::shared_ptr<LeastNorm> norm_;
-  Response response_;
 };
 
 }  // namespace
@@ -153,8 +149,12 @@ std::vector<Response> make_responses(const std::vector<ResponseSettings>& settin
     norm = std::make_shared<LeastNorm>(model.mechanism);
   }
   std::vector<Response> responses;
+  std::size_t against_rigid = 0;  // the rigid mechanism has these only, in this order
   for (const ResponseSettings& setting : settings) {
     responses.push_back(ResponseMaker(setting, model, with_all_modes, norm).make());
+    if (setting.against == DeflectionReference::rigid_mechanism) {
+      std::get<ResponseHistory>(responses.back().source).rigid_response = against_rigid++;
+    }
   }
   return responses;
 }

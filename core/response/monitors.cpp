@@ -35,7 +35,7 @@ class Monitoring {
       history->resize(instants);
     }
     for (Eigen::Index i = 0; i < instants; ++i) {
-      trajectory_.load(static_cast<int>(i), state_);
+      trajectory_.states->load(static_cast<int>(i), state_);
       observe_bodies(i);
       observe_terms(i);
     }

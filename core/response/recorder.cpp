@@ -4,18 +4,19 @@ namespace pleuel {
 
 Recorder::Recorder(const std::vector<Response>& responses, int instants) : responses_(responses) {
   for (const Response& response : responses) {
-    histories_.emplace_back(response.signal ? response.signal->channels() : 0,
-                            response.signal ? instants : 0);
+    const ResponseHistory* observed = response.history();
+    histories_.emplace_back(observed ? observed->signal->channels() : 0, observed ? instants : 0);
   }
 }
 
 void Recorder::see(int step, const State& state) {
   for (std::size_t i = 0; i < responses_.size(); ++i) {
-    if (!responses_[i].signal) continue;
+    const ResponseHistory* observed = responses_[i].history();
+    if (!observed) continue;
     if (step == histories_[i].cols()) {
       histories_[i].conservativeResize(Eigen::NoChange, step + step / 8 + 64);
     }
-    responses_[i].signal->observe(state, histories_[i].col(step));
+    observed->signal->observe(state, histories_[i].col(step));
   }
 }
 

@@ -7,7 +7,8 @@
 namespace pleuel {
 
 StepRange Response::steps(const Eigen::VectorXd& time) const {
-  const StepRange range = steps_between(time, from, to);
+  if (!history()) return whole_range(time);
+  const StepRange range = steps_between(time, history()->from, history()->to);
   if (range.steps() >= 2) return range;
   throw InputError(
       fmt::format("/responses/{} is reduced over a window of time with less than two steps; widen "

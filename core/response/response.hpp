@@ -3,29 +3,57 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "core/response/reduction.hpp"
 #include "core/response/signal.hpp"
 
 namespace pleuel {
 
-/// A number that the user asks for: a signal reduced over time, or a constant of the design.
+/// A number that follows from the design alone: a mass, a natural frequency of a body.
+struct DesignConstant {
+  double value = 0.0;
+  Eigen::VectorXd derivatives;  ///< one a design variable
+};
+
+/// A natural frequency of the whole mechanism at its initial state, whose derivatives it takes.
+struct InitialFrequency {
+  int mode = 0;  ///< from 0
+};
+
+/// What becomes of the observed numbers before they are reduced.
+enum class HistoryTransform {
+  none,
+  balance,  ///< of an amount and its rate: see reduce_balance()
+};
+
+/// A signal over time, reduced to a number.
+struct ResponseHistory {
+  std::unique_ptr<Signal> signal;
+  OverTime over_time = OverTime::max;
+  std::optional<double> from = {}, to = {};  ///< window of time that is reduced [s]
+  HistoryTransform transform = HistoryTransform::none;
+  /// Of a deflection against the rigid mechanism: which response of Analysis::rigid is taken off.
+  std::optional<std::size_t> rigid_response = {};
+
+  bool is_balance() const { return transform == HistoryTransform::balance; }
+};
+
+/// A number that the user asks for.
 struct Response {
   std::string name;
   std::string unit;  ///< SI
-  OverTime over_time = OverTime::max;
-  std::unique_ptr<Signal> signal;  ///< null: a constant
-  double constant = 0.0;
-  Eigen::VectorXd constant_x;  ///< its derivatives, one a design variable
-  /// Of a frequency of the whole mechanism: its mode, from 0. A constant, too, but one of the
-  /// initial state: analyze() sets it, and its derivatives take those of that state.
-  std::optional<int> mechanism_mode;
-  /// Of a deflection against the rigid mechanism: which response of Analysis::rigid is taken off.
-  std::optional<std::size_t> rigid_response;
-  bool is_balance = false;         ///< of energy: reduced by reduce_balance() instead
-  std::optional<double> from, to;  ///< window of time that is reduced [s]
+  std::variant<DesignConstant, InitialFrequency, ResponseHistory> source;
 
-  /// The steps of a simulation that are reduced.
+  /// What is observed; null for a number that is none of a motion.
+  const ResponseHistory* history() const { return std::get_if<ResponseHistory>(&source); }
+  const InitialFrequency* frequency() const { return std::get_if<InitialFrequency>(&source); }
+  bool is_balance() const { return history() && history()->is_balance(); }
+  /// Whether its number is reduced over time in one of these ways.
+  bool is_reduced_by(OverTime kind) const { return history() && history()->over_time == kind; }
+  bool is_peak_over_time() const { return history() && is_peak(history()->over_time); }
+
+  /// The steps of a simulation that are reduced: all of them where the response has no history.
   /// @throws InputError if the window holds less than two
   StepRange steps(const Eigen::VectorXd& time) const;
 };

@@ -3,7 +3,7 @@
 namespace pleuel {
 
 Eigen::VectorXd shown_history(const Response& response, const Eigen::MatrixXd& history) {
-  const bool by_magnitude = response.over_time == OverTime::max_abs && history.rows() > 1;
+  const bool by_magnitude = response.is_reduced_by(OverTime::max_abs) && history.rows() > 1;
   if (by_magnitude) return history.cwiseAbs().colwise().maxCoeff().transpose();
   return history.colwise().maxCoeff().transpose();
 }

@@ -54,7 +54,7 @@ std::vector<LargestDeformation> largest_deformations(const Model& model,
   std::vector<LargestDeformation> all(model.bodies.size());
   State state;
   for (int step = 0; step <= trajectory.steps(); ++step) {
-    trajectory.load(step, state);
+    trajectory.states->load(step, state);
     for (std::size_t i = 0; i < all.size(); ++i) {
       const BodyModel& body = model.bodies[i];
       if (!body.is_elastic || body.elastic_size() == 0) continue;

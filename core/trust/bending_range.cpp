@@ -31,7 +31,7 @@ struct Finding {
 
 GeometricError error_at(const TrustedRun& run, const BodyModel& body, int step) {
   State state;
-  run.analysis.trajectory.load(step, state);
+  run.analysis.trajectory.states->load(step, state);
   return estimate_geometric_error(body, nodal_displacements(body, state));
 }
 

@@ -21,7 +21,7 @@ constexpr double small_shift = 1e-2;
 std::vector<const Response*> frequencies_of_mechanism(const TrustedRun& run) {
   std::vector<const Response*> found;
   for (const Response& response : run.analysis.responses) {
-    if (response.mechanism_mode) found.push_back(&response);
+    if (response.frequency()) found.push_back(&response);
   }
   return found;
 }
@@ -61,7 +61,7 @@ void add_missing_stress(const TrustedRun& run, const std::vector<const Response*
   if (run.problem.simulation.quasi_static_start || mechanism.elastic.empty()) return;
   if (!run.analysis.modes_left_out.empty()) return;
   State state;
-  run.analysis.trajectory.load(0, state);
+  run.analysis.trajectory.states->load(0, state);
   if (state.v.isZero(0.0) && state.a.isZero(0.0)) return;
   Eigen::VectorXd stressed;
   try {
@@ -75,15 +75,16 @@ void add_missing_stress(const TrustedRun& run, const std::vector<const Response*
     return;
   }
   for (const Response* response : responses) {
-    const int mode = *response->mechanism_mode;
+    const int mode = response->frequency()->mode;
     if (mode >= stressed.size()) continue;
-    const double change = std::abs(stressed(mode) - response->constant);
-    if (change <= small_shift * std::abs(response->constant)) continue;
+    const double shown = run.analysis.mechanism_frequencies(mode);
+    const double change = std::abs(stressed(mode) - shown);
+    if (change <= small_shift * std::abs(shown)) continue;
     doubts.push_back(
         {fmt::format("the frequency \"{}\" is {:.5g} rad/s for members that start undeformed; the "
                      "stress of the motion and the loads at t = 0 is missing in it, with which it "
                      "is {:.5g} rad/s: /simulation/initial_state \"quasi-static\" has it.",
-                     response->name, response->constant, stressed(mode)),
+                     response->name, shown, stressed(mode)),
          false,
          {response->name}});
   }
@@ -96,7 +97,7 @@ const Model& model_of_modes(const Analysis& analysis) {
 State state_of_modes(const Analysis& analysis) {
   if (analysis.full) return analysis.full->initial->state;
   State state;
-  analysis.trajectory.load(0, state);
+  analysis.trajectory.states->load(0, state);
   return state;
 }
 
@@ -127,16 +128,17 @@ void add_turning(const TrustedRun& run, const std::vector<const Response*>& resp
   if (!analysis.modes_left_out.empty() || state.v.isZero(0.0)) return;
   const Eigen::VectorXd turning = frequencies_in_turning_axes(model_of_modes(analysis), state);
   for (const Response* response : responses) {
-    const int mode = *response->mechanism_mode;
+    const int mode = response->frequency()->mode;
     if (mode >= turning.size()) continue;
-    const double change = std::abs(turning(mode) - response->constant);
-    if (change <= small_shift * std::abs(response->constant)) continue;
+    const double shown = analysis.mechanism_frequencies(mode);
+    const double change = std::abs(turning(mode) - shown);
+    if (change <= small_shift * std::abs(shown)) continue;
     doubts.push_back(
         {fmt::format("the frequency \"{}\" is not high against the speed at which the mechanism "
                      "moves at t = 0: it is {:.5g} rad/s in axes that stand still, and {:.5g} "
                      "rad/s in axes that turn with the bodies, which is right where all turn "
                      "alike. Do not rely on it.",
-                     response->name, response->constant, turning(mode)),
+                     response->name, shown, turning(mode)),
          true,
          {response->name}});
   }

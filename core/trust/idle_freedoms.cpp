@@ -45,7 +45,7 @@ State least_free_state(const Analysis& analysis) {
   int fewest = 0;
   const int steps = analysis.trajectory.steps();
   for (int i = 0; i <= 4; ++i) {
-    analysis.trajectory.load(i * steps / 4, state);
+    analysis.trajectory.states->load(i * steps / 4, state);
     const int free = rigid_freedoms(analysis.model.mechanism, state).free();
     if (i > 0 && free >= fewest) continue;
     best = state;
@@ -115,9 +115,9 @@ class IdleFreedoms {
   bool moves(const BodyModel& body) const {
     const Trajectory& trajectory = run_.analysis.trajectory;
     State state, start;
-    trajectory.load(0, start);
+    trajectory.states->load(0, start);
     for (int step = 0; step <= trajectory.steps(); ++step) {
-      trajectory.load(step, state);
+      trajectory.states->load(step, state);
       const auto change = (state.q - start.q).cwiseQuotient(model_.mechanism.scale).eval();
       if (change.segment(body.frame.offset, body.frame.size()).lpNorm<Eigen::Infinity>() >
           idle_speed) {

@@ -24,7 +24,7 @@ class InitialMotion {
  public:
   explicit InitialMotion(const TrustedRun& run)
       : run_(run), design_(run.x.begin(), run.x.end()), asked_(run.analysis.model.mechanism.guess) {
-    run.analysis.trajectory.load(0, start_);
+    run.analysis.trajectory.states->load(0, start_);
   }
 
   std::vector<Doubt> find() {

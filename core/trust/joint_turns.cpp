@@ -55,11 +55,11 @@ class JointAngle {
 std::optional<double> jump_of(const TrustedRun& run, const Joint& joint) {
   const Trajectory& trajectory = run.analysis.trajectory;
   State state;
-  trajectory.load(0, state);
+  trajectory.states->load(0, state);
   const JointAngle angle(run.analysis.model, joint, state);
   double before = 0.0;
   for (int step = 1; step <= trajectory.steps(); ++step) {
-    trajectory.load(step, state);
+    trajectory.states->load(step, state);
     const double now = angle.at(state);
     if (std::abs(now - before) > std::numbers::pi) return trajectory.time(step);
     before = now;

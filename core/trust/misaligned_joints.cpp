@@ -50,10 +50,10 @@ bool moves(const Joint& joint, const TrustedRun& run) {
   const Model& model = run.analysis.model;
   const double size = model.mechanism.scale.maxCoeff();
   State state;
-  trajectory.load(0, state);
+  trajectory.states->load(0, state);
   const Pose start = relative_pose(joint, model, state);
   for (int step = 1; step <= trajectory.steps(); ++step) {
-    trajectory.load(step, state);
+    trajectory.states->load(step, state);
     const Pose pose = relative_pose(joint, model, state);
     const double way = (pose.position - start.position).lpNorm<Eigen::Infinity>() / size;
     const double turn = (pose.rotation - start.rotation).lpNorm<Eigen::Infinity>();
@@ -75,7 +75,7 @@ bool any_moves(const std::vector<std::string>& names, const TrustedRun& run) {
 
 std::vector<Doubt> doubt_misaligned_joints(const TrustedRun& run) {
   State start;
-  run.analysis.trajectory.load(0, start);
+  run.analysis.trajectory.states->load(0, start);
   const Model& model = run.analysis.model;
   std::vector<Doubt> doubts;
   for (const Misalignment& found : find_misalignments(model, start, locking)) {

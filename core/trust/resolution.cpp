@@ -58,7 +58,7 @@ class Judgement {
   explicit Judgement(const TrustedRun& run)
       : run_(run), problem_(run.problem), found_(nested_run_of(run.analysis)) {
     for (std::size_t i = 0; i < run.analysis.responses.size(); ++i) {
-      const bool is_error_itself = run.analysis.responses[i].is_balance ||
+      const bool is_error_itself = run.analysis.responses[i].is_balance() ||
                                    problem_.responses[i].type == ResponseType::constraint_drift;
       if (!is_error_itself) judged_.push_back(i);
     }

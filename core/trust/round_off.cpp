@@ -52,7 +52,7 @@ class RoundOff {
         scale = std::max(scale, one.share * measured[next++]);
       }
       is_round_off[i] =
-          run_.analysis.responses[i].signal && largest(run_.analysis.histories[i]) <= scale;
+          run_.analysis.responses[i].history() && largest(run_.analysis.histories[i]) <= scale;
     }
     return is_round_off;
   }
@@ -126,7 +126,7 @@ class RoundOff {
     Recorder recorder(responses, trajectory.steps() + 1);
     State state;
     for (int step = 0; step <= trajectory.steps(); ++step) {
-      trajectory.load(step, state);
+      trajectory.states->load(step, state);
       recorder.see(step, state);
     }
     std::vector<double> all;

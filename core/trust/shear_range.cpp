@@ -239,7 +239,7 @@ class ShearDoubts {
       const BodyModel& body = model_.bodies[i];
       if (!body.is_beam() || !body.is_elastic || largest[i].bending <= known_[body.name]) continue;
       known_[body.name] = largest[i].bending;
-      run_.analysis.trajectory.load(largest[i].bending_step, state);
+      run_.analysis.trajectory.states->load(largest[i].bending_step, state);
       shares_[body.name] = shear_share(run_.problem, run_.x, model_, body.name, state);
     }
     std::vector<Doubt> doubts;
@@ -257,7 +257,7 @@ class ShearDoubts {
     double most = 0.0;
     State state;
     for (int i = 0; i <= 4; ++i) {
-      run_.analysis.trajectory.load(i * steps / 4, state);
+      run_.analysis.trajectory.states->load(i * steps / 4, state);
       const std::optional<double> share = share_beyond_need(state);
       if (!share) return false;
       most = std::max(most, *share);

@@ -257,7 +257,7 @@ class SidewaysBuckling {
     const double press = pi * pi * lateral_ / (length_ * length_);
     State state;
     for (Eigen::Index i = 0; i < run_.analysis.trajectory.time.size(); ++i) {
-      run_.analysis.trajectory.load(static_cast<int>(i), state);
+      run_.analysis.trajectory.states->load(static_cast<int>(i), state);
       PlaneLoad load = history.at(state);
       const double bent = moments_matter_ ? largest_moment(load) / moment : 0.0;
       const double share = bent * bent + largest_press(load) / press;

@@ -70,12 +70,12 @@ double way_along(const TrustedRun& run, const Joint& joint, std::size_t side, do
   const Design<double> design(run.x.begin(), run.x.end());
   const Eigen::Vector3d at = resolve_point(joint.at, design);
   State state;
-  trajectory.load(0, state);
+  trajectory.states->load(0, state);
   const FramePoint beam(run.analysis.model, joint.bodies[side], at, state);
   const FramePoint other(run.analysis.model, joint.bodies[1 - side], at, state);
   double least = length, most = 0.0;
   for (int step = 0; step <= trajectory.steps(); ++step) {
-    trajectory.load(step, state);
+    trajectory.states->load(step, state);
     const double x = std::clamp(beam.local(other.at(state), state).x(), 0.0, length);
     least = std::min(least, x);
     most = std::max(most, x);

@@ -55,11 +55,11 @@ TEST_P(RedundantHardCase, BricardMechanismKeepsItsEnergy) {
   const auto analysis = run("bricard");
   State state(analysis->model.mechanism.system->coordinates(),
               analysis->model.mechanism.system->multipliers());
-  analysis->trajectory.load(0, state);
+  analysis->trajectory.states->load(0, state);
   const double start = energy_of(analysis->model, state);
   double worst = 0.0;
   for (int step = 0; step <= analysis->trajectory.steps(); ++step) {
-    analysis->trajectory.load(step, state);
+    analysis->trajectory.states->load(step, state);
     worst = std::max(worst, std::abs(energy_of(analysis->model, state) - start));
   }
   EXPECT_LE(worst, 1e-3);                         // measured 2e-4

@@ -69,9 +69,9 @@ double energy_loss(Analysis& analysis) {
               analysis.model.mechanism.system->multipliers());
   double first = 0.0, last = 0.0;
   for (int i = 0; i < second; ++i) {
-    trajectory.load(i, state);
+    trajectory.states->load(i, state);
     first += energy_of(analysis.model, state);
-    trajectory.load(trajectory.steps() - i, state);
+    trajectory.states->load(trajectory.steps() - i, state);
     last += energy_of(analysis.model, state);
   }
   return 1.0 - last / first;

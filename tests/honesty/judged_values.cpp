@@ -61,7 +61,7 @@ void judge(const JudgedScene& scene, const Coarseness& coarseness, const Referen
     one.scene = scene.name;
     one.response = analysis->responses[i].name;
     one.type = file.responses[i].type;
-    one.over_time = analysis->responses[i].over_time;
+    one.over_time = file.responses[i].over_time;
     one.coarseness = coarseness;
     one.value = value;
     one.magnitude = magnitude_of(*analysis, i);

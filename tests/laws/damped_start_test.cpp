@@ -65,12 +65,12 @@ TEST(DampedStart, TakesTheAccelerationsOfTheEquationsWhereTheStepResolvesTheDamp
                     "/effects/axial_elasticity=off"});
   const auto analysis = analyze(problem, start_design(problem));
   State start;
-  analysis->trajectory.load(0, start);
+  analysis->trajectory.states->load(0, start);
   const DampedStart gentle(analysis->model.mechanism, start, generalized_alpha(8e-6, 0.5), 0.0);
   EXPECT_EQ(gentle.a(), start.a);
   const ProblemFile stiff = released_rod({"/scene/bodies/rod/elements=32"});
   const auto other = analyze(stiff, start_design(stiff));
-  other->trajectory.load(0, start);
+  other->trajectory.states->load(0, start);
   const DampedStart damped(other->model.mechanism, start, generalized_alpha(2e-3, 0.5), 0.0);
   EXPECT_LT(damped.a().lpNorm<Eigen::Infinity>(), 0.1 * start.a.lpNorm<Eigen::Infinity>());
 }
@@ -87,7 +87,7 @@ TEST_P(ReactionsOfASuddenStart, AreOfSecondOrderFromTheFirstStepOn) {
            "/effects/axial_elasticity=off", "/simulation/end_time=4e-3",
            "/simulation/newton_tolerance=1e-13", "/simulation/formulation=" + formulation,
            fmt::format("/simulation/step={:.17g}", 4e-3 / steps)});
-      return Eigen::MatrixXd(analyze(problem, start_design(problem))->trajectory.lambda);
+      return Eigen::MatrixXd(analyze(problem, start_design(problem))->trajectory.columns().lambda);
     };
   };
   const int reference_steps = 3200;

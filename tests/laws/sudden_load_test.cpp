@@ -112,7 +112,7 @@ TEST(DriveTable, OfTheRobotArmStartsAtRest) {
                       "/simulation/end_time=10 ms"});
     const auto analysis = analyze(problem, start_design(problem));
     State start;
-    analysis->trajectory.load(0, start);
+    analysis->trajectory.states->load(0, start);
     EXPECT_LE(start.v.lpNorm<Eigen::Infinity>(), 1e-12) << interpolation;
   }
 }

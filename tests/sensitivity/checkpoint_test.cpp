@@ -28,24 +28,19 @@ double least_memory(const Mechanism& mechanism, const SimulationOptions& options
 
 void expect_same_states(const Trajectory& found, const Trajectory& expected, bool backwards) {
   ASSERT_EQ(found.time, expected.time);
-  State a, b;
-  Eigen::VectorXd eta_a, eta_b;
+  RecordedState a, b;
   for (int i = 0; i <= expected.steps(); ++i) {
     const int step = backwards ? expected.steps() - i : i;
-    found.load(step, a);
-    found.load_eta(step, eta_a);
-    expected.load(step, b);
-    expected.load_eta(step, eta_b);
+    found.states->load_record(step, a);
+    expected.states->load_record(step, b);
     ASSERT_EQ(a.time, b.time);
     ASSERT_EQ(a.q, b.q) << "step " << step;
     ASSERT_EQ(a.v, b.v) << "step " << step;
     ASSERT_EQ(a.a, b.a) << "step " << step;
     ASSERT_EQ(a.lambda, b.lambda) << "step " << step;
-    ASSERT_EQ(eta_a, eta_b) << "step " << step;
-    found.load_drifted(step, a);
-    expected.load_drifted(step, b);
-    ASSERT_EQ(a.q, b.q) << "step " << step;
-    ASSERT_EQ(a.v, b.v) << "step " << step;
+    ASSERT_EQ(a.eta, b.eta) << "step " << step;
+    ASSERT_EQ(a.drifted_q, b.drifted_q) << "step " << step;
+    ASSERT_EQ(a.drifted_v, b.drifted_v) << "step " << step;
   }
 }
 
@@ -61,19 +56,19 @@ TEST_P(Checkpoints, LeadToTheSameStatesBitByBit) {
     SimulationOptions options{0.12, 1e-3, 0.8};
     options.formulation = formulation;
     const Trajectory whole = simulate(model.mechanism, options);
-    ASSERT_FALSE(whole.repeated);
+    ASSERT_FALSE(whole.recomputed());
     options.memory = least_memory(model.mechanism, options);
     const Trajectory part = simulate(model.mechanism, options);
-    ASSERT_TRUE(part.repeated);
-    EXPECT_EQ(part.q.size(), 0);
-    const RepeatedStates& states = *part.repeated;
+    ASSERT_TRUE(part.recomputed());
+    EXPECT_THROW(part.columns(), std::logic_error);
+    const RecomputedStates& states = *part.recomputed();
     // 120 steps: of the order of 2 √120 states and checkpoints, which are a little larger.
     EXPECT_LE(states.checkpoints() + states.most_held(), 26);
     expect_same_states(part, whole, true);
     // The last stretch was still there.
-    EXPECT_LT(states.repeated_steps(), whole.steps());
+    EXPECT_LT(states.recomputed_steps(), whole.steps());
     expect_same_states(part, whole, false);
-    EXPECT_LE(states.repeated_steps(), 2 * whole.steps());
+    EXPECT_LE(states.recomputed_steps(), 2 * whole.steps());
   }
 }
 
@@ -89,7 +84,7 @@ TEST(Checkpoints, RepeatSplitSteps) {
   ASSERT_GT(whole.split_steps, 0);
   options.memory = 2.5 * least_memory(model.mechanism, options);
   const Trajectory part = simulate(model.mechanism, options);
-  ASSERT_TRUE(part.repeated);
+  ASSERT_TRUE(part.recomputed());
   EXPECT_EQ(part.split_steps, whole.split_steps);
   expect_same_states(part, whole, true);
 }
@@ -110,13 +105,13 @@ TEST(Checkpoints, RepeatStepsThatFollowTheLocalError) {
   ASSERT_GT(whole->trajectory.rejected_steps, 0);
   ASSERT_GT(whole->trajectory.steps(), 300);
   // A third of what all states take.
-  const auto& q = whole->trajectory.q;
-  const double all = 8.0 * static_cast<double>(q.cols()) *
-                     static_cast<double>(3 * q.rows() + 2 * whole->trajectory.lambda.rows());
+  const StateColumns& states = whole->trajectory.columns();
+  const double all = 8.0 * static_cast<double>(states.capacity()) *
+                     static_cast<double>(3 * states.q.rows() + 2 * states.lambda.rows());
   ProblemFile limited = problem;
   limited.sensitivity.memory = all / 3;
   const auto part = analyze(limited, start_design(limited));
-  ASSERT_TRUE(part->trajectory.repeated);
+  ASSERT_TRUE(part->trajectory.recomputed());
   expect_same_states(part->trajectory, whole->trajectory, true);
   expect_same_states(part->trajectory, whole->trajectory, false);
   // Those of the very steps, too.
@@ -124,7 +119,7 @@ TEST(Checkpoints, RepeatStepsThatFollowTheLocalError) {
   const auto again = analyze(repeated, start_design(problem));
   repeated.sensitivity.memory = all / 3;
   const auto again_in_part = analyze(repeated, start_design(problem));
-  ASSERT_TRUE(again_in_part->trajectory.repeated);
+  ASSERT_TRUE(again_in_part->trajectory.recomputed());
   expect_same_states(again_in_part->trajectory, again->trajectory, true);
 }
 
@@ -140,16 +135,16 @@ TEST(Checkpoints, GiveTheSameGradientsBitByBit) {
   overrides.emplace_back(R"(/sensitivity={"memory": "60 kB"})");
   const ProblemFile limited = sample_problem("slider_crank", overrides);
   const auto a = analyze(whole, start_design(whole)), b = analyze(limited, start_design(limited));
-  ASSERT_FALSE(a->trajectory.repeated);
-  ASSERT_TRUE(b->trajectory.repeated);
+  ASSERT_FALSE(a->trajectory.recomputed());
+  ASSERT_TRUE(b->trajectory.recomputed());
   EXPECT_EQ(values_of(*a), values_of(*b));
-  const RepeatedStates& states = *b->trajectory.repeated;
+  const RecomputedStates& states = *b->trajectory.recomputed();
   for (auto method : {ExactMethod::direct, ExactMethod::adjoint}) {
-    const int before = states.repeated_steps();
+    const int before = states.recomputed_steps();
     EXPECT_EQ(sampled_gradients(*a, response_values(*a), method),
               sampled_gradients(*b, response_values(*b), method))
         << to_string(method);
-    EXPECT_LE(states.repeated_steps() - before, b->trajectory.steps()) << to_string(method);
+    EXPECT_LE(states.recomputed_steps() - before, b->trajectory.steps()) << to_string(method);
   }
 }
 

@@ -46,7 +46,7 @@ TEST_F(Histories, HaveTheDerivativesOfCentralDifferences) {
     const Eigen::MatrixXd expected =
         (4 * differences(history, 5e-4) - differences(history, 1e-3)) / 3 * x_.asDiagonal();
     double round_off = 0.0;
-    if (response.is_balance) round_off = 1e-9 * 100;
+    if (response.is_balance()) round_off = 1e-9 * 100;
     if (response.name == "slider_end") round_off = 1e-12;
     EXPECT_LE((found - expected).lpNorm<Eigen::Infinity>(),
               1e-6 * expected.lpNorm<Eigen::Infinity>() + round_off)
@@ -63,7 +63,7 @@ TEST_F(Histories, LeadToTheGradientsOfTheValues) {
     const auto row = static_cast<Eigen::Index>(history.response);
     const Eigen::RowVectorXd last = history.gradients.bottomRows(1);
     Eigen::RowVectorXd expected;
-    if (response.over_time == OverTime::final || response.is_balance) expected = last;
+    if (response.is_reduced_by(OverTime::final) || response.is_balance()) expected = last;
     if (response.name == "torque_rms") {
       const Eigen::VectorXd& y = history.values;  // equal steps: trapezoidal weights
       Eigen::VectorXd weights = Eigen::VectorXd::Constant(y.size(), 1.0 / double(y.size() - 1));

@@ -32,8 +32,8 @@ TEST(SplitSteps, LeadToEveryRegularInstant) {
   const Trajectory whole = simulate(model.mechanism, patient);
   EXPECT_EQ(whole.split_steps, 0);
   // The same motion up to the error of the large steps.
-  const Eigen::VectorXd end = trajectory.q.col(trajectory.steps()),
-                        other = whole.q.col(whole.steps());
+  const Eigen::VectorXd end = trajectory.columns().q.col(trajectory.steps()),
+                        other = whole.columns().q.col(whole.steps());
   EXPECT_LE((end - other).norm(), 0.05 * other.norm());
 }
 
@@ -54,7 +54,7 @@ TEST(SplitSteps, AreDifferentiatedAsTheyRan) {
       Model neighbour = sample.build_at(design);
       const Trajectory found = simulate(neighbour.mechanism, impatient());
       EXPECT_EQ(found.steps(), trajectory.steps()) << "not the same sequence of steps";
-      return found.q.col(found.steps());
+      return found.columns().q.col(found.steps());
     };
     const Eigen::VectorXd expected = (end_at(h) - end_at(-h)) / (2 * h);
     const Eigen::VectorXd found = s.col(static_cast<Eigen::Index>(j));
@@ -81,8 +81,8 @@ TEST(SplitSteps, OfTheFirstStepSetOutFromTheInitialValues) {
   ASSERT_EQ(whole->trajectory.steps(), split->trajectory.steps());
   State found, expected;
   for (int step = 0; step <= split->trajectory.steps(); ++step) {
-    split->trajectory.load(step, found);
-    whole->trajectory.load(step, expected);
+    split->trajectory.states->load(step, found);
+    whole->trajectory.states->load(step, expected);
     // What Newton's method leaves, 1e-10, in another number of iterations.
     EXPECT_LE((found.v - expected.v).norm(), 1e-7 * expected.v.norm()) << step;
   }

@@ -20,7 +20,7 @@ Drift drift_of(System& system, const Trajectory& trajectory) {
     return residual.tail(system.multipliers()).lpNorm<Eigen::Infinity>();
   };
   for (int step = 1; step <= trajectory.steps(); ++step) {
-    trajectory.load(step, state);
+    trajectory.states->load(step, state);
     drift.position = std::max(drift.position, largest(ConstraintLevel::position));
     drift.velocity = std::max(drift.velocity, largest(ConstraintLevel::velocity));
   }

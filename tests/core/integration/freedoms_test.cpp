@@ -23,7 +23,7 @@ TEST_P(RigidFreedoms, AreThoseOfTheMechanism) {
   const ProblemFile problem = sample_problem(expected.problem, expected.overrides);
   const auto analysis = analyze(problem, start_design(problem));
   State initial;
-  analysis->trajectory.load(0, initial);
+  analysis->trajectory.states->load(0, initial);
   const Freedoms freedoms = rigid_freedoms(analysis->model.mechanism, initial);
   EXPECT_EQ(freedoms.coordinates, expected.coordinates);
   EXPECT_EQ(freedoms.free(), expected.free);
@@ -35,7 +35,7 @@ TEST_P(RigidFreedoms, AreSpannedByMotionsThatKeepTheConstraints) {
   const auto analysis = analyze(problem, start_design(problem));
   Mechanism& mechanism = analysis->model.mechanism;
   State state;
-  analysis->trajectory.load(0, state);
+  analysis->trajectory.states->load(0, state);
   const Eigen::MatrixXd motions = free_motions(mechanism, state);
   ASSERT_EQ(motions.cols(), GetParam().free);
   State generic = generic_position(mechanism, state);

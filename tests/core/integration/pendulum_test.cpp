@@ -25,7 +25,7 @@ Eigen::Vector2d pendulum_at(double time, double step, EffectChoice spatial) {
   SimulationOptions options{time, step, 0.8};
   options.newton_tolerance = 1e-12;
   const Trajectory trajectory = simulate(model.mechanism, options);
-  return trajectory.q.col(trajectory.steps()).head<2>();
+  return trajectory.columns().q.col(trajectory.steps()).head<2>();
 }
 
 /// IFToMM benchmark A01, exact. Richardson's step removes the h² of the error; measured 3e-10.
@@ -51,11 +51,11 @@ double energy_drift(double step) {
   options.newton_tolerance = 1e-11;
   const Trajectory trajectory = simulate(model.mechanism, options);
   State state;
-  trajectory.load(0, state);
+  trajectory.states->load(0, state);
   const double start = energy_of(model, state);
   double drift = 0.0;
   for (int i = 0; i <= trajectory.steps(); ++i) {
-    trajectory.load(i, state);
+    trajectory.states->load(i, state);
     drift = std::max(drift, std::abs(energy_of(model, state) - start));
   }
   return drift / (0.5 * 9.81 * model.bodies[0].mass * 0.5);  // against what falling sets free

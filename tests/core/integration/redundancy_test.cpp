@@ -82,7 +82,8 @@ TEST(RedundantConstraints, LeaveTheMotionThatThePlaneHas) {
                      expected = simulate(plane.mechanism, with_form);
     for (std::size_t i = 0; i < space.bodies.size(); ++i) {
       const auto place = [&](const Model& model, const Trajectory& trajectory) {
-        return Eigen::Vector2d(trajectory.q.col(last).segment<2>(model.bodies[i].frame.offset));
+        return Eigen::Vector2d(
+            trajectory.columns().q.col(last).segment<2>(model.bodies[i].frame.offset));
       };
       // Positions to what Newton's method leaves.
       EXPECT_LE((place(space, found) - place(plane, expected)).norm(), 1e-9) << i;
@@ -105,7 +106,7 @@ TEST(RedundantConstraints, OfADoubledJointAreThoseOfOne) {
   EXPECT_EQ(twice.mechanism.system->left_out().size(), 2u);
   const Trajectory found = simulate(twice.mechanism, {0.1, 1e-3}),
                    expected = simulate(once.mechanism, {0.1, 1e-3});
-  EXPECT_LE((found.q - expected.q).lpNorm<Eigen::Infinity>(), 1e-12);
+  EXPECT_LE((found.columns().q - expected.columns().q).lpNorm<Eigen::Infinity>(), 1e-12);
 }
 
 /// A second drive of the same angle follows from the first if it says the same at all times; one
@@ -139,7 +140,7 @@ TEST(RedundantConstraints, OfTwoDrivesShareTheTorqueOfOne) {
     const Trajectory trajectory = simulate(model.mechanism, {0.2, 1e-3});
     State state;
     for (const int step : {100, 150, 200}) {
-      trajectory.load(step, state);
+      trajectory.states->load(step, state);
       const double t = state.time, angle = 40.0 * t * t * t;
       const FrameMotion<double> motion = frame_of(model.body("beam"), state);
       EXPECT_NEAR(motion.A(1, 0), std::sin(angle), 1e-9);

@@ -43,10 +43,11 @@ Outcome run(const std::array<double, 3>& axis, EffectChoice spatial) {
       simulate(model.mechanism, {{.end_time = 0.05, .step = 1e-3, .spectral_radius = 0.8}});
   const BodyModel& bar = model.body("bar");
   const Eigen::VectorXd q =
-      trajectory.q.col(trajectory.steps()).segment(bar.frame.offset, bar.frame.size());
+      trajectory.columns().q.col(trajectory.steps()).segment(bar.frame.offset, bar.frame.size());
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(q.size());
   const FrameMotion<double> motion = frame_motion<double>(bar.frame, q, zero, zero);
-  return {motion.A(1, 0), -trajectory.lambda(model.joint("hinge").drive_row, trajectory.steps())};
+  return {motion.A(1, 0),
+          -trajectory.columns().lambda(model.joint("hinge").drive_row, trajectory.steps())};
 }
 
 TEST(Drive, TurnsAboutTheAxisOfItsJointInThePlaneAsInSpace) {
@@ -105,7 +106,7 @@ double turn_of(const Scene& scene, EffectChoice spatial, double end_time) {
   const Trajectory trajectory =
       simulate(model.mechanism, {{.end_time = end_time, .step = 1e-3, .spectral_radius = 0.8}});
   State state;
-  trajectory.load(trajectory.steps(), state);
+  trajectory.states->load(trajectory.steps(), state);
   const FrameMotion<double> motion = frame_of(model.body("second"), state);
   return std::remainder(std::atan2(motion.A(1, 0), motion.A(0, 0)) - 1.9, 2 * std::acos(-1.0));
 }
@@ -153,7 +154,7 @@ TEST(Drive, OfBothFreedomsOfACylindricalJointMakesAScrew) {
   const Trajectory trajectory =
       simulate(model.mechanism, {{.end_time = 0.1, .step = 1e-3, .spectral_radius = 0.8}});
   State state;
-  trajectory.load(trajectory.steps(), state);
+  trajectory.states->load(trajectory.steps(), state);
   const FrameMotion<double> motion = frame_of(model.body("second"), state);
   const double angle = 1.9 - 20.0 * 0.01;
   EXPECT_NEAR(motion.A(0, 0), std::cos(angle), 1e-9);

@@ -187,8 +187,8 @@ void check(const Pair& pair, EffectChoice spatial) {
   Model model = build_model(scene_of(pair, spatial), effects, {}, {});
   const Trajectory trajectory = simulate(model.mechanism, {0.1, 1e-3, 0.8});
   State start, end;
-  trajectory.load(0, start);
-  trajectory.load(trajectory.steps(), end);
+  trajectory.states->load(0, start);
+  trajectory.states->load(trajectory.steps(), end);
 
   System& system = *model.mechanism.system;
   System::Matrix matrix = system.make_matrix();

@@ -32,7 +32,8 @@ struct Simulated {
   }
   std::string place(const std::string& response, int channel) const {
     return analysis->responses[static_cast<std::size_t>(response_index(problem, response))]
-        .signal->describe(channel);
+        .history()
+        ->signal->describe(channel);
   }
 };
 

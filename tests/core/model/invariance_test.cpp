@@ -97,7 +97,7 @@ End end_of(const SampleScene& sample, const Scene& scene) {
   options.newton_tolerance = 1e-13;
   const Trajectory trajectory = simulate(model.mechanism, options);
   State state;
-  trajectory.load(trajectory.steps(), state);
+  trajectory.states->load(trajectory.steps(), state);
   End end;
   for (const BodyModel& body : model.bodies) {
     for (double at : {0.0, 1.0}) end.points.push_back(position_of(body, state, at));

@@ -36,7 +36,7 @@ Eigen::MatrixXd places_of(const SampleScene& sample, int* coordinates = nullptr)
   Eigen::MatrixXd places(15, trajectory.steps() + 1);
   State state;
   for (int step = 0; step <= trajectory.steps(); ++step) {
-    trajectory.load(step, state);
+    trajectory.states->load(step, state);
     places.col(step) << position_of(model.body("crank"), state, 0.6),
         position_of(model.body("rod"), state, 0.0), position_of(model.body("rod"), state, 0.55),
         position_of(model.body("flag"), state, 0.0), position_of(model.body("arm"), state, 1.0);

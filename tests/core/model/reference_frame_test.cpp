@@ -66,7 +66,7 @@ Motions motions_of(ReferenceCondition frame, double young) {
   result.places.resize(8, trajectory.steps() + 1);
   State state;
   for (int step = 0; step <= trajectory.steps(); ++step) {
-    trajectory.load(step, state);
+    trajectory.states->load(step, state);
     const Eigen::Vector3d start = position_of(rod, state, 0.0),
                           middle = position_of(rod, state, 0.5), end = position_of(rod, state, 1.0),
                           side = position_of(rod, state, 0.7);

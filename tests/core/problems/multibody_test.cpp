@@ -38,7 +38,7 @@ TEST(Pendulum, IsAfterFourPeriodsWhereTheEllipticFunctionsPutIt) {
     scene.joints = {revolute(ground_name, "mass", {0.0, 0.0})};
     Model model = build_model(scene, {}, {}, {});
     const Trajectory trajectory = simulate(model.mechanism, options_of(10.0, h));
-    return trajectory.q.col(trajectory.steps()).head<2>();
+    return trajectory.columns().q.col(trajectory.steps()).head<2>();
   };
   const Eigen::Vector2d found = extrapolated(end, 1e-3);
   // Measured 1e-8 and 8e-10: what h⁴ leaves.
@@ -70,8 +70,9 @@ struct FourBars {
   }
   /// Position and velocity of B0, the upper end of the first link.
   Eigen::Vector4d point_of(const Trajectory& trajectory, int step) const {
-    const double x = trajectory.q(0, step), y = trajectory.q(1, step);  // its middle
-    return {2 * x, 2 * y, 2 * trajectory.v(0, step), 2 * trajectory.v(1, step)};
+    const double x = trajectory.columns().q(0, step),
+                 y = trajectory.columns().q(1, step);  // its middle
+    return {2 * x, 2 * y, 2 * trajectory.columns().v(0, step), 2 * trajectory.columns().v(1, step)};
   }
   Model model;
 };
@@ -184,7 +185,7 @@ struct Squeezer {
     SimulationOptions options = options_of(time, h);
     const Trajectory trajectory = simulate(model.mechanism, options);
     const auto turn = [&](const char* body) {
-      return trajectory.q(model.body(body).frame.offset + 2, trajectory.steps());
+      return trajectory.columns().q(model.body(body).frame.offset + 2, trajectory.steps());
     };
     Eigen::VectorXd q(7);
     q << turn("K1"), turn("K2") - turn("K1"), turn("K3"), turn("K4") - turn("K5"), turn("K5"),
@@ -288,7 +289,7 @@ TEST(FlexibleSliderCrank, WithFourModesIsThatOfTheTestSet) {
   FourModes rod;
   const Trajectory trajectory = simulate(rod.mechanism, options_of(0.1, 5e-7));
   State state;
-  trajectory.load(trajectory.steps(), state);
+  trajectory.states->load(trajectory.steps(), state);
   Eigen::VectorXd found(9);
   found << state.q(FourModes::rod + 2), state.q(FourModes::slider),
       state.q.segment(FourModes::rod_modes, 4), state.v(FourModes::rod + 2),
@@ -314,7 +315,7 @@ TEST(FlexibleSliderCrank, WithElementsComesCloseToTheTestSet) {
   guess.q(slider.frame.offset) += q4;
   const Trajectory trajectory = simulate(model.mechanism, options_of(0.1, 5e-6));
   State state;
-  trajectory.load(trajectory.steps(), state);
+  trajectory.states->load(trajectory.steps(), state);
   Eigen::Vector2d sines = Eigen::Vector2d::Zero();  // (2/N) Σ vᵢ sin(kπ i/N)
   for (int node = 1; node < elements; ++node) {
     const Modes modes = modes_at(rod.beam.node_position(node));

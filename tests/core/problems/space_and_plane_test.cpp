@@ -60,7 +60,7 @@ double largest_rotation(const Analysis& analysis) {
   double largest = 0.0;
   State state;
   for (int step = 0; step <= analysis.trajectory.steps(); ++step) {
-    analysis.trajectory.load(step, state);
+    analysis.trajectory.states->load(step, state);
     const Eigen::VectorXd d = nodal_displacements(boom, state);
     for (Eigen::Index i = 0; i < d.size(); i += 6) {
       largest = std::max(largest, d.segment<3>(i + 3).norm());

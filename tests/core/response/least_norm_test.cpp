@@ -92,7 +92,7 @@ TEST(LeastNorm, IsThePseudoinverseOfAllConstraints) {
     System::Matrix matrix = system.make_matrix();
     State state;
     for (const int step : {0, 20, analysis->trajectory.steps()}) {
-      analysis->trajectory.load(step, state);
+      analysis->trajectory.states->load(step, state);
       state.lambda = random_vector(m, 7);
       system.tangent(state, {.q = 1.0}, ConstraintLevel::position, matrix);
       const Eigen::MatrixXd pull = Eigen::MatrixXd(matrix).topRightCorner(n, m);

@@ -150,7 +150,7 @@ inline Eigen::VectorXd observed(Signal& signal, const State& state) {
 
 inline double observed(const Model& model, const ResponseSettings& settings, const State& state) {
   const std::vector<Response> responses = make_responses({settings}, model);
-  return observed(*responses.front().signal, state)(0);
+  return observed(*responses.front().history()->signal, state)(0);
 }
 
 /// The three components of a reaction.

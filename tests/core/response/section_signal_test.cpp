@@ -36,7 +36,7 @@ Eigen::VectorXd stresses(const Model& model, const State& state, StressPart part
   settings.part = part;
   settings.station = station;
   const auto responses = make_responses({settings}, model);
-  return observed(*responses.front().signal, state);
+  return observed(*responses.front().history()->signal, state);
 }
 
 /// Uniform pull ε, bending v = κx²/2 and w = μx²/2, twist: exact in one element, whatever frame
@@ -123,7 +123,7 @@ double buckling(const Model& model, const State& state) {
   settings.type = ResponseType::buckling;
   settings.bodies = {"beam"};
   const auto responses = make_responses({settings}, model);
-  return observed(*responses.front().signal, state).maxCoeff();
+  return observed(*responses.front().history()->signal, state).maxCoeff();
 }
 
 double euler_load(double thickness, double across) {

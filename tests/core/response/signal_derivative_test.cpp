@@ -31,7 +31,7 @@ class EverySignal : public testing::TestWithParam<int> {
   template <class Move, class Slope>
   void expect_slopes(const Move& move, const Slope& slope, const char* what) {
     for (const Response& response : responses_) {
-      Signal& signal = *response.signal;
+      Signal& signal = *response.history()->signal;
       const auto at = [&](double s) {
         State moved = state_;
         move(moved, s);

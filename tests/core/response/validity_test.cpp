@@ -45,7 +45,7 @@ TEST(NotFinite, IsAFailedSimulationThatNamesTheFirstResponseAndItsTime) {
 TEST(NotFinite, IsAFailureOfTheMonitorsToo) {
   const ProblemFile problem = short_crank("7850");
   const auto analysis = analyze(problem, start_design(problem));
-  analysis->trajectory.v(0, 7) = 1e200;
+  analysis->trajectory.columns().v(0, 7) = 1e200;
   EXPECT_THAT(failure_of([&] { monitor(analysis->model, analysis->trajectory); }),
               HasSubstr("energy of the mechanism is not finite at t = 0.000175 s"));
 }
@@ -57,7 +57,7 @@ TEST(PulledApartJoint, FailsBeyondAThousandthOfTheShortestBeam) {
   SimulationOptions options{1e-3, 2.5e-5};
   ConstraintGuard guard(analysis->model, options);
   State state;
-  analysis->trajectory.load(0, state);
+  analysis->trajectory.states->load(0, state);
   const int crank = analysis->model.body("crank").frame.offset;
   EXPECT_EQ(failure_of([&] { guard.see(0, state); }), "");
   state.q(crank) += 0.11e-3;
@@ -73,7 +73,7 @@ TEST(PulledApartJoint, IsJudgedByWhatTheFormulationPromises) {
   const ProblemFile problem = short_crank("7850");
   const auto analysis = analyze(problem, start_design(problem));
   State state;
-  analysis->trajectory.load(0, state);
+  analysis->trajectory.states->load(0, state);
   state.q(analysis->model.body("crank").frame.offset) += 0.2e-3;
   SimulationOptions options{1e-3, 2.5e-5};
   options.newton_tolerance = 1e-4;
