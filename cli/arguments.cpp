@@ -19,9 +19,10 @@ namespace {
 constexpr std::size_t help_column = 30;
 
 constexpr const char* footer = R"(
-Every command that takes FILE also takes --set (repeatable) and --json.
-Exit codes: 0 done, 2 bad input, 3 simulation failed, 4 ended without a verified optimum or
-interrupted, 1 a result that could not be written, or a fault of the program.)";
+Every command that takes a problem also takes --set (repeatable) and --json.
+Exit codes: 0 done, 2 bad input, 3 simulation failed, 4 ended without a verified optimum,
+interrupted, or a design of simulate --design breaks a limit, 1 a result that could not be
+written, or a fault of the program.)";
 
 CLI::App* add_command(CLI::App& app, Arguments& arguments, const std::string& name,
                       const std::string& description) {
@@ -33,9 +34,11 @@ CLI::App* add_command(CLI::App& app, Arguments& arguments, const std::string& na
 
 void add_overrides(CLI::App* command, Arguments& arguments) {
   command
-      ->add_option("--set", arguments.overrides,
-                   "override a value of the file; repeatable: --set \"/simulation/step=0.1 ms\"")
-      ->type_name("/POINTER=VALUE")
+      ->add_option(
+          "--set", arguments.overrides,
+          "override a value of the file: --set \"/simulation/step=0.1 ms\", or the start of "
+          "a variable: --set \"rod_height=12 mm\"; repeatable")
+      ->type_name("PLACE=VALUE")
       ->allow_extra_args(false);
 }
 
@@ -70,8 +73,8 @@ CLI::Option* add_output(CLI::App* command, Arguments& arguments) {
 void add_design(CLI::App* command, Arguments& arguments) {
   command
       ->add_option("--design", arguments.design,
-                   "at the design of a result.json or failed_design.json of an optimization; an "
-                   "optimization begins there")
+                   "at the design of a result.json or failed_design.json of an optimization, or "
+                   "of a file {\"rod_height\": \"12 mm\", …}; an optimization begins there")
       ->type_name("FILE");
 }
 
@@ -200,7 +203,32 @@ void add_show(CLI::App& app, Arguments& arguments) {
   add_design(show, arguments);
 }
 
+void add_new(CLI::App& app, Arguments& arguments) {
+  CLI::App* command = add_command(app, arguments, "new",
+                                  "write a small problem file to begin with; alone: list them");
+  command->add_option("KIND", arguments.kind, "what mechanism: see the list");
+  command->add_option("FILE", arguments.file, "where to (default: KIND.json)");
+  command->add_flag("--overwrite", arguments.overwrites, "replace files that are there");
+}
+
+void add_schema(CLI::App& app, Arguments& arguments) {
+  CLI::App* command =
+      add_command(app, arguments, "schema",
+                  "print or write the JSON schema of problem files, by which editors complete");
+  command->add_option("FILE", arguments.file, "where to (default: standard output)");
+  command->add_flag("--overwrite", arguments.overwrites, "replace a file that is there");
+}
+
+void add_completion(CLI::App& app, Arguments& arguments) {
+  CLI::App* command = add_command(app, arguments, "completion",
+                                  "print the completion of commands and options for a shell");
+  command->add_option("SHELL", arguments.kind, "bash or zsh")->required();
+}
+
+}  // namespace
+
 void add_commands(CLI::App& app, Arguments& arguments) {
+  add_new(app, arguments);
   CLI::App* check = add_file_command(
       app, arguments, "check",
       "validate, describe the mechanism, verify the derivatives, estimate the time");
@@ -237,7 +265,11 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   add_report(app, arguments);
   add_show(app, arguments);
   add_command(app, arguments, "backends", "list the optimizers");
+  add_schema(app, arguments);
+  add_completion(app, arguments);
 }
+
+namespace {
 
 /// A misspelt command deserves better than "not expected".
 void check_command_name(const CLI::App& app, const std::vector<std::string>& words) {

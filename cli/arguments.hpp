@@ -8,6 +8,10 @@
 
 #include "core/base/parallel.hpp"
 
+namespace CLI {
+class App;
+}
+
 namespace pleuel {
 
 /// What the user typed.
@@ -16,7 +20,8 @@ struct Arguments {
   std::string command;
   std::filesystem::path file;                   ///< of a command that takes one
   std::vector<std::filesystem::path> files;     ///< of a command that takes several
-  std::vector<std::string> overrides;           ///< "/json/pointer=value"
+  std::vector<std::string> overrides;           ///< "/json/pointer=value" or "variable=value"
+  std::optional<std::string> kind;              ///< of a new problem, or of a shell
   std::optional<std::filesystem::path> output;  ///< run folder
   std::optional<std::filesystem::path> design;  ///< file with another design than the start
   std::optional<std::string> accuracy;          ///< target; one of the overrides, too
@@ -40,5 +45,8 @@ struct Arguments {
 /// @returns nothing if help or the version was asked for and printed
 /// @throws InputError for anything that is not a command line of pleuel
 std::optional<Arguments> parse_arguments(int argc, const char* const* argv);
+
+/// Declares the commands and their options, which will be written into the arguments.
+void add_commands(CLI::App& app, Arguments& arguments);
 
 }  // namespace pleuel

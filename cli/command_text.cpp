@@ -1,6 +1,7 @@
 #include "cli/command_text.hpp"
 
 #include "cli/run_folder.hpp"
+#include "core/scene/reading/json_text.hpp"
 
 namespace pleuel {
 
@@ -16,14 +17,27 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
+/// By its pointer: the value of a variable that is called by its name would take the place of that
+/// in a file of --design.
+std::string with_pointer(const std::string& assignment) {
+  if (assignment.starts_with("/")) return assignment;
+  const std::size_t equals = assignment.find('=');
+  return child_pointer("/variables", assignment.substr(0, equals)) + "/start" +
+         assignment.substr(equals);
+}
+
 }  // namespace
+
+std::string command_on(const std::string& command, const Arguments& arguments,
+                       const std::filesystem::path& file) {
+  return quoted(arguments.program) + " " + command + " " + quoted(file.string());
+}
 
 std::string command_at(const std::string& command, const Arguments& arguments,
                        const std::filesystem::path& design) {
-  std::string text =
-      quoted(arguments.program) + " " + command + " " + quoted(arguments.file.string());
+  std::string text = command_on(command, arguments, arguments.file);
   for (const std::string& assignment : arguments.overrides) {
-    text += " --set " + quoted(assignment);
+    text += " --set " + quoted(with_pointer(assignment));
   }
   if (command != "simulate") {
     for (const std::string& method : arguments.methods) text += " --method " + method;

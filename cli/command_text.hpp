@@ -7,6 +7,10 @@
 
 namespace pleuel {
 
+/// The line for a shell that runs a command on a file.
+std::string command_on(const std::string& command, const Arguments& arguments,
+                       const std::filesystem::path& file);
+
 /// The line for a shell that runs a command on the same input at the design of a file. Where the
 /// command takes gradients, they are those of the arguments.
 /// @param command  "simulate", "gradient" or "optimize"

@@ -1,6 +1,7 @@
 #include "cli/design_file.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,8 @@ void check_names(const JsonNode& variables, const ProblemFile& problem) {
 }
 
 /// A number in the unit that stands beside it, by default SI; or a text with unit.
-double read_number(const JsonNode& node, const JsonNode& value, const UnitSystem& units,
-                   const Quantity& quantity) {
-  const auto unit = node.find("unit");
+double read_number(const std::optional<JsonNode>& unit, const JsonNode& value,
+                   const UnitSystem& units, const Quantity& quantity) {
   const JsonNode& written = value.value().is_string() || !unit ? value : *unit;
   try {
     if (value.value().is_string()) return units.read(value.text(), quantity);
@@ -37,15 +37,25 @@ double read_number(const JsonNode& node, const JsonNode& value, const UnitSystem
   }
 }
 
+/// {"value", "unit"}, or the value alone.
 double read_value(const JsonNode& node, const DesignVariable& variable, const UnitSystem& units,
                   const Quantity& quantity) {
-  const JsonNode value = node.at("value");
-  const double x = read_number(node, value, units, quantity);
+  const JsonNode value = node.value().is_object() ? node.at("value") : node;
+  const double x = read_number(node.value().is_object() ? node.find("unit") : std::nullopt, value,
+                               units, quantity);
   if (x < variable.lower || x > variable.upper) {
     value.fail_with_value(
         fmt::format("must lie within the bounds of {:g} to {:g}", variable.lower, variable.upper));
   }
   return x;
+}
+
+/// The member "variables", or the whole document where that has a variable's name instead.
+JsonNode variables_of(const JsonNode& root, const ProblemFile& problem) {
+  const bool is_short = !root.find("variables") &&
+                        std::any_of(problem.variables.begin(), problem.variables.end(),
+                                    [&](const DesignVariable& one) { return root.find(one.name); });
+  return is_short ? root : root.at("variables");
 }
 
 }  // namespace
@@ -54,7 +64,7 @@ Eigen::VectorXd read_design(const std::filesystem::path& path, const ProblemFile
   const std::string file = path.string();
   const Json document = parse_json(read_text_file(path), file);
   const JsonNode root(document, file, "", "the design");
-  const JsonNode variables = root.at("variables");
+  const JsonNode variables = variables_of(root, problem);
   check_names(variables, problem);
   const UnitSystem units;
   Eigen::VectorXd x(static_cast<Eigen::Index>(problem.variables.size()));

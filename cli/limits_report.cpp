@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "cli/optimum.hpp"
 #include "cli/table.hpp"
+#include "cli/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "optimization/verdict.hpp"
@@ -29,6 +33,22 @@ bool is_kept(const ConstraintSettings& constraint, double value) {
   };
   return !(constraint.upper && exceeds(value - *constraint.upper, *constraint.upper)) &&
          !(constraint.lower && exceeds(*constraint.lower - value, *constraint.lower));
+}
+
+std::string sum_text(const ProblemFile& problem, const Eigen::VectorXd& x,
+                     const Analysis& analysis) {
+  std::vector<std::string> broken;
+  for (const ConstraintSettings& constraint : problem.constraints) {
+    if (is_kept(constraint, value_of(constraint, problem, x, analysis))) continue;
+    broken.push_back(constraint.name);
+  }
+  const std::size_t all = problem.constraints.size();
+  if (broken.empty() && all == 1) return "The limit is kept.\n";
+  if (broken.empty()) return fmt::format("All {} limits are kept.\n", all);
+  return wrapped(fmt::format("{} of {} limits {} broken: {}.", broken.size(), all,
+                             broken.size() == 1 ? "is" : "are", fmt::join(broken, ", ")),
+                 "  ") +
+         "\n";
 }
 
 }  // namespace
@@ -57,17 +77,27 @@ std::string limits_text(const ProblemFile& problem, const Eigen::VectorXd& x,
                {"limit"},
                {"unit", Table::Align::left},
                {"used"},
+               {"margin"},
                {"", Table::Align::left}});
   for (const ConstraintSettings& constraint : problem.constraints) {
     const double value = value_of(constraint, problem, x, analysis);
     const UsedLimit used = used_limit(constraint, value);
     const ShownUnit unit = unit_of(problem, constraint);
+    const double margin = used.is_upper ? used.limit - value : value - used.limit;
     table.add_row({constraint.name, significant(unit.shown(value)),
                    (used.is_upper ? "≤ " : "≥ ") + significant(unit.shown(used.limit)), unit.name,
                    used.utilisation ? percent(*used.utilisation) : "–",
+                   significant(unit.shown(margin), 3),
                    is_kept(constraint, value) ? "kept" : "BROKEN"});
   }
-  return table.is_empty() ? "" : "\n" + table.text();
+  return table.is_empty() ? "" : "\n" + table.text() + "\n" + sum_text(problem, x, analysis);
+}
+
+bool keeps_limits(const ProblemFile& problem, const Eigen::VectorXd& x, const Analysis& analysis) {
+  return std::all_of(problem.constraints.begin(), problem.constraints.end(),
+                     [&](const ConstraintSettings& constraint) {
+                       return is_kept(constraint, value_of(constraint, problem, x, analysis));
+                     });
 }
 
 }  // namespace pleuel

@@ -13,8 +13,11 @@ namespace pleuel {
 Json limits_document(const ProblemFile& problem, const Eigen::VectorXd& x,
                      const Analysis& analysis);
 
-/// A table of the same; empty without limits.
+/// A table of the same, and which limits are broken; empty without limits.
 std::string limits_text(const ProblemFile& problem, const Eigen::VectorXd& x,
                         const Analysis& analysis);
+
+/// As exactly as a verified optimum does.
+bool keeps_limits(const ProblemFile& problem, const Eigen::VectorXd& x, const Analysis& analysis);
 
 }  // namespace pleuel

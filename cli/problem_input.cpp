@@ -33,7 +33,7 @@ class Fingerprint {
   std::uint64_t state_ = 0xcbf29ce484222325u;
 };
 
-std::string read_text(const std::filesystem::path& path) {
+std::string whole_text(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
@@ -52,6 +52,19 @@ void note_unstable_scheme(const ProblemInput& input) {
                    input.file.string()));
 }
 
+/// Values of variables that are called by their names stand above those of a file with a design.
+void apply_named_values(const Arguments& arguments, const ProblemFile& problem,
+                        Eigen::VectorXd& x) {
+  for (const std::string& assignment : arguments.overrides) {
+    if (assignment.starts_with("/")) continue;
+    const std::string name = assignment.substr(0, assignment.find('='));
+    for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+      if (problem.variables[i].name != name) continue;
+      x(static_cast<Eigen::Index>(i)) = problem.variables[i].start;
+    }
+  }
+}
+
 ProblemInput read_file(const std::filesystem::path& file, const Arguments& arguments) {
   ProblemInput input;
   input.file = file;
@@ -61,8 +74,9 @@ ProblemInput read_file(const std::filesystem::path& file, const Arguments& argum
   if (arguments.difference_step) sensitivity.difference_step = *arguments.difference_step;
   input.design = arguments.design ? read_design(*arguments.design, input.problem)
                                   : start_design(input.problem);
+  apply_named_values(arguments, input.problem, input.design);
   decide_effects(input.problem);
-  input.text = {read_text(file), file.string(), arguments.overrides};
+  input.text = {whole_text(file), file.string(), arguments.overrides};
   input.effective = parse_json(input.text.text, file.string());
   Fingerprint fingerprint;
   fingerprint.add(input.text.text);
@@ -70,7 +84,7 @@ ProblemInput read_file(const std::filesystem::path& file, const Arguments& argum
     apply_override(input.effective, assignment, file.string());
     fingerprint.add(assignment);
   }
-  if (arguments.design) fingerprint.add(read_text(*arguments.design));
+  if (arguments.design) fingerprint.add(whole_text(*arguments.design));
   input.hash = fingerprint.text();
   note_unstable_scheme(input);
   return input;

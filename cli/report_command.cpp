@@ -5,6 +5,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/design_file.hpp"
 #include "cli/output_file.hpp"
 #include "cli/report_page.hpp"
 #include "cli/run_folder.hpp"
@@ -102,16 +103,17 @@ Json front_picture(const ProblemFile& problem, const Json& result) {
   return picture_of(problem, designs);
 }
 
-/// @param card  of a run whose design was given by --design: its values are not in the card
+/// @param result  of a simulation, which says what was simulated; others took the start, or the
+///                design of a file
 /// @param trajectory  file of a run that simulated the design; empty: it did not
-Json single_picture(const ProblemFile& problem, const Json& card, const fs::path& trajectory) {
+Json single_picture(const ProblemFile& problem, const Json& card, const Json& result,
+                    const fs::path& trajectory) {
   const bool has_other_design = card.at("input").contains("design");
   Eigen::VectorXd x = start_design(problem);
-  if (has_other_design) {
-    const Json document = read_document(card["input"]["design"].get<std::string>());
-    const auto given = design_in(document, problem, "value");
-    if (!given) throw InputError("the design of the run is not there any more");
-    x = *given;
+  if (const auto simulated = design_in(result, problem, "value")) {
+    x = *simulated;
+  } else if (has_other_design) {
+    x = read_design(card["input"]["design"].get<std::string>(), problem);
   }
   std::vector<Redone> designs;
   designs.push_back({has_other_design ? "design" : "start", x, nullptr, trajectory});
@@ -125,7 +127,7 @@ Json picture_of_run(const Json& card, const Json& result, const fs::path& folder
   const std::string command = card.at("command").get<std::string>();
   if (command == "optimize") return optimum_picture(problem, result, folder);
   if (command == "pareto") return front_picture(problem, result);
-  return single_picture(problem, card,
+  return single_picture(problem, card, result,
                         command == "simulate" ? folder / "trajectory.csv" : fs::path());
 }
 

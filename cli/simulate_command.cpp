@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "cli/analysis_report.hpp"
@@ -117,6 +119,14 @@ std::string simulation_text(const ProblemFile& problem, const std::string& desig
                             trajectory.factorizations, duration(run.check_seconds));
 }
 
+/// Whether the user asks what becomes of a design of theirs: one that breaks a limit is no success
+/// then, as the start of a search is.
+bool tries_a_design(const Arguments& arguments) {
+  return arguments.design ||
+         std::any_of(arguments.overrides.begin(), arguments.overrides.end(),
+                     [](const std::string& assignment) { return !assignment.starts_with("/"); });
+}
+
 }  // namespace
 
 Outcome run_simulate(const Arguments& arguments) {
@@ -138,12 +148,15 @@ Outcome run_simulate(const Arguments& arguments) {
   }
   record.begin_phase("write");
   const std::string design = arguments.design ? " at " + arguments.design->string() : "";
-  Outcome outcome{run.is_checked ? ExitCode::done : ExitCode::not_verified,
+  const bool is_refuted =
+      tries_a_design(arguments) && !keeps_limits(input.problem, input.design, *analysis);
+  Outcome outcome{run.is_checked && !is_refuted ? ExitCode::done : ExitCode::not_verified,
                   simulation_document(input.problem, run),
                   simulation_text(input.problem, design, input.design, run)};
   outcome.text += fmt::format("Written to {}: trajectory.csv, result.json, run_card.json\n",
                               record.folder().string());
   if (input.choice) outcome.document["setting"] = setting_document(input, *input.choice);
+  outcome.document["variables"] = variables_document(input.problem, input.design);
   outcome.document["constraints"] = limits_document(input.problem, input.design, *analysis);
   record.write("result.json", outcome.document);
   write_trajectory(record.result("trajectory.csv"), *analysis, run.bands);

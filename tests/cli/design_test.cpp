@@ -139,6 +139,68 @@ TEST_F(FailedDesign, MayBeWrittenByHandInAnyUnit) {
             si);
 }
 
+/// Rounded sizes, as a drawing has them: crank_length and rod_height of the file, and a limit.
+class RoundedDesign : public testing::Test {
+ protected:
+  ProgramRun simulate(const std::vector<std::string>& more) const {
+    return run_program(
+        folder_.path(),
+        joined({"simulate", problem("hard/impossible_designs"), "--json", "-o", "run",
+                "--overwrite", "--set",
+                R"(/constraints={"length": {"linear": {"crank_length": 1}, "upper": "60 mm"}})"},
+               more));
+  }
+  nlohmann::json values(const ProgramRun& run) const {
+    const nlohmann::json variables = run.document().at("variables");
+    return {variables.at("crank_length").at("value"), variables.at("rod_height").at("value")};
+  }
+  std::string design(const std::string& text) const {
+    std::ofstream(folder_.path() / "rounded.json") << text;
+    return "rounded.json";
+  }
+
+  const TemporaryFolder folder_;
+};
+
+TEST_F(RoundedDesign, IsAFileOfNamesAndValues) {
+  const ProgramRun run =
+      simulate({"--design", design(R"({"crank_length": "5.5 cm", "rod_height": 0.02})")});
+  EXPECT_EQ(values(run), nlohmann::json({0.055, 0.02}));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(values(simulate({"--design", design(R"({"variables": {"crank_length": "5.5 cm",
+                                                    "rod_height": {"value": 2, "unit": "cm"}}})")})),
+            nlohmann::json({0.055, 0.02}));
+}
+
+/// A value on the command line stands above that of the file.
+TEST_F(RoundedDesign, IsOnTheCommandLineByTheNamesOfVariables) {
+  EXPECT_EQ(values(simulate({"--set", "crank_length=55 mm", "--set", "rod_height=0.02"})),
+            nlohmann::json({0.055, 0.02}));
+  const std::string file = design(R"({"crank_length": "50 mm", "rod_height": "20 mm"})");
+  EXPECT_EQ(values(simulate({"--design", file, "--set", "crank_length=55 mm"})),
+            nlohmann::json({0.055, 0.02}));
+}
+
+TEST_F(RoundedDesign, ThatBreaksALimitIsNoSuccess) {
+  for (const auto& [value, code] : {std::pair{"61 mm", 4}, std::pair{"60 mm", 0}}) {
+    const ProgramRun run = simulate({"--set", std::string("crank_length=") + value});
+    EXPECT_EQ(run.exit_code, code) << value;
+    EXPECT_EQ(run.document().at("constraints").at("length").at("kept"), code == 0);
+  }
+  // A start is no answer.
+  const ProgramRun start = simulate({"--set", "/variables/crank_length/start=61 mm"});
+  EXPECT_EQ(start.exit_code, 0);
+  EXPECT_EQ(start.document().at("constraints").at("length").at("kept"), false);
+}
+
+TEST_F(RoundedDesign, IsDrawnInAReportThatIsMadeLater) {
+  const std::string file = design(R"({"crank_length": "55 mm", "rod_height": "20 mm"})");
+  simulate({"--no-report", "--design", file, "--set", "rod_height=21 mm"});
+  const ProgramRun report = run_program(folder_.path(), {"report", "run"});
+  EXPECT_EQ(report.exit_code, 0) << report.err;
+  EXPECT_THAT(report.out, ::testing::Not(HasSubstr("Without the mechanism")));
+}
+
 TEST_F(WrongDesign, ThatIsNotThereIsNamed) {
   const ProgramRun run = run_program(
       folder_.path(), {"simulate", problem("hard/impossible_designs"), "--design", "nothing.json"});

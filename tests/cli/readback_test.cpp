@@ -49,6 +49,7 @@ TEST(ReadBack, OfSimulate) {
     expect_shown(limits.text(row, "value"), unit, of_value);
     expect_shown(limits.text(row, "limit"), unit, of_limit);
     expect_shown(limits.text(row, "used"), "1", 100 * of_value / of_limit);
+    expect_shown(limits.text(row, "margin"), unit, of_limit - of_value);
     EXPECT_EQ(constraint.at("kept"), name != "crank_strength") << name;
   }
   EXPECT_EQ(constraints.at("crank_strength").at("value"), responses.at("crank_stress").at("value"));

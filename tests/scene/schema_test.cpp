@@ -9,6 +9,7 @@
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
+#include "core/scene/problem_reader.hpp"
 #include "tests/scene/good_problem.hpp"
 
 namespace pleuel::test {
@@ -60,6 +61,32 @@ TEST_F(ProblemSchema, AcceptsEveryProblemFile) {
   }
   EXPECT_GE(files, 4);
   EXPECT_GE(hard_files, 18) << "as many as docs/stability.md lists";
+}
+
+/// Every object of a document with a remark in it.
+void add_comments(nlohmann::json& value) {
+  for (nlohmann::json& member : value) {
+    if (member.is_structured()) add_comments(member);
+  }
+  if (value.is_object()) value["$comment"] = "says why";
+}
+
+TEST_F(ProblemSchema, AcceptsACommentInEveryObject) {
+  nlohmann::json document = nlohmann::json::parse(good_text());
+  add_comments(document);
+  EXPECT_EQ(complaints(document), "");
+}
+
+TEST(Comments, AreReadByNobody) {
+  nlohmann::json document = nlohmann::json::parse(good_text());
+  add_comments(document);
+  const ProblemFile with = read_problem_text(document.dump(), "good.json");
+  const ProblemFile without = read_problem_text(good_text(), "good.json");
+  EXPECT_EQ(with.scene.bodies.size(), without.scene.bodies.size());
+  EXPECT_EQ(with.scene.joints.size(), without.scene.joints.size());
+  EXPECT_EQ(with.variables.size(), without.variables.size());
+  EXPECT_EQ(with.responses.size(), without.responses.size());
+  EXPECT_EQ(with.constraints.size(), without.constraints.size());
 }
 
 TEST_F(ProblemSchema, AcceptsTheGoodProblem) {

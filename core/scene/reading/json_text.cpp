@@ -12,6 +12,9 @@
 namespace pleuel {
 namespace {
 
+/// A remark of the author. Objects may have one, and nobody else sees it.
+constexpr const char* comment_key = "$comment";
+
 std::string line_and_column(const std::string& text, std::size_t position) {
   const std::size_t end = std::min(position, text.size());
   const std::size_t start_of_line = end == 0 ? 0 : text.rfind('\n', end - 1) + 1;
@@ -131,6 +134,7 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   }
 
   bool close() {
+    if (open_.back().keys.count(comment_key) > 0) open_.back().value->erase(comment_key);
     open_.pop_back();
     return true;
   }

@@ -31,7 +31,7 @@ class Override {
   void apply(Json& document) const {
     const std::size_t equals = assignment_.find('=');
     if (equals == std::string::npos) fail("has no \"=\"; write /json/pointer=value");
-    const std::vector<std::string> keys = split(assignment_.substr(0, equals));
+    const std::vector<std::string> keys = keys_of(document, assignment_.substr(0, equals));
     Json* place = &document;
     std::string pointer;
     for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
@@ -51,10 +51,25 @@ class Override {
     throw InputError(fmt::format("{}: --set {}: {}", file_, assignment_, rule));
   }
 
-  std::vector<std::string> split(const std::string& pointer) const {
-    if (pointer.empty() || pointer.front() != '/') {
-      fail("must begin with a JSON pointer such as /simulation/step");
+  /// Of a pointer, or of the start of the design variable of this name.
+  std::vector<std::string> keys_of(const Json& document, const std::string& place) const {
+    if (!place.empty() && place.front() == '/') return split(place);
+    std::vector<std::string> known;
+    const auto variables = document.find("variables");
+    if (variables != document.end() && variables->is_object()) {
+      for (const auto& [name, variable] : variables->items()) known.push_back(name);
     }
+    if (std::find(known.begin(), known.end(), place) == known.end()) {
+      const std::string rule = "must begin with a JSON pointer such as /simulation/step";
+      const bool is_no_name = place.empty() || place.find('/') != std::string::npos;
+      fail(is_no_name || known.empty()
+               ? rule
+               : rule + ", or with the name of a design variable" + hint(place, known));
+    }
+    return {"variables", place, "start"};
+  }
+
+  std::vector<std::string> split(const std::string& pointer) const {
     std::vector<std::string> keys;
     for (std::size_t i = 0; i < pointer.size(); ++i) {
       if (pointer[i] == '/') {

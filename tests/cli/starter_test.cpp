@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "tests/cli/program.hpp"
+
+/// Problem files that `new` writes to begin with, and the schema beside them.
+namespace pleuel::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+
+const std::vector<std::string> kinds = {"cantilever", "slider-crank", "four-bar", "robot", "press"};
+
+class Starter : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override { ASSERT_EQ(run({"new", GetParam(), "begin.json"}).exit_code, 0); }
+  ProgramRun run(const std::vector<std::string>& words) const {
+    return run_program(folder_.path(), words);
+  }
+
+  const TemporaryFolder folder_;
+};
+
+TEST_P(Starter, HasAVerifiedOptimumThatIsLighter) {
+  const ProgramRun optimum = run({"optimize", "begin.json", "--json", "--no-report"});
+  EXPECT_EQ(optimum.exit_code, 0) << optimum.err;
+  const nlohmann::json document = optimum.document();
+  EXPECT_EQ(document.at("status"), "verified");
+  EXPECT_LT(document.at("objective").at("value"), document.at("objective").at("start"));
+  EXPECT_EQ(document.at("warnings"), nlohmann::json::array());
+}
+
+TEST_P(Starter, IsCheckedWithoutWarning) {
+  const ProgramRun check = run({"check", "begin.json", "--json"});
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  EXPECT_EQ(check.document().at("warnings"), nlohmann::json::array());
+  EXPECT_EQ(check.document().at("rigid_motion").at("free"), 0);
+  for (const auto& [name, response] : check.document().at("responses").items()) {
+    EXPECT_NE(response.at("derivatives").at("verdict"), "differs") << name;
+  }
+}
+
+TEST_P(Starter, NamesTheSchemaThatLiesBesideIt) {
+  const auto problem = nlohmann::json::parse(read_file(folder_.path() / "begin.json"));
+  const fs::path schema = folder_.path() / problem.at("$schema").get<std::string>();
+  EXPECT_EQ(read_file(schema), read_file(PLEUEL_SOURCE_DIR "/problems/problem.schema.json"));
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEachKind, Starter, testing::ValuesIn(kinds), [](const auto& kind) {
+  std::string name = kind.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+TEST(New, AloneListsTheKindsALineEach) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(folder.path(), {"new"});
+  EXPECT_EQ(run.exit_code, 0);
+  for (const std::string& kind : kinds) {
+    EXPECT_THAT(run.out, ContainsRegex("\n  " + kind + " +a [^\n]+\n"));
+  }
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(New, TakesTheKindForTheNameOfTheFile) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run_program(folder.path(), {"new", "press"}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder.path() / "press.json"));
+}
+
+TEST(New, ReplacesNoWorkWithoutBeingTold) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "mine.json", schema = folder.path() / "problem.schema.json";
+  std::ofstream(file) << "mine";
+  std::ofstream(schema) << "mine, too";
+  const ProgramRun refused = run_program(folder.path(), {"new", "press", "mine.json"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(refused.err, "pleuel: mine.json: is there already; --overwrite replaces it\n");
+  EXPECT_EQ(read_file(file), "mine");
+  EXPECT_EQ(run_program(folder.path(), {"new", "press", "other.json"}).exit_code, 0);
+  EXPECT_EQ(read_file(schema), "mine, too");
+  EXPECT_EQ(run_program(folder.path(), {"new", "press", "mine.json", "--overwrite"}).exit_code, 0);
+  EXPECT_THAT(read_file(file), HasSubstr("\"scene\""));
+  EXPECT_THAT(read_file(schema), HasSubstr("\"definitions\""));
+}
+
+TEST(New, NamesTheKindThatWasProbablyMeant) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(folder.path(), {"new", "fourbar", "mine.json"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("did you mean \"four-bar\"?"));
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(Schema, IsThatOfTheProblems) {
+  const TemporaryFolder folder;
+  const std::string schema = read_file(PLEUEL_SOURCE_DIR "/problems/problem.schema.json");
+  EXPECT_EQ(run_program(folder.path(), {"schema"}).out, schema);
+  EXPECT_EQ(run_program(folder.path(), {"schema", "my.schema.json"}).exit_code, 0);
+  EXPECT_EQ(read_file(folder.path() / "my.schema.json"), schema);
+}
+
+}  // namespace
+}  // namespace pleuel::test
