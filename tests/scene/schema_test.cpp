@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -124,6 +125,28 @@ TEST_F(ProblemSchema, AcceptsEveryReferenceOfADeflection) {
                             against + "}";
     EXPECT_EQ(complaints_about_edit("/responses/bow", bow), "") << against;
     EXPECT_EQ(complaint(edited("/responses/bow", bow)), "") << against;
+  }
+}
+
+/// What an editor shows: not that an object is none of the kinds there are.
+TEST_F(ProblemSchema, NamesTheKeyThatIsWrongInItsKind) {
+  const std::pair<const char*, const char*> slips[] = {
+      {"/scene/bodies/crank/elemnts", "3"},
+      {"/scene/bodies/crank/section", R"({"type": "circle", "diameter": 0.01, "elemnts": 1})"},
+      {"/scene/joints/again", R"({"type": "fixed", "bodies": ["crank", "rod"], "at": [0, 0, 0],
+                                  "elemnts": 1})"},
+      {"/scene/loads/push", R"({"type": "force", "body": "rod", "at": [0.3, 0, 0], "value": 1,
+                                "direction": [1, 0, 0], "elemnts": 1})"},
+      {"/scene/loads/push", R"({"type": "force", "body": "rod", "at": [0.3, 0, 0],
+                                "direction": [1, 0, 0],
+                                "value": {"type": "constant", "value": 1, "elemnts": 1}})"},
+      {"/responses/bow", R"({"type": "deflection", "body": "rod", "at": 0.5, "over_time": "max",
+                             "elemnts": 1})"},
+      {"/responses/v", R"({"type": "velocity", "body": "rod", "direction": "x", "over_time": "max",
+                           "elemnts": 1})"}};
+  for (const auto& [pointer, value] : slips) {
+    EXPECT_NE(complaints_about_edit(pointer, value).find("'elemnts'"), std::string::npos)
+        << pointer << complaints_about_edit(pointer, value);
   }
 }
 
