@@ -91,6 +91,8 @@ class CompressionQuantity {
     return {whole};
   }
 
+  std::string name(int) const { return ""; }
+
   template <class Scalar>
   Scalar evaluate(const Beam<Scalar>&, const SectionProperties<Scalar>&,
                   const SectionForces<Scalar>& forces, int) const {

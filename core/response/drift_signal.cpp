@@ -9,12 +9,6 @@ namespace pleuel {
 
 namespace {
 
-/// Index in λ of each equation of a joint.
-int multiplier(const JointModel& joint, int equation) {
-  const int number = joint.first_multiplier + equation;
-  return joint.map ? joint.map->multipliers[static_cast<std::size_t>(number)] : number;
-}
-
 class DriftSignal final : public Signal {
  public:
   DriftSignal(const Model& model, ConstraintLevel level)
@@ -27,10 +21,9 @@ class DriftSignal final : public Signal {
 
   std::string describe(int channel) const override {
     for (const JointModel& joint : model_.joints) {
-      for (int i = 0; i < joint.equations(); ++i) {
-        if (multiplier(joint, i) != channel) continue;
-        return fmt::format("joint {}, equation {}", joint.name, i + 1);
-      }
+      const int equation = channel - joint.first_multiplier;
+      if (equation < 0 || equation >= joint.equations()) continue;
+      return fmt::format("joint {}, equation {}", joint.name, equation + 1);
     }
     return fmt::format("equation {}", channel + 1);
   }

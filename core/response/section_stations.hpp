@@ -42,6 +42,7 @@ Beam<To> cast_beam(const Beam<double>& beam) {
 ///     std::vector<int> points(const BodyModel&, const SectionProperties<double>&) const;
 ///     template <class Scalar> Scalar evaluate(const Beam<Scalar>&,
 ///         const SectionProperties<Scalar>&, const SectionForces<Scalar>&, int point) const;
+///     std::string name(int point) const;  // of a negative one: ", tension side", or nothing
 /// One channel a station and point; points from 0 are those of the section, negative ones belong to
 /// the quantity.
 template <class Quantity>
@@ -66,15 +67,10 @@ class SectionStations final : public Stations {
   int station(int channel) const override { return at(channel).station; }
   std::string describe(int channel) const override {
     const auto& [station, index] = at(channel);
-    const double place =
-        body_.stretch.first_element + stations_[static_cast<std::size_t>(station)].place;
-    if (index < 0) {
-      std::string what;
-      if constexpr (requires { quantity_.name(index); }) what = quantity_.name(index);
-      return fmt::format("node {}{}", place, what);
-    }
+    const std::string place = pleuel::describe(stations_[static_cast<std::size_t>(station)], body_);
+    if (index < 0) return place + quantity_.name(index);
     const auto& point = section_of(body_.beam, station).points[static_cast<std::size_t>(index)];
-    return fmt::format("node {}, y = {:.4g} m, z = {:.4g} m", place, point.y, point.z);
+    return fmt::format("{}, y = {:.4g} m, z = {:.4g} m", place, point.y, point.z);
   }
 
   double value(int channel, const double* numbers) const override {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "core/beam/beam_place.hpp"
 
 namespace pleuel {
@@ -55,6 +57,19 @@ class StationFinder {
 std::vector<Station> find_stations(const BodyModel& body, const StationChoice& choice) {
   const StationFinder finder(body);
   return choice.place ? finder.at(*choice.place) : finder.along(choice.segment);
+}
+
+std::string describe(const Station& station, const BodyModel& body) {
+  const int first = body.stretch.first_element;
+  const std::string text = fmt::format("node {}", first + station.place);
+  const double inside = station.place - station.elements.front();  // of an element, 0 … 1
+  const bool is_end =
+      (station.place == 0.0 && body.stretch.begin == 0.0) ||
+      (station.place == double(body.beam.elements.size()) && body.stretch.end == 1.0);
+  const bool is_one_side = station.elements.size() == 1 && (inside == 0.0 || inside == 1.0);
+  if (is_end || !is_one_side) return text;
+  const int other = station.elements.front() + (inside == 0.0 ? 1 : 0);
+  return fmt::format("{} towards node {}", text, first + other);
 }
 
 }  // namespace pleuel

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/model/model.hpp"
@@ -24,5 +25,9 @@ struct Station {
 /// segment are one station; between two segments, and where a joint or load acts, one for each:
 /// section forces may jump there.
 std::vector<Station> find_stations(const BodyModel& body, const StationChoice& choice);
+
+/// Where it is, counted along the whole beam: "node 3"; "node 3 towards node 4" where section forces
+/// may jump at the node; "node 2.5" half way between two.
+std::string describe(const Station& station, const BodyModel& body);
 
 }  // namespace pleuel

@@ -9,7 +9,7 @@ namespace pleuel {
 namespace {
 
 /// Halves of a round outline, and sections as a whole.
-constexpr int pulled = -1, pressed = -2, whole = -3;
+constexpr int tension_side = -1, compression_side = -2, whole = -3;
 
 /// Points that torsion tells apart.
 std::vector<int> points_of_distinct_shear(const SectionProperties<double>& section) {
@@ -37,7 +37,7 @@ Scalar bending_stress(const SectionProperties<Scalar>& section, const SectionFor
   const Scalar along_y = forces.moment_z * section.radius_y / section.inertia_z;
   const Scalar along_z = forces.moment_y * section.radius_z / section.inertia_y;
   const Scalar largest = sqrt(along_y * along_y + along_z * along_z + tiny);
-  return point == pulled ? largest : Scalar(-largest);
+  return point == tension_side ? largest : Scalar(-largest);
 }
 
 template <class Scalar>
@@ -45,7 +45,7 @@ Scalar von_mises(const SectionProperties<Scalar>& section, const SectionForces<S
                  int point) {
   return von_mises_stress(section, forces,
                           point >= 0 ? section.points[static_cast<std::size_t>(point)]
-                                     : most_stressed_point(section, forces, point == pulled));
+                                     : most_stressed_point(section, forces, point == tension_side));
 }
 
 class StressQuantity {
@@ -56,7 +56,7 @@ class StressQuantity {
     if (part_ == StressPart::axial) return {whole};
     if (part_ == StressPart::shear) return points_of_distinct_shear(section);
     const bool is_planar = body.frame.rotation == RotationCoordinates::angle;
-    if (section.is_round() && !is_planar) return {pulled, pressed};
+    if (section.is_round() && !is_planar) return {tension_side, compression_side};
     return distinct_stress_points(body, section);
   }
 
@@ -77,6 +77,10 @@ class StressQuantity {
       default:
         return von_mises(section, forces, point);
     }
+  }
+
+  std::string name(int point) const {
+    return point == whole ? "" : point == tension_side ? ", tension side" : ", compression side";
   }
 
  private:
