@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Runs the commands of pages of the documentation, and compares what they print with what the pages say.
 
-    commands.py PROGRAM PAGE…         PROGRAM is the built pleuel
-    commands.py --slow PROGRAM PAGE…  those marked as slow, too
+    commands.py PROGRAM [PAGE…]         PROGRAM is the built pleuel; by default all pages
+    commands.py --slow PROGRAM [PAGE…]  those marked as slow, too
 
 Each page has a fresh folder with links `pleuel` and `problems`; its blocks run from top to bottom:
 
@@ -171,10 +171,11 @@ def main() -> int:
     parser.add_argument("--slow", action="store_true", help="run those marked as slow, too")
     parser.add_argument("--keep", type=Path, help="run in this folder, and leave it")
     parser.add_argument("program", type=Path)
-    parser.add_argument("pages", type=Path, nargs="+")
+    parser.add_argument("pages", type=Path, nargs="*")
     arguments = parser.parse_args()
+    all_pages = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
     wrong = 0
-    for page in arguments.pages:
+    for page in arguments.pages or all_pages:
         folder = arguments.keep or Path(tempfile.mkdtemp())
         folder.mkdir(exist_ok=True)
         try:

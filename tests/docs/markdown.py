@@ -1,6 +1,7 @@
 """Pages of the documentation: their fenced blocks, headings and links."""
 
 import re
+import textwrap
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,12 +16,12 @@ class Block:
 def blocks(page: Path) -> list[Block]:
     found, fence, begin, words, lines = [], None, 0, [], []
     for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
-        mark = re.match(r"(`{3,})\s*(.*)$", line)
+        mark = re.match(r" *(`{3,})\s*(.*)$", line)  # indented within a list
         if fence is None:
             if mark:
                 fence, begin, words, lines = mark.group(1), number, mark.group(2).split(), []
         elif mark and mark.group(1) == fence and not mark.group(2):
-            found.append(Block(begin, words, "\n".join(lines) + "\n"))
+            found.append(Block(begin, words, textwrap.dedent("\n".join(lines)) + "\n"))
             fence = None
         else:
             lines.append(line)
@@ -33,7 +34,7 @@ def prose(page: Path) -> list[tuple[int, str]]:
     """The lines outside of fenced blocks, without spans of code."""
     lines, is_code = [], False
     for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
-        if line.startswith("```"):
+        if line.lstrip().startswith("```"):
             is_code = not is_code
         elif not is_code and not line.startswith("    "):
             lines.append((number, line))
