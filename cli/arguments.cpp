@@ -142,10 +142,12 @@ void add_gradient(CLI::App& app, Arguments& arguments) {
       ->type_name("NUMBER");
   add_jobs(gradient, arguments);
   add_accuracy(gradient, arguments);
-  CLI::Option* histories =
-      gradient->add_flag("--histories", arguments.wants_histories,
-                         "write the derivatives of all histories into a run folder");
-  add_output(gradient, arguments)->needs(histories);
+  gradient->add_flag("--histories", arguments.wants_histories,
+                     "write the derivatives of all histories into a run folder");
+  gradient->add_flag("--compare", arguments.compares_methods,
+                     "effort and accuracy of all methods, of differences with steps from 1e-2 to "
+                     "1e-8, into a run folder");
+  add_output(gradient, arguments);
 }
 
 void add_invariants(CLI::App& app, Arguments& arguments) {
@@ -193,6 +195,17 @@ void add_report(CLI::App& app, Arguments& arguments) {
   report->add_option("DIR", arguments.files, "run folders")->required();
 }
 
+void add_plot(CLI::App& app, Arguments& arguments) {
+  CLI::App* plot =
+      add_command(app, arguments, "plot", "draw histories of a run: as SVG, and in the terminal");
+  plot->add_option("DIR", arguments.file, "run folder")->required();
+  plot->add_option("NAME", arguments.names,
+                   "responses with histories (default: the names of all are listed)");
+  plot->add_option("-o,--output", arguments.output,
+                   "the drawing to write (default: DIR/plot-NAME.svg, or plot.svg of several)")
+      ->type_name("FILE.svg");
+}
+
 void add_show(CLI::App& app, Arguments& arguments) {
   CLI::App* show = add_file_command(app, arguments, "show",
                                     "draw the mechanism of a file, before anything is simulated");
@@ -234,6 +247,12 @@ void add_commands(CLI::App& app, Arguments& arguments) {
       "validate, describe the mechanism, verify the derivatives, estimate the time");
   add_design(check, arguments);
   add_jobs(check, arguments);
+  add_overwrite(check, arguments);
+  add_no_report(check, arguments);
+  check
+      ->add_option("-o,--output", arguments.output,
+                   "run folder for result.json and report.html (default: nothing is written)")
+      ->type_name("DIR");
   CLI::App* simulate =
       add_file_command(app, arguments, "simulate", "simulate one design, by default the start");
   add_output(simulate, arguments);
@@ -263,6 +282,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   add_stability(app, arguments);
   add_uncertainty(app, arguments);
   add_report(app, arguments);
+  add_plot(app, arguments);
   add_show(app, arguments);
   add_command(app, arguments, "backends", "list the optimizers");
   add_schema(app, arguments);

@@ -32,6 +32,8 @@ struct Arguments {
   int jobs = available_threads();         ///< simulations at a time
   bool wants_optimum = false;             ///< accuracy of it, and of whole optimizations
   bool wants_histories = false;           ///< with their derivatives
+  bool compares_methods = false;          ///< of gradients: effort and accuracy of all
+  std::vector<std::string> names;         ///< of histories that are drawn
   bool wants_effects = false;             ///< what each effect brings and costs
   bool wants_json = false;
   bool leaves_out_report = false;  ///< no report.html

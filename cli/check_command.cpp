@@ -1,3 +1,5 @@
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "cli/analysis_report.hpp"
@@ -7,6 +9,8 @@
 #include "cli/effects_report.hpp"
 #include "cli/monitors_report.hpp"
 #include "cli/problem_input.hpp"
+#include "cli/run_picture.hpp"
+#include "cli/run_record.hpp"
 #include "cli/scene_report.hpp"
 #include "cli/stopwatch.hpp"
 #include "cli/ties.hpp"
@@ -29,6 +33,7 @@ struct Examination {
   double simulation_seconds = 0.0, gradient_seconds = 0.0;
   Ties ties;
   std::vector<EffectInfluence> influences;
+  std::optional<DesignInfluence> influence;  ///< likewise
   std::vector<DerivativeCheck> derivatives;  ///< empty without variables
   bool is_interrupted = false;               ///< before the derivatives were verified
   std::vector<std::string> warnings;
@@ -56,7 +61,7 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x, int th
   }
   if (problem.variables.empty() || problem.responses.empty()) return findings;
   const Stopwatch gradient;
-  direct_gradients(*findings.analysis);
+  findings.influence = DesignInfluence{direct_gradients(*findings.analysis)};
   findings.gradient_seconds = gradient.seconds();
   DerivativeCheckOptions options;
   options.threads = threads;
@@ -143,9 +148,23 @@ Outcome run_check(const Arguments& arguments) {
   const ProblemInput input = read_input(arguments);
   const ProblemFile& problem = input.problem;
   show_warnings_before(problem);
+  std::optional<RunRecord> record;  // before the work: the folder may not be free
+  if (arguments.output) record.emplace(arguments, input, Json::object());
   const Examination findings = examine(problem, input.design, arguments.jobs);
-  return {findings.is_interrupted ? ExitCode::not_verified : ExitCode::done,
-          check_document(problem, findings), make_text(problem, findings)};
+  Outcome outcome{findings.is_interrupted ? ExitCode::not_verified : ExitCode::done,
+                  check_document(problem, findings), make_text(problem, findings)};
+  if (!record) return outcome;
+  record->show_picture([&] {
+    return run_picture(problem, {{arguments.design ? "design" : "start",
+                                  input.design,
+                                  findings.analysis.get(),
+                                  {},
+                                  findings.influence ? &*findings.influence : nullptr}});
+  });
+  outcome.text +=
+      fmt::format("Written to {}: result.json, run_card.json\n", record->folder().string());
+  record->finish(outcome);
+  return outcome;
 }
 
 }  // namespace pleuel

@@ -16,6 +16,7 @@ Outcome run_invariants(const Arguments& arguments);
 Outcome run_new(const Arguments& arguments);
 Outcome run_optimize(const Arguments& arguments);
 Outcome run_pareto(const Arguments& arguments);
+Outcome run_plot(const Arguments& arguments);
 Outcome run_prices(const Arguments& arguments);
 Outcome run_report(const Arguments& arguments);
 Outcome run_schema(const Arguments& arguments);

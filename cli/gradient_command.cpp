@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 
 #include "cli/analysis_report.hpp"
 #include "cli/commands.hpp"
+#include "cli/console.hpp"
 #include "cli/gradients_csv.hpp"
 #include "cli/run_picture.hpp"
 #include "cli/run_record.hpp"
@@ -18,6 +20,7 @@
 #include "core/trust/doubts.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/method_choice.hpp"
+#include "studies/method_comparison.hpp"
 
 namespace pleuel {
 
@@ -81,8 +84,50 @@ struct MethodFindings {
   std::vector<MethodResult> results;
   Ties ties;
   std::vector<std::string> warnings;
-  ErrorBars errors;  ///< of the values
+  ErrorBars errors;                      ///< of the values
+  std::vector<ComparedMethod> compared;  ///< empty: not asked for
 };
+
+Json comparison_document(const ProblemFile& problem, const std::vector<ComparedMethod>& compared) {
+  Json document = Json::array();
+  for (const ComparedMethod& one : compared) {
+    Json errors = Json::object();
+    for (std::size_t i = 0; i < problem.responses.size(); ++i) {
+      errors[problem.responses[i].name] = one.errors(static_cast<Eigen::Index>(i));
+    }
+    document.push_back({{"method", to_string(one.method)},
+                        {"step", one.step > 0.0 ? Json(one.step) : Json(nullptr)},
+                        {"seconds", one.seconds},
+                        {"errors", std::move(errors)}});
+  }
+  return document;
+}
+
+/// Of each method with its best step.
+std::string comparison_text(const ProblemFile& problem,
+                            const std::vector<ComparedMethod>& compared) {
+  if (compared.empty()) return "";
+  std::map<GradientMethod, const ComparedMethod*> best;
+  for (const ComparedMethod& one : compared) {
+    const ComparedMethod*& known = best[one.method];
+    if (!known || one.errors.maxCoeff() < known->errors.maxCoeff()) known = &one;
+  }
+  Table table({{"method", Table::Align::left},
+               {"best step"},
+               {"time"},
+               {"largest error"},
+               {"of", Table::Align::left}});
+  for (const auto& [method, one] : best) {
+    Eigen::Index worst = 0;
+    const double error = one->errors.maxCoeff(&worst);
+    table.add_row({to_string(method), one->step > 0.0 ? magnitude(one->step) : "–",
+                   duration(one->seconds), magnitude(error),
+                   problem.responses[static_cast<std::size_t>(worst)].name});
+  }
+  return "\nEffort and accuracy of the methods, with the step that is best for differences; errors "
+         "relative,\ndirect and adjoint against each other\n" +
+         table.text();
+}
 
 Json choice_document(const MethodChoice& choice) {
   return {{"method", to_string(choice.method)}, {"reason", choice.reason}};
@@ -97,6 +142,9 @@ Json gradient_document(const ProblemFile& problem, const MethodFindings& finding
     response["gradients"] =
         gradients_document(problem, findings.results, static_cast<Eigen::Index>(i));
     if (findings.ties[i]) response["tie"] = tie_document(*findings.ties[i], analysis.responses[i]);
+  }
+  if (!findings.compared.empty()) {
+    document["comparison"] = comparison_document(problem, findings.compared);
   }
   if (findings.choice) document["choice"] = choice_document(*findings.choice);
   document["warnings"] = findings.warnings;
@@ -175,18 +223,21 @@ std::string seconds_text(const std::vector<MethodResult>& results, double simula
   return text + "\n";
 }
 
-/// Into the run folder, with --histories.
-void write_histories(RunRecord& record, const ProblemInput& input, Analysis& analysis,
-                     Outcome& outcome) {
+/// Into the run folder.
+void write_run(RunRecord& record, const Arguments& arguments, const ProblemInput& input,
+               Analysis& analysis, Outcome& outcome) {
   record.begin_phase("histories");
   record.write("result.json", outcome.document);
   write_trajectory(record.result("trajectory.csv"), analysis);
-  write_history_gradients(record.result("gradients.csv"), input.problem, analysis);
+  if (arguments.wants_histories) {
+    write_history_gradients(record.result("gradients.csv"), input.problem, analysis);
+  }
   outcome.text +=
-      fmt::format("Written to {}: gradients.csv, trajectory.csv, result.json, run_card.json\n",
-                  record.folder().string());
+      fmt::format("Written to {}: {}trajectory.csv, result.json, run_card.json\n",
+                  record.folder().string(), arguments.wants_histories ? "gradients.csv, " : "");
   record.show_picture([&] {
-    return run_picture(input.problem, {{"start", input.design, &analysis}});
+    return run_picture(input.problem,
+                       {{arguments.design ? "design" : "start", input.design, &analysis}});
   });
   record.finish(outcome);
 }
@@ -194,12 +245,13 @@ void write_histories(RunRecord& record, const ProblemInput& input, Analysis& ana
 Outcome make_outcome(const Arguments& arguments, const ProblemFile& problem,
                      const MethodFindings& findings) {
   return {ExitCode::done, gradient_document(problem, findings),
-          fmt::format("Gradients at {} of {}\n\n{}{}{}{}{}{}",
+          fmt::format("Gradients at {} of {}\n\n{}{}{}{}{}{}{}",
                       arguments.design ? "the design" : "the start", problem.name,
                       gradients_text(problem, findings.results),
                       ties_text(findings.ties, *findings.analysis),
                       findings.warnings.empty() ? "" : "\n" + warnings_text(findings.warnings),
-                      choice_text(findings.choice), memory_text(findings.analysis->trajectory),
+                      choice_text(findings.choice), comparison_text(problem, findings.compared),
+                      memory_text(findings.analysis->trajectory),
                       seconds_text(findings.results, findings.simulation_seconds))};
 }
 
@@ -213,7 +265,9 @@ Outcome run_gradient(const Arguments& arguments) {
     throw InputError("/variables is missing: there is nothing to differentiate for");
   }
   std::optional<RunRecord> record;  // before the work: the folder may not be free
-  if (arguments.wants_histories) record.emplace(arguments, input, Json::object());
+  if (arguments.wants_histories || arguments.compares_methods || arguments.output) {
+    record.emplace(arguments, input, Json::object());
+  }
   MethodFindings findings;
   const Stopwatch stopwatch;
   findings.analysis = analyze(problem, input.design);
@@ -221,6 +275,13 @@ Outcome run_gradient(const Arguments& arguments) {
   findings.choice = resolve(*findings.analysis, methods);
   findings.results = compute(input, *findings.analysis, methods,
                              {problem.sensitivity.difference_step, arguments.jobs});
+  if (arguments.compares_methods) {
+    findings.compared =
+        compare_methods(problem, input.design, *findings.analysis,
+                        {arguments.jobs, [](double step) {
+                           show(stderr, fmt::format("differences with the step {:g} …\n", step));
+                         }});
+  }
   findings.ties = find_ties(*findings.analysis);
   const Monitors monitors = monitor(findings.analysis->model, findings.analysis->trajectory);
   TrustedRun judged{problem, input.design, *findings.analysis, monitors};
@@ -229,7 +290,7 @@ Outcome run_gradient(const Arguments& arguments) {
   findings.warnings = texts_of(trust.doubts);
   findings.errors = std::move(trust.errors);
   Outcome outcome = make_outcome(arguments, problem, findings);
-  if (record) write_histories(*record, input, *findings.analysis, outcome);
+  if (record) write_run(*record, arguments, input, *findings.analysis, outcome);
   return outcome;
 }
 

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/xml_text.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -43,29 +45,6 @@ constexpr std::array<const char*, 8> marks = {"M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -1
                                               "M-6 -2h4v-4h4v4h4v4h-4v4h-4v-4h-4z",
                                               "M-5.5 0L-2.7 -5H2.7L5.5 0L2.7 5H-2.7z",
                                               "M-6 -3h12v6h-12z"};
-
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
-    }
-  }
-  return safe;
-}
 
 std::string moved(double x, double y) {
   return fmt::format("translate({:.2f} {:.2f})", x, y);
@@ -165,7 +144,7 @@ class Drawing {
   void add_text(double x, double y, const std::string& text, const char* anchor,
                 const char* style = "small") {
     add(fmt::format(R"(<text class="{}" x="{:.1f}" y="{:.1f}" text-anchor="{}">{}</text>)", style,
-                    x, y, anchor, escaped(text)));
+                    x, y, anchor, xml_text(text)));
   }
 
   /// Of the points that succeeded.
@@ -192,7 +171,7 @@ class Drawing {
     add(fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {:.0f} {:.0f}" )"
                     R"(font-family="sans-serif" role="img">)",
                     width, height));
-    add("<title>" + escaped(chart_.title) + "</title>");
+    add("<title>" + xml_text(chart_.title) + "</title>");
     std::string light, dark;
     for (std::size_t i = 0; i < colours.size(); ++i) {
       light += fmt::format(".c{}{{stroke:{};fill:{}}}", i, colours[i].light, colours[i].light);
@@ -238,7 +217,7 @@ class Drawing {
                     left, top_, right - left, bottom - top_));
     add_text(0.5 * (left + right), bottom + 40.0, chart_.x_label, "middle");
     add(fmt::format(R"(<text class="small" text-anchor="middle" transform="{} {}">{}</text>)",
-                    moved(22.0, 0.5 * (top_ + bottom)), "rotate(-90)", escaped(chart_.y_label)));
+                    moved(22.0, 0.5 * (top_ + bottom)), "rotate(-90)", xml_text(chart_.y_label)));
   }
 
   void draw_floor() {
@@ -287,7 +266,7 @@ class Drawing {
       line += fmt::format("{}{:.1f} {:.1f}", line.empty() ? "M" : "L", x, y);
       points += fmt::format(R"(<g class="point" data-x="{}" data-y="{}" transform="{}">)"
                             "<title>{}</title>{}</g>\n",
-                            point.x, point.y, moved(x, y), escaped(point.name), mark_of(index));
+                            point.x, point.y, moved(x, y), xml_text(point.name), mark_of(index));
       taken_.push_back({x - mark_size, y - mark_size, x + mark_size, y + mark_size});
     }
     if (series.is_joined && !line.empty()) {
@@ -303,7 +282,7 @@ class Drawing {
         if (!point.has_failed) continue;
         add(fmt::format(R"(<g class="point failure" transform="{}">)"
                         R"(<title>{}</title><path class="failed" d="M-4 -4L4 4M-4 4L4 -4"/></g>)",
-                        moved(right, y), escaped(point.name)));
+                        moved(right, y), xml_text(point.name)));
         y = std::min(y + 12.0, bottom - 6.0);
         has_failures_ = true;
       }

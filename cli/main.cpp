@@ -29,6 +29,7 @@ Outcome run(const Arguments& arguments) {
       {"new", run_new},
       {"optimize", run_optimize},
       {"pareto", run_pareto},
+      {"plot", run_plot},
       {"prices", run_prices},
       {"report", run_report},
       {"schema", run_schema},
@@ -47,6 +48,14 @@ std::string with_file(const std::string& message, const Arguments& arguments) {
                           (arguments.design && begins_with(*arguments.design));
   return message.starts_with("/") && !names_file ? arguments.file.string() + ": " + message
                                                  : message;
+}
+
+/// "/tmp/aaaa…: File name too long": long names are told by their beginnings.
+std::string path_text(const fs::filesystem_error& error) {
+  constexpr std::size_t longest = 120;
+  std::string path = error.path1().string();
+  if (path.size() > longest) path = path.substr(0, longest) + "…";
+  return fmt::format("{}: the system says: {}", path, error.code().message());
 }
 
 int report_error(ExitCode code, const std::string& message, bool wants_json) {
@@ -89,6 +98,8 @@ int guarded_main(int argc, const char* const* argv) {
     return report(ExitCode::bad_input, with_file(error.what(), arguments));
   } catch (const SimulationError& error) {
     return report(ExitCode::simulation_failed, error.what());
+  } catch (const fs::filesystem_error& error) {  // of a path that the user gave
+    return report(ExitCode::bad_input, path_text(error));
   } catch (const Stopped&) {
     return report(ExitCode::not_verified, "interrupted before there was any result");
   } catch (const std::bad_alloc&) {

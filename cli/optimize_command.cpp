@@ -49,10 +49,13 @@ Examined examine_designs(RunRecord& record, Optimum& optimum) {
   const auto end = analyze(optimum.problem, optimum.result.x);
   write_trajectory(record.result("trajectory-optimum.csv"), *end, optimum.result.response_bands);
   optimum.responses = values_of(*end);
+  record.begin_phase("influence");
+  optimum.influence = design_influence(optimum.problem, *end);
   record.show_picture([&] {
     return run_picture(optimum.problem,
                        {{"start", optimum.result.history.front().x, start.get()},
-                        {"optimum", optimum.result.x, end.get(), optimum.result.response_bands}});
+                        {"optimum", optimum.result.x, end.get(), optimum.result.response_bands,
+                         optimum.influence ? &*optimum.influence : nullptr}});
   });
   record.begin_phase("trajectories");
   optimum.monitors = monitor(end->model, end->trajectory);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/design_influence.hpp"
 #include "core/response/effect_influence.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/shown_unit.hpp"
@@ -23,6 +24,7 @@ struct Optimum {
   std::optional<GradientChoice> method;  ///< of the gradients; none if there was none
   /// Of the last design, by runs of twice the step; empty: not measured.
   std::vector<EffectInfluence> influences{};
+  std::optional<DesignInfluence> influence{};  ///< of the variables; none: not known
 
   bool has_design() const { return result.evaluation.has_gradients(); }
 

@@ -47,6 +47,10 @@ Json responses_document(const Optimum& optimum) {
                                {"start", optimum.start_responses(row)}};
     const ErrorBars& errors = optimum.result.response_errors;
     if (!errors.empty()) document[response.name]["error"] = error_document(error_of(errors, i));
+    if (optimum.influence) {
+      document[response.name]["gradients"] =
+          influence_document(optimum.problem, *optimum.influence, i);
+    }
   }
   return document;
 }

@@ -59,7 +59,7 @@ void OutputFile::fail(int error) {
   file_.failures->note(file_.path, std::strerror(error));
 }
 
-void write_file(const ResultFile& file, const std::string& text) {
+bool write_file(const ResultFile& file, const std::string& text) {
   fs::path draft = file.path;
   draft += fmt::format(".{}.draft", ::getpid());
   std::error_code error;
@@ -67,10 +67,11 @@ void write_file(const ResultFile& file, const std::string& text) {
   output.write(text);
   if (output.close()) {
     fs::rename(draft, file.path, error);
-    if (!error) return;
+    if (!error) return true;
     file.failures->note(file.path, error.message());
   }
   fs::remove(draft, error);
+  return false;
 }
 
 }  // namespace pleuel

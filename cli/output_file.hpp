@@ -53,6 +53,7 @@ class OutputFile {
 
 /// Writes a whole file: first beside it, then renamed. Readers see the old or the new one, never
 /// half of one.
-void write_file(const ResultFile& file, const std::string& text);
+/// @returns whether it could be written
+bool write_file(const ResultFile& file, const std::string& text);
 
 }  // namespace pleuel

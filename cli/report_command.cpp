@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <fstream>
+#include <map>
 #include <optional>
 
 #include <fmt/format.h>
@@ -70,28 +72,41 @@ struct Redone {
   Eigen::VectorXd x;
   std::unique_ptr<Analysis> analysis;
   fs::path trajectory{};  ///< with the bands of its histories; empty: there is none
+  std::optional<DesignInfluence> influence{};
 };
 
-Json picture_of(const ProblemFile& problem, const std::vector<Redone>& designs) {
+/// What is told of files that cannot be used.
+using Notes = std::vector<std::string>;
+
+Json picture_of(const ProblemFile& problem, const std::vector<Redone>& designs, Notes& notes) {
   std::vector<ShownDesign> shown;
   for (const Redone& design : designs) {
     shown.push_back({design.name, design.x, design.analysis.get()});
-    if (design.analysis) shown.back().bands = read_bands(design.trajectory, *design.analysis);
+    if (!design.trajectory.empty()) {
+      TrajectoryBands file = read_bands(design.trajectory, *design.analysis);
+      shown.back().bands = std::move(file.bands);
+      if (!file.fault.empty()) notes.push_back("histories have no error bands: " + file.fault);
+    }
+    if (design.influence) shown.back().influence = &*design.influence;
   }
   return run_picture(problem, shown);
 }
 
-Json optimum_picture(const ProblemFile& problem, const Json& result, const fs::path& folder) {
+Json optimum_picture(const ProblemFile& problem, const Json& result, const fs::path& folder,
+                     Notes& notes) {
   std::vector<Redone> designs;
   for (const auto& [name, key] : {std::pair{"start", "start"}, std::pair{"optimum", "value"}}) {
     const auto x = design_in(result, problem, key);
     const fs::path trajectory = folder / fmt::format("trajectory-{}.csv", name);
     if (x) designs.push_back({name, *x, analyze(problem, *x), trajectory});
   }
-  return picture_of(problem, designs);
+  if (!designs.empty()) {
+    designs.back().influence = design_influence(problem, *designs.back().analysis);
+  }
+  return picture_of(problem, designs, notes);
 }
 
-Json front_picture(const ProblemFile& problem, const Json& result) {
+Json front_picture(const ProblemFile& problem, const Json& result, Notes& notes) {
   std::vector<Redone> designs;
   int number = 0;
   for (const Json& point : result.at("points")) {
@@ -100,14 +115,14 @@ Json front_picture(const ProblemFile& problem, const Json& result) {
     if (x && !point.at("objectives").empty())
       designs.push_back({std::to_string(number), *x, nullptr});
   }
-  return picture_of(problem, designs);
+  return picture_of(problem, designs, notes);
 }
 
 /// @param result  of a simulation, which says what was simulated; others took the start, or the
 ///                design of a file
 /// @param trajectory  file of a run that simulated the design; empty: it did not
 Json single_picture(const ProblemFile& problem, const Json& card, const Json& result,
-                    const fs::path& trajectory) {
+                    const fs::path& trajectory, Notes& notes) {
   const bool has_other_design = card.at("input").contains("design");
   Eigen::VectorXd x = start_design(problem);
   if (const auto simulated = design_in(result, problem, "value")) {
@@ -117,34 +132,96 @@ Json single_picture(const ProblemFile& problem, const Json& card, const Json& re
   }
   std::vector<Redone> designs;
   designs.push_back({has_other_design ? "design" : "start", x, nullptr, trajectory});
-  if (!trajectory.empty()) designs.back().analysis = analyze(problem, x);
-  return picture_of(problem, designs);
+  const bool is_check = card.at("command") == "check";
+  if (!trajectory.empty() || is_check) designs.back().analysis = analyze(problem, x);
+  if (is_check) designs.back().influence = design_influence(problem, *designs.back().analysis);
+  return picture_of(problem, designs, notes);
 }
 
-Json picture_of_run(const Json& card, const Json& result, const fs::path& folder) {
+Json picture_of_run(const Json& card, const Json& result, const fs::path& folder, Notes& notes) {
   if (!card.contains("problem")) return nullptr;  // of several files
   const ProblemFile problem = problem_of(card, result);
   const std::string command = card.at("command").get<std::string>();
-  if (command == "optimize") return optimum_picture(problem, result, folder);
-  if (command == "pareto") return front_picture(problem, result);
-  return single_picture(problem, card, result,
-                        command == "simulate" ? folder / "trajectory.csv" : fs::path());
+  if (command == "optimize") return optimum_picture(problem, result, folder, notes);
+  if (command == "pareto") return front_picture(problem, result, notes);
+  const bool has_motion = command == "simulate" || command == "gradient";
+  return single_picture(problem, card, result, has_motion ? folder / "trajectory.csv" : fs::path(),
+                        notes);
+}
+
+/// What a result has that is whole.
+struct Needed {
+  const char* key;
+  Json::value_t type;
+};
+
+std::vector<Needed> needed_in(const std::string& command) {
+  using Type = Json::value_t;
+  static const std::map<std::string, std::vector<Needed>> needed = {
+      {"accuracy", {{"runs", Type::array}}},
+      {"check", {{"responses", Type::object}}},
+      {"gradient", {{"responses", Type::object}}},
+      {"optimize",
+       {{"status", Type::string},
+        {"objective", Type::object},
+        {"variables", Type::object},
+        {"constraints", Type::object}}},
+      {"pareto", {{"points", Type::array}}},
+      {"prices", {{"prices", Type::object}}},
+      {"simulate", {{"responses", Type::object}}},
+      {"stability", {{"runs", Type::array}}},
+      {"uncertainty", {{"responses", Type::object}}},
+  };
+  const auto found = needed.find(command);
+  return found == needed.end() ? std::vector<Needed>() : found->second;
+}
+
+/// @throws InputError if something is missing that the run has written
+void check_whole(const Json& card, const Json& result, const fs::path& folder) {
+  const auto damaged = [&](const char* file, const std::string& what) {
+    return InputError(fmt::format("{}: is damaged: {}", (folder / file).string(), what));
+  };
+  if (!card.contains("command") || !card["command"].is_string()) {
+    throw damaged(card_name, "it names no command");
+  }
+  const std::string command = card["command"].get<std::string>();
+  for (const Needed& one : needed_in(command)) {
+    if (!result.contains(one.key) || result[one.key].type() != one.type) {
+      throw damaged("result.json",
+                    fmt::format("a run of `pleuel {}` has \"{}\" there", command, one.key));
+    }
+  }
+  const bool is_optimum = command == "optimize" && result["objective"].contains("value");
+  if (!is_optimum) return;
+  for (const auto& [name, variable] : result["variables"].items()) {
+    if (!variable.is_object() || !variable.contains("value") || !variable["value"].is_number()) {
+      throw damaged("result.json", fmt::format("the variable \"{}\" has no value", name));
+    }
+  }
 }
 
 /// @returns what the user is told
 std::string make_report(const fs::path& page, const fs::path& folder, WriteFailures& failures) {
   const Json card = read_document(folder / card_name),
              result = read_document(folder / "result.json");
+  check_whole(card, result, folder);
   Json picture;
-  std::string note;
+  Notes notes;
   try {
-    picture = picture_of_run(card, result, folder);
+    picture = picture_of_run(card, result, folder, notes);
   } catch (const std::exception& error) {
-    note = wrapped(fmt::format("Without the mechanism: {}\n", error.what()), "  ");
+    notes.push_back(fmt::format("the mechanism is not shown: {}", error.what()));
   }
-  write_file({folder / report_name, &failures},
-             report_page(page, report_data(card, result, picture, folder)));
-  return fmt::format("Report: {}\n{}", (folder / report_name).string(), note);
+  if (!card.value("finished", true)) {
+    notes.push_back("the run did not come to its end: what it had written is shown");
+  }
+  std::string text;
+  if (write_file({folder / report_name, &failures},
+                 report_page(page, report_data(card, result, picture, folder)))) {
+    text = fmt::format("Report: {}\n", (folder / report_name).string());
+  }
+  for (const std::string& note : notes) text += wrapped("Note: " + note + "\n", "  ");
+  return text;
 }
 
 }  // namespace
@@ -160,7 +237,11 @@ Outcome run_report(const Arguments& arguments) {
   WriteFailures failures;
   for (const fs::path& folder : arguments.files) {
     outcome.text += make_report(*page, folder, failures);
-    outcome.document["reports"].push_back((folder / report_name).string());
+    const std::string report = (folder / report_name).string();
+    const auto& failed = failures.files();
+    if (std::find(failed.begin(), failed.end(), report) == failed.end()) {
+      outcome.document["reports"].push_back(report);
+    }
   }
   outcome.unwritten = failures.files();
   return outcome;

@@ -25,7 +25,7 @@ constexpr std::array<const char*, 7> shown_files = {
     "accuracy.svg", "gradients.csv",   "accuracy-gradients.svg"};
 constexpr std::uintmax_t largest_file = 3'000'000;  ///< [byte]
 
-std::string read_text(const fs::path& path) {
+std::string whole_text(const fs::path& path) {
   std::ifstream stream(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
@@ -71,14 +71,14 @@ Json report_data(const Json& card, const Json& result, const Json& picture,
   for (const char* name : shown_files) {
     std::error_code error;
     const std::uintmax_t size = fs::file_size(folder / name, error);
-    if (!error && size <= largest_file) files[name] = read_text(folder / name);
+    if (!error && size <= largest_file) files[name] = whole_text(folder / name);
   }
   return {
       {"format", 1}, {"card", card}, {"result", result}, {"picture", picture}, {"files", files}};
 }
 
 std::string report_page(const fs::path& page_template, const Json& data) {
-  std::string page = read_text(page_template);
+  std::string page = whole_text(page_template);
   const std::size_t begin = page.find(opening);
   const std::size_t end = begin == std::string::npos ? begin : page.find(closing, begin);
   if (end == std::string::npos) {

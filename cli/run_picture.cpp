@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "cli/packed_numbers.hpp"
 #include "cli/scene_picture.hpp"
@@ -12,6 +13,7 @@
 #include "picture/companions.hpp"
 #include "picture/frames_of_motion.hpp"
 #include "picture/motion.hpp"
+#include "picture/peak_place.hpp"
 #include "picture/thinned.hpp"
 
 namespace pleuel {
@@ -20,6 +22,8 @@ namespace {
 
 constexpr int most_frames = 720;        ///< of a moving picture
 constexpr int most_points = 1600;       ///< of a curve
+constexpr int most_slope_points = 700;  ///< of a derivative over time
+constexpr std::size_t most_slopes = 6;  ///< of a response: by the variables that matter most
 constexpr double most_numbers = 1.2e6;  ///< of the motion of all designs together
 
 Json unit_document(const ShownUnit& unit) {
@@ -57,8 +61,9 @@ Json limits_picture(const ProblemFile& problem) {
 /// Times and values of the points of a curve that are drawn, and the half-width of its band if it
 /// has one.
 Json curve_document(const Eigen::VectorXd& time, const Eigen::VectorXd& values,
-                    const std::vector<int>& kept, const Eigen::VectorXd& band = {}) {
-  const std::vector<int> points = thinned(values, most_points, kept);
+                    const std::vector<int>& kept, const Eigen::VectorXd& band = {},
+                    int most = most_points) {
+  const std::vector<int> points = thinned(values, most, kept);
   const bool has_band = band.size() == values.size();
   Eigen::MatrixXd curve(has_band ? 3 : 2, static_cast<Eigen::Index>(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -69,11 +74,39 @@ Json curve_document(const Eigen::VectorXd& time, const Eigen::VectorXd& values,
   return packed(curve);
 }
 
-Json response_document(const ShownDesign& design, std::size_t i) {
+/// {VARIABLE: curve} of the derivatives of a history, of the variables that change most of it.
+Json slopes_document(const ProblemFile& problem, const ShownDesign& design,
+                     const HistoryGradients& history) {
+  std::vector<std::pair<double, Eigen::Index>> sizes;
+  for (Eigen::Index j = 0; j < design.x.size(); ++j) {
+    sizes.push_back(
+        {history.gradients.col(j).lpNorm<Eigen::Infinity>() * std::abs(design.x(j)), j});
+  }
+  std::sort(sizes.begin(), sizes.end(), std::greater<>());
+  Json document = Json::object();
+  for (std::size_t k = 0; k < std::min(most_slopes, sizes.size()); ++k) {
+    const Eigen::Index j = sizes[k].second;
+    document[problem.variables[static_cast<std::size_t>(j)].name] = curve_document(
+        design.analysis->trajectory.time, history.gradients.col(j), {}, {}, most_slope_points);
+  }
+  return document;
+}
+
+void add_influence(const ProblemFile& problem, const ShownDesign& design, std::size_t i,
+                   Json& document) {
+  if (design.influence == nullptr) return;
+  document["gradients"] = influence_document(problem, *design.influence, i);
+  for (const HistoryGradients& history : design.influence->histories) {
+    if (history.response == i) document["slopes"] = slopes_document(problem, design, history);
+  }
+}
+
+Json response_document(const ProblemFile& problem, const ShownDesign& design, std::size_t i) {
   const Analysis& analysis = *design.analysis;
   const Response& response = analysis.responses[i];
   const Reduction& reduction = analysis.reductions[i];
   Json document = {{"name", response.name}, {"value", reduction.value}};
+  add_influence(problem, design, i, document);
   if (!response.history()) return document;
   std::vector<int> kept;
   if (response.is_peak_over_time() && !reduction.samples.empty()) {
@@ -81,7 +114,12 @@ Json response_document(const ShownDesign& design, std::size_t i) {
         reduction.samples.begin(), reduction.samples.end(),
         [](const Sample& a, const Sample& b) { return std::abs(a.weight) < std::abs(b.weight); });
     document["peak_time"] = analysis.trajectory.time(peak.step);
-    document["peak_place"] = response.history()->signal->describe(peak.channel);
+    const std::string place = response.history()->signal->describe(peak.channel);
+    document["peak_place"] = place;
+    const std::vector<std::string>& bodies = problem.responses[i].bodies;
+    const auto share =
+        bodies.empty() ? std::nullopt : share_of_place(analysis.model, bodies.front(), place);
+    if (share) document["peak_share"] = *share;
     for (const Sample& sample : reduction.samples) kept.push_back(sample.step);
   }
   document["history"] =
@@ -143,7 +181,7 @@ Json design_document(const ProblemFile& problem, const ShownDesign& design, std:
   document["motion"] = motion_document(problem.scene, analysis, designs);
   document["responses"] = Json::array();
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
-    document["responses"].push_back(response_document(design, i));
+    document["responses"].push_back(response_document(problem, design, i));
   }
   document["companions"] = companions_document(problem, analysis);
   return document;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/design_influence.hpp"
 #include "cli/json.hpp"
 #include "core/response/analysis.hpp"
 
@@ -16,6 +17,7 @@ struct ShownDesign {
   const Analysis* analysis = nullptr;  ///< null: geometry only
   /// Of the histories (core/trust/error_bands.hpp); empty where none is known.
   std::vector<Eigen::VectorXd> bands{};
+  const DesignInfluence* influence = nullptr;  ///< of the variables; null: not known
 };
 
 /// The mechanism of a problem at some designs: its geometry and, of simulated ones, motion, stress,

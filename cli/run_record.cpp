@@ -114,9 +114,11 @@ void RunRecord::write_report(Outcome& outcome) {
   card["exit_code"] = outcome.final_code();
   card["seconds"] = phases_;
   card["seconds"]["total"] = seconds_since(begin_);
-  write_file(result(report_name),
-             report_page(*page, report_data(card, outcome.document, picture_, folder())));
-  outcome.text += fmt::format("Report: {}\n", (folder() / report_name).string());
+  const std::string text =
+      report_page(*page, report_data(card, outcome.document, picture_, folder()));
+  if (write_file(result(report_name), text)) {
+    outcome.text += fmt::format("Report: {}\n", (folder() / report_name).string());
+  }
   end_phase();
 }
 

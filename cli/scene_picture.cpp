@@ -1,14 +1,15 @@
 #include "cli/scene_picture.hpp"
 
-#include <cmath>
-#include <set>
+#include <array>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include "cli/law_points.hpp"
 #include "cli/packed_numbers.hpp"
+#include "cli/scene_words.hpp"
 #include "core/base/number_text.hpp"
 #include "core/model/motion_plane.hpp"
-#include "core/model/scene_geometry.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "picture/drawn_place.hpp"
@@ -127,41 +128,11 @@ Json body_document(const ProblemFile& problem, const Body& body, const Values& s
   return document;
 }
 
-struct JointWords {
-  const char* type;
-  const char* freedom;  ///< of the second body against the first
-};
-
-JointWords words_of(JointType type) {
-  switch (type) {
-    case JointType::revolute:
-      return {"revolute", "turns about the axis"};
-    case JointType::prismatic:
-      return {"prismatic", "slides along the axis"};
-    case JointType::fixed:
-      return {"fixed", "does not move"};
-    case JointType::point_on_line:
-      return {"point-on-line", "its point stays on the line"};
-    case JointType::cylindrical:
-      return {"cylindrical", "slides along the axis and turns about it"};
-    case JointType::universal:
-      return {"universal", "turns about two axes"};
-    case JointType::spherical:
-      return {"spherical", "turns freely"};
-    case JointType::planar:
-      return {"planar", "slides in a plane and turns in it"};
-    default:
-      return {"distance", "keeps its distance"};
-  }
-}
-
 Json joint_document(const Joint& joint) {
   const JointWords words = words_of(joint.type);
-  Json document = {{"name", joint.name},
-                   {"type", words.type},
-                   {"freedom", words.freedom},
-                   {"bodies", joint.bodies},
-                   {"axis", vector_document(joint.axis)}};
+  Json document = {{"name", joint.name},       {"type", words.type},
+                   {"freedom", words.freedom}, {"freedoms", words.freedoms},
+                   {"bodies", joint.bodies},   {"axis", vector_document(joint.axis)}};
   if (joint.type == JointType::universal) {
     document["second_axis"] = vector_document(joint.second_axis);
   }
@@ -196,21 +167,12 @@ struct LoadDescription {
   }
 };
 
-/// A function of time as points of a curve; with the kinks of a table.
 Json law_document(const TimeFunction& function, double end_time, const Values& design,
                   LawOf purpose) {
-  constexpr int points = 240;
-  const TimeLaw<double> law = resolve_time_law(function, design, purpose);
-  std::set<double> instants;
-  for (int i = 0; i <= points; ++i) instants.insert(end_time * i / points);
-  for (const double knot : law.knots) {
-    const double before = std::nextafter(knot, 0.0);
-    if (before >= 0.0 && knot <= end_time)
-      instants.insert({before, knot, std::nextafter(knot, 1e9)});
-  }
-  Eigen::MatrixXd curve(2, static_cast<Eigen::Index>(instants.size()));
-  Eigen::Index i = 0;
-  for (const double instant : instants) curve.col(i++) << instant, law.at(instant).value;
+  const LawPoints points = law_points(function, end_time, design, purpose);
+  Eigen::MatrixXd curve(2, static_cast<Eigen::Index>(points.times.size()));
+  curve.row(0) = Eigen::Map<const Eigen::RowVectorXd>(points.times.data(), curve.cols());
+  curve.row(1) = Eigen::Map<const Eigen::RowVectorXd>(points.values.data(), curve.cols());
   return packed(curve);
 }
 
@@ -248,10 +210,11 @@ class GeometryWriter {
   Json operator()(const PointForce& load) const { return at_place(load); }
   Json operator()(const PointTorque& load) const { return at_place(load); }
   Json operator()(const SpringDamper& load) const {
-    return {{"places", {place(load.bodies[0], load.at[0]), place(load.bodies[1], load.at[1])}}};
+    return {{"places", {place(load.bodies[0], load.at[0]), place(load.bodies[1], load.at[1])}},
+            {"text", spring_text(load, design_)}};
   }
   Json operator()(const JointForce& load) const {
-    Json document = {{"places", Json::array()}};
+    Json document = {{"places", Json::array()}, {"text", spring_text(load, design_)}};
     if (load.motor) document["value"] = curve(*load.motor);
     return document;
   }

@@ -4,18 +4,21 @@
 
 #include "cli/commands.hpp"
 #include "cli/effects_report.hpp"
+#include "cli/first_steps.hpp"
 #include "cli/output_file.hpp"
 #include "cli/problem_input.hpp"
 #include "cli/report_page.hpp"
 #include "cli/run_folder.hpp"
 #include "cli/run_picture.hpp"
 #include "cli/scene_report.hpp"
+#include "cli/scene_words.hpp"
 #include "cli/warnings.hpp"
 #include "core/base/error.hpp"
 #include "core/integration/freedoms.hpp"
 #include "core/integration/initial_state.hpp"
 #include "core/response/misalignment.hpp"
 #include "core/scene/body_rules.hpp"
+#include "core/trust/idle_freedoms.hpp"
 
 /// The mechanism as the file places it, before anything is simulated.
 namespace pleuel {
@@ -48,6 +51,27 @@ void add_assembly(const ProblemFile& problem, Model& model, Shown& shown,
   shown.document["steps"] = std::ceil(problem.simulation.end_time / problem.simulation.step);
 }
 
+/// What only the first steps tell: how long the simulation takes, and which bodies nothing holds.
+void add_first_steps(const ProblemFile& problem, const Eigen::VectorXd& x, Shown& shown,
+                     std::vector<std::string>& warnings) {
+  const FirstSteps first = take_first_steps(problem, x);
+  if (!first.analysis) {
+    warnings.push_back("the first steps cannot be simulated: " + first.failure);
+    return;
+  }
+  shown.document["seconds"] = {{"simulate", first.seconds}};
+  shown.text += "Time: one simulation takes " + about_text(first.seconds) + " on this machine\n";
+  const Monitors monitors = monitor(first.analysis->model, first.analysis->trajectory);
+  const TrustedRun run{problem, x, *first.analysis, monitors};
+  shown.document["unheld_bodies"] = Json::array();
+  for (const auto find : {doubt_idle_freedoms, doubt_unconnected_bodies}) {
+    for (const Doubt& doubt : find(run)) {
+      warnings.push_back(doubt.text);
+      for (const std::string& body : doubt.bodies) shown.document["unheld_bodies"].push_back(body);
+    }
+  }
+}
+
 Shown describe(const ProblemFile& problem, const Eigen::VectorXd& x) {
   const Eigen::VectorXd start = start_design(problem);
   Model model = build_model(problem.scene, problem.effects, {start.begin(), start.end()},
@@ -55,6 +79,13 @@ Shown describe(const ProblemFile& problem, const Eigen::VectorXd& x) {
   Shown shown;
   std::vector<std::string> warnings = impossible_corners(problem);
   shown.text = problem.name + "\n\n" + bodies_text(model);
+  if (const std::string joints = joints_text(problem); !joints.empty()) {
+    shown.text += "\n" + joints;
+  }
+  if (const std::string actions = actions_text(problem, x); !actions.empty()) {
+    shown.text += "\n" + actions;
+  }
+  shown.text += "\n" + effects_text(model);
   shown.document = {{"status", "done"},
                     {"name", problem.name},
                     {"bodies", bodies_document(model)},
@@ -63,6 +94,8 @@ Shown describe(const ProblemFile& problem, const Eigen::VectorXd& x) {
                     {"variables", variables_document(problem)},
                     {"effects", effects_document(problem, model, {})}};
   add_assembly(problem, model, shown, warnings);
+  if (!shown.document.contains("failure")) add_first_steps(problem, x, shown, warnings);
+  for (const std::string& text : texts_of(find_doubts_before(problem))) warnings.push_back(text);
   shown.document["warnings"] = warnings;
   shown.text += warnings_text(warnings);
   return shown;
@@ -99,11 +132,12 @@ Outcome run_show(const Arguments& arguments) {
   const std::string name = arguments.design ? "design" : "start";
   const Json picture = run_picture(input.problem, {{name, input.design, nullptr}});
   WriteFailures failures;
-  write_file({page, &failures},
-             report_page(*page_template, report_data(card, shown.document, picture, "")));
-  shown.document["page"] = page.string();
-  return {ExitCode::done, shown.document, shown.text + fmt::format("Drawn in {}\n", page.string()),
-          failures.files()};
+  if (write_file({page, &failures},
+                 report_page(*page_template, report_data(card, shown.document, picture, "")))) {
+    shown.document["page"] = page.string();
+    shown.text += fmt::format("Drawn in {}\n", page.string());
+  }
+  return {ExitCode::done, shown.document, shown.text, failures.files()};
 }
 
 }  // namespace pleuel

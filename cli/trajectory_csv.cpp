@@ -1,11 +1,12 @@
 #include "cli/trajectory_csv.hpp"
 
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "cli/csv_file.hpp"
+#include "cli/csv_table.hpp"
+#include "core/base/error.hpp"
 #include "core/response/shown_history.hpp"
 
 namespace pleuel {
@@ -31,30 +32,35 @@ void write_trajectory(const ResultFile& file, const Analysis& analysis,
   }
 }
 
-std::vector<Eigen::VectorXd> read_bands(const std::filesystem::path& file,
-                                        const Analysis& analysis) {
-  std::ifstream stream(file);
-  std::string line;
-  if (!std::getline(stream, line)) return {};
-  std::vector<std::size_t> shown;  // the responses with histories, whose columns come in this order
+TrajectoryBands read_bands(const std::filesystem::path& file, const Analysis& analysis) {
+  CsvTable table;
+  try {
+    table = read_csv(file);
+  } catch (const InputError& error) {
+    return {{}, error.what()};
+  }
+  const auto fault = [&](const std::string& what) {
+    return TrajectoryBands{{}, fmt::format("{}: {}", file.string(), what)};
+  };
+  const Eigen::VectorXd& time = analysis.trajectory.time;
+  if (table.columns.front().size() != time.size()) {
+    return fault(fmt::format("has {} instants, the simulation has {}", table.columns.front().size(),
+                             time.size()));
+  }
+  TrajectoryBands found;
+  found.bands.resize(analysis.responses.size());
+  bool has_bands = false;
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
-    if (analysis.responses[i].history()) shown.push_back(i);
+    const std::string& name = analysis.responses[i].name;
+    if (!analysis.responses[i].history()) continue;
+    if (table.find(name) < 0) return fault(fmt::format("the column \"{}\" is missing", name));
+    const int band = table.find(name + ":error");
+    if (band < 0) continue;
+    found.bands[i] = table.columns[static_cast<std::size_t>(band)];
+    has_bands = true;
   }
-  const Eigen::Index instants = analysis.trajectory.time.size();
-  std::vector<Eigen::VectorXd> bands(analysis.responses.size());
-  for (const std::size_t i : shown) bands[i].resize(instants);
-  for (Eigen::Index row = 0; row < instants; ++row) {
-    if (!std::getline(stream, line)) return {};
-    std::istringstream cells(line);
-    std::string cell;
-    std::vector<double> numbers;
-    while (std::getline(cells, cell, ',')) numbers.push_back(std::strtod(cell.c_str(), nullptr));
-    if (numbers.size() != 1 + 2 * shown.size()) return {};
-    for (std::size_t k = 0; k < shown.size(); ++k) {
-      bands[shown[k]](row) = numbers[1 + shown.size() + k];
-    }
-  }
-  return bands;
+  if (!has_bands) found.bands.clear();
+  return found;
 }
 
 }  // namespace pleuel

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "cli/output_file.hpp"
@@ -14,9 +15,12 @@ namespace pleuel {
 void write_trajectory(const ResultFile& file, const Analysis& analysis,
                       const std::vector<Eigen::VectorXd>& bands = {});
 
-/// The bands in such a file of the same simulation, one a response; none if it has none, or is of
-/// another simulation.
-std::vector<Eigen::VectorXd> read_bands(const std::filesystem::path& file,
-                                        const Analysis& analysis);
+/// What such a file of the same simulation says of the bands.
+struct TrajectoryBands {
+  std::vector<Eigen::VectorXd> bands;  ///< one a response; empty: the file has none
+  std::string fault;                   ///< what is wrong with the file; empty: nothing
+};
+
+TrajectoryBands read_bands(const std::filesystem::path& file, const Analysis& analysis);
 
 }  // namespace pleuel

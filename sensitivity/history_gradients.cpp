@@ -24,12 +24,12 @@ Eigen::MatrixXd balance_gradients(const Response& response, const Eigen::VectorX
   return gradients;
 }
 
-}  // namespace
-
-std::vector<HistoryGradients> history_gradients(Analysis& analysis) {
+/// @param values  whose gradients the same run computes, too
+/// @returns gradients of those and of the histories
+ResponseDerivatives differentiate(Analysis& analysis, std::vector<SampledValue> values) {
   const Eigen::VectorXd& time = analysis.trajectory.time;
+  const auto asked = static_cast<Eigen::Index>(values.size());
   std::vector<HistoryGradients> histories;
-  std::vector<SampledValue> values;
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     const Response& response = analysis.responses[i];
     if (!response.history()) continue;
@@ -42,9 +42,9 @@ std::vector<HistoryGradients> history_gradients(Analysis& analysis) {
       }
     }
   }
-  if (histories.empty()) return histories;
+  if (values.empty()) return {};
   const Eigen::MatrixXd all = sampled_gradients(analysis, values, ExactMethod::direct);
-  Eigen::Index next = 0;
+  Eigen::Index next = asked;
   const auto take = [&] {
     next += time.size();
     return all.middleRows(next - time.size(), time.size());
@@ -56,7 +56,17 @@ std::vector<HistoryGradients> history_gradients(Analysis& analysis) {
       history.gradients = balance_gradients(response, time, history.gradients, take());
     }
   }
-  return histories;
+  return {all.topRows(asked), std::move(histories)};
+}
+
+}  // namespace
+
+std::vector<HistoryGradients> history_gradients(Analysis& analysis) {
+  return differentiate(analysis, {}).histories;
+}
+
+ResponseDerivatives response_derivatives(Analysis& analysis) {
+  return differentiate(analysis, response_values(analysis));
 }
 
 }  // namespace pleuel

@@ -17,4 +17,13 @@ struct HistoryGradients {
 /// @throws SimulationError
 std::vector<HistoryGradients> history_gradients(Analysis& analysis);
 
+/// Derivatives of values and histories by the same run.
+struct ResponseDerivatives {
+  Eigen::MatrixXd values;  ///< responses × variables [SI]
+  std::vector<HistoryGradients> histories;
+};
+
+/// @throws SimulationError
+ResponseDerivatives response_derivatives(Analysis& analysis);
+
 }  // namespace pleuel

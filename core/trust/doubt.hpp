@@ -13,6 +13,8 @@ struct Doubt {
   bool is_serious = false;
   /// Names of the responses that it concerns; empty: all.
   std::vector<std::string> responses{};
+  /// Names of bodies that stand in it for not being held or driven as a mechanism's are: drawn red.
+  std::vector<std::string> bodies{};
 };
 
 }  // namespace pleuel

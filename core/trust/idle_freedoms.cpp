@@ -160,7 +160,7 @@ class IdleFreedoms {
   bool has_force(const BodyModel& body, const Eigen::MatrixXd& free) {
     const std::vector<Term*> terms = terms_besides_bodies(model_).acting;
     State state = state_;
-    const double end = run_.analysis.trajectory.time(run_.analysis.trajectory.steps());
+    const double end = run_.problem.simulation.end_time;  // of which the analysis may be a part
     for (int i = 0; i <= instants; ++i) {
       state.time = end * i / instants;
       if (does_any_work(terms, state, body, free)) return true;
@@ -245,6 +245,7 @@ class IdleFreedoms {
         names.size() == 1 ? "it" : "them",
         is_moved ? "only the inertia of the rest moves what is free" : "nothing moves there");
     doubt.responses = concerned(names);
+    doubt.bodies = names;
     doubt.is_serious = !doubt.responses.empty();
     return doubt;
   }
@@ -311,6 +312,7 @@ std::vector<Doubt> doubt_unconnected_bodies(const TrustedRun& run) {
     }
   }
   doubt.is_serious = !doubt.responses.empty();
+  doubt.bodies = names;
   return {doubt};
 }
 

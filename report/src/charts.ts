@@ -71,7 +71,7 @@ function axis(options: ChartOptions, which: "x" | "y") {
   const isLog = which === "x" ? options.logX : options.logY;
   const line = color("line");
   return {
-    type: isLog ? ("log" as const) : ("value" as const),
+    type: "value" as const,
     name: which === "x" ? options.xTitle : "",
     nameLocation: "middle" as const,
     nameGap: 26,
@@ -86,8 +86,8 @@ function axis(options: ChartOptions, which: "x" | "y") {
       color: color("soft"),
       fontSize: 11,
       hideOverlap: true,
-      showMaxLabel: false,
-      formatter: (value: number) => number(value, isLog ? 2 : 6).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, ""),
+      showMaxLabel: isLog ? true : false,
+      formatter: (value: number) => number(isLog ? 10 ** value : value, isLog ? 1 : 6).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, ""),
     },
     splitNumber: 4,
     splitLine: { show: which === "y", lineStyle: { color: line, opacity: 0.6 } },
@@ -101,10 +101,10 @@ function seriesOption(options: ChartOptions, s: Series, i: number) {
   return {
     type: isDots ? ("scatter" as const) : ("line" as const),
     name: s.name,
-    data: s.x.map((x, k) => [x, s.y[k]]),
+    data: s.x.map((x, k) => pointOf(options, x, s.y[k])),
     showSymbol: !!s.dots,
     symbol: "circle",
-    symbolSize: s.dots ? 7 : 0,
+    symbolSize: isDots ? 11 : s.dots ? 7 : 0,
     step: s.step ? ("end" as const) : undefined,
     lineStyle: { color: paint, width: s.width ?? 1.6, type: s.dashed ? ("dashed" as const) : ("solid" as const) },
     itemStyle: { color: paint, borderColor: color("card"), borderWidth: s.dots ? 1 : 0 },
@@ -191,9 +191,30 @@ function niceStep(size: number): number {
   return (digit <= 1.2 ? 1 : digit <= 2.5 ? 2 : digit <= 6 ? 5 : 10) * power;
 }
 
+/** Logarithmic axes are drawn as linear ones of exponents: of these the library knows more. */
+const exponent = (value: number) => Math.log10(value);
+const isOnLog = (value: number | null | undefined): value is number => typeof value === "number" && value > 0 && Number.isFinite(value);
+const mostDecadeLabels = 6;
+
+/** Exponents of the powers of ten that hold all values. */
+function logRange(values: (number | null)[]): { min: number; max: number; interval: number } {
+  const known = values.filter(isOnLog).map(exponent);
+  let [low, high] = [0, 1];
+  if (known.length) [low, high] = known.reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)], [known[0], known[0]]);
+  const min = Math.floor(low - 0.03);
+  const max = Math.max(Math.ceil(high + 0.03), min + 1);
+  return { min, max, interval: Math.ceil((max - min) / mostDecadeLabels) };
+}
+
+/** A point as the axes have it; what a logarithmic axis cannot show is a gap. */
+function pointOf(options: ChartOptions, x: number, y: number | null): [number | null, number | null] {
+  const along = (value: number | null, isLog?: boolean) => (!isLog ? value : isOnLog(value) ? exponent(value) : null);
+  return [along(x, options.logX), along(y, options.logY)];
+}
+
 function rangeOf(options: ChartOptions): { min?: number; max?: number; interval?: number } {
   // A limit that nothing comes near would flatten the curves: it is drawn within twice their range.
-  if (options.logY) return {};
+  if (options.logY) return logRange(options.series.flatMap((s) => s.y));
   let [low, high] = [Infinity, -Infinity];
   for (const s of options.series) {
     for (const y of s.y) {
@@ -232,9 +253,9 @@ function tooltip(options: ChartOptions) {
       items.forEach((item, k) => {
         const s = options.series[item.seriesIndex];
         if (!s || !Array.isArray(item.data)) return;
-        if (k === 0) box.append(h("div.soft", {}, s.labels?.[item.dataIndex] ?? `${options.xTitle}: ${number(item.data[0], 5)}`));
+        if (k === 0) box.append(h("div.soft", {}, s.labels?.[item.dataIndex] ?? `${options.xTitle}: ${number(s.x[item.dataIndex], 5)}`));
         box.append(
-          h("div", {}, h("span.dot", { style: `background:${color(s.color)}` }), `${s.name}: `, h("b", {}, number(item.data[1], 5))),
+          h("div", {}, h("span.dot", { style: `background:${color(s.color)}` }), `${s.name}: `, h("b", {}, number(s.y[item.dataIndex], 5))),
         );
       });
       return box;
@@ -247,22 +268,25 @@ function optionOf(options: ChartOptions): echarts.EChartsCoreOption {
   const range = rangeOf(options);
   return {
     animation: false,
-    textStyle: { fontFamily: "inherit" },
+    // By its name: widths of texts are measured with it.
+    textStyle: { fontFamily: getComputedStyle(document.documentElement).fontFamily },
     aria: { enabled: true },
-    grid: { left: 6, right: 14, top: hasLegend ? 30 : 12, bottom: 22, containLabel: true },
+    grid: { left: 6, right: 14, top: hasLegend ? 30 : 12, bottom: 26, containLabel: true },
     legend: hasLegend
       ? {
           top: 0,
           left: 0,
           itemWidth: 16,
           itemHeight: 8,
+          itemGap: 14,
+          type: "scroll" as const,
           icon: "roundRect",
           textStyle: { color: color("soft"), fontSize: 11 },
           data: options.series.map((s) => s.name),
         }
       : undefined,
     tooltip: tooltip(options),
-    xAxis: axis(options, "x"),
+    xAxis: { ...axis(options, "x"), ...(options.logX ? logRange(options.series.flatMap((s) => s.x)) : {}) },
     yAxis: { ...axis(options, "y"), ...range },
     dataZoom: [{ type: "inside", zoomOnMouseWheel: "ctrl", moveOnMouseMove: false }],
     series: [

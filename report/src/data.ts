@@ -27,7 +27,10 @@ export interface Shown {
   value: number;
   peak_time?: number;
   peak_place?: string;
+  peak_share?: number; // along the body, 0 … 1
   history?: Packed;
+  gradients?: Record<string, number>;
+  slopes?: Record<string, Packed>; // derivatives of the history by variable
 }
 
 export type Companion = Shown & Meaning;
@@ -59,7 +62,7 @@ export interface BodyGeometry {
 export interface Geometry {
   bodies: BodyGeometry[];
   joints: { places: [Place, Place]; drive?: Packed }[];
-  loads: { places: Place[]; value?: Packed }[];
+  loads: { places: Place[]; value?: Packed; text?: string }[];
 }
 
 export interface BodyMotion {
@@ -94,6 +97,7 @@ export interface SceneJoint {
   name: string;
   type: string;
   freedom: string;
+  freedoms?: number;
   bodies: [string, string];
   axis: Vec3;
   second_axis?: Vec3;
@@ -152,7 +156,10 @@ export interface ReportData {
 
 export function readData(): ReportData | null {
   const text = document.getElementById("pleuel-data")?.textContent?.trim();
-  return text ? (JSON.parse(text) as ReportData) : null;
+  if (!text) return null;
+  // What turns the direction of writing is shown as what it is.
+  const shown = text.replace(/[\u202a-\u202e\u2066-\u2069]/g, (mark) => `⟨U+${mark.charCodeAt(0).toString(16).toUpperCase()}⟩`);
+  return JSON.parse(shown) as ReportData;
 }
 
 const unpackedNumbers = new WeakMap<Packed, Float32Array>();

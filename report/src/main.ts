@@ -2,9 +2,13 @@ import "./style.css";
 import { readData, type ReportData } from "./data";
 import { h } from "./dom";
 import { accuracyPage } from "./pages/accuracy";
+import { checkPage } from "./pages/check";
+import { gradientPage } from "./pages/gradient";
+import { filesSection } from "./pages/parts";
 import { optimizePage } from "./pages/optimize";
 import { pricesPage } from "./pages/prices";
 import { showPage, simulatePage } from "./pages/simulate";
+import { stabilityPage } from "./pages/stability";
 import { genericPage, paretoPage } from "./pages/studies";
 import { uncertaintyPage } from "./pages/uncertainty";
 import { startTheme, themeButton } from "./theme";
@@ -25,8 +29,25 @@ function pageOf(data: ReportData): HTMLElement[] {
       return pricesPage(data);
     case "uncertainty":
       return uncertaintyPage(data);
+    case "stability":
+      return stabilityPage(data);
+    case "gradient":
+      return gradientPage(data);
+    case "check":
+      return checkPage(data);
     default:
       return genericPage(data);
+  }
+}
+
+/** A document that is not whole shows what can be read of it. */
+function wholePage(data: ReportData): HTMLElement[] {
+  try {
+    return pageOf(data);
+  } catch (error) {
+    console.warn(error);
+    const text = `The result of this run is not whole, or of another version: its page cannot be made (${String(error)}).`;
+    return [h("section.hero", {}, h("div", {}, h("h1", {}, data.card.command ?? ""), h("p.verdict", {}, h("span.badge.warn", {}, "! damaged"), ` ${text}`))), filesSection(data)];
   }
 }
 
@@ -50,7 +71,7 @@ function start(): void {
       h("button.quiet", { onclick: () => window.print(), title: "print" }, "Print"),
       themeButton(),
     ),
-    ...pageOf(data),
+    ...wholePage(data),
     h("footer.soft", {}, `Pleuel ${data.card.versions?.pleuel ?? ""} · space plays, arrows go from instant to instant, Ctrl and wheel zoom`),
   );
 }

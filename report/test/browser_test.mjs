@@ -5,7 +5,7 @@
 // Screenshots of every page in both schemes and widths are left in build/release/report/screenshots.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { after, before, test } from "node:test";
@@ -32,7 +32,11 @@ const runs = {
   optimize: ["optimize", problem("slider_crank"), ...quick],
   simulate: ["simulate", problem("robot_arm"), "--set", "/simulation/step=2 ms"],
   pareto: ["pareto", problem("slider_crank"), ...quick, "--set", "/pareto/points=3"],
-  gradient: ["gradient", problem("slider_crank"), ...quick, "--histories"],
+  gradient: ["gradient", problem("slider_crank_round"), ...quick, "--histories", "--compare"],
+  check: ["check", problem("slider_crank_round"), ...quick],
+  stability: ["stability", problem("four_bar"), "--set", "/simulation/end_time=50 ms"],
+  uncertainty: ["uncertainty", problem("slider_crank"), ...quick, "--set", "/uncertainty/samples=8"],
+  accuracy: ["accuracy", problem("slider_crank_round"), ...quick, "--set", "/accuracy/steps=[\"0.4 ms\", \"0.2 ms\"]", "--set", "/accuracy/elements=[1, 2]"],
 };
 const pageOf = (name) => join(folder, name === "show" ? "show.html" : `${name}/report.html`);
 
@@ -162,6 +166,61 @@ test("a limit leads to its instant", async () => {
   const instant = await link.innerText();
   await link.click();
   assert.ok((await tab.locator(".clock").innerText()).startsWith(instant));
+  await tab.close();
+});
+
+test("numbers stand where limits bite, and lead to the instant", async () => {
+  const { tab } = await open("optimize");
+  const { constraints } = result("optimize");
+  const biting = Object.values(constraints).filter((one) => one.utilisation > 0.999).length;
+  const marks = tab.locator(".stage .mark");
+  assert.equal(await marks.count(), biting);
+  if (biting) {
+    const mark = marks.first();
+    const instant = (await mark.getAttribute("aria-label")).split(" · ").pop();
+    await mark.evaluate((button) => button.click());
+    assert.ok((await tab.locator(".clock").innerText()).startsWith(instant));
+  }
+  await tab.close();
+});
+
+test("the influence of variables is that of the gradients", async () => {
+  const { tab } = await open("optimize");
+  const { responses, variables } = result("optimize");
+  const mass = responses.crank_and_rod;
+  const row = tab.locator(".matrix tbody tr", { hasText: "crank and rod" });
+  const shown = (await row.locator("td").allInnerTexts()).map((text) => Number(text.replace("−", "-")));
+  Object.keys(variables).forEach((name, i) => {
+    const percent = (mass.gradients[name] * variables[name].value) / mass.value;
+    assert.ok(Math.abs(shown[i] - percent) < 6e-4 + 5e-3 * Math.abs(percent), `${name}: ${shown[i]} is not ${percent}`);
+  });
+  await row.getByRole("button").click();
+  await tab.getByRole("button", { name: "crank stress" }).click();
+  assert.equal(await tab.locator('figure[data-title="change of crank stress"] svg').count(), 1);
+  await tab.close();
+});
+
+test("a front shows the mechanism of the point that is pointed at", async () => {
+  const { tab } = await open("pareto");
+  const heading = () => tab.locator(".front-drawing h3").innerText();
+  const points = result("pareto").points.length;
+  assert.match(await heading(), new RegExp(`Point ${Math.floor(points / 2) + 1}`));
+  const marks = tab.locator('.front figure svg path[fill][stroke-width="1"]');
+  const first = await marks.first().boundingBox();
+  await tab.mouse.move(first.x + first.width / 2, first.y + first.height / 2);
+  await tab.waitForFunction(() => /Point 1/.test(document.querySelector(".front-drawing h3").innerText));
+  await tab.close();
+});
+
+test("a page of a damaged result says so", async () => {
+  const page = readFileSync(pageOf("optimize"), "utf8");
+  const begin = page.indexOf('id="pleuel-data">') + 'id="pleuel-data">'.length;
+  const data = JSON.parse(page.slice(begin, page.indexOf("</script>", begin)));
+  data.result.constraints = { crank_strength: null };
+  mkdirSync(join(folder, "damaged"), { recursive: true });
+  writeFileSync(join(folder, "damaged/report.html"), page.slice(0, begin) + JSON.stringify(data).replace(/</g, "\\u003c") + page.slice(page.indexOf("</script>", begin)));
+  const { tab } = await open("damaged");
+  assert.match(await tab.locator(".verdict").first().innerText(), /not whole/);
   await tab.close();
 });
 

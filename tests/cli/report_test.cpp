@@ -187,6 +187,138 @@ TEST(Report, OfAnUnknownFolderIsRefused) {
   EXPECT_THAT(run.err, HasSubstr("nothing/run_card.json: there is no such file"));
 }
 
+/// The influence of the variables is that of the gradients in the result; of the mass in closed
+/// form: m = ρ π/4 Σ L d², so that d ln m / d ln d₁ = 2 L₁ d₁² / Σ L d².
+TEST_F(OptimizationReport, ShowsWhatEachVariableChanges) {
+  const json data = data_of(folder() / "one/report.html");
+  const json& result = data.at("result");
+  const json& optimum = named(data.at("picture").at("designs"), "optimum");
+  const double crank = result.at("variables").at("crank_diameter").at("value");
+  const double rod = result.at("variables").at("rod_diameter").at("value");
+  const json& mass = named(optimum.at("responses"), "crank_and_rod");
+  EXPECT_EQ(mass.at("gradients"), result.at("responses").at("crank_and_rod").at("gradients"));
+  const double found = mass.at("gradients").at("crank_diameter").get<double>() * crank /
+                       mass.at("value").get<double>();
+  const double expected = 2 * 0.12 * crank * crank / (0.12 * crank * crank + 0.18 * rod * rod);
+  EXPECT_NEAR(found, expected, 1e-9);
+  const json& stress = named(optimum.at("responses"), "crank_stress");
+  EXPECT_EQ(stress.at("slopes").size(), 2u) << "a curve a variable";
+  EXPECT_GE(stress.at("peak_share").get<double>(), 0.0);
+  EXPECT_LE(stress.at("peak_share").get<double>(), 1.0);
+}
+
+/// A run folder with a file of another content.
+ProgramRun report_with(const fs::path& folder, const std::string& file, const std::string& text) {
+  fs::remove_all(folder / "copy");
+  fs::copy(folder / "one", folder / "copy");
+  fs::remove(folder / "copy/report.html");
+  std::ofstream(folder / ("copy/" + file)) << text;
+  return run_program(folder, {"report", "copy"});
+}
+
+TEST_F(OptimizationReport, OfADamagedResultIsRefused) {
+  for (const char* text : {"{}", R"({"status": "verified", "objective": 3})", "", "[1", "null"}) {
+    const ProgramRun run = report_with(folder(), "result.json", text);
+    EXPECT_EQ(run.exit_code, 2) << text;
+    EXPECT_THAT(run.err, HasSubstr("copy/result.json: is")) << text;
+    EXPECT_FALSE(fs::exists(folder() / "copy/report.html")) << text;
+  }
+  json result = json::parse(read_file(folder() / "one/result.json"));
+  result["variables"]["rod_diameter"]["value"] = "wide";
+  EXPECT_THAT(report_with(folder(), "result.json", result.dump()).err,
+              HasSubstr("is damaged: the variable \"rod_diameter\" has no value"));
+}
+
+TEST_F(OptimizationReport, OfADamagedTrajectorySaysWhatIsMissing) {
+  const std::string whole = read_file(folder() / "one/trajectory-optimum.csv");
+  const ProgramRun torn = report_with(folder(), "trajectory-optimum.csv", whole.substr(0, 3000));
+  EXPECT_EQ(torn.exit_code, 0) << torn.err;
+  EXPECT_THAT(unwrapped(torn.out), HasSubstr("Note: histories have no error bands: "
+                                             "copy/trajectory-optimum.csv: is damaged: line "));
+  const std::size_t cut = whole.find('\n', whole.size() / 2) + 1;
+  EXPECT_THAT(unwrapped(report_with(folder(), "trajectory-optimum.csv", whole.substr(0, cut)).out),
+              HasSubstr("instants, the simulation has"));
+}
+
+TEST_F(OptimizationReport, IsNotPromisedWhereItCannotBeWritten) {
+  fs::remove_all(folder() / "blocked");
+  fs::copy(folder() / "one", folder() / "blocked");
+  fs::remove(folder() / "blocked/report.html");
+  fs::create_directory(folder() / "blocked/report.html");
+  const ProgramRun run = run_program(folder(), {"report", "blocked"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.out, ::testing::Not(HasSubstr("Report:")));
+  EXPECT_THAT(run.err, HasSubstr("blocked/report.html cannot be written"));
+}
+
+TEST(Report, OfTooLongANameIsASentence) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(folder.path(), joined(simulate(std::string(300, 'a')), {}));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("File name too long"));
+  EXPECT_THAT(run.err, ::testing::Not(HasSubstr("fault of the program")));
+  EXPECT_LT(run.err.size(), 250u);
+}
+
+TEST(Show, SaysWhatJointsLeaveFreeAndHowLongItTakes) {
+  const TemporaryFolder folder;
+  const ProgramRun run =
+      run_program(folder.path(), {"show", problem("four_bar"), "-o", "page.html"});
+  EXPECT_THAT(run.out, HasSubstr("1 of 6"));
+  EXPECT_THAT(run.out, HasSubstr("drive of the angle"));
+  EXPECT_THAT(run.out, HasSubstr("Time: one simulation takes about "));
+}
+
+/// A link that nothing drives, holds or pulls, on the end of a driven crank.
+TEST(Show, DrawsBodiesRedThatNothingMoves) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "loose.json") << R"({
+    "scene": {
+      "materials": {"steel": {"young": 2.1e11, "poisson": 0.3, "density": 7850}},
+      "bodies": {
+        "crank": {"type": "beam", "from": [0, 0, 0], "to": [0.1, 0, 0], "material": "steel",
+                  "rigid": true, "elements": 1, "section": {"type": "circle", "diameter": 0.01}},
+        "link": {"type": "beam", "from": [0.1, 0, 0], "to": [0.3, 0, 0], "material": "steel",
+                 "rigid": true, "elements": 1, "section": {"type": "circle", "diameter": 0.01}}
+      },
+      "joints": {
+        "hub": {"type": "revolute", "bodies": ["ground", "crank"], "at": [0, 0, 0],
+                "drive": {"type": "constant-speed", "speed": 5}},
+        "pin": {"type": "revolute", "bodies": ["crank", "link"], "at": [0.1, 0, 0]}
+      }
+    },
+    "simulation": {"end_time": 0.1, "step": 1e-3},
+    "responses": {"reach": {"type": "position", "body": "link", "at": 1, "direction": "x"}}
+  })";
+  const ProgramRun run =
+      run_program(folder.path(), {"show", "loose.json", "-o", "page.html", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.document().at("unheld_bodies"), json({"link"}));
+}
+
+TEST(Check, WritesAPageIfAFolderIsNamed) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(
+      folder.path(), joined({"check", problem("slider_crank_round"), "-o", "one"}, quick()));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json data = data_of(folder.path() / "one/report.html");
+  EXPECT_EQ(data.at("card").at("command"), "check");
+  EXPECT_TRUE(data.at("result").at("responses").at("crank_stress").contains("derivatives"));
+  EXPECT_FALSE(named(data.at("picture").at("designs"), "start").at("responses").empty());
+}
+
+TEST(GradientReport, ComparesAllMethods) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(
+      folder.path(),
+      joined({"gradient", problem("slider_crank_round"), "--compare", "-o", "one"}, quick()));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("Effort and accuracy of the methods"));
+  const json result = data_of(folder.path() / "one/report.html").at("result");
+  // Two exact ones, and two differences with seven steps each.
+  EXPECT_EQ(result.at("comparison").size(), 2u + 2u * 7u);
+}
+
 TEST(Show, DrawsTheMechanismBeforeAnythingIsSimulated) {
   const TemporaryFolder folder;
   const ProgramRun run =

@@ -77,10 +77,16 @@ TEST(BadText, ControlCharactersAreRefusedInNamesAndTexts) {
               "bad.json: the text of /list/1/name has a control character; of those texts may have "
               "tabs and line breaks");
   }
+  // What turns the direction of writing (U+202E, U+2066, …) and separators of lines count as such.
+  for (const char* character : {"\\u202e", "\\u202a", "\xE2\x81\xA6", "\\u2069", "\\u2028"}) {
+    EXPECT_EQ(complaint_about_text(R"({"scene": {"bodies": {"a)" + std::string(character) +
+                                   R"(b": 1}}})"),
+              "bad.json: a name in /scene/bodies has a control character, which no name may have");
+  }
   EXPECT_EQ(complaint_about_text(R"({"a\nb": 1})"),
             "bad.json: a name in the document has a control character, which no name may have");
-  // Characters beside them are none: space, ~, the no-break space of U+00A0, ä.
-  for (const char* text : {" ~", "\xC2\xA0", "\xC3\xA4"}) {
+  // Characters beside them are none: space, ~, the no-break space of U+00A0, ä, U+2027, U+202F.
+  for (const char* text : {" ~", "\xC2\xA0", "\xC3\xA4", "\xE2\x80\xA7", "\xE2\x80\xAF"}) {
     Json document = good_json();
     document["name"] = text;
     document["description"] = "two\nlines,\ttabbed";

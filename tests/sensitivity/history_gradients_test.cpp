@@ -29,6 +29,19 @@ class Histories : public testing::Test {
   std::vector<HistoryGradients> histories_;
 };
 
+TEST_F(Histories, ComeWithTheGradientsOfTheValuesByTheSameRun) {
+  const ResponseDerivatives all = response_derivatives(*analysis_);
+  const Eigen::MatrixXd alone = gradients(problem_, x_, *analysis_, GradientMethod::adjoint);
+  ASSERT_EQ(all.values.rows(), alone.rows());
+  for (Eigen::Index i = 0; i < alone.rows(); ++i) {
+    EXPECT_LT((all.values.row(i) - alone.row(i)).norm(), 1e-8 * alone.row(i).norm()) << i;
+  }
+  ASSERT_EQ(all.histories.size(), histories_.size());
+  for (std::size_t i = 0; i < histories_.size(); ++i) {
+    EXPECT_EQ(all.histories[i].gradients, histories_[i].gradients) << i;
+  }
+}
+
 /// Central differences of the simulated histories, extrapolated once; largest over time and
 /// variables, relative to the largest derivative by a relative change of a variable. Balances and
 /// positions are small differences of large numbers: what counts there is the round-off of the

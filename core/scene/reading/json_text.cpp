@@ -31,14 +31,26 @@ std::string plain_reason(const std::string& what) {
   return what;
 }
 
-/// What a terminal would obey instead of showing it: C0, DEL, and C1 in UTF-8.
+/// U+2028 … U+202E, U+2066 … U+2069 in UTF-8: separators of lines, and what turns the direction of
+/// the writing that follows, so that a name reads as another one.
+bool turns_writing(unsigned char first, unsigned char second, unsigned char third) {
+  if (first != 0xE2) return false;
+  return (second == 0x80 && third >= 0xA8 && third <= 0xAE) ||
+         (second == 0x81 && third >= 0xA6 && third <= 0xA9);
+}
+
+/// What a terminal or a page would obey instead of showing it: C0, DEL, C1 and the controls of the
+/// direction of writing, in UTF-8.
 /// @param allowed  of these
 bool has_control_character(const std::string& text, std::string_view allowed = "") {
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 'x');
+    const auto at = [&](std::size_t k) {
+      return static_cast<unsigned char>(k < text.size() ? text[k] : 'x');
+    };
+    const unsigned char byte = at(i), next = at(i + 1);
     if (allowed.find(text[i]) != std::string_view::npos) continue;
     if (byte < 0x20 || byte == 0x7F || (byte == 0xC2 && next >= 0x80 && next < 0xA0)) return true;
+    if (turns_writing(byte, next, at(i + 2))) return true;
   }
   return false;
 }

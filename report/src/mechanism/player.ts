@@ -15,6 +15,7 @@ export interface PlayerOptions {
   main: number;
   showsNames?: boolean;
   showsAxes?: boolean;
+  unheld?: string[]; // names of bodies that nothing holds or moves
   onPick(pick: Pick): void;
 }
 
@@ -52,7 +53,7 @@ export function makePlayer(options: PlayerOptions): Player {
   const listeners: ((time: number) => void)[] = [];
   const host = h("div.stage", {
     tabindex: 0,
-    role: "img",
+    role: "group",
     "aria-label": `The mechanism ${picture.name}${isMoving ? " in motion; space plays, arrows go from frame to frame" : ""}`,
   });
   let stage: Stage | null = null;
@@ -63,6 +64,7 @@ export function makePlayer(options: PlayerOptions): Player {
       main: options.main,
       limits: stressLimits(picture, options.main),
       showsAxes: !!options.showsAxes,
+      unheld: (options.unheld ?? []).map((name) => picture.scene.bodies.findIndex((body) => body.name === name)),
       onPick: (body, joint) => options.onPick({ body, joint }),
     });
   } catch {
@@ -219,14 +221,14 @@ export function makePlayer(options: PlayerOptions): Player {
     if (!areShown) return;
     const main = () => shown.mainPoses();
     picture.scene.bodies.forEach((body, i) => {
-      const label = h("span.name", {}, words(body.name));
+      const label = h(options.unheld?.includes(body.name) ? "span.name.bad" : "span.name", {}, words(body.name));
       shown.addLabel(label, () => {
         const { poses } = main();
         if (!poses) return null;
         const points = poses[i].points;
         const middle = points[Math.floor(points.length / 2)];
         return points.length > 1 ? middle.clone() : middle.clone().addScaledVector(shown.view.up, 0.05 * shown.view.size);
-      });
+      }, true);
     });
     picture.scene.joints.forEach((joint, j) => {
       const label = h("span.name.of-joint", {}, words(joint.name));
@@ -236,7 +238,7 @@ export function makePlayer(options: PlayerOptions): Player {
         const places = motion.design.geometry.joints[j].places;
         const place = places[1].body >= 0 ? places[1] : places[0];
         return motion.place(place, poses).addScaledVector(shown.view.up, -0.055 * shown.view.size);
-      });
+      }, true);
     });
     picture.scene.loads.forEach((load, l) => {
       const places = picture.designs[options.main].geometry.loads[l].places;
@@ -245,7 +247,7 @@ export function makePlayer(options: PlayerOptions): Player {
       shown.addLabel(label, () => {
         const { motion, poses } = main();
         return poses ? motion.place(places[0], poses).addScaledVector(shown.view.up, 0.085 * shown.view.size) : null;
-      });
+      }, true);
     });
   }
 

@@ -34,12 +34,36 @@ export interface StageOptions {
   main: number; // index of the design that is coloured; others are ghosts
   limits: (number | null)[]; // stress that has the last colour, by body [Pa]
   showsAxes: boolean;
+  unheld: number[]; // bodies that are drawn red: nothing holds or moves them
   onPick(body: number | null, joint: number | null): void;
+}
+
+interface Box {
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+}
+
+/** Where a label goes that wants to be at x, y: inside the drawing, beside those placed before. */
+function clearOf(taken: Box[], x: number, y: number, element: HTMLElement, width: number, height: number): [number, number] {
+  const own = { width: element.offsetWidth, height: element.offsetHeight };
+  const left = Math.max(4, Math.min(x, width - own.width - 4));
+  let top = Math.max(4, Math.min(y, height - own.height - 4));
+  const meets = (box: Box) => left < box.x + box.width && box.x < left + own.width && top < box.y + box.height && box.y < top + own.height;
+  for (let tries = 0; tries < 12; tries++) {
+    const box = taken.find(meets);
+    if (!box) break;
+    top = box.y + box.height + 3;
+  }
+  taken.push({ x: left, y: top, ...own });
+  return [left, top];
 }
 
 interface Label {
   element: HTMLElement;
   at: () => Vector3 | null;
+  avoids: boolean; // stays inside and clear of the others that do
 }
 
 export class Stage {
@@ -137,10 +161,11 @@ export class Stage {
   }
 
   /** An HTML element that stays at a place of the drawing. */
-  addLabel(element: HTMLElement, at: () => Vector3 | null): void {
+  addLabel(element: HTMLElement, at: () => Vector3 | null, avoids = false): void {
     element.classList.add("pin-label");
     this.host.append(element);
-    this.labels.push({ element, at });
+    this.labels.push({ element, at, avoids });
+    this.render();
   }
 
   /** Poses of the design that is coloured, or of the first that is seen. */
@@ -180,13 +205,15 @@ export class Stage {
   private draw(): void {
     this.renderer.render(this.space, this.camera);
     const { clientWidth: width, clientHeight: height } = this.host;
+    const taken: Box[] = [];
     for (const label of this.labels) {
       const at = label.at();
       label.element.hidden = !at;
       if (!at) continue;
       const p = at.clone().project(this.camera);
-      const x = Math.round(((p.x + 1) / 2) * width);
-      const y = Math.round(((1 - p.y) / 2) * height);
+      let x = Math.round(((p.x + 1) / 2) * width);
+      let y = Math.round(((1 - p.y) / 2) * height);
+      if (label.avoids) [x, y] = clearOf(taken, x, y, label.element, width, height);
       label.element.style.transform = `translate(${x}px, ${y}px)`;
     }
   }
@@ -295,7 +322,8 @@ export class Stage {
       const steel = new Color(color("steel"));
       const ghost = new Color(color("start"));
       for (const member of actor.members) {
-        const paint = isGhost ? ghost : steel;
+        const isUnheld = this.options.unheld.includes(member.body);
+        const paint = isGhost ? ghost : isUnheld ? new Color(color("limit")) : steel;
         const look: Look = {
           color: [paint.r, paint.g, paint.b],
           edge: color(isGhost ? "start" : "ink"),

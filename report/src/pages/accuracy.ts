@@ -1,5 +1,6 @@
 // What accuracy costs: the cheapest setting for each error, and all that was tried.
 import type { Document, ReportData } from "../data";
+import { lineChart } from "../charts";
 import { h, section, table } from "../dom";
 import { count, number, percent, seconds, words } from "../format";
 import { filesSection } from "./parts";
@@ -24,24 +25,73 @@ const errorCell = (largest: Largest | null) => (largest ? `${number(100 * larges
 const nameCell = (largest: Largest | null) => h("span.soft", {}, largest ? words(largest.name) : "");
 
 function settingText(values: Document): string {
-  return `a step of ${seconds(values.step)}${values.elements ? ` and ${values.elements} elements a segment` : ""}`;
+  return `a step of ${seconds(values.step)}, ${divisionText(values)}`;
 }
 
-function diagrams(files: Record<string, string>): HTMLElement | null {
-  const figures = ["accuracy.svg", "accuracy-gradients.svg"]
-    .filter((name) => files[name])
-    .map((name) =>
-      h(
-        "figure",
-        {},
-        h("img.figure", {
-          src: `data:image/svg+xml;charset=utf-8,${encodeURIComponent(files[name])}`,
-          alt: name.includes("gradients") ? "work–precision diagram of gradients" : "work–precision diagram",
-        }),
-      ),
-    );
-  const note = "Each mark is a setting: its processor time against its largest error that counts.";
-  return figures.length ? section("Work and precision", note, h("div.columns", {}, figures)) : null;
+const colors = ["accent", "more", "good", "drive", "limit", "soft"];
+
+interface Setting {
+  division: string;
+  label: string;
+  error: number; // [%]
+  seconds: number;
+}
+
+function divisionText(settings: Document): string {
+  if (settings.elements) return `${settings.elements} elements a segment`;
+  return settings.element_factor === 1 || settings.element_factor === undefined ? "elements of the file" : `${number(settings.element_factor, 3)} times the elements`;
+}
+
+/** Those than which no other is both faster and more accurate, the fastest first. */
+function frontOf(settings: Setting[]): Setting[] {
+  const front: Setting[] = [];
+  for (const one of [...settings].sort((a, b) => a.seconds - b.seconds || a.error - b.error)) {
+    if (!front.length || one.error < front[front.length - 1].error) front.push(one);
+  }
+  return front;
+}
+
+function workPrecision(title: string, settings: Setting[], wanted: number): HTMLElement | null {
+  if (settings.length < 2) return null;
+  const divisions = [...new Set(settings.map((one) => one.division))];
+  const front = frontOf(settings);
+  const curve = (all: Setting[]) => ({ x: all.map((one) => one.error), y: all.map((one) => one.seconds), labels: all.map((one) => `${one.label}: ${number(one.error, 2)} %, ${seconds(one.seconds)}`) });
+  const best = front.find((one) => one.error <= wanted);
+  return h(
+    "div",
+    {},
+    lineChart({
+      title,
+      xTitle: "largest error that counts [%]",
+      yTitle: "s",
+      height: 300,
+      logX: true,
+      logY: true,
+      legend: true,
+      series: [
+        { name: "front", ...curve([...front].reverse()), color: "start", width: 5 },
+        ...divisions.map((division, i) => ({ name: division, ...curve(settings.filter((one) => one.division === division)), color: colors[i % colors.length], dots: true, width: 1.2 })),
+      ],
+    }).element,
+    best ? h("p.note", {}, `For ${number(wanted, 3)} %: ${best.label}, ${best.division}, ${seconds(best.seconds)}.`) : h("p.note", {}, `No setting that was tried keeps ${number(wanted, 3)} %.`),
+  );
+}
+
+function diagrams(result: Document, counted: string[]): HTMLElement | null {
+  const wanted = 100 * (result.error ?? 0.01);
+  const settings = (errors: string, time: (run: Document) => number): Setting[] =>
+    ((result.runs ?? []) as Document[]).flatMap((run) => {
+      const largest = largestError(run[errors], counted);
+      const spent = time(run);
+      if (run.failure || !largest || !(largest.value > 0) || !(spent > 0)) return [];
+      return [{ division: divisionText(run.settings), label: `a step of ${seconds(run.settings.step)}`, error: 100 * largest.value, seconds: spent }];
+    });
+  const charts = [
+    workPrecision("a simulation", settings("errors", (run) => run.simulation_seconds), wanted),
+    workPrecision("a simulation with gradients", settings("gradient_errors", (run) => run.seconds), wanted),
+  ].filter((one): one is HTMLElement => !!one);
+  if (!charts.length) return null;
+  return section("Work and precision", "Each mark is a setting: its processor time against its largest error that counts. On the broad line nothing else is both faster and more accurate.", h("div.columns", {}, charts));
 }
 
 function pricesOfAccuracy(result: Document): HTMLElement | null {
@@ -71,7 +121,7 @@ function pricesOfAccuracy(result: Document): HTMLElement | null {
 
 function allRuns(result: Document, counted: string[]): HTMLElement {
   const best = result.recommended;
-  const isBest = (settings: Document) => best && settings.step === best.step && settings.elements === best.elements;
+  const isBest = (settings: Document) => best && settings.step === best.step && settings.elements === best.elements && settings.element_factor === best.element_factor;
   return section(
     "All runs",
     "Errors against the reference: the largest of those that count, and whose it is.",
@@ -91,7 +141,7 @@ function allRuns(result: Document, counted: string[]): HTMLElement {
         const step = seconds(run.settings.step);
         return [
           isBest(run.settings) ? h("b", {}, `✓ ${step}`) : step,
-          count(run.settings.elements),
+          run.settings.elements ? count(run.settings.elements) : `× ${number(run.settings.element_factor ?? 1, 2).replace(/\.0$/, "")}`,
           seconds(run.simulation_seconds ?? run.seconds),
           run.gradient_seconds ? seconds(run.gradient_seconds) : "–",
           errorCell(value),
@@ -149,7 +199,7 @@ function savedEffects(result: Document): HTMLElement | null {
 }
 
 export function accuracyPage(data: ReportData): HTMLElement[] {
-  const { result, files } = data;
+  const { result } = data;
   const counted: string[] = result.counted ?? [];
   const wanted = `${number(100 * (result.error ?? 0.01), 3)} %`;
   const lead = result.recommended
@@ -157,7 +207,7 @@ export function accuracyPage(data: ReportData): HTMLElement[] {
     : `No setting that was tried keeps ${wanted}.`;
   return [
     hero(data, lead),
-    diagrams(files),
+    diagrams(result, counted),
     pricesOfAccuracy(result),
     allRuns(result, counted),
     knobs(result, counted),

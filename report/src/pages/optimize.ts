@@ -1,9 +1,11 @@
 // Of an optimization: what was won, whether to believe it, how it moves, where its limits bite.
 import { lineChart } from "../charts";
-import { type Companion, type Document, type Picture, parseCsv, type ReportData } from "../data";
+import { type Companion, type Document, type Picture, parseCsv, type ReportData, type Shown, type Unit } from "../data";
 import { h, section, table } from "../dom";
 import { errorText, number, pair, percent, placeText, seconds, share, withUnit, words } from "../format";
+import { influenceSection } from "./influence";
 import { type Inspector, makeInspector } from "./inspector";
+import { addMarks, type Mark } from "../mechanism/marks";
 import { makePlayer, type Player } from "../mechanism/player";
 import { change, effectsSection, fact, filesSection, monitorsText, responsesTable, sentenceCase, verdict, warnings } from "./parts";
 
@@ -12,20 +14,25 @@ export interface Viewing {
   player: Player;
   inspector: Inspector;
   pickBody(name: string | undefined): void;
+  /** Calls with the name of each body that is clicked. */
+  onBody(listener: (body: string) => void): void;
 }
 
 /** The drawing beside what is known of the member that was clicked. */
-export function viewing(picture: Picture, main: number, showsNames = false, showsAxes = false): Viewing {
+export function viewing(picture: Picture, main: number, showsNames = false, showsAxes = false, unheld: string[] = []): Viewing {
   let player: Player | null = null;
+  const listeners: ((body: string) => void)[] = [];
   const inspector = makeInspector(picture, main, (time) => player?.goTo(time));
   player = makePlayer({
     picture,
     main,
     showsNames,
     showsAxes,
+    unheld,
     onPick: (pick) => {
       player?.select(pick.body);
       inspector.show(pick);
+      if (pick.body !== null) for (const listener of listeners) listener(picture.scene.bodies[pick.body!].name);
     },
   });
   player.onTime((time) => inspector.setTime(time));
@@ -35,6 +42,7 @@ export function viewing(picture: Picture, main: number, showsNames = false, show
     element: h("section.card.viewing", { "aria-label": "mechanism" }, made.element, inspector.element),
     player: made,
     inspector,
+    onBody: (listener) => listeners.push(listener),
     pickBody(name) {
       const body = picture.scene.bodies.findIndex((one) => one.name === name);
       made.select(body < 0 ? null : body);
@@ -51,6 +59,7 @@ export function optimizePage(data: ReportData): HTMLElement[] {
     const main = picture.designs.length - 1;
     shown = viewing(picture, main);
     parts.push(shown.element);
+    markLimits(data, shown);
     shown.pickBody(mostUsedBody(picture, result));
   }
   parts.push(
@@ -60,6 +69,7 @@ export function optimizePage(data: ReportData): HTMLElement[] {
       h("div.stack", {}, limitsSection(data, shown), pricesSection(data)),
       h("div.stack", {}, variablesSection(data), savingsSection(data)),
     ),
+    influenceSection(picture, (picture?.designs.length ?? 0) - 1, shown),
     convergenceSection(data),
     evidenceSection(data),
     effectsSection(data),
@@ -187,34 +197,85 @@ function mostUsedBody(picture: Picture, result: Document): string | undefined {
   return best ?? picture.scene.bodies[0]?.name;
 }
 
-function limitsSection(data: ReportData, shown: Viewing | null): HTMLElement | null {
+interface LimitRow {
+  name: string;
+  one: Document;
+  unit: Unit;
+  response?: Shown;
+  before?: number;
+  used?: number;
+  isActive: boolean;
+  mark?: number; // its number in the drawing
+  usedOf(value: number): number;
+}
+
+/** Of all limits, those that bite first; they are numbered. */
+function limitRows(data: ReportData): LimitRow[] {
   const constraints: Record<string, Document> = data.result.constraints ?? {};
-  const names = Object.keys(constraints);
-  if (!names.length) return null;
   const { picture } = data;
   const optimum = picture?.designs[picture.designs.length - 1];
   const start = picture?.designs[0];
-  const rows = names
-    .map((name) => {
-      const one = constraints[name];
-      const limit = picture?.limits[name];
-      const unit = limit?.unit ?? { si: one.unit, name: one.unit, factor: 1 };
-      const response = limit?.response ? optimum?.responses?.find((r) => r.name === limit.response) : undefined;
-      const before = limit?.response ? start?.responses?.find((r) => r.name === limit.response)?.value : undefined;
-      const usedOf = (value: number) => (one.side === "upper" ? value / one.limit : one.limit / value);
-      const used: number | undefined = one.utilisation;
-      const isActive = (one.multiplier ?? 0) !== 0 || (used !== undefined && used > 0.999);
-      return { name, one, unit, response, before, used, isActive, usedOf };
-    })
-    .sort((a, b) => Number(b.isActive) - Number(a.isActive) || (b.used ?? 0) - (a.used ?? 0));
+  const rows = Object.keys(constraints).map((name): LimitRow => {
+    const one = constraints[name];
+    const limit = picture?.limits[name];
+    const unit = limit?.unit ?? { si: one.unit, name: one.unit, factor: 1 };
+    const response = limit?.response ? optimum?.responses?.find((r) => r.name === limit.response) : undefined;
+    const before = limit?.response ? start?.responses?.find((r) => r.name === limit.response)?.value : undefined;
+    const used: number | undefined = one.utilisation;
+    const isActive = (one.multiplier ?? 0) !== 0 || (used !== undefined && used > 0.999);
+    return { name, one, unit, response, before, used, isActive, usedOf: (value) => (one.side === "upper" ? value / one.limit : one.limit / value) };
+  });
+  rows.sort((a, b) => Number(b.isActive) - Number(a.isActive) || (b.used ?? 0) - (a.used ?? 0));
+  let number = 0;
+  for (const row of rows) {
+    if (row.isActive && row.response && picture && placeOf(picture, row.response)) row.mark = ++number;
+  }
+  return rows;
+}
+
+/** The place in the drawing that a response looks at; null if it is of the whole mechanism. */
+function placeOf(picture: Picture, response: Shown): Pick<Mark, "body" | "share" | "joint"> | null {
+  const meaning = picture.responses[response.name];
+  const joint = picture.scene.joints.findIndex((one) => one.name === meaning.joint);
+  if (joint >= 0) return { joint };
+  if (meaning.bodies.length !== 1 || meaning.type === "mass") return null;
+  const body = picture.scene.bodies.findIndex((one) => one.name === meaning.bodies[0]);
+  return body < 0 ? null : { body, share: response.peak_share ?? (picture.scene.bodies[body].type === "beam" ? meaning.at : undefined) };
+}
+
+function goToLimit(shown: Viewing, row: LimitRow, picture: Picture): void {
+  if (!row.response) return;
+  shown.pickBody(picture.responses[row.response.name].bodies[0]);
+  if (row.response.peak_time !== undefined) shown.player.goTo(row.response.peak_time);
+}
+
+function markLimits(data: ReportData, shown: Viewing): void {
+  const picture = data.picture!;
+  const marks = limitRows(data)
+    .filter((row) => row.mark !== undefined)
+    .map((row): Mark => ({
+      number: row.mark!,
+      name: words(row.name),
+      text: `${withUnit(row.one.value, row.unit)} ${row.one.side === "upper" ? "≤" : "≥"} ${withUnit(row.one.limit, row.unit)}`,
+      time: row.response!.peak_time,
+      ...placeOf(picture, row.response!)!,
+      onClick: () => goToLimit(shown, row, picture),
+    }));
+  addMarks(shown.player, picture, marks);
+}
+
+function limitsSection(data: ReportData, shown: Viewing | null): HTMLElement | null {
+  const { picture } = data;
+  const rows = limitRows(data);
+  if (!rows.length) return null;
   return section(
     "Where the limits bite",
-    "How far each limit is used: the open mark is the start. The time leads to the instant in the drawing.",
+    "How far each limit is used: the open mark is the start. Numbers stand in the drawing where a limit bites; the time leads to the instant.",
     h(
       "ul.limits",
       {},
-      rows.map(({ name, one, unit, response, before, used, isActive, usedOf }) => {
-        const body = response ? picture!.responses[response.name].bodies[0] : undefined;
+      rows.map((row) => {
+        const { name, one, unit, response, before, used, isActive, usedOf } = row;
         const place = placeText(response?.peak_place);
         return h(
           isActive ? "li.is-active" : "li",
@@ -222,7 +283,7 @@ function limitsSection(data: ReportData, shown: Viewing | null): HTMLElement | n
           h(
             "div.limit-head",
             {},
-            h("span.bar-name", {}, words(name)),
+            h("span.bar-name", {}, row.mark ? h("b.mark-number", { title: "its number in the drawing" }, String(row.mark)) : null, words(name)),
             h("span", {}, h("b", {}, withUnit(Math.abs(one.value) < 1e-9 * unit.factor ? 0 : one.value, unit)), h("span.soft", {}, ` ${one.side === "upper" ? "≤" : "≥"} ${withUnit(one.limit, unit)}`)),
           ),
           used !== undefined
@@ -246,8 +307,7 @@ function limitsSection(data: ReportData, shown: Viewing | null): HTMLElement | n
                   "button.link",
                   {
                     onclick: () => {
-                      shown?.pickBody(body);
-                      shown?.player.goTo(response.peak_time!);
+                      if (shown) goToLimit(shown, row, picture!);
                       shown?.element.scrollIntoView({ behavior: "smooth", block: "nearest" });
                     },
                   },

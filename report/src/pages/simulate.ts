@@ -1,6 +1,6 @@
 // Of one simulation, and of a mechanism that is only drawn.
 import { lineChart } from "../charts";
-import { curveOf, type Document, type Picture, type ReportData, valueAt } from "../data";
+import { curveOf, type Document, type Packed, type Picture, type ReportData, valueAt } from "../data";
 import { h, section, table } from "../dom";
 import { count, inThousands, number, seconds, share, timeUnit, withUnit, words } from "../format";
 import { limitsOn, profiles, signed } from "./inspector";
@@ -115,7 +115,9 @@ export function showPage(data: ReportData): HTMLElement[] {
   if (!picture) return [];
   const { scene } = picture;
   const free = result.rigid_motion?.free as number | undefined;
-  const shown = viewing(picture, 0, true, true);
+  const unheld: string[] = result.unheld_bodies ?? [];
+  const shown = viewing(picture, 0, true, true, unheld);
+  const time: number | undefined = result.seconds?.simulate;
   const parts: (HTMLElement | null)[] = [
     h(
       "section.hero",
@@ -146,40 +148,27 @@ export function showPage(data: ReportData): HTMLElement[] {
         fact(String(scene.joints.length), "joints"),
         fact(count(result.steps), "steps"),
         fact(count(result.coordinates), "coordinates"),
+        time !== undefined ? fact(`≈ ${roughly(time)}`, "a simulation will take", "measured with its first steps") : null,
       ),
     ),
     shown.element,
-    section(
-      "Bodies",
-      "Axes in the drawing: x red along the beam, y green, z blue. Sections are drawn with y up and z to the right.",
-      table(
-        [{ title: "body", left: true }, { title: "kind", left: true }, { title: "section", left: true }, { title: "mass [kg]" }, { title: "coordinates" }],
-        scene.bodies.map((body, i) => {
-          const known = (result.bodies ?? []).find((one: Document) => one.name === body.name) ?? {};
-          return [
-            words(body.name),
-            `${body.is_rigid ? "rigid " : ""}${body.type}${body.material ? `, ${body.material}` : ""}`,
-            profiles(picture, i, 0) ?? "–",
-            number(known.mass),
-            count(known.coordinates),
-          ];
-        }),
-      ),
-    ),
+    bodiesSection(picture, result, unheld),
     section(
       "Joints",
       "",
       table(
-        [{ title: "joint", left: true }, { title: "kind", left: true }, { title: "the second body", left: true }, { title: "of", left: true }, { title: "drive", left: true }],
+        [{ title: "joint", left: true }, { title: "kind", left: true }, { title: "of", left: true }, { title: "free in space", left: true }, { title: "the second body", left: true }, { title: "drive", left: true }],
         scene.joints.map((joint) => [
           words(joint.name),
           joint.type,
+          bodyPair(joint.bodies, unheld),
+          joint.freedoms === undefined ? "" : `${joint.freedoms} of 6`,
           joint.freedom,
-          `${words(joint.bodies[0])} – ${words(joint.bodies[1])}`,
           joint.drive ? h("span.drive-text", {}, `${joint.drive} prescribed`) : "–",
         ]),
       ),
     ),
+    loadsTable(picture),
     lawsSection(picture),
     variablesTable(picture),
     effectsSection(data),
@@ -187,6 +176,42 @@ export function showPage(data: ReportData): HTMLElement[] {
   ];
   shown.pickBody(undefined);
   return parts.filter((part): part is HTMLElement => !!part);
+}
+
+/** Two digits: more is not known before. */
+function roughly(time: number): string {
+  if (time < 1) return `${Number((1000 * time).toPrecision(2))} ms`;
+  return time < 120 ? `${Number(time.toPrecision(2))} s` : `${Number((time / 60).toPrecision(2))} min`;
+}
+
+function bodyPair(bodies: string[], unheld: string[]): HTMLElement {
+  return h("span", {}, bodies.flatMap((body, i) => [i ? " – " : "", unheld.includes(body) ? h("span.bad", {}, words(body)) : words(body)]));
+}
+
+const loadKinds: Record<string, string> = { force: "force", torque: "torque", spring: "spring", "joint-force": "in a joint" };
+
+function loadsTable(picture: Picture): HTMLElement | null {
+  const { scene, designs } = picture;
+  if (!scene.loads.length) return null;
+  const range = (law: Packed, unit: string) => {
+    const { y } = curveOf(law);
+    const [low, high] = [Math.min(...y), Math.max(...y)];
+    const text = low === high ? number(high) : `${number(low)} … ${number(high)}`;
+    return `${text} ${unit}`;
+  };
+  return section(
+    "Loads",
+    "",
+    table(
+      [{ title: "load", left: true }, { title: "kind", left: true }, { title: "on", left: true }, { title: "from the start to the end", left: true }],
+      scene.loads.map((load, l) => {
+        const { value, text } = designs[0].geometry.loads[l];
+        const size = [text ?? "", value ? range(value, load.unit ?? "") : ""].filter(Boolean).join(", ");
+        const on = load.joint ? `the joint ${words(load.joint)}` : (load.bodies ?? []).map(words).join(" – ");
+        return [words(load.name), `${loadKinds[load.type]}${load.follows_body ? ", turns with the body" : ""}`, on, size || "–"];
+      }),
+    ),
+  );
 }
 
 function lawsSection(picture: Picture): HTMLElement | null {
@@ -208,7 +233,28 @@ function lawsSection(picture: Picture): HTMLElement | null {
   return charts.length ? section("Drives and loads over time", "", h("div.grid", {}, charts)) : null;
 }
 
-function variablesTable(picture: Picture): HTMLElement | null {
+export function bodiesSection(picture: Picture, result: Document, unheld: string[]): HTMLElement {
+  const { scene } = picture;
+  return section(
+    "Bodies",
+    "Axes in the drawing: x red along the beam, y green, z blue. Sections are drawn with y up and z to the right.",
+    table(
+      [{ title: "body", left: true }, { title: "kind", left: true }, { title: "section", left: true }, { title: "mass [kg]" }, { title: "coordinates" }],
+      scene.bodies.map((body, i) => {
+        const known = (result.bodies ?? []).find((one: Document) => one.name === body.name) ?? {};
+        return [
+          unheld.includes(body.name) ? h("span.bad", { title: "nothing holds or moves it" }, `${words(body.name)}: free`) : words(body.name),
+          `${body.is_rigid ? "rigid " : ""}${body.type}${body.material ? `, ${body.material}` : ""}`,
+          profiles(picture, i, 0) ?? "–",
+          number(known.mass),
+          count(known.coordinates),
+        ];
+      }),
+    ),
+  );
+}
+
+export function variablesTable(picture: Picture): HTMLElement | null {
   const names = Object.keys(picture.variables);
   if (!names.length) return null;
   return section(

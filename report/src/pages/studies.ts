@@ -1,5 +1,5 @@
 // Of fronts, accuracy and the other studies.
-import { lineChart } from "../charts";
+import { lineChart, type Series } from "../charts";
 import { type Document, parseCsv, type Picture, type ReportData, type Unit } from "../data";
 import { h, section, table } from "../dom";
 import { engineering, number, timeUnit, withUnit, words } from "../format";
@@ -67,9 +67,11 @@ export function paretoPage(data: ReportData): HTMLElement[] {
         dots: true,
         labels: known.map(({ point, number: n }) => `point ${n}: ${point.status}${point.dominated ? ", dominated" : ""}`),
       },
+      ...slopesOf(known.map(({ point }) => -point.multiplier * (unit(limited).factor / unit(objective).factor)), x, y),
     ],
-    onPick: (_series, index) => show(index),
-    onHover: (_series, index) => show(index),
+    legend: known.some(({ point }) => Number.isFinite(point.multiplier)),
+    onPick: (series, index) => series === 0 && show(index),
+    onHover: (series, index) => series === 0 && show(index),
   });
   show(Math.floor(known.length / 2));
   return [
@@ -93,6 +95,20 @@ export function paretoPage(data: ReportData): HTMLElement[] {
     ),
     filesSection(data),
   ];
+}
+
+/** A short line through each point: what the objective gains by more of the limit. */
+function slopesOf(slopes: number[], x: number[], y: number[]): Series[] {
+  if (x.length < 2) return [];
+  const order = x.map((_, i) => i).sort((a, b) => x[a] - x[b]);
+  const half = 0.3 * Math.min(...order.slice(1).map((i, k) => x[i] - x[order[k]]).filter((gap) => gap > 0));
+  const series: Series = { name: "slope", x: [], y: [], color: "more", width: 2.2 };
+  for (const i of order) {
+    if (!Number.isFinite(slopes[i]) || !Number.isFinite(half)) continue;
+    series.x.push(x[i] - half, x[i] + half, x[i] + half);
+    series.y.push(y[i] - half * slopes[i], y[i] + half * slopes[i], null);
+  }
+  return series.x.length ? [series] : [];
 }
 
 function sectionsOf(picture: Picture): HTMLElement {
@@ -206,13 +222,8 @@ export function csvCharts(data: ReportData): HTMLElement[] {
       const values = column(title, shown.factor);
       if (name === "uncertainty.csv") {
         const deviation = header.includes(`${title}:deviation`) ? column(`${title}:deviation`, shown.factor) : null;
-        const bands = deviation
-          ? [
-              { name: "+ 2 deviations", x: time, y: values.map((v, i) => v + 2 * deviation[i]), color: "start", width: 1 },
-              { name: "− 2 deviations", x: time, y: values.map((v, i) => v - 2 * deviation[i]), color: "start", width: 1 },
-            ]
-          : [];
-        return [lineChart({ title: words(title), yTitle: shown.name, xTitle: `time [${unit.name}]`, series: [{ name: words(title), x: time, y: values, color: "accent" }, ...bands] }).element];
+        const band = deviation ? { band: deviation.map((d) => 2 * d) } : {};
+        return [lineChart({ title: words(title), yTitle: shown.name, xTitle: `time [${unit.name}]`, series: [{ name: words(title), x: time, y: values, color: "accent", ...band }] }).element];
       }
       const variables = header.filter((one) => one.startsWith(`${title}:`));
       const colors = ["accent", "more", "good", "drive", "limit", "soft"];

@@ -10,9 +10,7 @@ export function uncertaintyPage(data: ReportData): HTMLElement[] {
   const rows = Object.entries((result.responses ?? {}) as Record<string, Document>).map(([name, one]) => {
     const unit = picture?.responses[name]?.unit ?? engineering(one.unit);
     const shown = (value: number, digits = 4) => number(value / unit.factor, digits);
-    const shares = Object.entries((one.shares ?? {}) as Record<string, number>)
-      .sort((a, b) => b[1] - a[1])
-      .map(([who, part]) => `${words(who)} ${(100 * part).toFixed(0)} %`);
+    const shares = sharesOf(one);
     return [
       words(name),
       shown(one.value),
@@ -20,7 +18,7 @@ export function uncertaintyPage(data: ReportData): HTMLElement[] {
       one.sampled ? shown(one.sampled.deviation, 3) : "–",
       one.bounds ? `${shown(one.bounds[0])} … ${shown(one.bounds[1])}` : "–",
       unit.name,
-      h("span", { title: shares.join(", ") }, shares.slice(0, 2).join(", ")),
+      shares.slice(0, 2).map(({ who, part }) => `${words(who)} ${(100 * part).toFixed(0)} %`).join(", "),
     ];
   });
   return [
@@ -44,7 +42,53 @@ export function uncertaintyPage(data: ReportData): HTMLElement[] {
         rows,
       ),
     ),
+    sharesSection(result),
     ...csvCharts(data),
     filesSection(data),
-  ];
+  ].filter((part): part is HTMLElement => !!part);
+}
+
+interface Share {
+  who: string;
+  part: number; // of the variance
+}
+
+function sharesOf(one: Document): Share[] {
+  return Object.entries((one.shares ?? {}) as Record<string, number>)
+    .map(([who, part]) => ({ who, part }))
+    .sort((a, b) => b.part - a.part);
+}
+
+const colors = ["accent", "more", "good", "drive", "limit", "soft", "load", "start"];
+const smallestShare = 0.004;
+
+/** A bar for each response: whose scatter its variance is made of. */
+function sharesSection(result: Document): HTMLElement | null {
+  const responses = Object.entries((result.responses ?? {}) as Record<string, Document>).filter(([, one]) => sharesOf(one).some(({ part }) => part > smallestShare));
+  if (!responses.length) return null;
+  const parameters = Object.keys(result.parameters ?? {});
+  const colorOf = (who: string) => `var(--${colors[Math.max(0, parameters.indexOf(who)) % colors.length]})`;
+  return section(
+    "Where the scatter comes from",
+    "Shares of the variance of each response.",
+    h("p.key", {}, parameters.map((who) => h("span", {}, h("span.dot", { style: `background:${colorOf(who)}` }), words(who)))),
+    h(
+      "ul.bars.shares",
+      {},
+      responses.map(([name, one]) =>
+        h(
+          "li",
+          {},
+          h("span.bar-name", {}, words(name)),
+          h(
+            "span.bar-track",
+            { role: "img", "aria-label": sharesOf(one).map(({ who, part }) => `${words(who)} ${(100 * part).toFixed(0)} %`).join(", ") },
+            sharesOf(one)
+              .filter(({ part }) => part > smallestShare)
+              .map(({ who, part }) => h("span.share", { style: `width:${100 * part}%;background:${colorOf(who)}`, title: `${words(who)} ${(100 * part).toFixed(1)} %` }, part > 0.12 ? `${(100 * part).toFixed(0)} %` : "")),
+          ),
+        ),
+      ),
+    ),
+  );
 }

@@ -1,0 +1,46 @@
+#include "picture/peak_place.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string_view>
+
+namespace pleuel {
+
+namespace {
+
+/// The number behind the words that a text begins with.
+std::optional<double> number_behind(std::string_view words, const std::string& text) {
+  if (!text.starts_with(words)) return std::nullopt;
+  const char* begin = text.c_str() + words.size();
+  char* end = nullptr;
+  const double number = std::strtod(begin, &end);
+  return end == begin ? std::nullopt : std::optional<double>(number);
+}
+
+/// Of a place inside one frame of a beam, counted in its elements.
+double share_in(const BodyModel& part, double place) {
+  const int last = part.beam.node_count() - 1;
+  const int node = std::clamp(static_cast<int>(std::floor(place)), 0, last - 1);
+  const double from = part.beam.node_position(node), to = part.beam.node_position(node + 1);
+  const double position = from + (place - node) * (to - from);
+  return part.stretch.of_whole(position / part.beam.node_position(last));
+}
+
+}  // namespace
+
+std::optional<double> share_of_place(const Model& model, const std::string& body,
+                                     const std::string& place) {
+  if (const auto share = number_behind("at ", place)) return share;
+  const auto node = number_behind("node ", place);
+  if (!node) return std::nullopt;
+  for (const BodyModel* part : model.parts(body)) {
+    if (!part->is_beam()) return std::nullopt;
+    const double inside = *node - part->stretch.first_element;
+    const int elements = part->beam.node_count() - 1;
+    if (inside <= elements) return share_in(*part, inside);
+  }
+  return std::nullopt;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,109 @@
+// Of a check: what will be built, whether the derivatives can be trusted, how long things take.
+import { lineChart } from "../charts";
+import type { Document, ReportData } from "../data";
+import { h, section, table } from "../dom";
+import { count, number, seconds, withUnit, words } from "../format";
+import { influenceSection } from "./influence";
+import { viewing } from "./optimize";
+import { effectsSection, fact, filesSection, unitOf } from "./parts";
+import { bodiesSection, variablesTable } from "./simulate";
+import { hero } from "./studies";
+
+const verdictNames: Record<string, string> = {
+  agrees: "agrees",
+  noise: "differences drown in noise",
+  kink: "at a kink",
+  differs: "differs",
+};
+
+function verdictCell(derivatives: Document | undefined): HTMLElement | string {
+  if (!derivatives) return "–";
+  const tone = derivatives.verdict === "agrees" ? "span.good-text" : derivatives.verdict === "differs" ? "span.bad" : "span.more";
+  return h(tone, {}, verdictNames[derivatives.verdict] ?? derivatives.verdict);
+}
+
+function responsesSection(data: ReportData): HTMLElement | null {
+  const responses = Object.entries((data.result.responses ?? {}) as Record<string, Document>);
+  if (!responses.length) return null;
+  const hasDerivatives = responses.some(([, one]) => one.derivatives);
+  return section(
+    "Responses and their derivatives",
+    hasDerivatives ? "Direct differentiation against central differences and against the adjoint; digits that an optimizer may expect of value and gradient." : "",
+    table(
+      [
+        { title: "response", left: true },
+        { title: "value" },
+        ...(hasDerivatives ? [{ title: "derivatives", left: true }, { title: "to" }, { title: "adjoint" }, { title: "noise" }, { title: "digits" }] : []),
+      ],
+      responses.map(([name, one]) => {
+        const d: Document | undefined = one.derivatives;
+        const row: (HTMLElement | string)[] = [words(name), withUnit(one.value, unitOf(data.picture, name, one.unit))];
+        if (hasDerivatives) row.push(verdictCell(d), number(d?.error, 2), number(d?.adjoint_error, 2), number(d?.noise, 2), d ? `${d.digits.value} / ${d.digits.gradient}` : "–");
+        return row;
+      }),
+    ),
+  );
+}
+
+const colors = ["accent", "more", "good", "drive", "limit", "soft", "load", "start"];
+const smallest = 1e-17;
+
+/** Error of central differences over their step, a curve a variable. */
+function curvesSection(data: ReportData): HTMLElement | null {
+  const responses = Object.entries((data.result.responses ?? {}) as Record<string, Document>).filter(([, one]) => one.derivatives?.variables);
+  const withCurves = responses.filter(([, one]) => Object.values(one.derivatives.variables as Record<string, Document>).some((v) => v.curve?.length > 1));
+  if (!withCurves.length) return null;
+  const place = h("div", {});
+  const show = (name: string) => {
+    const variables = Object.entries(withCurves.find(([one]) => one === name)![1].derivatives.variables as Record<string, Document>).slice(0, colors.length);
+    place.replaceChildren(
+      lineChart({
+        title: `differences of ${words(name)}`,
+        xTitle: "relative step",
+        yTitle: "relative error",
+        height: 280,
+        logX: true,
+        logY: true,
+        legend: true,
+        series: variables.map(([variable, one], i) => {
+          const curve = [...one.curve].sort((a: Document, b: Document) => a.step - b.step);
+          return { name: words(variable), x: curve.map((p: Document) => p.step), y: curve.map((p: Document) => Math.max(p.error, smallest)), color: colors[i], dots: true };
+        }),
+      }).element,
+    );
+  };
+  const select = h("select", { "aria-label": "response" }, withCurves.map(([name]) => h("option", { value: name }, words(name)))) as HTMLSelectElement;
+  select.addEventListener("change", () => show(select.value));
+  show(withCurves[0][0]);
+  return section("Differences over their step", "Where differences agree with the gradient at some step, the gradient is right: to the right of it curvature is seen, to the left noise.", h("label.choice.bordered", {}, h("span.soft", {}, "response"), select), place);
+}
+
+export function checkPage(data: ReportData): HTMLElement[] {
+  const { result, picture } = data;
+  const derivatives = Object.values((result.responses ?? {}) as Record<string, Document>).map((one) => one.derivatives).filter(Boolean);
+  const differs = derivatives.filter((one) => one.verdict === "differs").length;
+  const free: number = result.rigid_motion?.free ?? 0;
+  const lead = [
+    result.rigid_motion ? (free > 0 ? `${free} freedom${free > 1 ? "s are" : " is"} left to the forces.` : "The drives prescribe the rigid motion.") : "",
+    derivatives.length ? (differs ? `The derivatives of ${differs} responses differ.` : "No derivative differs.") : "",
+  ].join(" ");
+  const times = result.seconds ?? {};
+  const shown = picture?.designs.length ? viewing(picture, 0, true, true) : null;
+  shown?.pickBody(undefined);
+  return [
+    hero(data, lead, [
+      fact(count(result.steps), "steps"),
+      fact(count(result.coordinates), "coordinates"),
+      ...(times.simulate !== undefined ? [fact(seconds(times.simulate), "one simulation")] : []),
+      ...(times.direct !== undefined ? [fact(seconds(times.direct), "its gradients")] : []),
+    ]),
+    shown?.element ?? null,
+    responsesSection(data),
+    influenceSection(picture, 0, shown),
+    curvesSection(data),
+    picture ? bodiesSection(picture, result, []) : null,
+    picture ? variablesTable(picture) : null,
+    effectsSection(data),
+    filesSection(data),
+  ].filter((part): part is HTMLElement => !!part);
+}

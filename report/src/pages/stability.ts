@@ -1,0 +1,105 @@
+// Formulations and schemes side by side: a heat map of what they drift, lose and cost.
+import type { Document, ReportData } from "../data";
+import { h, section, table } from "../dom";
+import { count, number, seconds } from "../format";
+import { color, onTheme } from "../theme";
+import { fact, filesSection } from "./parts";
+import { hero } from "./studies";
+
+interface Measure {
+  key: string;
+  name: string;
+  note: string;
+  text(value: number): string;
+}
+
+const measures: Measure[] = [
+  { key: "position_drift", name: "position drift", note: "largest violation of a joint [m or rad]", text: (v) => number(v, 2) },
+  { key: "velocity_drift", name: "velocity drift", note: "largest violation of the rate of a joint [m/s or rad/s]", text: (v) => number(v, 2) },
+  { key: "energy_error", name: "energy error", note: "part of the largest energy that is lost or made", text: (v) => number(v, 2) },
+  { key: "iterations", name: "Newton iterations a step", note: "", text: (v) => number(v, 3) },
+  { key: "condition", name: "condition", note: "of the matrix of a step, scaled", text: (v) => number(v, 2) },
+  { key: "seconds", name: "time", note: "of one simulation", text: (v) => seconds(v) },
+];
+
+function valueOf(run: Document | undefined, key: string): number | null {
+  if (!run || run.failure) return null;
+  const value = key === "iterations" ? run.work.newton_iterations / run.work.steps : run[key];
+  return typeof value === "number" ? value : null;
+}
+
+const nameOf = (file: string) => file.replace(/^.*\//, "").replace(/\.json$/, "");
+
+/** Colours by the logarithm: between the smallest and the largest of the measure. */
+function heatMap(runs: Document[], files: string[], formulations: string[], measure: Measure): HTMLElement {
+  const of = (file: string, formulation: string) => runs.find((run) => run.file === file && run.formulation === formulation);
+  const known = runs.map((run) => valueOf(run, measure.key)).filter((v): v is number => v !== null && v > 0);
+  const [low, high] = [Math.log10(Math.min(...known)), Math.log10(Math.max(...known))];
+  const cells: [HTMLElement, number | null][] = [];
+  const paint = () => {
+    for (const [cell, value] of cells) {
+      const share = value === null || !(value > 0) ? 0 : (Math.log10(value) - low) / Math.max(high - low, 0.3);
+      cell.style.background = value === null ? "" : `color-mix(in srgb, ${color("more")} ${Math.round(58 * Math.max(0, share))}%, transparent)`;
+    }
+  };
+  const body = formulations.map((formulation) =>
+    h(
+      "tr",
+      {},
+      h("th.left", { scope: "row" }, formulation),
+      files.map((file) => {
+        const run = of(file, formulation);
+        const value = valueOf(run, measure.key);
+        const cell = h("td", { title: run?.failure ?? "" }, run?.failure ? h("span.bad", {}, "failed") : value === null ? "–" : measure.text(value));
+        cells.push([cell, value]);
+        return cell;
+      }),
+    ),
+  );
+  paint();
+  onTheme(paint);
+  return h(
+    "div.scroll",
+    { tabindex: 0, role: "region", "aria-label": measure.name },
+    h("table.matrix", {}, h("thead", {}, h("tr", {}, h("th.left", { scope: "col" }, "formulation"), files.map((file) => h("th", { scope: "col" }, nameOf(file))))), h("tbody", {}, body)),
+  );
+}
+
+export function stabilityPage(data: ReportData): HTMLElement[] {
+  const { result } = data;
+  const runs: Document[] = result.runs ?? [];
+  const files = [...new Set(runs.map((run) => String(run.file)))];
+  const formulations = [...new Set([...(result.formulations ?? []), ...runs.map((run) => String(run.formulation))])].filter((name) => runs.some((run) => run.formulation === name));
+  const failed = runs.filter((run) => run.failure);
+  const shown = measures.filter((measure) => runs.some((run) => valueOf(run, measure.key) !== null));
+  const place = h("div.stack", {});
+  const note = h("p.note", {});
+  const show = (key: string) => {
+    const measure = shown.find((one) => one.key === key);
+    if (!measure) return;
+    note.textContent = `${measure.note ? `${measure.note[0].toUpperCase()}${measure.note.slice(1)}. ` : ""}The darker, the larger: colours follow the logarithm.`;
+    place.replaceChildren(heatMap(runs, files, formulations, measure));
+  };
+  const select = h("select", { "aria-label": "measure" }, shown.map((one) => h("option", { value: one.key }, one.name))) as HTMLSelectElement;
+  select.addEventListener("change", () => show(select.value));
+  if (shown.length) show(shown[0].key);
+  return [
+    hero(data, failed.length ? `${failed.length} of ${runs.length} runs failed.` : `All ${runs.length} runs came to their ends.`, [
+      fact(count(files.length), "files"),
+      fact(count(formulations.length), "formulations and schemes"),
+    ]),
+    section("Formulations side by side", "", h("label.choice.bordered", {}, h("span.soft", {}, "measure"), select), note, place),
+    failed.length
+      ? section("What failed", "", table([{ title: "file", left: true }, { title: "formulation", left: true }, { title: "because", left: true }], failed.map((run) => [nameOf(run.file), run.formulation, run.failure])))
+      : null,
+    section(
+      "All numbers",
+      "",
+      table(
+        [{ title: "file", left: true }, { title: "formulation", left: true }, ...shown.map((one) => ({ title: one.name })), { title: "steps" }],
+        runs.map((run) => [nameOf(run.file), run.formulation, ...shown.map((one) => { const value = valueOf(run, one.key); return value === null ? "–" : one.text(value); }), run.work ? count(run.work.steps) : "–"]),
+      ),
+    ),
+    filesSection(data),
+  ].filter((part): part is HTMLElement => !!part);
+}

@@ -1,0 +1,99 @@
+#include "studies/method_comparison.hpp"
+
+#include <chrono>
+
+#include "core/base/error.hpp"
+#include "core/base/relative_error.hpp"
+#include "core/base/stop.hpp"
+#include "sensitivity/finite_difference.hpp"
+#include "sensitivity/sampled_gradients.hpp"
+
+namespace pleuel {
+
+namespace {
+
+constexpr double compared_steps[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
+
+class MethodStudy {
+ public:
+  MethodStudy(const ProblemFile& problem, const Eigen::VectorXd& x, Analysis& analysis,
+              const MethodComparisonOptions& options)
+      : problem_(with_steps_of(analysis.trajectory, problem)),
+        x_(x),
+        analysis_(analysis),
+        options_(options),
+        magnitudes_(values_of(analysis).cwiseAbs()) {}
+
+  std::vector<ComparedMethod> run() {
+    compare_exact();
+    try {
+      for (const double step : compared_steps) compare_differences(step);
+    } catch (const Stopped&) {
+      return std::move(compared_);
+    }
+    return std::move(compared_);
+  }
+
+ private:
+  template <class Compute>
+  static std::pair<Eigen::MatrixXd, double> timed(const Compute& compute) {
+    const auto begin = std::chrono::steady_clock::now();
+    Eigen::MatrixXd gradients = compute();
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+    return {std::move(gradients), passed.count()};
+  }
+
+  void compare_exact() {
+    const auto by = [&](ExactMethod method) {
+      return timed(
+          [&] { return sampled_gradients(analysis_, response_values(analysis_), method); });
+    };
+    const auto [direct, direct_seconds] = by(ExactMethod::direct);
+    const auto [adjoint, adjoint_seconds] = by(ExactMethod::adjoint);
+    direct_ = direct;
+    compared_.push_back({GradientMethod::direct, 0.0, direct_seconds, errors(adjoint)});
+    compared_.push_back({GradientMethod::adjoint, 0.0, adjoint_seconds, errors(adjoint)});
+  }
+
+  void compare_differences(double step) {
+    options_.see_step(step);
+    try {
+      const auto [central, central_seconds] =
+          timed([&] { return central_differences(problem_, x_, step, options_.threads); });
+      compared_.push_back(
+          {GradientMethod::central_difference, step, central_seconds, errors(central)});
+      const auto [forward, forward_seconds] = timed(
+          [&] { return forward_differences(problem_, x_, analysis_, step, options_.threads); });
+      compared_.push_back(
+          {GradientMethod::forward_difference, step, forward_seconds, errors(forward)});
+    } catch (const SimulationError&) {
+      return;  // so large a step leads where nothing can be simulated
+    }
+  }
+
+  Eigen::VectorXd errors(const Eigen::MatrixXd& gradients) const {
+    Eigen::VectorXd errors(gradients.rows());
+    for (Eigen::Index i = 0; i < errors.size(); ++i) {
+      errors(i) = gradient_error(gradients.row(i), direct_.row(i), x_, magnitudes_(i));
+    }
+    return errors;
+  }
+
+  ProblemFile problem_;  ///< with the steps of the analysis
+  const Eigen::VectorXd& x_;
+  Analysis& analysis_;
+  const MethodComparisonOptions& options_;
+  Eigen::VectorXd magnitudes_;
+  Eigen::MatrixXd direct_;
+  std::vector<ComparedMethod> compared_;
+};
+
+}  // namespace
+
+std::vector<ComparedMethod> compare_methods(const ProblemFile& problem, const Eigen::VectorXd& x,
+                                            Analysis& analysis,
+                                            const MethodComparisonOptions& options) {
+  return MethodStudy(problem, x, analysis, options).run();
+}
+
+}  // namespace pleuel
