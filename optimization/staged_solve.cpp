@@ -33,7 +33,8 @@ bool is_same(const Refinement& one, const Refinement& other) {
 /// (body, effect) of what is left out by measurement.
 std::vector<std::pair<std::string, std::string>> left_out(const ProblemFile& file) {
   std::vector<std::pair<std::string, std::string>> names;
-  for (const auto& [name, effect] : file.effects.measured) {
+  if (!file.effects.decisions) return names;
+  for (const auto& [name, effect] : file.effects.decisions->measured) {
     if (!effect.is_needed) names.push_back(name);
   }
   return names;

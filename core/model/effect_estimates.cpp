@@ -140,13 +140,13 @@ bool asks_for(const ProblemFile& problem, const std::string& body,
 /// The elastic model moved like the rigid one.
 class Estimation {
  public:
-  explicit Estimation(ProblemFile& problem)
+  explicit Estimation(const ProblemFile& problem)
       : problem_(problem),
         start_(start_values(problem)),
         elastic_(build(EffectChoice::automatic)),
         rigid_(build(EffectChoice::off)) {}
 
-  void run() {
+  std::map<std::string, BeamEstimates> run() {
     const Trajectory trajectory = simulate(rigid_.mechanism, options());
     std::vector<QuasiStaticBeam> beams;
     std::vector<const BodyModel*> bodies;
@@ -174,16 +174,17 @@ class Estimation {
                      trajectory.scheme.step);
       }
     }
+    std::map<std::string, BeamEstimates> estimates;
     for (std::size_t i = 0; i < beams.size(); ++i) {
-      problem_.effects.estimates[bodies[i]->name] =
-          estimates_of(*bodies[i], beams[i].largest(), acceleration);
+      estimates[bodies[i]->name] = estimates_of(*bodies[i], beams[i].largest(), acceleration);
     }
+    return estimates;
   }
 
  private:
   Model build(EffectChoice elasticity) const {
     EffectSettings settings = problem_.effects;
-    settings.estimates.clear();
+    settings.decisions.reset();
     settings.elasticity = elasticity;
     return build_model(without_divisions(problem_.scene), settings, start_, start_);
   }
@@ -255,20 +256,21 @@ class Estimation {
     return estimates;
   }
 
-  ProblemFile& problem_;
+  const ProblemFile& problem_;
   Design<double> start_;
   Model elastic_, rigid_;
 };
 
 }  // namespace
 
-void estimate_effects(ProblemFile& problem) {
-  problem.effects.estimates.clear();
-  if (problem.effects.tolerance <= 0.0 || problem.effects.elasticity == EffectChoice::off) return;
+std::map<std::string, BeamEstimates> estimate_effects(const ProblemFile& problem) {
+  if (problem.effects.tolerance <= 0.0 || problem.effects.elasticity == EffectChoice::off) {
+    return {};
+  }
   try {
-    Estimation(problem).run();
+    return Estimation(problem).run();
   } catch (const SimulationError&) {
-    problem.effects.estimates.clear();
+    return {};
   }
 }
 

@@ -1,6 +1,7 @@
 #include "core/response/analysis.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -182,6 +183,9 @@ Eigen::VectorXd values_of(const Analysis& analysis) {
 }
 
 std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::VectorXd& x) {
+  if (problem.effects.tolerance > 0.0 && !problem.effects.decisions) {
+    throw std::logic_error("effects have a tolerance and nothing was decided");
+  }
   const Eigen::VectorXd start = start_design(problem);
   const Design<double> design(x.begin(), x.end()), start_values(start.begin(), start.end());
   auto analysis = std::make_unique<Analysis>();

@@ -34,8 +34,10 @@ struct Analysis {
 Eigen::VectorXd values_of(const Analysis& analysis);
 
 /// Builds and simulates the mechanism of a problem at a design, and reduces its responses.
-/// @param x  design variables [SI]
+/// @param problem  where it has a tolerance of effects, with the decisions (effect_measurement.hpp)
+/// @param x        design variables [SI]
 /// @throws SimulationError
+/// @throws std::logic_error where decisions are missing: the model would depend on who came before
 std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::VectorXd& x);
 
 /// The problem with the steps of a trajectory in place of those that the control of the local error

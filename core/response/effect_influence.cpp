@@ -45,11 +45,10 @@ Timed simulate(const ProblemFile& problem, const Eigen::VectorXd& x) {
 /// The problem with the same effects, each of them decided by its entry in `measured`.
 ProblemFile with_fixed_effects(ProblemFile problem, const Model& model) {
   EffectSettings& settings = problem.effects;
-  settings.measured.clear();
-  settings.estimates.clear();
+  settings.decisions.emplace();
   for (const EffectRecord& record : model.effects) {
     if (!record.body.empty()) {
-      settings.measured[{record.body, record.name}].is_needed = record.is_built;
+      settings.decisions->measured[{record.body, record.name}].is_needed = record.is_built;
     }
   }
   for (const BeamEffect& effect : beam_effects) settings.*effect.choice = EffectChoice::automatic;
@@ -80,7 +79,7 @@ std::vector<Turned> turned_problems(const ProblemFile& fixed, const Model& model
                                    [&](const Body& one) { return one.name == record.body; });
     if (body == fixed.scene.bodies.end() || is_exact(record)) continue;
     ProblemFile problem = fixed;
-    problem.effects.measured[{record.body, record.name}].is_needed = !record.is_built;
+    problem.effects.decisions->measured[{record.body, record.name}].is_needed = !record.is_built;
     const bool changes_nothing = is_same(decide_beam_effects(*body, problem.effects),
                                          decide_beam_effects(*body, fixed.effects));
     if (!changes_nothing) turned.push_back({&record, std::move(problem)});

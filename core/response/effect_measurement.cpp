@@ -18,7 +18,7 @@ namespace {
 constexpr double near_zero = 1e-2;
 constexpr double round_off = 1e-9;
 
-/// One effect of one body: (body, name of the effect), as in EffectSettings::measured.
+/// One effect of one body: (body, name of the effect), as in EffectDecisions::measured.
 using Unit = std::pair<std::string, std::string>;
 
 double magnitude_of(const Analysis& analysis, std::size_t response) {
@@ -76,7 +76,7 @@ class EffectMeasurement {
     if (units.empty()) return;
     reference_ = try_to_analyze(with_all_effects(problem_));
     if (!reference_) {
-      problem_.effects.estimates.clear();
+      problem_.effects.decisions->estimates.clear();
       return;
     }
     for (; !units.empty(); units = left_out(problem_)) {
@@ -101,7 +101,7 @@ class EffectMeasurement {
     const auto found = costs_.find(unit);
     if (found != costs_.end()) return found->second;
     ProblemFile without = with_all_effects(problem_);
-    without.effects.measured[unit].is_needed = false;
+    without.effects.decisions->measured[unit].is_needed = false;
     return costs_.emplace(unit, change_of(without)).first->second;
   }
 
@@ -123,7 +123,7 @@ class EffectMeasurement {
   }
 
   void set(const Unit& unit, bool is_needed, const LargestChange& change) {
-    problem_.effects.measured[unit] = {is_needed, change.relative, change.response};
+    problem_.effects.decisions->measured[unit] = {is_needed, change.relative, change.response};
   }
 
   ProblemFile& problem_;
@@ -155,14 +155,12 @@ LargestChange largest_change(const ProblemFile& problem, const Analysis& referen
 }
 
 ProblemFile with_all_effects(ProblemFile problem) {
-  problem.effects.estimates.clear();
-  problem.effects.measured.clear();
+  problem.effects.decisions.emplace();
   return problem;
 }
 
 void decide_effects(ProblemFile& problem) {
-  problem.effects.measured.clear();
-  estimate_effects(problem);
+  problem.effects.decisions = EffectDecisions{estimate_effects(problem), {}};
   EffectMeasurement(problem).run();
 }
 
@@ -175,16 +173,20 @@ ProblemFile starting_at(ProblemFile problem, const Eigen::VectorXd& x) {
 
 void decide_effects(ProblemFile& problem, const Eigen::VectorXd& x) {
   ProblemFile there = starting_at(problem, x);
-  estimate_effects(there);
-  std::erase_if(there.effects.measured, [](const auto& entry) { return !entry.second.is_needed; });
+  EffectDecisions decisions{estimate_effects(there), {}};
+  if (problem.effects.decisions) {
+    for (const auto& [unit, measured] : problem.effects.decisions->measured) {
+      if (measured.is_needed) decisions.measured.emplace(unit, measured);
+    }
+  }
+  there.effects.decisions = std::move(decisions);
   EffectMeasurement(there).run();
   problem.effects = there.effects;
 }
 
 void try_to_leave_out(ProblemFile& problem, const Eigen::VectorXd& x) {
   ProblemFile there = starting_at(problem, x);
-  there.effects.measured.clear();
-  estimate_effects(there);
+  there.effects.decisions = EffectDecisions{estimate_effects(there), {}};
   EffectMeasurement(there).run_together();
   problem.effects = there.effects;
 }

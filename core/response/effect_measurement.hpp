@@ -29,7 +29,7 @@ ProblemFile with_all_effects(ProblemFile problem);
 /// estimates propose (estimate_effects()), simulations decide. The mechanism with all effects is
 /// simulated once beside the proposed one; while a response changes by more than the tolerance,
 /// what costs more than it on its own is taken back, or else what costs most. The decisions are
-/// kept in EffectSettings::measured, so that the model is the same at all designs. Does nothing
+/// kept in EffectSettings::decisions, so that the model is the same at all designs. Does nothing
 /// without a tolerance, or where estimates leave nothing out. Where the mechanism with all effects
 /// cannot be simulated everything is built.
 void decide_effects(ProblemFile& problem);

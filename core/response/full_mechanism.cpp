@@ -55,8 +55,7 @@ ProblemFile with_all_modes(const ProblemFile& problem) {
   allow(full.effects.axial_elasticity);
   allow(full.effects.torsional_elasticity);
   full.effects.tolerance = 0.0;
-  full.effects.estimates.clear();
-  full.effects.measured.clear();
+  full.effects.decisions.reset();
   for (Body& body : full.scene.bodies) {
     if (auto* beam = std::get_if<BeamBody>(&body.shape)) {
       beam->reduction.reset();

@@ -30,6 +30,15 @@ struct MeasuredEffect {
   std::string response;  ///< its name
 };
 
+/// What a tolerance leaves out, decided before anything is simulated (decide_effects()), so that the
+/// model is the same at all designs.
+struct EffectDecisions {
+  /// By body. Without an entry an effect is built.
+  std::map<std::string, BeamEstimates> estimates;
+  /// By body and name of the effect; where estimates would leave it out.
+  std::map<std::pair<std::string, std::string>, MeasuredEffect> measured;
+};
+
 struct EffectSettings {
   // Exact decisions:
   EffectChoice spatial_motion = EffectChoice::automatic;
@@ -41,11 +50,8 @@ struct EffectSettings {
   EffectChoice torsional_elasticity = EffectChoice::automatic;
   /// Relative change of any response that dropping an effect may cause; 0: nothing is dropped.
   double tolerance = 0.0;
-  /// By body; set by estimate_effects() where a tolerance is given. Without an entry an effect is
-  /// built.
-  std::map<std::string, BeamEstimates> estimates = {};
-  /// By body and name of the effect; set by decide_effects() where estimates would leave it out.
-  std::map<std::pair<std::string, std::string>, MeasuredEffect> measured = {};
+  /// None before decide_effects(): all effects are built.
+  std::optional<EffectDecisions> decisions = {};
 };
 
 struct SimulationSettings : TimeIntegration {

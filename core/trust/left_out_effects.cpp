@@ -54,9 +54,8 @@ std::vector<Doubt> doubt_lost_stiffening(const TrustedRun& run) {
   ProblemFile estimated = starting_at(with_all_effects(run.problem), run.x);
   estimated.effects.axial_elasticity = EffectChoice::automatic;
   estimated.effects.tolerance = small_axial_force;
-  estimate_effects(estimated);
   std::vector<Doubt> doubts;
-  for (const auto& [body, estimates] : estimated.effects.estimates) {
+  for (const auto& [body, estimates] : estimate_effects(estimated)) {
     if (estimates.geometric_stiffening <= small_axial_force) continue;
     doubts.push_back(
         {fmt::format("\"{}\" carries an axial force of about {:.2g} of its Euler load, which "

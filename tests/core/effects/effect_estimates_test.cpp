@@ -46,7 +46,7 @@ TEST_P(LeavingOut, ChangesNoAskedResponseByMoreThanTheTolerance) {
   ProblemFile file = problem();
   const auto complete = analyze(file, start_design(file));
   file.effects.tolerance = GetParam().tolerance;
-  estimate_effects(file);
+  file.effects.decisions = EffectDecisions{estimate_effects(file), {}};
   const auto lean = analyze(file, start_design(file));
   EXPECT_GT(count_left_out(lean->model), 0) << "nothing was left out: this test shows nothing";
   EXPECT_LE(lean->model.mechanism.system->coordinates(),
@@ -82,27 +82,27 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(EstimateOfStiffening, IsTheShareOfTheEulerLoad) {
   ProblemFile file = sample_problem("slider_crank_exudyn");
   file.effects.tolerance = 1e-3;
-  estimate_effects(file);
+  file.effects.decisions = EffectDecisions{estimate_effects(file), {}};
   const double pi = 3.14159265358979;
   const double pull = 0.5 * 0.15 * 150.0 * 150.0 * (1 + 0.15 / 0.30);
   const double euler = pi * pi * 2.1e11 * pi / 64 * std::pow(0.010, 4) / (0.30 * 0.30);
   // The rod's own mass (0.185 kg against 0.5 kg) pulls, too.
-  const double estimate = file.effects.estimates.at("rod").geometric_stiffening;
+  const double estimate = file.effects.decisions->estimates.at("rod").geometric_stiffening;
   EXPECT_GT(estimate, pull / euler);
   EXPECT_LT(estimate, 1.4 * pull / euler);
 }
 
 TEST(Estimates, AreNotMadeWithoutATolerance) {
   ProblemFile file = sample_problem("slider_crank");
-  estimate_effects(file);
-  EXPECT_TRUE(file.effects.estimates.empty());
+  file.effects.decisions = EffectDecisions{estimate_effects(file), {}};
+  EXPECT_TRUE(file.effects.decisions->estimates.empty());
 }
 
 /// What the file forces is not the estimate's business.
 TEST(Estimates, DoNotOverruleTheFile) {
   ProblemFile file = sample_problem("slider_crank_exudyn",
                                     {"/effects/tolerance=0.9", "/effects/geometric_stiffening=on"});
-  estimate_effects(file);
+  file.effects.decisions = EffectDecisions{estimate_effects(file), {}};
   const auto analysis = analyze(file, start_design(file));
   EXPECT_TRUE(analysis->model.body("rod").has_stiffening);
 }

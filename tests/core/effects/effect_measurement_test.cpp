@@ -172,8 +172,8 @@ TEST(Estimates, OfACantileverAreThoseOfTheBooks) {
                     "pull": {"type": "force", "body": "beam", "at": [0.5, 0, 0], "direction": [1, 0, 0], "value": 40},
                     "twist": {"type": "torque", "body": "beam", "at": [0.5, 0, 0], "direction": [1, 0, 0], "value": 2}}},
           "simulation": {"end_time": 0.01, "step": 0.001}, "effects": {"tolerance": 1e-3}})");
-  estimate_effects(problem);
-  const BeamEstimates found = problem.effects.estimates.at("beam");
+  problem.effects.decisions = EffectDecisions{estimate_effects(problem), {}};
+  const BeamEstimates found = problem.effects.decisions->estimates.at("beam");
   const double young = 7e10, area = width * height, pi = 3.14159265358979323846;
   const double about_z = width * std::pow(height, 3) / 12,
                about_y = height * std::pow(width, 3) / 12;
@@ -219,7 +219,7 @@ TEST(GeometricStiffening, KeepsTheAxialElasticityThatItNeeds) {
   std::erase_if(problem.responses, [](const ResponseSettings& response) {
     return response.type == ResponseType::stress;
   });
-  estimate_effects(problem);
+  problem.effects.decisions = EffectDecisions{estimate_effects(problem), {}};
   const auto built = build_model(problem.scene, problem.effects, {}, {});
   ASSERT_TRUE(built.body("rod").has_stiffening);
   EXPECT_GE(built.body("rod").coordinate(4, 0), 0);

@@ -21,7 +21,7 @@ std::vector<std::string> terms_of(const Model& model) {
 Model model_of(ProblemFile problem) {
   Design<double> start;
   for (const DesignVariable& variable : problem.variables) start.push_back(variable.start);
-  estimate_effects(problem);
+  problem.effects.decisions = EffectDecisions{estimate_effects(problem), {}};
   return build_model(problem.scene, problem.effects, start, start);
 }
 
