@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
@@ -9,35 +10,80 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/output_file.hpp"
+#include "cli/progress_line.hpp"
 #include "cli/run_picture.hpp"
 #include "cli/run_record.hpp"
 #include "cli/solve_settings.hpp"
+#include "cli/stopwatch.hpp"
 #include "cli/warnings.hpp"
 #include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/stop.hpp"
 #include "studies/accuracy.hpp"
+#include "studies/accuracy_grid.hpp"
 #include "studies/accuracy_optimum.hpp"
 
 namespace pleuel {
 
 namespace {
 
-void show_progress(const std::string& setting, double seconds, const std::string& failure) {
-  show(stderr, fmt::format("  {}: {}\n", setting, failure.empty() ? duration(seconds) : "failed"));
+std::string run_line(const std::string& setting, double seconds, const std::string& failure) {
+  return fmt::format("  {}: {}", setting, failure.empty() ? duration(seconds) : "failed");
 }
+
+/// Elements by steps, which times go with.
+double work_of(const Discretization& settings) {
+  return (settings.elements > 0 ? settings.elements : settings.factor) / settings.step;
+}
+
+/// How long the runs of the grid still take: a guess from the work of the reference, put right by
+/// how long those took that are done. Short runs are repeated until some half a second is full.
+class GridProgress {
+ public:
+  GridProgress(const ProblemFile& problem, ProgressLine& line)
+      : line_(line), grid_(accuracy_grid(problem)) {}
+
+  void see(const AccuracyRun& run) {
+    if (!begin_) {
+      begin_.emplace();
+      seconds_a_work_ = run.seconds() / work_of(run.settings);
+    } else {
+      ++done_;
+    }
+    double guess_done = 0.0, guess_left = 0.0;
+    for (std::size_t i = 0; i < grid_.size(); ++i) {
+      (i < done_ ? guess_done : guess_left) += guess(grid_[i]);
+    }
+    const double ratio = done_ > 0 ? begin_->seconds() / guess_done : 1.0;
+    line_.expect(fmt::format("{} of {} runs", done_, grid_.size()), ratio * guess_left);
+  }
+
+ private:
+  double guess(const Discretization& settings) const {
+    return std::max(0.6, 2.0 * seconds_a_work_ * work_of(settings));
+  }
+
+  ProgressLine& line_;
+  std::vector<Discretization> grid_;
+  std::optional<Stopwatch> begin_;  ///< with the reference
+  std::size_t done_ = 0;
+  double seconds_a_work_ = 0.0;
+};
 
 /// Writes accuracy.csv from the first result on, and tells what is done.
 AccuracyObserver make_observer(const ProblemFile& problem, RunRecord& record,
-                               std::optional<AccuracyCsv>& csv) {
+                               std::optional<AccuracyCsv>& csv, ProgressLine& progress,
+                               GridProgress& grid) {
   AccuracyObserver observer;
   observer.run = [&](const AccuracyRun& run) {
     if (!csv) csv.emplace(record.result("accuracy.csv"), problem);
     csv->add(run);
-    show_progress(setting_text(run.settings), run.seconds(), run.failure);
+    progress.print(run_line(setting_text(run.settings), run.seconds(), run.failure));
+    grid.see(run);
   };
-  observer.variation = [](const VariedRun& one) {
-    show_progress(variation_text(one.variation), one.run.seconds(), one.run.failure);
+  observer.variation = [&](const VariedRun& one) {
+    progress.print(run_line(variation_text(one.variation), one.run.seconds(), one.run.failure));
+    progress.show_share("other knobs and effects", 0.0);
   };
   return observer;
 }
@@ -71,14 +117,18 @@ Answer find_answer(const ProblemInput& input, const Arguments& arguments, RunRec
   record.begin_phase("accuracy");
   const PricedDesign design(problem, x);
   std::optional<AccuracyCsv> csv;
-  const AccuracyObserver observer = make_observer(problem, record, csv);
+  ProgressLine progress(arguments, "the reference");
+  GridProgress grid(problem, progress);
+  const AccuracyObserver observer = make_observer(problem, record, csv, progress, grid);
   Answer answer{accuracy_study(problem, design, observer), std::nullopt};
   vary_settings(problem, design, answer.study, observer);
   if (!arguments.wants_optimum || answer.study.is_interrupted) return answer;
   record.begin_phase("optima");
+  progress.show_share("optimizations", 0.0);
   answer.optima = optimum_study(
-      problem, x, answer.study, solve_options(problem, arguments), [](const OptimumRun& run) {
-        show_progress("optimum with " + setting_text(run.settings), run.seconds, run.failure);
+      problem, x, answer.study, solve_options(problem, arguments), [&](const OptimumRun& run) {
+        progress.print(
+            run_line("optimum with " + setting_text(run.settings), run.seconds, run.failure));
       });
   return answer;
 }

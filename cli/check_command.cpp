@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "cli/effects_report.hpp"
 #include "cli/monitors_report.hpp"
 #include "cli/problem_input.hpp"
+#include "cli/progress_line.hpp"
 #include "cli/run_picture.hpp"
 #include "cli/run_record.hpp"
 #include "cli/scene_report.hpp"
@@ -27,6 +29,9 @@ namespace pleuel {
 
 namespace {
 
+/// Of the differences that derivatives are verified by; more where these cannot tell.
+constexpr int usual_difference_steps = 4;
+
 struct Examination {
   std::unique_ptr<Analysis> analysis;
   Freedoms freedoms;
@@ -39,7 +44,8 @@ struct Examination {
   std::vector<std::string> warnings;
 };
 
-Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x, int threads) {
+Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
+                    const Arguments& arguments) {
   Examination findings;
   const auto warn = [&](const std::vector<std::string>& sentences) {
     findings.warnings.insert(findings.warnings.end(), sentences.begin(), sentences.end());
@@ -53,6 +59,7 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x, int th
   findings.freedoms = rigid_freedoms(findings.analysis->model.mechanism, initial);
   findings.ties = find_ties(*findings.analysis);
   warn(texts_of(find_doubts(problem, x, *findings.analysis)));
+  ProgressLine progress(arguments, "measuring effects");
   try {
     findings.influences = effect_influences(problem, x);
   } catch (const Stopped&) {
@@ -64,9 +71,16 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x, int th
   findings.influence = DesignInfluence{direct_gradients(*findings.analysis)};
   findings.gradient_seconds = gradient.seconds();
   DerivativeCheckOptions options;
-  options.threads = threads;
-  options.see_step = [](double step) {
-    show(stderr, fmt::format("verifying derivatives by central differences, step {:g} …\n", step));
+  options.threads = arguments.jobs;
+  // Each variable takes two simulations a step of the differences.
+  const double seconds_a_step =
+      2.0 * double(x.size()) * findings.simulation_seconds / std::max(1, arguments.jobs);
+  int left = usual_difference_steps;
+  options.see_step = [&](double step) {
+    const std::string line =
+        fmt::format("verifying derivatives by central differences, step {:g} …", step);
+    if (!progress.is_shown()) progress.print(line);
+    progress.expect(line, std::max(1, left--) * seconds_a_step);
   };
   try {
     findings.derivatives = check_derivatives(problem, x, *findings.analysis, options);
@@ -150,7 +164,7 @@ Outcome run_check(const Arguments& arguments) {
   show_warnings_before(problem);
   std::optional<RunRecord> record;  // before the work: the folder may not be free
   if (arguments.output) record.emplace(arguments, input, Json::object());
-  const Examination findings = examine(problem, input.design, arguments.jobs);
+  const Examination findings = examine(problem, input.design, arguments);
   Outcome outcome{findings.is_interrupted ? ExitCode::not_verified : ExitCode::done,
                   check_document(problem, findings), make_text(problem, findings)};
   if (!record) return outcome;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/gradients_csv.hpp"
+#include "cli/progress_line.hpp"
 #include "cli/run_picture.hpp"
 #include "cli/run_record.hpp"
 #include "cli/stopwatch.hpp"
@@ -51,11 +53,28 @@ std::optional<MethodChoice> resolve(Analysis& analysis, std::vector<GradientMeth
   return choice;
 }
 
+/// How long a method takes, in simulations: of exact ones what is usual for few variables.
+double simulations_of(GradientMethod method, Eigen::Index variables, int threads) {
+  const double one_each = std::ceil(double(variables) / std::max(1, threads));
+  if (method == GradientMethod::forward_difference) return one_each;
+  if (method == GradientMethod::central_difference) return 2.0 * one_each;
+  return 3.0;
+}
+
+/// Who looks on, and how long a simulation took.
+struct Observed {
+  ProgressLine& progress;
+  double simulation_seconds;
+};
+
 std::vector<MethodResult> compute(const ProblemInput& input, Analysis& analysis,
                                   const std::vector<GradientMethod>& methods,
-                                  const GradientOptions& options) {
+                                  const GradientOptions& options, const Observed& observed) {
   std::vector<MethodResult> results;
   for (const GradientMethod method : methods) {
+    observed.progress.expect(
+        to_string(method),
+        simulations_of(method, input.design.size(), options.threads) * observed.simulation_seconds);
     const Stopwatch stopwatch;
     MethodResult result{method, {}, 0.0};
     result.gradients = gradients(input.problem, input.design, analysis, method, options);
@@ -269,19 +288,24 @@ Outcome run_gradient(const Arguments& arguments) {
     record.emplace(arguments, input, Json::object());
   }
   MethodFindings findings;
+  ProgressLine progress(arguments, "simulating");
   const Stopwatch stopwatch;
   findings.analysis = analyze(problem, input.design);
   findings.simulation_seconds = stopwatch.seconds();
   findings.choice = resolve(*findings.analysis, methods);
   findings.results = compute(input, *findings.analysis, methods,
-                             {problem.sensitivity.difference_step, arguments.jobs});
+                             {problem.sensitivity.difference_step, arguments.jobs},
+                             {progress, findings.simulation_seconds});
   if (arguments.compares_methods) {
-    findings.compared =
-        compare_methods(problem, input.design, *findings.analysis,
-                        {arguments.jobs, [](double step) {
-                           show(stderr, fmt::format("differences with the step {:g} …\n", step));
-                         }});
+    findings.compared = compare_methods(problem, input.design, *findings.analysis,
+                                        {arguments.jobs, [&](double step) {
+                                           const std::string line = fmt::format(
+                                               "differences with the step {:g} …", step);
+                                           if (!progress.is_shown()) progress.print(line);
+                                           progress.show_share(line, 0.0);
+                                         }});
   }
+  progress.show_share("checking the numbers", 0.0);
   findings.ties = find_ties(*findings.analysis);
   const Monitors monitors = monitor(findings.analysis->model, findings.analysis->trajectory);
   TrustedRun judged{problem, input.design, *findings.analysis, monitors};

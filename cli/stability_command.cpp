@@ -5,6 +5,7 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/csv_file.hpp"
+#include "cli/progress_line.hpp"
 #include "cli/run_record.hpp"
 #include "cli/table.hpp"
 #include "cli/warnings.hpp"
@@ -126,6 +127,21 @@ std::string doubts_text(const std::vector<StabilityRun>& runs) {
   return text.empty() ? "" : "\n" + text;
 }
 
+/// @param all   runs
+/// @param keep  what shall become of each
+std::vector<StabilityRun> run_all(const Arguments& arguments, std::size_t all,
+                                  const StabilityObserver& keep) {
+  ProgressLine progress(arguments, fmt::format("0 of {} runs", all));
+  std::size_t done = 0;
+  return stability_study(arguments.files, arguments.overrides, [&](const StabilityRun& run) {
+    keep(run);
+    ++done;
+    progress.print(fmt::format("  {}, {}: {}", case_name(run), run.formulation,
+                               run.is_ok() ? duration(run.seconds) : "failed"));
+    progress.show_share(fmt::format("{} of {} runs", done, all), double(done) / double(all));
+  });
+}
+
 }  // namespace
 
 Outcome run_stability(const Arguments& arguments) {
@@ -138,15 +154,12 @@ Outcome run_stability(const Arguments& arguments) {
     before.add(texts_of(find_doubts_before(input.problem)), input.problem.name);
   }
   show(stderr, warnings_text(before.sentences()));
-  const std::vector<StabilityRun> runs =
-      stability_study(arguments.files, arguments.overrides, [&](const StabilityRun& run) {
-        if (!csv) csv.emplace(record.result("stability.csv"));
-        csv->add(run);
-        show(stderr, fmt::format("  {}, {}: {}\n", case_name(run), run.formulation,
-                                 run.is_ok() ? duration(run.seconds) : "failed"));
-      });
   const std::size_t all =
       inputs.size() * (compared_formulations().size() + compared_schemes().size());
+  const std::vector<StabilityRun> runs = run_all(arguments, all, [&](const StabilityRun& run) {
+    if (!csv) csv.emplace(record.result("stability.csv"));
+    csv->add(run);
+  });
   const bool is_whole = runs.size() == all;
   Outcome outcome{is_whole ? ExitCode::done : ExitCode::not_verified, make_document(runs, is_whole),
                   (is_whole ? "" : interrupted_text(runs.size(), all, "runs")) + runs_text(runs) +

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "cli/commands.hpp"
-#include "cli/console.hpp"
 #include "cli/csv_file.hpp"
 #include "cli/error_report.hpp"
+#include "cli/progress_line.hpp"
 #include "cli/run_picture.hpp"
 #include "cli/run_record.hpp"
 #include "cli/table.hpp"
@@ -185,6 +185,19 @@ std::string study_text(const ProblemFile& problem, const UncertaintyStudy& study
   return text;
 }
 
+UncertaintyStudy run_study(const ProblemFile& problem, const Arguments& arguments) {
+  ProgressLine progress(arguments, "gradients of the responses");
+  const int samples = problem.uncertainty->samples;
+  return uncertainty_study(problem, arguments.jobs, [&](int done) {
+    const std::string line = fmt::format("{} of {} samples", done, samples);
+    if (progress.is_shown()) {
+      progress.show_share(line, double(done) / samples);
+    } else {
+      progress.print("  " + line);
+    }
+  });
+}
+
 }  // namespace
 
 Outcome run_uncertainty(const Arguments& arguments) {
@@ -196,10 +209,7 @@ Outcome run_uncertainty(const Arguments& arguments) {
   RunRecord record(arguments, input, {{"jobs", arguments.jobs}});
   show_warnings_before(problem);
   record.begin_phase("uncertainty");
-  const int samples = problem.uncertainty->samples;
-  const UncertaintyStudy study = uncertainty_study(problem, arguments.jobs, [&](int done) {
-    show(stderr, fmt::format("  {} of {} samples\n", done, samples));
-  });
+  const UncertaintyStudy study = run_study(problem, arguments);
   Outcome outcome{study.is_interrupted ? ExitCode::not_verified : ExitCode::done,
                   make_document(problem, study), study_text(problem, study)};
   outcome.text += fmt::format("\nWritten to {}: uncertainty.csv, result.json, run_card.json\n",
