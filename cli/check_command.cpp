@@ -5,7 +5,6 @@
 
 #include "cli/analysis_report.hpp"
 #include "cli/commands.hpp"
-#include "cli/console.hpp"
 #include "cli/derivative_report.hpp"
 #include "cli/effects_report.hpp"
 #include "cli/monitors_report.hpp"

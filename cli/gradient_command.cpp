@@ -6,7 +6,6 @@
 
 #include "cli/analysis_report.hpp"
 #include "cli/commands.hpp"
-#include "cli/console.hpp"
 #include "cli/gradients_csv.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/run_picture.hpp"
