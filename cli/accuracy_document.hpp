@@ -10,7 +10,7 @@
 
 namespace pleuel {
 
-/// The result of the command accuracy; docs/formats.md.
+/// The result of the command accuracy; docs/reference/commands.md.
 Json accuracy_document(const ProblemInput& input, const AccuracyStudy& study);
 
 /// What whole optimizations add to it.

@@ -5,7 +5,7 @@
 
 namespace pleuel {
 
-/// The document of `optimize`; see docs/formats.md.
+/// The document of `optimize`; see docs/reference/commands.md.
 Json optimum_document(const Optimum& optimum);
 
 }  // namespace pleuel

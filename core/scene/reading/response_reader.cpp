@@ -115,7 +115,7 @@ void read_frequency(const JsonNode& node, const Scene& scene, ResponseSettings& 
   if (const auto mode = node.find("mode")) response.mode = mode->whole_number(1, most_modes) - 1;
 }
 
-/// Names of columns in files of histories (docs/formats.md).
+/// Names of columns in files of histories (docs/reference/responses.md).
 void check_column(const std::string& name, const JsonNode& node) {
   if (name == "time" || name.ends_with(":error")) {
     node.fail(
