@@ -38,6 +38,7 @@ export interface Series {
   line?: boolean;
   dashed?: boolean;
   step?: boolean;
+  silent?: boolean; // lets the mouse through to what lies below
   labels?: string[]; // one a point, for the tooltip
 }
 
@@ -104,7 +105,8 @@ function seriesOption(options: ChartOptions, s: Series, i: number) {
     data: s.x.map((x, k) => pointOf(options, x, s.y[k])),
     showSymbol: !!s.dots,
     symbol: "circle",
-    symbolSize: isDots ? 11 : s.dots ? 7 : 0,
+    silent: s.silent,
+    symbolSize: isDots || (s.dots && options.onPick) ? 11 : s.dots ? 7 : 0,
     step: s.step ? ("end" as const) : undefined,
     lineStyle: { color: paint, width: s.width ?? 1.6, type: s.dashed ? ("dashed" as const) : ("solid" as const) },
     itemStyle: { color: paint, borderColor: color("card"), borderWidth: s.dots ? 1 : 0 },
@@ -338,8 +340,7 @@ export function lineChart(options: ChartOptions): Chart {
     h(
       "figcaption",
       {},
-      h("span.chart-title", {}, options.title),
-      h("span.soft", {}, options.yTitle ? ` [${options.yTitle}]` : ""),
+      h("span", {}, h("span.chart-title", {}, options.title), h("span.soft", {}, options.yTitle ? ` [${options.yTitle}]` : "")),
       h(
         "span.saves",
         {},

@@ -89,17 +89,20 @@ async function savedCurve(tab, title) {
   return lines.map((line) => line.split(",")).map(([series, x, y]) => ({ series, x: Number(x), y: Number(y) }));
 }
 
+// Pages of tables and charts are of the same parts: each width and each scheme once.
+const looks = [[1280, "light"], [390, "dark"]];
+const allLooks = [...looks, [1280, "dark"], [390, "light"]];
+const drawn = ["optimize", "simulate", "pareto", "show"];
+
 for (const name of [...Object.keys(runs), "show"]) {
   test(`${name}: no complaints and nothing beside the page, wide and narrow, light and dark`, async () => {
-    for (const width of [1280, 390]) {
-      for (const scheme of ["light", "dark"]) {
-        const { tab, complaints } = await open(name, { width, scheme });
-        const wide = await tab.evaluate(() => document.documentElement.scrollWidth);
-        assert.ok(wide <= width, `${width} px: the page is ${wide} px wide`);
-        await tab.screenshot({ path: join(shots, `${name}-${width}-${scheme}.png`), fullPage: true });
-        assert.deepEqual(complaints, []);
-        await tab.close();
-      }
+    for (const [width, scheme] of drawn.includes(name) ? allLooks : looks) {
+      const { tab, complaints } = await open(name, { width, scheme });
+      const wide = await tab.evaluate(() => document.documentElement.scrollWidth);
+      assert.ok(wide <= width, `${width} px: the page is ${wide} px wide`);
+      await tab.screenshot({ path: join(shots, `${name}-${width}-${scheme}.png`), fullPage: true });
+      assert.deepEqual(complaints, []);
+      await tab.close();
     }
   });
 }
@@ -194,9 +197,8 @@ test("the influence of variables is that of the gradients", async () => {
     const percent = (mass.gradients[name] * variables[name].value) / mass.value;
     assert.ok(Math.abs(shown[i] - percent) < 6e-4 + 5e-3 * Math.abs(percent), `${name}: ${shown[i]} is not ${percent}`);
   });
-  await row.getByRole("button").click();
-  await tab.getByRole("button", { name: "crank stress" }).click();
-  assert.equal(await tab.locator('figure[data-title="change of crank stress"] svg').count(), 1);
+  await tab.getByRole("button", { name: "rod stress" }).click();
+  await tab.locator('figure[data-title="change of rod stress"] svg').waitFor();
   await tab.close();
 });
 
@@ -205,8 +207,10 @@ test("a front shows the mechanism of the point that is pointed at", async () => 
   const heading = () => tab.locator(".front-drawing h3").innerText();
   const points = result("pareto").points.length;
   assert.match(await heading(), new RegExp(`Point ${Math.floor(points / 2) + 1}`));
-  const marks = tab.locator('.front figure svg path[fill][stroke-width="1"]');
-  const first = await marks.first().boundingBox();
+  const first = await tab.evaluate(() => {
+    const small = [...document.querySelectorAll(".front figure svg path")].map((path) => path.getBoundingClientRect()).filter((box) => box.width > 4 && box.width < 14 && Math.abs(box.width - box.height) < 1);
+    return small.sort((a, b) => a.x - b.x)[0].toJSON();
+  });
   await tab.mouse.move(first.x + first.width / 2, first.y + first.height / 2);
   await tab.waitForFunction(() => /Point 1/.test(document.querySelector(".front-drawing h3").innerText));
   await tab.close();

@@ -288,7 +288,8 @@ TEST(Show, DrawsBodiesRedThatNothingMoves) {
       }
     },
     "simulation": {"end_time": 0.1, "step": 1e-3},
-    "responses": {"reach": {"type": "position", "body": "link", "at": 1, "direction": "x"}}
+    "responses": {"reach": {"type": "position", "body": "link", "at": 1, "direction": "x",
+                            "over_time": "final"}}
   })";
   const ProgramRun run =
       run_program(folder.path(), {"show", "loose.json", "-o", "page.html", "--json"});

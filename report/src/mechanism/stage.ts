@@ -48,7 +48,7 @@ interface Box {
 /** Where a label goes that wants to be at x, y: inside the drawing, beside those placed before. */
 function clearOf(taken: Box[], x: number, y: number, element: HTMLElement, width: number, height: number): [number, number] {
   const own = { width: element.offsetWidth, height: element.offsetHeight };
-  const left = Math.max(4, Math.min(x, width - own.width - 4));
+  const left = Math.max(4, Math.min(x, width - own.width - 10));
   let top = Math.max(4, Math.min(y, height - own.height - 4));
   const meets = (box: Box) => left < box.x + box.width && box.x < left + own.width && top < box.y + box.height && box.y < top + own.height;
   for (let tries = 0; tries < 12; tries++) {

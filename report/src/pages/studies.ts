@@ -102,7 +102,7 @@ function slopesOf(slopes: number[], x: number[], y: number[]): Series[] {
   if (x.length < 2) return [];
   const order = x.map((_, i) => i).sort((a, b) => x[a] - x[b]);
   const half = 0.3 * Math.min(...order.slice(1).map((i, k) => x[i] - x[order[k]]).filter((gap) => gap > 0));
-  const series: Series = { name: "slope", x: [], y: [], color: "more", width: 2.2 };
+  const series: Series = { name: "slope", x: [], y: [], color: "more", width: 2.2, silent: true };
   for (const i of order) {
     if (!Number.isFinite(slopes[i]) || !Number.isFinite(half)) continue;
     series.x.push(x[i] - half, x[i] + half, x[i] + half);
