@@ -27,7 +27,7 @@ TEST(Completion, OffersCommands) {
 TEST(Completion, OffersOptionsOfTheCommand) {
   EXPECT_EQ(offered("optimize file.json --b"), "--backend\n");
   EXPECT_EQ(offered("accuracy file.json --o"), "--overwrite --output --optimum\n");
-  EXPECT_EQ(offered("check file.json --o"), "\n");
+  EXPECT_EQ(offered("check file.json --x"), "\n");
 }
 
 TEST(Completion, OffersWordsWhereAFewAreKnown) {

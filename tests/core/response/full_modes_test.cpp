@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/response/analysis.hpp"
+#include "core/response/effect_measurement.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
@@ -47,7 +48,8 @@ std::string cantilever(const std::string& section, const std::string& effects, i
 }
 
 Eigen::VectorXd values(const std::string& text) {
-  const ProblemFile problem = read_problem_text(text, "a.json");
+  ProblemFile problem = read_problem_text(text, "a.json");
+  decide_effects(problem);
   return values_of(*analyze(problem, start_design(problem)));
 }
 
