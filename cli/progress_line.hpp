@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "cli/arguments.hpp"
-#include "cli/stopwatch.hpp"
+#include "core/base/stopwatch.hpp"
 
 namespace pleuel {
 

@@ -13,12 +13,12 @@
 #include "cli/run_record.hpp"
 #include "cli/scene_report.hpp"
 #include "cli/setting_report.hpp"
-#include "cli/stopwatch.hpp"
 #include "cli/trajectory_csv.hpp"
 #include "cli/warnings.hpp"
 #include "cli/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/stop.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/trust/doubts.hpp"
 
 namespace pleuel {

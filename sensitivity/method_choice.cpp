@@ -1,11 +1,11 @@
 #include "sensitivity/method_choice.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "core/base/stopwatch.hpp"
 #include "sensitivity/adjoint.hpp"
 #include "sensitivity/direct.hpp"
 
@@ -20,9 +20,9 @@ constexpr double clear_gain = 1.3;
 
 template <class Function>
 double seconds_of(Function&& function) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   function();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return stopwatch.seconds();
 }
 
 /// The last steps of a trajectory, as one of their own.

@@ -1,10 +1,9 @@
 #include "studies/method_comparison.hpp"
 
-#include <chrono>
-
 #include "core/base/error.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/base/stop.hpp"
+#include "core/base/stopwatch.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/sampled_gradients.hpp"
 
@@ -37,10 +36,9 @@ class MethodStudy {
  private:
   template <class Compute>
   static std::pair<Eigen::MatrixXd, double> timed(const Compute& compute) {
-    const auto begin = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     Eigen::MatrixXd gradients = compute();
-    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
-    return {std::move(gradients), passed.count()};
+    return {std::move(gradients), stopwatch.seconds()};
   }
 
   void compare_exact() {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/base/find_named.hpp"
 #include "core/base/stop.hpp"
 #include "optimization/design_problem.hpp"
 #include "optimization/design_solve.hpp"
@@ -16,14 +17,9 @@ namespace {
 constexpr double resolution = 1e-4;
 
 Eigen::Index varied_row(const ProblemFile& problem) {
-  const auto found = std::find_if(problem.constraints.begin(), problem.constraints.end(),
-                                  [&](const ConstraintSettings& constraint) {
-                                    return constraint.name == problem.pareto->constraint;
-                                  });
-  if (found == problem.constraints.end()) {
-    throw InputError("/pareto/constraint names no constraint");
-  }
-  return found - problem.constraints.begin();
+  const ConstraintSettings* found = find_named(problem.constraints, problem.pareto->constraint);
+  if (!found) throw InputError("/pareto/constraint names no constraint");
+  return found - problem.constraints.data();
 }
 
 void set_limit(ConstraintSettings& constraint, double limit) {

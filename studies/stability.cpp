@@ -1,9 +1,8 @@
 #include "studies/stability.hpp"
 
-#include <chrono>
-
 #include "core/base/error.hpp"
 #include "core/base/stop.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/response/monitors.hpp"
@@ -22,10 +21,10 @@ ProblemFile read_with(const std::filesystem::path& file, std::vector<std::string
 
 void measure(ProblemFile problem, StabilityRun& run) {
   decide_effects(problem);
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
-  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  run.seconds = stopwatch.seconds();
   const Trajectory& trajectory = analysis->trajectory;
   run.steps = trajectory.steps();
   run.newton_iterations = trajectory.newton_iterations;

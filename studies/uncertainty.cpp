@@ -1,7 +1,6 @@
 #include "studies/uncertainty.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -9,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/stop.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/scene/sample_extent.hpp"
 #include "core/trust/doubts.hpp"
 #include "sensitivity/history_gradients.hpp"
@@ -18,12 +18,6 @@
 namespace pleuel {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 /// Derivatives with respect to the uncertain parameters, from those with respect to all variables.
 Eigen::MatrixXd columns_of(const Eigen::MatrixXd& gradients,
@@ -90,7 +84,7 @@ class Study {
   }
 
   void linearize() {
-    const auto begin = Clock::now();
+    const Stopwatch stopwatch;
     const auto values = response_values(*analysis_);
     const Eigen::MatrixXd gradients =
         columns_of(sampled_gradients(*analysis_, values, choose_method(*analysis_, values).method),
@@ -107,12 +101,12 @@ class Study {
       study_.responses.push_back(std::move(response));
     }
     linearize_histories();
-    study_.gradient_seconds = seconds_since(begin);
+    study_.gradient_seconds = stopwatch.seconds();
   }
 
   void sample(int threads, const SampleObserver& observer) {
     if (settings_.samples == 0) return;
-    const auto begin = Clock::now();
+    const Stopwatch stopwatch;
     const std::vector<Eigen::VectorXd> designs = draw();
     Moments responses, histories;
     // Batch by batch, each summed up in order: the sums do not depend on the threads.
@@ -140,7 +134,7 @@ class Study {
     }
     study_.samples = responses.count();
     store(responses, histories);
-    study_.sampling_seconds = seconds_since(begin);
+    study_.sampling_seconds = stopwatch.seconds();
   }
 
   UncertaintyStudy take() { return std::move(study_); }

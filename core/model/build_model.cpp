@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/find_named.hpp"
 #include "core/integration/redundancy.hpp"
 #include "core/model/body_builder.hpp"
 #include "core/model/divided_beams.hpp"
@@ -18,12 +19,8 @@
 namespace pleuel {
 
 const BodyModel& Model::body(const std::string& name) const {
-  for (const BodyModel& body : undivided) {
-    if (body.name == name) return body;
-  }
-  for (const BodyModel& body : bodies) {
-    if (body.name == name) return body;
-  }
+  if (const BodyModel* body = find_named(undivided, name)) return *body;
+  if (const BodyModel* body = find_named(bodies, name)) return *body;
   throw InputError(fmt::format("there is no body \"{}\"", name));
 }
 
@@ -203,8 +200,7 @@ class ModelBuilder {
 
   /// One set of records a beam, whatever number of frames it has.
   void add_beam_records(const std::string& name) {
-    const auto is_named = [&](const Body& body) { return body.name == name; };
-    const Body& body = *std::find_if(scene_.bodies.begin(), scene_.bodies.end(), is_named);
+    const Body& body = *find_named(scene_.bodies, name);
     std::vector<EffectRecord> records;
     for (const BodyModel* part : model_.parts(name)) {
       std::vector<EffectRecord> of_part =

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/find_named.hpp"
 #include "core/model/beam_mesh.hpp"
 #include "core/model/effect_decisions.hpp"
 #include "core/model/scene_geometry.hpp"
@@ -128,12 +129,8 @@ class Division {
   }
 
   std::string unique_name(std::string name) const {
-    while (find_body(name)) name += '\'';
+    while (find_named(scene_.bodies, name)) name += '\'';
     return name;
-  }
-  bool find_body(const std::string& name) const {
-    return std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
-                       [&](const Body& body) { return body.name == name; });
   }
 
   /// At the start design: where elastic beams are held is a share of their length.

@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 
 #include "core/base/error.hpp"
+#include "core/base/find_named.hpp"
 #include "core/beam/elastic_basis.hpp"
 #include "core/integration/least_norm.hpp"
 #include "core/integration/simulate.hpp"
@@ -225,10 +226,7 @@ class Estimation {
 
   BeamEstimates estimates_of(const BodyModel& body, const Deformation& d,
                              double acceleration) const {
-    const auto& beam =
-        std::get<BeamBody>(std::find_if(problem_.scene.bodies.begin(), problem_.scene.bodies.end(),
-                                        [&](const Body& other) { return other.name == body.name; })
-                               ->shape);
+    const auto& beam = std::get<BeamBody>(find_named(problem_.scene.bodies, body.name)->shape);
     // The scale of translations is the size of the mechanism.
     const double size = elastic_.mechanism.scale(body.frame.offset);
     const auto change = [&](double displacement, double rate) {

@@ -1,8 +1,8 @@
 #include "core/model/load_builder.hpp"
 
-#include <algorithm>
 #include <cassert>
 
+#include "core/base/find_named.hpp"
 #include "core/forces/joint_force.hpp"
 #include "core/forces/point_force.hpp"
 #include "core/forces/point_torque.hpp"
@@ -16,9 +16,8 @@ namespace pleuel {
 namespace {
 
 const Joint& find_joint(const Scene& scene, const std::string& name) {
-  const auto found = std::find_if(scene.joints.begin(), scene.joints.end(),
-                                  [&](const Joint& joint) { return joint.name == name; });
-  assert(found != scene.joints.end());
+  const Joint* found = find_named(scene.joints, name);
+  assert(found);
   return *found;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/find_named.hpp"
 #include "core/base/table_law.hpp"
 #include "core/base/time_law.hpp"
 #include "core/beam/beam.hpp"
@@ -136,9 +137,8 @@ TimeLaw<Scalar> resolve_time_law(const TimeFunction& function, const Design<Scal
 }
 
 inline const Material& find_material(const Scene& scene, const std::string& name) {
-  const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
-                                  [&](const Material& material) { return material.name == name; });
-  assert(found != scene.materials.end());
+  const Material* found = find_named(scene.materials, name);
+  assert(found);
   return *found;
 }
 

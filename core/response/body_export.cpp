@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/find_named.hpp"
 #include "core/model/body_point.hpp"
 #include "core/model/imported_builder.hpp"
 #include "core/response/stress_export.hpp"
@@ -125,8 +126,7 @@ InvariantsFile pass_on(const ImportedBody& imported, const Body& body, const Pro
 InvariantsFile export_body(const ProblemFile& problem, const Model& model, const std::string& name,
                            const std::vector<std::string>& units) {
   const BodyModel& body = model.body(name);
-  const auto source = std::find_if(problem.scene.bodies.begin(), problem.scene.bodies.end(),
-                                   [&](const Body& other) { return other.name == name; });
+  const Body* source = find_named(problem.scene.bodies, name);
   if (!body.is_elastic) {
     throw InputError(fmt::format("the body \"{}\" is rigid: it has no elastic coordinates", name));
   }

@@ -1,23 +1,17 @@
 #include "core/response/effect_influence.hpp"
 
 #include <algorithm>
-#include <ctime>
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/find_named.hpp"
 #include "core/base/parallel.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/model/effect_decisions.hpp"
 
 namespace pleuel {
 
 namespace {
-
-/// Processor time of this thread [s].
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// Runs up to this time [s] are timed twice.
 constexpr double short_run = 0.3;
@@ -29,7 +23,7 @@ struct Timed {
 };
 
 Timed simulate(const ProblemFile& problem, const Eigen::VectorXd& x) {
-  const double begin = thread_seconds();
+  const ThreadStopwatch stopwatch;
   Timed run;
   try {
     run.values = values_of(*analyze(problem, x));
@@ -38,7 +32,7 @@ Timed simulate(const ProblemFile& problem, const Eigen::VectorXd& x) {
   } catch (const InputError& error) {  // a response needs the effect
     run.failure = error.what();
   }
-  run.seconds = thread_seconds() - begin;
+  run.seconds = stopwatch.seconds();
   return run;
 }
 
@@ -75,9 +69,8 @@ struct Turned {
 std::vector<Turned> turned_problems(const ProblemFile& fixed, const Model& model) {
   std::vector<Turned> turned;
   for (const EffectRecord& record : model.effects) {
-    const auto body = std::find_if(fixed.scene.bodies.begin(), fixed.scene.bodies.end(),
-                                   [&](const Body& one) { return one.name == record.body; });
-    if (body == fixed.scene.bodies.end() || is_exact(record)) continue;
+    const Body* body = find_named(fixed.scene.bodies, record.body);
+    if (!body || is_exact(record)) continue;
     ProblemFile problem = fixed;
     problem.effects.decisions->measured[{record.body, record.name}].is_needed = !record.is_built;
     const bool changes_nothing = is_same(decide_beam_effects(*body, problem.effects),

@@ -1,10 +1,10 @@
 #include "core/response/named_places.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "core/base/find_named.hpp"
 #include "core/model/attached_points.hpp"
 #include "core/model/beam_mesh.hpp"
 
@@ -17,9 +17,7 @@ class PlaceFinder {
  public:
   PlaceFinder(const ProblemFile& problem, const BodyModel& body) : body_(body) {
     for (const DesignVariable& variable : problem.variables) start_.push_back(variable.start);
-    for (const Body& other : problem.scene.bodies) {
-      if (other.name == body.name) beam_ = &std::get<BeamBody>(other.shape);
-    }
+    beam_ = &std::get<BeamBody>(find_named(problem.scene.bodies, body.name)->shape);
     for (const AttachedPoint& point : attached_points(problem.scene)) {
       if (point.body != body.name) continue;
       add(point.name, find_place(body.beam, share_along(*beam_, point.at, start_)));

@@ -1,10 +1,10 @@
 #include "core/scene/shown_unit.hpp"
 
-#include <algorithm>
 #include <array>
 #include <numbers>
 #include <stdexcept>
 
+#include "core/base/find_named.hpp"
 #include "core/scene/response_quantity.hpp"
 #include "core/scene/units.hpp"
 #include "core/scene/variable_quantity.hpp"
@@ -48,10 +48,8 @@ ShownUnit unit_of(const ProblemFile& problem, const ConstraintSettings& constrai
 }
 
 const ResponseSettings& find_response(const ProblemFile& problem, const std::string& name) {
-  const auto found =
-      std::find_if(problem.responses.begin(), problem.responses.end(),
-                   [&name](const ResponseSettings& response) { return response.name == name; });
-  if (found == problem.responses.end()) throw std::logic_error("no response " + name);
+  const ResponseSettings* found = find_named(problem.responses, name);
+  if (!found) throw std::logic_error("no response " + name);
   return *found;
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/dense_solvers.hpp"
+#include "core/base/find_named.hpp"
 #include "core/integration/freedoms.hpp"
 #include "core/model/body_energy.hpp"
 #include "core/trust/connections.hpp"
@@ -98,9 +99,7 @@ class IdleFreedoms {
   }
 
   const Body& scene_body(const BodyModel& body) const {
-    const std::vector<Body>& bodies = run_.problem.scene.bodies;
-    return *std::find_if(bodies.begin(), bodies.end(),
-                         [&](const Body& other) { return other.name == body.name; });
+    return *find_named(run_.problem.scene.bodies, body.name);
   }
 
   bool is_grounded(const BodyModel& body) const {

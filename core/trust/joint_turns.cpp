@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/find_named.hpp"
 #include "core/model/scene_geometry.hpp"
 
 namespace pleuel {
@@ -84,8 +85,7 @@ std::vector<Doubt> doubt_joint_turns(const TrustedRun& run) {
     const auto* force = std::get_if<JointForce>(&load.element);
     if (!force || force->coordinate != DrivenCoordinate::angle) continue;
     if (resolve(force->stiffness, design) == 0.0) continue;
-    const auto joint = std::find_if(scene.joints.begin(), scene.joints.end(),
-                                    [&](const Joint& other) { return other.name == force->joint; });
+    const Joint* joint = find_named(scene.joints, force->joint);
     const std::optional<double> time = jump_of(run, *joint);
     if (!time) continue;
     doubts.push_back(

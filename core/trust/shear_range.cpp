@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/base/dense_solvers.hpp"
+#include "core/base/find_named.hpp"
 #include "core/beam/beam_shape.hpp"
 #include "core/beam/elastic_basis.hpp"
 #include "core/beam/natural_modes.hpp"
@@ -96,11 +97,8 @@ using BeamBending = std::vector<ElementBending>;
 class BendingReader {
  public:
   BendingReader(const ProblemFile& problem, const Eigen::VectorXd& x, const std::string& body)
-      : design_(x.begin(), x.end()) {
-    for (const Body& other : problem.scene.bodies) {
-      if (other.name == body) beam_ = &std::get<BeamBody>(other.shape);
-    }
-  }
+      : design_(x.begin(), x.end()),
+        beam_(&std::get<BeamBody>(find_named(problem.scene.bodies, body)->shape)) {}
 
   /// @param plane  0: along y, 1: along z
   BeamBending read(const BodyModel& body, const Eigen::MatrixXd& nodal, int plane) const {

@@ -1,9 +1,8 @@
 #include "core/scene/reading/goal_reader.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
+#include "core/base/find_named.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/response_quantity.hpp"
 
@@ -13,8 +12,7 @@ namespace {
 const ResponseSettings& read_response_name(const JsonNode& node,
                                            const std::vector<ResponseSettings>& responses) {
   const std::string name = read_known_name(node, "response", names_of(responses));
-  return *std::find_if(responses.begin(), responses.end(),
-                       [&name](const ResponseSettings& response) { return response.name == name; });
+  return *find_named(responses, name);
 }
 
 /// The quantity that the terms have in common: that of the first variable bound in the scene.
@@ -78,9 +76,7 @@ ConstraintSettings read_constraint(const std::string& name, const JsonNode& node
 
 const ConstraintSettings& read_varied_constraint(const JsonNode& node, const ProblemFile& problem) {
   const std::string name = read_known_name(node, "constraint", names_of(problem.constraints));
-  const ConstraintSettings& constraint = *std::find_if(
-      problem.constraints.begin(), problem.constraints.end(),
-      [&name](const ConstraintSettings& candidate) { return candidate.name == name; });
+  const ConstraintSettings& constraint = *find_named(problem.constraints, name);
   if (constraint.lower && constraint.upper) {
     node.fail(fmt::format("must name a constraint with one limit, but \"{}\" has two", name));
   }
@@ -89,9 +85,8 @@ const ConstraintSettings& read_varied_constraint(const JsonNode& node, const Pro
 
 Quantity quantity_of(const ConstraintSettings& constraint, const ProblemFile& problem,
                      const NumberReader& numbers) {
-  for (const ResponseSettings& response : problem.responses) {
-    if (response.name == constraint.response) return quantity_of(response);
-  }
+  const ResponseSettings* response = find_named(problem.responses, constraint.response);
+  if (response) return quantity_of(*response);
   return quantity_of(constraint.linear, numbers);
 }
 

@@ -21,16 +21,11 @@ Material read_material(const std::string& name, const JsonNode& node, NumberRead
   return material;
 }
 
-bool has_material(const Scene& scene, const std::string& name) {
-  return std::any_of(scene.materials.begin(), scene.materials.end(),
-                     [&name](const Material& material) { return material.name == name; });
-}
-
 /// Those of the scene and those of the library that it does not replace.
 std::vector<std::string> material_names(const Scene& scene) {
   std::vector<std::string> names = names_of(scene.materials);
   for (const Material& material : material_library()) {
-    if (!has_material(scene, material.name)) names.push_back(material.name);
+    if (!find_named(scene.materials, material.name)) names.push_back(material.name);
   }
   return names;
 }
@@ -43,7 +38,7 @@ void add_library_materials(Scene& scene) {
           const auto* beam = std::get_if<BeamBody>(&body.shape);
           return beam != nullptr && beam->material == material.name;
         });
-    if (is_used && !has_material(scene, material.name)) scene.materials.push_back(material);
+    if (is_used && !find_named(scene.materials, material.name)) scene.materials.push_back(material);
   }
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
+#include "core/base/find_named.hpp"
 #include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/number_reader.hpp"
 #include "core/scene/scene.hpp"
@@ -40,14 +40,6 @@ std::vector<std::string> names_of(const std::vector<Named>& things) {
   std::vector<std::string> names;
   for (const Named& thing : things) names.push_back(thing.name);
   return names;
-}
-
-/// The thing of this name, or null.
-template <class Named>
-const Named* find_named(const std::vector<Named>& things, const std::string& name) {
-  const auto found = std::find_if(things.begin(), things.end(),
-                                  [&name](const Named& thing) { return thing.name == name; });
-  return found == things.end() ? nullptr : &*found;
 }
 
 }  // namespace pleuel
