@@ -10,6 +10,7 @@
 #include "cli/versions.hpp"
 #include "cli/wrapped_text.hpp"
 #include "core/base/error.hpp"
+#include "core/scene/reading/suggestion.hpp"
 
 namespace pleuel {
 
@@ -297,8 +298,8 @@ void check_command_name(const CLI::App& app, const std::vector<std::string>& wor
   std::vector<std::string> known;
   for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
   if (std::find(known.begin(), known.end(), words.front()) != known.end()) return;
-  throw InputError(fmt::format("there is no command \"{}\"; known are {}", words.front(),
-                               fmt::join(known, ", ")));
+  throw InputError(
+      fmt::format("there is no command \"{}\"{}", words.front(), hint(words.front(), known)));
 }
 
 }  // namespace
@@ -307,15 +308,21 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
   Arguments arguments;
   arguments.program = argc > 0 ? argv[0] : "pleuel";
   arguments.words.assign(argv + std::min(argc, 1), argv + argc);
+  std::vector<std::string> words = arguments.words;
+  if (!words.empty() && words.front() == "help") {  // help COMMAND
+    words.erase(words.begin());
+    words.push_back("--help");
+  }
   CLI::App app("Pleuel: gradient-based design optimization of flexible mechanisms",
                arguments.program);
   app.footer(footer);
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("pleuel ") + versions::pleuel);
   add_commands(app, arguments);
-  check_command_name(app, arguments.words);
+  check_command_name(app, words);
   try {
-    app.parse(argc, argv);
+    std::reverse(words.begin(), words.end());  // as the library wants them
+    app.parse(words);
   } catch (const CLI::Success& success) {
     std::ostringstream text;
     app.exit(success, text);

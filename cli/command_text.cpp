@@ -1,7 +1,7 @@
 #include "cli/command_text.hpp"
 
 #include "cli/run_folder.hpp"
-#include "core/scene/reading/json_text.hpp"
+#include "core/scene/reading/override.hpp"
 
 namespace pleuel {
 
@@ -20,10 +20,7 @@ std::string quoted(const std::string& word) {
 /// By its pointer: the value of a variable that is called by its name would take the place of that
 /// in a file of --design.
 std::string with_pointer(const std::string& assignment) {
-  if (assignment.starts_with("/")) return assignment;
-  const std::size_t equals = assignment.find('=');
-  return child_pointer("/variables", assignment.substr(0, equals)) + "/start" +
-         assignment.substr(equals);
+  return assigned_pointer(assignment) + assignment.substr(assignment.find('='));
 }
 
 }  // namespace

@@ -56,8 +56,8 @@ void note_unstable_scheme(const ProblemInput& input) {
 void apply_named_values(const Arguments& arguments, const ProblemFile& problem,
                         Eigen::VectorXd& x) {
   for (const std::string& assignment : arguments.overrides) {
-    if (assignment.starts_with("/")) continue;
-    const std::string name = assignment.substr(0, assignment.find('='));
+    const std::string name = assigned_place(assignment);
+    if (name.starts_with("/")) continue;
     for (std::size_t i = 0; i < problem.variables.size(); ++i) {
       if (problem.variables[i].name != name) continue;
       x(static_cast<Eigen::Index>(i)) = problem.variables[i].start;

@@ -13,6 +13,7 @@
 #include "cli/scene_report.hpp"
 #include "cli/scene_words.hpp"
 #include "cli/warnings.hpp"
+#include "cli/wrapped_text.hpp"
 #include "core/base/error.hpp"
 #include "core/integration/freedoms.hpp"
 #include "core/integration/initial_state.hpp"
@@ -111,15 +112,22 @@ fs::path free_page(const fs::path& file) {
   return page;
 }
 
+/// Without a template of pages: all but the drawing.
+Outcome show_in_words(const Arguments& arguments, const ProblemInput& input) {
+  const std::string reason =
+      "the template of pages is not built, which takes nodejs and npm: see docs/report.md";
+  if (arguments.output) throw InputError(reason);
+  const Shown shown = describe(input.problem, input.design);
+  return {ExitCode::done, shown.document,
+          shown.text + wrapped("No drawing: " + reason + "\n", "  ")};
+}
+
 }  // namespace
 
 Outcome run_show(const Arguments& arguments) {
   const ProblemInput input = read_input(arguments);
   const auto page_template = find_report_template();
-  if (!page_template) {
-    throw InputError(
-        "the template of pages is not built, which takes nodejs and npm: see docs/report.md");
-  }
+  if (!page_template) return show_in_words(arguments, input);
   const fs::path page = arguments.output.value_or(free_page(arguments.file));
   if (fs::is_directory(page)) throw InputError(fmt::format("-o {}: is a folder", page.string()));
   std::error_code error;  // shows when the file is written

@@ -19,6 +19,7 @@
 #include "core/base/number_text.hpp"
 #include "core/base/stop.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/scene/reading/override.hpp"
 #include "core/trust/doubts.hpp"
 
 namespace pleuel {
@@ -122,9 +123,10 @@ std::string simulation_text(const ProblemFile& problem, const std::string& desig
 /// Whether the user asks what becomes of a design of theirs: one that breaks a limit is no success
 /// then, as the start of a search is.
 bool tries_a_design(const Arguments& arguments) {
-  return arguments.design ||
-         std::any_of(arguments.overrides.begin(), arguments.overrides.end(),
-                     [](const std::string& assignment) { return !assignment.starts_with("/"); });
+  return arguments.design || std::any_of(arguments.overrides.begin(), arguments.overrides.end(),
+                                         [](const std::string& assignment) {
+                                           return !assigned_place(assignment).starts_with("/");
+                                         });
 }
 
 }  // namespace

@@ -96,6 +96,29 @@ TEST(New, NamesTheKindThatWasProbablyMeant) {
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
+TEST(Help, IsThatOfTheCommandThatIsNamed) {
+  const TemporaryFolder folder;
+  const std::string help = run_program(folder.path(), {"pareto", "--help"}).out;
+  EXPECT_THAT(help, HasSubstr("pleuel pareto [OPTIONS] FILE"));
+  EXPECT_EQ(run_program(folder.path(), {"help", "pareto"}).out, help);
+  EXPECT_EQ(run_program(folder.path(), {"help"}).out, run_program(folder.path(), {"--help"}).out);
+  EXPECT_EQ(run_program(folder.path(), {"optimise"}).err,
+            "pleuel: there is no command \"optimise\"; did you mean \"optimize\"?\n");
+}
+
+/// All but the drawing.
+TEST(Show, IsInWordsWhereNoPageIsBuilt) {
+  const TemporaryFolder folder;
+  run_program(folder.path(), {"new", "press"});
+  const std::string no_page = "PLEUEL_REPORT_TEMPLATE=nowhere";
+  const ProgramRun run = run_line(folder.path(), "backends >/dev/null; export " + no_page + "; " +
+                                                     PLEUEL_PROGRAM + " show press.json");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("Rigid motion: "));
+  EXPECT_THAT(run.out, HasSubstr("No drawing: the template of pages is not built"));
+  EXPECT_FALSE(fs::exists(folder.path() / "runs"));
+}
+
 TEST(Schema, IsThatOfTheProblems) {
   const TemporaryFolder folder;
   const std::string schema = read_file(PLEUEL_SOURCE_DIR "/problems/problem.schema.json");

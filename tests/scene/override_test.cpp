@@ -36,6 +36,8 @@ TEST(Override, TakesTheStartOfAVariableByItsName) {
   const ProblemFile problem = read_with({"width=21 mm"});
   EXPECT_EQ(problem.variables.front().name, "width");
   EXPECT_DOUBLE_EQ(problem.variables.front().start, 0.021);
+  EXPECT_DOUBLE_EQ(read_with({"width = 22 mm"}).variables.front().start, 0.022);
+  EXPECT_DOUBLE_EQ(read_with({"/simulation/step = 0.2 ms"}).simulation.step, 2e-4);
   EXPECT_EQ(complaint_with("widht=21 mm"),
             "good.json: --set widht=21 mm: must begin with a JSON pointer such as "
             "/simulation/step, or with the name of a design variable; did you mean \"width\"?");

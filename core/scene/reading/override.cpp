@@ -31,7 +31,7 @@ class Override {
   void apply(Json& document) const {
     const std::size_t equals = assignment_.find('=');
     if (equals == std::string::npos) fail("has no \"=\"; write /json/pointer=value");
-    const std::vector<std::string> keys = keys_of(document, assignment_.substr(0, equals));
+    const std::vector<std::string> keys = keys_of(document, assigned_place(assignment_));
     Json* place = &document;
     std::string pointer;
     for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
@@ -131,6 +131,18 @@ class Override {
 
 void apply_override(Json& document, const std::string& assignment, const std::string& file) {
   Override(assignment, file).apply(document);
+}
+
+std::string assigned_place(const std::string& assignment) {
+  const std::string text = assignment.substr(0, assignment.find('='));
+  const std::size_t begin = text.find_first_not_of(' ');
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(' ') - begin + 1);
+}
+
+std::string assigned_pointer(const std::string& assignment) {
+  const std::string place = assigned_place(assignment);
+  return place.starts_with("/") ? place : child_pointer("/variables", place) + "/start";
 }
 
 }  // namespace pleuel

@@ -12,4 +12,11 @@ namespace pleuel {
 /// @throws InputError
 void apply_override(Json& document, const std::string& assignment, const std::string& file);
 
+/// What stands before the "=" of an assignment, without spaces around it: a pointer, or the name of
+/// a variable.
+std::string assigned_place(const std::string& assignment);
+
+/// The same place as a pointer: that of the variable's start if it is called by its name.
+std::string assigned_pointer(const std::string& assignment);
+
 }  // namespace pleuel
