@@ -55,6 +55,7 @@ class ChartDrawing {
     add(R"(<text x="{:.0f}" y="{:.1f}" font-weight="600">{}{}</text>)", plot_left, top_ + 18.0,
         xml_text(chart_.title),
         chart_.unit == "1" ? "" : fmt::format(" [{}]", xml_text(chart_.unit)));
+    draw_key();
     draw_axes();
     for (const double limit : chart_.limits) draw_limit(limit);
     for (const HistoryCurve& curve : chart_.curves) draw_curve(curve);
@@ -65,6 +66,20 @@ class ChartDrawing {
   template <class... Values>
   void add(fmt::format_string<Values...> format, Values&&... values) {
     svg_ += fmt::format(format, std::forward<Values>(values)...) + "\n";
+  }
+
+  /// Which line is which design, at the right of the title.
+  void draw_key() {
+    if (chart_.curves.size() < 2) return;
+    double right = plot_right;
+    for (auto curve = chart_.curves.rbegin(); curve != chart_.curves.rend(); ++curve) {
+      add(R"(<text class="soft" x="{:.0f}" y="{:.1f}" text-anchor="end">{}</text>)", right,
+          top_ + 18.0, xml_text(curve->name));
+      right -= 7.0 * static_cast<double>(curve->name.size()) + 10.0;
+      add(R"(<path class="{}" stroke-width="2" d="M{:.1f} {:.1f}h-18"/>)",
+          curve == chart_.curves.rbegin() ? "main" : "other", right, top_ + 14.0);
+      right -= 34.0;
+    }
   }
 
   void draw_axes() {

@@ -131,6 +131,10 @@ void RunFolder::check_writable() const {
 void RunFolder::remove_older_results() const {
   std::error_code error;
   for (const char* name : result_names) fs::remove(path_ / name, error);
+  for (const auto& entry : fs::directory_iterator(path_, error)) {  // drawings of `pleuel plot`
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("plot") && name.ends_with(".svg")) fs::remove(entry, error);
+  }
   for (const auto& entry : fs::directory_iterator(path_ / "bodies", error)) {
     if (entry.is_regular_file() && entry.path().extension() == ".json") fs::remove(entry, error);
   }
