@@ -17,13 +17,19 @@ export function hero(data: ReportData, lead: string, facts: HTMLElement[] = []):
       "div",
       {},
       h("p.eyebrow", {}, card.command),
-      h("h1", {}, picture?.name ?? (card.inputs ? `${card.inputs.length} files` : "")),
+      h("h1", {}, picture?.name ?? filesOf(card.inputs ?? [])),
       lead ? h("p.lead", {}, lead) : null,
       result.status ? h("p.verdict", {}, verdict(result.status), result.message ? ` ${sentenceCase(result.message)}.` : "") : null,
       warnings(result),
     ),
     facts.length ? h("div.facts", {}, facts) : null,
   );
+}
+
+/** "3 files", or the name of the only one. */
+function filesOf(inputs: Document[]): string {
+  if (inputs.length === 1) return words(String(inputs[0].file).replace(/^.*\//, "").replace(/\.json$/, ""));
+  return inputs.length ? `${inputs.length} files` : "";
 }
 
 export function paretoPage(data: ReportData): HTMLElement[] {
