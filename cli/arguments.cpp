@@ -90,8 +90,16 @@ void add_accuracy(CLI::App* command, Arguments& arguments) {
 void add_backend(CLI::App* command, Arguments& arguments) {
   command
       ->add_option("--backend", arguments.backend,
-                   "optimizer instead of the file's; see the command backends")
+                   "this optimizer alone, instead of the file's; see the command backends")
       ->type_name("NAME");
+}
+
+void add_starts(CLI::App* command, Arguments& arguments) {
+  command
+      ->add_option("--starts", arguments.starts,
+                   "begin at so many designs, the start and others spread between the bounds")
+      ->type_name("NUMBER")
+      ->check(CLI::Range(1, 10000));
 }
 
 /// Of the gradients of an optimizer: one.
@@ -269,6 +277,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   add_accuracy(optimize, arguments);
   add_design(optimize, arguments);
   add_backend(optimize, arguments);
+  add_starts(optimize, arguments);
   add_method(optimize, arguments);
   add_jobs(optimize, arguments);
   CLI::App* pareto = add_file_command(app, arguments, "pareto",

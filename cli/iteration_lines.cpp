@@ -24,6 +24,8 @@ const char* describe(Purpose purpose) {
       return "the backend goes on";
     case Purpose::polish:
       return "the answer is refined";
+    case Purpose::restoration:
+      return "the limits alone";
     default:
       return "of the answer, by designs beside it";
   }

@@ -18,6 +18,7 @@
 #include "cli/run_record.hpp"
 #include "cli/setting_report.hpp"
 #include "cli/solve_settings.hpp"
+#include "cli/starts_report.hpp"
 #include "cli/trajectory_csv.hpp"
 #include "cli/warnings.hpp"
 #include "cli/wrapped_text.hpp"
@@ -27,6 +28,7 @@
 #include "core/trust/nested_runs.hpp"
 #include "optimization/design_problem.hpp"
 #include "optimization/design_solve.hpp"
+#include "optimization/multi_start.hpp"
 #include "optimization/optimum_error.hpp"
 #include "optimization/prices.hpp"
 #include "optimization/staged_solve.hpp"
@@ -43,7 +45,7 @@ struct Examined {
 
 /// Simulates both for their trajectory files and for what is reported of them.
 Examined examine_designs(RunRecord& record, Optimum& optimum) {
-  const auto start = analyze(optimum.problem, optimum.result.history.front().x);
+  const auto start = analyze(optimum.problem, first_design(optimum.result.history).x);
   write_trajectory(record.result("trajectory-start.csv"), *start);
   optimum.start_responses = values_of(*start);
   const auto end = analyze(optimum.problem, optimum.result.x);
@@ -53,7 +55,7 @@ Examined examine_designs(RunRecord& record, Optimum& optimum) {
   optimum.influence = design_influence(optimum.problem, *end);
   record.show_picture([&] {
     return run_picture(optimum.problem,
-                       {{"start", optimum.result.history.front().x, start.get()},
+                       {{"start", first_design(optimum.result.history).x, start.get()},
                         {"optimum", optimum.result.x, end.get(), optimum.result.response_bands,
                          optimum.influence ? &*optimum.influence : nullptr}});
   });
@@ -125,8 +127,9 @@ Result interrupted_result(const DesignProblem& problem, const SolveOptions& opti
   return result;
 }
 
-StagedSolution solve_visibly(const ProblemInput& input, const SolveOptions& options,
-                             RunRecord& run_record, const Arguments& arguments) {
+MultiStart solve_visibly(const ProblemInput& input, const SolveOptions& options,
+                         RunRecord& run_record, const Arguments& arguments) {
+  const int count = arguments.starts.value_or(input.problem.optimizer.starts);
   auto first = std::make_unique<DesignProblem>(input.problem, arguments.jobs);
   const DesignProblem& problem = *first;
   std::FILE* out = arguments.progress();
@@ -148,14 +151,15 @@ StagedSolution solve_visibly(const ProblemInput& input, const SolveOptions& opti
     seen.push_back(record);
   };
   try {
-    return solve_in_stages(
-        input.problem, input.design, options, arguments.jobs, observer,
-        [out](const std::string& notice) { show(out, wrapped("  " + notice, "  ") + "\n"); });
+    return solve_from_starts(input.problem, starts_of(input.problem, input.design, count), options,
+                             arguments.jobs, observer, [out](const std::string& notice) {
+                               show(out, wrapped("  " + notice, "  ") + "\n");
+                             });
   } catch (const Stopped&) {
     if (seen.empty() || seen.front().has_failed()) throw;
-    StagedSolution solution;
-    solution.result = interrupted_result(problem, options, seen);
-    solution.problem = std::move(first);
+    MultiStart solution;
+    solution.best.result = interrupted_result(problem, options, seen);
+    solution.best.problem = std::move(first);
     return solution;
   }
 }
@@ -184,23 +188,26 @@ Outcome run_optimize(const Arguments& arguments) {
   RunRecord record(arguments, input, options_document(options, input.problem));
   show_warnings_before(input.problem);
   record.begin_phase("optimize");
-  const StagedSolution solution = solve_visibly(input, options, record, arguments);
+  const MultiStart all = solve_visibly(input, options, record, arguments);
+  const StagedSolution& solution = all.best;
   const ProblemFile& solved = solution.problem->file();
   const Result& result = solution.result;
   Optimum optimum{solved, result, {}, {}, {}, result.warnings, solution.problem->method()};
   // What has been found is told and written first: the rest is made from it at any time.
   Json effects = Json::array();
-  const auto document = [&] {
-    Json all = optimum_document(optimum);
-    all["effects"] = effects;
-    if (solution.stages.empty()) return all;  // interrupted
-    all["stages"] = stages_document(solution.stages);
-    all["setting"] = {{"step", solved.simulation.step},
-                      {"overrides", overrides_document(input.effective, solved)}};
-    return all;
+  const auto result_document = [&] {
+    Json document = optimum_document(optimum);
+    document["effects"] = effects;
+    if (all.runs.size() > 1) document["starts"] = starts_document(solved, all);
+    if (solution.stages.empty()) return document;  // interrupted
+    document["stages"] = stages_document(solution.stages);
+    document["setting"] = {{"step", solved.simulation.step},
+                           {"overrides", overrides_document(input.effective, solved)}};
+    return document;
   };
-  show(arguments.progress(), optimum_report(optimum) + stages_text(solution.stages));
-  record.write("result.json", document());
+  show(arguments.progress(),
+       optimum_report(optimum) + starts_text(solved, all) + stages_text(solution.stages));
+  record.write("result.json", result_document());
   if (optimum.has_design()) {
     record.begin_phase("effects");
     optimum.influences = influences_at(optimum);
@@ -213,7 +220,7 @@ Outcome run_optimize(const Arguments& arguments) {
     show(arguments.progress(),
          examined.drives + influences_text(solved, optimum.responses, optimum.influences, price));
   }
-  Outcome outcome{exit_code(optimum), document(),
+  Outcome outcome{exit_code(optimum), result_document(),
                   failed_design_text(record, arguments, input.problem, result.history) +
                       resume_text(record, arguments, optimum) + files_text(record, optimum)};
   record.finish(outcome);

@@ -15,7 +15,7 @@ Json objective_document(const Optimum& optimum) {
   Json document = {{"name", name}, {"unit", unit_of(find_response(optimum.problem, name)).si}};
   if (!optimum.has_design()) return document;
   document["value"] = optimum.result.evaluation.objective;
-  document["start"] = optimum.result.history.front().objective;
+  document["start"] = first_design(optimum.result.history).objective;
   if (optimum.result.error) document["error"] = error_document(optimum.result.error);
   return document;
 }
@@ -55,6 +55,31 @@ Json responses_document(const Optimum& optimum) {
   return document;
 }
 
+Json parts_document(const std::vector<SearchPart>& parts) {
+  Json document = Json::array();
+  for (const SearchPart& part : parts) {
+    document.push_back({{"method", part.method},
+                        {"status", to_string(part.status)},
+                        {"evaluations", part.evaluations}});
+  }
+  return document;
+}
+
+Json least_violation_document(const ProblemFile& problem, const LeastViolation& least) {
+  Json limits = Json::object();
+  for (const ExceededLimit& one : least.limits) {
+    const ConstraintSettings& constraint = problem.constraints[one.constraint];
+    Json limit = {{"limit", one.limit},
+                  {"side", one.is_upper ? "upper" : "lower"},
+                  {"unit", unit_of(problem, constraint).si},
+                  {"in_conflict", one.is_in_conflict},
+                  {"together", one.together}};
+    if (one.alone) limit["alone"] = *one.alone;
+    limits[constraint.name] = std::move(limit);
+  }
+  return {{"violation", least.violation}, {"proven", least.is_proven}, {"limits", limits}};
+}
+
 }  // namespace
 
 Json optimum_document(const Optimum& optimum) {
@@ -84,6 +109,11 @@ Json optimum_document(const Optimum& optimum) {
   document["gradient_evaluations"] = result.gradient_evaluations;
   document["iterations"] = result.iterations;
   document["restarts"] = result.restarts;
+  if (result.parts.size() > 1) document["parts"] = parts_document(result.parts);
+  if (result.least_violation) {
+    document["least_violation"] =
+        least_violation_document(optimum.problem, *result.least_violation);
+  }
   if (!result.polished_with.empty()) document["polished_with"] = result.polished_with;
   if (optimum.method) {
     document["gradients"] = {{"method", to_string(optimum.method->method)},

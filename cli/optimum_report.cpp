@@ -36,7 +36,7 @@ std::string status_text(const Result& result) {
 std::string objective_text(const Optimum& optimum) {
   const std::string& name = optimum.problem.objective->response;
   const ShownUnit unit = unit_of(find_response(optimum.problem, name));
-  const double start = optimum.result.history.front().objective;
+  const double start = first_design(optimum.result.history).objective;
   const double end = optimum.result.evaluation.objective;
   std::string text = fmt::format("{}: {} → {} {}", name, significant(unit.shown(start)),
                                  significant(unit.shown(end)), unit.name);

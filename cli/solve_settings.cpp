@@ -8,6 +8,9 @@ namespace pleuel {
 SolveOptions solve_options(const ProblemFile& problem, const Arguments& arguments) {
   SolveOptions options;
   options.backend = arguments.backend.value_or(problem.optimizer.backend);
+  if (!arguments.backend && !problem.optimizer.names_backend) {
+    options.other_backends = {"nlopt-mma", "ipopt", "nlopt-ccsaq"};
+  }
   options.tolerance = problem.optimizer.tolerance;
   options.max_iterations = problem.optimizer.max_iterations;
   try {
@@ -21,6 +24,7 @@ SolveOptions solve_options(const ProblemFile& problem, const Arguments& argument
 
 Json options_document(const SolveOptions& options, const ProblemFile& problem) {
   return {{"backend", options.backend},
+          {"other_backends", options.other_backends},
           {"method", to_string(problem.sensitivity.method)},
           {"tolerance", options.tolerance},
           {"max_iterations", options.max_iterations},

@@ -7,7 +7,8 @@
 
 namespace pleuel {
 
-/// Options of the file, with the command line's backend.
+/// Options of the file, with the command line's backend. Where neither names one, others may follow
+/// on the default.
 /// @throws InputError if there is no such backend
 SolveOptions solve_options(const ProblemFile& problem, const Arguments& arguments);
 

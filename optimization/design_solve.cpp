@@ -12,6 +12,7 @@
 #include "core/trust/doubts.hpp"
 #include "core/trust/nested_runs.hpp"
 #include "optimization/broken_limits.hpp"
+#include "optimization/find_optimum.hpp"
 #include "optimization/kkt_audit.hpp"
 #include "optimization/margin_problem.hpp"
 #include "optimization/optimum_error.hpp"
@@ -30,6 +31,8 @@ namespace {
 /// they are not, as the simulation takes in many periods.
 constexpr int peak_windows = 16;
 constexpr int most_windows = 128;
+/// Where the limits alone count: designs far outside vibrate.
+constexpr int windows_of_limits = 64;
 /// Iterations after which a run on the constraints of the file is taken for one that does not end:
 /// on a smooth optimum all backends need fewer.
 constexpr int plain_iterations = 40;
@@ -153,11 +156,24 @@ std::string reason_to_go_on(const Result& result, const std::vector<Kink>& kinks
   return describe(kinks, design.analysis_at(result.x));
 }
 
-Result find_optimum(DesignProblem& design, const SolveOptions& options, const Observer& observer,
-                    const Notice& notice) {
+/// The limits are so far away that windows of time are no way to them.
+constexpr double far_outside = 0.1;
+
+bool ends_far_outside(const Result& result) {
+  return result.status == Status::infeasible && result.max_violation > far_outside;
+}
+
+/// The problem of the file with its margins; none if it has none.
+std::unique_ptr<Problem> robust_problem(DesignProblem& design) {
   std::vector<std::optional<std::size_t>> all;
   for (std::size_t i = 0; i < design.constraints().size(); ++i) all.emplace_back(i);
-  const auto robust = with_margins(design, design, all);
+  return with_margins(design, design, all);
+}
+
+/// From the start of the design problem, with one backend.
+Result attempt_optimum(DesignProblem& design, const SolveOptions& options, const Observer& observer,
+                       const Notice& notice) {
+  const auto robust = robust_problem(design);
   Problem& problem = robust ? *robust : design;
   SolveOptions plain = options;
   plain.max_iterations = std::min(options.max_iterations, plain_iterations);
@@ -167,10 +183,11 @@ Result find_optimum(DesignProblem& design, const SolveOptions& options, const Ob
   Result result = solve(problem, plain, observer);
   SolveOptions rest = options;
   rest.max_iterations = options.max_iterations - result.iterations;
-  rest.earlier = {result.iterations, result.restarts + 1};
+  rest.earlier = {options.earlier.iterations + result.iterations,
+                  options.earlier.restarts + result.restarts + 1};
   const bool is_verified = result.status == Status::verified &&
                            (!robust || keeps_margins(design, result.x, Tolerances().violation));
-  if (is_verified || result.status == Status::failed) return result;
+  if (is_verified || result.status == Status::failed || ends_far_outside(result)) return result;
   if (rest.max_iterations >= 1) {
     const std::vector<Kink> kinks = optimized_kinks(design, result.x);
     const int windows = windows_that_part_peaks(design, result.x, peak_windows, most_windows);
@@ -189,6 +206,46 @@ Result find_optimum(DesignProblem& design, const SolveOptions& options, const Ob
   return result;
 }
 
+/// What find_optimum() searches: attempts on the file as it is and on windows of time; the rows of
+/// the limits are windows.
+class SearchedDesign : public SearchedProblem {
+ public:
+  SearchedDesign(DesignProblem& design, const Notice& notice)
+      : design_(design), notice_(notice), robust_(robust_problem(design)) {}
+
+  Problem& problem() override { return robust_ ? *robust_ : design_; }
+
+  Result attempt(const Eigen::VectorXd& start, const SolveOptions& options,
+                 const Observer& observer) override {
+    design_.start_from(start);
+    return attempt_optimum(design_, options, observer, notice_);
+  }
+
+  LimitRows limit_rows() override {
+    Eigen::VectorXd start(static_cast<Eigen::Index>(design_.variables().size()));
+    for (Eigen::Index i = 0; i < start.size(); ++i) {
+      start(i) = design_.variables()[static_cast<std::size_t>(i)].start;
+    }
+    robust_peaks_.reset();
+    peaks_ =
+        std::make_unique<PeakProblem>(design_, windows_of_limits, start, PeakProblem::Of::limits);
+    robust_peaks_ = with_margins(*peaks_, design_, peaks_->constraint_of_row());
+    LimitRows rows;
+    rows.problem = robust_peaks_ ? robust_peaks_.get() : peaks_.get();
+    for (const auto& constraint : peaks_->constraint_of_row()) {
+      rows.constraint_of_row.push_back(*constraint);
+    }
+    return rows;
+  }
+
+ private:
+  DesignProblem& design_;
+  const Notice& notice_;
+  std::unique_ptr<Problem> robust_;
+  std::unique_ptr<PeakProblem> peaks_;
+  std::unique_ptr<Problem> robust_peaks_;
+};
+
 /// The violation up to which one design is preferred to another for its objective: so that no
 /// tolerance is exploited.
 constexpr double strict_violation = 1e-6;
@@ -197,6 +254,7 @@ constexpr double strict_violation = 1e-6;
 /// may have begun at a worse one.
 void return_to_best(DesignProblem& design, const Tolerances& tolerances, Result& result) {
   if (result.status == Status::verified || !result.evaluation.has_gradients()) return;
+  if (result.least_violation) return;  // the least that was seen or found
   const bool keeps_limits = result.max_violation <= tolerances.violation;
   const EvaluationRecord best = best_record(result.history, strict_violation);
   const bool is_better = keeps_limits ? best.max_violation <= strict_violation &&
@@ -275,7 +333,8 @@ Result solve_design(DesignProblem& design, const SolveOptions& options, const Ob
   if (observer) {
     with_setting = [&](const EvaluationRecord& record) { observer(simulated_with(file, record)); };
   }
-  Result result = find_optimum(design, options, with_setting, notice);
+  SearchedDesign searched(design, notice);
+  Result result = find_optimum(searched, options, with_setting, notice);
   for (EvaluationRecord& record : result.history) record = simulated_with(file, std::move(record));
   return_to_best(design, options.verdict, result);
   judge_numbers(design, result);

@@ -1,20 +1,15 @@
 #pragma once
 
-#include <functional>
-#include <string>
-
 #include "optimization/design_problem.hpp"
+#include "optimization/find_optimum.hpp"
 #include "optimization/solve.hpp"
 
 namespace pleuel {
 
-/// Hears what the run decides on its way: a sentence.
-using Notice = std::function<void(const std::string&)>;
-
-/// solve() for a problem file. First with its constraints as they are; if that ends without a
+/// find_optimum() for a problem file. Each attempt is first one with its constraints as they are; if that ends without a
 /// verified optimum, the maximum of some response has a kink there more often than not, and the
 /// backend goes on with each peak over time window by window, that of the objective too
-/// (peak_problem.hpp). Result, history and observer speak of the objective and the constraints of
+/// (peak_problem.hpp); not so from far outside the limits. Result, history and observer speak of the objective and the constraints of
 /// the file. Where no optimum is verified, the message names the peaks that tie.
 /// @throws as solve()
 Result solve_design(DesignProblem& problem, const SolveOptions& options,

@@ -10,6 +10,8 @@ std::string to_string(Purpose purpose) {
       return "search";
     case Purpose::polish:
       return "polish";
+    case Purpose::restoration:
+      return "restoration";
     default:
       return "audit";
   }
@@ -21,11 +23,17 @@ const EvaluationRecord& best_record(const History& history, double allowed_viola
     const bool both_allowed = std::max(one.max_violation, other.max_violation) <= allowed_violation;
     return both_allowed ? one.objective < other.objective : one.max_violation < other.max_violation;
   };
-  const EvaluationRecord* best = &history.front();
+  const EvaluationRecord* best = &first_design(history);
   for (const EvaluationRecord& record : history) {
     if (is_better(record, *best)) best = &record;
   }
   return *best;
+}
+
+const EvaluationRecord& first_design(const History& history) {
+  const auto first =
+      std::find_if_not(history.begin(), history.end(), std::mem_fn(&EvaluationRecord::has_failed));
+  return first == history.end() ? history.front() : *first;
 }
 
 }  // namespace pleuel

@@ -12,12 +12,13 @@ namespace pleuel {
 
 /// What an evaluation is made for.
 enum class Purpose {
-  search,  ///< a step of the backend
-  polish,  ///< a step of what refines the backend's answer
-  audit    ///< beside an answer, to prove or disprove it: no step of anything
+  search,       ///< a step of the backend
+  polish,       ///< a step of what refines the backend's answer
+  restoration,  ///< on the way into the limits, or to the design that breaks them least
+  audit         ///< beside an answer, to prove or disprove it: no step of anything
 };
 
-/// "search", "polish" or "audit".
+/// "search", "polish", "restoration" or "audit".
 std::string to_string(Purpose purpose);
 
 /// One call of Problem::evaluate.
@@ -50,8 +51,11 @@ inline int count_failures(const History& history) {
 
 /// The best design seen: the lowest objective among those that exceed no limit by more than this
 /// (relative), or, if there is none, the one with the smallest violation.
-/// @param history  whose first evaluation, that of the start, did not fail
+/// @param history  with an evaluation that did not fail
 const EvaluationRecord& best_record(const History& history, double allowed_violation);
+
+/// The first evaluation that did not fail, where the search began; the first one if all failed.
+const EvaluationRecord& first_design(const History& history);
 
 /// Sees every evaluation as it happens; may be empty.
 using Observer = std::function<void(const EvaluationRecord&)>;

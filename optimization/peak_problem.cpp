@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "optimization/peak_windows.hpp"
 #include "optimization/scaling.hpp"
 
 namespace pleuel {
@@ -17,6 +16,8 @@ double excess(const Constraint& constraint, double value) {
 
 /// By how much of its peak the objective is taken to depend on the design at least.
 constexpr double least_dependence = 1e-2;
+/// Of one limit. Where places alone are more, each has two windows still.
+constexpr int most_rows = 192, least_windows = 2;
 
 Eigen::VectorXd starts_of(const DesignProblem& problem) {
   Eigen::VectorXd start(static_cast<Eigen::Index>(problem.variables().size()));
@@ -29,7 +30,7 @@ Eigen::VectorXd starts_of(const DesignProblem& problem) {
 PeakProblem::PeakProblem(DesignProblem& problem, int windows)
     : PeakProblem(problem, windows, starts_of(problem)) {}
 
-PeakProblem::PeakProblem(DesignProblem& problem, int windows, const Eigen::VectorXd& start)
+PeakProblem::PeakProblem(DesignProblem& problem, int windows, const Eigen::VectorXd& start, Of of)
     : problem_(problem), windows_(windows), variables_(problem.variables()) {
   const ProblemFile& file = problem.file();
   const int samples = step_count(file.simulation) + 1;
@@ -42,30 +43,41 @@ PeakProblem::PeakProblem(DesignProblem& problem, int windows, const Eigen::Vecto
   for (std::size_t i = 0; i < file.constraints.size(); ++i) {
     const Constraint& constraint = problem.constraints()[i];
     const auto response = problem.response_of({i, std::nullopt});
-    is_split_.push_back(response && !constraint.is_equality() &&
-                        has_peaks(file.responses[*response]));
-    if (is_split_.back()) {
-      add_rows(i, constraint);
+    splits_.emplace_back();
+    if (response && !constraint.is_equality() && has_peaks(file.responses[*response])) {
+      splits_.back() = split(i);
+      add_rows(*splits_.back(), constraint);
     } else {
       rows_.push_back(constraint);
       constraint_of_row_.emplace_back(i);
     }
   }
-  bound_objective();
+  if (of == Of::objective_and_limits) bound_objective();
 }
 
-void PeakProblem::add_rows(std::optional<std::size_t> constraint, const Constraint& limits) {
-  rows_.insert(rows_.end(), static_cast<std::size_t>(windows_), limits);
-  constraint_of_row_.insert(constraint_of_row_.end(), static_cast<std::size_t>(windows_),
-                            constraint);
+PeakProblem::Split PeakProblem::split(std::optional<std::size_t> constraint) const {
+  Split split;
+  split.constraint = constraint;
+  split.response = *problem_.response_of({constraint, std::nullopt});
+  split.places = place_count(problem_.file(), problem_.file().responses[split.response]);
+  const int fewest = std::min(least_windows, windows_);
+  split.windows =
+      split.places == 1 ? windows_ : std::clamp(most_rows / split.places, fewest, windows_);
+  return split;
+}
+
+void PeakProblem::add_rows(const Split& split, const Constraint& limits) {
+  const auto count = static_cast<std::size_t>(split.rows());
+  rows_.insert(rows_.end(), count, limits);
+  constraint_of_row_.insert(constraint_of_row_.end(), count, split.constraint);
 }
 
 void PeakProblem::bound_objective() {
   const std::size_t objective = *problem_.response_of({});
   const ResponseSettings& response = problem_.file().responses[objective];
-  has_bound_ = has_peaks(response) && response.over_time != OverTime::min;
-  if (!has_bound_) return;
-  add_rows(std::nullopt, {response.name, -infinity, 0.0});
+  if (!has_peaks(response) || response.over_time == OverTime::min) return;
+  bound_ = split(std::nullopt);
+  add_rows(*bound_, {response.name, -infinity, 0.0});
   Eigen::VectorXd start(static_cast<Eigen::Index>(variables_.size()));
   for (Eigen::Index i = 0; i < start.size(); ++i) start(i) = variables_[i].start;
   const Evaluation at_start = problem_.evaluate(start, Request::values_and_gradients);
@@ -89,33 +101,37 @@ std::string PeakProblem::constraint_text(std::size_t constraint, double value) c
 Evaluation PeakProblem::evaluate(const Eigen::VectorXd& x, Request request) {
   Evaluation evaluation = problem_.evaluate_rows(
       design_of(x), request, [this](const Analysis& analysis) { return rows_of(analysis); });
-  if (!has_bound_) return evaluation;
+  if (!bound_) return evaluation;
   evaluation.objective = x(x.size() - 1);
-  evaluation.constraints.tail(windows_).array() -= evaluation.objective;
+  evaluation.constraints.tail(bound_->rows()).array() -= evaluation.objective;
   if (request == Request::values) return evaluation;
   evaluation.objective_gradient = Eigen::VectorXd::Unit(x.size(), x.size() - 1);
   evaluation.constraint_jacobian.conservativeResize(Eigen::NoChange, x.size());
   evaluation.constraint_jacobian.rightCols(1).setZero();
-  evaluation.constraint_jacobian.rightCols(1).bottomRows(windows_).setConstant(-1.0);
+  evaluation.constraint_jacobian.rightCols(1).bottomRows(bound_->rows()).setConstant(-1.0);
   return evaluation;
 }
 
-std::vector<ConstraintRow> PeakProblem::rows_of(const Analysis& analysis) const {
+void PeakProblem::add_peaks(Split& split, const Analysis& analysis,
+                            std::vector<ConstraintRow>& rows) const {
+  if (split.places > 1 && split.ranges.empty()) {
+    split.ranges = places_of(analysis, problem_.file(), split.response, split.places);
+  }
+  for (Reduction& peak : peaks_of_places(analysis, split.response, split.ranges, split.windows)) {
+    rows.push_back({split.constraint, std::move(peak)});
+  }
+}
+
+std::vector<ConstraintRow> PeakProblem::rows_of(const Analysis& analysis) {
   std::vector<ConstraintRow> rows;
-  const auto add_windows = [&](std::optional<std::size_t> constraint) {
-    const std::size_t response = *problem_.response_of({constraint, std::nullopt});
-    for (Reduction& peak : peaks_of_windows(analysis, response, windows_)) {
-      rows.push_back({constraint, std::move(peak)});
-    }
-  };
-  for (std::size_t i = 0; i < is_split_.size(); ++i) {
-    if (is_split_[i]) {
-      add_windows(i);
+  for (std::size_t i = 0; i < splits_.size(); ++i) {
+    if (splits_[i]) {
+      add_peaks(*splits_[i], analysis, rows);
     } else {
       rows.push_back({i, std::nullopt});
     }
   }
-  if (has_bound_) add_windows(std::nullopt);
+  if (bound_) add_peaks(*bound_, analysis, rows);
   return rows;
 }
 
@@ -124,7 +140,7 @@ Eigen::VectorXd PeakProblem::design_of(const Eigen::VectorXd& x) const {
 }
 
 double PeakProblem::fold_objective(double objective, const Eigen::VectorXd& rows) const {
-  return has_bound_ ? objective + rows.tail(windows_).maxCoeff() : objective;
+  return bound_ ? objective + rows.tail(bound_->rows()).maxCoeff() : objective;
 }
 
 Eigen::VectorXd PeakProblem::fold_values(const Eigen::VectorXd& rows) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "optimization/design_problem.hpp"
+#include "optimization/peak_windows.hpp"
 
 namespace pleuel {
 
@@ -14,14 +15,24 @@ namespace pleuel {
 ///     minimize t   subject to   peak of each window ≤ t
 ///
 /// A design of this problem is (x, t) then, and the rows peak − t ≤ 0 follow those of the limits.
-/// All rows bear the names of what they are peaks of: windows are nothing that a user knows.
+/// The same holds for the place where a peak is: the largest stress of a whole beam has a kink
+/// wherever it moves from one segment to another. A limit on it stands once for each window at each
+/// place (place_count()), with fewer windows where there are many places.
+///
+/// All rows bear the names of what they are peaks of: windows and places are nothing that a user
+/// knows.
 class PeakProblem : public Problem {
  public:
+  /// Which peaks are told apart: those of the limits and the objective, or of the limits only. Then
+  /// a design is x, and nothing is evaluated before it is asked for.
+  enum class Of { objective_and_limits, limits };
+
   /// @param windows  of equal length, at least 1
   /// @param start    of the design, moved into the bounds; by default that of the file. Where the
   ///                 objective is a peak it is evaluated, with gradients.
   PeakProblem(DesignProblem& problem, int windows);
-  PeakProblem(DesignProblem& problem, int windows, const Eigen::VectorXd& start);
+  PeakProblem(DesignProblem& problem, int windows, const Eigen::VectorXd& start,
+              Of of = Of::objective_and_limits);
 
   const std::vector<Variable>& variables() const override { return variables_; }
   const std::vector<Constraint>& constraints() const override { return rows_; }
@@ -45,19 +56,31 @@ class PeakProblem : public Problem {
   Eigen::VectorXd fold_multipliers(const Eigen::VectorXd& rows) const;
 
  private:
-  void add_rows(std::optional<std::size_t> constraint, const Constraint& limits);
+  /// How one limit, or the objective, is split.
+  struct Split {
+    std::optional<std::size_t> constraint;
+    std::size_t response = 0;
+    int windows = 1, places = 1;
+    std::vector<ChannelRange> ranges = {};  ///< of the places; known from the first simulation on
+
+    int rows() const { return windows * places; }
+  };
+
+  Split split(std::optional<std::size_t> constraint) const;
+  void add_rows(const Split& split, const Constraint& limits);
   void bound_objective();
+  void add_peaks(Split& split, const Analysis& analysis, std::vector<ConstraintRow>& rows) const;
 
   /// The constraints, those on peaks window by window.
-  std::vector<ConstraintRow> rows_of(const Analysis& analysis) const;
+  std::vector<ConstraintRow> rows_of(const Analysis& analysis);
 
   DesignProblem& problem_;
   int windows_;
   std::vector<Variable> variables_;
   std::vector<Constraint> rows_;
   std::vector<std::optional<std::size_t>> constraint_of_row_;
-  std::vector<bool> is_split_;  ///< constraint by constraint
-  bool has_bound_ = false;      ///< t is a variable
+  std::vector<std::optional<Split>> splits_;  ///< constraint by constraint
+  std::optional<Split> bound_;                ///< of the objective, where t is a variable
 };
 
 }  // namespace pleuel

@@ -35,9 +35,9 @@ bool is_worth_polishing(const Verdict& verdict, const Tolerances& tolerances) {
 
 Eigen::VectorXd polish(EvaluationCache& cache, const KnownDesign& from, const KktAudit& audit,
                        const PolishBudget& budget) {
-  ScaledProblem scaled(cache, from,
-                       {budget.iterations, budget.evaluations, consecutive_failures, line_search},
-                       balance(audit));
+  ScaledProblem scaled(
+      cache, from, {budget.iterations, budget.evaluations, consecutive_failures, line_search, 0},
+      balance(audit));
   if (scaled.variables() == 0) return from.x;
   const BackendEnd end = make_optimizer(polisher, {tolerance})->minimize(scaled);
   scaled.rethrow();

@@ -18,6 +18,8 @@
 namespace pleuel {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Bounds and limits beyond this are a habit of writing "none".
+inline constexpr double practically_infinite = 1e19;
 
 /// A number of the design that the optimizer may choose; lower == upper fixes it.
 struct Variable {

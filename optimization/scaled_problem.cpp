@@ -7,11 +7,22 @@
 
 namespace pleuel {
 
+namespace {
+
+/// Relative violation that counts as none on the way, and the relative gain that counts as progress.
+constexpr double nearly_kept = 1e-4;
+constexpr double least_progress = 1e-4;
+
+}  // namespace
+
 ScaledProblem::ScaledProblem(EvaluationCache& cache, const KnownDesign& around, Budget budget,
                              const Eigen::VectorXd& factors)
     : cache_(cache),
       iterations_(cache.iterations()),
       evaluations_(cache.evaluations()),
+      best_objective_(around.evaluation.objective),
+      best_violation_(around.max_violation),
+      best_iteration_(cache.iterations()),
       around_(around.x),
       budget_(budget),
       variable_scales_(variable_scales(cache.problem(), around.x)),
@@ -78,10 +89,27 @@ void ScaledProblem::update_stop() {
     iterations_ = cache_.iterations();
     evaluations_ = cache_.evaluations();
   }
-  should_stop_ = cache_.iterations() >= budget_.iterations ||
-                 cache_.evaluations() >= budget_.evaluations ||
-                 cache_.consecutive_failures() >= budget_.consecutive_failures ||
-                 cache_.evaluations() - evaluations_ >= budget_.line_search;
+  see_progress();
+  should_stop_ =
+      cache_.iterations() >= budget_.iterations || cache_.evaluations() >= budget_.evaluations ||
+      cache_.consecutive_failures() >= budget_.consecutive_failures ||
+      cache_.evaluations() - evaluations_ >= budget_.line_search ||
+      (budget_.patience > 0 && cache_.iterations() - best_iteration_ >= budget_.patience);
+}
+
+void ScaledProblem::see_progress() {
+  const EvaluationRecord& last = cache_.history().back();
+  if (last.has_failed()) return;
+  const bool was_within = best_violation_ <= nearly_kept;
+  const bool is_within = last.max_violation <= nearly_kept;
+  const bool is_better =
+      was_within ? is_within &&
+                       last.objective < best_objective_ - least_progress * std::abs(best_objective_)
+                 : last.max_violation < (1.0 - least_progress) * best_violation_;
+  if (!is_better) return;
+  best_objective_ = last.objective;
+  best_violation_ = last.max_violation;
+  best_iteration_ = cache_.iterations();
 }
 
 Eigen::VectorXd ScaledProblem::to_design(const Eigen::VectorXd& y) const {

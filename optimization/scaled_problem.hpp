@@ -33,6 +33,7 @@ class ScaledProblem {
     int evaluations = 0;           ///< likewise
     int consecutive_failures = 0;  ///< after this many the region is hopeless
     int line_search = 0;           ///< evaluations without gradients in a row: no way down is found
+    int patience = 0;              ///< iterations without a better design; 0: any number
   };
 
   /// @param around   the design whose magnitudes scale the problem, and where the backend starts;
@@ -70,6 +71,7 @@ class ScaledProblem {
 
   void add_rows(Eigen::Index constraint, const Constraint& limits);
   void update_stop();
+  void see_progress();
   Eigen::VectorXd to_scaled(const Eigen::VectorXd& x) const;
   Eigen::VectorXd values(const std::vector<Row>& rows, const Evaluation& evaluation) const;
   Eigen::MatrixXd jacobian(const std::vector<Row>& rows, const Evaluation& evaluation) const;
@@ -78,6 +80,9 @@ class ScaledProblem {
   EvaluationCache& cache_;
   int iterations_ = 0;   ///< of the cache, when gradients were last computed here
   int evaluations_ = 0;  ///< likewise
+  /// The best so far, from the start of the run on, and the iteration that found it.
+  double best_objective_, best_violation_;
+  int best_iteration_ = 0;
   Eigen::VectorXd around_;
   Budget budget_;
   std::vector<Eigen::Index> free_;  ///< the variables that are not fixed

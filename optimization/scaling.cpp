@@ -7,8 +7,6 @@ namespace pleuel {
 
 namespace {
 
-/// Bounds beyond this are a habit of writing "none".
-constexpr double practically_infinite = 1e19;
 /// Backends see variables that may cross their range in steps of order one; the audit looks closer.
 constexpr double part_of_range_for_backends = 0.1;
 constexpr double part_of_range_for_audit = 0.01;

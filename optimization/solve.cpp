@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -63,13 +64,15 @@ EvaluationCache make_cache(Problem& problem, const KnownDesign& start,
 class Run {
  public:
   Run(EvaluationCache& cache, const KnownDesign& start, const SolveOptions& options)
-      : cache_(cache), options_(options), start_(start) {}
+      : cache_(cache), options_(options), start_(start), begun_at_(start.x) {}
 
   Result solve() {
     double tolerance = options_.tolerance;
     Verdict verdict = polished(improve(start_, tolerance));
     while (may_restart(verdict)) {
       const KnownDesign from = start_of_restart(verdict);
+      restart_size_ = from.x == begun_at_ ? size_of_other_steps * restart_size_ : 1.0;
+      begun_at_ = from.x;
       tolerance *= tolerance_factor;
       Verdict next = polished(improve(from, tolerance));
       unchanged_restarts_ = next.design.x == verdict.design.x ? unchanged_restarts_ + 1 : 0;
@@ -94,6 +97,9 @@ class Run {
 
  private:
   static constexpr double tolerance_factor = 0.1;
+  /// Of the variables, where a restart would otherwise go the way of the one before, digit for
+  /// digit: first steps are a tenth as long (they go with the square).
+  static constexpr double size_of_other_steps = 0.3;
   static constexpr int evaluations_per_iteration = 5;
   /// Evaluations without gradients after which a backend is better started anew.
   static constexpr int longest_line_search = 30;
@@ -188,9 +194,12 @@ class Run {
 
   Eigen::VectorXd run_backend(const KnownDesign& from, double tolerance) {
     cache_.set_purpose(Purpose::search);
-    ScaledProblem scaled(cache_, from,
-                         {options_.max_iterations, max_evaluations(),
-                          options_.max_consecutive_failures, longest_line_search});
+    const double size = std::sqrt(options_.first_step) * restart_size_;
+    ScaledProblem scaled(
+        cache_, from,
+        {options_.max_iterations, max_evaluations(), options_.max_consecutive_failures,
+         longest_line_search, options_.patience},
+        Eigen::VectorXd::Constant(from.x.size(), size));
     if (scaled.variables() == 0) return from.x;
     const BackendEnd end = make_optimizer(options_.backend, {tolerance})->minimize(scaled);
     scaled.rethrow();
@@ -260,6 +269,9 @@ class Run {
   bool may_restart(const Verdict& verdict) const {
     const bool is_settled = verdict.status == Status::verified || verdict.gradients_are_disproved;
     if (is_settled || is_exhausted() || is_lost_) return false;
+    // Where find_optimum() searches, it knows better ways into the limits.
+    const bool leaves_it = options_.patience > 0 && restarts_ > 0;
+    if (verdict.status == Status::infeasible && leaves_it) return false;
     if (verdict.better_neighbour) return escapes_ < options_.max_escapes;
     return unchanged_restarts_ < 2 && restarts_ < options_.max_restarts;
   }
@@ -271,7 +283,7 @@ class Run {
     if (verdict.status != Status::verified) add_reason(result);
     if (is_polished_) result.polished_with = polisher;
     if (is_polished_) result.message += fmt::format("; polished with {}", polisher);
-    if (verdict.status == Status::verified) {
+    if (verdict.status == Status::verified && options_.starts == 1) {
       result.message += "; from one start: other local optima were not looked for";
     }
     result.x = std::move(verdict.design.x);
@@ -281,6 +293,7 @@ class Run {
                   verdict.audit.constraint_multipliers, cache_.scales().constraints);
     result.bound_multipliers = std::move(verdict.audit.bound_multipliers);
     result.kkt_residual = verdict.audit.residual;
+    result.gradients_are_disproved = verdict.gradients_are_disproved;
     result.max_violation = verdict.design.max_violation;
     add_counts(result);
     return result;
@@ -329,6 +342,8 @@ class Run {
   int restarts_ = 0;
   int escapes_ = 0;
   int unchanged_restarts_ = 0;
+  Eigen::VectorXd begun_at_;  ///< the last run of the backend
+  double restart_size_ = 1.0;
   int polishes_ = 0;
   bool is_polished_ = false;
   bool is_lost_ = false;

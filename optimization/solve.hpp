@@ -8,6 +8,7 @@
 
 #include "core/base/error_bar.hpp"
 #include "optimization/history.hpp"
+#include "optimization/least_violation.hpp"
 #include "optimization/problem.hpp"
 #include "optimization/verdict.hpp"
 
@@ -33,6 +34,15 @@ struct SolveOptions {
   int max_polishes = 2;
   /// Designs with gradients that a polish may use beyond max_iterations.
   int polish_iterations = 0;
+  /// Iterations of the backend without a better design, neither in violation nor in objective,
+  /// after which it is stopped; 0: any number.
+  int patience = 0;
+  /// Size of the first steps of the backend, relative to the usual one; in (0, 1].
+  double first_step = 1.0;
+  /// From how many designs the whole search begins, for messages.
+  int starts = 1;
+  /// Backends that find_optimum() may go on with where the first one leads nowhere.
+  std::vector<std::string> other_backends{};
   /// What the verdict asks for.
   Tolerances verdict{};
   /// What an earlier part of the same run has used already, for messages.
@@ -40,6 +50,13 @@ struct SolveOptions {
     int iterations = 0;
     int restarts = 0;
   } earlier{};
+};
+
+/// A part of the search for an optimum (find_optimum.hpp).
+struct SearchPart {
+  std::string method;  ///< a backend, or "restoration"
+  Status status = Status::failed;
+  int evaluations = 0;
 };
 
 struct Result {
@@ -51,9 +68,14 @@ struct Result {
   std::vector<std::optional<ErrorBar>> response_errors;
   std::vector<Eigen::VectorXd> response_bands;  ///< of histories [SI]; empty where none is known
   std::optional<ErrorBar> error;                ///< of the optimal objective
-  std::string backend;
-  std::string polished_with;  ///< the backend that refined the answer; empty: nobody did
-  Eigen::VectorXd x;          ///< [SI]
+  /// What was tried one after the other, where find_optimum() searched.
+  std::vector<SearchPart> parts;
+  /// Of an infeasible problem: what is in conflict.
+  std::optional<LeastViolation> least_violation;
+  bool gradients_are_disproved = false;  ///< by differences, where all else is well
+  std::string backend;                   ///< that found the answer
+  std::string polished_with;             ///< the backend that refined the answer; empty: nobody did
+  Eigen::VectorXd x;                     ///< [SI]
   /// At x, with gradients. Without any entry if the start already failed.
   Evaluation evaluation;
   /// μ and β of KktAudit: d(optimal objective) / d(active limit) = −μ. That of a limit with slack

@@ -11,8 +11,9 @@ namespace pleuel {
 enum class Status {
   verified,    ///< a local optimum by our own audit, whatever the backend says
   unresolved,  ///< a local optimum of these numbers, but they are not to be trusted
-  stalled,     ///< limits are kept, but the design is not proven optimal
-  infeasible,  ///< no design that keeps the limits was found
+  stalled,     ///< nothing is proven: of a design within the limits, or of one outside
+  infeasible,  ///< no design that keeps the limits was found; of find_optimum(): with evidence that
+               ///< none is nearby
   failed,      ///< the evaluations fail: at the start, or too often in a row
   interrupted  ///< by the user, before anything was proven
 };

@@ -16,8 +16,10 @@ namespace {
 
 constexpr std::size_t most_settings = 6;
 
-bool has_design(Status status) {
-  return status == Status::verified || status == Status::unresolved || status == Status::stalled;
+bool has_design(const Result& result) {
+  const bool is_within = result.max_violation <= Tolerances().violation;
+  return result.status == Status::verified || result.status == Status::unresolved ||
+         (result.status == Status::stalled && is_within);
 }
 
 /// Bounds are kept exactly: an optimum may miss them by rounding.
@@ -39,7 +41,7 @@ Result solve_from(ProblemFile problem, const Eigen::VectorXd* start, const Solve
 void keep(const Result& result, OptimumRun& run) {
   run.status = result.status;
   run.evaluations = result.evaluations;
-  if (has_design(result.status)) {
+  if (has_design(result)) {
     run.x = result.x;
     run.objective = result.evaluation.objective;
   } else {

@@ -48,6 +48,7 @@ ParetoPoint find_point(const ProblemFile& problem, Eigen::Index row, double limi
 }
 
 bool is_within_limits(const ParetoPoint& point) {
+  if (point.result.max_violation > Tolerances().violation) return false;
   const Status status = point.result.status;
   return status == Status::verified || status == Status::unresolved || status == Status::stalled;
 }

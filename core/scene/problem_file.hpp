@@ -146,8 +146,13 @@ struct ConstraintSettings {
 
 struct OptimizerSettings {
   std::string backend = "nlopt-slsqp";
-  double tolerance = 1e-6;  ///< relative, on objective and scaled variables
+  bool names_backend = false;  ///< the file does: no other one is tried
+  double tolerance = 1e-6;     ///< relative, on objective and scaled variables
   int max_iterations = 200;
+  /// Designs that the search begins at, that of the variables included.
+  int starts = 1;
+  /// In place of designs between the bounds: so many more [SI], one number a variable.
+  std::vector<std::vector<double>> given_starts = {};
 };
 
 /// ε-constraint study: the objective is minimized for a row of values of one limit.

@@ -74,7 +74,7 @@ std::string good_text() {
   "sensitivity": {"method": "central-difference", "difference_step": 1e-4,
                   "invariant_derivatives": "central", "invariant_step": 1e-5,
                   "memory": "512 MB"},
-  "optimizer": {"backend": "ipopt", "tolerance": 1e-5, "max_iterations": 50},
+  "optimizer": {"backend": "ipopt", "tolerance": 1e-5, "max_iterations": 50, "starts": 3},
   "pareto": {"constraint": "stiffness", "from": "0.1 mm", "to": "0.4 mm", "points": 5},
   "accuracy": {"steps": ["1e-4 s", 5e-5], "elements": [2, 4], "target": 1e-2}
 })";

@@ -29,7 +29,9 @@ void read_settings(const JsonNode& root, const NumberReader& numbers, ProblemFil
   } else {
     problem.sensitivity.memory = default_memory();
   }
-  if (const auto optimizer = root.find("optimizer")) problem.optimizer = read_optimizer(*optimizer);
+  if (const auto optimizer = root.find("optimizer")) {
+    problem.optimizer = read_optimizer(*optimizer, problem.variables, numbers);
+  }
   if (const auto pareto = root.find("pareto")) {
     problem.pareto = read_pareto(*pareto, problem, numbers);
   }

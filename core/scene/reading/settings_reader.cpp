@@ -205,10 +205,49 @@ SensitivitySettings read_sensitivity(const JsonNode& node, const NumberReader& n
   return settings;
 }
 
-OptimizerSettings read_optimizer(const JsonNode& node) {
-  node.allow_keys({"backend", "tolerance", "max_iterations"});
+namespace {
+
+constexpr int most_starts = 10000;
+
+/// The start of the variables, with those that the node names at other values.
+std::vector<double> read_start(const JsonNode& node, const std::vector<DesignVariable>& variables,
+                               const NumberReader& numbers) {
+  std::vector<double> start;
+  for (const DesignVariable& variable : variables) start.push_back(variable.start);
+  for (const auto& [name, value] : node.members()) {
+    const auto i = static_cast<std::size_t>(numbers.variable(value, name));
+    start[i] = numbers.fixed(value, *numbers.quantity_of(static_cast<int>(i)));
+    if (start[i] < variables[i].lower || start[i] > variables[i].upper) {
+      value.fail_with_value(fmt::format("must lie within the bounds of {:g} to {:g}",
+                                        variables[i].lower, variables[i].upper));
+    }
+  }
+  return start;
+}
+
+void read_starts(const JsonNode& node, const std::vector<DesignVariable>& variables,
+                 const NumberReader& numbers, OptimizerSettings& settings) {
+  if (!node.value().is_array()) {
+    settings.starts = node.whole_number(1, most_starts);
+    return;
+  }
+  for (const JsonNode& item : node.items()) {
+    settings.given_starts.push_back(read_start(item, variables, numbers));
+  }
+  settings.starts = 1 + static_cast<int>(settings.given_starts.size());
+}
+
+}  // namespace
+
+OptimizerSettings read_optimizer(const JsonNode& node, const std::vector<DesignVariable>& variables,
+                                 const NumberReader& numbers) {
+  node.allow_keys({"backend", "tolerance", "max_iterations", "starts"});
   OptimizerSettings settings;
-  if (const auto backend = node.find("backend")) settings.backend = backend->text();
+  if (const auto backend = node.find("backend")) {
+    settings.backend = backend->text();
+    settings.names_backend = true;
+  }
+  if (const auto starts = node.find("starts")) read_starts(*starts, variables, numbers, settings);
   if (const auto tolerance = node.find("tolerance"))
     settings.tolerance = read_tolerance(*tolerance);
   if (const auto most = node.find("max_iterations")) {

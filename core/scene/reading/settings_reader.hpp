@@ -18,7 +18,8 @@ SimulationSettings read_simulation(const JsonNode& node, const NumberReader& num
 SensitivitySettings read_sensitivity(const JsonNode& node, const NumberReader& numbers);
 
 /// Whether the backend is there is for the optimizer to say.
-OptimizerSettings read_optimizer(const JsonNode& node);
+OptimizerSettings read_optimizer(const JsonNode& node, const std::vector<DesignVariable>& variables,
+                                 const NumberReader& numbers);
 
 AccuracySettings read_accuracy(const JsonNode& node, const std::vector<ResponseSettings>& responses,
                                const NumberReader& numbers);

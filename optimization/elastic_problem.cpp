@@ -1,0 +1,85 @@
+#include "optimization/elastic_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pleuel {
+
+namespace {
+
+/// Of z: violations below are small ones.
+constexpr double least_magnitude = 0.1;
+
+}  // namespace
+
+double damped_violation(double violation) {
+  return violation > 0.0 ? std::log1p(violation) : violation;
+}
+
+double damped_violation_slope(double violation) {
+  return violation > 0.0 ? 1.0 / (1.0 + violation) : 1.0;
+}
+
+double undamped_violation(double damped) {
+  return damped > 0.0 ? std::expm1(damped) : damped;
+}
+
+std::vector<LimitSide> limit_sides(const Problem& problem, const Eigen::VectorXd& magnitudes) {
+  std::vector<LimitSide> sides;
+  for (std::size_t i = 0; i < problem.constraints().size(); ++i) {
+    const Constraint& limits = problem.constraints()[i];
+    const double magnitude = magnitudes[static_cast<Eigen::Index>(i)];
+    if (limits.upper < practically_infinite) sides.push_back({i, 1.0, limits.upper, magnitude});
+    if (limits.lower > -practically_infinite) sides.push_back({i, -1.0, limits.lower, magnitude});
+  }
+  return sides;
+}
+
+ElasticProblem::ElasticProblem(Problem& problem, const std::vector<bool>& is_elastic,
+                               const Eigen::VectorXd& start, const Evaluation& at_start,
+                               const Eigen::VectorXd& magnitudes)
+    : problem_(problem), variables_(problem.variables()), sides_(limit_sides(problem, magnitudes)) {
+  double largest = 0.0;
+  for (const LimitSide& side : sides_) {
+    rows_.push_back({problem.constraints()[side.constraint].name, -infinity, 1.0});
+    is_elastic_.push_back(is_elastic[side.constraint]);
+    if (is_elastic_.back()) {
+      largest = std::max(largest, damped_violation(side.violation(at_start.constraints)));
+    }
+  }
+  for (std::size_t i = 0; i < variables_.size(); ++i) {
+    Variable& variable = variables_[i];
+    variable.start =
+        std::clamp(start[static_cast<Eigen::Index>(i)], variable.lower, variable.upper);
+  }
+  variables_.push_back({"violation", largest, 0.0, infinity, std::max(least_magnitude, largest)});
+}
+
+Evaluation ElasticProblem::evaluate(const Eigen::VectorXd& xz, Request request) {
+  const Evaluation inner = problem_.evaluate(design_of(xz), request);
+  const Eigen::Index last = xz.size() - 1;
+  Evaluation evaluation;
+  evaluation.objective = xz[last];
+  evaluation.constraints.resize(static_cast<Eigen::Index>(sides_.size()));
+  const bool with_gradients = request == Request::values_and_gradients;
+  if (with_gradients) {
+    evaluation.objective_gradient = Eigen::VectorXd::Unit(xz.size(), last);
+    evaluation.constraint_jacobian =
+        Eigen::MatrixXd::Zero(evaluation.constraints.size(), xz.size());
+  }
+  for (std::size_t k = 0; k < sides_.size(); ++k) {
+    const LimitSide& side = sides_[k];
+    const auto row = static_cast<Eigen::Index>(k);
+    const double violation = side.violation(inner.constraints);
+    evaluation.constraints[row] =
+        1.0 + damped_violation(violation) - (is_elastic_[k] ? evaluation.objective : 0.0);
+    if (!with_gradients) continue;
+    const double slope = damped_violation_slope(violation) * side.sign / side.magnitude;
+    evaluation.constraint_jacobian.row(row).head(last) =
+        slope * inner.constraint_jacobian.row(static_cast<Eigen::Index>(side.constraint));
+    if (is_elastic_[k]) evaluation.constraint_jacobian(row, last) = -1.0;
+  }
+  return evaluation;
+}
+
+}  // namespace pleuel

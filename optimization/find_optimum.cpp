@@ -1,0 +1,455 @@
+#include "optimization/find_optimum.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/number_text.hpp"
+#include "optimization/broken_limits.hpp"
+#include "optimization/kkt_audit.hpp"
+#include "optimization/optimizer.hpp"
+#include "optimization/recorded_problem.hpp"
+#include "optimization/restoration.hpp"
+#include "optimization/scaling.hpp"
+#include "optimization/starts.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Iterations without a better design after which a backend is stopped.
+constexpr int patience = 25;
+/// Relative size of the first steps of a backend that begins with shorter ones.
+constexpr double short_first_step = 0.1;
+/// Relative difference of objectives that is none: the later attempt then counts.
+constexpr double same_to_rounding = 1e-9;
+/// How often the limits are restored before they are taken for contradictory.
+constexpr int most_restorations = 2;
+/// Designs between the bounds that are tried where all else leads outside the limits, and how many
+/// of the best of them a restoration begins at.
+constexpr int samples = 8;
+constexpr std::size_t best_samples = 2;
+constexpr RestorationBudget sample_budget{12, 30};
+constexpr unsigned seed = 20;
+/// Iterations of each optimization that looks for the least violation.
+constexpr int least_violation_iterations = 60;
+/// Where a start cannot be evaluated: shares of the way to the middle of the bounds.
+constexpr std::array<double, 4> ways_to_the_middle = {0.25, 0.5, 0.75, 1.0};
+
+/// A backend, and the size of its first steps.
+struct Way {
+  std::string backend;
+  double first_step = 1.0;
+};
+
+Eigen::VectorXd starts_of(const Problem& problem) {
+  Eigen::VectorXd start(static_cast<Eigen::Index>(problem.variables().size()));
+  for (Eigen::Index i = 0; i < start.size(); ++i) {
+    start[i] = problem.variables()[static_cast<std::size_t>(i)].start;
+  }
+  return start;
+}
+
+bool takes_equalities(const std::string& backend) {
+  return make_optimizer(backend, {})->takes_equalities();
+}
+
+class Search {
+ public:
+  Search(SearchedProblem& searched, const SolveOptions& options, const Observer& observer,
+         const Notice& notice)
+      : searched_(searched),
+        problem_(searched.problem()),
+        options_(options),
+        observer_(observer),
+        notice_(notice),
+        start_(starts_of(problem_)) {
+    const auto& limits = problem_.constraints();
+    const bool has_equalities =
+        std::any_of(limits.begin(), limits.end(), std::mem_fn(&Constraint::is_equality));
+    for (const std::string& backend : options.other_backends) {
+      if (!has_equalities || takes_equalities(backend)) ways_.push_back({backend});
+    }
+    ways_.push_back({options.backend, short_first_step});
+  }
+
+  Result run() {
+    attempt({options_.backend}, start_);
+    if (!has_design()) begin_elsewhere();
+    while (has_design() && !is_settled()) {
+      if (is_outside()) {
+        const std::optional<Eigen::VectorXd> inside = restored();
+        if (!inside) {
+          explain();
+          break;
+        }
+        attempt({options_.backend}, *inside);
+      } else if (next_way_ < ways_.size() && !total_.gradients_are_disproved) {
+        const Way& way = ways_[next_way_++];
+        tell(fmt::format("not verified with {}: the search goes on with {}{}", total_.backend,
+                         way.backend, way.first_step < 1.0 ? " and shorter steps" : ""));
+        attempt(way, total_.x);
+      } else {
+        break;
+      }
+    }
+    tell_of_parts();
+    return std::move(total_);
+  }
+
+ private:
+  bool has_design() const { return total_.evaluation.has_gradients(); }
+
+  bool is_verified() const { return total_.status == Status::verified; }
+
+  bool is_outside() const { return total_.max_violation > options_.verdict.violation; }
+
+  bool is_settled() const {
+    if (is_verified()) return true;
+    return !is_outside() && total_.iterations >= options_.max_iterations;
+  }
+
+  void tell(const std::string& sentence) const {
+    if (notice_) notice_(sentence);
+  }
+
+  Observer following_observer() const {
+    if (!observer_) return {};
+    return [this](const EvaluationRecord& record) { observer_(following(record, total_)); };
+  }
+
+  void attempt(const Way& way, const Eigen::VectorXd& from) {
+    SolveOptions options = options_;
+    options.backend = way.backend;
+    options.first_step = way.first_step;
+    options.patience = options_.patience > 0 ? options_.patience : patience;
+    options.max_iterations = std::max(1, options_.max_iterations - total_.iterations);
+    options.earlier.iterations += total_.iterations;
+    if (!total_.history.empty()) options.earlier.restarts += total_.restarts + 1;
+    add(searched_.attempt(from, options, following_observer()), way.backend);
+  }
+
+  /// Joins the run with what was before it; the better design is the answer.
+  void add(Result next, const std::string& method) {
+    std::vector<SearchPart> parts = std::move(total_.parts);
+    parts.push_back({method, next.status, next.evaluations});
+    if (total_.history.empty()) {
+      total_ = std::move(next);
+    } else {
+      const bool is_first = !has_design();
+      Result before = std::move(total_);
+      continue_from(before, next);
+      total_ = is_first || is_better(next, before) ? std::move(next)
+                                                   : with_effort_of(next, std::move(before));
+    }
+    total_.parts = std::move(parts);
+  }
+
+  static Result with_effort_of(Result& all, Result answer) {
+    answer.history = std::move(all.history);
+    answer.evaluations = all.evaluations;
+    answer.gradient_evaluations = all.gradient_evaluations;
+    answer.iterations = all.iterations;
+    answer.restarts = all.restarts;
+    answer.seconds = all.seconds;
+    return answer;
+  }
+
+  bool is_better(const Result& one, const Result& other) const {
+    if (!one.evaluation.has_gradients()) return false;
+    const auto rank = [&](const Result& result) {
+      const bool is_within = result.max_violation <= options_.verdict.violation;
+      return result.status == Status::verified ? 2 : is_within ? 1 : 0;
+    };
+    if (rank(one) != rank(other)) return rank(one) > rank(other);
+    if (rank(one) == 0) return one.max_violation < other.max_violation;
+    const double difference = one.evaluation.objective - other.evaluation.objective;
+    return difference <= same_to_rounding * std::abs(other.evaluation.objective);
+  }
+
+  /// The start cannot be evaluated.
+  void begin_elsewhere() {
+    const auto [other, part] = recorded<std::optional<Eigen::VectorXd>>(
+        [&](const LimitRows& rows) { return evaluable_design(*rows.problem); });
+    total_.parts.push_back(part);
+    if (!other) {
+      total_.message +=
+          fmt::format("; nor can {} other designs between the bounds", part.evaluations);
+      return;
+    }
+    tell(fmt::format("the start cannot be evaluated: the search begins at {}",
+                     describe_design(problem_, *other)));
+    attempt({options_.backend}, *other);
+    begun_elsewhere_ = true;
+  }
+
+  std::optional<Eigen::VectorXd> evaluable_design(Problem& rows) const {
+    std::vector<Eigen::VectorXd> designs;
+    for (const double share : ways_to_the_middle) {
+      designs.push_back(start_ + share * (middle() - start_));
+    }
+    for (Eigen::VectorXd& x : latin_hypercube(problem_.variables(), samples, seed)) {
+      designs.push_back(std::move(x));
+    }
+    for (const Eigen::VectorXd& x : designs) {
+      if (attempt_evaluation(rows, x, Request::values_and_gradients).evaluation) return x;
+    }
+    return std::nullopt;
+  }
+
+  Eigen::VectorXd middle() const {
+    Eigen::VectorXd middle = start_;
+    for (Eigen::Index i = 0; i < middle.size(); ++i) {
+      const Variable& variable = problem_.variables()[static_cast<std::size_t>(i)];
+      const double centre = 0.5 * (variable.lower + variable.upper);
+      if (std::isfinite(centre)) middle[i] = centre;
+    }
+    return middle;
+  }
+
+  /// Does something with the rows of the limits, its evaluations as a part of the search.
+  template <class Outcome>
+  std::pair<Outcome, SearchPart> recorded(
+      const std::function<Outcome(const LimitRows& rows)>& work) {
+    const LimitRows rows = searched_.limit_rows();
+    const Observer observer = following_observer();
+    RecordedProblem problem(
+        *rows.problem, [&](EvaluationRecord record) { return completed(rows, std::move(record)); },
+        observer);
+    Outcome outcome = work(LimitRows{&problem, rows.constraint_of_row});
+    SearchPart part{"restoration", Status::stalled, static_cast<int>(problem.history().size())};
+    Result effort;
+    effort.history = problem.history();
+    effort.evaluations = part.evaluations;
+    effort.gradient_evaluations = effort.iterations = problem.gradient_evaluations();
+    effort.seconds = problem.seconds();
+    if (!effort.history.empty()) {
+      continue_from(total_, effort);
+      --effort.restarts;
+      total_ = with_effort_of(effort, std::move(total_));
+    }
+    return std::pair(std::move(outcome), std::move(part));
+  }
+
+  EvaluationRecord completed(const LimitRows& rows, EvaluationRecord record) const {
+    record.constraints = rows.fold(record.constraints, problem_.constraints());
+    if (magnitudes_.size() > 0) {
+      record.max_violation = max_violation(problem_, record.constraints, magnitudes_);
+    }
+    return record;
+  }
+
+  void find_magnitudes() {
+    magnitudes_ =
+        constraint_scales(problem_, total_.evaluation, variable_scales(problem_, total_.x));
+  }
+
+  /// A design within the limits.
+  std::optional<Eigen::VectorXd> restored() {
+    if (restorations_ == most_restorations) return std::nullopt;
+    ++restorations_;
+    find_magnitudes();
+    tell("no design within the limits so far: the search goes on with the limits alone");
+    const Eigen::VectorXd best = best_seen();
+    auto [inside, part] = recorded<std::optional<Eigen::VectorXd>>(
+        [&](const LimitRows& rows) { return design_inside(rows, best); });
+    part.status = inside ? Status::verified : Status::infeasible;
+    total_.parts.push_back(part);
+    return inside;
+  }
+
+  Eigen::VectorXd best_seen() const {
+    return best_record(total_.history, options_.verdict.violation).x;
+  }
+
+  std::optional<Eigen::VectorXd> design_inside(const LimitRows& rows,
+                                               const Eigen::VectorXd& best) const {
+    if (const auto inside = inside_from(*rows.problem, best)) return inside;
+    for (const Eigen::VectorXd& x : promising_designs(rows)) {
+      if (const auto inside = inside_from(*rows.problem, x, sample_budget)) return inside;
+    }
+    return std::nullopt;
+  }
+
+  static std::optional<Eigen::VectorXd> inside_from(Problem& rows, const Eigen::VectorXd& x,
+                                                    const RestorationBudget& budget = {}) {
+    const std::optional<Restored> restored = restore_limits(rows, x, budget);
+    if (!restored || !restored->keeps_limits) return std::nullopt;
+    return restored->design.x;
+  }
+
+  /// Those between the bounds that break the limits least.
+  std::vector<Eigen::VectorXd> promising_designs(const LimitRows& rows) const {
+    std::vector<std::pair<double, Eigen::VectorXd>> rated;
+    for (Eigen::VectorXd& x : latin_hypercube(problem_.variables(), samples, seed)) {
+      const Attempt attempt = attempt_evaluation(*rows.problem, x, Request::values);
+      if (!attempt.evaluation) continue;
+      const Eigen::VectorXd values =
+          rows.fold(attempt.evaluation->constraints, problem_.constraints());
+      rated.emplace_back(max_violation(problem_, values, magnitudes_), std::move(x));
+    }
+    std::stable_sort(rated.begin(), rated.end(),
+                     [](const auto& one, const auto& other) { return one.first < other.first; });
+    std::vector<Eigen::VectorXd> designs;
+    for (std::size_t i = 0; i < std::min(best_samples, rated.size()); ++i) {
+      designs.push_back(std::move(rated[i].second));
+    }
+    return designs;
+  }
+
+  /// Says what is in conflict, or goes on if after all nothing is.
+  void explain() {
+    tell("the limits seem to contradict each other: which, and by how much, is looked for");
+    const Eigen::VectorXd best = best_seen();
+    const int iterations = std::min(least_violation_iterations, options_.max_iterations);
+    auto [least, part] = recorded<LeastViolation>([&](const LimitRows& rows) {
+      return find_least_violation(rows, problem_.constraints(), best, iterations);
+    });
+    part.method = "least violation";
+    part.status = least.is_proven ? Status::verified : Status::stalled;
+    total_.parts.push_back(part);
+    if (!(least.violation > options_.verdict.violation)) {
+      attempt({options_.backend}, least.x);
+      if (!is_outside()) return;
+    }
+    settle_at(best_seen());
+    if (total_.max_violation < (1.0 - 1e-3) * least.violation) least.is_proven = false;
+    conclude(std::move(least));
+  }
+
+  void conclude(LeastViolation least) {
+    std::string conflict = describe(least, problem_);
+    if (least.is_proven && !conflict.empty()) {
+      total_.status = Status::infeasible;
+      total_.message =
+          fmt::format("no design keeps all limits, as far as local searches see: {}", conflict);
+    } else {
+      if (conflict.empty()) {
+        conflict = broken_limits(problem_, total_.evaluation.constraints, magnitudes_,
+                                 options_.verdict.violation);
+      }
+      total_.status = Status::stalled;
+      total_.message = fmt::format(
+          "no design that keeps all limits was found, which does not prove that there is none. Of "
+          "those seen, this one breaks them least ({:.2g} relative): {}",
+          total_.max_violation, conflict);
+    }
+    total_.least_violation = std::move(least);
+  }
+
+  /// Makes this design the answer, of which nothing is proven.
+  void settle_at(const Eigen::VectorXd& x) {
+    if (x == total_.x) return;
+    Attempt attempt = attempt_evaluation(problem_, x, Request::values_and_gradients);
+    if (!attempt.evaluation) return;
+    total_.x = x;
+    total_.evaluation = std::move(*attempt.evaluation);
+    total_.max_violation = max_violation(problem_, total_.evaluation.constraints, magnitudes_);
+    const KktAudit audit = audit_kkt(problem_, {x, total_.evaluation, total_.max_violation},
+                                     total_.evaluation, magnitudes_);
+    total_.kkt_residual = audit.residual;
+    total_.bound_multipliers = audit.bound_multipliers;
+    total_.constraint_multipliers = Eigen::VectorXd::Zero(magnitudes_.size());
+  }
+
+  /// What led to the answer, if that was more than one run of one backend.
+  void tell_of_parts() {
+    if (begun_elsewhere_) {
+      total_.message += "; the start cannot be evaluated, the search began at " +
+                        describe_design(problem_, first_design(total_.history).x);
+    }
+    if (total_.parts.size() < 2 || !is_verified()) return;
+    std::vector<std::string> before;
+    for (std::size_t i = 0; i + 1 < total_.parts.size(); ++i) {
+      before.push_back(total_.parts[i].method);
+    }
+    total_.message +=
+        fmt::format("; found with {} after {}", total_.backend, fmt::join(before, ", "));
+  }
+
+  SearchedProblem& searched_;
+  Problem& problem_;
+  const SolveOptions& options_;
+  const Observer& observer_;
+  const Notice& notice_;
+  const Eigen::VectorXd start_;
+  std::vector<Way> ways_;
+  std::size_t next_way_ = 0;
+  int restorations_ = 0;
+  bool begun_elsewhere_ = false;
+  Eigen::VectorXd magnitudes_;  ///< of the constraints; empty before the first restoration
+  Result total_;
+};
+
+/// A problem that begins at another design.
+class StartedProblem : public Problem {
+ public:
+  StartedProblem(Problem& problem, const Eigen::VectorXd& start)
+      : problem_(problem), variables_(problem.variables()) {
+    for (std::size_t i = 0; i < variables_.size(); ++i) {
+      variables_[i].start = start[static_cast<Eigen::Index>(i)];
+    }
+  }
+
+  const std::vector<Variable>& variables() const override { return variables_; }
+  const std::vector<Constraint>& constraints() const override { return problem_.constraints(); }
+  std::string objective_name() const override { return problem_.objective_name(); }
+  std::string variable_text(std::size_t variable, double value) const override {
+    return problem_.variable_text(variable, value);
+  }
+  std::string constraint_text(std::size_t constraint, double value) const override {
+    return problem_.constraint_text(constraint, value);
+  }
+  Evaluation evaluate(const Eigen::VectorXd& x, Request request) override {
+    return problem_.evaluate(x, request);
+  }
+
+ private:
+  Problem& problem_;
+  std::vector<Variable> variables_;
+};
+
+class SmoothProblem : public SearchedProblem {
+ public:
+  explicit SmoothProblem(Problem& problem) : problem_(problem) {}
+
+  Problem& problem() override { return problem_; }
+
+  Result attempt(const Eigen::VectorXd& start, const SolveOptions& options,
+                 const Observer& observer) override {
+    StartedProblem started(problem_, start);
+    return solve(started, options, observer);
+  }
+
+  LimitRows limit_rows() override {
+    LimitRows rows{&problem_, {}};
+    for (std::size_t i = 0; i < problem_.constraints().size(); ++i) {
+      rows.constraint_of_row.push_back(i);
+    }
+    return rows;
+  }
+
+ private:
+  Problem& problem_;
+};
+
+}  // namespace
+
+Result find_optimum(SearchedProblem& searched, const SolveOptions& options,
+                    const Observer& observer, const Notice& notice) {
+  return Search(searched, options, observer, notice).run();
+}
+
+Result find_optimum(Problem& problem, const SolveOptions& options, const Observer& observer,
+                    const Notice& notice) {
+  SmoothProblem searched(problem);
+  return find_optimum(searched, options, observer, notice);
+}
+
+}  // namespace pleuel

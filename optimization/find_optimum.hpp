@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "optimization/least_violation.hpp"
+#include "optimization/solve.hpp"
+
+namespace pleuel {
+
+/// Hears what the run decides on its way: a sentence.
+using Notice = std::function<void(const std::string&)>;
+
+/// What find_optimum() searches.
+class SearchedProblem {
+ public:
+  virtual ~SearchedProblem() = default;
+
+  /// Its variables begin where the search begins.
+  virtual Problem& problem() = 0;
+  /// Optimizes from a design with the backend of the options.
+  virtual Result attempt(const Eigen::VectorXd& start, const SolveOptions& options,
+                         const Observer& observer) = 0;
+  /// The limits as rows that are smooth; valid until the next call of anything here.
+  virtual LimitRows limit_rows() = 0;
+};
+
+/// The search for an optimum from any start: a sequence of attempts, each from where the ones before
+/// have led, until an optimum is verified, nothing is left to try, or the iterations are used up.
+///
+/// - A start that cannot be evaluated is left for the nearest design towards the middle of the
+///   bounds that can, or for one anywhere between them.
+/// - A backend that leads to no design within the limits begins anew from one that restoration.hpp
+///   finds, from the design that breaks the limits least, or from others between the bounds.
+/// - Where restoration finds none, the least violation and the limits in conflict are found
+///   (least_violation.hpp). Only with this evidence a problem is called infeasible.
+/// - A backend that ends within the limits without a proof is followed by SolveOptions::
+///   other_backends, and by itself with shorter first steps.
+///
+/// The answer is the best design of all attempts; Result::backend found it, and Result::parts tells
+/// what was tried.
+/// @throws as solve()
+Result find_optimum(SearchedProblem& searched, const SolveOptions& options,
+                    const Observer& observer = {}, const Notice& notice = {});
+
+/// The same for a problem that is smooth as it is.
+Result find_optimum(Problem& problem, const SolveOptions& options, const Observer& observer = {},
+                    const Notice& notice = {});
+
+}  // namespace pleuel

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "optimization/staged_solve.hpp"
+
+/// Optimization from several designs: local methods find the optimum of the basin that they begin
+/// in.
+namespace pleuel {
+
+/// What the search from one design came to.
+struct StartRun {
+  Eigen::VectorXd start;  ///< [SI]
+  Status status = Status::failed;
+  double objective = 0.0;      ///< [SI]; meaningless if the start failed
+  double max_violation = 0.0;  ///< relative
+  int evaluations = 0;
+  std::optional<std::size_t> optimum;  ///< index in MultiStart::optima
+};
+
+/// A local optimum, found from one or several designs.
+struct LocalOptimum {
+  Eigen::VectorXd x;                ///< [SI]
+  double objective = 0.0;           ///< [SI]
+  std::vector<std::size_t> starts;  ///< indices in MultiStart::runs
+};
+
+struct MultiStart {
+  StagedSolution best;  ///< with the effort and the history of all
+  std::vector<StartRun> runs;
+  std::vector<LocalOptimum> optima;  ///< distinct ones, the best first
+};
+
+/// The designs that a file asks for: `first`, then those that it gives, or a Latin hypercube between
+/// the bounds (starts.hpp). The same every time.
+/// @param count  how many in all; of a file that gives designs these are all taken
+std::vector<Eigen::VectorXd> starts_of(const ProblemFile& file, const Eigen::VectorXd& first,
+                                       int count);
+
+/// Puts the searches from several designs together: which optima are distinct (objectives further
+/// apart than 0.1 %, or variables by more than 2 % of their magnitude), how often each was found,
+/// and the best: proven before unproven, within the limits before outside.
+/// @param solutions  one a start; the problems of all but the best are not needed
+MultiStart combined(const std::vector<Eigen::VectorXd>& starts,
+                    std::vector<StagedSolution> solutions);
+
+/// solve_in_stages() from each design, one after the other, each independent of the others.
+/// @throws as solve()
+MultiStart solve_from_starts(const ProblemFile& file, const std::vector<Eigen::VectorXd>& starts,
+                             SolveOptions options, int threads, const Observer& observer = {},
+                             const Notice& notice = {});
+
+}  // namespace pleuel

@@ -1,0 +1,42 @@
+#include "optimization/recorded_problem.hpp"
+
+#include <utility>
+
+namespace pleuel {
+
+Evaluation RecordedProblem::evaluate(const Eigen::VectorXd& x, Request request) {
+  gradients_ += request == Request::values_and_gradients ? 1 : 0;
+  try {
+    Evaluation evaluation = problem_.evaluate(x, request);
+    record(x, request, &evaluation, "");
+    return evaluation;
+  } catch (const SimulationError& error) {
+    record(x, request, nullptr, error.what());
+    throw;
+  }
+}
+
+double RecordedProblem::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+void RecordedProblem::record(const Eigen::VectorXd& x, Request request,
+                             const Evaluation* evaluation, const std::string& failure) {
+  EvaluationRecord record;
+  record.evaluation = static_cast<int>(history_.size()) + 1;
+  record.iteration = gradients_;
+  record.purpose = Purpose::restoration;
+  record.request = request;
+  record.x = x;
+  record.failure = failure;
+  record.seconds = seconds();
+  if (evaluation != nullptr) {
+    record.objective = evaluation->objective;
+    record.constraints = evaluation->constraints;
+    record = completed_(std::move(record));
+  }
+  history_.push_back(std::move(record));
+  if (observer_) observer_(history_.back());
+}
+
+}  // namespace pleuel

@@ -1,0 +1,157 @@
+#include "optimization/elastic_problem.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "complex_step.hpp"
+#include "known_problems.hpp"
+#include "optimization/least_violation.hpp"
+#include "optimization/restoration.hpp"
+#include "optimization/scaling.hpp"
+
+namespace pleuel::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// f = −a under a + b ≤ 1, a ≥ 2 and b ≤ 3, in 0 ≤ a, b ≤ 10: the first two contradict each other.
+/// With magnitudes 1, 2, 3 the largest relative violation is least where b = 0 and
+/// a − 1 = (2 − a) / 2, which is 1/3 at a = 4/3.
+FunctionProblem contradictory() {
+  return {{{"a", 5.0, 0.0, 10.0}, {"b", 5.0, 0.0, 10.0}},
+          {{"sum", -infinity, 1.0}, {"length", 2.0, infinity}, {"width", -infinity, 3.0}},
+          by_complex_step([](const auto& x) {
+            Vector<std::decay_t<decltype(x[0])>> result(4);
+            result << -x[0], x[0] + x[1], x[0], x[1];
+            return result;
+          })};
+}
+
+LimitRows rows_of(Problem& problem) {
+  LimitRows rows{&problem, {}};
+  for (std::size_t i = 0; i < problem.constraints().size(); ++i) {
+    rows.constraint_of_row.push_back(i);
+  }
+  return rows;
+}
+
+LeastViolation least_violation_of(Problem& problem) {
+  return find_least_violation(rows_of(problem), problem.constraints(), checked_start(problem), 60);
+}
+
+TEST(DampedViolation, HasTheSlopeOfDifferencesAndAnInverse) {
+  for (const double g : {-3.0, -0.1, 0.2, 5.0, 400.0}) {
+    const double h = 1e-6 * std::max(1.0, std::abs(g));
+    const double difference = (damped_violation(g + h) - damped_violation(g - h)) / (2.0 * h);
+    // Central differences of a smooth function of order one: 1e-10 of rounding over h.
+    EXPECT_NEAR(damped_violation_slope(g), difference, 1e-8);
+    EXPECT_NEAR(undamped_violation(damped_violation(g)), g, 1e-12 * std::abs(g));
+  }
+}
+
+TEST(ElasticProblem, HasTheGradientsOfDifferences) {
+  KnownProblem known = hs043();
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(4, 0.4, 1.9);  // no g is 0
+  const Evaluation at_x = known.problem.evaluate(x, Request::values_and_gradients);
+  ElasticProblem elastic(known.problem, {true, false, true}, x, at_x, Eigen::Vector3d(2, 3, 4));
+  Eigen::VectorXd xz(5);
+  xz << x, 0.7;
+  const Evaluation exact = elastic.evaluate(xz, Request::values_and_gradients);
+  for (Eigen::Index i = 0; i < xz.size(); ++i) {
+    const Eigen::VectorXd step = 1e-6 * Eigen::VectorXd::Unit(5, i);
+    const Evaluation above = elastic.evaluate(xz + step, Request::values);
+    const Evaluation below = elastic.evaluate(xz - step, Request::values);
+    const Eigen::VectorXd slopes = (above.constraints - below.constraints) / 2e-6;
+    EXPECT_LT((slopes - exact.constraint_jacobian.col(i)).norm(), 1e-8);
+    EXPECT_EQ(exact.objective_gradient(i), i == 4 ? 1.0 : 0.0);
+  }
+}
+
+TEST(LeastViolation, IsThatOfTheClosedForm) {
+  FunctionProblem problem = contradictory();
+  const LeastViolation least = least_violation_of(problem);
+  EXPECT_TRUE(least.is_proven);
+  EXPECT_NEAR(least.violation, 1.0 / 3.0, 1e-5);
+  EXPECT_NEAR(least.x[0], 4.0 / 3.0, 1e-5);
+  EXPECT_NEAR(least.x[1], 0.0, 1e-5);
+}
+
+// Alone the sum has to be 2, or the length may be 1; the width is in nobody's way.
+TEST(LeastViolation, NamesTheLimitsInConflictAndWhatEachWouldHaveToBe) {
+  FunctionProblem problem = contradictory();
+  const LeastViolation least = least_violation_of(problem);
+  ASSERT_EQ(least.limits.size(), 2u);
+  for (const ExceededLimit& limit : least.limits) {
+    EXPECT_TRUE(limit.is_in_conflict);
+    EXPECT_EQ(limit.is_upper, limit.constraint == 0);
+    EXPECT_NEAR(limit.together, 4.0 / 3.0, 1e-4);
+    ASSERT_TRUE(limit.alone.has_value());
+    EXPECT_NEAR(*limit.alone, limit.constraint == 0 ? 2.0 : 1.0, 1e-3);
+  }
+  const std::string text = describe(least, problem);
+  EXPECT_THAT(text, HasSubstr("sum ≤ 1"));
+  EXPECT_THAT(text, HasSubstr("length ≥ 2"));
+  EXPECT_THAT(text, HasSubstr("33.3 %"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("width")));
+}
+
+// At full width everywhere the deflection is Σ aᵢ / 1000 = 0.125.
+TEST(LeastViolation, OfASingleLimitIsWhatIsPossible) {
+  KnownProblem known = cantilever(0.1);
+  const LeastViolation least = least_violation_of(known.problem);
+  EXPECT_TRUE(least.is_proven);
+  ASSERT_EQ(least.limits.size(), 1u);
+  EXPECT_NEAR(least.limits.front().alone.value(), 0.125, 1e-6);
+  EXPECT_THAT(describe(least, known.problem), HasSubstr("deflection ≤ 0.125"));
+}
+
+TEST(LeastViolation, OfAProblemThatHasADesignIsNone) {
+  KnownProblem known = hs100();
+  const LeastViolation least = least_violation_of(known.problem);
+  EXPECT_LE(least.violation, 1e-4);
+}
+
+// Stresses of round bars, ∝ d⁻³: 1e9 times too high at the start, a straight line in logarithms.
+TEST(Restoration, OfPowersTakesAFewSteps) {
+  FunctionProblem problem({{"a", 0.01, 0.01, 100.0}, {"b", 0.01, 0.01, 100.0}},
+                          {{"one", -infinity, 1.0}, {"two", -infinity, 1.0}},
+                          by_complex_step([](const auto& x) {
+                            using Scalar = std::decay_t<decltype(x[0])>;
+                            const Scalar a = x[0] * x[0] * x[0], b = x[1] * x[1] * x[1];
+                            Vector<Scalar> result(3);
+                            result << x[0] + x[1], 1e3 / a, 1e3 / (a * b);
+                            return result;
+                          }));
+  int evaluations = 0;
+  FunctionProblem counted(problem.variables(), problem.constraints(),
+                          [&](const Eigen::VectorXd& x, Request request) {
+                            ++evaluations;
+                            return problem.evaluate(x, request);
+                          });
+  const auto restored = restore_limits(counted, checked_start(counted));
+  ASSERT_TRUE(restored.has_value());
+  EXPECT_TRUE(restored->keeps_limits);
+  // ln 10 / 0.01 is 6.9, in steps of 0.7, 1.4, 2, 2, 2; two evaluations each.
+  EXPECT_LE(evaluations, 14);
+}
+
+TEST(Restoration, KeepsEqualitiesToo) {
+  KnownProblem known = hs071();
+  const auto restored = restore_limits(known.problem, Eigen::Vector4d(4, 1, 2, 3));
+  ASSERT_TRUE(restored.has_value());
+  EXPECT_TRUE(restored->keeps_limits);
+  EXPECT_NEAR(restored->design.x.squaredNorm(), 40.0, 1e-5);
+}
+
+TEST(Restoration, OfAStartThatFailsIsNone) {
+  FunctionProblem problem({{"a", 1.0, 0.0, 2.0}}, {{"c", -infinity, 0.0}},
+                          [](const Eigen::VectorXd&, Request) -> Evaluation {
+                            throw EvaluationFailure("no equilibrium");
+                          });
+  EXPECT_FALSE(restore_limits(problem, Eigen::VectorXd::Ones(1)).has_value());
+}
+
+}  // namespace
+}  // namespace pleuel::test
