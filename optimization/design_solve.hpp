@@ -6,11 +6,12 @@
 
 namespace pleuel {
 
-/// find_optimum() for a problem file. Each attempt is first one with its constraints as they are; if that ends without a
-/// verified optimum, the maximum of some response has a kink there more often than not, and the
-/// backend goes on with each peak over time window by window, that of the objective too
-/// (peak_problem.hpp); not so from far outside the limits. Result, history and observer speak of the objective and the constraints of
-/// the file. Where no optimum is verified, the message names the peaks that tie.
+/// find_optimum() for a problem file. Each attempt runs first with its constraints as they are; if
+/// that ends without a verified optimum, but not far outside the limits, the maximum of some
+/// response has a kink there more often than not, and the backend goes on with each peak over time
+/// window by window and place by place, that of the objective too (peak_problem.hpp). Result,
+/// history and observer speak of the objective and the constraints of the file. Where no optimum is
+/// verified, the message names the peaks that tie.
 /// @throws as solve()
 Result solve_design(DesignProblem& problem, const SolveOptions& options,
                     const Observer& observer = {}, const Notice& notice = {});

@@ -209,6 +209,13 @@ std::string changed_text(const Problem& problem, const ExceededLimit& one, doubl
   return limit_text(problem, one, rounded_outward(value, one.is_upper));
 }
 
+/// "by 25.0 %", "by 340 times the limit"
+std::string violation_text(double violation) {
+  constexpr double hard_to_read = 10.0;
+  return violation < hard_to_read ? "by " + percent(violation)
+                                  : fmt::format("by {:.3g} times the limit", violation);
+}
+
 std::string joined(const std::vector<std::string>& texts, const std::string& last) {
   if (texts.size() == 1) return texts.front();
   const std::vector<std::string> first(texts.begin(), texts.end() - 1);
@@ -246,8 +253,8 @@ std::string describe(const LeastViolation& least, const Problem& problem) {
   }
   std::string text = joined(conflict, " and ") + " cannot be kept";
   if (conflict.size() > 1) text += " at once";
-  text += fmt::format("; this design breaks its limits least, by {}{}", percent(least.violation),
-                      least.limits.size() > 1 ? " at most" : "");
+  text += fmt::format("; this design breaks its limits least, {}{}",
+                      violation_text(least.violation), least.limits.size() > 1 ? " at most" : "");
   if (!alone.empty()) text += ". One change would do: " + joined(alone, ", or ");
   if (!alone.empty() && least.limits.size() == 1) return text;
   text += alone.empty() ? ". What would do together: " : "; or all of these: ";
