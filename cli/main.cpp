@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "cli/commands.hpp"
-#include "cli/console.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/text/console.hpp"
 #include "cli/interruption.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stop.hpp"

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "cli/log_log_chart.hpp"
+#include "cli/text/log_log_chart.hpp"
 #include "tests/cli/readback.hpp"
 #include "tests/cli/svg_text.hpp"
 

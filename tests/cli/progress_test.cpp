@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "cli/progress_line.hpp"
+#include "cli/commands/progress_line.hpp"
 #include "tests/cli/program.hpp"
 
 namespace pleuel::test {

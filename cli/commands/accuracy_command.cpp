@@ -1,0 +1,177 @@
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "cli/reports/accuracy_charts.hpp"
+#include "cli/files/accuracy_csv.hpp"
+#include "cli/reports/accuracy_document.hpp"
+#include "cli/reports/accuracy_report.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/text/console.hpp"
+#include "cli/files/output_file.hpp"
+#include "cli/commands/progress_line.hpp"
+#include "cli/files/run_picture.hpp"
+#include "cli/files/run_record.hpp"
+#include "cli/input/solve_settings.hpp"
+#include "cli/reports/warnings.hpp"
+#include "core/base/error.hpp"
+#include "core/base/number_text.hpp"
+#include "core/base/stop.hpp"
+#include "core/base/stopwatch.hpp"
+#include "studies/accuracy.hpp"
+#include "studies/accuracy_grid.hpp"
+#include "studies/accuracy_optimum.hpp"
+
+namespace pleuel {
+
+namespace {
+
+std::string run_line(const std::string& setting, double seconds, const std::string& failure) {
+  return fmt::format("  {}: {}", setting, failure.empty() ? duration(seconds) : "failed");
+}
+
+/// Elements by steps, which times go with.
+double work_of(const Discretization& settings) {
+  return (settings.elements > 0 ? settings.elements : settings.factor) / settings.step;
+}
+
+/// How long the runs of the grid still take: a guess from the work of the reference, put right by
+/// how long those took that are done. Short runs are repeated until some half a second is full.
+class GridProgress {
+ public:
+  GridProgress(const ProblemFile& problem, ProgressLine& line)
+      : line_(line), grid_(accuracy_grid(problem)) {}
+
+  void see(const AccuracyRun& run) {
+    if (!begin_) {
+      begin_.emplace();
+      seconds_a_work_ = run.seconds() / work_of(run.settings);
+    } else {
+      ++done_;
+    }
+    double guess_done = 0.0, guess_left = 0.0;
+    for (std::size_t i = 0; i < grid_.size(); ++i) {
+      (i < done_ ? guess_done : guess_left) += guess(grid_[i]);
+    }
+    const double ratio = done_ > 0 ? begin_->seconds() / guess_done : 1.0;
+    line_.expect(fmt::format("{} of {} runs", done_, grid_.size()), ratio * guess_left);
+  }
+
+ private:
+  double guess(const Discretization& settings) const {
+    return std::max(0.6, 2.0 * seconds_a_work_ * work_of(settings));
+  }
+
+  ProgressLine& line_;
+  std::vector<Discretization> grid_;
+  std::optional<Stopwatch> begin_;  ///< with the reference
+  std::size_t done_ = 0;
+  double seconds_a_work_ = 0.0;
+};
+
+/// Writes accuracy.csv from the first result on, and tells what is done.
+AccuracyObserver make_observer(const ProblemFile& problem, RunRecord& record,
+                               std::optional<AccuracyCsv>& csv, ProgressLine& progress,
+                               GridProgress& grid) {
+  AccuracyObserver observer;
+  observer.run = [&](const AccuracyRun& run) {
+    if (!csv) csv.emplace(record.result("accuracy.csv"), problem);
+    csv->add(run);
+    progress.print(run_line(setting_text(run.settings), run.seconds(), run.failure));
+    grid.see(run);
+  };
+  observer.variation = [&](const VariedRun& one) {
+    progress.print(run_line(variation_text(one.variation), one.run.seconds(), one.run.failure));
+    progress.show_share("other knobs and effects", 0.0);
+  };
+  return observer;
+}
+
+/// The optimum with the setting of the file: that of --design, or what is found from the start.
+Eigen::VectorXd find_optimal_design(const ProblemInput& input, const Arguments& arguments) {
+  if (arguments.design) return input.design;
+  const Result result = plain_optimum(input.problem, solve_options(input.problem, arguments));
+  if (result.status == Status::interrupted) throw Stopped{};
+  if (result.x.size() == 0 || result.status == Status::failed) {
+    throw SimulationError("there is no optimum to look at: " + result.message);
+  }
+  show(stderr,
+       fmt::format("  optimum with the setting of the file: {}\n", to_string(result.status)));
+  return result.x;
+}
+
+/// What the command found.
+struct Answer {
+  AccuracyStudy study;
+  std::optional<OptimumStudy> optima;
+
+  bool is_interrupted() const { return study.is_interrupted || (optima && optima->is_interrupted); }
+};
+
+Answer find_answer(const ProblemInput& input, const Arguments& arguments, RunRecord& record) {
+  const ProblemFile& problem = input.problem;
+  if (arguments.wants_optimum) record.begin_phase("optimize");
+  const Eigen::VectorXd x =
+      arguments.wants_optimum ? find_optimal_design(input, arguments) : input.design;
+  record.begin_phase("accuracy");
+  const PricedDesign design(problem, x);
+  std::optional<AccuracyCsv> csv;
+  ProgressLine progress(arguments, "the reference");
+  GridProgress grid(problem, progress);
+  const AccuracyObserver observer = make_observer(problem, record, csv, progress, grid);
+  Answer answer{accuracy_study(problem, design, observer), std::nullopt};
+  vary_settings(problem, design, answer.study, observer);
+  if (!arguments.wants_optimum || answer.study.is_interrupted) return answer;
+  record.begin_phase("optima");
+  progress.show_share("optimizations", 0.0);
+  answer.optima = optimum_study(
+      problem, x, answer.study, solve_options(problem, arguments), [&](const OptimumRun& run) {
+        progress.print(
+            run_line("optimum with " + setting_text(run.settings), run.seconds, run.failure));
+      });
+  return answer;
+}
+
+/// Writes the diagrams that there are numbers for; their names, for people.
+std::string write_charts(const ProblemFile& problem, const Answer& answer, RunRecord& record) {
+  std::string names;
+  const auto write = [&](const char* name, const LogLogChart& chart) {
+    write_file(record.result(name), to_svg(chart));
+    names += fmt::format("{}, ", name);
+  };
+  write("accuracy.svg", value_chart(problem, answer.study));
+  if (!problem.variables.empty()) {
+    write("accuracy-gradients.svg", gradient_chart(problem, answer.study));
+  }
+  if (answer.optima && !answer.optima->reference.has_failed()) {
+    write("accuracy-optimum.svg", optimum_chart(problem, *answer.optima));
+  }
+  return names;
+}
+
+}  // namespace
+
+Outcome run_accuracy(const Arguments& arguments) {
+  const ProblemInput input = read_input(arguments);
+  const ProblemFile& problem = input.problem;
+  RunRecord record(arguments, input,
+                   arguments.wants_optimum
+                       ? options_document(solve_options(problem, arguments), problem)
+                       : Json::object());
+  show_warnings_before(problem);
+  const Answer answer = find_answer(input, arguments, record);
+  const OptimumStudy* optima = answer.optima ? &*answer.optima : nullptr;
+  Outcome outcome{answer.is_interrupted() ? ExitCode::not_verified : ExitCode::done,
+                  accuracy_document(input, answer.study),
+                  accuracy_text(problem, answer.study, optima)};
+  if (optima != nullptr) add_optima(input, *optima, outcome.document);
+  if (answer.is_interrupted()) outcome.document["status"] = study_status(false);
+  outcome.text += fmt::format("\nWritten to {}: accuracy.csv, {}result.json, run_card.json\n",
+                              record.folder().string(), write_charts(problem, answer, record));
+  record.show_picture([&] { return run_picture(input.problem, {{"start", input.design}}); });
+  record.finish(outcome);
+  return outcome;
+}
+
+}  // namespace pleuel

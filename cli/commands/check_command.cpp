@@ -1,0 +1,183 @@
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "cli/reports/analysis_report.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/reports/derivative_report.hpp"
+#include "cli/reports/effects_report.hpp"
+#include "cli/reports/monitors_report.hpp"
+#include "cli/input/problem_input.hpp"
+#include "cli/commands/progress_line.hpp"
+#include "cli/files/run_picture.hpp"
+#include "cli/files/run_record.hpp"
+#include "cli/reports/scene_report.hpp"
+#include "cli/reports/ties.hpp"
+#include "cli/reports/warnings.hpp"
+#include "cli/text/wrapped_text.hpp"
+#include "core/base/number_text.hpp"
+#include "core/base/stop.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/scene/body_rules.hpp"
+#include "core/trust/doubts.hpp"
+#include "sensitivity/gradients.hpp"
+#include "studies/derivative_check.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Of the differences that derivatives are verified by; more where these cannot tell.
+constexpr int usual_difference_steps = 4;
+
+struct Examination {
+  std::unique_ptr<Analysis> analysis;
+  Freedoms freedoms;
+  double simulation_seconds = 0.0, gradient_seconds = 0.0;
+  Ties ties;
+  std::vector<EffectInfluence> influences;
+  std::optional<DesignInfluence> influence;  ///< likewise
+  std::vector<DerivativeCheck> derivatives;  ///< empty without variables
+  bool is_interrupted = false;               ///< before the derivatives were verified
+  std::vector<std::string> warnings;
+};
+
+Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
+                    const Arguments& arguments) {
+  Examination findings;
+  const auto warn = [&](const std::vector<std::string>& sentences) {
+    findings.warnings.insert(findings.warnings.end(), sentences.begin(), sentences.end());
+  };
+  warn(impossible_corners(problem));
+  const Stopwatch simulation;
+  findings.analysis = analyze(problem, x);
+  findings.simulation_seconds = simulation.seconds();
+  State initial;
+  findings.analysis->trajectory.states->load(0, initial);
+  findings.freedoms = rigid_freedoms(findings.analysis->model.mechanism, initial);
+  findings.ties = find_ties(*findings.analysis);
+  warn(texts_of(find_doubts(problem, x, *findings.analysis)));
+  ProgressLine progress(arguments, "measuring effects");
+  try {
+    findings.influences = effect_influences(problem, x);
+  } catch (const Stopped&) {
+    findings.is_interrupted = true;
+    return findings;
+  }
+  if (problem.variables.empty() || problem.responses.empty()) return findings;
+  const Stopwatch gradient;
+  findings.influence = DesignInfluence{direct_gradients(*findings.analysis)};
+  findings.gradient_seconds = gradient.seconds();
+  DerivativeCheckOptions options;
+  options.threads = arguments.jobs;
+  // Each variable takes two simulations a step of the differences.
+  const double seconds_a_step =
+      2.0 * double(x.size()) * findings.simulation_seconds / std::max(1, arguments.jobs);
+  int left = usual_difference_steps;
+  options.see_step = [&](double step) {
+    const std::string line =
+        fmt::format("verifying derivatives by central differences, step {:g} …", step);
+    if (!progress.is_shown()) progress.print(line);
+    progress.expect(line, std::max(1, left--) * seconds_a_step);
+  };
+  try {
+    findings.derivatives = check_derivatives(problem, x, *findings.analysis, options);
+  } catch (const Stopped&) {
+    findings.is_interrupted = true;
+  }
+  warn(noise_warnings(problem, *findings.analysis, findings.derivatives));
+  return findings;
+}
+
+Json responses_with_verdicts(const ProblemFile& problem, const Examination& findings) {
+  Json document = responses_document(*findings.analysis);
+  for (std::size_t i = 0; i < findings.derivatives.size(); ++i) {
+    document[findings.analysis->responses[i].name]["derivatives"] =
+        derivative_document(problem, findings.derivatives[i]);
+  }
+  for (std::size_t i = 0; i < findings.ties.size(); ++i) {
+    if (!findings.ties[i]) continue;
+    const Response& response = findings.analysis->responses[i];
+    document[response.name]["tie"] = tie_document(*findings.ties[i], response);
+  }
+  return document;
+}
+
+Json check_document(const ProblemFile& problem, const Examination& findings) {
+  const Analysis& analysis = *findings.analysis;
+  Json document = {{"status", study_status(!findings.is_interrupted)},
+                   {"name", problem.name},
+                   {"bodies", bodies_document(analysis.model)},
+                   {"coordinates", analysis.model.mechanism.system->coordinates()},
+                   {"multipliers", analysis.model.mechanism.system->multipliers()},
+                   {"rigid_motion", freedoms_document(findings.freedoms, analysis.model)},
+                   {"steps", analysis.trajectory.steps()},
+                   {"effects", effects_document(problem, analysis.model, findings.influences)},
+                   {"variables", variables_document(problem)},
+                   {"responses", responses_with_verdicts(problem, findings)},
+                   {"warnings", findings.warnings},
+                   {"seconds", {{"simulate", findings.simulation_seconds}}}};
+  if (!findings.derivatives.empty()) document["seconds"]["direct"] = findings.gradient_seconds;
+  return document;
+}
+
+std::string time_text(const ProblemFile& problem, const Examination& findings) {
+  std::string text = "\nTime: one simulation " + duration(findings.simulation_seconds);
+  if (findings.derivatives.empty()) return text + "\n";
+  text += ", its gradients " + duration(findings.gradient_seconds) + " more";
+  if (problem.objective) {
+    const double iteration = findings.simulation_seconds + findings.gradient_seconds;
+    text += fmt::format("; an optimization of 20 to 50 iterations takes about {} to {}",
+                        duration(20 * iteration), duration(50 * iteration));
+  }
+  return wrapped(text, "  ") + "\n";
+}
+
+std::string make_text(const ProblemFile& problem, const Examination& findings) {
+  const Analysis& analysis = *findings.analysis;
+  std::string text =
+      findings.is_interrupted ? "INTERRUPTED before the derivatives were verified\n\n" : "";
+  text +=
+      fmt::format("{}: a valid problem\n{}\n\n{}\n{}", problem.name, size_text(analysis),
+                  bodies_text(analysis.model) + "\n" +
+                      freedoms_text(findings.freedoms, analysis.model) + assembly_text(analysis),
+                  effects_text(analysis.model));
+  if (!findings.influences.empty()) {
+    text += "\n" + influences_text(problem, values_of(analysis), findings.influences);
+  }
+  if (!problem.variables.empty()) text += "\n" + variables_text(problem);
+  text += "\n" + (findings.derivatives.empty()
+                      ? responses_text(problem, analysis)
+                      : derivatives_text(problem, analysis, findings.derivatives));
+  text += ties_text(findings.ties, analysis);
+  if (!findings.warnings.empty()) text += "\n" + warnings_text(findings.warnings);
+  return text + time_text(problem, findings);
+}
+
+}  // namespace
+
+Outcome run_check(const Arguments& arguments) {
+  const ProblemInput input = read_input(arguments);
+  const ProblemFile& problem = input.problem;
+  show_warnings_before(problem);
+  std::optional<RunRecord> record;  // before the work: the folder may not be free
+  if (arguments.output) record.emplace(arguments, input, Json::object());
+  const Examination findings = examine(problem, input.design, arguments);
+  Outcome outcome{findings.is_interrupted ? ExitCode::not_verified : ExitCode::done,
+                  check_document(problem, findings), make_text(problem, findings)};
+  if (!record) return outcome;
+  record->show_picture([&] {
+    return run_picture(problem, {{arguments.design ? "design" : "start",
+                                  input.design,
+                                  findings.analysis.get(),
+                                  {},
+                                  findings.influence ? &*findings.influence : nullptr}});
+  });
+  outcome.text +=
+      fmt::format("Written to {}: result.json, run_card.json\n", record->folder().string());
+  record->finish(outcome);
+  return outcome;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,321 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "cli/reports/analysis_report.hpp"
+#include "cli/commands/accurate_input.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/files/gradients_csv.hpp"
+#include "cli/commands/progress_line.hpp"
+#include "cli/files/run_picture.hpp"
+#include "cli/files/run_record.hpp"
+#include "cli/text/table.hpp"
+#include "cli/reports/ties.hpp"
+#include "cli/files/trajectory_csv.hpp"
+#include "cli/reports/warnings.hpp"
+#include "core/base/error.hpp"
+#include "core/base/number_text.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/scene/shown_unit.hpp"
+#include "core/trust/doubts.hpp"
+#include "sensitivity/gradients.hpp"
+#include "sensitivity/method_choice.hpp"
+#include "studies/method_comparison.hpp"
+
+namespace pleuel {
+
+namespace {
+
+struct MethodResult {
+  GradientMethod method;
+  Eigen::MatrixXd gradients;  ///< responses × variables [SI]
+  double seconds = 0.0;
+};
+
+std::vector<GradientMethod> chosen_methods(const Arguments& arguments, const ProblemFile& problem) {
+  std::vector<GradientMethod> methods;
+  for (const std::string& name : arguments.methods) methods.push_back(gradient_method(name));
+  if (methods.empty()) methods.push_back(problem.sensitivity.method);
+  return methods;
+}
+
+/// Replaces "auto" by what it chooses.
+std::optional<MethodChoice> resolve(Analysis& analysis, std::vector<GradientMethod>& methods) {
+  const auto found = std::find(methods.begin(), methods.end(), GradientMethod::automatic);
+  if (found == methods.end()) return std::nullopt;
+  const MethodChoice choice = choose_method(analysis, response_values(analysis));
+  const auto chosen =
+      choice.method == ExactMethod::direct ? GradientMethod::direct : GradientMethod::adjoint;
+  *found = chosen;
+  if (std::count(methods.begin(), methods.end(), chosen) > 1) methods.erase(found);
+  return choice;
+}
+
+/// How long a method takes, in simulations: of exact ones what is usual for few variables.
+double simulations_of(GradientMethod method, Eigen::Index variables, int threads) {
+  const double one_each = std::ceil(double(variables) / std::max(1, threads));
+  if (method == GradientMethod::forward_difference) return one_each;
+  if (method == GradientMethod::central_difference) return 2.0 * one_each;
+  return 3.0;
+}
+
+/// Who looks on, and how long a simulation took.
+struct Observed {
+  ProgressLine& progress;
+  double simulation_seconds;
+};
+
+std::vector<MethodResult> compute(const ProblemInput& input, Analysis& analysis,
+                                  const std::vector<GradientMethod>& methods,
+                                  const GradientOptions& options, const Observed& observed) {
+  std::vector<MethodResult> results;
+  for (const GradientMethod method : methods) {
+    observed.progress.expect(
+        to_string(method),
+        simulations_of(method, input.design.size(), options.threads) * observed.simulation_seconds);
+    const Stopwatch stopwatch;
+    MethodResult result{method, {}, 0.0};
+    result.gradients = gradients(input.problem, input.design, analysis, method, options);
+    result.seconds = stopwatch.seconds();
+    results.push_back(std::move(result));
+  }
+  return results;
+}
+
+Json gradients_document(const ProblemFile& problem, const std::vector<MethodResult>& results,
+                        Eigen::Index response) {
+  Json document = Json::object();
+  for (const MethodResult& result : results) {
+    Json& row = document[to_string(result.method)] = Json::object();
+    for (std::size_t j = 0; j < problem.variables.size(); ++j) {
+      row[problem.variables[j].name] = result.gradients(response, static_cast<Eigen::Index>(j));
+    }
+  }
+  return document;
+}
+
+struct MethodFindings {
+  std::unique_ptr<Analysis> analysis;
+  double simulation_seconds = 0.0;
+  std::optional<MethodChoice> choice;  ///< if it was left to the program
+  std::vector<MethodResult> results;
+  Ties ties;
+  std::vector<std::string> warnings;
+  ErrorBars errors;                      ///< of the values
+  std::vector<ComparedMethod> compared;  ///< empty: not asked for
+};
+
+Json comparison_document(const ProblemFile& problem, const std::vector<ComparedMethod>& compared) {
+  Json document = Json::array();
+  for (const ComparedMethod& one : compared) {
+    Json errors = Json::object();
+    for (std::size_t i = 0; i < problem.responses.size(); ++i) {
+      errors[problem.responses[i].name] = one.errors(static_cast<Eigen::Index>(i));
+    }
+    document.push_back({{"method", to_string(one.method)},
+                        {"step", one.step > 0.0 ? Json(one.step) : Json(nullptr)},
+                        {"seconds", one.seconds},
+                        {"errors", std::move(errors)}});
+  }
+  return document;
+}
+
+/// Of each method with its best step.
+std::string comparison_text(const ProblemFile& problem,
+                            const std::vector<ComparedMethod>& compared) {
+  if (compared.empty()) return "";
+  std::map<GradientMethod, const ComparedMethod*> best;
+  for (const ComparedMethod& one : compared) {
+    const ComparedMethod*& known = best[one.method];
+    if (!known || one.errors.maxCoeff() < known->errors.maxCoeff()) known = &one;
+  }
+  Table table({{"method", Table::Align::left},
+               {"best step"},
+               {"time"},
+               {"largest error"},
+               {"of", Table::Align::left}});
+  for (const auto& [method, one] : best) {
+    Eigen::Index worst = 0;
+    const double error = one->errors.maxCoeff(&worst);
+    table.add_row({to_string(method), one->step > 0.0 ? magnitude(one->step) : "–",
+                   duration(one->seconds), magnitude(error),
+                   problem.responses[static_cast<std::size_t>(worst)].name});
+  }
+  return "\nEffort and accuracy of the methods, with the step that is best for differences; errors "
+         "relative,\ndirect and adjoint against each other\n" +
+         table.text();
+}
+
+Json choice_document(const MethodChoice& choice) {
+  return {{"method", to_string(choice.method)}, {"reason", choice.reason}};
+}
+
+Json gradient_document(const ProblemFile& problem, const MethodFindings& findings) {
+  const Analysis& analysis = *findings.analysis;
+  Json document = {{"responses", responses_document(analysis, findings.errors)},
+                   {"seconds", {{"simulate", findings.simulation_seconds}}}};
+  for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
+    Json& response = document["responses"][analysis.responses[i].name];
+    response["gradients"] =
+        gradients_document(problem, findings.results, static_cast<Eigen::Index>(i));
+    if (findings.ties[i]) response["tie"] = tie_document(*findings.ties[i], analysis.responses[i]);
+  }
+  if (!findings.compared.empty()) {
+    document["comparison"] = comparison_document(problem, findings.compared);
+  }
+  if (findings.choice) document["choice"] = choice_document(*findings.choice);
+  document["warnings"] = findings.warnings;
+  for (const MethodResult& result : findings.results) {
+    document["seconds"][to_string(result.method)] = result.seconds;
+  }
+  if (const RecomputedStates* states = analysis.trajectory.recomputed()) {
+    document["memory"] = {{"checkpoints", states->checkpoints()},
+                          {"most_states", states->most_held()},
+                          {"repeated_steps", states->recomputed_steps()}};
+  }
+  return document;
+}
+
+std::vector<Table::Column> method_columns(const std::vector<MethodResult>& results) {
+  std::vector<Table::Column> columns = {{"response", Table::Align::left},
+                                        {"variable", Table::Align::left}};
+  for (const MethodResult& result : results) columns.push_back({to_string(result.method)});
+  columns.push_back({"unit", Table::Align::left});
+  if (results.size() > 1) columns.push_back({"largest difference"});
+  return columns;
+}
+
+/// Of the entries of one row, relative to the largest.
+double spread(const std::vector<MethodResult>& results, Eigen::Index i, Eigen::Index j) {
+  Eigen::VectorXd entries(static_cast<Eigen::Index>(results.size()));
+  for (Eigen::Index k = 0; k < entries.size(); ++k) {
+    entries(k) = results[static_cast<std::size_t>(k)].gradients(i, j);
+  }
+  const double largest = entries.cwiseAbs().maxCoeff();
+  return largest > 0.0 ? (entries.maxCoeff() - entries.minCoeff()) / largest : 0.0;
+}
+
+std::string gradients_text(const ProblemFile& problem, const std::vector<MethodResult>& results) {
+  const std::vector<ShownUnit> variable_unit = variable_units(problem);
+  Table table(method_columns(results), 2);
+  for (std::size_t i = 0; i < problem.responses.size(); ++i) {
+    const ShownUnit value_unit = unit_of(problem.responses[i]);
+    for (std::size_t j = 0; j < problem.variables.size(); ++j) {
+      const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
+      const ShownUnit& unit = variable_unit[j];
+      std::vector<std::string> cells = {j == 0 ? problem.responses[i].name : "",
+                                        problem.variables[j].name};
+      for (const MethodResult& result : results) {
+        const double shown = value_unit.shown(result.gradients(row, column)) * unit.factor;
+        cells.push_back(significant(shown, 7));
+      }
+      cells.push_back(fmt::format("{}/{}", value_unit.name, unit.name));
+      if (results.size() > 1) cells.push_back(magnitude(spread(results, row, column)));
+      table.add_row(std::move(cells));
+    }
+  }
+  return table.text();
+}
+
+std::string choice_text(const std::optional<MethodChoice>& choice) {
+  if (!choice) return "";
+  return fmt::format("\nMethod: {} ({})\n", to_string(choice->method), choice->reason);
+}
+
+/// What it took that the trajectory does not fit into the memory.
+std::string memory_text(const Trajectory& trajectory) {
+  const RecomputedStates* states = trajectory.recomputed();
+  if (!states) return "";
+  return fmt::format(
+      "\nMemory: {} checkpoints, at most {} states at once; {} steps simulated again for the {} of "
+      "the trajectory\n",
+      states->checkpoints(), states->most_held(), states->recomputed_steps(), trajectory.steps());
+}
+
+std::string seconds_text(const std::vector<MethodResult>& results, double simulation_seconds) {
+  std::string text = "\nTime: simulation " + duration(simulation_seconds);
+  for (const MethodResult& result : results) {
+    text += fmt::format(", {} {}", to_string(result.method), duration(result.seconds));
+  }
+  return text + "\n";
+}
+
+/// Into the run folder.
+void write_run(RunRecord& record, const Arguments& arguments, const ProblemInput& input,
+               Analysis& analysis, Outcome& outcome) {
+  record.begin_phase("histories");
+  record.write("result.json", outcome.document);
+  write_trajectory(record.result("trajectory.csv"), analysis);
+  if (arguments.wants_histories) {
+    write_history_gradients(record.result("gradients.csv"), input.problem, analysis);
+  }
+  outcome.text +=
+      fmt::format("Written to {}: {}trajectory.csv, result.json, run_card.json\n",
+                  record.folder().string(), arguments.wants_histories ? "gradients.csv, " : "");
+  record.show_picture([&] {
+    return run_picture(input.problem,
+                       {{arguments.design ? "design" : "start", input.design, &analysis}});
+  });
+  record.finish(outcome);
+}
+
+Outcome make_outcome(const Arguments& arguments, const ProblemFile& problem,
+                     const MethodFindings& findings) {
+  return {ExitCode::done, gradient_document(problem, findings),
+          fmt::format("Gradients at {} of {}\n\n{}{}{}{}{}{}{}",
+                      arguments.design ? "the design" : "the start", problem.name,
+                      gradients_text(problem, findings.results),
+                      ties_text(findings.ties, *findings.analysis),
+                      findings.warnings.empty() ? "" : "\n" + warnings_text(findings.warnings),
+                      choice_text(findings.choice), comparison_text(problem, findings.compared),
+                      memory_text(findings.analysis->trajectory),
+                      seconds_text(findings.results, findings.simulation_seconds))};
+}
+
+}  // namespace
+
+Outcome run_gradient(const Arguments& arguments) {
+  const ProblemInput input = read_input_with_accuracy(arguments);
+  const ProblemFile& problem = input.problem;
+  std::vector<GradientMethod> methods = chosen_methods(arguments, problem);
+  if (problem.variables.empty()) {
+    throw InputError("/variables is missing: there is nothing to differentiate for");
+  }
+  std::optional<RunRecord> record;  // before the work: the folder may not be free
+  if (arguments.wants_histories || arguments.compares_methods || arguments.output) {
+    record.emplace(arguments, input, Json::object());
+  }
+  MethodFindings findings;
+  ProgressLine progress(arguments, "simulating");
+  const Stopwatch stopwatch;
+  findings.analysis = analyze(problem, input.design);
+  findings.simulation_seconds = stopwatch.seconds();
+  findings.choice = resolve(*findings.analysis, methods);
+  findings.results = compute(input, *findings.analysis, methods,
+                             {problem.sensitivity.difference_step, arguments.jobs},
+                             {progress, findings.simulation_seconds});
+  if (arguments.compares_methods) {
+    findings.compared = compare_methods(problem, input.design, *findings.analysis,
+                                        {arguments.jobs, [&](double step) {
+                                           const std::string line = fmt::format(
+                                               "differences with the step {:g} …", step);
+                                           if (!progress.is_shown()) progress.print(line);
+                                           progress.show_share(line, 0.0);
+                                         }});
+  }
+  progress.show_share("checking the numbers", 0.0);
+  findings.ties = find_ties(*findings.analysis);
+  const Monitors monitors = monitor(findings.analysis->model, findings.analysis->trajectory);
+  TrustedRun judged{problem, input.design, *findings.analysis, monitors};
+  if (input.choice) judged.known = &input.choice->bars;
+  Trust trust = judge_run(judged);
+  findings.warnings = texts_of(trust.doubts);
+  findings.errors = std::move(trust.errors);
+  Outcome outcome = make_outcome(arguments, problem, findings);
+  if (record) write_run(*record, arguments, input, *findings.analysis, outcome);
+  return outcome;
+}
+
+}  // namespace pleuel

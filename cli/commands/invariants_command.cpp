@@ -1,0 +1,145 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "cli/commands/commands.hpp"
+#include "cli/input/problem_input.hpp"
+#include "cli/files/run_record.hpp"
+#include "cli/text/table.hpp"
+#include "core/base/error.hpp"
+#include "core/model/divided_beams.hpp"
+#include "core/response/analysis.hpp"
+#include "core/response/body_export.hpp"
+#include "core/scene/invariants_file.hpp"
+#include "core/scene/variable_quantity.hpp"
+
+namespace pleuel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> si_units(const ProblemFile& problem) {
+  std::vector<std::string> units;
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    units.emplace_back(variable_quantity(problem, static_cast<int>(i)).unit);
+  }
+  return units;
+}
+
+std::vector<std::string> chosen_bodies(const Arguments& arguments, const Model& model) {
+  if (arguments.body) return {model.body(*arguments.body).name};
+  std::vector<std::string> names;
+  for (const BodyModel& body : model.bodies) {
+    if (body.is_elastic) names.push_back(body.name);
+  }
+  if (names.empty()) throw InputError("no body is elastic: there are no invariants to write");
+  return names;
+}
+
+std::vector<InvariantsFile> export_bodies(const Arguments& arguments, const ProblemFile& problem) {
+  const Eigen::VectorXd x = start_design(problem);
+  const Design<double> start(x.begin(), x.end());
+  const Model model = build_model(without_divisions(problem.scene), problem.effects, start, start,
+                                  problem.sensitivity.invariants);
+  std::vector<InvariantsFile> files;
+  for (const std::string& name : chosen_bodies(arguments, model)) {
+    files.push_back(export_body(problem, model, name, si_units(problem)));
+  }
+  return files;
+}
+
+/// In a folder of their own, where no name of a body can be that of another result. Names of bodies
+/// may hold what names of files cannot.
+std::string constants_file_name(const std::string& body) {
+  std::string name = body + ".json";
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
+}
+
+Json file_document(const InvariantsFile& file, const fs::path& path) {
+  Json places = Json::array(), variables = Json::array();
+  for (const BodyPlace& place : file.constants.places) places.push_back(place.name);
+  for (const ConstantsDerivative& of : file.design) variables.push_back(of.variable);
+  return {{"name", file.body},
+          {"file", path.string()},
+          {"coordinates", file.coordinates.size()},
+          {"places", std::move(places)},
+          {"stress_points", file.constants.stress ? file.constants.stress->points.size() : 0},
+          {"stiffening", file.constants.stretching.has_value()},
+          {"variables", std::move(variables)}};
+}
+
+Outcome report(const std::vector<InvariantsFile>& files, const std::vector<fs::path>& paths) {
+  Outcome outcome{ExitCode::done, {{"bodies", Json::array()}, {"warnings", Json::array()}}, ""};
+  Table table({{"body", Table::Align::left},
+               {"coordinates"},
+               {"places"},
+               {"variables"},
+               {"written to", Table::Align::left}});
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    outcome.document["bodies"].push_back(file_document(files[i], paths[i]));
+    table.add_row({files[i].body, std::to_string(files[i].coordinates.size()),
+                   std::to_string(files[i].constants.places.size()),
+                   std::to_string(files[i].design.size()), paths[i].string()});
+  }
+  outcome.text = table.text();
+  return outcome;
+}
+
+void check_free(const fs::path& path, const Arguments& arguments) {
+  const fs::file_status status = fs::symlink_status(path);
+  if (!fs::exists(status)) return;
+  if (!fs::is_regular_file(status)) {
+    throw InputError(fmt::format("-o {}: is there already, and no ordinary file", path.string()));
+  }
+  if (!arguments.overwrites) {
+    throw InputError(
+        fmt::format("-o {}: is there already; choose another name, or replace it with "
+                    "--overwrite",
+                    path.string()));
+  }
+}
+
+Outcome write_one(const fs::path& path, const std::vector<InvariantsFile>& files) {
+  if (files.size() != 1) {
+    throw InputError(
+        fmt::format("-o {}: is one file, but {} bodies are elastic; choose one with "
+                    "--body, or a folder",
+                    path.string(), files.size()));
+  }
+  WriteFailures failures;
+  write_file({path, &failures}, write_invariants(files.front()));
+  Outcome outcome = report(files, {path});
+  outcome.unwritten = failures.files();
+  return outcome;
+}
+
+}  // namespace
+
+Outcome run_invariants(const Arguments& arguments) {
+  const ProblemInput input = read_input(arguments);
+  if (arguments.output && arguments.output->extension() == ".json") {
+    check_free(*arguments.output, arguments);
+    return write_one(*arguments.output, export_bodies(arguments, input.problem));
+  }
+  RunRecord record(arguments, input, Json::object());
+  record.begin_phase("export");
+  const std::vector<InvariantsFile> files = export_bodies(arguments, input.problem);
+  record.begin_phase("write");
+  std::vector<fs::path> paths;
+  for (const InvariantsFile& file : files) {
+    const ResultFile written = record.result(fs::path("bodies") / constants_file_name(file.body));
+    const fs::path& path = written.path;
+    if (std::find(paths.begin(), paths.end(), path) != paths.end()) {
+      throw InputError(fmt::format("two bodies would be written to {}: use --body", path.string()));
+    }
+    paths.push_back(path);
+    write_file(written, write_invariants(file));
+  }
+  Outcome outcome = report(files, paths);
+  record.finish(outcome);
+  return outcome;
+}
+
+}  // namespace pleuel

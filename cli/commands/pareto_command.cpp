@@ -1,0 +1,241 @@
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "cli/commands/accurate_input.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/text/console.hpp"
+#include "cli/files/csv_file.hpp"
+#include "cli/reports/error_report.hpp"
+#include "cli/files/run_picture.hpp"
+#include "cli/files/run_record.hpp"
+#include "cli/input/solve_settings.hpp"
+#include "cli/text/table.hpp"
+#include "cli/reports/warnings.hpp"
+#include "cli/text/wrapped_text.hpp"
+#include "core/base/error.hpp"
+#include "core/base/number_text.hpp"
+#include "core/scene/shown_unit.hpp"
+#include "optimization/prices.hpp"
+#include "studies/pareto.hpp"
+
+namespace pleuel {
+
+namespace {
+
+const ConstraintSettings& varied_constraint(const ProblemFile& problem) {
+  for (const ConstraintSettings& constraint : problem.constraints) {
+    if (constraint.name == problem.pareto->constraint) return constraint;
+  }
+  throw InputError("/pareto/constraint names no constraint");
+}
+
+/// What the front trades against the objective: a response, or a sum of variables by its name.
+std::string limited_name(const ConstraintSettings& constraint) {
+  return constraint.response.empty() ? constraint.name : constraint.response;
+}
+
+/// pareto.csv: a line for each point as it is found [SI].
+class ParetoCsv {
+ public:
+  ParetoCsv(const ResultFile& file, const ProblemFile& problem)
+      : csv_(file, header(problem)), variables_(problem.variables.size()) {}
+
+  void add(const ParetoPoint& point) {
+    csv_.add(to_string(point.result.status)).add(point.limit);
+    const std::vector<double> goals = {point.result.evaluation.objective, point.limited_value,
+                                       point.multiplier};
+    for (std::size_t i = 0; i < goals.size(); ++i) {
+      const bool is_known = i < 2 ? point.has_design() : has_prices(point.result);
+      is_known ? csv_.add(goals[i]) : csv_.add(std::string());
+    }
+    for (std::size_t i = 0; i < variables_; ++i) {
+      csv_.add(point.result.x(static_cast<Eigen::Index>(i)));
+    }
+    csv_.add(point.result.kkt_residual).add(point.result.evaluations).add(point.result.seconds);
+    csv_.end_row();
+  }
+
+ private:
+  static std::vector<std::string> header(const ProblemFile& problem) {
+    std::vector<std::string> titles = {"status", "limit", "objective", "limited", "multiplier"};
+    for (const DesignVariable& variable : problem.variables) {
+      titles.push_back("variable:" + variable.name);
+    }
+    for (const char* title : {"kkt_residual", "evaluations", "seconds"}) titles.push_back(title);
+    return titles;
+  }
+
+  CsvFile csv_;
+  std::size_t variables_;
+};
+
+Json point_document(const ProblemFile& problem, const ParetoPoint& point) {
+  Json document = {{"status", to_string(point.result.status)},
+                   {"message", point.result.message},
+                   {"limit", point.limit},
+                   {"dominated", point.is_dominated},
+                   {"objectives", Json::object()},
+                   {"variables", Json::object()}};
+  if (point.has_design()) {
+    document["warnings"] = point.result.warnings;
+    document["error"] = error_document(point.result.error);
+    document["objectives"] = {{problem.objective->response, point.result.evaluation.objective},
+                              {limited_name(varied_constraint(problem)), point.limited_value}};
+    if (has_prices(point.result)) document["multiplier"] = point.multiplier;
+  }
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    document["variables"][problem.variables[i].name] = point.result.x(static_cast<Eigen::Index>(i));
+  }
+  document["kkt_residual"] = point.result.kkt_residual;
+  document["evaluations"] = point.result.evaluations;
+  document["seconds"] = point.result.seconds;
+  return document;
+}
+
+Json make_document(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
+  const ConstraintSettings& constraint = varied_constraint(problem);
+  const bool is_whole = points.size() == static_cast<std::size_t>(problem.pareto->points);
+  Json document = {{"status", study_status(is_whole)},
+                   {"constraint", constraint.name},
+                   {"units",
+                    {{problem.objective->response,
+                      unit_of(find_response(problem, problem.objective->response)).si},
+                     {limited_name(constraint), unit_of(problem, constraint).si}}},
+                   {"points", Json::array()}};
+  for (const ParetoPoint& point : points) {
+    document["points"].push_back(point_document(problem, point));
+  }
+  return document;
+}
+
+std::vector<Table::Column> design_columns(const ProblemFile& problem) {
+  const ConstraintSettings& constraint = varied_constraint(problem);
+  const std::string& objective = problem.objective->response;
+  const std::vector<ShownUnit> units = variable_units(problem);
+  const ShownUnit limited = unit_of(problem, constraint);
+  const ShownUnit goal = unit_of(find_response(problem, objective));
+  std::vector<Table::Column> columns = {
+      {fmt::format("limit [{}]", limited.name)},
+      {fmt::format("{} [{}]", limited_name(constraint), limited.name)},
+      {fmt::format("{} [{}]", objective, goal.name)},
+      {fmt::format("± [{}]", goal.name)},
+      {fmt::format("multiplier [{}/{}]", goal.name, limited.name)}};
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    columns.push_back({fmt::format("{} [{}]", problem.variables[i].name, units[i].name)});
+  }
+  columns.push_back({"status", Table::Align::left});
+  return columns;
+}
+
+std::string points_text(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
+  const ShownUnit limited = unit_of(problem, varied_constraint(problem));
+  const ShownUnit goal = unit_of(find_response(problem, problem.objective->response));
+  const std::vector<ShownUnit> units = variable_units(problem);
+  Table table(design_columns(problem));
+  for (const ParetoPoint& point : points) {
+    std::vector<std::string> cells = {significant(limited.shown(point.limit)), "–", "–", "–", "–"};
+    if (point.has_design()) {
+      cells[1] = significant(limited.shown(point.limited_value));
+      cells[2] = significant(goal.shown(point.result.evaluation.objective));
+      if (const auto& error = point.result.error; error && error->is_resolved()) {
+        cells[3] = significant(goal.shown(error->bound()), 2);
+      }
+      if (has_prices(point.result))
+        cells[4] = significant(goal.shown(point.multiplier) * limited.factor, 3);
+    }
+    for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+      cells.push_back(significant(units[i].shown(point.result.x(static_cast<Eigen::Index>(i)))));
+    }
+    cells.push_back(to_string(point.result.status) + (point.is_dominated ? ", dominated" : ""));
+    table.add_row(std::move(cells));
+  }
+  return table.text();
+}
+
+std::size_t verified_points(const std::vector<ParetoPoint>& points) {
+  return static_cast<std::size_t>(std::count_if(
+      points.begin(), points.end(),
+      [](const ParetoPoint& point) { return point.result.status == Status::verified; }));
+}
+
+/// Why the others are not verified; one sentence each.
+std::string doubts_text(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
+  const ShownUnit unit = unit_of(problem, varied_constraint(problem));
+  std::string text;
+  for (const ParetoPoint& point : points) {
+    if (point.result.status == Status::verified) continue;
+    text += wrapped(fmt::format("  limit {} {}: {}: {}", significant(unit.shown(point.limit)),
+                                unit.name, to_string(point.result.status), point.result.message),
+                    "    ") +
+            "\n";
+  }
+  return text.empty() ? "" : "\nNOT VERIFIED:\n" + text;
+}
+
+std::string warnings_of_points(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
+  const ShownUnit unit = unit_of(problem, varied_constraint(problem));
+  SharedWarnings warnings;
+  for (const ParetoPoint& point : points) {
+    warnings.add(point.result.warnings,
+                 fmt::format("limit {} {}", significant(unit.shown(point.limit)), unit.name));
+  }
+  const std::string text = warnings_text(warnings.sentences());
+  return text.empty() ? "" : "\n" + text;
+}
+
+/// The mechanisms of the front, by their numbers from 1.
+Json front_picture(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
+  std::vector<ShownDesign> designs;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].has_design()) designs.push_back({std::to_string(i + 1), points[i].result.x});
+  }
+  return run_picture(problem, designs);
+}
+
+void show_progress(std::FILE* out, const ProblemFile& problem, const ParetoPoint& point) {
+  const ShownUnit unit = unit_of(problem, varied_constraint(problem));
+  show(out,
+       fmt::format("  limit {} {}: {} after {} evaluations, {}\n",
+                   significant(unit.shown(point.limit)), unit.name, to_string(point.result.status),
+                   point.result.evaluations, duration(point.result.seconds)));
+}
+
+}  // namespace
+
+Outcome run_pareto(const Arguments& arguments) {
+  const ProblemInput input = read_input_with_accuracy(arguments);
+  const ProblemFile& problem = input.problem;
+  if (!problem.pareto) throw InputError("/pareto is missing: it says which limit to vary");
+  const SolveOptions options = solve_options(problem, arguments);
+  RunRecord record(arguments, input, options_document(options, problem));
+  show_warnings_before(problem);
+  record.begin_phase("pareto");
+  std::optional<ParetoCsv> csv;  // with the first result
+  const auto observer = [&](const ParetoPoint& point) {
+    if (!csv) csv.emplace(record.result("pareto.csv"), problem);
+    csv->add(point);
+    show_progress(stderr, problem, point);
+  };
+  const auto points = pareto_front(problem, options, observer, arguments.jobs);
+  const bool is_whole = points.size() == static_cast<std::size_t>(problem.pareto->points);
+  const bool is_verified = is_whole && verified_points(points) == points.size();
+  Outcome outcome{
+      is_verified ? ExitCode::done : ExitCode::not_verified, make_document(problem, points),
+      fmt::format(
+          "{}{}: {} against the limit of {}; {} of {} points verified\n\n{}{}\n"
+          "Written to {}: pareto.csv, result.json, run_card.json\n",
+          is_whole ? ""
+                   : interrupted_text(points.size(),
+                                      static_cast<std::size_t>(problem.pareto->points), "points"),
+          problem.name, problem.objective->response, problem.pareto->constraint,
+          verified_points(points), problem.pareto->points, points_text(problem, points),
+          doubts_text(problem, points) + warnings_of_points(problem, points),
+          record.folder().string())};
+  record.show_picture([&] { return front_picture(problem, points); });
+  record.finish(outcome);
+  return outcome;
+}
+
+}  // namespace pleuel

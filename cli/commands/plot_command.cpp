@@ -1,0 +1,216 @@
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include "cli/commands/commands.hpp"
+#include "cli/text/csv_table.hpp"
+#include "cli/text/history_chart.hpp"
+#include "cli/files/output_file.hpp"
+#include "cli/files/run_folder.hpp"
+#include "cli/text/wrapped_text.hpp"
+#include "core/base/error.hpp"
+#include "core/base/number_text.hpp"
+#include "core/scene/problem_reader.hpp"
+#include "core/scene/reading/suggestion.hpp"
+#include "core/scene/shown_unit.hpp"
+
+/// Histories of a run as a drawing, and in the terminal.
+namespace pleuel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A design whose histories the run folder has.
+struct RunHistories {
+  std::string design;  ///< "start", "optimum"; empty of a run with one
+  CsvTable table;
+};
+
+std::vector<RunHistories> read_histories(const fs::path& folder) {
+  static constexpr std::array<std::pair<const char*, const char*>, 4> files = {
+      {{"trajectory.csv", ""},
+       {"trajectory-start.csv", "start"},
+       {"trajectory-optimum.csv", "optimum"},
+       {"uncertainty.csv", "mean"}}};
+  if (!fs::is_directory(folder)) {
+    throw InputError(fmt::format("{}: there is no such run folder", folder.string()));
+  }
+  std::vector<RunHistories> histories;
+  for (const auto& [name, design] : files) {
+    if (fs::is_regular_file(folder / name)) {
+      histories.push_back({design, read_csv(folder / name)});
+    }
+  }
+  if (histories.empty()) {
+    throw InputError(fmt::format(
+        "{}: has no histories; `simulate`, `optimize`, `uncertainty` and `gradient --histories` "
+        "write some",
+        folder.string()));
+  }
+  for (const RunHistories& one : histories) {
+    if (one.table.names.front() != "time" || one.table.columns.front().size() < 2) {
+      throw InputError(
+          fmt::format("{}: its histories are damaged: they have no time", folder.string()));
+    }
+  }
+  return histories;
+}
+
+/// The problem of the run card, for units and limits; nothing where it cannot be read.
+std::optional<ProblemFile> problem_of_card(const fs::path& folder) {
+  std::ifstream stream(folder / card_name);
+  const Json card = Json::parse(stream, nullptr, /*allow_exceptions=*/false);
+  if (!card.is_object() || !card.contains("problem")) return std::nullopt;
+  try {
+    return read_problem_text(card["problem"].dump(), card.at("input").at("file").get<std::string>(),
+                             {});
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+std::vector<std::string> known_names(const std::vector<RunHistories>& histories) {
+  std::vector<std::string> names;
+  for (const RunHistories& one : histories) {
+    for (const std::string& name : one.table.names) {
+      if (name == "time" || name.find(':') != std::string::npos) continue;
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+bool has_response(const ProblemFile& problem, const std::string& name) {
+  return std::any_of(problem.responses.begin(), problem.responses.end(),
+                     [&](const ResponseSettings& response) { return response.name == name; });
+}
+
+/// On the history of a response, both signs where its magnitude is limited [SI].
+std::vector<double> limits_on(const ProblemFile& problem, const std::string& name) {
+  std::vector<double> limits;
+  const OverTime kind = find_response(problem, name).over_time;
+  const bool is_of_curve =
+      kind == OverTime::max || kind == OverTime::min || kind == OverTime::max_abs;
+  for (const ConstraintSettings& constraint : problem.constraints) {
+    if (constraint.response != name || !is_of_curve) continue;
+    if (constraint.lower) limits.push_back(*constraint.lower);
+    if (constraint.upper) limits.push_back(*constraint.upper);
+    const bool has_signs = find_response(problem, name).type != ResponseType::stress;
+    if (constraint.upper && kind == OverTime::max_abs && has_signs) {
+      limits.push_back(-*constraint.upper);
+    }
+  }
+  return limits;
+}
+
+HistoryChart chart_of(const std::vector<RunHistories>& histories,
+                      const std::optional<ProblemFile>& problem, const std::string& name) {
+  HistoryChart chart;
+  chart.title = name;
+  ShownUnit unit{"", "1", 1.0};
+  if (problem && has_response(*problem, name)) {
+    unit = unit_of(find_response(*problem, name));
+    for (const double limit : limits_on(*problem, name)) chart.limits.push_back(unit.shown(limit));
+  }
+  chart.unit = problem ? unit.name : "SI";
+  const double end = histories.front().table.columns.front().maxCoeff();
+  const double second = end < 1.0 ? 1e-3 : 1.0;
+  chart.time_unit = end < 1.0 ? "ms" : "s";
+  for (const RunHistories& one : histories) {
+    const int column = one.table.find(name);
+    if (column < 0) continue;
+    HistoryCurve curve{one.design, one.table.columns.front() / second,
+                       one.table.columns[static_cast<std::size_t>(column)] / unit.factor};
+    for (const auto& [suffix, factor] : {std::pair{":error", 1.0}, std::pair{":deviation", 2.0}}) {
+      const int band = one.table.find(name + suffix);
+      if (band < 0) continue;
+      curve.band = factor * one.table.columns[static_cast<std::size_t>(band)] / unit.factor;
+    }
+    chart.curves.push_back(std::move(curve));
+  }
+  return chart;
+}
+
+/// "start: −3.2 … 12.1 N; optimum: …"
+std::string range_text(const HistoryChart& chart) {
+  std::string text;
+  for (const HistoryCurve& curve : chart.curves) {
+    const double size = curve.values.lpNorm<Eigen::Infinity>();
+    const auto number = [&](double value) {
+      return std::abs(value) <= 1e-12 * size ? std::string("0") : significant(value, 4);
+    };
+    text +=
+        fmt::format("{}{}{} … {} {}", text.empty() ? "" : "; ",
+                    curve.name.empty() ? "" : curve.name + ": ", number(curve.values.minCoeff()),
+                    number(curve.values.maxCoeff()), chart.unit == "1" ? "" : chart.unit);
+  }
+  return text + "\n";
+}
+
+/// Of the terminal, at most 100 letters.
+int text_width() {
+  winsize size{};
+  const bool is_known = ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return std::clamp(is_known ? static_cast<int>(size.ws_col) : 80, 40, 100);
+}
+
+fs::path drawing_path(const Arguments& arguments) {
+  if (arguments.output) return *arguments.output;
+  if (arguments.names.size() != 1) return arguments.file / "plot.svg";
+  std::string name = arguments.names.front().substr(0, 60);
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_' && c != '-') c = '-';
+  }
+  return arguments.file / fmt::format("plot-{}.svg", name);
+}
+
+Outcome list_of(const fs::path& folder, const std::vector<std::string>& names) {
+  Outcome outcome;
+  outcome.document = {{"histories", names}};
+  outcome.text =
+      wrapped(fmt::format("Histories in {}: {}\n", folder.string(), fmt::join(names, ", ")), "  ");
+  return outcome;
+}
+
+}  // namespace
+
+Outcome run_plot(const Arguments& arguments) {
+  const fs::path& folder = arguments.file;
+  const std::vector<RunHistories> histories = read_histories(folder);
+  const std::vector<std::string> known = known_names(histories);
+  if (arguments.names.empty()) return list_of(folder, known);
+  const std::optional<ProblemFile> problem = problem_of_card(folder);
+  Outcome outcome;
+  std::vector<HistoryChart> charts;
+  for (const std::string& name : arguments.names) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw InputError(fmt::format("{}: no history is called \"{}\"{}", folder.string(), name,
+                                   hint(name, known)));
+    }
+    charts.push_back(chart_of(histories, problem, name));
+    outcome.text += to_braille(charts.back(), text_width()) + range_text(charts.back()) + "\n";
+  }
+  if (!problem) {
+    outcome.text += "Units and limits are not known: the problem of the run card cannot be read.\n";
+  }
+  const fs::path drawing = drawing_path(arguments);
+  WriteFailures failures;
+  outcome.document = {{"histories", arguments.names}};
+  if (write_file({drawing, &failures}, to_svg(charts))) {
+    outcome.document["drawing"] = drawing.string();
+    outcome.text += fmt::format("Drawn in {}\n", drawing.string());
+  }
+  outcome.unwritten = failures.files();
+  return outcome;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,222 @@
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "cli/commands/accurate_input.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/text/console.hpp"
+#include "cli/files/csv_file.hpp"
+#include "cli/reports/iteration_lines.hpp"
+#include "cli/files/run_picture.hpp"
+#include "cli/files/run_record.hpp"
+#include "cli/input/solve_settings.hpp"
+#include "cli/text/table.hpp"
+#include "cli/reports/warnings.hpp"
+#include "cli/text/wrapped_text.hpp"
+#include "core/base/number_text.hpp"
+#include "core/trust/doubts.hpp"
+#include "optimization/design_problem.hpp"
+#include "optimization/design_solve.hpp"
+#include "studies/number_prices.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// The residual up to which multipliers explain a design: those of `optimize` are prices up to it.
+constexpr double nearly_optimal = 1e-2;
+/// Lines of the table: what else there is stands in prices.csv.
+constexpr std::size_t most_lines = 25;
+
+/// The design that prices are of, and what is known of it.
+struct PricedDesign {
+  Eigen::VectorXd x;
+  std::string verdict;  ///< of the optimization, if there was one
+  bool is_optimum = true;
+  std::vector<std::string> warnings;
+};
+
+PricedDesign find_optimum(const ProblemInput& input, const Arguments& arguments) {
+  const SolveOptions options = solve_options(input.problem, arguments);
+  DesignProblem problem(input.problem, arguments.jobs);
+  IterationLines lines(arguments.progress(), input.problem);
+  const Result result =
+      solve_design(problem, options, [&](const EvaluationRecord& record) { lines.see(record); });
+  const bool is_optimum = result.status == Status::verified || result.status == Status::unresolved;
+  return {result.x, fmt::format("{}: {}", to_string(result.status), result.message), is_optimum,
+          result.warnings};
+}
+
+PricedDesign given_design(const ProblemInput& input) {
+  const auto analysis = analyze(input.problem, input.design);
+  return {input.design, "", true, texts_of(find_doubts(input.problem, input.design, *analysis))};
+}
+
+const char* kind_name(NumberPrice::Kind kind) {
+  switch (kind) {
+    case NumberPrice::Kind::number:
+      return "number";
+    case NumberPrice::Kind::variable:
+      return "variable";
+    case NumberPrice::Kind::bound:
+      return "bound";
+    default:
+      return "limit";
+  }
+}
+
+Json price_document(const NumberPrice& price) {
+  Json document = {{"value", price.value},
+                   {"unit", price.unit.si},
+                   {"per_unit", price.per_unit},
+                   {"per_percent", price.per_percent()},
+                   {"kind", kind_name(price.kind)}};
+  if (price.pointers.size() > 1) document["with"] = price.pointers;
+  if (!price.next_limit.empty()) document["next_limit"] = price.next_limit;
+  return document;
+}
+
+Json make_document(const ProblemFile& problem, const PricedDesign& design, const PriceList& list) {
+  const std::string& name = problem.objective->response;
+  Json document = {{"status", design.is_optimum ? "done" : "no optimum"},
+                   {"verdict", design.verdict},
+                   {"objective",
+                    {{"name", name},
+                     {"value", list.objective},
+                     {"unit", unit_of(find_response(problem, name)).si}}},
+                   {"kkt_residual", list.residual},
+                   {"prices", Json::object()},
+                   {"variables", Json::object()},
+                   {"warnings", design.warnings}};
+  for (const NumberPrice& price : list.prices) {
+    document["prices"][price.name] = price_document(price);
+  }
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    document["variables"][problem.variables[i].name]["value"] =
+        design.x(static_cast<Eigen::Index>(i));
+  }
+  return document;
+}
+
+/// prices.csv: all prices in the order of the table [SI].
+void write_csv(const ResultFile& file, const PriceList& list) {
+  CsvFile csv(file, {"name", "kind", "value", "unit", "per_unit", "per_percent", "next_limit"});
+  for (const NumberPrice& price : list.prices) {
+    csv.add(price.name).add(std::string(kind_name(price.kind))).add(price.value);
+    csv.add(price.unit.si).add(price.per_unit).add(price.per_percent()).add(price.next_limit);
+    csv.end_row();
+  }
+}
+
+std::string signed_number(double value) {
+  if (value == 0.0) return "0";
+  return (value < 0.0 ? "−" : "+") + significant(std::abs(value), 4);
+}
+
+std::string shown_name(const NumberPrice& price) {
+  std::string name = price.name;
+  if (name.starts_with("/scene/")) name = name.substr(7);
+  if (name.starts_with("/")) name = name.substr(1);
+  const std::size_t others = price.pointers.size() - 1;
+  return others > 0 ? fmt::format("{} (+{})", name, others) : name;
+}
+
+std::string prices_text(const ProblemFile& problem, const PriceList& list) {
+  const ShownUnit objective = unit_of(find_response(problem, problem.objective->response));
+  Table table({{"number", Table::Align::left},
+               {"value"},
+               {"unit", Table::Align::left},
+               {fmt::format("{}/unit", objective.name)},
+               {fmt::format("{} at +1 %", objective.name)},
+               {"at +1 %"},
+               {"", Table::Align::left}});
+  std::size_t lines = 0;
+  for (const NumberPrice& price : list.prices) {
+    if (price.per_unit == 0.0) continue;
+    if (++lines > most_lines) break;
+    const double percent = price.per_percent();
+    const double share = list.objective == 0.0 ? 0.0 : 100.0 * percent / std::abs(list.objective);
+    table.add_row({shown_name(price), significant(price.unit.shown(price.value)), price.unit.name,
+                   signed_number(objective.shown(price.per_unit) * price.unit.factor),
+                   signed_number(objective.shown(percent)),
+                   price.value == 0.0 ? "–" : signed_number(share) + " %",
+                   price.next_limit.empty() ? "" : "*"});
+  }
+  return table.text();
+}
+
+/// What decides beyond the prices with a star.
+std::string next_limits_text(const PriceList& list) {
+  std::set<std::string> names;
+  for (const NumberPrice& price : list.prices) {
+    if (price.per_unit != 0.0 && !price.next_limit.empty()) names.insert(price.next_limit);
+  }
+  if (names.empty()) return "";
+  return fmt::format("* holds for less than 1 %: before that {} begins to decide, too. ",
+                     fmt::join(names, " or "));
+}
+
+std::string left_out_text(const PriceList& list) {
+  std::size_t priced = 0;
+  for (const NumberPrice& price : list.prices) priced += price.per_unit != 0.0;
+  const std::size_t free = list.prices.size() - priced;
+  std::string text;
+  if (priced > most_lines) {
+    text += fmt::format("{} smaller ones stand in prices.csv. ", priced - most_lines);
+  }
+  if (free > 0) text += fmt::format("Without influence on the optimum: {} more. ", free);
+  return text;
+}
+
+std::string report(const ProblemFile& problem, const PricedDesign& design, const PriceList& list) {
+  const ShownUnit unit = unit_of(find_response(problem, problem.objective->response));
+  std::string text = design.verdict.empty() ? "" : "\n" + wrapped(design.verdict) + "\n\n";
+  text +=
+      fmt::format("{}: what one percent more of each number changes of the optimum, {} = {} {}\n\n",
+                  problem.name, problem.objective->response,
+                  significant(unit.shown(list.objective)), unit.name);
+  text += prices_text(problem, list) + "\n";
+  text += wrapped(next_limits_text(list) + left_out_text(list) +
+                  "In brackets: how many numbers of the file move with it, as those of a shared "
+                  "point.") +
+          "\n";
+  return text + warnings_text(design.warnings);
+}
+
+/// A design whose multipliers explain nothing has no prices.
+void doubt_design(PricedDesign& design, const PriceList& list) {
+  if (list.residual <= nearly_optimal) return;
+  design.is_optimum = false;
+  design.warnings.insert(
+      design.warnings.begin(),
+      fmt::format(
+          "the design is no optimum (KKT residual {}): these are no prices of it. Give that "
+          "of an optimization which ended verified, or none",
+          magnitude(list.residual)));
+}
+
+}  // namespace
+
+Outcome run_prices(const Arguments& arguments) {
+  const ProblemInput input = read_input_with_accuracy(arguments);
+  const SolveOptions options = solve_options(input.problem, arguments);
+  RunRecord record(arguments, input, options_document(options, input.problem));
+  show_warnings_before(input.problem);
+  record.begin_phase("optimize");
+  PricedDesign design = arguments.design ? given_design(input) : find_optimum(input, arguments);
+  record.begin_phase("prices");
+  const PriceList list = number_prices(input.text, input.problem, design.x, arguments.jobs);
+  doubt_design(design, list);
+  Outcome outcome{design.is_optimum ? ExitCode::done : ExitCode::not_verified,
+                  make_document(input.problem, design, list), report(input.problem, design, list)};
+  outcome.text += fmt::format("Written to {}: prices.csv, result.json, run_card.json\n",
+                              record.folder().string());
+  record.write("result.json", outcome.document);
+  write_csv(record.result("prices.csv"), list);
+  record.show_picture([&] { return run_picture(input.problem, {{"start", input.design}}); });
+  record.finish(outcome);
+  return outcome;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,151 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cli/commands/commands.hpp"
+#include "cli/reports/effects_report.hpp"
+#include "cli/reports/first_steps.hpp"
+#include "cli/files/output_file.hpp"
+#include "cli/input/problem_input.hpp"
+#include "cli/files/report_page.hpp"
+#include "cli/files/run_folder.hpp"
+#include "cli/files/run_picture.hpp"
+#include "cli/reports/scene_report.hpp"
+#include "cli/reports/scene_words.hpp"
+#include "cli/reports/warnings.hpp"
+#include "cli/text/wrapped_text.hpp"
+#include "core/base/error.hpp"
+#include "core/integration/freedoms.hpp"
+#include "core/integration/initial_state.hpp"
+#include "core/response/misalignment.hpp"
+#include "core/scene/body_rules.hpp"
+#include "core/trust/idle_freedoms.hpp"
+
+/// The mechanism as the file places it, before anything is simulated.
+namespace pleuel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What can be said without a simulation.
+struct Shown {
+  Json document;
+  std::string text;
+};
+
+/// Freedoms and size of the mechanism, if it can be assembled.
+void add_assembly(const ProblemFile& problem, Model& model, Shown& shown,
+                  std::vector<std::string>& warnings) {
+  for (const Misalignment& found : find_misalignments(model, model.mechanism.guess, 1e-6)) {
+    warnings.push_back(found.text());
+  }
+  model.mechanism.starts_in_equilibrium = false;
+  try {
+    const Freedoms freedoms = rigid_freedoms(model.mechanism, initial_state(model.mechanism).state);
+    shown.document["rigid_motion"] = freedoms_document(freedoms, model);
+    shown.text += "\n" + freedoms_text(freedoms, model);
+  } catch (const SimulationError& error) {
+    shown.document["failure"] = error.what();
+    warnings.push_back(fmt::format("the mechanism cannot be assembled: {}", error.what()));
+  }
+  shown.document["steps"] = std::ceil(problem.simulation.end_time / problem.simulation.step);
+}
+
+/// What only the first steps tell: how long the simulation takes, and which bodies nothing holds.
+void add_first_steps(const ProblemFile& problem, const Eigen::VectorXd& x, Shown& shown,
+                     std::vector<std::string>& warnings) {
+  const FirstSteps first = take_first_steps(problem, x);
+  if (!first.analysis) {
+    warnings.push_back("the first steps cannot be simulated: " + first.failure);
+    return;
+  }
+  shown.document["seconds"] = {{"simulate", first.seconds}};
+  shown.text += "Time: one simulation takes " + about_text(first.seconds) + " on this machine\n";
+  const Monitors monitors = monitor(first.analysis->model, first.analysis->trajectory);
+  const TrustedRun run{problem, x, *first.analysis, monitors};
+  shown.document["unheld_bodies"] = Json::array();
+  for (const auto find : {doubt_idle_freedoms, doubt_unconnected_bodies}) {
+    for (const Doubt& doubt : find(run)) {
+      warnings.push_back(doubt.text);
+      for (const std::string& body : doubt.bodies) shown.document["unheld_bodies"].push_back(body);
+    }
+  }
+}
+
+Shown describe(const ProblemFile& problem, const Eigen::VectorXd& x) {
+  const Eigen::VectorXd start = start_design(problem);
+  Model model = build_model(problem.scene, problem.effects, {start.begin(), start.end()},
+                            {x.begin(), x.end()}, problem.sensitivity.invariants);
+  Shown shown;
+  std::vector<std::string> warnings = impossible_corners(problem);
+  shown.text = problem.name + "\n\n" + bodies_text(model);
+  if (const std::string joints = joints_text(problem); !joints.empty()) {
+    shown.text += "\n" + joints;
+  }
+  if (const std::string actions = actions_text(problem, x); !actions.empty()) {
+    shown.text += "\n" + actions;
+  }
+  shown.text += "\n" + effects_text(model);
+  shown.document = {{"status", "done"},
+                    {"name", problem.name},
+                    {"bodies", bodies_document(model)},
+                    {"coordinates", model.mechanism.system->coordinates()},
+                    {"multipliers", model.mechanism.system->multipliers()},
+                    {"variables", variables_document(problem)},
+                    {"effects", effects_document(problem, model, {})}};
+  add_assembly(problem, model, shown, warnings);
+  if (!shown.document.contains("failure")) add_first_steps(problem, x, shown, warnings);
+  for (const std::string& text : texts_of(find_doubts_before(problem))) warnings.push_back(text);
+  shown.document["warnings"] = warnings;
+  shown.text += warnings_text(warnings);
+  return shown;
+}
+
+/// FILE-show.html, or with a number if that is there.
+fs::path free_page(const fs::path& file) {
+  const std::string stem = file.stem().string() + "-show";
+  fs::path page = fs::path("runs") / (stem + ".html");
+  for (int number = 2; fs::exists(page); ++number) {
+    page = fs::path("runs") / fmt::format("{}-{}.html", stem, number);
+  }
+  return page;
+}
+
+/// Without a template of pages: all but the drawing.
+Outcome show_in_words(const Arguments& arguments, const ProblemInput& input) {
+  const std::string reason =
+      "the template of pages is not built, which takes nodejs and npm: see docs/report.md";
+  if (arguments.output) throw InputError(reason);
+  const Shown shown = describe(input.problem, input.design);
+  return {ExitCode::done, shown.document,
+          shown.text + wrapped("No drawing: " + reason + "\n", "  ")};
+}
+
+}  // namespace
+
+Outcome run_show(const Arguments& arguments) {
+  const ProblemInput input = read_input(arguments);
+  const auto page_template = find_report_template();
+  if (!page_template) return show_in_words(arguments, input);
+  const fs::path page = arguments.output.value_or(free_page(arguments.file));
+  if (fs::is_directory(page)) throw InputError(fmt::format("-o {}: is a folder", page.string()));
+  std::error_code error;  // shows when the file is written
+  if (page.has_parent_path()) fs::create_directories(page.parent_path(), error);
+  Shown shown = describe(input.problem, input.design);
+  const Json card = {{"command", "show"},
+                     {"arguments", arguments.words},
+                     {"input", {{"file", input.file.string()}, {"overrides", arguments.overrides}}},
+                     {"problem", input.effective}};
+  const std::string name = arguments.design ? "design" : "start";
+  const Json picture = run_picture(input.problem, {{name, input.design, nullptr}});
+  WriteFailures failures;
+  if (write_file({page, &failures},
+                 report_page(*page_template, report_data(card, shown.document, picture, "")))) {
+    shown.document["page"] = page.string();
+    shown.text += fmt::format("Drawn in {}\n", page.string());
+  }
+  return {ExitCode::done, shown.document, shown.text, failures.files()};
+}
+
+}  // namespace pleuel

@@ -1,0 +1,174 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "cli/reports/analysis_report.hpp"
+#include "cli/commands/accurate_input.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/text/console.hpp"
+#include "cli/reports/effects_report.hpp"
+#include "cli/reports/limits_report.hpp"
+#include "cli/reports/monitors_report.hpp"
+#include "cli/input/problem_input.hpp"
+#include "cli/files/run_picture.hpp"
+#include "cli/files/run_record.hpp"
+#include "cli/reports/scene_report.hpp"
+#include "cli/reports/setting_report.hpp"
+#include "cli/files/trajectory_csv.hpp"
+#include "cli/reports/warnings.hpp"
+#include "cli/text/wrapped_text.hpp"
+#include "core/base/number_text.hpp"
+#include "core/base/stop.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/scene/reading/override.hpp"
+#include "core/trust/doubts.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// A simulated design, and what is to be said of it.
+struct Simulated {
+  const Analysis& analysis;
+  Monitors monitors;
+  double seconds = 0.0;
+  std::vector<std::string> warnings{};
+  ErrorBars errors{};
+  std::vector<Eigen::VectorXd> bands{};       ///< of histories
+  std::vector<EffectInfluence> influences{};  ///< if they are asked for
+  double check_seconds = 0.0;                 ///< of what the warnings are found by
+  bool is_checked = true;
+};
+
+/// Simulations of more steps say what follows.
+constexpr int many_steps = 10000;
+
+/// Finds the warnings. An interrupt ends that, but not what is known.
+void check_numbers(const ProblemInput& input, Simulated& run) {
+  if (run.analysis.trajectory.steps() > many_steps) {
+    show(stderr, fmt::format("simulated in {}; checking the numbers …\n", duration(run.seconds)));
+  }
+  const Stopwatch check;
+  try {
+    TrustedRun judged{input.problem, input.design, run.analysis, run.monitors};
+    if (input.choice) judged.known = &input.choice->bars;
+    Trust trust = judge_run(judged);
+    run.warnings = texts_of(trust.doubts);
+    run.errors = std::move(trust.errors);
+    run.bands = std::move(trust.bands);
+  } catch (const Stopped&) {
+    run.is_checked = false;
+    run.warnings = {
+        "interrupted while the numbers were checked: what speaks against them is not "
+        "known"};
+  }
+  run.check_seconds = check.seconds();
+}
+
+Json simulation_document(const ProblemFile& problem, const Simulated& run) {
+  const Analysis& analysis = run.analysis;
+  const Trajectory& trajectory = analysis.trajectory;
+  const System& system = *analysis.model.mechanism.system;
+  return {{"status", run.is_checked ? "done" : "interrupted"},
+          {"responses", responses_document(analysis, run.errors)},
+          {"steps", trajectory.steps()},
+          {"split_steps", trajectory.split_steps},
+          {"rejected_steps", trajectory.rejected_steps},
+          {"newton_iterations", trajectory.newton_iterations},
+          {"factorizations", trajectory.factorizations},
+          {"seconds", run.seconds},
+          {"check_seconds", run.check_seconds},
+          {"monitors", monitors_document(run.monitors)},
+          {"warnings", run.warnings},
+          {"effects", effects_document(problem, analysis.model, run.influences)},
+          {"coordinates", system.coordinates()},
+          {"multipliers", system.multipliers()}};
+}
+
+double smallest_step(const Trajectory& trajectory) {
+  const Eigen::Index steps = trajectory.steps();
+  return (trajectory.time.tail(steps) - trajectory.time.head(steps)).minCoeff();
+}
+double largest_step(const Trajectory& trajectory) {
+  const Eigen::Index steps = trajectory.steps();
+  return (trajectory.time.tail(steps) - trajectory.time.head(steps)).maxCoeff();
+}
+
+/// @param design  where it comes from, if it is not the start
+std::string simulation_text(const ProblemFile& problem, const std::string& design,
+                            const Eigen::VectorXd& x, const Simulated& run) {
+  const Analysis& analysis = run.analysis;
+  const Trajectory& trajectory = analysis.trajectory;
+  std::string text =
+      fmt::format("{}{}: {}\n\n{}\n{}", problem.name, design, size_text(analysis),
+                  responses_text(problem, analysis, run.errors) + limits_text(problem, x, analysis),
+                  monitors_text(run.monitors, analysis.model.mechanism.system->multipliers()) +
+                      assembly_text(analysis) + warnings_text(run.warnings));
+  text += influences_text(problem, values_of(analysis), run.influences);
+  if (trajectory.split_steps > 0) {
+    text += wrapped(
+        fmt::format("Newton's method failed in {} steps, which were split; look there with a "
+                    "smaller /simulation/step.\n",
+                    trajectory.split_steps));
+  }
+  if (problem.simulation.local_error > 0.0) {
+    text += fmt::format("Steps from {} to {}, {} of them made again.\n",
+                        duration(smallest_step(trajectory)), duration(largest_step(trajectory)),
+                        trajectory.rejected_steps);
+  }
+  return text + fmt::format("{}, {} Newton iterations, {} factorizations; checked in {}\n",
+                            duration(run.seconds), trajectory.newton_iterations,
+                            trajectory.factorizations, duration(run.check_seconds));
+}
+
+/// Whether the user asks what becomes of a design of theirs: one that breaks a limit is no success
+/// then, as the start of a search is.
+bool tries_a_design(const Arguments& arguments) {
+  return arguments.design || std::any_of(arguments.overrides.begin(), arguments.overrides.end(),
+                                         [](const std::string& assignment) {
+                                           return !assigned_place(assignment).starts_with("/");
+                                         });
+}
+
+}  // namespace
+
+Outcome run_simulate(const Arguments& arguments) {
+  const ProblemInput input = read_input_with_accuracy(arguments);
+  RunRecord record(arguments, input, Json::object());
+  record.begin_phase("simulate");
+  const Stopwatch stopwatch;
+  const auto analysis = analyze(input.problem, input.design);
+  const double seconds = stopwatch.seconds();
+  record.begin_phase("monitor");
+  Simulated run{*analysis, monitor(analysis->model, analysis->trajectory), seconds};
+  check_numbers(input, run);
+  if (arguments.wants_effects && run.is_checked) {
+    try {
+      run.influences = effect_influences(input.problem, input.design);
+    } catch (const Stopped&) {
+      run.is_checked = false;
+    }
+  }
+  record.begin_phase("write");
+  const std::string design = arguments.design ? " at " + arguments.design->string() : "";
+  const bool is_refuted =
+      tries_a_design(arguments) && !keeps_limits(input.problem, input.design, *analysis);
+  Outcome outcome{run.is_checked && !is_refuted ? ExitCode::done : ExitCode::not_verified,
+                  simulation_document(input.problem, run),
+                  simulation_text(input.problem, design, input.design, run)};
+  outcome.text += fmt::format("Written to {}: trajectory.csv, result.json, run_card.json\n",
+                              record.folder().string());
+  if (input.choice) outcome.document["setting"] = setting_document(input, *input.choice);
+  outcome.document["variables"] = variables_document(input.problem, input.design);
+  outcome.document["constraints"] = limits_document(input.problem, input.design, *analysis);
+  record.write("result.json", outcome.document);
+  write_trajectory(record.result("trajectory.csv"), *analysis, run.bands);
+  record.show_picture([&] {
+    const std::string name = arguments.design ? "design" : "start";
+    return run_picture(input.problem, {{name, input.design, analysis.get(), run.bands}});
+  });
+  record.finish(outcome);
+  return outcome;
+}
+
+}  // namespace pleuel

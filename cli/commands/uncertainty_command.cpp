@@ -1,0 +1,225 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "cli/commands/accurate_input.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/files/csv_file.hpp"
+#include "cli/reports/error_report.hpp"
+#include "cli/commands/progress_line.hpp"
+#include "cli/files/run_picture.hpp"
+#include "cli/files/run_record.hpp"
+#include "cli/text/table.hpp"
+#include "cli/reports/warnings.hpp"
+#include "core/base/error.hpp"
+#include "core/base/number_text.hpp"
+#include "core/scene/shown_unit.hpp"
+#include "core/trust/doubts.hpp"
+#include "studies/uncertainty.hpp"
+
+namespace pleuel {
+
+namespace {
+
+const std::string& name_of(const ProblemFile& problem, const UncertainParameter& parameter) {
+  return problem.variables[static_cast<std::size_t>(parameter.variable)].name;
+}
+
+Json sampled_document(const Sampled& sampled) {
+  return {{"mean", sampled.mean},
+          {"deviation", sampled.deviation},
+          {"lowest", sampled.lowest},
+          {"highest", sampled.highest}};
+}
+
+Json response_document(const ProblemFile& problem, const UncertaintyStudy& study,
+                       std::size_t index) {
+  const UncertainResponse& response = study.responses[index];
+  const std::string unit = unit_of(problem.responses[index]).si;
+  Json document = {{"value", response.value},
+                   {"unit", unit},
+                   {"deviation", response.deviation},
+                   {"bounds", {response.value - response.bound, response.value + response.bound}},
+                   {"shares", Json::object()}};
+  const auto& parameters = problem.uncertainty->parameters;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    document["shares"][name_of(problem, parameters[i])] =
+        response.shares(static_cast<Eigen::Index>(i));
+  }
+  if (!study.errors.empty()) document["error"] = error_document(error_of(study.errors, index));
+  if (response.sampled) document["sampled"] = sampled_document(*response.sampled);
+  return document;
+}
+
+Json make_document(const ProblemFile& problem, const UncertaintyStudy& study) {
+  Json document = {
+      {"status", study_status(!study.is_interrupted)},
+      {"parameters", Json::object()},
+      {"responses", Json::object()},
+      {"samples", study.samples},
+      {"failures", study.failures},
+      {"warnings", texts_of(study.doubts)},
+      {"seconds", {{"gradients", study.gradient_seconds}, {"samples", study.sampling_seconds}}}};
+  for (const UncertainParameter& parameter : problem.uncertainty->parameters) {
+    const auto& variable = problem.variables[static_cast<std::size_t>(parameter.variable)];
+    document["parameters"][variable.name] = {{"value", variable.start},
+                                             {"deviation", parameter.standard_deviation()},
+                                             {"interval", parameter.half_width()}};
+  }
+  for (std::size_t i = 0; i < study.responses.size(); ++i) {
+    document["responses"][problem.responses[i].name] = response_document(problem, study, i);
+  }
+  return document;
+}
+
+/// uncertainty.csv: every history with its deviation [SI].
+void write_histories(const ResultFile& file, const ProblemFile& problem,
+                     const UncertaintyStudy& study) {
+  std::vector<std::string> header = {"time"};
+  for (const UncertainHistory& history : study.histories) {
+    const std::string& name = problem.responses[history.response].name;
+    header.push_back(name);
+    header.push_back(name + ":deviation");
+    if (history.sampled_deviations.size() > 0) header.push_back(name + ":sampled_deviation");
+  }
+  CsvFile csv(file, header);
+  for (Eigen::Index i = 0; i < study.time.size(); ++i) {
+    csv.add(study.time(i));
+    for (const UncertainHistory& history : study.histories) {
+      csv.add(history.values(i)).add(history.deviations(i));
+      if (history.sampled_deviations.size() > 0) csv.add(history.sampled_deviations(i));
+    }
+    csv.end_row();
+  }
+}
+
+std::string parameters_text(const ProblemFile& problem) {
+  const std::vector<ShownUnit> units = variable_units(problem);
+  Table table({{"parameter", Table::Align::left},
+               {"value"},
+               {"deviation"},
+               {"half width"},
+               {"unit", Table::Align::left},
+               {"sampled as", Table::Align::left}});
+  for (const UncertainParameter& parameter : problem.uncertainty->parameters) {
+    const auto index = static_cast<std::size_t>(parameter.variable);
+    const ShownUnit& unit = units[index];
+    table.add_row({name_of(problem, parameter),
+                   significant(unit.shown(problem.variables[index].start)),
+                   significant(unit.shown(parameter.standard_deviation()), 3),
+                   significant(unit.shown(parameter.half_width()), 3), unit.name,
+                   parameter.deviation > 0.0 ? "normal" : "uniform"});
+  }
+  return table.text();
+}
+
+/// "rod_height 78 %, crank_height 20 %"
+std::string largest_shares(const ProblemFile& problem, const UncertainResponse& response) {
+  const auto& parameters = problem.uncertainty->parameters;
+  std::vector<std::size_t> order(parameters.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  const auto share = [&](std::size_t i) { return response.shares(static_cast<Eigen::Index>(i)); };
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return share(a) > share(b); });
+  std::string text;
+  for (std::size_t k = 0; k < std::min<std::size_t>(2, order.size()); ++k) {
+    if (share(order[k]) < 0.005) break;
+    text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ",
+                        name_of(problem, parameters[order[k]]), 100.0 * share(order[k]));
+  }
+  return text;
+}
+
+std::string responses_text(const ProblemFile& problem, const UncertaintyStudy& study) {
+  std::vector<Table::Column> columns = {{"response", Table::Align::left},
+                                        {"value"},
+                                        {"deviation"},
+                                        {"bounds ±"},
+                                        {"unit", Table::Align::left},
+                                        {"error of value", Table::Align::left},
+                                        {"from", Table::Align::left}};
+  const bool is_sampled = study.samples > 1;
+  if (is_sampled) {
+    columns.insert(columns.end(),
+                   {{"sampled mean"}, {"sampled deviation"}, {"lowest"}, {"highest"}});
+  }
+  Table table(columns);
+  for (std::size_t i = 0; i < study.responses.size(); ++i) {
+    const UncertainResponse& response = study.responses[i];
+    const ShownUnit unit = unit_of(problem.responses[i]);
+    const auto shown = [&](double value, int digits) {
+      return significant(unit.shown(value), digits);
+    };
+    std::vector<std::string> cells = {problem.responses[i].name,
+                                      shown(response.value, 5),
+                                      shown(response.deviation, 3),
+                                      shown(response.bound, 3),
+                                      unit.name,
+                                      error_text(error_of(study.errors, i), unit),
+                                      largest_shares(problem, response)};
+    if (response.sampled) {
+      cells.insert(cells.end(),
+                   {shown(response.sampled->mean, 5), shown(response.sampled->deviation, 3),
+                    shown(response.sampled->lowest, 5), shown(response.sampled->highest, 5)});
+    }
+    table.add_row(std::move(cells));
+  }
+  return table.text();
+}
+
+std::string study_text(const ProblemFile& problem, const UncertaintyStudy& study) {
+  const auto samples = static_cast<std::size_t>(study.samples + study.failures);
+  const auto all = static_cast<std::size_t>(problem.uncertainty->samples);
+  std::string text = study.is_interrupted ? interrupted_text(samples, all, "samples") : "";
+  text += fmt::format(
+      "{}: what uncertain parameters make of the responses, to first order\n\n{}\n{}\n"
+      "Time: gradients {}",
+      problem.name, parameters_text(problem), responses_text(problem, study),
+      duration(study.gradient_seconds));
+  if (samples > 0) {
+    text += fmt::format("; {} samples {}", samples, duration(study.sampling_seconds));
+  }
+  text += "\n" + warnings_text(texts_of(study.doubts));
+  if (study.failures > 0) {
+    text += fmt::format("{} samples could not be simulated and are left out\n", study.failures);
+  }
+  return text;
+}
+
+UncertaintyStudy run_study(const ProblemFile& problem, const Arguments& arguments) {
+  ProgressLine progress(arguments, "gradients of the responses");
+  const int samples = problem.uncertainty->samples;
+  return uncertainty_study(problem, arguments.jobs, [&](int done) {
+    const std::string line = fmt::format("{} of {} samples", done, samples);
+    if (progress.is_shown()) {
+      progress.show_share(line, double(done) / samples);
+    } else {
+      progress.print("  " + line);
+    }
+  });
+}
+
+}  // namespace
+
+Outcome run_uncertainty(const Arguments& arguments) {
+  const ProblemInput input = read_input_with_accuracy(arguments);
+  const ProblemFile& problem = input.problem;
+  if (!problem.uncertainty) {
+    throw InputError("/uncertainty is missing: it says which parameters are uncertain");
+  }
+  RunRecord record(arguments, input, {{"jobs", arguments.jobs}});
+  show_warnings_before(problem);
+  record.begin_phase("uncertainty");
+  const UncertaintyStudy study = run_study(problem, arguments);
+  Outcome outcome{study.is_interrupted ? ExitCode::not_verified : ExitCode::done,
+                  make_document(problem, study), study_text(problem, study)};
+  outcome.text += fmt::format("\nWritten to {}: uncertainty.csv, result.json, run_card.json\n",
+                              record.folder().string());
+  record.write("result.json", outcome.document);
+  write_histories(record.result("uncertainty.csv"), problem, study);
+  record.show_picture([&] { return run_picture(input.problem, {{"start", input.design}}); });
+  record.finish(outcome);
+  return outcome;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,77 @@
+#include "cli/files/output_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "cli/text/console.hpp"
+
+namespace pleuel {
+
+namespace fs = std::filesystem;
+
+void WriteFailures::note(const fs::path& path, const std::string& reason) {
+  if (std::find(files_.begin(), files_.end(), path.string()) != files_.end()) return;
+  files_.push_back(path.string());
+  show(stderr, fmt::format("pleuel: {} cannot be written: {}\n", path.string(), reason));
+}
+
+OutputFile::OutputFile(ResultFile file, const fs::path& draft) : file_(std::move(file)) {
+  ::unlink(draft.c_str());
+  descriptor_ = ::open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (descriptor_ == -1) fail(errno);
+}
+
+OutputFile::~OutputFile() {
+  close();
+}
+
+void OutputFile::write(const std::string& text) {
+  if (has_failed_) return;
+  const off_t begin = ::lseek(descriptor_, 0, SEEK_CUR);
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t count = ::write(descriptor_, text.data() + done, text.size() - done);
+    if (count == -1 && errno == EINTR) continue;
+    if (count == -1) {
+      const int error = errno;
+      // Half a line would be read as a whole one. If it cannot be cut off, the failure is told
+      // anyway.
+      [[maybe_unused]] const int is_cut = ::ftruncate(descriptor_, begin);
+      return fail(error);
+    }
+    done += static_cast<std::size_t>(count);
+  }
+}
+
+bool OutputFile::close() {
+  if (descriptor_ != -1 && ::close(descriptor_) == -1) fail(errno);
+  descriptor_ = -1;
+  return !has_failed_;
+}
+
+void OutputFile::fail(int error) {
+  has_failed_ = true;
+  file_.failures->note(file_.path, std::strerror(error));
+}
+
+bool write_file(const ResultFile& file, const std::string& text) {
+  fs::path draft = file.path;
+  draft += fmt::format(".{}.draft", ::getpid());
+  std::error_code error;
+  OutputFile output(file, draft);
+  output.write(text);
+  if (output.close()) {
+    fs::rename(draft, file.path, error);
+    if (!error) return true;
+    file.failures->note(file.path, error.message());
+  }
+  fs::remove(draft, error);
+  return false;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,95 @@
+#include "cli/files/report_page.hpp"
+
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "cli/text/wrapped_text.hpp"
+
+namespace pleuel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view opening = R"(<script type="application/json" id="pleuel-data">)";
+constexpr std::string_view closing = "</script>";
+
+/// What pages show besides result.json.
+constexpr std::array<const char*, 7> shown_files = {
+    "history.csv",  "uncertainty.csv", "stability.csv",         "accuracy.csv",
+    "accuracy.svg", "gradients.csv",   "accuracy-gradients.svg"};
+constexpr std::uintmax_t largest_file = 3'000'000;  ///< [byte]
+
+std::string whole_text(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// A document inside a script element: "</script>" or "<!--" in a name must not end it.
+std::string without_tags(const std::string& json) {
+  std::string text;
+  text.reserve(json.size());
+  for (const char letter : json) {
+    if (letter == '<') {
+      text += "\\u003c";
+    } else {
+      text += letter;
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::optional<fs::path> find_report_template() {
+  std::error_code error;
+  if (const char* given = std::getenv("PLEUEL_REPORT_TEMPLATE")) {
+    return fs::is_regular_file(given, error) ? std::optional<fs::path>(given) : std::nullopt;
+  }
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (error) return std::nullopt;
+  const fs::path page = program.parent_path().parent_path() / "report" / report_name;
+  return fs::is_regular_file(page, error) ? std::optional<fs::path>(page) : std::nullopt;
+}
+
+std::string missing_template_text(const std::string& program, const fs::path& folder) {
+  return wrapped(
+      fmt::format("No report.html: its template is not built, which takes nodejs and npm "
+                  "(docs/report.md). Afterwards: {} report {}\n",
+                  program, folder.string()),
+      "  ");
+}
+
+Json report_data(const Json& card, const Json& result, const Json& picture,
+                 const fs::path& folder) {
+  Json files = Json::object();
+  for (const char* name : shown_files) {
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(folder / name, error);
+    if (!error && size <= largest_file) files[name] = whole_text(folder / name);
+  }
+  return {
+      {"format", 1}, {"card", card}, {"result", result}, {"picture", picture}, {"files", files}};
+}
+
+std::string report_page(const fs::path& page_template, const Json& data) {
+  std::string page = whole_text(page_template);
+  const std::size_t begin = page.find(opening);
+  const std::size_t end = begin == std::string::npos ? begin : page.find(closing, begin);
+  if (end == std::string::npos) {
+    throw std::runtime_error(
+        fmt::format("{} has no place for the data of a report", page_template.string()));
+  }
+  const std::size_t inside = begin + opening.size();
+  const std::string text =
+      data.dump(-1, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace);
+  page.replace(inside, end - inside, without_tags(text));
+  return page;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "cli/text/json.hpp"
+
+/// report.html: one page without network that shows what a run found (docs/report.md).
+namespace pleuel {
+
+inline constexpr const char* report_name = "report.html";
+
+/// The page without data that is built beside the program (report/), or the file that the variable
+/// PLEUEL_REPORT_TEMPLATE of the environment names; nothing if there is none.
+std::optional<std::filesystem::path> find_report_template();
+
+/// Why there is no report and what to do, as one line.
+std::string missing_template_text(const std::string& program, const std::filesystem::path& folder);
+
+/// The data of a page: {"card", "result", "picture", "files"}; `picture` of run_picture() or null,
+/// `files` the texts of the CSV and SVG files in the folder that pages show.
+Json report_data(const Json& card, const Json& result, const Json& picture,
+                 const std::filesystem::path& folder);
+
+/// The page with the data in place of what stands between the tags of the template.
+/// @throws std::runtime_error if the template has no such place or cannot be read
+std::string report_page(const std::filesystem::path& page_template, const Json& data);
+
+}  // namespace pleuel

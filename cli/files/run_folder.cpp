@@ -1,0 +1,143 @@
+#include "cli/files/run_folder.hpp"
+
+#include <array>
+#include <cerrno>
+#include <fstream>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include "cli/text/json.hpp"
+#include "core/base/error.hpp"
+
+namespace pleuel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Everything that a run of any command may leave beside the card.
+constexpr std::array<const char*, 15> result_names = {"history.csv",
+                                                      "result.json",
+                                                      "trajectory.csv",
+                                                      "trajectory-start.csv",
+                                                      "trajectory-optimum.csv",
+                                                      "pareto.csv",
+                                                      "accuracy.csv",
+                                                      "accuracy.svg",
+                                                      "accuracy-gradients.svg",
+                                                      "accuracy-optimum.svg",
+                                                      "stability.csv",
+                                                      "uncertainty.csv",
+                                                      "gradients.csv",
+                                                      "failed_design.json",
+                                                      "report.html"};
+
+fs::path usual_folder(const Arguments& arguments) {
+  if (arguments.files.size() > 1) return fs::path("runs") / arguments.command;
+  const fs::path& file = arguments.files.empty() ? arguments.file : arguments.files.front();
+  return fs::path("runs") / (file.stem().string() + "-" + arguments.command);
+}
+
+/// The command that the card of an older run names; empty if there is none that can be read.
+std::string command_of(const fs::path& folder) {
+  if (!fs::is_regular_file(folder / card_name)) return "";
+  std::ifstream stream(folder / card_name);
+  const Json card = Json::parse(stream, nullptr, /*allow_exceptions=*/false);
+  const bool is_named = card.is_object() && card.contains("command") && card["command"].is_string();
+  return is_named ? card["command"].get<std::string>() : "";
+}
+
+[[noreturn]] void refuse(const fs::path& folder, const std::string& reason) {
+  throw InputError(fmt::format("-o {}: {}", folder.string(), reason));
+}
+
+}  // namespace
+
+fs::path free_folder(const fs::path& folder) {
+  // A path that ends with a slash names the folder, not something in it.
+  const std::string name =
+      (folder.has_filename() ? folder : folder.parent_path()).lexically_normal().string();
+  fs::path free = name;
+  for (int number = 2; fs::exists(fs::symlink_status(free)); ++number) {
+    free = fmt::format("{}-{}", name, number);
+  }
+  return free;
+}
+
+RunFolder::RunFolder(const Arguments& arguments)
+    : path_(arguments.output       ? *arguments.output
+            : arguments.overwrites ? usual_folder(arguments)
+                                   : free_folder(usual_folder(arguments))) {
+  if (fs::exists(path_) && !fs::is_directory(path_)) refuse(path_, "is a file, not a folder");
+  make();
+  lock();
+  check_content(arguments);
+  check_writable();
+}
+
+RunFolder::~RunFolder() {
+  std::error_code error;
+  for (fs::path folder = path_; !made_.empty(); folder = folder.parent_path()) {
+    if (!fs::remove(folder, error) || folder == made_) break;
+  }
+  if (lock_ != -1) ::close(lock_);
+}
+
+void RunFolder::make() {
+  fs::path outermost;
+  for (fs::path folder = path_; !folder.empty() && !fs::exists(folder);
+       folder = folder.parent_path()) {
+    outermost = folder;
+  }
+  std::error_code error;
+  fs::create_directories(path_, error);
+  if (error) refuse(path_, "cannot be created: " + error.message());
+  made_ = outermost;
+}
+
+void RunFolder::lock() {
+  lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  // File systems without locks do not keep anybody from working.
+  if (lock_ != -1 && ::flock(lock_, LOCK_EX | LOCK_NB) == -1 && errno == EWOULDBLOCK) {
+    ::close(lock_);
+    refuse(path_,
+           "another run is at work in this folder; wait for its end, or choose another name");
+  }
+}
+
+void RunFolder::check_content(const Arguments& arguments) const {
+  if (fs::is_empty(path_)) return;
+  if (!fs::exists(path_ / card_name)) {
+    refuse(path_, fmt::format("the folder holds something else than a run (it has no {}); choose "
+                              "another name",
+                              card_name));
+  }
+  const std::string older = command_of(path_);
+  if (!older.empty() && older != arguments.command) {
+    refuse(path_, fmt::format("holds a run of `pleuel {}`; choose another name", older));
+  }
+  if (!arguments.overwrites) {
+    refuse(path_, "holds a run already; choose another name, or replace it with --overwrite");
+  }
+}
+
+void RunFolder::check_writable() const {
+  if (::access(path_.c_str(), W_OK | X_OK) == -1) refuse(path_, "cannot be written");
+}
+
+void RunFolder::remove_older_results() const {
+  std::error_code error;
+  for (const char* name : result_names) fs::remove(path_ / name, error);
+  for (const auto& entry : fs::directory_iterator(path_, error)) {  // drawings of `pleuel plot`
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("plot") && name.ends_with(".svg")) fs::remove(entry, error);
+  }
+  for (const auto& entry : fs::directory_iterator(path_ / "bodies", error)) {
+    if (entry.is_regular_file() && entry.path().extension() == ".json") fs::remove(entry, error);
+  }
+}
+
+}  // namespace pleuel

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "cli/input/arguments.hpp"
+
+namespace pleuel {
+
+inline constexpr const char* card_name = "run_card.json";
+
+/// The first of FOLDER, FOLDER-2, FOLDER-3 … that is not there.
+std::filesystem::path free_folder(const std::filesystem::path& folder);
+
+/// The folder of a run: made if need be, and locked against other runs of the program until it is
+/// destroyed or the program ends. A folder that was made and is still empty then goes again.
+class RunFolder {
+ public:
+  /// By default runs/<file>-<command>, or where that is taken runs/<file>-<command>-2 and so on.
+  /// @throws InputError if the folder cannot be written, if another run is at work in it, or if it
+  ///         holds something: a run of the same command may be overwritten if the user says so,
+  ///         another one or foreign files may not
+  explicit RunFolder(const Arguments& arguments);
+  ~RunFolder();
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Removes what an older run left, but for its card.
+  void remove_older_results() const;
+
+ private:
+  void make();
+  void lock();
+  void check_content(const Arguments& arguments) const;
+  void check_writable() const;
+
+  std::filesystem::path path_;
+  std::filesystem::path made_;  ///< the outermost folder that was made for it; empty if none
+  int lock_ = -1;
+};
+
+}  // namespace pleuel

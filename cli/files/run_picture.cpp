@@ -1,0 +1,218 @@
+#include "cli/files/run_picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "cli/text/packed_numbers.hpp"
+#include "cli/files/scene_picture.hpp"
+#include "core/response/shown_history.hpp"
+#include "core/scene/response_names.hpp"
+#include "core/scene/response_quantity.hpp"
+#include "core/scene/shown_unit.hpp"
+#include "picture/companions.hpp"
+#include "picture/frames_of_motion.hpp"
+#include "picture/motion.hpp"
+#include "picture/peak_place.hpp"
+#include "picture/thinned.hpp"
+
+namespace pleuel {
+
+namespace {
+
+constexpr int most_frames = 720;        ///< of a moving picture
+constexpr int most_points = 1600;       ///< of a curve
+constexpr int most_slope_points = 700;  ///< of a derivative over time
+constexpr std::size_t most_slopes = 6;  ///< of a response: by the variables that matter most
+constexpr double most_numbers = 1.2e6;  ///< of the motion of all designs together
+
+Json unit_document(const ShownUnit& unit) {
+  return {{"si", unit.si}, {"name", unit.name}, {"factor", unit.factor}};
+}
+
+Json meaning_document(const ResponseSettings& response) {
+  Json document = {{"type", word_of(response_types, response.type)},
+                   {"over_time", word_of(over_time_kinds, response.over_time)},
+                   {"bodies", response.bodies},
+                   {"unit", unit_document(unit_of(response))}};
+  if (!response.joint.empty()) document["joint"] = response.joint;
+  if (response.type == ResponseType::stress && response.station) {
+    document["at"] = *response.station;
+  }
+  const bool has_place =
+      response.type == ResponseType::deflection || response.type == ResponseType::position ||
+      response.type == ResponseType::velocity || response.type == ResponseType::acceleration;
+  if (has_place) document["at"] = response.at;
+  return document;
+}
+
+Json limits_picture(const ProblemFile& problem) {
+  Json document = Json::object();
+  for (const ConstraintSettings& constraint : problem.constraints) {
+    Json entry = {{"unit", unit_document(unit_of(problem, constraint))}};
+    if (!constraint.response.empty()) entry["response"] = constraint.response;
+    if (constraint.lower) entry["lower"] = *constraint.lower;
+    if (constraint.upper) entry["upper"] = *constraint.upper;
+    document[constraint.name] = std::move(entry);
+  }
+  return document;
+}
+
+/// Times and values of the points of a curve that are drawn, and the half-width of its band if it
+/// has one.
+Json curve_document(const Eigen::VectorXd& time, const Eigen::VectorXd& values,
+                    const std::vector<int>& kept, const Eigen::VectorXd& band = {},
+                    int most = most_points) {
+  const std::vector<int> points = thinned(values, most, kept);
+  const bool has_band = band.size() == values.size();
+  Eigen::MatrixXd curve(has_band ? 3 : 2, static_cast<Eigen::Index>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    curve.col(column).head<2>() << time(points[i]), values(points[i]);
+    if (has_band) curve(2, column) = band(points[i]);
+  }
+  return packed(curve);
+}
+
+/// {VARIABLE: curve} of the derivatives of a history, of the variables that change most of it.
+Json slopes_document(const ProblemFile& problem, const ShownDesign& design,
+                     const HistoryGradients& history) {
+  std::vector<std::pair<double, Eigen::Index>> sizes;
+  for (Eigen::Index j = 0; j < design.x.size(); ++j) {
+    sizes.push_back(
+        {history.gradients.col(j).lpNorm<Eigen::Infinity>() * std::abs(design.x(j)), j});
+  }
+  std::sort(sizes.begin(), sizes.end(), std::greater<>());
+  Json document = Json::object();
+  for (std::size_t k = 0; k < std::min(most_slopes, sizes.size()); ++k) {
+    const Eigen::Index j = sizes[k].second;
+    document[problem.variables[static_cast<std::size_t>(j)].name] = curve_document(
+        design.analysis->trajectory.time, history.gradients.col(j), {}, {}, most_slope_points);
+  }
+  return document;
+}
+
+void add_influence(const ProblemFile& problem, const ShownDesign& design, std::size_t i,
+                   Json& document) {
+  if (design.influence == nullptr) return;
+  document["gradients"] = influence_document(problem, *design.influence, i);
+  for (const HistoryGradients& history : design.influence->histories) {
+    if (history.response == i) document["slopes"] = slopes_document(problem, design, history);
+  }
+}
+
+Json response_document(const ProblemFile& problem, const ShownDesign& design, std::size_t i) {
+  const Analysis& analysis = *design.analysis;
+  const Response& response = analysis.responses[i];
+  const Reduction& reduction = analysis.reductions[i];
+  Json document = {{"name", response.name}, {"value", reduction.value}};
+  add_influence(problem, design, i, document);
+  if (!response.history()) return document;
+  std::vector<int> kept;
+  if (response.is_peak_over_time() && !reduction.samples.empty()) {
+    const Sample& peak = *std::max_element(
+        reduction.samples.begin(), reduction.samples.end(),
+        [](const Sample& a, const Sample& b) { return std::abs(a.weight) < std::abs(b.weight); });
+    document["peak_time"] = analysis.trajectory.time(peak.step);
+    const std::string place = response.history()->signal->describe(peak.channel);
+    document["peak_place"] = place;
+    const std::vector<std::string>& bodies = problem.responses[i].bodies;
+    const auto share =
+        bodies.empty() ? std::nullopt : share_of_place(analysis.model, bodies.front(), place);
+    if (share) document["peak_share"] = *share;
+    for (const Sample& sample : reduction.samples) kept.push_back(sample.step);
+  }
+  document["history"] =
+      curve_document(analysis.trajectory.time, shown_history(response, analysis.histories[i]), kept,
+                     i < design.bands.size() ? design.bands[i] : Eigen::VectorXd());
+  return document;
+}
+
+Json companions_document(const ProblemFile& problem, const Analysis& analysis) {
+  const Companions companions = find_companions(problem, analysis);
+  Json document = Json::array();
+  for (const Companion& one : companions.all) {
+    Json entry = meaning_document(one.settings);
+    entry["name"] = one.settings.name;
+    entry["value"] = one.value;
+    entry["peak_time"] = companions.time(one.peak);
+    entry["history"] = curve_document(companions.time, one.history, {one.peak});
+    document.push_back(std::move(entry));
+  }
+  return document;
+}
+
+/// So many frames that all designs together stay small.
+int frames_for(const Motion& first, std::size_t designs) {
+  double numbers = 0.0;
+  for (const BodyMotion& body : first.bodies) {
+    numbers +=
+        static_cast<double>(body.positions.rows() + body.rotations.rows() + body.stress.rows());
+  }
+  const double frames = most_numbers / std::max(1.0, numbers * static_cast<double>(designs));
+  return static_cast<int>(std::clamp(frames, 60.0, static_cast<double>(most_frames)));
+}
+
+Json motion_document(const Scene& scene, const Analysis& analysis, std::size_t designs) {
+  const int frames = frames_for(sample_motion(scene, analysis, {0}), designs);
+  const Motion motion = sample_motion(scene, analysis, frames_of_motion(analysis, frames));
+  Json document = {{"time", packed(motion.time.transpose())}, {"bodies", Json::array()}};
+  for (const BodyMotion& body : motion.bodies) {
+    Json entry = {{"stations", body.stations},
+                  {"parts", body.parts},
+                  {"positions", packed(body.positions)},
+                  {"rotations", packed(body.rotations)}};
+    if (body.stress.size() > 0) entry["stress"] = packed(body.stress);
+    document["bodies"].push_back(std::move(entry));
+  }
+  return document;
+}
+
+Json design_document(const ProblemFile& problem, const ShownDesign& design, std::size_t designs) {
+  Json document = {{"name", design.name}};
+  document["variables"] = std::vector<double>(design.x.begin(), design.x.end());
+  document["geometry"] = geometry_picture(problem, design.x);
+  if (design.analysis == nullptr) return document;
+  const Analysis& analysis = *design.analysis;
+  document["masses"] = Json::object();
+  for (const BodyModel& body : analysis.model.bodies) {
+    document["masses"][body.name] = document["masses"].value(body.name, 0.0) + body.mass;
+  }
+  document["motion"] = motion_document(problem.scene, analysis, designs);
+  document["responses"] = Json::array();
+  for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
+    document["responses"].push_back(response_document(problem, design, i));
+  }
+  document["companions"] = companions_document(problem, analysis);
+  return document;
+}
+
+}  // namespace
+
+Json run_picture(const ProblemFile& problem, const std::vector<ShownDesign>& designs) {
+  Json document = {{"name", problem.name},
+                   {"description", problem.description},
+                   {"scene", scene_picture(problem)},
+                   {"variables", Json::object()},
+                   {"responses", Json::object()},
+                   {"limits", limits_picture(problem)},
+                   {"designs", Json::array()}};
+  const std::vector<ShownUnit> units = variable_units(problem);
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    const DesignVariable& variable = problem.variables[i];
+    document["variables"][variable.name] = {{"start", variable.start},
+                                            {"lower", variable.lower},
+                                            {"upper", variable.upper},
+                                            {"unit", unit_document(units[i])}};
+  }
+  for (const ResponseSettings& response : problem.responses) {
+    document["responses"][response.name] = meaning_document(response);
+  }
+  if (problem.objective) document["objective"] = problem.objective->response;
+  for (const ShownDesign& design : designs) {
+    document["designs"].push_back(design_document(problem, design, designs.size()));
+  }
+  return document;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,131 @@
+#include "cli/files/run_record.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/files/report_page.hpp"
+#include "cli/versions.hpp"
+
+namespace pleuel {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+Json input_document(const ProblemInput& input, const Arguments& arguments) {
+  Json document = {
+      {"file", input.file.string()}, {"overrides", arguments.overrides}, {"hash", input.hash}};
+  if (arguments.design) document["design"] = arguments.design->string();
+  return document;
+}
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+}  // namespace
+
+RunRecord::RunRecord(const Arguments& arguments, Json options)
+    : folder_(arguments),
+      program_(arguments.program),
+      makes_report_(!arguments.leaves_out_report && arguments.command != "invariants"),
+      begin_(Clock::now()) {
+  card_["finished"] = false;
+  card_["command"] = arguments.command;
+  card_["arguments"] = arguments.words;
+  card_["options"] = std::move(options);
+  card_["versions"] = {{"pleuel", versions::pleuel},
+                       {"nlopt", versions::nlopt},
+                       {"ipopt", versions::ipopt},
+                       {"eigen", versions::eigen},
+                       {"klu", versions::klu},
+                       {"compiler", versions::compiler},
+                       {"build_type", versions::build_type}};
+}
+
+RunRecord::RunRecord(const Arguments& arguments, const ProblemInput& input, Json options)
+    : RunRecord(arguments, std::move(options)) {
+  card_["input"] = input_document(input, arguments);
+  card_["problem"] = input.effective;
+}
+
+RunRecord::RunRecord(const Arguments& arguments, const std::vector<ProblemInput>& inputs,
+                     Json options)
+    : RunRecord(arguments, std::move(options)) {
+  for (const ProblemInput& input : inputs) {
+    card_["inputs"].push_back(input_document(input, arguments));
+    card_["problems"].push_back(input.effective);
+  }
+}
+
+void RunRecord::begin_phase(const std::string& name) {
+  end_phase();
+  phase_ = name;
+  phase_begin_ = Clock::now();
+}
+
+void RunRecord::end_phase() {
+  if (!phase_.empty()) phases_[phase_] = phases_.value(phase_, 0.0) + seconds_since(phase_begin_);
+  phase_.clear();
+}
+
+ResultFile RunRecord::result(const std::filesystem::path& name) {
+  if (!has_results_) replace_older_run();
+  std::error_code error;  // shows when the file is written
+  if (name.has_parent_path()) {
+    std::filesystem::create_directory(folder() / name.parent_path(), error);
+  }
+  return {folder() / name, &failures_};
+}
+
+void RunRecord::write(const std::string& name, const Json& document) {
+  write_file(result(name), to_text(document));
+}
+
+void RunRecord::finish(Outcome& outcome) {
+  end_phase();
+  write("result.json", outcome.document);
+  write_report(outcome);
+  phases_["total"] = seconds_since(begin_);
+  card_["finished"] = true;
+  outcome.unwritten = failures_.files();
+  card_["exit_code"] = outcome.final_code();
+  card_["seconds"] = phases_;
+  write(card_name, card_);
+  outcome.unwritten = failures_.files();
+}
+
+void RunRecord::show_picture(const std::function<Json()>& make_picture) {
+  if (!makes_report_ || !find_report_template()) return;
+  begin_phase("report");
+  picture_ = make_picture();
+  end_phase();
+}
+
+void RunRecord::write_report(Outcome& outcome) {
+  if (!makes_report_) return;
+  const auto page = find_report_template();
+  if (!page) {
+    outcome.text += missing_template_text(program_, folder());
+    return;
+  }
+  begin_phase("report");
+  Json card = card_;
+  card["finished"] = true;
+  card["exit_code"] = outcome.final_code();
+  card["seconds"] = phases_;
+  card["seconds"]["total"] = seconds_since(begin_);
+  const std::string text =
+      report_page(*page, report_data(card, outcome.document, picture_, folder()));
+  if (write_file(result(report_name), text)) {
+    outcome.text += fmt::format("Report: {}\n", (folder() / report_name).string());
+  }
+  end_phase();
+}
+
+void RunRecord::replace_older_run() {
+  has_results_ = true;
+  write(card_name, card_);  // first: a folder without it would not be ours any more
+  folder_.remove_older_results();
+}
+
+}  // namespace pleuel

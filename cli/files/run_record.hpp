@@ -1,0 +1,70 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/input/arguments.hpp"
+#include "cli/reports/outcome.hpp"
+#include "cli/files/output_file.hpp"
+#include "cli/input/problem_input.hpp"
+#include "cli/files/run_folder.hpp"
+
+namespace pleuel {
+
+/// The run folder and its run_card.json: what ran, on what input, with which options and libraries,
+/// and where the time went. Nothing is written before there is a result: input that fails leaves an
+/// older run that shall be overwritten as it was. The first result takes its place, with a card
+/// that says "finished": false until the run ends. What cannot be written ends no run: the outcome
+/// says it.
+class RunRecord {
+ public:
+  /// Makes the folder.
+  /// @param options  effective options of the command, for the card
+  /// @throws InputError if it cannot be had: see RunFolder
+  RunRecord(const Arguments& arguments, const ProblemInput& input, Json options);
+
+  /// The same for a command that takes several files.
+  RunRecord(const Arguments& arguments, const std::vector<ProblemInput>& inputs, Json options);
+
+  const std::filesystem::path& folder() const { return folder_.path(); }
+
+  /// Ends the phase before and begins another, for the wall times of the card.
+  void begin_phase(const std::string& name);
+
+  /// Where the result of this name is to be written; makes the folder of "folder/name".
+  ResultFile result(const std::filesystem::path& name);
+
+  /// Writes a document into the folder, in place of an earlier one of this name.
+  void write(const std::string& name, const Json& document);
+
+  /// What the report shows of the mechanism: see run_picture(). Makes it only if there will be a
+  /// report.
+  void show_picture(const std::function<Json()>& make_picture);
+
+  /// Writes result.json, the last card and the report, and tells the outcome which files could not
+  /// be written.
+  void finish(Outcome& outcome);
+
+ private:
+  RunRecord(const Arguments& arguments, Json options);
+  void end_phase();
+  void write_report(Outcome& outcome);
+  void replace_older_run();
+
+  RunFolder folder_;
+  WriteFailures failures_;
+  Json card_;
+  Json phases_ = Json::object();
+  Json picture_;
+  std::string program_;
+  bool makes_report_ = true;
+  std::string phase_;
+  bool has_results_ = false;
+  std::chrono::steady_clock::time_point begin_, phase_begin_;
+};
+
+}  // namespace pleuel

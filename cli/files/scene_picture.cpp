@@ -1,0 +1,308 @@
+#include "cli/files/scene_picture.hpp"
+
+#include <array>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "cli/reports/law_points.hpp"
+#include "cli/text/packed_numbers.hpp"
+#include "cli/reports/scene_words.hpp"
+#include "core/base/number_text.hpp"
+#include "core/model/motion_plane.hpp"
+#include "core/response/analysis.hpp"
+#include "core/scene/shown_unit.hpp"
+#include "picture/drawn_place.hpp"
+#include "picture/section_outline.hpp"
+
+namespace pleuel {
+
+namespace {
+
+using Values = Design<double>;
+
+Json vector_document(const Eigen::Vector3d& v) {
+  return Json::array({v.x(), v.y(), v.z()});
+}
+Json vector_document(const std::array<double, 3>& v) {
+  return Json::array({v[0], v[1], v[2]});
+}
+
+Json points_document(const std::vector<Eigen::Vector2d>& points) {
+  Json document = Json::array();
+  for (const Eigen::Vector2d& point : points) document.push_back({point.x(), point.y()});
+  return document;
+}
+
+/// "rectangle, width 20 mm, height 30 mm".
+class SectionText {
+ public:
+  explicit SectionText(const Values& design) : design_(design) {}
+
+  std::string operator()(const RectangleSection& s) const {
+    return sizes("rectangle", {{"width", &s.width}, {"height", &s.height}});
+  }
+  std::string operator()(const CircleSection& s) const {
+    return sizes("circle", {{"diameter", &s.diameter}});
+  }
+  std::string operator()(const TubeSection& s) const {
+    return sizes("tube", {{"outer diameter", &s.outer_diameter}, {"thickness", &s.thickness}});
+  }
+  std::string operator()(const EllipseSection& s) const {
+    return sizes("ellipse", {{"width", &s.width}, {"height", &s.height}});
+  }
+  std::string operator()(const BoxSection& s) const {
+    return sizes("box", {{"width", &s.width}, {"height", &s.height}, {"thickness", &s.thickness}});
+  }
+  std::string operator()(const ISection& s) const {
+    return sizes("I", {{"width", &s.width},
+                       {"height", &s.height},
+                       {"flange", &s.flange_thickness},
+                       {"web", &s.web_thickness}});
+  }
+  std::string operator()(const GeneralSection&) const {
+    return "general (drawn as the rectangle with its radii of gyration)";
+  }
+
+ private:
+  std::string sizes(const std::string& kind,
+                    const std::vector<std::pair<const char*, const Number*>>& numbers) const {
+    const ShownUnit unit = engineering_unit("m");
+    std::string text = kind;
+    for (const auto& [name, number] : numbers) {
+      text += fmt::format(", {} {} {}", name, significant(unit.shown(resolve(*number, design_)), 4),
+                          unit.name);
+    }
+    return text;
+  }
+
+  const Values& design_;
+};
+
+Json segments_document(const BeamBody& beam, const Values& design) {
+  Json document = Json::array();
+  double begin = 0.0;
+  const std::vector<double> fractions = length_fractions(beam);
+  for (std::size_t i = 0; i < beam.segments.size(); ++i) {
+    const SectionOutline outline = section_outline(beam.segments[i].section, design);
+    document.push_back({{"begin", begin},
+                        {"end", begin + fractions[i]},
+                        {"text", std::visit(SectionText(design), beam.segments[i].section)},
+                        {"elements", beam.segments[i].elements},
+                        {"outer", points_document(outline.outer)},
+                        {"inner", points_document(outline.inner)}});
+    begin += fractions[i];
+  }
+  return document;
+}
+
+const char* type_of(const Body& body) {
+  static constexpr std::array<const char*, 4> names = {"beam", "rigid", "point-mass", "invariants"};
+  return names[body.shape.index()];
+}
+
+/// The lowest upper limit on the von Mises stress of a body; none if there is none.
+std::optional<double> stress_limit(const ProblemFile& problem, const std::string& body) {
+  std::optional<double> limit;
+  for (const ConstraintSettings& constraint : problem.constraints) {
+    if (constraint.response.empty() || !constraint.upper) continue;
+    const ResponseSettings& response = find_response(problem, constraint.response);
+    const bool is_of_body = response.type == ResponseType::stress &&
+                            response.part == StressPart::von_mises &&
+                            response.bodies.front() == body;
+    if (is_of_body && (!limit || *constraint.upper < *limit)) limit = *constraint.upper;
+  }
+  return limit;
+}
+
+Json body_document(const ProblemFile& problem, const Body& body, const Values& start) {
+  Json document = {{"name", body.name}, {"type", type_of(body)}};
+  if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
+    const Material& material = find_material(problem.scene, beam->material);
+    document["material"] = material.name;
+    document["is_rigid"] = beam->is_rigid;
+    document["frames"] = beam->frames;
+    if (material.strength) document["strength"] = resolve(*material.strength, start);
+  }
+  if (const auto limit = stress_limit(problem, body.name)) document["stress_limit"] = *limit;
+  return document;
+}
+
+Json joint_document(const Joint& joint) {
+  const JointWords words = words_of(joint.type);
+  Json document = {{"name", joint.name},       {"type", words.type},
+                   {"freedom", words.freedom}, {"freedoms", words.freedoms},
+                   {"bodies", joint.bodies},   {"axis", vector_document(joint.axis)}};
+  if (joint.type == JointType::universal) {
+    document["second_axis"] = vector_document(joint.second_axis);
+  }
+  if (joint.drive) {
+    const bool turns = joint.drive->coordinate == DrivenCoordinate::angle;
+    document["drive"] = turns ? "angle" : "displacement";
+  }
+  return document;
+}
+
+struct LoadDescription {
+  Json operator()(const PointForce& load) const {
+    return {{"type", "force"},
+            {"bodies", {load.body}},
+            {"direction", vector_document(load.direction)},
+            {"follows_body", load.follows_body},
+            {"unit", "N"}};
+  }
+  Json operator()(const PointTorque& load) const {
+    return {{"type", "torque"},
+            {"bodies", {load.body}},
+            {"direction", vector_document(load.direction)},
+            {"follows_body", load.follows_body},
+            {"unit", "N m"}};
+  }
+  Json operator()(const SpringDamper& load) const {
+    return {{"type", "spring"}, {"bodies", load.bodies}};
+  }
+  Json operator()(const JointForce& load) const {
+    const bool turns = load.coordinate == DrivenCoordinate::angle;
+    return {{"type", "joint-force"}, {"joint", load.joint}, {"unit", turns ? "N m" : "N"}};
+  }
+};
+
+Json law_document(const TimeFunction& function, double end_time, const Values& design,
+                  LawOf purpose) {
+  const LawPoints points = law_points(function, end_time, design, purpose);
+  Eigen::MatrixXd curve(2, static_cast<Eigen::Index>(points.times.size()));
+  curve.row(0) = Eigen::Map<const Eigen::RowVectorXd>(points.times.data(), curve.cols());
+  curve.row(1) = Eigen::Map<const Eigen::RowVectorXd>(points.values.data(), curve.cols());
+  return packed(curve);
+}
+
+class GeometryWriter {
+ public:
+  GeometryWriter(const ProblemFile& problem, const Values& start, const Values& design)
+      : problem_(problem), scene_(problem.scene), start_(start), design_(design) {}
+
+  Json bodies() const {
+    Json document = Json::array();
+    for (const Body& body : scene_.bodies) document.push_back(body_geometry(body));
+    return document;
+  }
+
+  Json joints() const {
+    Json document = Json::array();
+    for (const Joint& joint : scene_.joints) {
+      const Point& second = joint.type == JointType::distance ? joint.to : joint.at;
+      Json entry = {{"places", {place(joint.bodies[0], joint.at), place(joint.bodies[1], second)}}};
+      if (joint.drive) {
+        entry["drive"] =
+            law_document(joint.drive->motion, problem_.simulation.end_time, design_, LawOf::motion);
+      }
+      document.push_back(std::move(entry));
+    }
+    return document;
+  }
+
+  Json loads() const {
+    Json document = Json::array();
+    for (const Load& load : scene_.loads) document.push_back(std::visit(*this, load.element));
+    return document;
+  }
+
+  Json operator()(const PointForce& load) const { return at_place(load); }
+  Json operator()(const PointTorque& load) const { return at_place(load); }
+  Json operator()(const SpringDamper& load) const {
+    return {{"places", {place(load.bodies[0], load.at[0]), place(load.bodies[1], load.at[1])}},
+            {"text", spring_text(load, design_)}};
+  }
+  Json operator()(const JointForce& load) const {
+    Json document = {{"places", Json::array()}, {"text", spring_text(load, design_)}};
+    if (load.motor) document["value"] = curve(*load.motor);
+    return document;
+  }
+
+ private:
+  Json curve(const TimeFunction& function) const {
+    return law_document(function, problem_.simulation.end_time, design_, LawOf::load);
+  }
+
+  template <class PointLoad>
+  Json at_place(const PointLoad& load) const {
+    return {{"places", {place(load.body, load.at)}}, {"value", curve(load.value)}};
+  }
+
+  Json place(const std::string& body, const Point& at) const {
+    const DrawnPlace drawn = drawn_place(scene_, body, at, start_, design_);
+    Json document = {{"body", drawn.body}, {"at", vector_document(resolve_point(at, design_))}};
+    const bool is_on_axis =
+        drawn.body >= 0 && drawn.share >= 0.0 &&
+        std::holds_alternative<BeamBody>(scene_.bodies[static_cast<std::size_t>(drawn.body)].shape);
+    if (is_on_axis) {
+      document["share"] = drawn.share;
+    } else {
+      document["point"] = vector_document(drawn.point);
+    }
+    return document;
+  }
+
+  Json body_geometry(const Body& body) const {
+    const Pose<double> pose = body_pose(body, design_);
+    Json document = {{"origin", vector_document(pose.origin)},
+                     {"axes",
+                      {vector_document(Eigen::Vector3d(pose.rotation.col(0))),
+                       vector_document(Eigen::Vector3d(pose.rotation.col(1))),
+                       vector_document(Eigen::Vector3d(pose.rotation.col(2)))}}};
+    if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
+      document["length"] =
+          (resolve_point(beam->to, design_) - resolve_point(beam->from, design_)).norm();
+      document["segments"] = segments_document(*beam, design_);
+    } else if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
+      document["length"] =
+          (resolve_point(imported->to, design_) - resolve_point(imported->from, design_)).norm();
+    } else if (const auto* rigid = std::get_if<RigidBody>(&body.shape)) {
+      document["mass"] = resolve(rigid->mass, design_);
+    } else {
+      document["mass"] = resolve(std::get<PointMass>(body.shape).mass, design_);
+    }
+    return document;
+  }
+
+  const ProblemFile& problem_;
+  const Scene& scene_;
+  const Values &start_, &design_;
+};
+
+Values values_of_vector(const Eigen::VectorXd& x) {
+  return {x.begin(), x.end()};
+}
+
+}  // namespace
+
+Json scene_picture(const ProblemFile& problem) {
+  const Values start = values_of_vector(start_design(problem));
+  const auto& [gx, gy, gz] = problem.scene.gravity;
+  Json document = {{"gravity", {resolve(gx, start), resolve(gy, start), resolve(gz, start)}},
+                   {"end_time", problem.simulation.end_time}};
+  const PlaneAnalysis plane = find_motion_plane(problem.scene, start);
+  if (plane.plane) document["plane_normal"] = vector_document(plane.plane->normal);
+  document["bodies"] = Json::array();
+  for (const Body& body : problem.scene.bodies) {
+    document["bodies"].push_back(body_document(problem, body, start));
+  }
+  document["joints"] = Json::array();
+  for (const Joint& joint : problem.scene.joints)
+    document["joints"].push_back(joint_document(joint));
+  document["loads"] = Json::array();
+  for (const Load& load : problem.scene.loads) {
+    Json entry = std::visit(LoadDescription{}, load.element);
+    entry["name"] = load.name;
+    document["loads"].push_back(std::move(entry));
+  }
+  return document;
+}
+
+Json geometry_picture(const ProblemFile& problem, const Eigen::VectorXd& x) {
+  const Values start = values_of_vector(start_design(problem)), design = values_of_vector(x);
+  const GeometryWriter writer(problem, start, design);
+  return {{"bodies", writer.bodies()}, {"joints", writer.joints()}, {"loads", writer.loads()}};
+}
+
+}  // namespace pleuel

@@ -1,0 +1,41 @@
+#include "cli/files/starters.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/given_files.hpp"
+#include "cli/files/output_file.hpp"
+#include "core/base/error.hpp"
+#include "core/scene/reading/json_text.hpp"
+#include "core/scene/reading/text_file.hpp"
+
+namespace pleuel {
+
+namespace fs = std::filesystem;
+
+std::vector<Starter> starters() {
+  std::vector<Starter> all;
+  for (const auto& [kind, text] : given_files::starters) {
+    const Json document = parse_json(text, kind);
+    all.push_back({kind, document.at("description").get<std::string>(), text});
+  }
+  return all;
+}
+
+std::string problem_schema() {
+  return given_files::schema;
+}
+
+void write_given_file(const fs::path& path, const std::string& text, const Arguments& arguments) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) throw InputError(path.string() + ": is a folder");
+  if (fs::exists(path, error) && !arguments.overwrites) {
+    if (fs::is_regular_file(path, error) && read_text_file(path) == text) return;
+    throw InputError(fmt::format("{}: is there already; --overwrite replaces it", path.string()));
+  }
+  if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
+  WriteFailures failures;
+  write_file({path, &failures}, text);
+  if (!failures.files().empty()) throw InputError(path.string() + ": could not be written");
+}
+
+}  // namespace pleuel

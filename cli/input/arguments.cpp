@@ -1,0 +1,354 @@
+#include "cli/input/arguments.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/text/console.hpp"
+#include "cli/versions.hpp"
+#include "cli/text/wrapped_text.hpp"
+#include "core/base/error.hpp"
+#include "core/scene/reading/suggestion.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Where the library begins what it says of an option.
+constexpr std::size_t help_column = 30;
+
+constexpr const char* footer = R"(
+Every command that takes a problem also takes --set (repeatable) and --json.
+Exit codes: 0 done, 2 bad input, 3 simulation failed, 4 ended without a verified optimum,
+interrupted, or a design of simulate --design breaks a limit, 1 a result that could not be
+written, or a fault of the program.)";
+
+CLI::App* add_command(CLI::App& app, Arguments& arguments, const std::string& name,
+                      const std::string& description) {
+  CLI::App* command = app.add_subcommand(name, description);
+  command->add_flag("--json", arguments.wants_json,
+                    "print the result as one JSON document on standard output");
+  return command;
+}
+
+void add_overrides(CLI::App* command, Arguments& arguments) {
+  command
+      ->add_option(
+          "--set", arguments.overrides,
+          "override a value of the file: --set \"/simulation/step=0.1 ms\", or the start of "
+          "a variable: --set \"rod_height=12 mm\"; repeatable")
+      ->type_name("PLACE=VALUE")
+      ->allow_extra_args(false);
+}
+
+CLI::App* add_file_command(CLI::App& app, Arguments& arguments, const std::string& name,
+                           const std::string& description) {
+  CLI::App* command = add_command(app, arguments, name, description);
+  command->add_option("FILE", arguments.file, "problem file (JSON)")->required();
+  add_overrides(command, arguments);
+  return command;
+}
+
+void add_overwrite(CLI::App* command, Arguments& arguments) {
+  command->add_flag("--overwrite", arguments.overwrites,
+                    "replace an older run of this command in the same place");
+}
+
+void add_no_report(CLI::App* command, Arguments& arguments) {
+  command->add_flag("--no-report", arguments.leaves_out_report,
+                    "write no report.html; the command report makes it later");
+}
+
+CLI::Option* add_output(CLI::App* command, Arguments& arguments) {
+  add_overwrite(command, arguments);
+  add_no_report(command, arguments);
+  return command
+      ->add_option("-o,--output", arguments.output,
+                   "run folder (default: the first of runs/<file>-" + command->get_name() +
+                       ", …-2, …-3 that is not there)")
+      ->type_name("DIR");
+}
+
+void add_design(CLI::App* command, Arguments& arguments) {
+  command
+      ->add_option("--design", arguments.design,
+                   "at the design of a result.json or failed_design.json of an optimization, or "
+                   "of a file {\"rod_height\": \"12 mm\", …}; an optimization begins there")
+      ->type_name("FILE");
+}
+
+void add_accuracy(CLI::App* command, Arguments& arguments) {
+  command
+      ->add_option("--accuracy", arguments.accuracy,
+                   "relative error of what is minimized or limited, such as 0.1%: steps, elements "
+                   "and effects are chosen for it")
+      ->type_name("TARGET");
+}
+
+void add_backend(CLI::App* command, Arguments& arguments) {
+  command
+      ->add_option("--backend", arguments.backend,
+                   "this optimizer alone, instead of the file's; see the command backends")
+      ->type_name("NAME");
+}
+
+void add_starts(CLI::App* command, Arguments& arguments) {
+  command
+      ->add_option("--starts", arguments.starts,
+                   "begin at so many designs, the start and others spread between the bounds")
+      ->type_name("NUMBER")
+      ->check(CLI::Range(1, 10000));
+}
+
+/// Of the gradients of an optimizer: one.
+void add_method(CLI::App* command, Arguments& arguments) {
+  command
+      ->add_option("--method", arguments.methods,
+                   "gradients instead of the file's: auto, direct, adjoint, forward-difference, "
+                   "central-difference")
+      ->type_name("NAME")
+      ->expected(1);
+}
+
+void add_jobs(CLI::App* command, Arguments& arguments) {
+  command->add_option("--jobs", arguments.jobs, "simulations at a time (default: all processors)")
+      ->type_name("NUMBER")
+      ->check(CLI::Range(1, 1024));
+}
+
+void add_uncertainty(CLI::App& app, Arguments& arguments) {
+  CLI::App* uncertainty =
+      add_file_command(app, arguments, "uncertainty",
+                       "deviations and bounds of responses; Monte Carlo as the check");
+  add_output(uncertainty, arguments);
+  add_accuracy(uncertainty, arguments);
+  add_jobs(uncertainty, arguments);
+}
+
+void add_stability(CLI::App& app, Arguments& arguments) {
+  CLI::App* stability = add_command(app, arguments, "stability",
+                                    "drift, energy and work of files x formulations and schemes");
+  stability->add_option("FILE", arguments.files, "problem files (JSON)")->required();
+  add_overrides(stability, arguments);
+  add_output(stability, arguments);
+}
+
+void add_gradient(CLI::App& app, Arguments& arguments) {
+  CLI::App* gradient =
+      add_file_command(app, arguments, "gradient", "gradients of all responses at the start");
+  add_design(gradient, arguments);
+  gradient
+      ->add_option("--method", arguments.methods,
+                   "instead of the file's: auto (direct or adjoint, whichever is faster), direct, "
+                   "adjoint, forward-difference, central-difference; repeat to compare")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  gradient
+      ->add_option("--step", arguments.difference_step,
+                   "relative step of the differences instead of the file's")
+      ->type_name("NUMBER");
+  add_jobs(gradient, arguments);
+  add_accuracy(gradient, arguments);
+  gradient->add_flag("--histories", arguments.wants_histories,
+                     "write the derivatives of all histories into a run folder");
+  gradient->add_flag("--compare", arguments.compares_methods,
+                     "effort and accuracy of all methods, of differences with steps from 1e-2 to "
+                     "1e-8, into a run folder");
+  add_output(gradient, arguments);
+}
+
+void add_invariants(CLI::App& app, Arguments& arguments) {
+  CLI::App* invariants =
+      add_file_command(app, arguments, "invariants",
+                       "write what the mechanics knows of elastic bodies, with derivatives");
+  invariants->add_option("--body", arguments.body, "this body only (default: all elastic ones)")
+      ->type_name("NAME");
+  invariants
+      ->add_option("-o,--output", arguments.output,
+                   "a file NAME.json, or a run folder (default: runs/<file>-invariants)")
+      ->type_name("PATH");
+  add_overwrite(invariants, arguments);
+}
+
+void add_prices(CLI::App& app, Arguments& arguments) {
+  CLI::App* prices = add_file_command(app, arguments, "prices",
+                                      "what the optimum would gain by each number of the file");
+  prices
+      ->add_option("--design", arguments.design,
+                   "the optimum: result.json of an optimization (default: it is looked for first)")
+      ->type_name("FILE");
+  add_output(prices, arguments);
+  add_accuracy(prices, arguments);
+  add_backend(prices, arguments);
+  add_method(prices, arguments);
+  add_jobs(prices, arguments);
+}
+
+void add_accuracy(CLI::App& app, Arguments& arguments) {
+  CLI::App* accuracy =
+      add_file_command(app, arguments, "accuracy",
+                       "errors and times for steps x elements; the cheapest that will do");
+  add_output(accuracy, arguments);
+  add_design(accuracy, arguments);
+  accuracy->add_flag("--optimum", arguments.wants_optimum,
+                     "at the optimum (that of --design, or it is looked for), and with whole "
+                     "optimizations for the settings that are worth it");
+  add_backend(accuracy, arguments);
+}
+
+void add_report(CLI::App& app, Arguments& arguments) {
+  CLI::App* report =
+      add_command(app, arguments, "report", "write report.html into folders of earlier runs");
+  report->add_option("DIR", arguments.files, "run folders")->required();
+}
+
+void add_plot(CLI::App& app, Arguments& arguments) {
+  CLI::App* plot =
+      add_command(app, arguments, "plot", "draw histories of a run: as SVG, and in the terminal");
+  plot->add_option("DIR", arguments.file, "run folder")->required();
+  plot->add_option("NAME", arguments.names,
+                   "responses with histories (default: the names of all are listed)");
+  plot->add_option("-o,--output", arguments.output,
+                   "the drawing to write (default: DIR/plot-NAME.svg, or plot.svg of several)")
+      ->type_name("FILE.svg");
+}
+
+void add_show(CLI::App& app, Arguments& arguments) {
+  CLI::App* show = add_file_command(app, arguments, "show",
+                                    "draw the mechanism of a file, before anything is simulated");
+  show->add_option("-o,--output", arguments.output,
+                   "the page to write (default: the first of runs/<file>-show.html, …-2 that is "
+                   "not there)")
+      ->type_name("FILE.html");
+  add_design(show, arguments);
+}
+
+void add_new(CLI::App& app, Arguments& arguments) {
+  CLI::App* command = add_command(app, arguments, "new",
+                                  "write a small problem file to begin with; alone: list them");
+  command->add_option("KIND", arguments.kind, "what mechanism: see the list");
+  command->add_option("FILE", arguments.file, "where to (default: KIND.json)");
+  command->add_flag("--overwrite", arguments.overwrites, "replace files that are there");
+}
+
+void add_schema(CLI::App& app, Arguments& arguments) {
+  CLI::App* command =
+      add_command(app, arguments, "schema",
+                  "print or write the JSON schema of problem files, by which editors complete");
+  command->add_option("FILE", arguments.file, "where to (default: standard output)");
+  command->add_flag("--overwrite", arguments.overwrites, "replace a file that is there");
+}
+
+void add_completion(CLI::App& app, Arguments& arguments) {
+  CLI::App* command = add_command(app, arguments, "completion",
+                                  "print the completion of commands and options for a shell");
+  command->add_option("SHELL", arguments.kind, "bash or zsh")->required();
+}
+
+}  // namespace
+
+void add_commands(CLI::App& app, Arguments& arguments) {
+  add_new(app, arguments);
+  CLI::App* check = add_file_command(
+      app, arguments, "check",
+      "validate, describe the mechanism, verify the derivatives, estimate the time");
+  add_design(check, arguments);
+  add_jobs(check, arguments);
+  add_overwrite(check, arguments);
+  add_no_report(check, arguments);
+  check
+      ->add_option("-o,--output", arguments.output,
+                   "run folder for result.json and report.html (default: nothing is written)")
+      ->type_name("DIR");
+  CLI::App* simulate =
+      add_file_command(app, arguments, "simulate", "simulate one design, by default the start");
+  add_output(simulate, arguments);
+  add_accuracy(simulate, arguments);
+  simulate->add_flag("--effects", arguments.wants_effects,
+                     "show what each effect brings and costs: a simulation more for each");
+  add_design(simulate, arguments);
+  add_gradient(app, arguments);
+  add_invariants(app, arguments);
+  CLI::App* optimize =
+      add_file_command(app, arguments, "optimize", "find the best design and prove it");
+  add_output(optimize, arguments);
+  add_accuracy(optimize, arguments);
+  add_design(optimize, arguments);
+  add_backend(optimize, arguments);
+  add_starts(optimize, arguments);
+  add_method(optimize, arguments);
+  add_jobs(optimize, arguments);
+  CLI::App* pareto = add_file_command(app, arguments, "pareto",
+                                      "the best designs for a row of values of one limit");
+  add_output(pareto, arguments);
+  add_accuracy(pareto, arguments);
+  add_backend(pareto, arguments);
+  add_method(pareto, arguments);
+  add_jobs(pareto, arguments);
+  add_prices(app, arguments);
+  add_accuracy(app, arguments);
+  add_stability(app, arguments);
+  add_uncertainty(app, arguments);
+  add_report(app, arguments);
+  add_plot(app, arguments);
+  add_show(app, arguments);
+  add_command(app, arguments, "backends", "list the optimizers");
+  add_schema(app, arguments);
+  add_completion(app, arguments);
+}
+
+namespace {
+
+/// A misspelt command deserves better than "not expected".
+void check_command_name(const CLI::App& app, const std::vector<std::string>& words) {
+  if (words.empty() || words.front().starts_with("-")) return;
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+  if (std::find(known.begin(), known.end(), words.front()) != known.end()) return;
+  throw InputError(
+      fmt::format("there is no command \"{}\"{}", words.front(), hint(words.front(), known)));
+}
+
+}  // namespace
+
+std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
+  Arguments arguments;
+  arguments.program = argc > 0 ? argv[0] : "pleuel";
+  arguments.words.assign(argv + std::min(argc, 1), argv + argc);
+  std::vector<std::string> words = arguments.words;
+  if (!words.empty() && words.front() == "help") {  // help COMMAND
+    words.erase(words.begin());
+    words.push_back("--help");
+  }
+  CLI::App app("Pleuel: gradient-based design optimization of flexible mechanisms",
+               arguments.program);
+  app.footer(footer);
+  app.require_subcommand(1);
+  app.set_version_flag("--version", std::string("pleuel ") + versions::pleuel);
+  add_commands(app, arguments);
+  check_command_name(app, words);
+  try {
+    std::reverse(words.begin(), words.end());  // as the library wants them
+    app.parse(words);
+  } catch (const CLI::Success& success) {
+    std::ostringstream text;
+    app.exit(success, text);
+    write_all(stdout, wrapped(text.str(), std::string(help_column, ' ')));
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    throw InputError(fmt::format("{}; see {} --help", error.what(), arguments.program));
+  }
+  const double step = arguments.difference_step.value_or(0.5);
+  if (!(step > 0.0 && step < 1.0)) {
+    throw InputError(fmt::format("--step must be greater than 0 and less than 1, got {:g}", step));
+  }
+  arguments.command = app.get_subcommands().front()->get_name();
+  if (arguments.accuracy) {
+    arguments.overrides.push_back("/accuracy/target=" + *arguments.accuracy);
+  }
+  return arguments;
+}
+
+}  // namespace pleuel

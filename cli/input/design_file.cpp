@@ -1,0 +1,79 @@
+#include "cli/input/design_file.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/scene/reading/json_node.hpp"
+#include "core/scene/reading/text_file.hpp"
+#include "core/scene/shown_unit.hpp"
+#include "core/scene/variable_quantity.hpp"
+
+namespace pleuel {
+
+namespace {
+
+void check_names(const JsonNode& variables, const ProblemFile& problem) {
+  std::vector<std::string> known;
+  for (const DesignVariable& variable : problem.variables) known.push_back(variable.name);
+  for (const auto& [name, member] : variables.members()) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    fail_unknown_name(variables, "design variable", name, known);
+  }
+}
+
+/// A number in the unit that stands beside it, by default SI; or a text with unit.
+double read_number(const std::optional<JsonNode>& unit, const JsonNode& value,
+                   const UnitSystem& units, const Quantity& quantity) {
+  const JsonNode& written = value.value().is_string() || !unit ? value : *unit;
+  try {
+    if (value.value().is_string()) return units.read(value.text(), quantity);
+    return value.number() * (unit ? units.scale(unit->text(), quantity) : 1.0);
+  } catch (const UnitError& error) {
+    written.fail_with_value("must be " + describe(quantity), fmt::format(": {}", error.what()));
+  }
+}
+
+/// {"value", "unit"}, or the value alone.
+double read_value(const JsonNode& node, const DesignVariable& variable, const UnitSystem& units,
+                  const Quantity& quantity) {
+  const JsonNode value = node.value().is_object() ? node.at("value") : node;
+  const double x = read_number(node.value().is_object() ? node.find("unit") : std::nullopt, value,
+                               units, quantity);
+  if (x < variable.lower || x > variable.upper) {
+    value.fail_with_value(
+        fmt::format("must lie within the bounds of {:g} to {:g}", variable.lower, variable.upper));
+  }
+  return x;
+}
+
+/// The member "variables", or the whole document where that has a variable's name instead.
+JsonNode variables_of(const JsonNode& root, const ProblemFile& problem) {
+  const bool is_short = !root.find("variables") &&
+                        std::any_of(problem.variables.begin(), problem.variables.end(),
+                                    [&](const DesignVariable& one) { return root.find(one.name); });
+  return is_short ? root : root.at("variables");
+}
+
+}  // namespace
+
+Eigen::VectorXd read_design(const std::filesystem::path& path, const ProblemFile& problem) {
+  const std::string file = path.string();
+  const Json document = parse_json(read_text_file(path), file);
+  const JsonNode root(document, file, "", "the design");
+  const JsonNode variables = variables_of(root, problem);
+  check_names(variables, problem);
+  const UnitSystem units;
+  Eigen::VectorXd x(static_cast<Eigen::Index>(problem.variables.size()));
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    const DesignVariable& variable = problem.variables[i];
+    x(static_cast<Eigen::Index>(i)) = read_value(variables.at(variable.name), variable, units,
+                                                 variable_quantity(problem, static_cast<int>(i)));
+  }
+  return x;
+}
+
+}  // namespace pleuel

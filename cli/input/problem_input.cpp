@@ -1,0 +1,104 @@
+#include "cli/input/problem_input.hpp"
+
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "cli/input/design_file.hpp"
+#include "cli/text/console.hpp"
+#include "core/response/analysis.hpp"
+#include "core/response/effect_measurement.hpp"
+#include "core/scene/problem_reader.hpp"
+#include "core/scene/reading/override.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Fowler, Noll & Vo, 64 bits: tells inputs apart, protects against nothing.
+class Fingerprint {
+ public:
+  void add(const std::string& text) {
+    for (const char c : text) add_byte(static_cast<unsigned char>(c));
+    add_byte(0);  // so that {"a", "b"} differs from {"ab"}
+  }
+  std::string text() const { return fmt::format("fnv1a64:{:016x}", state_); }
+
+ private:
+  void add_byte(unsigned char byte) { state_ = (state_ ^ byte) * 0x100000001b3u; }
+  std::uint64_t state_ = 0xcbf29ce484222325u;
+};
+
+std::string whole_text(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// Index 3 without numerical damping is unstable: the multipliers swing ever more, and nothing in a
+/// short simulation shows it.
+void note_unstable_scheme(const ProblemInput& input) {
+  const SimulationSettings& settings = input.problem.simulation;
+  if (settings.scheme == SchemeType::implicit_euler || settings.spectral_radius < 1.0 ||
+      settings.formulation.constraints != ConstraintForm::index_3) {
+    return;
+  }
+  show(stderr,
+       fmt::format("{}: note: with the spectral radius 1 the forces in joints are unstable in the "
+                   "formulation \"index-3\"; take a radius below 1, or \"stabilized-index-2\"\n",
+                   input.file.string()));
+}
+
+/// Values of variables that are called by their names stand above those of a file with a design.
+void apply_named_values(const Arguments& arguments, const ProblemFile& problem,
+                        Eigen::VectorXd& x) {
+  for (const std::string& assignment : arguments.overrides) {
+    const std::string name = assigned_place(assignment);
+    if (name.starts_with("/")) continue;
+    for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+      if (problem.variables[i].name != name) continue;
+      x(static_cast<Eigen::Index>(i)) = problem.variables[i].start;
+    }
+  }
+}
+
+ProblemInput read_file(const std::filesystem::path& file, const Arguments& arguments) {
+  ProblemInput input;
+  input.file = file;
+  input.problem = read_problem(file, arguments.overrides);
+  SensitivitySettings& sensitivity = input.problem.sensitivity;
+  if (!arguments.methods.empty()) sensitivity.method = gradient_method(arguments.methods.front());
+  if (arguments.difference_step) sensitivity.difference_step = *arguments.difference_step;
+  input.design = arguments.design ? read_design(*arguments.design, input.problem)
+                                  : start_design(input.problem);
+  apply_named_values(arguments, input.problem, input.design);
+  decide_effects(input.problem);
+  input.text = {whole_text(file), file.string(), arguments.overrides};
+  input.effective = parse_json(input.text.text, file.string());
+  Fingerprint fingerprint;
+  fingerprint.add(input.text.text);
+  for (const std::string& assignment : arguments.overrides) {
+    apply_override(input.effective, assignment, file.string());
+    fingerprint.add(assignment);
+  }
+  if (arguments.design) fingerprint.add(whole_text(*arguments.design));
+  input.hash = fingerprint.text();
+  note_unstable_scheme(input);
+  return input;
+}
+
+}  // namespace
+
+ProblemInput read_input(const Arguments& arguments) {
+  return read_file(arguments.file, arguments);
+}
+
+std::vector<ProblemInput> read_inputs(const Arguments& arguments) {
+  std::vector<ProblemInput> inputs;
+  for (const auto& file : arguments.files) inputs.push_back(read_file(file, arguments));
+  return inputs;
+}
+
+}  // namespace pleuel

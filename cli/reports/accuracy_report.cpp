@@ -1,0 +1,375 @@
+#include "cli/reports/accuracy_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cli/reports/accuracy_document.hpp"
+#include "cli/reports/outcome.hpp"
+#include "cli/text/table.hpp"
+#include "cli/reports/warnings.hpp"
+#include "cli/text/wrapped_text.hpp"
+#include "core/base/number_text.hpp"
+#include "core/scene/shown_unit.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Relative changes below this are round-off.
+constexpr double no_change = 1e-9;
+/// Share of the time below which nothing is said to be saved.
+constexpr double least_saving = 0.05;
+/// What processor times differ by from run to run.
+constexpr double time_noise = 0.03;
+/// How many knobs are recommended.
+constexpr std::size_t most_knobs = 2;
+
+std::string elements_text(const Discretization& settings) {
+  return settings.elements > 0 ? std::to_string(settings.elements)
+                               : fmt::format("×{:g}", settings.factor);
+}
+
+/// The largest of some errors and whose it is: "3.1e-04 rod_stress"; with "≤" if it is below that
+/// of the reference, which then stands there.
+std::string worst(const ProblemFile& problem, const Eigen::VectorXd& errors,
+                  const Eigen::VectorXd& of_reference) {
+  if (errors.size() == 0) return "–";
+  Eigen::Index index = 0;
+  const double largest = errors.maxCoeff(&index);
+  const bool is_bound = largest > 0.0 && largest <= of_reference(index);
+  return fmt::format("{}{} {}", is_bound ? "≤ " : "", magnitude(largest),
+                     problem.responses[static_cast<std::size_t>(index)].name);
+}
+
+std::string first_sentence(const std::string& text) {
+  return text.substr(0, text.find(". "));
+}
+
+bool is_recommended(const AccuracyStudy& study, std::size_t run) {
+  return !study.recommendations.empty() && study.recommendations.front().values == run;
+}
+
+std::string runs_text(const ProblemFile& problem, const AccuracyStudy& study) {
+  Table table({{"step [ms]"},
+               {"elements"},
+               {"largest error", Table::Align::left},
+               {"of a gradient", Table::Align::left},
+               {"simulation [ms]"},
+               {"gradient [ms]"},
+               {"steps"},
+               {"factorizations"},
+               {"", Table::Align::left}},
+              2);
+  for (std::size_t i = 0; i < study.runs.size(); ++i) {
+    const AccuracyRun& run = study.runs[i];
+    std::vector<std::string> cells = {fmt::format("{:.4g}", 1e3 * run.settings.step),
+                                      elements_text(run.settings)};
+    if (run.has_failed()) {
+      cells.insert(cells.end(), {"failed", first_sentence(run.failure)});
+    } else {
+      cells.insert(cells.end(),
+                   {worst(problem, run.errors, study.reference.errors),
+                    worst(problem, run.gradient_errors, study.reference.gradient_errors),
+                    fmt::format("{:.1f}", 1e3 * run.simulation_seconds),
+                    fmt::format("{:.1f}", 1e3 * run.gradient_seconds), std::to_string(run.steps),
+                    std::to_string(run.factorizations)});
+    }
+    if (is_recommended(study, i)) cells.push_back("← recommended");
+    table.add_row(std::move(cells));
+  }
+  return table.text();
+}
+
+/// "For 1 % take a step of 0.2 ms and 4 elements a segment: 9.7 ms a simulation; for gradients …"
+std::string recommendation_text(const AccuracyStudy& study, const Recommendation& one) {
+  if (!one.values) {
+    return fmt::format("For {} none of these settings will do. ", target_text(one.target));
+  }
+  const AccuracyRun& run = study.runs[*one.values];
+  std::string text = fmt::format("For {} take {}: {} a simulation", target_text(one.target),
+                                 setting_text(run.settings), milliseconds(run.simulation_seconds));
+  if (run.gradient_errors.size() == 0) return text + ". ";
+  if (!one.gradients) return text + "; gradients are not as exact with any of them. ";
+  if (one.gradients == one.values) {
+    return text + fmt::format(", {} with gradients as exact. ", milliseconds(run.seconds()));
+  }
+  const AccuracyRun& other = study.runs[*one.gradients];
+  return text + fmt::format("; for gradients as exact {}, {} with them. ",
+                            setting_text(other.settings), milliseconds(other.seconds()));
+}
+
+std::string recommendations_text(const AccuracyStudy& study) {
+  if (study.recommendations.empty()) {
+    return "Nothing is recommended before all runs are done.\n";
+  }
+  std::string text;
+  for (const Recommendation& one : study.recommendations) {
+    text += recommendation_text(study, one);
+    if (!one.values) break;  // nor for less
+  }
+  return text + "\n";
+}
+
+/// "13 % less time", "the same time"
+std::string time_text(double change) {
+  if (std::abs(change) < time_noise) return "the same time";
+  return fmt::format("{:.0f} % {} time", 100.0 * std::abs(change), change < 0.0 ? "less" : "more");
+}
+
+std::string signed_share(double share) {
+  return (share < 0.0 ? "−" : "+") + significant(100.0 * std::abs(share), 2) + " %";
+}
+
+/// Of the response that counts and changes most: "rod_bow −18 %".
+std::string worst_change(const ProblemFile& problem, const AccuracyStudy& study,
+                         const VariedRun& varied) {
+  std::size_t worst = 0;
+  double share = 0.0;
+  for (const std::size_t i : study.counted) {
+    const auto index = static_cast<Eigen::Index>(i);
+    const double size =
+        std::max(std::abs(study.reference.values(index)), 1e-3 * study.reference.magnitudes(index));
+    const double change = size > 0.0 ? varied.influence(index) / size : 0.0;
+    if (std::abs(change) > std::abs(share)) share = change, worst = i;
+  }
+  if (std::abs(share) < no_change) return "no change";
+  return problem.responses[worst].name + " " + signed_share(share);
+}
+
+double objective_size(const ProblemFile& problem, const AccuracyStudy& study) {
+  for (std::size_t i = 0; i < problem.responses.size(); ++i) {
+    if (problem.responses[i].name != problem.objective->response) continue;
+    return std::abs(study.reference.values(static_cast<Eigen::Index>(i)));
+  }
+  return 0.0;
+}
+
+std::string words_of(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+/// What leaving out an effect, or including it, changes: of the optimum, or of the worst response.
+std::string influence_text(const ProblemFile& problem, const AccuracyStudy& study,
+                           const VariedRun& varied) {
+  if (!varied.run.optimum_change) return worst_change(problem, study, varied);
+  const ResponseSettings& objective = find_response(problem, problem.objective->response);
+  const double change = *varied.run.optimum_change;
+  if (std::abs(change) <= no_change * objective_size(problem, study)) return "no change";
+  return change_text(objective, change);
+}
+
+/// "Without geometric stiffening: 13 % less time, +7.8 g. "
+std::string effects_text(const ProblemFile& problem, const AccuracyStudy& study) {
+  std::string text;
+  for (const VariedRun& one : study.effects) {
+    const bool is_without = one.variation.value == "off";
+    text += fmt::format("{} {}: ", is_without ? "Without" : "With", words_of(one.variation.knob));
+    if (one.run.has_failed()) {
+      text += "the simulation fails. ";
+    } else {
+      text +=
+          fmt::format("{}, {}. ", time_text(one.time_change), influence_text(problem, study, one));
+    }
+  }
+  return text.empty() ? text : text + "\n";
+}
+
+/// Knobs that save time and keep the error that is asked for; the best first.
+std::vector<const VariedRun*> knobs_that_pay(const AccuracyStudy& study) {
+  std::vector<const VariedRun*> all;
+  if (study.recommendations.empty() || !study.recommendations.front().values) return all;
+  const double target = study.recommendations.front().target;
+  for (const VariedRun& one : study.knobs) {
+    if (one.run.has_failed() || study.counted_error(one.run.errors) > target) continue;
+    if (one.time_change < -least_saving) all.push_back(&one);
+  }
+  std::stable_sort(all.begin(), all.end(), [](const VariedRun* one, const VariedRun* other) {
+    return one->time_change < other->time_change;
+  });
+  if (all.size() > most_knobs) all.resize(most_knobs);
+  return all;
+}
+
+/// "With newton_tolerance 1e-6: 24 % less time, and still within 1 %. "
+std::string knobs_text(const AccuracyStudy& study) {
+  std::string text;
+  for (const VariedRun* one : knobs_that_pay(study)) {
+    text +=
+        fmt::format("With {}: {}, and still within {}. ", variation_text(one->variation),
+                    time_text(one->time_change), target_text(study.recommendations.front().target));
+  }
+  return text.empty() ? text : text + "\n";
+}
+
+std::string variations_text(const ProblemFile& problem, const AccuracyStudy& study) {
+  if (study.knobs.empty()) return "";
+  Table table({{"one by one", Table::Align::left},
+               {"time"},
+               {"run [ms]"},
+               {"largest error", Table::Align::left},
+               {"of a gradient", Table::Align::left}});
+  for (const VariedRun& one : study.knobs) {
+    std::vector<std::string> cells = {variation_text(one.variation)};
+    if (one.run.has_failed()) {
+      cells.insert(cells.end(), {"–", "–", "failed"});
+    } else {
+      cells.insert(cells.end(),
+                   {fmt::format("{}{:.0f} %", one.time_change < 0.0 ? "−" : "+",
+                                100.0 * std::abs(one.time_change)),
+                    fmt::format("{:.1f}", 1e3 * one.run.simulation_seconds),
+                    worst(problem, one.run.errors, study.reference.errors),
+                    worst(problem, one.run.gradient_errors, study.reference.gradient_errors)});
+    }
+    table.add_row(std::move(cells));
+  }
+  return wrapped(fmt::format("Changed at {}:", setting_text(study.runs[*study.base].settings))) +
+         "\n\n" + table.text() + "\n";
+}
+
+std::string largest_of(const Eigen::VectorXd& errors) {
+  return errors.size() == 0 ? "–" : magnitude(errors.maxCoeff());
+}
+
+std::string counted_text(const ProblemFile& problem, const AccuracyStudy& study) {
+  if (study.counted.size() == problem.responses.size()) return "all responses";
+  std::vector<std::string> names;
+  for (const std::size_t i : study.counted) names.push_back(problem.responses[i].name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string check_text(const ReferenceCheck& check) {
+  if (!check.failure.empty()) {
+    return fmt::format(" It could not be compared with {}: {}.", check.formulation,
+                       first_sentence(check.failure));
+  }
+  return fmt::format(" The formulation {} differs from it by {} at most.", check.formulation,
+                     largest_of(check.differences));
+}
+
+std::string reference_text(const ProblemFile& problem, const AccuracyStudy& study) {
+  return wrapped(
+      fmt::format("Errors are relative to a reference with {} ({}), whose own error is estimated "
+                  "at {}, of gradients {} (≤: below that).{} What is recommended counts {}. Times "
+                  "are processor times.",
+                  setting_text(study.reference.settings), duration(study.reference.seconds()),
+                  largest_of(study.reference.errors), largest_of(study.reference.gradient_errors),
+                  check_text(study.check), counted_text(problem, study)));
+}
+
+/// "An optimum to 1 %: 0.05 s with a step of 0.2 ms and 4 elements a segment, +0.24 g off. "
+std::string optimum_sentence(const ProblemFile& problem, const OptimumStudy& optima,
+                             double target) {
+  const OptimumRun* best = nullptr;
+  for (const OptimumRun& run : optima.runs) {
+    if (run.has_failed() || optima.relative_error(run) > target) continue;
+    if (best == nullptr || run.seconds < best->seconds) best = &run;
+  }
+  if (best == nullptr) {
+    return fmt::format("An optimum to {} needs a finer setting than these. ", target_text(target));
+  }
+  const ResponseSettings& objective = find_response(problem, problem.objective->response);
+  return fmt::format("An optimum to {}: {} with {}, {} off. ", target_text(target),
+                     duration(best->seconds), setting_text(best->settings),
+                     change_text(objective, best->change));
+}
+
+std::string optimum_sentences(const ProblemFile& problem, const AccuracyStudy& study,
+                              const OptimumStudy* optima) {
+  if (optima == nullptr || optima->reference.has_failed()) return "";
+  std::string text;
+  for (const Recommendation& one : study.recommendations) {
+    text += optimum_sentence(problem, *optima, one.target);
+  }
+  return text + "\n";
+}
+
+std::string optima_text(const ProblemFile& problem, const OptimumStudy* optima) {
+  if (optima == nullptr) return "";
+  const OptimumRun& reference = optima->reference;
+  if (reference.has_failed()) {
+    return wrapped(fmt::format("No optimum with {} to compare others with: {}",
+                               setting_text(reference.settings), reference.failure)) +
+           "\n\n";
+  }
+  const ResponseSettings& objective = find_response(problem, problem.objective->response);
+  const ShownUnit unit = unit_of(objective);
+  Table table({{"step [ms]"},
+               {"elements"},
+               {"optimum [" + unit.name + "]"},
+               {"off by"},
+               {"relative"},
+               {"seconds"},
+               {"evaluations"},
+               {"status", Table::Align::left}},
+              2);
+  for (const OptimumRun& run : optima->runs) {
+    std::vector<std::string> cells = {fmt::format("{:.4g}", 1e3 * run.settings.step),
+                                      elements_text(run.settings)};
+    if (run.has_failed()) {
+      cells.insert(cells.end(), {"–", "–", "–"});
+    } else {
+      const double error = optima->relative_error(run);
+      cells.insert(cells.end(),
+                   {significant(unit.shown(run.objective), 6), change_text(objective, run.change),
+                    (error <= optima->relative_floor() ? "≤ " : "") + magnitude(error)});
+    }
+    cells.insert(cells.end(), {significant(run.seconds, 2), std::to_string(run.evaluations),
+                               to_string(run.status)});
+    table.add_row(std::move(cells));
+  }
+  const std::string known = optima->reference_error
+                                ? "± " + change_text(objective, *optima->reference_error).substr(1)
+                                : std::string("error not known");
+  return "Whole optimizations:\n\n" + table.text() + "\n" +
+         wrapped(fmt::format("Compared with the optimum of {} {} ({}) with {}, {}.",
+                             significant(unit.shown(reference.objective), 6), unit.name, known,
+                             setting_text(reference.settings), to_string(reference.status))) +
+         "\n\n";
+}
+
+}  // namespace
+
+std::string setting_text(const Discretization& settings) {
+  std::string text = fmt::format("a step of {:.4g} ms and ", 1e3 * settings.step);
+  if (settings.elements > 0) return text + fmt::format("{} elements a segment", settings.elements);
+  return text + (settings.factor == 1.0
+                     ? std::string("the elements of the file")
+                     : fmt::format("{:g} times the elements of the file", settings.factor));
+}
+
+std::string variation_text(const Variation& variation) {
+  return variation.knob + " " + variation.value;
+}
+
+std::string milliseconds(double seconds) {
+  const double shown = 1e3 * seconds;
+  return shown < 9.95 ? fmt::format("{:.2g} ms", shown) : fmt::format("{:.0f} ms", shown);
+}
+
+std::string target_text(double target) {
+  return fmt::format("{:g} %", 100.0 * target);
+}
+
+std::string change_text(const ResponseSettings& response, double change) {
+  ShownUnit unit = unit_of(response);
+  if (unit.si == "kg" && std::abs(change) < 1.0) unit = {"kg", "g", 1e-3};
+  const std::string name = unit.name == "1" ? "" : " " + unit.name;
+  return (change < 0.0 ? "−" : "+") + significant(std::abs(unit.shown(change)), 2) + name;
+}
+
+std::string accuracy_text(const ProblemFile& problem, const AccuracyStudy& study,
+                          const OptimumStudy* optima) {
+  const std::size_t all = accuracy_grid(problem).size();
+  std::string text = study.is_interrupted ? interrupted_text(study.runs.size(), all, "runs") : "";
+  text += wrapped(problem.name + ": " + recommendations_text(study));
+  text += wrapped(optimum_sentences(problem, study, optima));
+  text += wrapped(knobs_text(study)) + wrapped(effects_text(problem, study)) + "\n";
+  text += runs_text(problem, study) + "\n" + optima_text(problem, optima);
+  text += variations_text(problem, study) + reference_text(problem, study) + "\n";
+  return text + warnings_text(warnings_of(study));
+}
+
+}  // namespace pleuel

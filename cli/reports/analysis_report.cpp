@@ -1,0 +1,43 @@
+#include "cli/reports/analysis_report.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/text/table.hpp"
+#include "core/base/number_text.hpp"
+#include "core/scene/shown_unit.hpp"
+
+namespace pleuel {
+
+Json responses_document(const Analysis& analysis, const ErrorBars& errors) {
+  Json document = Json::object();
+  for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
+    const Response& response = analysis.responses[i];
+    document[response.name] = {{"value", analysis.reductions[i].value}, {"unit", response.unit}};
+    if (!errors.empty()) document[response.name]["error"] = error_document(error_of(errors, i));
+  }
+  return document;
+}
+
+std::string responses_text(const ProblemFile& problem, const Analysis& analysis,
+                           const ErrorBars& errors) {
+  std::vector<Table::Column> columns = {
+      {"response", Table::Align::left}, {"value"}, {"unit", Table::Align::left}};
+  if (!errors.empty()) columns.push_back({"error", Table::Align::left});
+  Table table(columns);
+  for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
+    const ShownUnit unit = unit_of(problem.responses[i]);
+    table.add_row({analysis.responses[i].name,
+                   significant(unit.shown(analysis.reductions[i].value)), unit.name,
+                   errors.empty() ? "" : error_text(error_of(errors, i), unit)});
+  }
+  return table.is_empty() ? "  The file asks for no responses.\n" : table.text();
+}
+
+std::string size_text(const Analysis& analysis) {
+  const System& system = *analysis.model.mechanism.system;
+  return fmt::format("{} steps of {:.4g} s, {} coordinates, {} multipliers",
+                     analysis.trajectory.steps(), analysis.trajectory.scheme.step,
+                     system.coordinates(), system.multipliers());
+}
+
+}  // namespace pleuel

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "cli/reports/error_report.hpp"
+#include "cli/text/json.hpp"
+#include "core/response/analysis.hpp"
+
+/// What simulate, gradient and check have in common to say of one simulated design.
+namespace pleuel {
+
+/// {NAME: {"value", "unit", "error"}} [SI]; without "error" where none are known
+Json responses_document(const Analysis& analysis, const ErrorBars& errors = {});
+
+/// Table of values in engineering units.
+std::string responses_text(const ProblemFile& problem, const Analysis& analysis,
+                           const ErrorBars& errors = {});
+
+/// "4514 steps of 2.5e-05 s, 41 coordinates, 24 multipliers"
+std::string size_text(const Analysis& analysis);
+
+}  // namespace pleuel

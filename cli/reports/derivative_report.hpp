@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/text/json.hpp"
+#include "core/response/analysis.hpp"
+#include "studies/derivative_check.hpp"
+
+/// What check has to say of values and derivatives.
+namespace pleuel {
+
+/// Of one response: {"verdict", "error", "difference_step", "adjoint_error", "noise",
+/// "digits", "variables"}
+Json derivative_document(const ProblemFile& problem, const DerivativeCheck& check);
+
+/// A line for each response, then one for each derivative that does not agree.
+std::string derivatives_text(const ProblemFile& problem, const Analysis& analysis,
+                             const std::vector<DerivativeCheck>& checks);
+
+/// A sentence for each objective or limited response whose noise is above the optimizer's
+/// tolerance, with what to do. Noise of a limited response is relative to the larger one of value
+/// and limit, as an optimizer sees it.
+std::vector<std::string> noise_warnings(const ProblemFile& problem, const Analysis& analysis,
+                                        const std::vector<DerivativeCheck>& checks);
+
+}  // namespace pleuel

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "cli/text/json.hpp"
+#include "core/response/analysis.hpp"
+#include "sensitivity/history_gradients.hpp"
+
+/// What the variables change of the responses of a simulated design.
+namespace pleuel {
+
+struct DesignInfluence {
+  Eigen::MatrixXd gradients;  ///< responses × variables [SI]
+  /// Empty where they would take too much time or memory.
+  std::vector<HistoryGradients> histories{};
+};
+
+/// Of a simulation that is there already: no other one is made. With few variables by one run of
+/// direct differentiation, which gives the histories, too; with many by the cheaper exact method.
+/// Nothing without variables, and where the gradients cannot be computed.
+std::optional<DesignInfluence> design_influence(const ProblemFile& problem, Analysis& analysis);
+
+/// {VARIABLE: number} of a response [SI].
+Json influence_document(const ProblemFile& problem, const DesignInfluence& influence,
+                        std::size_t response);
+
+}  // namespace pleuel

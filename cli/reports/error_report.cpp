@@ -1,0 +1,53 @@
+#include "cli/reports/error_report.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/number_text.hpp"
+
+namespace pleuel {
+
+namespace {
+
+Json part_document(const ErrorPart& part) {
+  return part.is_resolved && std::isfinite(part.bound) ? Json(part.bound) : Json(nullptr);
+}
+
+}  // namespace
+
+Json error_document(const std::optional<ErrorBar>& bar) {
+  if (!bar) return nullptr;
+  const bool is_known = bar->is_resolved() && std::isfinite(bar->bound());
+  Json document = {{"total", is_known ? Json(bar->bound()) : Json(nullptr)},
+                   {"step", part_document(bar->step)},
+                   {"elements", part_document(bar->elements)},
+                   {"newton", part_document(bar->newton)},
+                   {"effects", part_document(bar->effects)},
+                   {"change", is_known ? Json(bar->change()) : Json(nullptr)}};
+  if (bar->order && std::isfinite(*bar->order)) document["order"] = *bar->order;
+  return document;
+}
+
+std::string error_text(const std::optional<ErrorBar>& bar, const ShownUnit& unit) {
+  if (!bar) return "–";
+  if (!bar->is_resolved()) return "not resolved";
+  return bar->bound() == 0.0 ? "exact" : "± " + significant(unit.shown(bar->bound()), 2);
+}
+
+std::string error_sentence(const ErrorBar& bar, double value, const ShownUnit& unit) {
+  if (!bar.is_resolved()) return "not resolved by steps and elements";
+  const auto shown = [&](double bound) {
+    return bound == 0.0 ? "0" : significant(unit.shown(bound), 2);
+  };
+  std::string text = fmt::format("known to ± {} {}", shown(bar.bound()), unit.name);
+  if (value != 0.0) {
+    text += fmt::format(" ({} %)", significant(100.0 * bar.bound() / std::abs(value), 2));
+  }
+  text += fmt::format(": step {}, elements {}", shown(bar.step.bound), shown(bar.elements.bound));
+  if (bar.newton.bound > 0.0) text += fmt::format(", Newton {}", shown(bar.newton.bound));
+  if (bar.effects.bound > 0.0) text += fmt::format(", effects {}", shown(bar.effects.bound));
+  return text;
+}
+
+}  // namespace pleuel

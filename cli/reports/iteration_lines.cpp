@@ -1,0 +1,62 @@
+#include "cli/reports/iteration_lines.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "cli/text/console.hpp"
+#include "core/base/number_text.hpp"
+
+namespace pleuel {
+
+namespace {
+
+constexpr const char* line_columns = "  {:>9}  {:>16}  {:>13}  {:>9}  {:>9}\n";
+
+/// What happened and where; history.csv keeps the rest of the sentence.
+std::string first_clause(const std::string& message) {
+  return message.substr(0, std::min(message.find("; "), message.find(". ")));
+}
+
+const char* describe(Purpose purpose) {
+  switch (purpose) {
+    case Purpose::search:
+      return "the backend goes on";
+    case Purpose::polish:
+      return "the answer is refined";
+    case Purpose::restoration:
+      return "the limits alone";
+    default:
+      return "of the answer, by designs beside it";
+  }
+}
+
+}  // namespace
+
+IterationLines::IterationLines(std::FILE* out, const ProblemFile& problem)
+    : out_(out), unit_(unit_of(find_response(problem, problem.objective->response))) {
+  show(out_, fmt::format(line_columns, "iteration", fmt::format("objective [{}]", unit_.name),
+                         "max violation", "step", "seconds"));
+}
+
+void IterationLines::see(const EvaluationRecord& record) {
+  if (record.purpose != purpose_) {
+    purpose_ = record.purpose;
+    step_ = 0.0;
+    show(out_, fmt::format("  {:>9}  {}\n", to_string(purpose_), describe(purpose_)));
+  }
+  step_ = std::max(step_, record.step);
+  if (record.has_failed()) {
+    show(out_, fmt::format("  evaluation {} failed: {}\n", record.evaluation,
+                           first_clause(record.failure)));
+  } else if (purpose_ != Purpose::audit && record.iteration > iteration_) {
+    show(out_,
+         fmt::format(line_columns, record.iteration, significant(unit_.shown(record.objective), 6),
+                     magnitude(record.max_violation), magnitude(step_),
+                     fmt::format("{:.1f}", record.seconds)));
+    iteration_ = record.iteration;
+    step_ = 0.0;
+  }
+}
+
+}  // namespace pleuel

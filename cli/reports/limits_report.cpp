@@ -1,0 +1,103 @@
+#include "cli/reports/limits_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/reports/optimum.hpp"
+#include "cli/text/table.hpp"
+#include "cli/text/wrapped_text.hpp"
+#include "core/base/number_text.hpp"
+#include "core/scene/shown_unit.hpp"
+#include "optimization/verdict.hpp"
+
+namespace pleuel {
+
+namespace {
+
+double value_of(const ConstraintSettings& constraint, const ProblemFile& problem,
+                const Eigen::VectorXd& x, const Analysis& analysis) {
+  double value = 0.0;
+  for (const auto& [variable, coefficient] : constraint.linear) value += coefficient * x(variable);
+  if (!constraint.linear.empty()) return value;
+  const ResponseSettings& response = find_response(problem, constraint.response);
+  return analysis.reductions[static_cast<std::size_t>(&response - problem.responses.data())].value;
+}
+
+/// As exactly as a verified optimum keeps its limits.
+bool is_kept(const ConstraintSettings& constraint, double value) {
+  const auto exceeds = [](double excess, double limit) {
+    return excess > Tolerances().violation * std::abs(limit);
+  };
+  return !(constraint.upper && exceeds(value - *constraint.upper, *constraint.upper)) &&
+         !(constraint.lower && exceeds(*constraint.lower - value, *constraint.lower));
+}
+
+std::string sum_text(const ProblemFile& problem, const Eigen::VectorXd& x,
+                     const Analysis& analysis) {
+  std::vector<std::string> broken;
+  for (const ConstraintSettings& constraint : problem.constraints) {
+    if (is_kept(constraint, value_of(constraint, problem, x, analysis))) continue;
+    broken.push_back(constraint.name);
+  }
+  const std::size_t all = problem.constraints.size();
+  if (broken.empty() && all == 1) return "The limit is kept.\n";
+  if (broken.empty()) return fmt::format("All {} limits are kept.\n", all);
+  return wrapped(fmt::format("{} of {} limits {} broken: {}.", broken.size(), all,
+                             broken.size() == 1 ? "is" : "are", fmt::join(broken, ", ")),
+                 "  ") +
+         "\n";
+}
+
+}  // namespace
+
+Json limits_document(const ProblemFile& problem, const Eigen::VectorXd& x,
+                     const Analysis& analysis) {
+  Json document = Json::object();
+  for (const ConstraintSettings& constraint : problem.constraints) {
+    const double value = value_of(constraint, problem, x, analysis);
+    const UsedLimit used = used_limit(constraint, value);
+    Json& entry = document[constraint.name];
+    entry = {{"value", value},
+             {"limit", used.limit},
+             {"side", used.is_upper ? "upper" : "lower"},
+             {"unit", unit_of(problem, constraint).si}};
+    if (used.utilisation) entry["utilisation"] = *used.utilisation;
+    entry["kept"] = is_kept(constraint, value);
+  }
+  return document;
+}
+
+std::string limits_text(const ProblemFile& problem, const Eigen::VectorXd& x,
+                        const Analysis& analysis) {
+  Table table({{"constraint", Table::Align::left},
+               {"value"},
+               {"limit"},
+               {"unit", Table::Align::left},
+               {"used"},
+               {"margin"},
+               {"", Table::Align::left}});
+  for (const ConstraintSettings& constraint : problem.constraints) {
+    const double value = value_of(constraint, problem, x, analysis);
+    const UsedLimit used = used_limit(constraint, value);
+    const ShownUnit unit = unit_of(problem, constraint);
+    const double margin = used.is_upper ? used.limit - value : value - used.limit;
+    table.add_row({constraint.name, significant(unit.shown(value)),
+                   (used.is_upper ? "≤ " : "≥ ") + significant(unit.shown(used.limit)), unit.name,
+                   used.utilisation ? percent(*used.utilisation) : "–",
+                   significant(unit.shown(margin), 3),
+                   is_kept(constraint, value) ? "kept" : "BROKEN"});
+  }
+  return table.is_empty() ? "" : "\n" + table.text() + "\n" + sum_text(problem, x, analysis);
+}
+
+bool keeps_limits(const ProblemFile& problem, const Eigen::VectorXd& x, const Analysis& analysis) {
+  return std::all_of(problem.constraints.begin(), problem.constraints.end(),
+                     [&](const ConstraintSettings& constraint) {
+                       return is_kept(constraint, value_of(constraint, problem, x, analysis));
+                     });
+}
+
+}  // namespace pleuel

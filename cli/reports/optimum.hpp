@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/reports/design_influence.hpp"
+#include "core/response/effect_influence.hpp"
+#include "core/response/monitors.hpp"
+#include "core/scene/shown_unit.hpp"
+#include "optimization/solve.hpp"
+#include "sensitivity/gradients.hpp"
+
+namespace pleuel {
+
+/// What the reports of an optimization are made from.
+struct Optimum {
+  const ProblemFile& problem;
+  const Result& result;
+  /// Values of all responses; empty if the start cannot be simulated.
+  Eigen::VectorXd start_responses, responses;
+  Monitors monitors;                     ///< of the last design; likewise
+  std::vector<std::string> warnings;     ///< likewise: what speaks against its numbers
+  std::optional<GradientChoice> method;  ///< of the gradients; none if there was none
+  /// Of the last design, by runs of twice the step; empty: not measured.
+  std::vector<EffectInfluence> influences{};
+  std::optional<DesignInfluence> influence{};  ///< of the variables; none: not known
+
+  bool has_design() const { return result.evaluation.has_gradients(); }
+
+  /// Where the search began: that of the file, unless another design was given.
+  double start(std::size_t variable) const {
+    return result.history.empty()
+               ? problem.variables[variable].start
+               : first_design(result.history).x(static_cast<Eigen::Index>(variable));
+  }
+};
+
+/// The limit of a constraint that is nearer to its value, and how much of it is used.
+struct UsedLimit {
+  double limit = 0.0;
+  bool is_upper = true;
+  std::optional<double> utilisation;  ///< 1 = at the limit; none where the ratio says nothing
+};
+
+UsedLimit used_limit(const ConstraintSettings& constraint, double value);
+
+/// Within a millionth of the range of a variable.
+bool is_at_lower_bound(const DesignVariable& variable, double value);
+bool is_at_upper_bound(const DesignVariable& variable, double value);
+
+}  // namespace pleuel

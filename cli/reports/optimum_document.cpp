@@ -1,0 +1,126 @@
+#include "cli/reports/optimum_document.hpp"
+
+#include "cli/reports/error_report.hpp"
+#include "cli/reports/monitors_report.hpp"
+#include "cli/reports/scene_report.hpp"
+#include "core/scene/response_quantity.hpp"
+#include "optimization/prices.hpp"
+
+namespace pleuel {
+
+namespace {
+
+Json objective_document(const Optimum& optimum) {
+  const std::string& name = optimum.problem.objective->response;
+  Json document = {{"name", name}, {"unit", unit_of(find_response(optimum.problem, name)).si}};
+  if (!optimum.has_design()) return document;
+  document["value"] = optimum.result.evaluation.objective;
+  document["start"] = first_design(optimum.result.history).objective;
+  if (optimum.result.error) document["error"] = error_document(optimum.result.error);
+  return document;
+}
+
+Json constraint_document(const Optimum& optimum, std::size_t i) {
+  const ConstraintSettings& constraint = optimum.problem.constraints[i];
+  const auto row = static_cast<Eigen::Index>(i);
+  const double value = optimum.result.evaluation.constraints(row);
+  const UsedLimit used = used_limit(constraint, value);
+  Json document = {{"value", value},
+                   {"limit", used.limit},
+                   {"side", used.is_upper ? "upper" : "lower"},
+                   {"unit", unit_of(optimum.problem, constraint).si}};
+  if (has_prices(optimum.result)) {
+    document["multiplier"] = optimum.result.constraint_multipliers(row);
+  }
+  if (used.utilisation) document["utilisation"] = *used.utilisation;
+  if (constraint.deviations > 0.0) document["deviations"] = constraint.deviations;
+  return document;
+}
+
+Json responses_document(const Optimum& optimum) {
+  Json document = Json::object();
+  for (std::size_t i = 0; i < optimum.problem.responses.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    const ResponseSettings& response = optimum.problem.responses[i];
+    document[response.name] = {{"value", optimum.responses(row)},
+                               {"unit", quantity_of(response).unit},
+                               {"start", optimum.start_responses(row)}};
+    const ErrorBars& errors = optimum.result.response_errors;
+    if (!errors.empty()) document[response.name]["error"] = error_document(error_of(errors, i));
+    if (optimum.influence) {
+      document[response.name]["gradients"] =
+          influence_document(optimum.problem, *optimum.influence, i);
+    }
+  }
+  return document;
+}
+
+Json parts_document(const std::vector<SearchPart>& parts) {
+  Json document = Json::array();
+  for (const SearchPart& part : parts) {
+    document.push_back({{"method", part.method},
+                        {"status", to_string(part.status)},
+                        {"evaluations", part.evaluations}});
+  }
+  return document;
+}
+
+Json least_violation_document(const ProblemFile& problem, const LeastViolation& least) {
+  Json limits = Json::object();
+  for (const ExceededLimit& one : least.limits) {
+    const ConstraintSettings& constraint = problem.constraints[one.constraint];
+    Json limit = {{"limit", one.limit},
+                  {"side", one.is_upper ? "upper" : "lower"},
+                  {"unit", unit_of(problem, constraint).si},
+                  {"in_conflict", one.is_in_conflict},
+                  {"together", one.together}};
+    if (one.alone) limit["alone"] = *one.alone;
+    limits[constraint.name] = std::move(limit);
+  }
+  return {{"violation", least.violation}, {"proven", least.is_proven}, {"limits", limits}};
+}
+
+}  // namespace
+
+Json optimum_document(const Optimum& optimum) {
+  const Result& result = optimum.result;
+  Json document = {{"status", to_string(result.status)},
+                   {"message", result.message},
+                   {"backend", result.backend},
+                   {"objective", objective_document(optimum)},
+                   {"variables", variables_document(optimum.problem, result.x)},
+                   {"constraints", Json::object()}};
+  for (std::size_t i = 0; i < optimum.problem.variables.size(); ++i) {
+    document["variables"][optimum.problem.variables[i].name]["start"] = optimum.start(i);
+  }
+  if (optimum.has_design()) {
+    for (std::size_t i = 0; i < optimum.problem.constraints.size(); ++i) {
+      document["constraints"][optimum.problem.constraints[i].name] =
+          constraint_document(optimum, i);
+    }
+    if (optimum.responses.size() > 0) document["responses"] = responses_document(optimum);
+    document["monitors"] = monitors_document(optimum.monitors);
+    document["warnings"] = optimum.warnings;
+  }
+  document["kkt_residual"] = result.kkt_residual;
+  document["max_violation"] = result.max_violation;
+  document["evaluations"] = result.evaluations;
+  document["failed_evaluations"] = count_failures(result.history);
+  document["gradient_evaluations"] = result.gradient_evaluations;
+  document["iterations"] = result.iterations;
+  document["restarts"] = result.restarts;
+  if (result.parts.size() > 1) document["parts"] = parts_document(result.parts);
+  if (result.least_violation) {
+    document["least_violation"] =
+        least_violation_document(optimum.problem, *result.least_violation);
+  }
+  if (!result.polished_with.empty()) document["polished_with"] = result.polished_with;
+  if (optimum.method) {
+    document["gradients"] = {{"method", to_string(optimum.method->method)},
+                             {"reason", optimum.method->reason}};
+  }
+  document["seconds"] = result.seconds;
+  return document;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,161 @@
+#include "cli/reports/optimum_report.hpp"
+
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "cli/reports/error_report.hpp"
+#include "cli/reports/monitors_report.hpp"
+#include "cli/text/table.hpp"
+#include "cli/reports/warnings.hpp"
+#include "cli/text/wrapped_text.hpp"
+#include "core/base/number_text.hpp"
+#include "optimization/prices.hpp"
+
+namespace pleuel {
+
+namespace {
+
+std::string status_text(const Result& result) {
+  switch (result.status) {
+    case Status::verified:
+      return "VERIFIED: " + result.message;
+    case Status::stalled:
+      return "NOT VERIFIED (stalled): " + result.message;
+    case Status::unresolved:
+      return "NOT VERIFIED (unresolved): " + result.message;
+    case Status::infeasible:
+      return "NOT VERIFIED (infeasible): " + result.message;
+    case Status::interrupted:
+      return "INTERRUPTED: " + result.message;
+    default:
+      return "FAILED: " + result.message;
+  }
+}
+
+std::string objective_text(const Optimum& optimum) {
+  const std::string& name = optimum.problem.objective->response;
+  const ShownUnit unit = unit_of(find_response(optimum.problem, name));
+  const double start = first_design(optimum.result.history).objective;
+  const double end = optimum.result.evaluation.objective;
+  std::string text = fmt::format("{}: {} → {} {}", name, significant(unit.shown(start)),
+                                 significant(unit.shown(end)), unit.name);
+  if (start != 0.0) text += fmt::format(" ({})", signed_percent((end - start) / std::abs(start)));
+  text += "\n";
+  if (optimum.result.error) {
+    text += wrapped("  " + error_sentence(*optimum.result.error, end, unit), "    ") + "\n";
+  }
+  return text;
+}
+
+std::string bound_mark(const DesignVariable& variable, double value) {
+  if (variable.lower == variable.upper) return "fixed";
+  if (is_at_lower_bound(variable, value)) return "at its lower bound";
+  return is_at_upper_bound(variable, value) ? "at its upper bound" : "";
+}
+
+std::string variables_text(const Optimum& optimum) {
+  const std::vector<ShownUnit> units = variable_units(optimum.problem);
+  Table table({{"variable", Table::Align::left},
+               {"start"},
+               {optimum.result.status == Status::verified ? "optimum" : "end"},
+               {"lower"},
+               {"upper"},
+               {"unit", Table::Align::left},
+               {"", Table::Align::left}});
+  for (std::size_t i = 0; i < optimum.problem.variables.size(); ++i) {
+    const DesignVariable& variable = optimum.problem.variables[i];
+    const ShownUnit& unit = units[i];
+    const double value = optimum.result.x(static_cast<Eigen::Index>(i));
+    table.add_row({variable.name, significant(unit.shown(optimum.start(i))),
+                   significant(unit.shown(value)), significant(unit.shown(variable.lower)),
+                   significant(unit.shown(variable.upper)), unit.name,
+                   bound_mark(variable, value)});
+  }
+  return table.text();
+}
+
+/// −μ · 1 % of the limit, relative to the objective: what one more percent of a limit is worth.
+std::string worth(const Optimum& optimum, double multiplier, double limit) {
+  const double objective = optimum.result.evaluation.objective;
+  const double gain = -multiplier * 0.01 * std::abs(limit);
+  if (gain == 0.0 || objective == 0.0) return "–";
+  return (gain < 0 ? "−" : "+") + fmt::format("{:.2f} %", 100 * std::abs(gain / objective));
+}
+
+std::string price_text(const std::optional<double>& multiplier, const ShownUnit& objective,
+                       const ShownUnit& limit) {
+  if (!multiplier) return "–";
+  return *multiplier == 0.0 ? "0" : significant(objective.shown(*multiplier) * limit.factor, 3);
+}
+
+std::vector<std::string> constraint_row(const Optimum& optimum, std::size_t i) {
+  const ConstraintSettings& constraint = optimum.problem.constraints[i];
+  const auto row = static_cast<Eigen::Index>(i);
+  const double value = optimum.result.evaluation.constraints(row);
+  std::optional<double> multiplier;
+  if (has_prices(optimum.result)) multiplier = optimum.result.constraint_multipliers(row);
+  const UsedLimit used = used_limit(constraint, value);
+  const ShownUnit unit = unit_of(optimum.problem, constraint);
+  const ShownUnit objective_unit =
+      unit_of(find_response(optimum.problem, optimum.problem.objective->response));
+  const std::string margin =
+      constraint.deviations > 0.0
+          ? fmt::format(" {}{:g} σ", constraint.upper ? "+" : "−", constraint.deviations)
+          : "";
+  return {constraint.name + margin,
+          significant(unit.shown(value)),
+          (used.is_upper ? "≤ " : "≥ ") + significant(unit.shown(used.limit)),
+          unit.name,
+          used.utilisation ? percent(*used.utilisation) : "–",
+          price_text(multiplier, objective_unit, unit),
+          multiplier ? worth(optimum, *multiplier, used.limit) : "–"};
+}
+
+std::string constraints_text(const Optimum& optimum) {
+  const ShownUnit objective_unit =
+      unit_of(find_response(optimum.problem, optimum.problem.objective->response));
+  Table table({{"constraint", Table::Align::left},
+               {"value"},
+               {"limit"},
+               {"unit", Table::Align::left},
+               {"used"},
+               {fmt::format("multiplier [{}/unit]", objective_unit.name)},
+               {"objective at +1 % limit"}});
+  for (std::size_t i = 0; i < optimum.problem.constraints.size(); ++i) {
+    table.add_row(constraint_row(optimum, i));
+  }
+  return table.is_empty() ? "" : "\n" + table.text();
+}
+
+/// The sentence of a verified optimum gives its residuals already.
+std::string residuals_text(const Result& result) {
+  if (result.status == Status::verified) return "";
+  return fmt::format("KKT residual {}, largest violation of a limit {} (both relative)\n",
+                     magnitude(result.kkt_residual), magnitude(result.max_violation));
+}
+
+std::string effort_text(const Optimum& optimum) {
+  const Result& result = optimum.result;
+  std::string gradients = "gradients";
+  if (optimum.method) gradients += fmt::format(" ({})", to_string(optimum.method->method));
+  const std::string backend =
+      result.polished_with.empty()
+          ? result.backend
+          : fmt::format("{}, polished with {}", result.backend, result.polished_with);
+  return fmt::format("{}: {} evaluations, {} with {}, {} restarts, {}\n", backend,
+                     result.evaluations, result.gradient_evaluations, gradients, result.restarts,
+                     duration(result.seconds));
+}
+
+}  // namespace
+
+std::string optimum_report(const Optimum& optimum) {
+  const std::string status = "\n" + wrapped(status_text(optimum.result)) + "\n";
+  if (!optimum.has_design()) return status;
+  return status + "\n" + objective_text(optimum) + "\n" + variables_text(optimum) +
+         constraints_text(optimum) + "\n" + warnings_text(optimum.warnings) +
+         residuals_text(optimum.result) + effort_text(optimum);
+}
+
+}  // namespace pleuel

@@ -1,0 +1,166 @@
+#include "cli/reports/scene_report.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "cli/text/table.hpp"
+#include "core/base/number_text.hpp"
+#include "core/integration/configuration.hpp"
+#include "core/scene/shown_unit.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// A body of the file: of a divided beam all its frames.
+struct BodyRow {
+  std::string name;
+  double mass = 0.0;
+  std::size_t frames = 0, elements = 0;
+  int rigid = 0, elastic = 0;
+  bool is_beam = false, is_elastic = false;
+};
+
+std::vector<BodyRow> body_rows(const Model& model) {
+  std::vector<BodyRow> rows;
+  for (const BodyModel& body : model.bodies) {
+    if (rows.empty() || rows.back().name != body.name) rows.push_back({body.name});
+    BodyRow& row = rows.back();
+    row.mass += body.mass;
+    ++row.frames;
+    row.elements += body.beam.elements.size();
+    row.rigid += body.frame.size();
+    row.elastic += body.elastic_size();
+    row.is_beam = body.is_beam();
+    row.is_elastic = body.is_elastic;
+  }
+  return rows;
+}
+
+/// Of the size of a coordinate; assembly itself ends at 1e-10.
+constexpr double visible_shift = 1e-6;
+
+int drives(const Model& model) {
+  return static_cast<int>(
+      std::count_if(model.joints.begin(), model.joints.end(),
+                    [](const JointModel& joint) { return joint.drive_row >= 0; }));
+}
+
+}  // namespace
+
+Json bodies_document(const Model& model) {
+  Json document = Json::array();
+  for (const BodyRow& body : body_rows(model)) {
+    document.push_back({{"name", body.name},
+                        {"mass", body.mass},
+                        {"frames", body.frames},
+                        {"elements", body.elements},
+                        {"coordinates", body.rigid + body.elastic}});
+  }
+  return document;
+}
+
+std::string bodies_text(const Model& model) {
+  Table table({{"body", Table::Align::left},
+               {"mass [kg]"},
+               {"frames"},
+               {"elements"},
+               {"rigid coordinates"},
+               {"elastic"}});
+  for (const BodyRow& body : body_rows(model)) {
+    table.add_row({body.name, significant(body.mass), std::to_string(body.frames),
+                   body.is_beam ? std::to_string(body.elements) : "–", std::to_string(body.rigid),
+                   body.is_elastic || body.is_beam ? std::to_string(body.elastic) : "–"});
+  }
+  return table.text();
+}
+
+Json freedoms_document(const Freedoms& freedoms, const Model& model) {
+  return {{"coordinates", freedoms.coordinates},
+          {"constraints", freedoms.constraints},
+          {"drives", drives(model)},
+          {"free", freedoms.free()}};
+}
+
+std::string freedoms_text(const Freedoms& freedoms, const Model& model) {
+  const int driven = drives(model);
+  std::string text = fmt::format(
+      "Rigid motion: {} coordinates, {} independent constraints ({} of drives): ",
+      freedoms.coordinates, freedoms.constraints, driven == 0 ? "none" : std::to_string(driven));
+  if (freedoms.free() > 0) {
+    return text + fmt::format("{} freedom{} left to the forces\n", freedoms.free(),
+                              freedoms.free() == 1 ? " is" : "s are");
+  }
+  return text + (driven > 0 ? "the drives prescribe it\n" : "nothing can move\n");
+}
+
+std::string assembly_text(const Analysis& analysis) {
+  const Mechanism& mechanism = analysis.model.mechanism;
+  State initial;
+  analysis.trajectory.states->load(0, initial);
+  Eigen::VectorXd shift = difference(mechanism.rotations, initial.q, mechanism.guess.q).cwiseAbs();
+  for (const int i : mechanism.elastic) shift(i) = 0.0;
+  // Where members start deformed, frames of one beam stand along its curve.
+  for (const BodyModel& body : analysis.model.bodies) {
+    const bool is_divided = analysis.model.parts(body.name).size() > 1;
+    if (!is_divided || !mechanism.starts_in_equilibrium) continue;
+    shift.segment(body.frame.offset, body.frame.size()).setZero();
+  }
+  Eigen::Index largest = 0;
+  if (shift.size() == 0 ||
+      shift.cwiseQuotient(mechanism.scale).maxCoeff(&largest) <= visible_shift) {
+    return "";
+  }
+  const std::string& name = mechanism.equation_names.at(static_cast<std::size_t>(largest));
+  return fmt::format(
+      "Joints and drives move the mechanism from where the file places it before the start, "
+      "most {}, by {} m or rad.\n",
+      name, significant(shift(largest), 3));
+}
+
+Json variables_document(const ProblemFile& problem) {
+  const std::vector<ShownUnit> units = variable_units(problem);
+  Json document = Json::object();
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    const DesignVariable& variable = problem.variables[i];
+    document[variable.name] = {{"start", variable.start},
+                               {"lower", variable.lower},
+                               {"upper", variable.upper},
+                               {"unit", units[i].si}};
+  }
+  return document;
+}
+
+Json variables_document(const ProblemFile& problem, const Eigen::VectorXd& x) {
+  const std::vector<ShownUnit> units = variable_units(problem);
+  Json document = Json::object();
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    const DesignVariable& variable = problem.variables[i];
+    document[variable.name] = {{"value", x(static_cast<Eigen::Index>(i))},
+                               {"unit", units[i].si},
+                               {"lower", variable.lower},
+                               {"upper", variable.upper},
+                               {"start", variable.start}};
+  }
+  return document;
+}
+
+std::string variables_text(const ProblemFile& problem) {
+  const std::vector<ShownUnit> units = variable_units(problem);
+  Table table({{"variable", Table::Align::left},
+               {"start"},
+               {"lower"},
+               {"upper"},
+               {"unit", Table::Align::left}});
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    const DesignVariable& variable = problem.variables[i];
+    const ShownUnit& unit = units[i];
+    table.add_row({variable.name, significant(unit.shown(variable.start)),
+                   significant(unit.shown(variable.lower)), significant(unit.shown(variable.upper)),
+                   unit.name});
+  }
+  return table.text();
+}
+
+}  // namespace pleuel

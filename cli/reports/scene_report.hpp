@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include "cli/text/json.hpp"
+#include "core/integration/freedoms.hpp"
+#include "core/response/analysis.hpp"
+
+/// What `check` says of bodies and variables.
+namespace pleuel {
+
+/// [{"name", "mass", "elements", "coordinates"}]
+Json bodies_document(const Model& model);
+std::string bodies_text(const Model& model);
+
+/// {"coordinates", "constraints", "drives", "free"}: how joints and drives hold the mechanism if
+/// its bodies do not deform, at the start of the simulation.
+Json freedoms_document(const Freedoms& freedoms, const Model& model);
+std::string freedoms_text(const Freedoms& freedoms, const Model& model);
+
+/// Says how far assembly moved the mechanism from where the file places it; empty if it did not.
+std::string assembly_text(const Analysis& analysis);
+
+/// {NAME: {"start", "lower", "upper", "unit"}} [SI]
+Json variables_document(const ProblemFile& problem);
+/// {NAME: {"value", "unit", "lower", "upper", "start"}} [SI]: what read_design() reads.
+Json variables_document(const ProblemFile& problem, const Eigen::VectorXd& x);
+std::string variables_text(const ProblemFile& problem);
+
+}  // namespace pleuel

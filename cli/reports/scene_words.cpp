@@ -1,0 +1,135 @@
+#include "cli/reports/scene_words.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/reports/law_points.hpp"
+#include "cli/text/table.hpp"
+#include "core/base/number_text.hpp"
+
+namespace pleuel {
+
+namespace {
+
+std::string both(const std::array<std::string, 2>& bodies) {
+  return bodies[0] + " – " + bodies[1];
+}
+
+std::string joined(std::vector<std::string> parts) {
+  std::string text;
+  for (const std::string& part : parts) {
+    if (!part.empty()) text += (text.empty() ? "" : ", ") + part;
+  }
+  return text;
+}
+
+std::string constant_text(const char* name, double value, const char* unit) {
+  return value == 0.0 ? "" : fmt::format("{} {} {}", name, significant(value, 4), unit);
+}
+
+/// A row of the table of what acts.
+class ActionRow {
+ public:
+  ActionRow(const ProblemFile& problem, const Design<double>& design)
+      : end_time_(problem.simulation.end_time), design_(design) {}
+
+  std::vector<std::string> operator()(const PointForce& load) const {
+    return {"force", load.body, range_text(points(load.value), "N")};
+  }
+  std::vector<std::string> operator()(const PointTorque& load) const {
+    return {"torque", load.body, range_text(points(load.value), "N m")};
+  }
+  std::vector<std::string> operator()(const SpringDamper& load) const {
+    return {"spring", both(load.bodies), spring_text(load, design_)};
+  }
+  std::vector<std::string> operator()(const JointForce& load) const {
+    const bool turns = load.coordinate == DrivenCoordinate::angle;
+    const std::string motor =
+        load.motor ? "motor " + range_text(points(*load.motor), turns ? "N m" : "N") : "";
+    return {"in the joint", load.joint, joined({spring_text(load, design_), motor})};
+  }
+
+ private:
+  LawPoints points(const TimeFunction& function) const {
+    return law_points(function, end_time_, design_, LawOf::load);
+  }
+
+  double end_time_;
+  const Design<double>& design_;
+};
+
+}  // namespace
+
+JointWords words_of(JointType type) {
+  switch (type) {
+    case JointType::revolute:
+      return {"revolute", "turns about the axis", 1};
+    case JointType::prismatic:
+      return {"prismatic", "slides along the axis", 1};
+    case JointType::fixed:
+      return {"fixed", "does not move", 0};
+    case JointType::point_on_line:
+      return {"point-on-line", "its point stays on the line", 4};
+    case JointType::cylindrical:
+      return {"cylindrical", "slides along the axis and turns about it", 2};
+    case JointType::universal:
+      return {"universal", "turns about two axes", 2};
+    case JointType::spherical:
+      return {"spherical", "turns freely", 3};
+    case JointType::planar:
+      return {"planar", "slides in a plane and turns in it", 3};
+    default:
+      return {"distance", "keeps its distance", 5};
+  }
+}
+
+std::string joints_text(const ProblemFile& problem) {
+  Table table({{"joint", Table::Align::left},
+               {"kind", Table::Align::left},
+               {"of", Table::Align::left},
+               {"free in space"},
+               {"the second body", Table::Align::left}});
+  for (const Joint& joint : problem.scene.joints) {
+    const JointWords words = words_of(joint.type);
+    std::string freedom = words.freedom;
+    if (joint.drive) freedom += "; a drive moves it";
+    table.add_row({joint.name, words.type, both(joint.bodies),
+                   fmt::format("{} of 6", words.freedoms), freedom});
+  }
+  return table.is_empty() ? "" : table.text();
+}
+
+std::string actions_text(const ProblemFile& problem, const Eigen::VectorXd& x) {
+  const Design<double> design(x.begin(), x.end());
+  Table table({{"acts", Table::Align::left},
+               {"kind", Table::Align::left},
+               {"on", Table::Align::left},
+               {"from the start to the end", Table::Align::left}});
+  for (const Joint& joint : problem.scene.joints) {
+    if (!joint.drive) continue;
+    const bool turns = joint.drive->coordinate == DrivenCoordinate::angle;
+    const LawPoints points =
+        law_points(joint.drive->motion, problem.simulation.end_time, design, LawOf::motion);
+    table.add_row({joint.name, turns ? "drive of the angle" : "drive of the displacement",
+                   both(joint.bodies), range_text(points, turns ? "rad" : "m")});
+  }
+  for (const Load& load : problem.scene.loads) {
+    std::vector<std::string> cells = std::visit(ActionRow(problem, design), load.element);
+    cells.insert(cells.begin(), load.name);
+    table.add_row(std::move(cells));
+  }
+  return table.is_empty() ? "" : table.text();
+}
+
+std::string spring_text(const SpringDamper& spring, const Design<double>& design) {
+  return joined({constant_text("stiffness", resolve(spring.stiffness, design), "N/m"),
+                 constant_text("damping", resolve(spring.damping, design), "N s/m")});
+}
+
+std::string spring_text(const JointForce& force, const Design<double>& design) {
+  const bool turns = force.coordinate == DrivenCoordinate::angle;
+  return joined(
+      {constant_text("stiffness", resolve(force.stiffness, design), turns ? "N m/rad" : "N/m"),
+       constant_text("damping", resolve(force.damping, design), turns ? "N m s/rad" : "N s/m")});
+}
+
+}  // namespace pleuel

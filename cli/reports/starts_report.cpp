@@ -1,0 +1,71 @@
+#include "cli/reports/starts_report.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/text/table.hpp"
+#include "core/base/number_text.hpp"
+#include "core/scene/shown_unit.hpp"
+
+namespace pleuel {
+
+namespace {
+
+std::string indices_text(const std::vector<std::size_t>& starts) {
+  std::vector<std::size_t> numbers;
+  for (const std::size_t start : starts) numbers.push_back(start + 1);
+  return fmt::format("{}", fmt::join(numbers, ", "));
+}
+
+Json design_document(const ProblemFile& problem, const Eigen::VectorXd& x) {
+  Json document = Json::object();
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    document[problem.variables[i].name] = x(static_cast<Eigen::Index>(i));
+  }
+  return document;
+}
+
+}  // namespace
+
+std::string starts_text(const ProblemFile& problem, const MultiStart& all) {
+  if (all.runs.size() <= 1 || all.optima.empty()) return "";
+  const ShownUnit unit = unit_of(find_response(problem, problem.objective->response));
+  const std::vector<ShownUnit> units = variable_units(problem);
+  std::vector<Table::Column> columns = {
+      {fmt::format("{} [{}]", problem.objective->response, unit.name)}, {"found"}};
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    columns.push_back({fmt::format("{} [{}]", problem.variables[i].name, units[i].name)});
+  }
+  columns.push_back({"from starts", Table::Align::left});
+  Table table(std::move(columns), 2);
+  for (const LocalOptimum& one : all.optima) {
+    std::vector<std::string> cells = {significant(unit.shown(one.objective)),
+                                      fmt::format("{}", one.starts.size())};
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      cells.push_back(significant(units[i].shown(one.x(static_cast<Eigen::Index>(i)))));
+    }
+    cells.push_back(indices_text(one.starts));
+    table.add_row(std::move(cells));
+  }
+  return "\n" + table.text();
+}
+
+Json starts_document(const ProblemFile& problem, const MultiStart& all) {
+  Json optima = Json::array(), runs = Json::array();
+  for (const LocalOptimum& one : all.optima) {
+    optima.push_back({{"objective", one.objective},
+                      {"found", one.starts.size()},
+                      {"variables", design_document(problem, one.x)}});
+  }
+  for (const StartRun& one : all.runs) {
+    Json run = {{"start", design_document(problem, one.start)},
+                {"status", to_string(one.status)},
+                {"objective", one.objective},
+                {"max_violation", one.max_violation},
+                {"evaluations", one.evaluations}};
+    if (one.optimum) run["optimum"] = *one.optimum;
+    runs.push_back(std::move(run));
+  }
+  return {{"optima", optima}, {"runs", runs}};
+}
+
+}  // namespace pleuel

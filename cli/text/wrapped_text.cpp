@@ -1,0 +1,47 @@
+#include "cli/text/wrapped_text.hpp"
+
+#include <algorithm>
+
+#include "cli/text/characters.hpp"
+
+namespace pleuel {
+
+namespace {
+
+std::string wrapped_line(const std::string& line, const std::string& indent, std::size_t width) {
+  std::string text;
+  std::string current = line.substr(0, std::min(line.find_first_not_of(' '), line.size()));
+  bool has_word = false;
+  for (std::size_t begin = current.size(); begin < line.size();) {
+    const std::size_t end = std::min(line.find(' ', begin), line.size());
+    const std::string word = line.substr(begin, end - begin);
+    const bool is_too_long = characters(current) + 1 + characters(word) > width;
+    if (has_word && is_too_long) {
+      text += current + "\n";
+      current = indent;
+    } else if (has_word) {
+      current += ' ';
+    }
+    current += word;
+    has_word = true;
+    begin = end + 1;
+  }
+  return text + current;
+}
+
+}  // namespace
+
+std::string wrapped(const std::string& text, const std::string& indent, std::size_t width) {
+  std::string result;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin);
+    const std::size_t length = end == std::string::npos ? std::string::npos : end - begin;
+    result += wrapped_line(text.substr(begin, length), indent, width);
+    if (end == std::string::npos) break;
+    result += '\n';
+    begin = end + 1;
+  }
+  return result;
+}
+
+}  // namespace pleuel
