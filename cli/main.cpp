@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "cli/commands/commands.hpp"
-#include "cli/text/console.hpp"
 #include "cli/interruption.hpp"
+#include "cli/text/console.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stop.hpp"
 

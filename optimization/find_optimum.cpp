@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 
 #include "core/base/number_text.hpp"
+#include "optimization/backends.hpp"
 #include "optimization/broken_limits.hpp"
 #include "optimization/kkt_audit.hpp"
-#include "optimization/optimizer.hpp"
 #include "optimization/recorded_problem.hpp"
 #include "optimization/restoration.hpp"
 #include "optimization/scaling.hpp"

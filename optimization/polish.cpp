@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "optimization/optimizer.hpp"
+#include "optimization/backends.hpp"
 
 namespace pleuel {
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "optimization/solve.hpp"
+#include "optimization/result.hpp"
 
 namespace pleuel {
 

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "optimization/optimizer.hpp"
+#include "optimization/backends.hpp"
 #include "optimization/polish.hpp"
 #include "optimization/prices.hpp"
 #include "optimization/scaling.hpp"
@@ -374,23 +374,6 @@ Result solve(Problem& problem, const SolveOptions& options, const Observer& obse
 
 Result search(Problem& problem, const SolveOptions& options, const Observer& observer) {
   return run(problem, options, observer, &Run::search);
-}
-
-void continue_from(const Result& before, Result& result) {
-  for (EvaluationRecord& record : result.history) record = following(std::move(record), before);
-  result.history.insert(result.history.begin(), before.history.begin(), before.history.end());
-  result.evaluations += before.evaluations;
-  result.gradient_evaluations += before.gradient_evaluations;
-  result.iterations += before.iterations;
-  result.restarts += before.restarts + 1;
-  result.seconds += before.seconds;
-}
-
-EvaluationRecord following(EvaluationRecord record, const Result& before) {
-  record.evaluation += before.evaluations;
-  record.iteration += before.iterations;
-  record.seconds += before.seconds;
-  return record;
 }
 
 }  // namespace pleuel

@@ -1,15 +1,11 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
-#include "core/base/error_bar.hpp"
 #include "optimization/history.hpp"
-#include "optimization/least_violation.hpp"
 #include "optimization/problem.hpp"
+#include "optimization/result.hpp"
 #include "optimization/verdict.hpp"
 
 namespace pleuel {
@@ -52,50 +48,10 @@ struct SolveOptions {
   } earlier{};
 };
 
-/// A part of the search for an optimum (find_optimum.hpp).
-struct SearchPart {
-  std::string method;  ///< a backend, or "restoration"
-  Status status = Status::failed;
-  int evaluations = 0;
-};
-
-struct Result {
-  Status status = Status::failed;
-  std::string message;  ///< a sentence: why this status
-  /// Sentences: what speaks against the numbers of the last design.
-  std::vector<std::string> warnings;
-  /// Of responses and objective by steps, elements and effects; where a design problem knows them.
-  std::vector<std::optional<ErrorBar>> response_errors;
-  std::vector<Eigen::VectorXd> response_bands;  ///< of histories [SI]; empty where none is known
-  std::optional<ErrorBar> error;                ///< of the optimal objective
-  /// What was tried one after the other, where find_optimum() searched.
-  std::vector<SearchPart> parts;
-  /// Of an infeasible problem: what is in conflict.
-  std::optional<LeastViolation> least_violation;
-  bool gradients_are_disproved = false;  ///< by differences, where all else is well
-  std::string backend;                   ///< that found the answer
-  std::string polished_with;             ///< the backend that refined the answer; empty: nobody did
-  Eigen::VectorXd x;                     ///< [SI]
-  /// At x, with gradients. Without any entry if the start already failed.
-  Evaluation evaluation;
-  /// μ and β of KktAudit: d(optimal objective) / d(active limit) = −μ. That of a limit with slack
-  /// is 0; see has_prices() of prices.hpp for the designs at which they are prices.
-  Eigen::VectorXd constraint_multipliers, bound_multipliers;
-  double kkt_residual = 0.0;   ///< relative
-  double max_violation = 0.0;  ///< relative
-  int evaluations = 0;
-  int gradient_evaluations = 0;
-  int iterations = 0;  ///< designs at which gradients were computed
-  int restarts = 0;
-  double seconds = 0.0;
-  History history;
-};
-
 /// Optimizes from the start values of the problem with one backend, and proves or doubts the
 /// answer: check the start → backend → audit → polish if the design is nearly an optimum → restart
 /// from there if it is unproven, from its better neighbour if it is no minimum → result.
-/// @throws InputError if the backend is unknown or cannot take the constraints, or if the start
-/// lies
+/// @throws InputError if the backend is unknown or cannot take the constraints, or if the start lies
 ///         outside its bounds. A start that cannot be evaluated is not thrown but `failed`.
 Result solve(Problem& problem, const SolveOptions& options, const Observer& observer = {});
 
@@ -103,11 +59,5 @@ Result solve(Problem& problem, const SolveOptions& options, const Observer& obse
 /// `stalled`; without multipliers.
 /// @throws InputError like solve()
 Result search(Problem& problem, const SolveOptions& options, const Observer& observer = {});
-
-/// Puts what an earlier run of the same optimization did before a result: counts, time, history.
-void continue_from(const Result& before, Result& result);
-
-/// A record as one that follows on a run.
-EvaluationRecord following(EvaluationRecord record, const Result& before);
 
 }  // namespace pleuel

@@ -2,7 +2,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/text/table.hpp"
-#include "optimization/optimizer.hpp"
+#include "optimization/backends.hpp"
 
 namespace pleuel {
 

@@ -3,15 +3,15 @@
 
 #include <fmt/format.h>
 
-#include "cli/reports/analysis_report.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/reports/derivative_report.hpp"
-#include "cli/reports/effects_report.hpp"
-#include "cli/reports/monitors_report.hpp"
-#include "cli/input/problem_input.hpp"
 #include "cli/commands/progress_line.hpp"
 #include "cli/files/run_picture.hpp"
 #include "cli/files/run_record.hpp"
+#include "cli/input/problem_input.hpp"
+#include "cli/reports/analysis_report.hpp"
+#include "cli/reports/derivative_report.hpp"
+#include "cli/reports/effects_report.hpp"
+#include "cli/reports/monitors_report.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "cli/reports/ties.hpp"
 #include "cli/reports/warnings.hpp"

@@ -8,7 +8,7 @@
 #include "cli/files/starters.hpp"
 #include "core/base/error.hpp"
 #include "core/scene/sensitivity_settings.hpp"
-#include "optimization/optimizer.hpp"
+#include "optimization/backends.hpp"
 
 /// Completion for shells, from the commands and options as they are declared.
 namespace pleuel {

@@ -4,17 +4,17 @@
 
 #include <fmt/format.h>
 
-#include "cli/reports/analysis_report.hpp"
 #include "cli/commands/accurate_input.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/files/gradients_csv.hpp"
 #include "cli/commands/progress_line.hpp"
+#include "cli/files/gradients_csv.hpp"
 #include "cli/files/run_picture.hpp"
 #include "cli/files/run_record.hpp"
-#include "cli/text/table.hpp"
-#include "cli/reports/ties.hpp"
 #include "cli/files/trajectory_csv.hpp"
+#include "cli/reports/analysis_report.hpp"
+#include "cli/reports/ties.hpp"
 #include "cli/reports/warnings.hpp"
+#include "cli/text/table.hpp"
 #include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/stopwatch.hpp"

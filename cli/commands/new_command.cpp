@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "cli/files/command_text.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/files/command_text.hpp"
 #include "cli/files/starters.hpp"
 #include "cli/text/table.hpp"
 #include "core/base/error.hpp"

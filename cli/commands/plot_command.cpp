@@ -11,10 +11,10 @@
 #include <unistd.h>
 
 #include "cli/commands/commands.hpp"
-#include "cli/text/csv_table.hpp"
-#include "cli/text/history_chart.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/files/run_folder.hpp"
+#include "cli/text/csv_table.hpp"
+#include "cli/text/history_chart.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
 #include "core/base/number_text.hpp"

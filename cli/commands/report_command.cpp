@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 
 #include "cli/commands/commands.hpp"
-#include "cli/text/console.hpp"
-#include "cli/input/design_file.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/run_folder.hpp"
 #include "cli/files/run_picture.hpp"
 #include "cli/files/trajectory_csv.hpp"
+#include "cli/input/design_file.hpp"
+#include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
 #include "core/response/effect_measurement.hpp"

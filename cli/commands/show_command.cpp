@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include "cli/commands/commands.hpp"
-#include "cli/reports/effects_report.hpp"
-#include "cli/reports/first_steps.hpp"
 #include "cli/files/output_file.hpp"
-#include "cli/input/problem_input.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/run_folder.hpp"
 #include "cli/files/run_picture.hpp"
+#include "cli/input/problem_input.hpp"
+#include "cli/reports/effects_report.hpp"
+#include "cli/reports/first_steps.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "cli/reports/scene_words.hpp"
 #include "cli/reports/warnings.hpp"

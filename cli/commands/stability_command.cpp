@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include "cli/commands/commands.hpp"
-#include "cli/text/console.hpp"
-#include "cli/files/csv_file.hpp"
 #include "cli/commands/progress_line.hpp"
+#include "cli/files/csv_file.hpp"
 #include "cli/files/run_record.hpp"
-#include "cli/text/table.hpp"
 #include "cli/reports/warnings.hpp"
+#include "cli/text/console.hpp"
+#include "cli/text/table.hpp"
 #include "core/base/number_text.hpp"
 #include "core/trust/doubts.hpp"
 #include "studies/stability.hpp"

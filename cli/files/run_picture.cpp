@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 
-#include "cli/text/packed_numbers.hpp"
 #include "cli/files/scene_picture.hpp"
+#include "cli/text/packed_numbers.hpp"
 #include "core/response/shown_history.hpp"
 #include "core/scene/response_names.hpp"
 #include "core/scene/response_quantity.hpp"

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "cli/input/arguments.hpp"
-#include "cli/reports/outcome.hpp"
 #include "cli/files/output_file.hpp"
-#include "cli/input/problem_input.hpp"
 #include "cli/files/run_folder.hpp"
+#include "cli/input/arguments.hpp"
+#include "cli/input/problem_input.hpp"
+#include "cli/reports/outcome.hpp"
 
 namespace pleuel {
 

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "cli/reports/law_points.hpp"
-#include "cli/text/packed_numbers.hpp"
 #include "cli/reports/scene_words.hpp"
+#include "cli/text/packed_numbers.hpp"
 #include "core/base/number_text.hpp"
 #include "core/model/motion_plane.hpp"
 #include "core/response/analysis.hpp"

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "cli/given_files.hpp"
 #include "cli/files/output_file.hpp"
+#include "cli/given_files.hpp"
 #include "core/base/error.hpp"
 #include "core/scene/reading/json_text.hpp"
 #include "core/scene/reading/text_file.hpp"

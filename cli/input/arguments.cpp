@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "cli/text/console.hpp"
-#include "cli/versions.hpp"
 #include "cli/text/wrapped_text.hpp"
+#include "cli/versions.hpp"
 #include "core/base/error.hpp"
 #include "core/scene/reading/suggestion.hpp"
 

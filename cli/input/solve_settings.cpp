@@ -1,7 +1,7 @@
 #include "cli/input/solve_settings.hpp"
 
 #include "core/base/error.hpp"
-#include "optimization/optimizer.hpp"
+#include "optimization/backends.hpp"
 
 namespace pleuel {
 

@@ -7,8 +7,8 @@
 
 #include "cli/reports/accuracy_document.hpp"
 #include "cli/reports/outcome.hpp"
-#include "cli/text/table.hpp"
 #include "cli/reports/warnings.hpp"
+#include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/shown_unit.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cli/text/json.hpp"
 #include "cli/reports/optimum.hpp"
+#include "cli/text/json.hpp"
 
 namespace pleuel {
 

@@ -6,8 +6,8 @@
 
 #include "cli/reports/error_report.hpp"
 #include "cli/reports/monitors_report.hpp"
-#include "cli/text/table.hpp"
 #include "cli/reports/warnings.hpp"
+#include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
 #include "optimization/prices.hpp"

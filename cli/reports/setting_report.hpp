@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/text/json.hpp"
 #include "cli/input/problem_input.hpp"
+#include "cli/text/json.hpp"
 #include "core/trust/setting_choice.hpp"
 #include "optimization/staged_solve.hpp"
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <optional>
 
-#include "core/integration/simulate.hpp"
+#include "core/integration/simulation_options.hpp"
 #include "core/integration/step_equations.hpp"
 
 namespace pleuel {

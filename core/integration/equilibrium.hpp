@@ -4,8 +4,8 @@
 
 #include <Eigen/SparseCore>
 
+#include "core/integration/assembly.hpp"
 #include "core/integration/axial_strains.hpp"
-#include "core/integration/initial_state.hpp"
 
 namespace pleuel {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/base/dense_solvers.hpp"
+#include "core/integration/assembly.hpp"
 #include "core/integration/configuration.hpp"
-#include "core/integration/initial_state.hpp"
 
 namespace pleuel {
 

@@ -1,141 +1,12 @@
 #include "core/integration/initial_state.hpp"
 
-#include <algorithm>
-#include <limits>
-#include <string>
-#include <vector>
+#include <utility>
 
-#include <fmt/format.h>
-
-#include "core/base/error.hpp"
-#include "core/integration/configuration.hpp"
 #include "core/integration/equilibrium.hpp"
 
 namespace pleuel {
 
 namespace {
-
-constexpr int max_assembly_steps = 50;
-
-void factorize_or_throw(LinearSolver& solver, const System::Matrix& matrix, const char* what) {
-  if (solver.factorize(matrix)) return;
-  throw SimulationError(fmt::format(
-      "the mechanism cannot be started: the equations of its initial {} are singular; look for "
-      "joints that constrain the same motion twice, or for a body that nothing holds and that has "
-      "no inertia",
-      what));
-}
-
-/// Names of the two terms whose constraints pull hardest in an assembly: they fight each other.
-std::string hardest_joints(Mechanism& mechanism, const Eigen::VectorXd& multipliers) {
-  const int n = mechanism.system->coordinates();
-  std::vector<std::pair<double, std::string>> pulls;
-  for (const auto& term : mechanism.system->terms()) {
-    EntryList entries;
-    term->declare_entries(entries);
-    double largest = 0.0;
-    for (const auto& [row, col] : entries) {
-      if (row >= n) largest = std::max(largest, std::abs(multipliers(row - n)));
-    }
-    pulls.emplace_back(largest, term->name());
-  }
-  std::stable_sort(pulls.begin(), pulls.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
-  if (pulls.size() < 2) return pulls.front().second + " pulls";
-  return pulls[0].second + " and " + pulls[1].second + " pull";
-}
-
-/// Assembly moves bodies; if it must deform them by more than a hundredth, the joints do not fit.
-void check_strain(Mechanism& mechanism, const Eigen::VectorXd& q,
-                  const Eigen::VectorXd& multipliers) {
-  // The scale of elastic coordinates is a thousandth of the mechanism's size.
-  const double moved =
-      (q - mechanism.guess.q).cwiseQuotient(mechanism.scale).lpNorm<Eigen::Infinity>();
-  if (moved <= 10.0) return;
-  throw SimulationError(fmt::format(
-      "the mechanism cannot be assembled without straining its bodies: {} hardest; check the "
-      "points of the joints, the start of the drives and the lengths of the bodies",
-      hardest_joints(mechanism, multipliers)));
-}
-
-/// Names of the terms whose constraints are not met, worst first, with their violations.
-std::string open_joints(Mechanism& mechanism, const State& at) {
-  System& system = *mechanism.system;
-  struct Open {
-    double violation;
-    std::string name;
-  };
-  std::vector<Open> open;
-  for (const auto& term : system.terms()) {
-    Eigen::VectorXd residual = Eigen::VectorXd::Zero(system.size());
-    term->add_residual(at, ConstraintLevel::position, residual);
-    const double violation = system.multipliers() > 0
-                                 ? residual.tail(system.multipliers()).lpNorm<Eigen::Infinity>()
-                                 : 0.0;
-    if (!(violation <= 1e-8)) open.push_back({violation, term->name()});
-  }
-  std::sort(open.begin(), open.end(),
-            [](const Open& a, const Open& b) { return a.violation > b.violation; });
-  if (open.empty()) return "its joints";
-  std::string text;
-  for (std::size_t i = 0; i < std::min<std::size_t>(open.size(), 4); ++i) {
-    text += fmt::format("{}{} (off by {:.2g})", i > 0 ? ", " : "", open[i].name, open[i].violation);
-  }
-  return open.size() > 4 ? text + ", …" : text;
-}
-
-void assemble_positions(Mechanism& mechanism, LinearSolver& solver, System::Matrix& matrix,
-                        InitialState& initial) {
-  System& system = *mechanism.system;
-  const int n = system.coordinates(), m = system.multipliers();
-  Eigen::VectorXd residual;
-  State at = initial.state;
-  double previous = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < max_assembly_steps; ++iteration) {
-    system.residual(at, ConstraintLevel::position, residual);
-    const double violation = m > 0 ? residual.tail(m).lpNorm<Eigen::Infinity>() : 0.0;
-    projection_matrix(mechanism, at, matrix);
-    factorize_or_throw(solver, matrix, "positions");
-    Eigen::VectorXd step(n + m);
-    step.head(n) = -mechanism.assembly_weight.cwiseProduct(
-        difference(mechanism.rotations, at.q, mechanism.guess.q));
-    step.tail(m) = -residual.tail(m);
-    solver.solve(step);
-    const Eigen::VectorXd before = at.q;
-    advance(mechanism.rotations, before, step.head(n), at.q);
-    if (!at.q.allFinite()) break;
-    const double correction = step.head(n).cwiseQuotient(mechanism.scale).lpNorm<Eigen::Infinity>();
-    // The projection converges linearly where the guess is loose: on, down to round-off.
-    const bool is_at_rest = correction < 1e-15 || correction > 0.3 * previous;
-    previous = correction;
-    if (violation < 1e-10 && correction < 1e-10 && is_at_rest) {
-      check_strain(mechanism, at.q, step.tail(m));
-      initial.state.q = at.q;
-      initial.position_multipliers = step.tail(m);
-      return;
-    }
-  }
-  throw SimulationError(fmt::format(
-      "the mechanism cannot be assembled: {} cannot be closed near the given positions; check the "
-      "points of the joints and the lengths of the bodies",
-      open_joints(mechanism, at)));
-}
-
-void project_velocities(Mechanism& mechanism, LinearSolver& solver, System::Matrix& matrix,
-                        InitialState& initial) {
-  State& state = initial.state;
-  System& system = *mechanism.system;
-  const int n = system.coordinates(), m = system.multipliers();
-  Eigen::VectorXd residual;
-  system.residual(state, ConstraintLevel::velocity, residual);
-  projection_matrix(mechanism, state, matrix);
-  factorize_or_throw(solver, matrix, "velocities");
-  Eigen::VectorXd step = Eigen::VectorXd::Zero(n + m);
-  step.tail(m) = -residual.tail(m);
-  solver.solve(step);
-  state.v += step.head(n);
-  initial.velocity_multipliers = step.tail(m);
-}
 
 void solve_accelerations(Mechanism& mechanism, LinearSolver& solver, System::Matrix& matrix,
                          State& state) {
@@ -143,7 +14,7 @@ void solve_accelerations(Mechanism& mechanism, LinearSolver& solver, System::Mat
   const int n = system.coordinates(), m = system.multipliers();
   Eigen::VectorXd residual;
   system.tangent(state, {.a = 1.0}, ConstraintLevel::acceleration, matrix);
-  factorize_or_throw(solver, matrix, "accelerations");
+  factorize_for_start(solver, matrix, "accelerations");
   for (int i = 0; i < 2; ++i) {  // linear: the second solve removes round-off
     system.residual(state, ConstraintLevel::acceleration, residual);
     solver.solve(residual);
@@ -154,13 +25,6 @@ void solve_accelerations(Mechanism& mechanism, LinearSolver& solver, System::Mat
 
 }  // namespace
 
-void projection_matrix(const Mechanism& mechanism, const State& state, System::Matrix& matrix) {
-  const int n = mechanism.system->coordinates();
-  mechanism.system->tangent(state, {.q = 1.0}, ConstraintLevel::position, matrix);
-  scale_dynamic_block(n, 0.0, matrix);
-  for (int i = 0; i < n; ++i) matrix.coeffRef(i, i) = mechanism.assembly_weight(i);
-}
-
 bool jumps_at_start(Mechanism& mechanism, State state) {
   Eigen::VectorXd before, after;
   mechanism.system->residual(state, ConstraintLevel::acceleration, after);
@@ -170,16 +34,11 @@ bool jumps_at_start(Mechanism& mechanism, State state) {
 }
 
 InitialState initial_state(Mechanism& mechanism) {
-  InitialState initial;
-  initial.state = mechanism.guess;
-  initial.state.a.setZero();
-  initial.state.lambda.setZero();
   System::Matrix matrix = mechanism.system->make_matrix();
   // Assembly weighs its equations by many orders of magnitude: an order for one kind does not suit
   // it.
   LinearSolver solver(matrix);
-  assemble_positions(mechanism, solver, matrix, initial);
-  project_velocities(mechanism, solver, matrix, initial);
+  InitialState initial = assemble(mechanism, solver, matrix);
   solve_accelerations(mechanism, solver, matrix, initial.state);
   if (!mechanism.starts_in_equilibrium) return initial;
   initial.state.time = just_before_start;

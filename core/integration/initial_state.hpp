@@ -2,17 +2,9 @@
 
 #include <limits>
 
-#include "core/integration/linear_solver.hpp"
-#include "core/integration/mechanism.hpp"
+#include "core/integration/assembly.hpp"
 
 namespace pleuel {
-
-/// Initial values together with what their derivatives need.
-struct InitialState {
-  State state;
-  /// μ of  W (q − q̂) + Φ_qᵀ μ = 0  and of  W (v − v̂) + Φ_qᵀ μ = 0; zero if the guess is consistent.
-  Eigen::VectorXd position_multipliers, velocity_multipliers;
-};
 
 /// Loads that act at this time are in equilibrium with elastic coordinates that start in it: their
 /// values at t = 0 may be others. It differs from zero by less than round-off.
@@ -27,9 +19,5 @@ bool jumps_at_start(Mechanism& mechanism, State state);
 /// (equilibrium.hpp).
 /// @throws SimulationError if the mechanism cannot be assembled or is singular
 InitialState initial_state(Mechanism& mechanism);
-
-/// [ W  Φ_qᵀ ; Φ_q  0 ] at a state: the matrix of velocity projection and, up to curvature, of
-/// assembly.
-void projection_matrix(const Mechanism& mechanism, const State& state, System::Matrix& matrix);
 
 }  // namespace pleuel

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
-#include "core/integration/initial_state.hpp"
+#include "core/integration/assembly.hpp"
 
 namespace pleuel {
 

@@ -2,7 +2,7 @@
 
 #include "core/integration/mechanism.hpp"
 #include "core/integration/scheme.hpp"
-#include "core/integration/simulate.hpp"
+#include "core/integration/simulation_options.hpp"
 
 namespace pleuel {
 

@@ -1,35 +1,10 @@
 #pragma once
 
-#include <functional>
-#include <limits>
-
-#include "core/base/time_integration.hpp"
 #include "core/integration/mechanism.hpp"
+#include "core/integration/simulation_options.hpp"
 #include "core/integration/trajectory.hpp"
 
 namespace pleuel {
-
-/// The steps that are asked for, and what else a simulation has to know.
-struct SimulationOptions : TimeIntegration {
-  /// Where something that acts jumps or has a kink [s], in any order: steps end there.
-  std::vector<double> breaks = {};
-  /// What the states of the trajectory may take [byte]. Where they do not fit, some are kept as
-  /// checkpoints, and the stretches between are simulated again when they are asked for.
-  double memory = std::numeric_limits<double>::infinity();
-};
-
-/// Sees each instant as it is reached, beginning with step 0 (and again from there, if it turns out
-/// on the way that the states do not fit into the memory).
-using InstantObserver = std::function<void(int step, const State& state)>;
-
-/// Number of equal steps of a simulation without breaks: the last time is end_time exactly.
-int step_count(const TimeIntegration& options);
-
-/// The instants of a simulation without control and splits. Between two breaks steps are equal, as
-/// few as are no longer than asked for, so that their size changes little from one stretch to the
-/// next: a change of the size leaves a transient in the multipliers of index 3. Breaks closer than
-/// a quarter of a step to the one before, or to the start or the end, have no instant.
-std::vector<double> regular_instants(const SimulationOptions& options);
 
 /// Integrates M a − Q + Φ_qᵀ λ = 0 with the constraints in the form that is asked for
 /// (step_equations.hpp; for index 3 Arnold & Brüls 2007). Each step is solved by Newton's method

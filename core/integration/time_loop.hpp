@@ -9,7 +9,7 @@
 #include "core/integration/pivot_record.hpp"
 #include "core/integration/predictor.hpp"
 #include "core/integration/projection.hpp"
-#include "core/integration/simulate.hpp"
+#include "core/integration/simulation_options.hpp"
 #include "core/integration/state_window.hpp"
 #include "core/integration/step_messages.hpp"
 

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "core/model/beam_mesh.hpp"
-#include "core/model/imported_builder.hpp"
+#include "core/model/imported_constants.hpp"
 #include "core/scene/visit_numbers.hpp"
 
 namespace pleuel {

@@ -9,6 +9,7 @@
 #include "core/model/beam_mesh.hpp"
 #include "core/model/beam_shapes.hpp"
 #include "core/model/invariant_derivatives.hpp"
+#include "core/model/resolve_beam.hpp"
 
 namespace pleuel {
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "core/model/body_builder.hpp"
+#include "core/model/build_context.hpp"
+#include "core/model/model.hpp"
 
 namespace pleuel {
 

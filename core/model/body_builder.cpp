@@ -12,13 +12,6 @@
 
 namespace pleuel {
 
-Design<Dual> BuildContext::seeded(int variable) const {
-  Design<Dual> dual;
-  for (double value : design) dual.emplace_back(value);
-  dual[static_cast<std::size_t>(variable)].derivatives()[0] = 1.0;
-  return dual;
-}
-
 namespace {
 
 BodyFrame make_frame(const Body& body, const BuildContext& context, int offset) {
@@ -72,11 +65,6 @@ void set_rigid(const Body& body, const BuildContext& context, BodyModel& model) 
 }
 
 }  // namespace
-
-Invariants<double> derivative_of(const Invariants<Dual>& invariants) {
-  return transform_invariants<double>(invariants,
-                                      [](const Dual& number) { return derivative_of(number); });
-}
 
 BodyModel make_body_model(const Body& body, const BuildContext& context, int offset) {
   BodyModel model;

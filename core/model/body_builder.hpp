@@ -1,30 +1,12 @@
 #pragma once
 
-#include <map>
 #include <memory>
 
-#include "core/model/effect_decisions.hpp"
+#include "core/model/build_context.hpp"
 #include "core/model/model.hpp"
 #include "core/system/term.hpp"
 
 namespace pleuel {
-
-/// What all bodies of a model are built with.
-struct BuildContext {
-  const Scene& scene;
-  const EffectSettings& effects;
-  const Design<double>& start;
-  const Design<double>& design;
-  std::optional<MotionPlane> plane;
-  Eigen::Vector3d gravity;
-  InvariantDifferentiation differentiation = {};
-  std::map<std::string, BeamEffects> beam_effects = {};  ///< by body
-
-  const BeamEffects& effects_of(const std::string& beam) const { return beam_effects.at(beam); }
-  int variables() const { return static_cast<int>(design.size()); }
-  /// The design with one variable seeded.
-  Design<Dual> seeded(int variable) const;
-};
 
 /// Frame and elastic coordinates of a body, beginning at `offset`.
 /// @throws SimulationError if there is no such body at this design (core/scene/body_rules.hpp)
@@ -32,9 +14,6 @@ BodyModel make_body_model(const Body& body, const BuildContext& context, int off
 
 /// Inertia, elasticity, damping and weight.
 std::unique_ptr<Term> make_body_term(const BodyModel& model, const BuildContext& context);
-
-/// Entry by entry.
-Invariants<double> derivative_of(const Invariants<Dual>& invariants);
 
 /// Frame coordinates of a body at t = 0: translations, then angle or rotation vector.
 template <class Scalar>

@@ -30,4 +30,9 @@ double relative_step(const InvariantDifferentiation& differentiation) {
                                                                       : std::sqrt(epsilon);
 }
 
+Invariants<double> derivative_of(const Invariants<Dual>& invariants) {
+  return transform_invariants<double>(invariants,
+                                      [](const Dual& number) { return derivative_of(number); });
+}
+
 }  // namespace pleuel

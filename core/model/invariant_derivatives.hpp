@@ -3,9 +3,13 @@
 #include <cmath>
 #include <complex>
 
-#include "core/model/body_builder.hpp"
+#include "core/beam/beam_invariants.hpp"
+#include "core/model/build_context.hpp"
 
 namespace pleuel {
+
+/// Entry by entry.
+Invariants<double> derivative_of(const Invariants<Dual>& invariants);
 
 /// (a − b)/dx of all numbers of invariants on one pattern.
 Invariants<double> difference_quotient(const Invariants<double>& a, const Invariants<double>& b,

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/model/imported_builder.hpp"
+#include "core/model/imported_constants.hpp"
 
 namespace pleuel {
 

@@ -215,7 +215,8 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   for (std::size_t i = 0; i < analysis->responses.size(); ++i) {
     analysis->reductions.push_back(reduce_response(i, *analysis));
   }
-  require_finite(*analysis);
+  require_finite(analysis->responses, analysis->reductions, analysis->histories,
+                 analysis->trajectory);
   return analysis;
 }
 

@@ -76,24 +76,25 @@ void ConstraintGuard::see(int step, const State& state) {
                   drift(worst), shortest_length(model_), advice));
 }
 
-void require_finite(const Analysis& analysis) {
+void require_finite(const std::vector<Response>& responses,
+                    const std::vector<Reduction>& reductions,
+                    const std::vector<Eigen::MatrixXd>& histories, const Trajectory& trajectory) {
   std::optional<Eigen::Index> first;
   std::size_t which = 0;
-  for (std::size_t i = 0; i < analysis.histories.size(); ++i) {
-    const std::optional<Eigen::Index> instant = first_not_finite(analysis.histories[i]);
+  for (std::size_t i = 0; i < histories.size(); ++i) {
+    const std::optional<Eigen::Index> instant = first_not_finite(histories[i]);
     if (!instant || (first && *first <= *instant)) continue;
     first = instant;
     which = i;
   }
   if (first) {
     throw SimulationError(fmt::format("the response \"{}\" is not finite at t = {:.6g} s. {}",
-                                      analysis.responses[which].name,
-                                      analysis.trajectory.time(*first), advice));
+                                      responses[which].name, trajectory.time(*first), advice));
   }
-  for (std::size_t i = 0; i < analysis.reductions.size(); ++i) {
-    if (std::isfinite(analysis.reductions[i].value)) continue;
+  for (std::size_t i = 0; i < reductions.size(); ++i) {
+    if (std::isfinite(reductions[i].value)) continue;
     throw SimulationError(
-        fmt::format("the response \"{}\" is not finite. {}", analysis.responses[i].name, advice));
+        fmt::format("the response \"{}\" is not finite. {}", responses[i].name, advice));
   }
 }
 

@@ -1,7 +1,12 @@
 #pragma once
 
+#include <vector>
+
+#include "core/integration/simulation_options.hpp"
+#include "core/integration/trajectory.hpp"
 #include "core/model/body_energy.hpp"
-#include "core/response/analysis.hpp"
+#include "core/model/model.hpp"
+#include "core/response/response.hpp"
 
 /// A simulation that came to its end may still hold what is no answer: numbers that are not finite,
 /// joints that are pulled apart. It has failed then, like one that stopped.
@@ -31,6 +36,8 @@ class ConstraintGuard {
 
 /// @throws SimulationError naming the response and the time, where a history or a value is not
 ///         finite: of several, the first in time
-void require_finite(const Analysis& analysis);
+void require_finite(const std::vector<Response>& responses,
+                    const std::vector<Reduction>& reductions,
+                    const std::vector<Eigen::MatrixXd>& histories, const Trajectory& trajectory);
 
 }  // namespace pleuel

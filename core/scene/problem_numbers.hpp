@@ -4,18 +4,12 @@
 #include <vector>
 
 #include "core/scene/problem_file.hpp"
+#include "core/scene/problem_text.hpp"
 #include "core/scene/units.hpp"
 
 /// The fixed numbers of a problem file that design variables could stand for: what a price or an
 /// influence can be asked of although the file does not vary it.
 namespace pleuel {
-
-/// A problem as it is written. The arguments of read_problem_text().
-struct ProblemText {
-  std::string text;
-  std::string file;
-  std::vector<std::string> overrides = {};
-};
 
 /// A fixed number of the scene.
 struct SceneNumber {

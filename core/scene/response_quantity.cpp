@@ -1,7 +1,5 @@
 #include "core/scene/response_quantity.hpp"
 
-#include "core/scene/frequency_quantity.hpp"
-
 namespace pleuel {
 
 namespace {

@@ -10,8 +10,6 @@
 #include <fmt/format.h>
 #include <udunits2.h>
 
-#include "core/scene/frequency_quantity.hpp"
-
 namespace pleuel {
 namespace {
 

@@ -28,6 +28,9 @@ inline constexpr Quantity torque{"a torque", "N m"};
 inline constexpr Quantity time{"a time", "s"};
 inline constexpr Quantity rate{"a rate", "1/s"};
 inline constexpr Quantity frequency{"a frequency", "Hz"};  ///< cycles per second
+/// Of a vibration: a number is in rad/s, and "40 Hz" is 40 cycles of 2π rad in a second. An angular
+/// speed takes no Hz.
+inline constexpr Quantity angular_frequency{"a frequency", "rad/s"};
 inline constexpr Quantity angle{"an angle", "rad"};
 inline constexpr Quantity angular_speed{"an angular speed", "rad/s"};
 inline constexpr Quantity speed{"a speed", "m/s"};

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "core/trust/doubts.hpp"
+#include "core/trust/doubt.hpp"
+#include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
 

@@ -4,8 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/trust/doubts.hpp"
+#include "core/trust/doubt.hpp"
 #include "core/trust/error_bars.hpp"
+#include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
 

@@ -2,7 +2,8 @@
 
 #include <vector>
 
-#include "core/trust/doubts.hpp"
+#include "core/trust/doubt.hpp"
+#include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
 

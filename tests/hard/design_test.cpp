@@ -1,8 +1,8 @@
 #include <algorithm>
 
+#include "optimization/backends.hpp"
 #include "optimization/design_problem.hpp"
 #include "optimization/design_solve.hpp"
-#include "optimization/optimizer.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/hard/hard_problems.hpp"
 #include "tests/support/differences.hpp"

@@ -11,7 +11,7 @@
 #include "backend_names.hpp"
 #include "complex_step.hpp"
 #include "known_problems.hpp"
-#include "optimization/optimizer.hpp"
+#include "optimization/backends.hpp"
 #include "optimization/starts.hpp"
 
 namespace pleuel::test {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "known_problems.hpp"
-#include "optimization/optimizer.hpp"
+#include "optimization/backends.hpp"
 #include "optimization/solve.hpp"
 
 namespace pleuel::test {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "optimization/optimizer.hpp"
+#include "optimization/backends.hpp"
 #include "optimization/solve.hpp"
 #include "tests/optimization/backend_names.hpp"
 

@@ -9,7 +9,7 @@
 #include "backend_names.hpp"
 #include "complex_step.hpp"
 #include "known_problems.hpp"
-#include "optimization/optimizer.hpp"
+#include "optimization/backends.hpp"
 #include "optimization/solve.hpp"
 
 namespace pleuel::test {

@@ -11,8 +11,8 @@
 #include "backend_names.hpp"
 #include "complex_step.hpp"
 #include "known_problems.hpp"
+#include "optimization/backends.hpp"
 #include "optimization/lowest_curvature.hpp"
-#include "optimization/optimizer.hpp"
 #include "optimization/solve.hpp"
 
 namespace pleuel::test {

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/problem_reader.hpp"
-#include "optimization/optimizer.hpp"
+#include "optimization/backends.hpp"
 #include "optimization/peak_problem.hpp"
 #include "tests/optimization/backend_names.hpp"
 

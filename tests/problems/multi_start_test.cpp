@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/problem_reader.hpp"
-#include "optimization/optimizer.hpp"
+#include "optimization/backends.hpp"
 #include "tests/optimization/backend_names.hpp"
 
 namespace pleuel::test {

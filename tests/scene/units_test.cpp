@@ -6,8 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/scene/frequency_quantity.hpp"
-
 namespace pleuel {
 namespace {
 

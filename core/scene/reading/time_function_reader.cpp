@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "core/scene/frequency_quantity.hpp"
-
 namespace pleuel {
 namespace {
 

@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -146,6 +149,52 @@ TEST(Floors, KeepJsonOutOfTheMechanics) {
     if (!header.starts_with("nlohmann/")) continue;
     const std::string floor = floor_of(file);
     EXPECT_TRUE(floor == "core/scene" || floor == "cli" || floor == "studies") << file;
+  }
+}
+
+/// A file without its ending: a header and what it declares are one.
+std::string unit_of(const std::string& path) {
+  return path.substr(0, path.rfind('.'));
+}
+
+/// The units that each unit includes.
+std::map<std::string, Names> includes_of_units() {
+  std::map<std::string, Names> units;
+  for (const auto& [file, folder, header] : read_includes()) {
+    if (unit_of(file) != unit_of(header)) units[unit_of(file)].insert(unit_of(header));
+  }
+  return units;
+}
+
+/// Units from which nothing remains to be read but themselves: taken away again and again, all go.
+TEST(Files, IncludeEachOtherInNoCircle) {
+  std::map<std::string, Names> units = includes_of_units();
+  std::size_t before = 0;
+  while (units.size() != before) {
+    before = units.size();
+    std::erase_if(units, [&](const auto& unit) {
+      return std::none_of(unit.second.begin(), unit.second.end(),
+                          [&](const std::string& header) { return units.contains(header); });
+    });
+  }
+  for (const auto& [unit, headers] : units) {
+    ADD_FAILURE() << unit << " is in a circle, or leads into one";
+  }
+}
+
+/// The command's rooms: each knows those before it.
+TEST(Rooms, OfTheCommandKnowOnlyThoseBefore) {
+  const std::vector<std::string> rooms = {"cli/text",  "cli/input",    "cli/reports",
+                                          "cli/files", "cli/commands", "cli"};
+  const auto number = [&](const std::string& path) {
+    return std::find(rooms.begin(), rooms.end(), fs::path(path).parent_path().generic_string()) -
+           rooms.begin();
+  };
+  for (const auto& [file, folder, header] : read_includes()) {
+    if (!file.starts_with("cli/") || !fs::exists(fs::path(PLEUEL_SOURCE_DIR) / header)) continue;
+    if (!header.starts_with("cli/")) continue;
+    ASSERT_LT(number(file), std::ssize(rooms)) << file << " is in no room";
+    EXPECT_LE(number(header), number(file)) << file << " includes " << header;
   }
 }
 

@@ -1,4 +1,4 @@
-#include "optimization/optimizer.hpp"
+#include "optimization/backends.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,12 @@
+#include "core/model/build_context.hpp"
+
+namespace pleuel {
+
+Design<Dual> BuildContext::seeded(int variable) const {
+  Design<Dual> dual;
+  for (double value : design) dual.emplace_back(value);
+  dual[static_cast<std::size_t>(variable)].derivatives()[0] = 1.0;
+  return dual;
+}
+
+}  // namespace pleuel

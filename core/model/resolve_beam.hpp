@@ -1,0 +1,37 @@
+#pragma once
+
+#include "core/beam/beam.hpp"
+#include "core/model/beam_mesh.hpp"
+#include "core/model/scene_geometry.hpp"
+
+namespace pleuel {
+
+/// The elements of a beam at a design of any scalar type.
+template <class Scalar>
+Beam<Scalar> resolve_beam(const BeamBody& body, const BeamMesh& mesh, const Scene& scene,
+                          const Design<Scalar>& design) {
+  const Material& material = find_material(scene, body.material);
+  const Scalar length =
+      length_of<Scalar>(resolve_point(body.to, design) - resolve_point(body.from, design));
+  BeamElement<Scalar> element;
+  element.young = resolve(material.young, design);
+  element.shear = element.young / (2.0 * (1.0 + resolve(material.poisson, design)));
+  element.density = resolve(material.density, design);
+  if (material.strength) element.strength = resolve(*material.strength, design);
+  Beam<Scalar> beam;
+  int segment = -1;
+  for (const MeshElement& part : mesh.elements) {
+    if (part.segment != segment) {
+      segment = part.segment;
+      element.section =
+          resolve_section(body.segments[static_cast<std::size_t>(segment)].section, design);
+    }
+    element.length = length * part.share;
+    beam.elements.push_back(element);
+  }
+  beam.mass_damping = resolve(body.damping.mass, design);
+  beam.stiffness_damping = resolve(body.damping.stiffness, design);
+  return beam;
+}
+
+}  // namespace pleuel

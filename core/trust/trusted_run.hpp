@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/base/error_bar.hpp"
+#include "core/response/analysis.hpp"
+#include "core/response/monitors.hpp"
+
+namespace pleuel {
+
+/// How much a judgement of errors may cost.
+enum class Scrutiny {
+  usual,  ///< about as much as the simulation, if nothing is suspicious
+  close   ///< three times as much more: with half the step and twice the elements
+};
+
+/// A simulated design, and what its doubts are made from.
+struct TrustedRun {
+  const ProblemFile& problem;
+  const Eigen::VectorXd& x;  ///< design variables [SI]
+  const Analysis& analysis;
+  const Monitors& monitors;  ///< of the analysis
+  Scrutiny scrutiny = Scrutiny::usual;
+  /// Error bars that are known otherwise, as a choice of the setting knows them: one a response, or
+  /// null. They hold where they are narrower, without what is due to effects.
+  const std::vector<std::optional<ErrorBar>>* known = nullptr;
+};
+
+}  // namespace pleuel

@@ -1,0 +1,24 @@
+#include "optimization/result.hpp"
+
+#include <utility>
+
+namespace pleuel {
+
+void continue_from(const Result& before, Result& result) {
+  for (EvaluationRecord& record : result.history) record = following(std::move(record), before);
+  result.history.insert(result.history.begin(), before.history.begin(), before.history.end());
+  result.evaluations += before.evaluations;
+  result.gradient_evaluations += before.gradient_evaluations;
+  result.iterations += before.iterations;
+  result.restarts += before.restarts + 1;
+  result.seconds += before.seconds;
+}
+
+EvaluationRecord following(EvaluationRecord record, const Result& before) {
+  record.evaluation += before.evaluations;
+  record.iteration += before.iterations;
+  record.seconds += before.seconds;
+  return record;
+}
+
+}  // namespace pleuel
