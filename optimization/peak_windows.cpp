@@ -137,7 +137,7 @@ std::vector<Reduction> peaks_of_places(const Analysis& analysis, std::size_t res
   for (const ChannelRange& place : places) {
     const Eigen::MatrixXd values =
         analysis.histories[response].middleRows(place.first, place.count);
-    for (Reduction& peak : reduce_windows(observed.over_time, time, values, windows,
+    for (Reduction& peak : reduce_windows(observed.history()->over_time, time, values, windows,
                                           observed.steps(time), analysis.breaks)) {
       peaks.push_back(of_whole(std::move(peak), place.first));
     }
