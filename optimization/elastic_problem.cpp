@@ -8,7 +8,7 @@ namespace pleuel {
 namespace {
 
 /// Of z: violations below are small ones.
-constexpr double least_magnitude = 0.1;
+constexpr double least_violation_magnitude = 0.1;
 
 }  // namespace
 
@@ -52,7 +52,8 @@ ElasticProblem::ElasticProblem(Problem& problem, const std::vector<bool>& is_ela
     variable.start =
         std::clamp(start[static_cast<Eigen::Index>(i)], variable.lower, variable.upper);
   }
-  variables_.push_back({"violation", largest, 0.0, infinity, std::max(least_magnitude, largest)});
+  variables_.push_back(
+      {"violation", largest, 0.0, infinity, std::max(least_violation_magnitude, largest)});
 }
 
 Evaluation ElasticProblem::evaluate(const Eigen::VectorXd& xz, Request request) {

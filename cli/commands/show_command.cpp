@@ -19,6 +19,7 @@
 #include "core/integration/initial_state.hpp"
 #include "core/response/misalignment.hpp"
 #include "core/scene/body_rules.hpp"
+#include "core/trust/doubts.hpp"
 #include "core/trust/idle_freedoms.hpp"
 
 /// The mechanism as the file places it, before anything is simulated.

@@ -12,6 +12,7 @@
 #include "core/integration/simulation_options.hpp"
 #include "core/integration/state_window.hpp"
 #include "core/integration/step_messages.hpp"
+#include "core/integration/trajectory.hpp"
 
 namespace pleuel {
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "core/response/monitors.hpp"
+#include "core/trust/doubts.hpp"
 #include "core/trust/fast_laws.hpp"
 #include "tests/laws/law_problems.hpp"
 
