@@ -10,6 +10,7 @@ import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
+import axe from "axe-core";
 import { chromium } from "playwright-core";
 
 const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
@@ -38,6 +39,12 @@ const runs = {
   uncertainty: ["uncertainty", problem("slider_crank"), ...quick, "--set", "/uncertainty/samples=8"],
   accuracy: ["accuracy", problem("slider_crank_round"), ...quick, "--set", "/accuracy/steps=[\"0.4 ms\", \"0.2 ms\"]", "--set", "/accuracy/elements=[1, 2]"],
 };
+// Steps are longer still where an optimization is searched several times.
+const quicker = [...quick, "--set", "/simulation/step=0.5 ms"];
+Object.assign(runs, {
+  starts: ["optimize", problem("slider_crank_round"), ...quicker, "--starts", "3"],
+  conflict: ["optimize", problem("slider_crank_round"), ...quicker, "--set", "/constraints/rod_stiffness/upper=1e-3 mm", "--set", "/variables/rod_diameter/upper=20 mm", "--set", "/variables/rod_diameter/start=15 mm"],
+});
 const pageOf = (name) => join(folder, name === "show" ? "show.html" : `${name}/report.html`);
 
 let browser;
@@ -102,9 +109,19 @@ for (const name of [...Object.keys(runs), "show"]) {
       assert.ok(wide <= width, `${width} px: the page is ${wide} px wide`);
       await tab.screenshot({ path: join(shots, `${name}-${width}-${scheme}.png`), fullPage: true });
       assert.deepEqual(complaints, []);
+      assert.deepEqual(await barriers(tab), []);
       await tab.close();
     }
   });
+}
+
+/** What would keep people with a keyboard or a reader of screens out, as axe-core sees it. */
+async function barriers(tab) {
+  await tab.evaluate(axe.source);
+  const { violations } = await tab.evaluate(() => window.axe.run({ resultTypes: ["violations"] }));
+  return violations
+    .filter((one) => ["serious", "critical"].includes(one.impact))
+    .map((one) => `${one.id}: ${one.nodes.map((node) => node.target.join(" ")).slice(0, 3).join(", ")}`);
 }
 
 test("an optimization begins with what was won and the verdict", async () => {
@@ -160,6 +177,30 @@ test("a click on a member shows what is known of it", async () => {
     assert.match(await tab.locator(".inspector h3").first().innerText(), new RegExp(name));
     assert.ok((await tab.locator(`.inspector figure[data-title="${name} stress"]`).count()) === 1);
   }
+  await tab.close();
+});
+
+test("the keyboard reaches what a click into the drawing does", async () => {
+  const { tab } = await open("optimize");
+  await tab.getByLabel("member or joint", { exact: true }).selectOption({ label: "crank" });
+  assert.match(await tab.locator(".inspector h3").first().innerText(), /crank/);
+  await tab.close();
+});
+
+test("local optima of several starts stand in a table, the best first", async () => {
+  const { tab } = await open("starts");
+  const { starts } = result("starts");
+  const rows = tab.locator("section", { hasText: "From several starts" }).locator("tbody tr");
+  assert.equal(await rows.count(), starts.optima.length);
+  await tab.close();
+});
+
+test("limits in conflict say what would do", async () => {
+  const { tab } = await open("conflict");
+  const { status, least_violation } = result("conflict");
+  assert.equal(status, "infeasible");
+  const rows = tab.locator("section", { hasText: "Limits in conflict" }).locator("tbody tr");
+  assert.equal(await rows.count(), Object.keys(least_violation.limits).length);
   await tab.close();
 });
 

@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include <gmock/gmock.h>
+
 #include "optimization/backends.hpp"
 #include "optimization/design_problem.hpp"
 #include "optimization/design_solve.hpp"
@@ -47,11 +49,24 @@ TEST_P(HardOptimization, FailsOnlyWhereTheMechanismLocks) {
   }
 }
 
-/// Nothing can be said from a start that locks, and it is not called an optimum.
-TEST_P(HardOptimization, FailsFromAnImpossibleStart) {
+TEST_P(HardOptimization, FindsTheOptimumFromAnImpossibleStart) {
+  const Result easy = optimize(impossible_designs("90 mm"), "nlopt-slsqp");
   const Result result = optimize(impossible_designs("120 mm"), GetParam());
+  EXPECT_EQ(result.status, Status::verified) << result.message;
+  EXPECT_NEAR(result.evaluation.objective / easy.evaluation.objective, 1.0, 1e-6);
+  EXPECT_THAT(result.message, testing::HasSubstr("the start cannot be evaluated"));
+}
+
+/// Where all designs between the bounds lock nothing can be said, and none is called an optimum.
+TEST_P(HardOptimization, FailsWhereNoDesignCanBeSimulated) {
+  const ProblemFile problem =
+      sample_problem("hard/impossible_designs", {"/variables/crank_length/start=120 mm",
+                                                 "/variables/crank_length/lower=110 mm",
+                                                 "/variables/crank_length/upper=130 mm"});
+  const Result result = optimize(problem, GetParam());
   EXPECT_EQ(result.status, Status::failed);
-  EXPECT_EQ(result.evaluations, 1);
+  EXPECT_EQ(count_failures(result.history), result.evaluations);
+  EXPECT_THAT(result.message, testing::HasSubstr("other designs between the bounds"));
 }
 
 /// The bow of the rod falls with a shorter crank and a higher rod: both bounds are reached.

@@ -17,8 +17,11 @@ interface Quantity {
   shown: { design: string; isMain: boolean; value: Shown }[];
 }
 
-export function makeInspector(picture: Picture, main: number, goTo: (time: number) => void): Inspector {
-  const element = h("aside.inspector", { "aria-live": "polite" });
+/** @param onChoose  hears what is chosen from the list, which does what a click into the drawing does */
+export function makeInspector(picture: Picture, main: number, goTo: (time: number) => void, onChoose: (pick: Pick) => void): Inspector {
+  const known = h("div", { "aria-live": "polite" });
+  const chooser = makeChooser(picture, onChoose);
+  const element = h("aside.inspector", { "aria-label": "one member or joint" }, chooser.element, known);
   let charts: Chart[] = [];
   const unit = timeUnit(picture.scene.end_time);
   let now = 0;
@@ -26,17 +29,17 @@ export function makeInspector(picture: Picture, main: number, goTo: (time: numbe
   const chartOf = (quantity: Quantity): HTMLElement | null => {
     const largest = Math.max(...quantity.shown.map((one) => Math.abs(one.value.value)));
     const meaning = { ...quantity.meaning, unit: inThousands(quantity.meaning.unit, largest / quantity.meaning.unit.factor) };
-    const known = quantity.shown.filter((one) => one.value.history);
-    if (!known.length) return null;
+    const curves = quantity.shown.filter((one) => one.value.history);
+    if (!curves.length) return null;
     const limits = limitsOn(picture, quantity.name);
-    const top = known.find((one) => one.isMain) ?? known[0];
+    const top = curves.find((one) => one.isMain) ?? curves[0];
     const peak = top.value;
     const chart = lineChart({
       title: words(quantity.name),
       yTitle: meaning.unit.name,
       xTitle: `time [${unit.name}]`,
       height: 150,
-      series: known.map((one) => ({
+      series: curves.map((one) => ({
         name: one.design,
         color: one.isMain ? "accent" : "start",
         width: one.isMain ? 1.8 : 1.2,
@@ -69,12 +72,13 @@ export function makeInspector(picture: Picture, main: number, goTo: (time: numbe
     const drawn = quantitiesOf(picture, pick, main)
       .map(chartOf)
       .filter((one): one is HTMLElement => !!one);
-    element.replaceChildren(...heading(picture, pick, main), ...drawn.slice(0, 3));
+    chooser.set(pick);
+    known.replaceChildren(...heading(picture, pick, main), ...drawn.slice(0, 3));
     if (drawn.length > 3) {
-      element.append(h("details", {}, h("summary.note", {}, `${drawn.length - 3} more`), ...drawn.slice(3)));
+      known.append(h("details", {}, h("summary.note", {}, `${drawn.length - 3} more`), ...drawn.slice(3)));
     }
     const isMoving = picture.designs.some((design) => design.motion);
-    if (!charts.length && isMoving) element.append(h("p.note", {}, "No history belongs to it. Click another member or joint."));
+    if (!charts.length && isMoving) known.append(h("p.note", {}, "No history belongs to it. Click another member or joint."));
   };
   return {
     element,
@@ -82,6 +86,28 @@ export function makeInspector(picture: Picture, main: number, goTo: (time: numbe
     setTime(time) {
       now = time;
       for (const chart of charts) chart.setCursor(time / unit.factor);
+    },
+  };
+}
+
+/** The list of members and joints, for the keyboard and for readers of screens. */
+function makeChooser(picture: Picture, onChoose: (pick: Pick) => void): { element: HTMLElement; set(pick: Pick): void } {
+  const option = (value: string, name: string) => h("option", { value }, words(name));
+  const select = h(
+    "select",
+    { "aria-label": "member or joint" },
+    option("", "the whole mechanism"),
+    h("optgroup", { label: "members" }, picture.scene.bodies.map((body, i) => option(`body ${i}`, body.name))),
+    h("optgroup", { label: "joints" }, picture.scene.joints.map((joint, i) => option(`joint ${i}`, joint.name))),
+  ) as HTMLSelectElement;
+  select.addEventListener("change", () => {
+    const [kind, index] = select.value.split(" ");
+    onChoose({ body: kind === "body" ? Number(index) : null, joint: kind === "joint" ? Number(index) : null });
+  });
+  return {
+    element: h("label.choice.chooser", {}, h("span.soft", {}, "shown"), select),
+    set(pick) {
+      select.value = pick.joint !== null ? `joint ${pick.joint}` : pick.body !== null ? `body ${pick.body}` : "";
     },
   };
 }

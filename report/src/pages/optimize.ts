@@ -6,8 +6,9 @@ import { errorText, number, pair, percent, placeText, seconds, share, withUnit, 
 import { influenceSection } from "./influence";
 import { type Inspector, makeInspector } from "./inspector";
 import { addMarks, type Mark } from "../mechanism/marks";
-import { makePlayer, type Player } from "../mechanism/player";
+import { makePlayer, type Pick as Picked, type Player } from "../mechanism/player";
 import { change, effectsSection, fact, filesSection, monitorsText, responsesTable, sentenceCase, verdict, warnings } from "./parts";
+import { conflictSection, partsNote, startsSection } from "./search";
 
 export interface Viewing {
   element: HTMLElement;
@@ -22,18 +23,19 @@ export interface Viewing {
 export function viewing(picture: Picture, main: number, showsNames = false, showsAxes = false, unheld: string[] = []): Viewing {
   let player: Player | null = null;
   const listeners: ((body: string) => void)[] = [];
-  const inspector = makeInspector(picture, main, (time) => player?.goTo(time));
+  const choose = (pick: Picked) => {
+    player?.select(pick.body);
+    inspector.show(pick);
+    if (pick.body !== null) for (const listener of listeners) listener(picture.scene.bodies[pick.body].name);
+  };
+  const inspector = makeInspector(picture, main, (time) => player?.goTo(time), choose);
   player = makePlayer({
     picture,
     main,
     showsNames,
     showsAxes,
     unheld,
-    onPick: (pick) => {
-      player?.select(pick.body);
-      inspector.show(pick);
-      if (pick.body !== null) for (const listener of listeners) listener(picture.scene.bodies[pick.body!].name);
-    },
+    onPick: choose,
   });
   player.onTime((time) => inspector.setTime(time));
   const made = player;
@@ -53,7 +55,7 @@ export function viewing(picture: Picture, main: number, showsNames = false, show
 
 export function optimizePage(data: ReportData): HTMLElement[] {
   const { picture, result } = data;
-  const parts: (HTMLElement | null)[] = [headline(data)];
+  const parts: (HTMLElement | null)[] = [headline(data), conflictSection(data)];
   let shown: Viewing | null = null;
   if (picture && picture.designs.length) {
     const main = picture.designs.length - 1;
@@ -69,6 +71,7 @@ export function optimizePage(data: ReportData): HTMLElement[] {
       h("div.stack", {}, limitsSection(data, shown), pricesSection(data)),
       h("div.stack", {}, variablesSection(data), savingsSection(data)),
     ),
+    startsSection(data),
     influenceSection(picture, (picture?.designs.length ?? 0) - 1, shown),
     convergenceSection(data),
     evidenceSection(data),
@@ -456,5 +459,6 @@ function evidenceSection(data: ReportData): HTMLElement | null {
     stages.length > 1
       ? h("p.note", {}, `In ${stages.length} stages, each with the steps and elements that its accuracy needs: ${stages.map((stage) => `${seconds(stage.step ?? 0)} steps, ${stage.elements ?? "–"} elements`).join("; ")}.`)
       : null,
+    partsNote(result),
   );
 }

@@ -85,7 +85,7 @@ const std::map<std::string, Names>& permitted() {
 /// The storey of optimization that knows mechanics: the target pleuel_design_problem.
 bool is_of_design_problem(const std::string& path) {
   for (const char* name : {"design_problem.", "design_solve.", "margin_problem.", "optimum_error.",
-                           "staged_solve.", "peak_problem.", "peak_windows."}) {
+                           "staged_solve.", "peak_problem.", "peak_windows.", "multi_start."}) {
     if (path.starts_with(std::string("optimization/") + name)) return true;
   }
   return false;
