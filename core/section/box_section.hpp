@@ -13,8 +13,8 @@ namespace pleuel {
 ///     J = 4A²/C + 2∫φ₀ dA,   C = ∮∂ψ/∂n ds,   A = hole + ∫ψ dA,   φ_h = 2A/C
 /// Bredt's formula takes C and A from the mean line. Here they are those of straight walls and four
 /// corners, with P = 2(b + h − 4t) around the hole b_i × h_i:
-///     C = P/t + 4 (1 − 2 ln 2/π),   A = b_i h_i + P t/2 + 4 · 0.1449 t²,   2∫φ₀ = P t³/3 + 4 ·
-///     0.405 t⁴
+///     C = P/t + 4 (1 − 2 ln 2/π),   A = b_i h_i + P t/2 + 4 · 0.1449 t²,
+///     2∫φ₀ = P t³/3 + 4 · 0.405 t⁴
 /// The corner of C is that of the conformal map of a right-angled bend; the other two are numbers
 /// of our own, by finite elements. Shear in the middle of the walls: φ_h/t + t, per twist.
 ///
