@@ -199,6 +199,7 @@ test("limits in conflict say what would do", async () => {
   const { tab } = await open("conflict");
   const { status, least_violation } = result("conflict");
   assert.equal(status, "infeasible");
+  assert.match(await tab.locator("h1").innerText(), /No design keeps all limits/);
   const rows = tab.locator("section", { hasText: "Limits in conflict" }).locator("tbody tr");
   assert.equal(await rows.count(), Object.keys(least_violation.limits).length);
   await tab.close();

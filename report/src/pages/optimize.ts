@@ -95,13 +95,16 @@ function headline(data: ReportData): HTMLElement {
       "div",
       {},
       h("p.eyebrow", {}, data.picture?.name ?? ""),
-      hasDesign
+      result.status === "infeasible"
+        ? h("h1", {}, "No design keeps all limits")
+        : hasDesign
         ? h("h1", {}, h("span.gain", {}, percent(gain)), h("span.what", {}, ` ${words(objective.name)}`))
         : h("h1", {}, "No design was found"),
       hasDesign
         ? h(
             "p.numbers",
             {},
+            result.status === "infeasible" ? h("span.soft", {}, `${words(objective.name)}, where they are broken least: `) : null,
             h("span.soft", {}, withUnit(objective.start, unit)),
             " → ",
             h("b", {}, withUnit(objective.value, unit)),

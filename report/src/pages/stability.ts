@@ -39,7 +39,7 @@ function heatMap(runs: Document[], files: string[], formulations: string[], meas
   const paint = () => {
     for (const [cell, value] of cells) {
       const share = value === null || !(value > 0) ? 0 : (Math.log10(value) - low) / Math.max(high - low, 0.3);
-      cell.style.background = value === null ? "" : `color-mix(in srgb, ${color("more")} ${Math.round(58 * Math.max(0, share))}%, transparent)`;
+      cell.style.background = value === null ? "" : `color-mix(in srgb, ${color("more")} ${Math.round(42 * Math.max(0, share))}%, transparent)`;
     }
   };
   const body = formulations.map((formulation) =>
