@@ -10,6 +10,7 @@
 #include "cli/interruption.hpp"
 #include "cli/text/console.hpp"
 #include "core/base/error.hpp"
+#include "core/base/parallel.hpp"
 #include "core/base/stop.hpp"
 
 namespace pleuel {
@@ -23,7 +24,9 @@ Outcome run(const Arguments& arguments) {
       {"accuracy", run_accuracy},
       {"backends", run_backends},
       {"check", run_check},
+      {"compare", run_compare},
       {"completion", run_completion},
+      {"export", run_export},
       {"gradient", run_gradient},
       {"invariants", run_invariants},
       {"new", run_new},
@@ -32,6 +35,7 @@ Outcome run(const Arguments& arguments) {
       {"plot", run_plot},
       {"prices", run_prices},
       {"report", run_report},
+      {"runs", run_runs},
       {"schema", run_schema},
       {"show", run_show},
       {"simulate", run_simulate},
@@ -92,6 +96,7 @@ int guarded_main(int argc, const char* const* argv) {
     const std::optional<Arguments> parsed = parse_arguments(argc, argv);
     if (!parsed) return 0;
     arguments = *parsed;
+    limit_threads(arguments.jobs);
     const Interruption interruption;
     return print(run(arguments), arguments.wants_json);
   } catch (const InputError& error) {

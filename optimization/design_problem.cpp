@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "core/base/stopwatch.hpp"
+#include "optimization/setting_text.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -13,8 +16,9 @@ std::string text_in(const ShownUnit& unit, double value) {
 
 }  // namespace
 
-DesignProblem::DesignProblem(ProblemFile file, int threads)
-    : file_(std::move(file)), threads_(threads) {
+DesignProblem::DesignProblem(ProblemFile file, int threads, EvaluationStore* store)
+    : file_(std::move(file)), threads_(threads), store_(store) {
+  if (store_) setting_ = setting_text(file_);
   if (file_.variables.empty())
     throw InputError("/variables is missing: there is nothing to design");
   variable_units_ = variable_units(file_);
@@ -73,11 +77,12 @@ Analysis& DesignProblem::analysis_at(const Eigen::VectorXd& x) {
 }
 
 Evaluation DesignProblem::evaluate(const Eigen::VectorXd& x, Request request) {
-  return evaluate_rows(x, request, [this](const Analysis&) {
+  const RowsOf as_they_are = [this](const Analysis&) {
     std::vector<ConstraintRow> rows;
     for (std::size_t i = 0; i < constraints_.size(); ++i) rows.push_back({i, std::nullopt});
     return rows;
-  });
+  };
+  return evaluate_rows(x, request, {"constraints", as_they_are});
 }
 
 std::optional<std::size_t> DesignProblem::response_of(const ConstraintRow& row) const {
@@ -123,8 +128,48 @@ Eigen::MatrixXd DesignProblem::gradients_of(Analysis& analysis, const RowsOf& ro
                                   {file_.sensitivity.difference_step, threads_});
 }
 
+EvaluationKey DesignProblem::key_of(const Eigen::VectorXd& x, Request request,
+                                    const std::string& rows) const {
+  const GradientMethod method = choice_ ? choice_->method : file_.sensitivity.method;
+  const bool is_open = method == GradientMethod::automatic;
+  const bool has_method = request == Request::values_and_gradients && !is_open;
+  return {setting_, rows, has_method ? to_string(method) : "", request, x};
+}
+
+Evaluation DesignProblem::recalled(const StoredEvaluation& stored) {
+  if (!stored.failure.empty()) throw SimulationError(stored.failure);
+  if (!choice_ && !stored.method.empty()) {
+    choice_ = GradientChoice{gradient_method(stored.method), stored.reason};
+  }
+  return stored.evaluation;
+}
+
 Evaluation DesignProblem::evaluate_rows(const Eigen::VectorXd& x, Request request,
-                                        const RowsOf& rows_of) {
+                                        const NamedRows& rows) {
+  if (!store_) return simulated_rows(x, request, rows.of);
+  const EvaluationKey key = key_of(x, request, rows.name);
+  if (const auto known = store_->find(key)) return recalled(*known);
+  const Stopwatch stopwatch;
+  StoredEvaluation stored;
+  try {
+    stored.evaluation = simulated_rows(x, request, rows.of);
+  } catch (const SimulationError& error) {
+    stored.failure = error.what();
+    stored.seconds = stopwatch.seconds();
+    store_->keep(key, stored);
+    throw;
+  }
+  if (request == Request::values_and_gradients) {
+    stored.method = to_string(choice_->method);
+    stored.reason = choice_->reason;
+  }
+  stored.seconds = stopwatch.seconds();
+  store_->keep(key, stored);
+  return std::move(stored.evaluation);
+}
+
+Evaluation DesignProblem::simulated_rows(const Eigen::VectorXd& x, Request request,
+                                         const RowsOf& rows_of) {
   Analysis& analysis = analysis_at(x);
   const std::vector<ConstraintRow> rows = rows_of(analysis);
   const std::size_t objective = response_index(file_.objective->response);

@@ -3,10 +3,13 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/response/analysis.hpp"
 #include "core/scene/shown_unit.hpp"
+#include "optimization/evaluation_store.hpp"
 #include "optimization/problem.hpp"
 #include "sensitivity/gradients.hpp"
 
@@ -22,6 +25,12 @@ struct ConstraintRow {
 /// What stands for the constraints at a simulated design: as many rows at each design.
 using RowsOf = std::function<std::vector<ConstraintRow>(const Analysis&)>;
 
+/// The same with a name that tells it from other rows of the same file.
+struct NamedRows {
+  std::string name;
+  RowsOf of;
+};
+
 /// The optimization problem that a problem file describes: responses of the simulated mechanism as
 /// objective and constraints, gradients by the method of the file; where that leaves it open, by
 /// the exact one that suits its first design.
@@ -29,7 +38,9 @@ class DesignProblem : public Problem {
  public:
   /// @throws InputError if the file has no variables or no objective
   /// @param threads  simulations at a time, of gradients by differences
-  explicit DesignProblem(ProblemFile file, int threads = 1);
+  /// @param store    has evaluations that are known, and keeps those that are made; must outlive
+  ///                 this
+  explicit DesignProblem(ProblemFile file, int threads = 1, EvaluationStore* store = nullptr);
 
   /// Begins at another design, within the bounds, than the start of the file; what the model
   /// decides at the start of the file stays.
@@ -48,11 +59,13 @@ class DesignProblem : public Problem {
 
   /// The same with other rows in place of the constraints; one run of the chosen method for
   /// all.
-  Evaluation evaluate_rows(const Eigen::VectorXd& x, Request request, const RowsOf& rows_of);
+  Evaluation evaluate_rows(const Eigen::VectorXd& x, Request request, const NamedRows& rows);
 
   const ProblemFile& file() const { return file_; }
   /// How gradients are computed; none before the first one.
   const std::optional<GradientChoice>& method() const { return choice_; }
+  /// From now on gradients are computed as another problem of this file has chosen.
+  void decide_method(GradientChoice choice) { choice_ = std::move(choice); }
 
   /// Standard deviations of the variables, zero where the file does not say that they scatter.
   Eigen::VectorXd variable_deviations() const;
@@ -68,11 +81,16 @@ class DesignProblem : public Problem {
   std::size_t response_index(const std::string& name) const;
 
  private:
+  Evaluation simulated_rows(const Eigen::VectorXd& x, Request request, const RowsOf& rows_of);
+  EvaluationKey key_of(const Eigen::VectorXd& x, Request request, const std::string& rows) const;
+  Evaluation recalled(const StoredEvaluation& stored);
   double row_value(const Analysis& analysis, const ConstraintRow& row) const;
   Eigen::MatrixXd gradients_of(Analysis& analysis, const RowsOf& rows_of);
 
   ProblemFile file_;
   int threads_;
+  EvaluationStore* store_;
+  std::string setting_;  ///< of its evaluations, for the store
   std::vector<Variable> variables_;
   std::vector<Constraint> constraints_;
   std::vector<ShownUnit> variable_units_;

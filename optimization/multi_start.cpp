@@ -6,7 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "optimization/scaling.hpp"
+#include "core/base/parallel.hpp"
+#include "core/base/tasks.hpp"
+#include "optimization/packed_result.hpp"
+#include "optimization/packed_solution.hpp"
 #include "optimization/starts.hpp"
 
 namespace pleuel {
@@ -119,6 +122,114 @@ Eigen::VectorXd scales_of(const ProblemFile& file, const Eigen::VectorXd& x) {
   return scales;
 }
 
+/// A search from each of several designs.
+class Searches : public Tasks {
+ public:
+  Searches(const ProblemFile& file, const std::vector<Eigen::VectorXd>& starts,
+           const SolveOptions& options, const Execution& execution, const Observer& observer,
+           const Notice& notice)
+      : file_(file),
+        starts_(starts),
+        options_(options),
+        execution_(execution),
+        observer_(observer),
+        notice_(notice) {}
+
+  int count() const override { return static_cast<int>(starts_.size()); }
+
+  std::string run(int task, const std::string& /*needed*/, TaskCaller& caller) override {
+    RemoteStore store(caller);
+    const Execution here = {{.jobs = available_threads()}, execution_.store ? &store : nullptr};
+    const Observer observer = [&](const EvaluationRecord& record) {
+      caller.tell(packed(Told::record, record));
+    };
+    const Notice notice = [&](const std::string& text) { caller.tell(packed(Told::notice, text)); };
+    return pack_solution(solve_in_stages(file_, start(task), options_, here, observer, notice));
+  }
+
+  std::string reply(int /*task*/, const std::string& question) override {
+    return reply_of(*execution_.store, question);
+  }
+
+  void hear(int task, const std::string& message) override {
+    announce(task);
+    Unpacker unpacker(message);
+    Told kind = Told::record;
+    unpacker(kind);
+    if (kind == Told::notice) {
+      std::string text;
+      unpacker(text);
+      if (notice_) notice_(text);
+      return;
+    }
+    EvaluationRecord record;
+    unpacker(record);
+    seen_.push_back(record);
+    if (observer_) observer_(following(record, before_));
+  }
+
+  void take(int task, const std::string& answer) override {
+    announce(task);
+    add(unpack_solution(answer, file_, execution_.tasks.jobs));
+  }
+
+  void fail(int task, const std::string& failure) override {
+    announce(task);
+    StagedSolution none;
+    none.problem = std::make_unique<DesignProblem>(file_);
+    none.result.status = Status::failed;
+    none.result.message = fmt::format("the search from start {} was lost: {}", task + 1, failure);
+    none.result.x = start(task);
+    none.result.history = std::move(seen_);
+    none.result.evaluations = static_cast<int>(none.result.history.size());
+    if (notice_) notice_(none.result.message);
+    add(std::move(none));
+  }
+
+  std::vector<StagedSolution> take_solutions() { return std::move(solutions_); }
+
+ private:
+  enum class Told : char { record, notice };
+
+  const Eigen::VectorXd& start(int task) const { return starts_[static_cast<std::size_t>(task)]; }
+
+  /// What comes from here on is of this search.
+  void announce(int task) {
+    if (task < announced_) return;
+    count_unfinished();
+    announced_ = task + 1;
+    if (notice_) notice_(fmt::format("start {} of {}", task + 1, starts_.size()));
+  }
+
+  /// After a stop, others are heard after a search that did not end.
+  void count_unfinished() {
+    if (seen_.empty()) return;
+    before_.evaluations += seen_.back().evaluation;
+    before_.iterations += seen_.back().iteration;
+    before_.seconds += seen_.back().seconds;
+    seen_.clear();
+  }
+
+  void add(StagedSolution solution) {
+    before_.evaluations += solution.result.evaluations;
+    before_.iterations += solution.result.iterations;
+    before_.seconds += solution.result.seconds;
+    seen_.clear();
+    solutions_.push_back(std::move(solution));
+  }
+
+  const ProblemFile& file_;
+  const std::vector<Eigen::VectorXd>& starts_;
+  const SolveOptions& options_;
+  const Execution& execution_;
+  const Observer& observer_;
+  const Notice& notice_;
+  std::vector<StagedSolution> solutions_;
+  Result before_;  ///< the counts of all that have ended
+  History seen_;   ///< of the one that has not
+  int announced_ = 0;
+};
+
 }  // namespace
 
 std::vector<Eigen::VectorXd> starts_of(const ProblemFile& file, const Eigen::VectorXd& first,
@@ -172,32 +283,17 @@ MultiStart combined(const std::vector<Eigen::VectorXd>& starts,
 }
 
 MultiStart solve_from_starts(const ProblemFile& file, const std::vector<Eigen::VectorXd>& starts,
-                             SolveOptions options, int threads, const Observer& observer,
-                             const Notice& notice) {
+                             SolveOptions options, const Execution& execution,
+                             const Observer& observer, const Notice& notice) {
   options.starts = static_cast<int>(starts.size());
   std::vector<StagedSolution> solutions;
-  Result before;  // the counts of all so far
-  std::size_t best = 0;
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    if (notice && starts.size() > 1) {
-      notice(fmt::format("start {} of {}", i + 1, starts.size()));
-    }
-    const Observer following_observer = [&](const EvaluationRecord& record) {
-      if (observer) observer(following(record, before));
-    };
+  if (starts.size() == 1) {
     solutions.push_back(
-        solve_in_stages(file, starts[i], options, threads, following_observer, notice));
-    const Result& result = solutions.back().result;
-    before.evaluations += result.evaluations;
-    before.iterations += result.iterations;
-    before.seconds += result.seconds;
-    // The trajectory of a problem may be large: that of the best is kept.
-    if (i > 0 && is_better(result, solutions[best].result)) {
-      solutions[best].problem.reset();
-      best = i;
-    } else if (i > 0) {
-      solutions[i].problem.reset();
-    }
+        solve_in_stages(file, starts.front(), options, execution, observer, notice));
+  } else {
+    Searches searches(file, starts, options, execution, observer, notice);
+    run_tasks(searches, execution.tasks);
+    solutions = searches.take_solutions();
   }
   return combined(starts, std::move(solutions));
 }

@@ -45,10 +45,12 @@ std::vector<Eigen::VectorXd> starts_of(const ProblemFile& file, const Eigen::Vec
 MultiStart combined(const std::vector<Eigen::VectorXd>& starts,
                     std::vector<StagedSolution> solutions);
 
-/// solve_in_stages() from each design, one after the other, each independent of the others.
+/// solve_in_stages() from each design, each independent of the others and, where they are several,
+/// in a process of its own (core/base/tasks.hpp): one that crashes is a start that failed. Observer
+/// and notice hear of them in their order. Answers do not depend on the number of jobs.
 /// @throws as solve()
 MultiStart solve_from_starts(const ProblemFile& file, const std::vector<Eigen::VectorXd>& starts,
-                             SolveOptions options, int threads, const Observer& observer = {},
-                             const Notice& notice = {});
+                             SolveOptions options, const Execution& execution,
+                             const Observer& observer = {}, const Notice& notice = {});
 
 }  // namespace pleuel

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "optimization/scaling.hpp"
 
 namespace pleuel {
@@ -99,8 +101,10 @@ std::string PeakProblem::constraint_text(std::size_t constraint, double value) c
 }
 
 Evaluation PeakProblem::evaluate(const Eigen::VectorXd& x, Request request) {
-  Evaluation evaluation = problem_.evaluate_rows(
-      design_of(x), request, [this](const Analysis& analysis) { return rows_of(analysis); });
+  const NamedRows rows = {
+      fmt::format("peaks of {} windows{}", windows_, bound_ ? " with the objective" : ""),
+      [this](const Analysis& analysis) { return rows_of(analysis); }};
+  Evaluation evaluation = problem_.evaluate_rows(design_of(x), request, rows);
   if (!bound_) return evaluation;
   evaluation.objective = x(x.size() - 1);
   evaluation.constraints.tail(bound_->rows()).array() -= evaluation.objective;

@@ -42,9 +42,13 @@ std::vector<std::pair<std::string, std::string>> left_out(const ProblemFile& fil
 
 class StagedSolve {
  public:
-  StagedSolve(const ProblemFile& file, const SolveOptions& options, int threads,
+  StagedSolve(const ProblemFile& file, const SolveOptions& options, const Execution& execution,
               const Observer& observer, const Notice& notice)
-      : file_(file), options_(options), threads_(threads), observer_(observer), notice_(notice) {}
+      : file_(file),
+        options_(options),
+        execution_(execution),
+        observer_(observer),
+        notice_(notice) {}
 
   StagedSolution run(Eigen::VectorXd x) {
     if (file_.accuracy.chooses_setting) {
@@ -119,7 +123,8 @@ class StagedSolve {
   void begin_stage(Stage stage, ProblemFile file, const Eigen::VectorXd& x) {
     solution_.result.seconds += stage.choice_seconds;  // what follows comes after it
     solution_.stages.push_back(std::move(stage));
-    solution_.problem = std::make_unique<DesignProblem>(std::move(file), threads_);
+    solution_.problem =
+        std::make_unique<DesignProblem>(std::move(file), execution_.tasks.jobs, execution_.store);
     solution_.problem->start_from(x);
   }
 
@@ -164,7 +169,7 @@ class StagedSolve {
 
   ProblemFile file_;  ///< with the effects that are decided so far
   const SolveOptions& options_;
-  int threads_;
+  const Execution& execution_;
   const Observer& observer_;
   const Notice& notice_;
   StagedSolution solution_;
@@ -173,9 +178,9 @@ class StagedSolve {
 }  // namespace
 
 StagedSolution solve_in_stages(const ProblemFile& file, const Eigen::VectorXd& start,
-                               const SolveOptions& options, int threads, const Observer& observer,
-                               const Notice& notice) {
-  return StagedSolve(file, options, threads, observer, notice).run(start);
+                               const SolveOptions& options, const Execution& execution,
+                               const Observer& observer, const Notice& notice) {
+  return StagedSolve(file, options, execution, observer, notice).run(start);
 }
 
 }  // namespace pleuel

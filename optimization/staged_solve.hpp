@@ -38,10 +38,11 @@ struct StagedSolution {
 /// the setting is chosen anew at that design, up to three times. Without a target the file is taken
 /// as it is; effects that were left out by a tolerance but matter at the optimum are taken back,
 /// and the run goes on.
-/// @param start  the first design [SI]
+/// @param start      the first design [SI]
+/// @param execution  its jobs are simulations at a time, of gradients by differences
 /// @throws as solve()
 StagedSolution solve_in_stages(const ProblemFile& file, const Eigen::VectorXd& start,
-                               const SolveOptions& options, int threads,
+                               const SolveOptions& options, const Execution& execution,
                                const Observer& observer = {}, const Notice& notice = {});
 
 }  // namespace pleuel

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "core/scene/problem_file.hpp"
+#include "optimization/evaluation_store.hpp"
 #include "optimization/solve.hpp"
 
 namespace pleuel {
@@ -31,15 +33,25 @@ void mark_dominated(std::vector<ParetoPoint>& points, GoodSide side);
 /// Sees each point as it is found; dominance is known only at the end.
 using ParetoObserver = std::function<void(const ParetoPoint&)>;
 
+/// The order in which points are found, and the one that each begins at: ends first, then the middle
+/// of each gap from the nearer end of it.
+struct ParetoOrder {
+  std::vector<int> points;               ///< by their number on the front, from 0
+  std::vector<std::optional<int>> from;  ///< place in `points`, before this one; none: the start
+};
+ParetoOrder pareto_order(int points);
+
 /// The trade-off between the objective and one limit by the ε-constraint method (Haimes, Lasdon &
-/// Wismer 1971): the limit goes from `from` to `to` in equal steps, and each optimization starts
-/// from the optimum before, the first from the start values. Every point is audited like any
-/// optimum.
-/// @param threads  simulations at a time, of gradients by differences
-/// @returns the points that were found before a stop, if one was asked for
+/// Wismer 1971): the limit goes from `from` to `to` in equal steps. The optimizations at both ends
+/// start from the start values, each other one from the optimum of a neighbour (pareto_order()), or
+/// where that broke its limits from where that began. Each is a task of its own
+/// (core/base/tasks.hpp); the points do not depend on the number of jobs. Every point is audited
+/// like any optimum.
+/// @returns the points that were found before a stop, if one was asked for, in the order of limits
 /// @throws Stopped before the first
 /// @throws InputError if the problem has no pareto settings, variables or objective
 std::vector<ParetoPoint> pareto_front(const ProblemFile& problem, const SolveOptions& options,
-                                      const ParetoObserver& observer = {}, int threads = 1);
+                                      const Execution& execution = {},
+                                      const ParetoObserver& observer = {});
 
 }  // namespace pleuel

@@ -6,9 +6,10 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
-#include "core/base/parallel.hpp"
+#include "core/base/packed.hpp"
 #include "core/base/stop.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/base/tasks.hpp"
 #include "core/scene/sample_extent.hpp"
 #include "core/trust/doubts.hpp"
 #include "sensitivity/history_gradients.hpp"
@@ -104,48 +105,100 @@ class Study {
     study_.gradient_seconds = stopwatch.seconds();
   }
 
-  void sample(int threads, const SampleObserver& observer) {
+  void sample(const TaskOptions& options, const SampleObserver& observer) {
     if (settings_.samples == 0) return;
     const Stopwatch stopwatch;
-    const std::vector<Eigen::VectorXd> designs = draw();
-    Moments responses, histories;
-    // Batch by batch, each summed up in order: the sums do not depend on the threads.
-    for (int first = 0; first < settings_.samples; first += batch_size) {
-      const int count = std::min(batch_size, settings_.samples - first);
-      std::vector<Sample> batch(static_cast<std::size_t>(count));
-      try {
-        for_each_in_parallel(count, threads, [&](int i) {
-          batch[static_cast<std::size_t>(i)] =
-              simulate(designs[static_cast<std::size_t>(first + i)]);
-        });
-      } catch (const Stopped&) {
-        study_.is_interrupted = true;  // whole batches only: so the numbers can be made again
-        break;
-      }
-      for (const Sample& sample : batch) {
-        if (!sample.values.allFinite() || sample.values.size() == 0) {
-          ++study_.failures;
-          continue;
-        }
-        responses.add(sample.values);
-        if (sample.histories.size() > 0) histories.add(sample.histories);
-      }
-      if (observer) observer(first + count);
+    Samples samples(*this, draw(), observer);
+    try {
+      run_tasks(samples, options);
+    } catch (const Stopped&) {
+      study_.is_interrupted = true;  // whole batches only: so the numbers can be made again
     }
-    study_.samples = responses.count();
-    store(responses, histories);
+    study_.failures = samples.failures();
+    study_.samples = samples.responses().count();
+    store(samples.responses(), samples.histories());
     study_.sampling_seconds = stopwatch.seconds();
   }
 
   UncertaintyStudy take() { return std::move(study_); }
 
  private:
-  static constexpr int batch_size = 64;
-
   /// Without values if the design could not be simulated, without histories if its steps differ.
   struct Sample {
     Eigen::VectorXd values, histories;
   };
+  template <class Archive>
+  friend void transfer(Archive& archive, Sample& sample) {
+    auto& [values, histories] = sample;
+    archive(values, histories);
+  }
+
+  /// So many samples a task, which take longer than to make a process for them.
+  static constexpr int task_size = 8;
+
+  /// Simulates samples and sums them up, batch by batch.
+  class Samples : public Tasks {
+   public:
+    Samples(const Study& study, std::vector<Eigen::VectorXd> designs,
+            const SampleObserver& observer)
+        : study_(study), designs_(std::move(designs)), observer_(observer) {}
+
+    int count() const override { return (size() + task_size - 1) / task_size; }
+
+    std::string run(int task, const std::string& /*needed*/, TaskCaller& caller) override {
+      for (int i = task * task_size; i < end_of(task); ++i) {
+        caller.tell(packed(study_.simulate(designs_[static_cast<std::size_t>(i)])));
+      }
+      return "";
+    }
+
+    void hear(int task, const std::string& message) override {
+      // After a stop, samples are missing before those of later tasks.
+      if (task == heard_ / task_size) add(unpacked<Sample>(message));
+    }
+
+    void take(int /*task*/, const std::string& /*answer*/) override {}
+
+    void fail(int task, const std::string& /*failure*/) override {
+      while (heard_ < end_of(task)) add({});
+    }
+
+    int failures() const { return failures_; }
+    const Moments& responses() const { return responses_; }
+    const Moments& histories() const { return histories_; }
+
+   private:
+    static constexpr int batch_size = 64;
+
+    int size() const { return static_cast<int>(designs_.size()); }
+    int end_of(int task) const { return std::min((task + 1) * task_size, size()); }
+
+    void add(Sample sample) {
+      batch_.push_back(std::move(sample));
+      ++heard_;
+      if (batch_.size() < batch_size && heard_ < size()) return;
+      for (const Sample& one : batch_) sum_up(one);
+      batch_.clear();
+      if (observer_) observer_(heard_);
+    }
+
+    void sum_up(const Sample& sample) {
+      if (!sample.values.allFinite() || sample.values.size() == 0) {
+        ++failures_;
+        return;
+      }
+      responses_.add(sample.values);
+      if (sample.histories.size() > 0) histories_.add(sample.histories);
+    }
+
+    const Study& study_;
+    std::vector<Eigen::VectorXd> designs_;
+    const SampleObserver& observer_;
+    std::vector<Sample> batch_;  ///< that is not yet whole
+    int heard_ = 0, failures_ = 0;
+    Moments responses_, histories_;
+  };
+
   Sample simulate(const Eigen::VectorXd& design) const {
     try {
       const auto analysis = analyze(with_same_steps_, design);
@@ -169,7 +222,7 @@ class Study {
     }
   }
 
-  /// All samples at once, so that they do not depend on the threads.
+  /// All samples at once, so that they do not depend on who simulates them.
   std::vector<Eigen::VectorXd> draw() const {
     RandomNumbers numbers(settings_.seed);
     std::vector<Eigen::VectorXd> designs(static_cast<std::size_t>(settings_.samples), x_);
@@ -248,14 +301,14 @@ class Study {
 
 }  // namespace
 
-UncertaintyStudy uncertainty_study(const ProblemFile& problem, int threads,
+UncertaintyStudy uncertainty_study(const ProblemFile& problem, const TaskOptions& options,
                                    const SampleObserver& observer) {
   if (!problem.uncertainty) {
     throw InputError("/uncertainty is missing: it says which parameters are uncertain");
   }
   Study study(problem, *problem.uncertainty);
   study.linearize();
-  study.sample(threads, observer);
+  study.sample(options, observer);
   return study.take();
 }
 

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "core/base/error_bar.hpp"
+#include "core/base/tasks.hpp"
 #include "core/scene/problem_file.hpp"
 #include "core/trust/doubt.hpp"
 
@@ -52,12 +53,13 @@ struct UncertaintyStudy {
 using SampleObserver = std::function<void(int done)>;
 
 /// First-order second-moment analysis about the start design, and Monte Carlo with so many samples
-/// as the settings ask for as the check.
-/// @param threads  for the samples
+/// as the settings ask for as the check. Samples are tasks (core/base/tasks.hpp): those of a process
+/// that crashes count as ones that could not be simulated.
+/// @param options  of the samples; the numbers do not depend on them
 /// @throws InputError if the problem has no uncertainty settings
 /// @throws SimulationError if the design itself cannot be simulated
 /// @throws Stopped if a stop was asked for before the first-order results were there
-UncertaintyStudy uncertainty_study(const ProblemFile& problem, int threads,
+UncertaintyStudy uncertainty_study(const ProblemFile& problem, const TaskOptions& options,
                                    const SampleObserver& observer = {});
 
 }  // namespace pleuel

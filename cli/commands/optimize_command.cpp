@@ -9,6 +9,7 @@
 #include "cli/files/history_csv.hpp"
 #include "cli/files/run_picture.hpp"
 #include "cli/files/run_record.hpp"
+#include "cli/files/run_store.hpp"
 #include "cli/files/trajectory_csv.hpp"
 #include "cli/input/solve_settings.hpp"
 #include "cli/reports/drives_report.hpp"
@@ -128,7 +129,7 @@ Result interrupted_result(const DesignProblem& problem, const SolveOptions& opti
 }
 
 MultiStart solve_visibly(const ProblemInput& input, const SolveOptions& options,
-                         RunRecord& run_record, const Arguments& arguments) {
+                         RunRecord& run_record, RunStore& store, const Arguments& arguments) {
   const int count = arguments.starts.value_or(input.problem.optimizer.starts);
   auto first = std::make_unique<DesignProblem>(input.problem, arguments.jobs);
   const DesignProblem& problem = *first;
@@ -144,6 +145,7 @@ MultiStart solve_visibly(const ProblemInput& input, const SolveOptions& options,
   const Observer observer = [&](const EvaluationRecord& record) {
     if (!history) history.emplace(run_record.result("history.csv"), problem);
     history->add(record);
+    store.add(record);
     lines.see(record);
     if (record.has_failed()) {
       write_failed_design(run_record, arguments, problem.file(), record);
@@ -151,10 +153,10 @@ MultiStart solve_visibly(const ProblemInput& input, const SolveOptions& options,
     seen.push_back(record);
   };
   try {
-    return solve_from_starts(input.problem, starts_of(input.problem, input.design, count), options,
-                             arguments.jobs, observer, [out](const std::string& notice) {
-                               show(out, wrapped("  " + notice, "  ") + "\n");
-                             });
+    return solve_from_starts(
+        input.problem, starts_of(input.problem, input.design, count), options,
+        {arguments.tasks(), &store}, observer,
+        [out](const std::string& notice) { show(out, wrapped("  " + notice, "  ") + "\n"); });
   } catch (const Stopped&) {
     if (seen.empty() || seen.front().has_failed()) throw;
     MultiStart solution;
@@ -164,17 +166,9 @@ MultiStart solve_visibly(const ProblemInput& input, const SolveOptions& options,
   }
 }
 
-/// How to go on from an interrupted run, in a folder of its own.
-std::string resume_text(const RunRecord& record, const Arguments& arguments,
-                        const Optimum& optimum) {
-  if (optimum.result.status != Status::interrupted) return "";
-  return "To go on from there: " +
-         command_at("optimize", arguments, record.folder() / "result.json") + "\n";
-}
-
 std::string files_text(const RunRecord& record, const Optimum& optimum) {
   return wrapped(
-      fmt::format("Written to {}: history.csv, result.json, run_card.json{}\n",
+      fmt::format("Written to {}: history.csv, result.json, run_card.json, run.sqlite{}\n",
                   record.folder().string(),
                   optimum.has_design() ? ", trajectory-start.csv, trajectory-optimum.csv" : ""),
       "  ");
@@ -185,10 +179,13 @@ std::string files_text(const RunRecord& record, const Optimum& optimum) {
 Outcome run_optimize(const Arguments& arguments) {
   const ProblemInput input = read_input(arguments);
   const SolveOptions options = solve_options(input.problem, arguments);
-  RunRecord record(arguments, input, options_document(options, input.problem));
+  Json used = options_document(options, input.problem);
+  used["starts"] = arguments.starts.value_or(input.problem.optimizer.starts);
+  RunRecord record(arguments, input, used);
+  RunStore store(record, arguments, input, std::move(used));
   show_warnings_before(input.problem);
   record.begin_phase("optimize");
-  const MultiStart all = solve_visibly(input, options, record, arguments);
+  const MultiStart all = solve_visibly(input, options, record, store, arguments);
   const StagedSolution& solution = all.best;
   const ProblemFile& solved = solution.problem->file();
   const Result& result = solution.result;
@@ -222,7 +219,9 @@ Outcome run_optimize(const Arguments& arguments) {
   }
   Outcome outcome{exit_code(optimum), result_document(),
                   failed_design_text(record, arguments, input.problem, result.history) +
-                      resume_text(record, arguments, optimum) + files_text(record, optimum)};
+                      resume_text(arguments, record.folder(), result.status) + store.text() +
+                      files_text(record, optimum)};
+  store.finish(outcome);
   record.finish(outcome);
   return outcome;
 }

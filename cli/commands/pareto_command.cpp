@@ -8,6 +8,7 @@
 #include "cli/files/csv_file.hpp"
 #include "cli/files/run_picture.hpp"
 #include "cli/files/run_record.hpp"
+#include "cli/files/run_store.hpp"
 #include "cli/input/solve_settings.hpp"
 #include "cli/reports/error_report.hpp"
 #include "cli/reports/warnings.hpp"
@@ -36,7 +37,7 @@ std::string limited_name(const ConstraintSettings& constraint) {
   return constraint.response.empty() ? constraint.name : constraint.response;
 }
 
-/// pareto.csv: a line for each point as it is found [SI].
+/// pareto.csv: a line for each point, first as it is found, in the end by its limit [SI].
 class ParetoCsv {
  public:
   ParetoCsv(const ResultFile& file, const ProblemFile& problem)
@@ -70,6 +71,12 @@ class ParetoCsv {
   CsvFile csv_;
   std::size_t variables_;
 };
+
+void write_in_order(RunRecord& record, const ProblemFile& problem,
+                    const std::vector<ParetoPoint>& points) {
+  ParetoCsv csv(record.result("pareto.csv"), problem);
+  for (const ParetoPoint& point : points) csv.add(point);
+}
 
 Json point_document(const ProblemFile& problem, const ParetoPoint& point) {
   Json document = {{"status", to_string(point.result.status)},
@@ -209,7 +216,9 @@ Outcome run_pareto(const Arguments& arguments) {
   const ProblemFile& problem = input.problem;
   if (!problem.pareto) throw InputError("/pareto is missing: it says which limit to vary");
   const SolveOptions options = solve_options(problem, arguments);
-  RunRecord record(arguments, input, options_document(options, problem));
+  const Json used = options_document(options, problem);
+  RunRecord record(arguments, input, used);
+  RunStore store(record, arguments, input, used);
   show_warnings_before(problem);
   record.begin_phase("pareto");
   std::optional<ParetoCsv> csv;  // with the first result
@@ -218,21 +227,24 @@ Outcome run_pareto(const Arguments& arguments) {
     csv->add(point);
     show_progress(stderr, problem, point);
   };
-  const auto points = pareto_front(problem, options, observer, arguments.jobs);
+  const auto points = pareto_front(problem, options, {arguments.tasks(), &store}, observer);
+  write_in_order(record, problem, points);
   const bool is_whole = points.size() == static_cast<std::size_t>(problem.pareto->points);
   const bool is_verified = is_whole && verified_points(points) == points.size();
   Outcome outcome{
       is_verified ? ExitCode::done : ExitCode::not_verified, make_document(problem, points),
       fmt::format(
           "{}{}: {} against the limit of {}; {} of {} points verified\n\n{}{}\n"
-          "Written to {}: pareto.csv, result.json, run_card.json\n",
+          "{}{}Written to {}: pareto.csv, result.json, run_card.json, run.sqlite\n",
           is_whole ? ""
                    : interrupted_text(points.size(),
                                       static_cast<std::size_t>(problem.pareto->points), "points"),
           problem.name, problem.objective->response, problem.pareto->constraint,
           verified_points(points), problem.pareto->points, points_text(problem, points),
           doubts_text(problem, points) + warnings_of_points(problem, points),
-          record.folder().string())};
+          is_whole ? "" : resume_text(arguments, record.folder(), Status::interrupted),
+          store.text(), record.folder().string())};
+  store.finish(outcome);
   record.show_picture([&] { return front_picture(problem, points); });
   record.finish(outcome);
   return outcome;

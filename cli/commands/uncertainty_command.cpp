@@ -189,7 +189,7 @@ std::string study_text(const ProblemFile& problem, const UncertaintyStudy& study
 UncertaintyStudy run_study(const ProblemFile& problem, const Arguments& arguments) {
   ProgressLine progress(arguments, "gradients of the responses");
   const int samples = problem.uncertainty->samples;
-  return uncertainty_study(problem, arguments.jobs, [&](int done) {
+  return uncertainty_study(problem, arguments.tasks(), [&](int done) {
     const std::string line = fmt::format("{} of {} samples", done, samples);
     if (progress.is_shown()) {
       progress.show_share(line, double(done) / samples);

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Everything that a run of any command may leave beside the card.
-constexpr std::array<const char*, 15> result_names = {"history.csv",
+constexpr std::array<const char*, 17> result_names = {"history.csv",
                                                       "result.json",
                                                       "trajectory.csv",
                                                       "trajectory-start.csv",
@@ -33,7 +33,13 @@ constexpr std::array<const char*, 15> result_names = {"history.csv",
                                                       "uncertainty.csv",
                                                       "gradients.csv",
                                                       "failed_design.json",
+                                                      "evaluations.csv",
+                                                      "evaluation_gradients.csv",
                                                       "report.html"};
+
+/// The record of evaluations, with its log.
+constexpr std::array<const char*, 3> record_names = {"run.sqlite", "run.sqlite-wal",
+                                                     "run.sqlite-shm"};
 
 fs::path usual_folder(const Arguments& arguments) {
   if (arguments.files.size() > 1) return fs::path("runs") / arguments.command;
@@ -68,9 +74,10 @@ fs::path free_folder(const fs::path& folder) {
 }
 
 RunFolder::RunFolder(const Arguments& arguments)
-    : path_(arguments.output       ? *arguments.output
-            : arguments.overwrites ? usual_folder(arguments)
-                                   : free_folder(usual_folder(arguments))) {
+    : path_(arguments.output                            ? *arguments.output
+            : arguments.overwrites || arguments.resumes ? usual_folder(arguments)
+                                                        : free_folder(usual_folder(arguments))),
+      keeps_record_(arguments.resumes) {
   if (fs::exists(path_) && !fs::is_directory(path_)) refuse(path_, "is a file, not a folder");
   make();
   lock();
@@ -119,9 +126,11 @@ void RunFolder::check_content(const Arguments& arguments) const {
   if (!older.empty() && older != arguments.command) {
     refuse(path_, fmt::format("holds a run of `pleuel {}`; choose another name", older));
   }
-  if (!arguments.overwrites) {
-    refuse(path_, "holds a run already; choose another name, or replace it with --overwrite");
-  }
+  if (arguments.overwrites || arguments.resumes) return;
+  refuse(path_, fmt::format(
+                    "holds a run already; choose another name{}, or replace it with "
+                    "--overwrite",
+                    fs::exists(path_ / record_names.front()) ? ", go on with it by --resume" : ""));
 }
 
 void RunFolder::check_writable() const {
@@ -131,6 +140,9 @@ void RunFolder::check_writable() const {
 void RunFolder::remove_older_results() const {
   std::error_code error;
   for (const char* name : result_names) fs::remove(path_ / name, error);
+  if (!keeps_record_) {
+    for (const char* name : record_names) fs::remove(path_ / name, error);
+  }
   for (const auto& entry : fs::directory_iterator(path_, error)) {  // drawings of `pleuel plot`
     const std::string name = entry.path().filename().string();
     if (name.starts_with("plot") && name.ends_with(".svg")) fs::remove(entry, error);

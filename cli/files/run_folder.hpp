@@ -18,8 +18,8 @@ class RunFolder {
  public:
   /// By default runs/<file>-<command>, or where that is taken runs/<file>-<command>-2 and so on.
   /// @throws InputError if the folder cannot be written, if another run is at work in it, or if it
-  ///         holds something: a run of the same command may be overwritten if the user says so,
-  ///         another one or foreign files may not
+  ///         holds something: a run of the same command may be overwritten or go on if the user
+  ///         says so, another one or foreign files may not
   explicit RunFolder(const Arguments& arguments);
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;
@@ -27,7 +27,7 @@ class RunFolder {
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// Removes what an older run left, but for its card.
+  /// Removes what an older run left, but for its card, and the record that a run goes on with.
   void remove_older_results() const;
 
  private:
@@ -37,6 +37,7 @@ class RunFolder {
   void check_writable() const;
 
   std::filesystem::path path_;
+  bool keeps_record_;
   std::filesystem::path made_;  ///< the outermost folder that was made for it; empty if none
   int lock_ = -1;
 };

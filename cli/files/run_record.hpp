@@ -32,6 +32,9 @@ class RunRecord {
 
   const std::filesystem::path& folder() const { return folder_.path(); }
 
+  /// Of the program, its libraries and its compiler.
+  const Json& versions() const { return card_.at("versions"); }
+
   /// Ends the phase before and begins another, for the wall times of the card.
   void begin_phase(const std::string& name);
 

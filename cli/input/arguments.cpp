@@ -1,6 +1,9 @@
 #include "cli/input/arguments.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
 #include <sstream>
 
 #include <CLI/CLI.hpp>
@@ -54,6 +57,15 @@ CLI::App* add_file_command(CLI::App& app, Arguments& arguments, const std::strin
 void add_overwrite(CLI::App* command, Arguments& arguments) {
   command->add_flag("--overwrite", arguments.overwrites,
                     "replace an older run of this command in the same place");
+}
+
+void add_resume(CLI::App* command, Arguments& arguments) {
+  command
+      ->add_flag(
+          "--resume", arguments.resumes,
+          "go on with the run in the folder that was killed or interrupted: no evaluation is "
+          "made twice")
+      ->excludes("--overwrite");
 }
 
 void add_no_report(CLI::App* command, Arguments& arguments) {
@@ -113,9 +125,21 @@ void add_method(CLI::App* command, Arguments& arguments) {
 }
 
 void add_jobs(CLI::App* command, Arguments& arguments) {
-  command->add_option("--jobs", arguments.jobs, "simulations at a time (default: all processors)")
+  command
+      ->add_option("--jobs", arguments.jobs,
+                   "simulations at a time (default: the environment variable PLEUEL_JOBS, or all "
+                   "processors)")
       ->type_name("NUMBER")
       ->check(CLI::Range(1, 1024));
+}
+
+void add_task_limit(CLI::App* command, Arguments& arguments, const std::string& task) {
+  command
+      ->add_option("--task-limit", arguments.task_limit,
+                   "seconds after which the process of " + task +
+                       " counts as hung; it is tried once more (default: none)")
+      ->type_name("SECONDS")
+      ->check(CLI::PositiveNumber);
 }
 
 void add_uncertainty(CLI::App& app, Arguments& arguments) {
@@ -125,6 +149,7 @@ void add_uncertainty(CLI::App& app, Arguments& arguments) {
   add_output(uncertainty, arguments);
   add_accuracy(uncertainty, arguments);
   add_jobs(uncertainty, arguments);
+  add_task_limit(uncertainty, arguments, "eight samples");
 }
 
 void add_stability(CLI::App& app, Arguments& arguments) {
@@ -204,6 +229,27 @@ void add_report(CLI::App& app, Arguments& arguments) {
   report->add_option("DIR", arguments.files, "run folders")->required();
 }
 
+void add_runs(CLI::App& app, Arguments& arguments) {
+  CLI::App* runs =
+      add_command(app, arguments, "runs", "list runs: command, problem, status, objective, time");
+  runs->add_option("DIR", arguments.file, "folder that holds run folders (default: runs)");
+}
+
+void add_compare(CLI::App& app, Arguments& arguments) {
+  CLI::App* compare =
+      add_command(app, arguments, "compare", "what differs between two runs, in input and outcome");
+  compare->add_option("DIR", arguments.files, "the two run folders")->required()->expected(2);
+}
+
+void add_export(CLI::App& app, Arguments& arguments) {
+  CLI::App* command = add_command(app, arguments, "export",
+                                  "write the evaluations of optimize or pareto as tables (CSV)");
+  command->add_option("DIR", arguments.file, "run folder")->required();
+  command
+      ->add_option("-o,--output", arguments.output, "where the tables go (default: the run folder)")
+      ->type_name("DIR");
+}
+
 void add_plot(CLI::App& app, Arguments& arguments) {
   CLI::App* plot =
       add_command(app, arguments, "plot", "draw histories of a run: as SVG, and in the terminal");
@@ -274,23 +320,30 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   CLI::App* optimize =
       add_file_command(app, arguments, "optimize", "find the best design and prove it");
   add_output(optimize, arguments);
+  add_resume(optimize, arguments);
   add_accuracy(optimize, arguments);
   add_design(optimize, arguments);
   add_backend(optimize, arguments);
   add_starts(optimize, arguments);
   add_method(optimize, arguments);
   add_jobs(optimize, arguments);
+  add_task_limit(optimize, arguments, "one of several starts");
   CLI::App* pareto = add_file_command(app, arguments, "pareto",
                                       "the best designs for a row of values of one limit");
   add_output(pareto, arguments);
+  add_resume(pareto, arguments);
   add_accuracy(pareto, arguments);
   add_backend(pareto, arguments);
   add_method(pareto, arguments);
   add_jobs(pareto, arguments);
+  add_task_limit(pareto, arguments, "one point");
   add_prices(app, arguments);
   add_accuracy(app, arguments);
   add_stability(app, arguments);
   add_uncertainty(app, arguments);
+  add_runs(app, arguments);
+  add_compare(app, arguments);
+  add_export(app, arguments);
   add_report(app, arguments);
   add_plot(app, arguments);
   add_show(app, arguments);
@@ -311,10 +364,24 @@ void check_command_name(const CLI::App& app, const std::vector<std::string>& wor
       fmt::format("there is no command \"{}\"{}", words.front(), hint(words.front(), known)));
 }
 
+/// What the environment says in place of --jobs.
+void take_jobs_of_environment(Arguments& arguments) {
+  const char* text = std::getenv("PLEUEL_JOBS");
+  if (text == nullptr || *text == '\0') return;
+  const char* end = text + std::strlen(text);
+  const auto [rest, error] = std::from_chars(text, end, arguments.jobs);
+  if (error != std::errc() || rest != end || arguments.jobs < 1 || arguments.jobs > 1024) {
+    throw InputError(fmt::format(
+        "the environment variable PLEUEL_JOBS must be a whole number from 1 to 1024, got \"{}\"",
+        text));
+  }
+}
+
 }  // namespace
 
 std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
   Arguments arguments;
+  take_jobs_of_environment(arguments);
   arguments.program = argc > 0 ? argv[0] : "pleuel";
   arguments.words.assign(argv + std::min(argc, 1), argv + argc);
   std::vector<std::string> words = arguments.words;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/parallel.hpp"
+#include "core/base/tasks.hpp"
 
 namespace CLI {
 class App;
@@ -31,6 +32,7 @@ struct Arguments {
   std::vector<std::string> methods;
   std::optional<double> difference_step;  ///< relative
   int jobs = available_threads();         ///< simulations at a time
+  double task_limit = 0.0;                ///< of a start, a point or some samples [s]; 0: any time
   bool wants_optimum = false;             ///< accuracy of it, and of whole optimizations
   bool wants_histories = false;           ///< with their derivatives
   bool compares_methods = false;          ///< of gradients: effort and accuracy of all
@@ -39,7 +41,10 @@ struct Arguments {
   bool wants_json = false;
   bool leaves_out_report = false;  ///< no report.html
   bool overwrites = false;         ///< an older run of the same command in the folder
+  bool resumes = false;            ///< an older run of the same command in the folder
   std::vector<std::string> words;  ///< the command line as it was
+
+  TaskOptions tasks() const { return {jobs, task_limit}; }
 
   /// Where lines appear while the work goes on: standard output belongs to JSON if that is wanted.
   std::FILE* progress() const { return wants_json ? stderr : stdout; }

@@ -3,17 +3,25 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <limits>
 #include <mutex>
 #include <thread>
 #include <vector>
 
+#include <sched.h>
+
 namespace pleuel {
 
-int available_threads() {
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
 namespace {
+
+/// As processors are, the limit is of the whole process.
+std::atomic<int> thread_limit = std::numeric_limits<int>::max();
+
+int usable_processors() {
+  cpu_set_t usable;
+  if (::sched_getaffinity(0, sizeof usable, &usable) == 0) return CPU_COUNT(&usable);
+  return static_cast<int>(std::thread::hardware_concurrency());  // of more than 1024
+}
 
 /// What the call with the smallest number threw.
 class FirstFailure {
@@ -35,6 +43,14 @@ class FirstFailure {
 };
 
 }  // namespace
+
+int available_threads() {
+  return std::min(std::max(1, usable_processors()), thread_limit.load());
+}
+
+void limit_threads(int most) {
+  thread_limit = std::max(1, most);
+}
 
 void for_each_in_parallel(int count, int threads, const std::function<void(int)>& work) {
   std::atomic<int> next = 0;

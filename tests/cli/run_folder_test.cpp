@@ -35,7 +35,7 @@ TEST(RunFolder, OfAnOptimizationHoldsItsEvidence) {
   EXPECT_THAT(files(run_folder),
               ::testing::UnorderedElementsAre("history.csv", "result.json", "run_card.json",
                                               "trajectory-start.csv", "trajectory-optimum.csv",
-                                              "report.html"));
+                                              "run.sqlite", "report.html"));
   EXPECT_EQ(read_file(run_folder / "result.json"), run.out);
   const auto history = read_csv(run_folder / "history.csv");
   EXPECT_EQ(history.size(), 1 + run.document().at("evaluations").get<std::size_t>());
@@ -182,7 +182,7 @@ TEST(Optimize, ThatIsInterruptedKeepsItsBestDesignToGoOnFrom) {
   EXPECT_EQ(nlohmann::json::parse(read_file(folder.path() / "one/run_card.json")).at("finished"),
             true);
   EXPECT_THAT(read_file(folder.path() / "log"),
-              AllOf(HasSubstr("To go on from there: "), HasSubstr(" -o ")));
+              AllOf(HasSubstr("To go on from there: "), HasSubstr("/one --resume")));
   const ProgramRun next = run_program(
       folder.path(), joined({"optimize", problem("slider_crank_round"), "-o", "two", "--design",
                              "one/result.json", "--set", "/optimizer/max_iterations=1"},

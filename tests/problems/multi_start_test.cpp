@@ -8,6 +8,7 @@
 
 #include "core/scene/problem_reader.hpp"
 #include "optimization/backends.hpp"
+#include "optimization/setting_text.hpp"
 #include "tests/optimization/backend_names.hpp"
 
 namespace pleuel::test {
@@ -32,10 +33,10 @@ ProblemFile held_arm(const std::string& optimizer) {
                            "arm.json");
 }
 
-MultiStart solved(const ProblemFile& file) {
+MultiStart solved(const ProblemFile& file, const Execution& execution = {}) {
   const auto starts =
       starts_of(file, Eigen::VectorXd::Constant(1, file.variables[0].start), file.optimizer.starts);
-  return solve_from_starts(file, starts, {}, 1);
+  return solve_from_starts(file, starts, {}, execution);
 }
 
 TEST(MultiStart, FindsTheBestOfTwoLocalOptima) {
@@ -67,6 +68,54 @@ TEST(MultiStart, CountsAllEvaluations) {
   EXPECT_EQ(all.best.result.history.size(), std::size_t(sum));
   EXPECT_EQ(all.best.result.history.back().evaluation, sum);
   EXPECT_EQ(all.best.result.history.front().x(0), 0.4);
+}
+
+TEST(MultiStart, DoesNotDependOnTheNumberOfJobs) {
+  const ProblemFile file = held_arm(R"({"starts": 5})");
+  const MultiStart one = solved(file, {{.jobs = 1}});
+  for (const int jobs : {2, 3}) {
+    const MultiStart other = solved(file, {{.jobs = jobs}});
+    EXPECT_EQ(other.best.result.x, one.best.result.x);
+    EXPECT_EQ(other.best.result.message, one.best.result.message);
+    ASSERT_EQ(other.best.result.history.size(), one.best.result.history.size());
+    for (std::size_t i = 0; i < one.best.result.history.size(); ++i) {
+      EXPECT_EQ(other.best.result.history[i].x, one.best.result.history[i].x);
+      EXPECT_EQ(other.best.result.history[i].objective, one.best.result.history[i].objective);
+    }
+    ASSERT_EQ(other.optima.size(), one.optima.size());
+    for (std::size_t i = 0; i < one.optima.size(); ++i) {
+      EXPECT_EQ(other.optima[i].starts, one.optima[i].starts);
+    }
+  }
+}
+
+/// In another process, and back: all that a search knows, and the problem that it ended with, whose
+/// steps are chosen here.
+TEST(MultiStart, SearchesFromEachDesignAsIfThatWereTheOnlyOne) {
+  ProblemFile file = held_arm(R"({"starts": 2})");
+  file.accuracy.target = 1e-3;
+  file.accuracy.chooses_setting = true;
+  const auto starts = starts_of(file, Eigen::VectorXd::Constant(1, 0.4), 2);
+  SolveOptions options;
+  options.starts = 2;
+  const MultiStart all = solve_from_starts(file, starts, options, {{.jobs = 2}});
+  const std::size_t best = all.optima.at(0).starts.at(0);
+  const StagedSolution alone = solve_in_stages(file, starts.at(best), options, {});
+  EXPECT_EQ(all.best.result.x, alone.result.x);
+  EXPECT_EQ(all.best.result.evaluation.objective_gradient,
+            alone.result.evaluation.objective_gradient);
+  EXPECT_EQ(all.best.result.warnings, alone.result.warnings);
+  ASSERT_EQ(all.best.stages.size(), alone.stages.size());
+  EXPECT_EQ(setting_text(all.best.problem->file()), setting_text(alone.problem->file()));
+  EXPECT_EQ(all.best.problem->method()->reason, alone.problem->method()->reason);
+}
+
+TEST(MultiStart, CountsASearchThatTakesTooLongAsOneThatFailed) {
+  const MultiStart all = solved(held_arm(R"({"starts": 2})"), {{.jobs = 2, .time_limit = 1e-6}});
+  EXPECT_EQ(all.best.result.status, Status::failed);
+  EXPECT_THAT(all.best.result.message, HasSubstr("start 1 was lost: it took longer than"));
+  EXPECT_TRUE(all.optima.empty());
+  EXPECT_EQ(all.best.result.x(0), 0.4);
 }
 
 TEST(MultiStart, SaysOfOneStartThatOthersWereNotLookedFor) {

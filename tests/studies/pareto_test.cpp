@@ -1,5 +1,9 @@
 #include "studies/pareto.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include <gmock/gmock.h>
 
 #include "core/base/error.hpp"
@@ -45,11 +49,15 @@ TEST(Pareto, FirstPointIsTheOptimumOfTheProblemWithThatLimit) {
   EXPECT_DOUBLE_EQ(front(problem).front().result.evaluation.objective, alone.evaluation.objective);
 }
 
-TEST(Pareto, EachPointStartsFromTheOptimumBefore) {
-  const std::vector<ParetoPoint> points = front(test::quick_problem(four_points));
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    EXPECT_EQ(points[i].result.history.front().x, points[i - 1].result.x);
-  }
+TEST(Pareto, EndsStartFromTheFileAndOthersFromTheOptimumAtTheNearerEndOfTheirGap) {
+  const ProblemFile problem = test::quick_problem(four_points);
+  const std::vector<ParetoPoint> points = front(problem);
+  ASSERT_EQ(points.size(), 4u);
+  const auto start = [&](std::size_t i) { return points[i].result.history.front().x; };
+  EXPECT_EQ(start(0), start_design(problem));
+  EXPECT_EQ(start(3), start_design(problem));
+  EXPECT_EQ(start(1), points[0].result.x);
+  EXPECT_EQ(start(2), points[3].result.x);  // of the gap from 1 to 3, whose ends are as near
 }
 
 TEST(Pareto, MultiplierIsTheSlopeOfTheFront) {
@@ -128,6 +136,49 @@ TEST(Pareto, OverALowerLimitHasMultipliersOfTheOtherSign) {
     // A thicker rod is heavier, but what is large is good.
     EXPECT_FALSE(point.is_dominated);
   }
+}
+
+TEST(Pareto, DoesNotDependOnTheNumberOfJobs) {
+  const ProblemFile problem = test::quick_problem(four_points);
+  SolveOptions options;
+  options.backend = problem.optimizer.backend;
+  std::vector<double> limits;
+  const ParetoObserver note = [&](const ParetoPoint& point) { limits.push_back(point.limit); };
+  const std::vector<ParetoPoint> one = pareto_front(problem, options, {{.jobs = 1}}, note);
+  const std::vector<double> in_order = std::exchange(limits, {});
+  const std::vector<ParetoPoint> three = pareto_front(problem, options, {{.jobs = 3}}, note);
+  EXPECT_EQ(limits, in_order);
+  ASSERT_EQ(three.size(), one.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(three[i].limit, one[i].limit);
+    EXPECT_EQ(three[i].result.x, one[i].result.x);
+    EXPECT_EQ(three[i].result.evaluations, one[i].result.evaluations);
+    EXPECT_EQ(three[i].multiplier, one[i].multiplier);
+  }
+}
+
+TEST(ParetoOrder, HasEachPointOnceAndFewThatWaitForEachOther) {
+  for (const int points : {1, 2, 3, 7, 16, 40}) {
+    const ParetoOrder order = pareto_order(points);
+    std::vector<int> sorted = order.points;
+    std::sort(sorted.begin(), sorted.end());
+    ASSERT_EQ(sorted.size(), static_cast<std::size_t>(points));
+    for (int i = 0; i < points; ++i) EXPECT_EQ(sorted[static_cast<std::size_t>(i)], i);
+    std::vector<int> depths;
+    for (std::size_t i = 0; i < order.points.size(); ++i) {
+      const auto from = order.from[i];
+      if (i < 2) {
+        EXPECT_FALSE(from.has_value());
+        depths.push_back(1);
+        continue;
+      }
+      ASSERT_TRUE(from && static_cast<std::size_t>(*from) < i);
+      depths.push_back(depths[static_cast<std::size_t>(*from)] + 1);
+    }
+    // log2 of the points: the longest row of points that wait for each other.
+    EXPECT_LE(*std::max_element(depths.begin(), depths.end()), 2 + std::log2(points));
+  }
+  EXPECT_EQ(pareto_order(5).points, (std::vector<int>{0, 4, 2, 1, 3}));
 }
 
 TEST(Pareto, WithoutSettingsThereIsNothingToVary) {

@@ -1,0 +1,135 @@
+#include <fmt/format.h>
+
+#include "cli/commands/commands.hpp"
+#include "cli/files/csv_file.hpp"
+#include "cli/files/older_run.hpp"
+#include "cli/files/run_store.hpp"
+#include "cli/text/json.hpp"
+#include "core/base/error.hpp"
+
+/// What a record of evaluations holds, as tables for other programs.
+namespace pleuel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Names of what vectors of the record stand for.
+struct Names {
+  std::vector<std::string> variables, constraints;
+};
+
+Names names_in(const RunDatabase& database) {
+  const auto list = [&](const char* name) {
+    return Json::parse(database.description(name).value_or("[]")).get<std::vector<std::string>>();
+  };
+  return {list("variables"), list("constraints")};
+}
+
+/// evaluations.csv: a line for each evaluation. Of rows that are not the constraints there are no
+/// values.
+class EvaluationsCsv {
+ public:
+  EvaluationsCsv(const ResultFile& file, const Names& names)
+      : names_(names), csv_(file, header(names)) {}
+
+  void add(const NumberedEvaluation& one) {
+    const Evaluation& evaluation = one.stored.evaluation;
+    const bool has_values = one.stored.failure.empty();
+    csv_.add(one.number).add(one.ended).add(one.stored.seconds).add(one.key.setting);
+    csv_.add(one.key.rows).add(one.request).add(one.stored.method);
+    has_values ? csv_.add(evaluation.objective) : csv_.add(std::string());
+    const bool has_constraints = has_values && one.key.rows == "constraints";
+    for (std::size_t i = 0; i < names_.constraints.size(); ++i) {
+      has_constraints ? csv_.add(evaluation.constraints(static_cast<Eigen::Index>(i)))
+                      : csv_.add(std::string());
+    }
+    for (const double value : one.key.x) csv_.add(value);
+    csv_.add(one.stored.failure);
+    csv_.end_row();
+  }
+
+ private:
+  static std::vector<std::string> header(const Names& names) {
+    std::vector<std::string> titles = {"evaluation", "ended",   "seconds", "setting",
+                                       "rows",       "request", "method",  "objective"};
+    for (const std::string& name : names.constraints) titles.push_back("constraint:" + name);
+    for (const std::string& name : names.variables) titles.push_back("variable:" + name);
+    titles.push_back("failure");
+    return titles;
+  }
+
+  const Names& names_;
+  CsvFile csv_;
+};
+
+/// evaluation_gradients.csv: a line for each derivative.
+class GradientsCsv {
+ public:
+  GradientsCsv(const ResultFile& file, const Names& names)
+      : names_(names), csv_(file, {"evaluation", "of", "variable", "derivative"}) {}
+
+  void add(const NumberedEvaluation& one) {
+    const Evaluation& evaluation = one.stored.evaluation;
+    if (!evaluation.has_gradients()) return;
+    add_row(one.number, "objective", evaluation.objective_gradient);
+    if (one.key.rows != "constraints") return;
+    for (Eigen::Index i = 0; i < evaluation.constraint_jacobian.rows(); ++i) {
+      add_row(one.number, "constraint:" + names_.constraints.at(static_cast<std::size_t>(i)),
+              evaluation.constraint_jacobian.row(i));
+    }
+  }
+
+ private:
+  void add_row(int number, const std::string& of, const Eigen::VectorXd& derivatives) {
+    for (Eigen::Index j = 0; j < derivatives.size(); ++j) {
+      csv_.add(number).add(of).add(names_.variables.at(static_cast<std::size_t>(j)));
+      csv_.add(derivatives(j));
+      csv_.end_row();
+    }
+  }
+
+  const Names& names_;
+  CsvFile csv_;
+};
+
+}  // namespace
+
+Outcome run_export(const Arguments& arguments) {
+  const OlderRun run = read_older_run(arguments.file);
+  const fs::path file = run.folder / database_name;
+  if (!fs::is_regular_file(file)) {
+    throw InputError(
+        fmt::format("{}: there is no such file: `optimize` and `pareto` write one", file.string()));
+  }
+  const fs::path target = arguments.output.value_or(run.folder);
+  fs::create_directories(target);
+  WriteFailures failures;
+  int count = 0;
+  try {
+    const RunDatabase database(file);
+    const Names names = names_in(database);
+    EvaluationsCsv evaluations({target / "evaluations.csv", &failures}, names);
+    GradientsCsv gradients({target / "evaluation_gradients.csv", &failures}, names);
+    database.read_evaluations([&](const NumberedEvaluation& one) {
+      evaluations.add(one);
+      gradients.add(one);
+      ++count;
+    });
+  } catch (const DatabaseError& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+  Outcome outcome;
+  outcome.document = {
+      {"evaluations", count},
+      {"files",
+       {(target / "evaluations.csv").string(), (target / "evaluation_gradients.csv").string()}}};
+  outcome.text = fmt::format(
+      "{} evaluations written to {}: evaluations.csv, "
+      "evaluation_gradients.csv\n",
+      count, target.string());
+  outcome.unwritten = failures.files();
+  return outcome;
+}
+
+}  // namespace pleuel

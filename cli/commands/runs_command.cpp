@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/commands/commands.hpp"
+#include "cli/files/older_run.hpp"
+#include "cli/text/table.hpp"
+#include "core/base/error.hpp"
+#include "core/base/number_text.hpp"
+
+/// A table of the runs in a folder.
+namespace pleuel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder itself, or those in it, by their names.
+std::vector<OlderRun> runs_in(const fs::path& folder) {
+  if (!fs::is_directory(folder)) {
+    throw InputError(fmt::format("{}: there is no such folder", folder.string()));
+  }
+  if (auto run = find_older_run(folder)) return {std::move(*run)};
+  std::vector<fs::path> folders;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.is_directory()) folders.push_back(entry.path());
+  }
+  std::sort(folders.begin(), folders.end());
+  std::vector<OlderRun> runs;
+  for (const fs::path& one : folders) {
+    if (auto run = find_older_run(one)) runs.push_back(std::move(*run));
+  }
+  return runs;
+}
+
+std::string table_text(const std::vector<OlderRun>& runs) {
+  Table table({{"run", Table::Align::left},
+               {"command", Table::Align::left},
+               {"problem", Table::Align::left},
+               {"status", Table::Align::left},
+               {"objective"},
+               {"", Table::Align::left},
+               {"time"},
+               {"date"}});
+  for (const OlderRun& run : runs) {
+    const auto objective = run.objective(), seconds = run.seconds();
+    table.add_row({run.folder.filename().string(), run.command(), run.problem(), run.status(),
+                   objective ? significant(*objective) : "", run.objective_name(),
+                   seconds ? duration(*seconds) : "", run.date()});
+  }
+  return table.text();
+}
+
+Json run_document(const OlderRun& run) {
+  Json document = {{"folder", run.folder.string()},
+                   {"command", run.command()},
+                   {"problem", run.problem()},
+                   {"status", run.status()},
+                   {"date", run.date()}};
+  if (run.objective()) {
+    document["objective"] = {{"name", run.result["objective"].value("name", "")},
+                             {"value", *run.objective()},
+                             {"unit", run.result["objective"].value("unit", "")}};
+  }
+  if (run.seconds()) document["seconds"] = *run.seconds();
+  return document;
+}
+
+}  // namespace
+
+Outcome run_runs(const Arguments& arguments) {
+  const fs::path folder = arguments.file.empty() ? fs::path("runs") : arguments.file;
+  const std::vector<OlderRun> runs = runs_in(folder);
+  Outcome outcome;
+  outcome.document = {{"runs", Json::array()}};
+  for (const OlderRun& run : runs) outcome.document["runs"].push_back(run_document(run));
+  outcome.text = runs.empty() ? fmt::format("{}: no runs\n", folder.string()) : table_text(runs);
+  return outcome;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,103 @@
+#include "cli/files/older_run.hpp"
+
+#include <ctime>
+#include <fstream>
+
+#include <fcntl.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/files/run_folder.hpp"
+#include "core/base/error.hpp"
+
+namespace pleuel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Null if there is none that can be read.
+Json document_in(const fs::path& file) {
+  if (!fs::is_regular_file(file)) return nullptr;
+  std::ifstream stream(file);
+  Json document = Json::parse(stream, nullptr, /*allow_exceptions=*/false);
+  return document.is_object() ? document : Json();
+}
+
+/// Whether a run is at work in the folder: it holds its lock.
+bool is_at_work(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor == -1) return false;
+  const bool is_free = ::flock(descriptor, LOCK_SH | LOCK_NB) == 0;
+  ::close(descriptor);
+  return !is_free;
+}
+
+}  // namespace
+
+std::string OlderRun::problem() const {
+  if (card.contains("inputs") && card["inputs"].is_array()) {
+    return fmt::format("{} files", card["inputs"].size());
+  }
+  const Json problem = card.value("problem", Json::object());
+  if (problem.is_object() && problem.value("name", Json()).is_string()) {
+    return problem["name"].get<std::string>();
+  }
+  const Json input = card.value("input", Json::object());
+  return fs::path(input.value("file", "")).stem().string();
+}
+
+std::string OlderRun::status() const {
+  if (!card.value("finished", false)) return is_at_work(folder) ? "running" : "killed";
+  if (!result.is_object()) return "–";
+  return result.value("status", "done");
+}
+
+std::optional<double> OlderRun::objective() const {
+  if (!result.is_object() || !result.contains("objective")) return std::nullopt;
+  const Json value =
+      result["objective"].is_object() ? result["objective"].value("value", Json()) : Json();
+  return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
+}
+
+std::string OlderRun::objective_name() const {
+  if (!objective()) return "";
+  const Json& objective = result["objective"];
+  return fmt::format("{} [{}]", objective.value("name", ""), objective.value("unit", ""));
+}
+
+std::optional<double> OlderRun::seconds() const {
+  const Json seconds = card.value("seconds", Json::object());
+  return seconds.contains("total") && seconds["total"].is_number()
+             ? std::optional(seconds["total"].get<double>())
+             : std::nullopt;
+}
+
+std::string OlderRun::date() const {
+  struct stat status = {};
+  if (::stat((folder / card_name).c_str(), &status) == -1) return "";
+  return fmt::format("{:%Y-%m-%d %H:%M}", fmt::localtime(status.st_mtime));
+}
+
+std::optional<OlderRun> find_older_run(const fs::path& folder) {
+  OlderRun run{folder, document_in(folder / card_name), document_in(folder / "result.json")};
+  if (run.card.is_null() || !run.card.value("command", Json()).is_string()) return std::nullopt;
+  return run;
+}
+
+OlderRun read_older_run(const fs::path& folder) {
+  if (!fs::is_directory(folder)) {
+    throw InputError(fmt::format("{}: there is no such run folder", folder.string()));
+  }
+  std::optional<OlderRun> run = find_older_run(folder);
+  if (!run) {
+    throw InputError(fmt::format("{}: is not the folder of a run: it has no {} that can be read",
+                                 folder.string(), card_name));
+  }
+  return std::move(*run);
+}
+
+}  // namespace pleuel

@@ -1,0 +1,157 @@
+#include "cli/files/run_store.hpp"
+
+#include <ctime>
+#include <utility>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include "cli/files/command_text.hpp"
+#include "cli/text/console.hpp"
+#include "core/base/error.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// What has to be the same for a run to go on, and how a user would call it.
+constexpr std::pair<const char*, const char*> decisive[] = {
+    {"command", "command"}, {"problem", "problem"}, {"design", "start"}, {"options", "options"}};
+
+std::string utc_now() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+}
+
+/// "/simulation/step is \"0.1 ms\" there and \"0.2 ms\" here"
+std::string first_difference(const Json& there, const Json& here) {
+  for (const Json& change : Json::diff(there, here)) {
+    const Json::json_pointer place(change.at("path").get<std::string>());
+    const auto text = [&](const Json& document) {
+      return document.contains(place) ? document.at(place).dump() : std::string("missing");
+    };
+    return fmt::format("{} is {} there and {} here", place.to_string(), text(there), text(here));
+  }
+  return "they are the same";
+}
+
+}  // namespace
+
+RunStore::RunStore(RunRecord& record, const Arguments& arguments, const ProblemInput& input,
+                   Json options)
+    : record_(record) {
+  Json variables = Json::array(), constraints = Json::array(), design = Json::object();
+  for (std::size_t i = 0; i < input.problem.variables.size(); ++i) {
+    const std::string& name = input.problem.variables[i].name;
+    variables.push_back(name);
+    design[name] = input.design(static_cast<Eigen::Index>(i));
+  }
+  for (const auto& constraint : input.problem.constraints) constraints.push_back(constraint.name);
+  description_ = {{"command", arguments.command},  {"arguments", arguments.words},
+                  {"problem", input.effective},    {"design", design},
+                  {"options", std::move(options)}, {"versions", record.versions()},
+                  {"variables", variables},        {"constraints", constraints}};
+  if (arguments.resumes) open_older();
+}
+
+void RunStore::open_older() {
+  const std::filesystem::path file = record_.folder() / database_name;
+  if (!std::filesystem::exists(file)) return;  // killed before there was anything, or a new run
+  try {
+    database_.emplace(file);
+    check_same_run();
+    goes_on_ = true;
+  } catch (const DatabaseError& error) {
+    throw InputError(fmt::format("--resume: {}: {}", file.string(), error.what()));
+  }
+}
+
+void RunStore::check_same_run() const {
+  if (!database_->description("begun")) return;  // killed before it was described
+  const auto older = [&](const std::string& name) {
+    return Json::parse(database_->description(name).value_or("null"));
+  };
+  for (const auto& [name, word] : decisive) {
+    const Json there = older(name), &here = description_.at(name);
+    if (there == here) continue;
+    throw InputError(fmt::format(
+        "--resume: {} holds a run with another {}: {}; take that one again, or another folder",
+        record_.folder().string(), word, first_difference(there, here)));
+  }
+  if (older("versions") != description_.at("versions")) {
+    show(stderr,
+         fmt::format("pleuel: note: the record in {} was made with other versions ({}); its "
+                     "evaluations are used as they are\n",
+                     record_.folder().string(),
+                     first_difference(older("versions"), description_.at("versions"))));
+  }
+}
+
+void RunStore::describe_run() {
+  if (is_described_ || database_->description("begun")) return;
+  is_described_ = true;
+  for (const auto& [name, value] : description_.items()) database_->describe(name, value.dump());
+  database_->describe("begun", Json(utc_now()).dump());  // last: all else is there then
+}
+
+template <class Action>
+void RunStore::attempt(const Action& action) {
+  if (has_failed_) return;
+  const ResultFile file = record_.result(database_name);
+  try {
+    if (!database_) database_.emplace(file.path);
+    describe_run();
+    if (first_) database_->keep(first_->first, first_->second);
+    first_.reset();
+    action(*database_);
+  } catch (const DatabaseError& error) {
+    has_failed_ = true;
+    file.failures->note(file.path, error.what());
+  }
+}
+
+std::optional<StoredEvaluation> RunStore::find(const EvaluationKey& key) {
+  std::optional<StoredEvaluation> found;
+  if (!database_) return found;  // nothing is known before the first
+  attempt([&](RunDatabase& database) { found = database.find(key); });
+  known_ += found ? 1 : 0;
+  return found;
+}
+
+void RunStore::keep(const EvaluationKey& key, const StoredEvaluation& stored) {
+  if (++made_ == 1 && !database_) {
+    first_.emplace(key, stored);
+    return;
+  }
+  attempt([&](RunDatabase& database) { database.keep(key, stored); });
+}
+
+void RunStore::add(const EvaluationRecord& record) {
+  attempt([&](RunDatabase& database) {
+    if (!has_history_) database.clear_history();
+    has_history_ = true;
+    database.add(record);
+  });
+}
+
+void RunStore::finish(const Outcome& outcome) {
+  attempt([&](RunDatabase& database) {
+    database.describe("result", outcome.document.dump());
+    database.describe("ended", Json(utc_now()).dump());
+  });
+}
+
+std::string RunStore::text() const {
+  if (!goes_on_) return "";
+  return fmt::format("{} of {} evaluations were known from {}\n", known_, known_ + made_,
+                     (record_.folder() / database_name).string());
+}
+
+std::string resume_text(const Arguments& arguments, const std::filesystem::path& folder,
+                        Status status) {
+  if (status != Status::interrupted) return "";
+  std::string text = "To go on from there: " + typed_command(arguments);
+  if (!arguments.output) text += " -o " + shell_word(folder.string());
+  return text + (arguments.resumes ? "\n" : " --resume\n");
+}
+
+}  // namespace pleuel

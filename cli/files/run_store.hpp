@@ -1,0 +1,62 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "cli/files/run_record.hpp"
+#include "cli/input/problem_input.hpp"
+#include "optimization/verdict.hpp"
+#include "record/run_database.hpp"
+
+namespace pleuel {
+
+inline constexpr const char* database_name = "run.sqlite";
+
+/// The record of evaluations in the folder of a run: what is known of an older run that this one
+/// goes on with, and what comes. Like other results it begins with the first evaluation, and one
+/// that cannot be written ends no run.
+class RunStore : public EvaluationStore {
+ public:
+  /// @param options  of the command, which have to be those of the older run
+  /// @throws InputError if the run that shall go on is another one, or cannot be read
+  RunStore(RunRecord& record, const Arguments& arguments, const ProblemInput& input, Json options);
+
+  std::optional<StoredEvaluation> find(const EvaluationKey& key) override;
+  void keep(const EvaluationKey& key, const StoredEvaluation& stored) override;
+
+  /// An evaluation on the way of the search.
+  void add(const EvaluationRecord& record);
+
+  /// How the run ended.
+  void finish(const Outcome& outcome);
+
+  /// "34 of 50 evaluations were known from …" of a run that went on; else empty.
+  std::string text() const;
+
+ private:
+  void open_older();
+  void check_same_run() const;
+  void describe_run();
+  /// Does this on the record, if there is one that can be written.
+  template <class Action>
+  void attempt(const Action& action);
+
+  RunRecord& record_;
+  Json description_;  ///< of this run
+  std::optional<RunDatabase> database_;
+  /// Kept with the next one: after the first one the backend may still refuse the problem.
+  std::optional<std::pair<EvaluationKey, StoredEvaluation>> first_;
+  bool goes_on_ = false;
+  bool is_described_ = false;
+  bool has_failed_ = false;
+  bool has_history_ = false;
+  int known_ = 0, made_ = 0;
+};
+
+/// How to go on with an interrupted run; empty for others.
+std::string resume_text(const Arguments& arguments, const std::filesystem::path& folder,
+                        Status status);
+
+}  // namespace pleuel

@@ -1,0 +1,183 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+/// Values as bytes and back, for other processes of the same program on the same kind of machine:
+/// doubles bit by bit.
+///
+///     template <class Archive>
+///     void transfer(Archive& archive, Point& point) {
+///       auto& [x, y] = point;         // names all members: a new one does not compile unnoticed
+///       archive(x, y);
+///     }
+///
+///     const Point same = unpacked<Point>(packed(point));
+namespace pleuel {
+
+/// Appends what it is called with to its bytes.
+class Packer {
+ public:
+  template <class... Values>
+  void operator()(Values&... values) {
+    (one(values), ...);
+  }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  template <class Value>
+  void one(Value& value) {
+    if constexpr (std::is_arithmetic_v<Value> || std::is_enum_v<Value>) {
+      raw(&value, sizeof value);
+    } else {
+      transfer(*this, value);
+    }
+  }
+  void raw(const void* data, std::size_t size) {
+    bytes_.append(static_cast<const char*>(data), size);
+  }
+  friend void transfer(Packer& archive, std::string& text) {
+    archive.size(text.size());
+    archive.raw(text.data(), text.size());
+  }
+  template <int Rows, int Columns>
+  friend void transfer(Packer& archive, Eigen::Matrix<double, Rows, Columns>& matrix) {
+    archive.size(static_cast<std::size_t>(matrix.rows()));
+    archive.size(static_cast<std::size_t>(matrix.cols()));
+    archive.raw(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(double));
+  }
+  template <class Value>
+  friend void transfer(Packer& archive, std::vector<Value>& values) {
+    archive.size(values.size());
+    for (Value& value : values) archive(value);
+  }
+  template <class Value>
+  friend void transfer(Packer& archive, std::optional<Value>& value) {
+    bool is_there = value.has_value();
+    archive(is_there);
+    if (is_there) archive(*value);
+  }
+  template <class Key, class Value>
+  friend void transfer(Packer& archive, std::map<Key, Value>& values) {
+    archive.size(values.size());
+    for (auto& [key, value] : values) {
+      Key copy = key;
+      archive(copy, value);
+    }
+  }
+  void size(std::size_t size) {
+    std::uint64_t number = size;
+    raw(&number, sizeof number);
+  }
+
+  std::string bytes_;
+};
+
+/// Fills what it is called with from bytes, in the order of packing.
+class Unpacker {
+ public:
+  /// @param bytes  must outlive this
+  explicit Unpacker(const std::string& bytes) : next_(bytes.data()), left_(bytes.size()) {}
+
+  template <class... Values>
+  void operator()(Values&... values) {
+    (one(values), ...);
+  }
+
+ private:
+  template <class Value>
+  void one(Value& value) {
+    if constexpr (std::is_arithmetic_v<Value> || std::is_enum_v<Value>) {
+      raw(&value, sizeof value);
+    } else {
+      transfer(*this, value);
+    }
+  }
+  void raw(void* data, std::size_t size) {
+    if (size > left_) throw std::runtime_error("packed values end too early");
+    if (size > 0) std::memcpy(data, next_, size);
+    next_ += size;
+    left_ -= size;
+  }
+  friend void transfer(Unpacker& archive, std::string& text) {
+    text.resize(archive.size());
+    archive.raw(text.data(), text.size());
+  }
+  template <int Rows, int Columns>
+  friend void transfer(Unpacker& archive, Eigen::Matrix<double, Rows, Columns>& matrix) {
+    const auto rows = static_cast<Eigen::Index>(archive.size());
+    const auto columns = static_cast<Eigen::Index>(archive.size());
+    matrix.resize(rows, columns);
+    archive.raw(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(double));
+  }
+  template <class Value>
+  friend void transfer(Unpacker& archive, std::vector<Value>& values) {
+    values.clear();
+    for (std::size_t count = archive.size(); count > 0; --count) {
+      archive(values.emplace_back());
+    }
+  }
+  template <class Value>
+  friend void transfer(Unpacker& archive, std::optional<Value>& value) {
+    bool is_there = false;
+    archive(is_there);
+    value.reset();
+    if (is_there) archive(value.emplace());
+  }
+  template <class Key, class Value>
+  friend void transfer(Unpacker& archive, std::map<Key, Value>& values) {
+    values.clear();
+    for (std::size_t count = archive.size(); count > 0; --count) {
+      Key key;
+      archive(key);
+      archive(values[std::move(key)]);
+    }
+  }
+  std::size_t size() {
+    std::uint64_t number = 0;
+    raw(&number, sizeof number);
+    return static_cast<std::size_t>(number);
+  }
+
+  const char* next_;
+  std::size_t left_;
+};
+
+template <class Archive, class First, class Second>
+void transfer(Archive& archive, std::pair<First, Second>& pair) {
+  archive(pair.first, pair.second);
+}
+
+/// Of values that are not changed: packing only reads them.
+template <class... Values>
+std::string packed(const Values&... values) {
+  Packer packer;
+  packer(const_cast<Values&>(values)...);
+  return packer.take();
+}
+
+/// @throws std::runtime_error if the bytes end too early
+template <class... Values>
+void unpack(const std::string& bytes, Values&... values) {
+  Unpacker unpacker(bytes);
+  unpacker(values...);
+}
+
+template <class Value>
+Value unpacked(const std::string& bytes) {
+  Value value;
+  unpack(bytes, value);
+  return value;
+}
+
+}  // namespace pleuel

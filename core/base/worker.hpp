@@ -1,0 +1,79 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace pleuel {
+
+/// What a worker process sends.
+struct Frame {
+  enum class Kind : char { message, question, answer, error };
+  Kind kind = Kind::message;
+  std::string content;
+};
+
+/// The two ends of a connection between a process and the one that made it.
+class Channel {
+ public:
+  explicit Channel(int descriptor) : descriptor_(descriptor) {}
+  ~Channel();
+  Channel(Channel&& other) noexcept;
+  Channel& operator=(Channel&& other) noexcept;
+
+  int descriptor() const { return descriptor_; }
+
+  /// @returns whether the other end took it; it may be gone
+  bool send(const Frame& frame) const;
+
+  /// Waits for a whole frame. @returns whether there was one
+  bool receive(Frame& frame);
+
+  /// What has arrived by now, without waiting for more than the first bytes.
+  /// @param frames  whole frames are appended
+  /// @returns whether the other end is still there
+  bool receive_available(std::vector<Frame>& frames);
+
+ private:
+  bool read_some();
+  bool take(Frame& frame);
+
+  int descriptor_;
+  std::string buffer_;
+};
+
+/// A process that was forked from this one: it has all that is in memory, and shares nothing. It ends
+/// with this one, whatever ends that. To be made while no other thread holds anything that the
+/// worker needs.
+class Worker {
+ public:
+  /// @param work  runs in the new process, which ends when it returns; nothing may be thrown
+  /// @throws std::runtime_error if the system makes no process
+  explicit Worker(const std::function<void(Channel&)>& work);
+  ~Worker();  ///< kills it, if it is still there
+  Worker(Worker&& other) noexcept;
+  Worker& operator=(Worker&& other) noexcept;
+
+  Channel& channel() { return channel_; }
+
+  /// Asks it to end in good order (SIGTERM).
+  void ask_to_end() const;
+
+  /// Ends it at once (SIGKILL).
+  void kill() const;
+
+  /// Waits for its end. @returns how it ended if that was not in good order: "signal 11
+  /// (Segmentation fault)"
+  std::string end();
+
+ private:
+  Worker(pid_t process, int descriptor) : process_(process), channel_(descriptor) {}
+  static Worker forked(const std::function<void(Channel&)>& work);
+
+  pid_t process_ = -1;
+  Channel channel_;
+};
+
+}  // namespace pleuel

@@ -1,0 +1,51 @@
+#include "optimization/setting_text.hpp"
+
+#include <variant>
+
+#include <fmt/format.h>
+
+namespace pleuel {
+
+namespace {
+
+std::string beam_text(const std::string& name, const BeamBody& beam) {
+  std::string text = fmt::format("; {}:", name);
+  for (const Segment& segment : beam.segments) {
+    text += fmt::format(" {}", segment.elements);
+    if (segment.fraction) text += fmt::format(" of {}", *segment.fraction);
+  }
+  if (beam.reduction) text += fmt::format(" +{} modes", beam.reduction->more_modes);
+  return text;
+}
+
+std::string effects_text(const EffectSettings& effects) {
+  std::string text = fmt::format("; effects {}", effects.tolerance);
+  if (!effects.decisions) return text;
+  for (const auto& [body, estimates] : effects.decisions->estimates) {
+    const auto& [elasticity, axial, torsional, stiffening, rotary] = estimates;
+    text +=
+        fmt::format(" {} {} {} {} {} {}", body, elasticity, axial, torsional, stiffening, rotary);
+  }
+  for (const auto& [name, effect] : effects.decisions->measured) {
+    if (!effect.is_needed) text += fmt::format(" -{}/{}", name.first, name.second);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string setting_text(const ProblemFile& file) {
+  const SimulationSettings& simulation = file.simulation;
+  std::string text =
+      fmt::format("step {} s, local error {}, smallest step {} s, newton {}", simulation.step,
+                  simulation.local_error, simulation.smallest_step, simulation.newton_tolerance);
+  for (const Body& body : file.scene.bodies) {
+    if (const auto* beam = std::get_if<BeamBody>(&body.shape)) text += beam_text(body.name, *beam);
+  }
+  text +=
+      effects_text(file.effects) + "; gradients " + to_string(file.sensitivity.method) + "; start";
+  for (const DesignVariable& variable : file.variables) text += fmt::format(" {}", variable.start);
+  return text;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,275 @@
+#include "record/run_database.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace pleuel {
+
+namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+constexpr int application = 0x506c6575;  // "Pleu"
+constexpr int layout = 1;
+
+constexpr const char* tables = R"(
+BEGIN IMMEDIATE;
+CREATE TABLE run(name TEXT PRIMARY KEY, value TEXT NOT NULL);
+CREATE TABLE settings(setting INTEGER PRIMARY KEY, text TEXT NOT NULL UNIQUE);
+CREATE TABLE evaluations(
+  id INTEGER PRIMARY KEY,
+  ended TEXT NOT NULL DEFAULT (strftime('%Y-%m-%dT%H:%M:%fZ', 'now')),
+  seconds REAL NOT NULL,
+  setting INTEGER NOT NULL REFERENCES settings,
+  rows TEXT NOT NULL,
+  request TEXT NOT NULL,
+  asked_method TEXT NOT NULL,
+  design BLOB NOT NULL,
+  failure TEXT,
+  objective REAL,
+  constraints BLOB,
+  objective_gradient BLOB,
+  constraint_gradients BLOB,
+  method TEXT NOT NULL,
+  reason TEXT NOT NULL);
+CREATE UNIQUE INDEX evaluation_key
+  ON evaluations(design, setting, rows, request, asked_method);
+CREATE TABLE history(
+  evaluation INTEGER PRIMARY KEY,
+  iteration INTEGER NOT NULL,
+  purpose TEXT NOT NULL,
+  request TEXT NOT NULL,
+  seconds REAL NOT NULL,
+  design BLOB NOT NULL,
+  failure TEXT,
+  objective REAL,
+  constraints BLOB,
+  max_violation REAL,
+  step REAL NOT NULL,
+  time_step REAL NOT NULL,
+  elements INTEGER NOT NULL);
+)";
+
+std::string bytes_of(const double* values, Eigen::Index count) {
+  return {reinterpret_cast<const char*>(values), static_cast<std::size_t>(count) * sizeof(double)};
+}
+
+std::string request_name(Request request) {
+  return request == Request::values ? "values" : "gradients";
+}
+
+Request request_of(const std::string& name) {
+  return name == "values" ? Request::values : Request::values_and_gradients;
+}
+
+Purpose purpose_of(const std::string& name) {
+  for (const Purpose purpose :
+       {Purpose::search, Purpose::polish, Purpose::restoration, Purpose::audit}) {
+    if (to_string(purpose) == name) return purpose;
+  }
+  throw DatabaseError(fmt::format("there is no purpose \"{}\"", name));
+}
+
+/// What is no number is NULL there.
+double number_or_nan(const Statement& statement, int column) {
+  return statement.is_null(column) ? std::numeric_limits<double>::quiet_NaN()
+                                   : statement.number(column);
+}
+
+Eigen::MatrixXd matrix_of(const std::string& bytes, Eigen::Index columns) {
+  const Eigen::VectorXd values = vector_of(bytes);
+  const Eigen::Index rows = columns > 0 ? values.size() / columns : 0;
+  return Eigen::Map<const RowMajor>(values.data(), rows, columns);
+}
+
+std::int64_t integer_of(Database& database, const std::string& question) {
+  Statement statement(database, question);
+  statement.step();
+  return statement.integer(0);
+}
+
+constexpr const char* stored_columns =
+    "failure, objective, constraints, objective_gradient, constraint_gradients, method, reason, "
+    "seconds";
+
+/// From a row that begins with these columns.
+StoredEvaluation stored_in(const Statement& row, const EvaluationKey& key) {
+  StoredEvaluation stored;
+  stored.failure = row.text(0);
+  stored.method = row.text(5);
+  stored.reason = row.text(6);
+  stored.seconds = row.number(7);
+  if (!row.is_null(0)) return stored;
+  stored.evaluation.objective = number_or_nan(row, 1);
+  stored.evaluation.constraints = vector_of(row.blob(2));
+  if (key.request == Request::values) return stored;
+  stored.evaluation.objective_gradient = vector_of(row.blob(3));
+  stored.evaluation.constraint_jacobian = matrix_of(row.blob(4), key.x.size());
+  return stored;
+}
+
+void prepare(Database& database) {
+  if (integer_of(database, "SELECT count(*) FROM sqlite_master") == 0) {
+    // Safe against the end of the program; that of the machine may cost the last evaluations.
+    database.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL;");
+    database.execute(fmt::format("{} PRAGMA application_id = {}; PRAGMA user_version = {}; COMMIT;",
+                                 tables, application, layout));
+    return;
+  }
+  if (integer_of(database, "PRAGMA application_id") != application) {
+    throw DatabaseError("this is no record of a run of Pleuel");
+  }
+  if (integer_of(database, "PRAGMA user_version") != layout) {
+    throw DatabaseError("this is the record of another version of Pleuel");
+  }
+  database.execute("PRAGMA synchronous = NORMAL;");
+}
+
+}  // namespace
+
+std::string bytes_of(const Eigen::VectorXd& values) {
+  return bytes_of(values.data(), values.size());
+}
+
+Eigen::VectorXd vector_of(const std::string& bytes) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(bytes.size() / sizeof(double)));
+  if (values.size() > 0) {
+    std::memcpy(values.data(), bytes.data(),
+                static_cast<std::size_t>(values.size()) * sizeof(double));
+  }
+  return values;
+}
+
+RunDatabase::RunDatabase(const std::filesystem::path& file) : database_(file) {
+  prepare(database_);
+  find_ = std::make_unique<Statement>(database_, fmt::format(R"(
+    SELECT {} FROM evaluations JOIN settings USING (setting)
+    WHERE design = ?1 AND settings.text = ?2 AND rows = ?3 AND request = ?4
+      AND (asked_method = ?5 OR (?5 <> '' AND method = ?5)))",
+                                                             stored_columns));
+  keep_ = std::make_unique<Statement>(database_, R"(
+    INSERT OR IGNORE INTO evaluations(design, setting, rows, request, asked_method, failure,
+      objective, constraints, objective_gradient, constraint_gradients, method, reason, seconds)
+    VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13))");
+  add_ = std::make_unique<Statement>(
+      database_,
+      "INSERT OR REPLACE INTO history VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, "
+      "?11, ?12, ?13)");
+}
+
+void RunDatabase::describe(const std::string& name, const std::string& text) {
+  Statement statement(database_, "INSERT OR REPLACE INTO run VALUES (?1, ?2)");
+  statement.bind(1, name).bind(2, text).run();
+}
+
+std::optional<std::string> RunDatabase::description(const std::string& name) const {
+  Statement statement(database_, "SELECT value FROM run WHERE name = ?1");
+  statement.bind(1, name);
+  return statement.step() ? std::optional(statement.text(0)) : std::nullopt;
+}
+
+std::optional<StoredEvaluation> RunDatabase::find(const EvaluationKey& key) {
+  Statement& row = *find_;
+  row.bind_blob(1, bytes_of(key.x)).bind(2, key.setting).bind(3, key.rows);
+  row.bind(4, request_name(key.request)).bind(5, key.method);
+  std::optional<StoredEvaluation> stored;
+  if (row.step()) stored = stored_in(row, key);
+  row.reset();
+  found_ += stored ? 1 : 0;
+  return stored;
+}
+
+void RunDatabase::read_evaluations(
+    const std::function<void(const NumberedEvaluation&)>& see) const {
+  Statement row(database_, fmt::format("SELECT {}, ended, settings.text, rows, request, "
+                                       "asked_method, design FROM evaluations JOIN settings USING "
+                                       "(setting) ORDER BY id",
+                                       stored_columns));
+  NumberedEvaluation one;
+  while (row.step()) {
+    ++one.number;
+    one.ended = row.text(8);
+    one.request = row.text(11);
+    one.key = {row.text(9), row.text(10), row.text(12), request_of(one.request),
+               vector_of(row.blob(13))};
+    one.stored = stored_in(row, one.key);
+    see(one);
+  }
+}
+
+void RunDatabase::keep(const EvaluationKey& key, const StoredEvaluation& stored) {
+  Statement& row = *keep_;
+  const Evaluation& evaluation = stored.evaluation;
+  row.bind_blob(1, bytes_of(key.x)).bind(2, setting_number(key.setting)).bind(3, key.rows);
+  row.bind(4, request_name(key.request)).bind(5, key.method);
+  if (stored.failure.empty()) {
+    const RowMajor gradients = evaluation.constraint_jacobian;
+    row.bind(7, evaluation.objective).bind_blob(8, bytes_of(evaluation.constraints));
+    row.bind_blob(9, bytes_of(evaluation.objective_gradient));
+    row.bind_blob(10, bytes_of(gradients.data(), gradients.size()));
+  } else {
+    row.bind(6, stored.failure);
+  }
+  row.bind(11, stored.method).bind(12, stored.reason).bind(13, stored.seconds);
+  row.run();
+}
+
+int RunDatabase::evaluations() const {
+  return static_cast<int>(integer_of(database_, "SELECT count(*) FROM evaluations"));
+}
+
+void RunDatabase::clear_history() {
+  database_.execute("DELETE FROM history");
+}
+
+void RunDatabase::add(const EvaluationRecord& record) {
+  Statement& row = *add_;
+  row.bind(1, std::int64_t{record.evaluation}).bind(2, std::int64_t{record.iteration});
+  row.bind(3, to_string(record.purpose)).bind(4, request_name(record.request));
+  row.bind(5, record.seconds).bind_blob(6, bytes_of(record.x));
+  if (record.has_failed()) {
+    row.bind(7, record.failure);
+  } else {
+    row.bind(8, record.objective).bind_blob(9, bytes_of(record.constraints));
+    row.bind(10, record.max_violation);
+  }
+  row.bind(11, record.step).bind(12, record.time_step).bind(13, std::int64_t{record.elements});
+  row.run();
+}
+
+void RunDatabase::read_history(const std::function<void(const EvaluationRecord&)>& see) const {
+  Statement row(database_, "SELECT * FROM history ORDER BY evaluation");
+  while (row.step()) {
+    EvaluationRecord record;
+    record.evaluation = static_cast<int>(row.integer(0));
+    record.iteration = static_cast<int>(row.integer(1));
+    record.purpose = purpose_of(row.text(2));
+    record.request = request_of(row.text(3));
+    record.seconds = row.number(4);
+    record.x = vector_of(row.blob(5));
+    record.failure = row.text(6);
+    if (!record.has_failed()) {
+      record.objective = number_or_nan(row, 7);
+      record.constraints = vector_of(row.blob(8));
+      record.max_violation = number_or_nan(row, 9);
+    }
+    record.step = row.number(10);
+    record.time_step = row.number(11);
+    record.elements = static_cast<int>(row.integer(12));
+    see(record);
+  }
+}
+
+std::int64_t RunDatabase::setting_number(const std::string& text) {
+  Statement insert(database_, "INSERT OR IGNORE INTO settings(text) VALUES (?1)");
+  insert.bind(1, text).run();
+  Statement select(database_, "SELECT setting FROM settings WHERE text = ?1");
+  select.bind(1, text);
+  select.step();
+  return select.integer(0);
+}
+
+}  // namespace pleuel

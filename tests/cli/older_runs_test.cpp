@@ -1,0 +1,108 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "tests/cli/program.hpp"
+
+/// What is told of runs that have ended, and of those that have not.
+namespace pleuel::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class OlderRuns : public testing::Test {
+ protected:
+  ProgramRun optimize(const std::string& name, const std::vector<std::string>& more = {}) const {
+    return run_program(
+        folder_.path(),
+        joined(joined({"optimize", problem("slider_crank_round"), "-o", "runs/" + name}, quick()),
+               more));
+  }
+  const TemporaryFolder folder_;
+};
+
+TEST_F(OlderRuns, AreListedWithTheirStatusAndObjective) {
+  ASSERT_EQ(optimize("one").exit_code, 0);
+  run_program(folder_.path(),
+              joined({"simulate", problem("slider_crank_round"), "-o", "runs/two"}, quick()));
+  fs::create_directories(folder_.path() / "runs/foreign");
+  const ProgramRun text = run_program(folder_.path(), {"runs"});
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_THAT(unwrapped(text.out), HasSubstr("one optimize"));
+  const nlohmann::json runs = run_program(folder_.path(), {"runs", "runs", "--json"}).document();
+  ASSERT_EQ(runs.at("runs").size(), 2u);
+  const nlohmann::json result =
+      nlohmann::json::parse(read_file(folder_.path() / "runs/one/result.json"));
+  EXPECT_EQ(runs["runs"][0].at("status"), "verified");
+  EXPECT_EQ(runs["runs"][0].at("objective").at("value"), result.at("objective").at("value"));
+  EXPECT_EQ(runs["runs"][1].at("command"), "simulate");
+  EXPECT_FALSE(runs["runs"][1].contains("objective"));
+  EXPECT_EQ(run_program(folder_.path(), {"runs", "nowhere"}).exit_code, 2);
+}
+
+TEST_F(OlderRuns, ThatWereKilledAreToldFromThoseAtWork) {
+  const ProgramRun run = run_line(
+      folder_.path(),
+      fmt::format("optimize {0} -o runs/one >out 2>&1 & p=$!; i=0; "
+                  "while [ ! -s runs/one/history.csv ] && [ $i -lt 3000 ]; do sleep 0.01; "
+                  "i=$((i + 1)); done; {1} runs --json >at_work; kill -9 $p; wait $p; {1} runs "
+                  "--json >killed",
+                  problem("slider_crank_round"), PLEUEL_PROGRAM));
+  const auto status = [&](const char* file) {
+    return nlohmann::json::parse(read_file(folder_.path() / file)).at("runs").at(0).at("status");
+  };
+  EXPECT_EQ(status("at_work"), "running");
+  EXPECT_EQ(status("killed"), "killed");
+}
+
+TEST_F(OlderRuns, AreComparedInInputAndOutcome) {
+  ASSERT_EQ(optimize("one").exit_code, 0);
+  ASSERT_EQ(optimize("two", {"--set", "/simulation/spectral_radius=0.7"}).exit_code, 0);
+  const ProgramRun same = run_program(folder_.path(), {"compare", "runs/one", "runs/one"});
+  EXPECT_THAT(same.out, HasSubstr("The inputs are the same."));
+  const ProgramRun text = run_program(folder_.path(), {"compare", "runs/one", "runs/two"});
+  EXPECT_THAT(unwrapped(text.out), HasSubstr("/simulation/spectral_radius"));
+  const nlohmann::json document =
+      run_program(folder_.path(), {"compare", "runs/one", "runs/two", "--json"}).document();
+  ASSERT_EQ(document.at("input").size(), 1u);
+  EXPECT_EQ(document["input"][0].at("place"), "/simulation/spectral_radius");
+  EXPECT_EQ(document["input"][0].at("second"), 0.7);
+  const auto& values = document.at("outcome");
+  const auto found = std::find_if(values.begin(), values.end(), [](const auto& value) {
+    return value.at("group") == "variables" && value.at("name") == "rod_diameter";
+  });
+  ASSERT_NE(found, values.end());
+  const nlohmann::json result =
+      nlohmann::json::parse(read_file(folder_.path() / "runs/two/result.json"));
+  EXPECT_EQ(found->at("second"), result.at("variables").at("rod_diameter").at("value"));
+  EXPECT_EQ(run_program(folder_.path(), {"compare", "runs/one", "runs"}).exit_code, 2);
+  EXPECT_EQ(run_program(folder_.path(), {"compare", "runs/one"}).exit_code, 2);
+}
+
+/// Numbers in the tables read back as those of the record, which are those of the history.
+TEST_F(OlderRuns, AreExportedAsTables) {
+  ASSERT_EQ(optimize("one").exit_code, 0);
+  const ProgramRun run = run_program(folder_.path(), {"export", "runs/one", "--json"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const CsvRows evaluations = read_csv(folder_.path() / "runs/one/evaluations.csv");
+  const CsvRows history = read_csv(folder_.path() / "runs/one/history.csv");
+  ASSERT_EQ(evaluations.size(), 1 + run.document().at("evaluations").get<std::size_t>());
+  const auto cell = [](const CsvRows& rows, std::size_t row, const std::string& title) {
+    const auto found = std::find(rows[0].begin(), rows[0].end(), title);
+    return rows.at(row).at(static_cast<std::size_t>(found - rows[0].begin()));
+  };
+  for (const char* title : {"objective", "variable:rod_diameter", "constraint:rod_strength"}) {
+    ASSERT_NE(std::find(history[0].begin(), history[0].end(), title), history[0].end()) << title;
+    EXPECT_EQ(cell(evaluations, 1, title), cell(history, 1, title));
+  }
+  const CsvRows gradients = read_csv(folder_.path() / "runs/one/evaluation_gradients.csv");
+  EXPECT_EQ(gradients[0], (std::vector<std::string>{"evaluation", "of", "variable", "derivative"}));
+  EXPECT_EQ(gradients[1][1], "objective");
+  const ProgramRun none = run_program(folder_.path(), {"export", "runs"});
+  EXPECT_EQ(none.exit_code, 2);
+}
+
+}  // namespace
+}  // namespace pleuel::test

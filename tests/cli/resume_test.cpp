@@ -1,0 +1,244 @@
+#include <algorithm>
+#include <random>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <sqlite3.h>
+
+#include "tests/cli/program.hpp"
+
+/// Runs that are killed go on as if nothing had happened, and answers do not depend on how many
+/// processes find them.
+namespace pleuel::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A document without times, which differ from run to run.
+nlohmann::json timeless(nlohmann::json document) {
+  if (document.is_object()) {
+    for (const char* key : {"seconds", "choice_seconds"}) document.erase(key);
+  }
+  if (document.is_structured()) {
+    for (auto& part : document) part = timeless(std::move(part));
+  }
+  return document;
+}
+
+/// The cells of a table, but for the column of times.
+CsvRows timeless(CsvRows rows) {
+  const auto column = std::find(rows.at(0).begin(), rows.at(0).end(), "seconds") - rows[0].begin();
+  for (auto& row : rows) row.erase(row.begin() + column);
+  return rows;
+}
+
+int count_evaluations(const fs::path& folder) {
+  sqlite3* database = nullptr;
+  sqlite3_stmt* statement = nullptr;
+  EXPECT_EQ(sqlite3_open((folder / "run.sqlite").c_str(), &database), SQLITE_OK);
+  EXPECT_EQ(
+      sqlite3_prepare_v2(database, "SELECT count(*) FROM evaluations", -1, &statement, nullptr),
+      SQLITE_OK);
+  EXPECT_EQ(sqlite3_step(statement), SQLITE_ROW);
+  const int count = sqlite3_column_int(statement, 0);
+  sqlite3_finalize(statement);
+  sqlite3_close(database);
+  return count;
+}
+
+std::string quick_line() {
+  std::string line;
+  for (const std::string& word : quick()) line += " '" + word + "'";
+  return line;
+}
+
+class Resumed : public testing::Test {
+ protected:
+  nlohmann::json result(const std::string& name) const {
+    return timeless(nlohmann::json::parse(read_file(folder_.path() / name / "result.json")));
+  }
+  CsvRows table(const std::string& name, const std::string& file) const {
+    return timeless(read_csv(folder_.path() / name / file));
+  }
+
+  /// Kills a command so many times after other times, and lets it end then.
+  void kill_and_end(const std::string& words, const std::string& name, int kills,
+                    std::mt19937& random) const {
+    std::uniform_real_distribution<double> seconds(0.02, 0.6);
+    std::string line = "--version >/dev/null";
+    for (int i = 0; i < kills; ++i) {
+      line += fmt::format(
+          "\n{{ {} {} -o {} --resume & p=$!; sleep {:.3f}; kill -9 $p; wait $p; }} "
+          ">/dev/null 2>&1",
+          PLEUEL_PROGRAM, words, name, seconds(random));
+    }
+    run_line(folder_.path(), line);
+    const ProgramRun run = run_line(folder_.path(), words + " -o " + name + " --resume");
+    EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+  }
+
+  void expect_same(const std::string& name, const std::string& other,
+                   const std::string& file) const {
+    EXPECT_EQ(result(name), result(other));
+    EXPECT_EQ(table(name, file), table(other, file));
+    EXPECT_EQ(count_evaluations(folder_.path() / name), count_evaluations(folder_.path() / other));
+  }
+
+  const TemporaryFolder folder_;
+};
+
+TEST_F(Resumed, OptimizationEndsAsIfItHadNotBeenKilled) {
+  const std::string words = "optimize " + problem("slider_crank_round") + quick_line();
+  ASSERT_EQ(run_line(folder_.path(), words + " -o whole").exit_code, 0);
+  std::mt19937 random(1);
+  for (int run = 0; run < 4; ++run) {
+    const std::string name = fmt::format("killed{}", run);
+    kill_and_end(words, name, 3, random);
+    expect_same(name, "whole", "history.csv");
+  }
+}
+
+TEST_F(Resumed, SeveralStartsEndAsIfTheyHadNotBeenKilled) {
+  const std::string words =
+      "optimize " + problem("slider_crank_round") + quick_line() + " --starts 3 --jobs 2";
+  ASSERT_EQ(run_line(folder_.path(), words + " -o whole").exit_code, 0);
+  std::mt19937 random(2);
+  kill_and_end(words, "killed", 6, random);
+  expect_same("killed", "whole", "history.csv");
+}
+
+TEST_F(Resumed, FrontEndsAsIfItHadNotBeenKilled) {
+  const std::string words =
+      "pareto " + problem("slider_crank_round") + quick_line() + " --set /pareto/points=4 --jobs 2";
+  ASSERT_EQ(run_line(folder_.path(), words + " -o whole").exit_code, 0);
+  std::mt19937 random(3);
+  kill_and_end(words, "killed", 6, random);
+  expect_same("killed", "whole", "pareto.csv");
+}
+
+TEST_F(Resumed, RunThatHadEndedEvaluatesNothing) {
+  const std::string words = "optimize " + problem("slider_crank_round") + quick_line() + " -o run";
+  ASSERT_EQ(run_line(folder_.path(), words).exit_code, 0);
+  const int evaluations = count_evaluations(folder_.path() / "run");
+  const ProgramRun again = run_line(folder_.path(), words + " --resume");
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_EQ(count_evaluations(folder_.path() / "run"), evaluations);
+  EXPECT_THAT(again.out, HasSubstr("evaluations were known from run/run.sqlite"));
+}
+
+TEST_F(Resumed, InterruptedRunSaysHow) {
+  const std::string words = "optimize " + problem("slider_crank_round") + " --starts 4 --jobs 2";
+  const ProgramRun run =
+      run_line(folder_.path(),
+               fmt::format("{0} >out & p=$!; i=0; "
+                           "while [ $(cat runs/*/history.csv 2>/dev/null | wc -l) -lt 4 ] && "
+                           "[ $i -lt 3000 ]; do sleep 0.01; i=$((i + 1)); done; "
+                           "c=$(cat /proc/$p/task/$p/children); kill -TERM $p; wait $p; echo $?; "
+                           "for q in $c; do [ ! -e /proc/$q ] || echo left $q; done",
+                           words));
+  EXPECT_EQ(run.out, "4\n");  // and no process is left
+  const std::string out = read_file(folder_.path() / "out");
+  EXPECT_THAT(unwrapped(out), AllOf(HasSubstr("To go on from there: "),
+                                    HasSubstr("--jobs 2 -o runs/slider_crank_round-optimize "
+                                              "--resume")));
+}
+
+TEST_F(Resumed, RunOfAnotherProblemIsRefused) {
+  const std::string words = "optimize " + problem("slider_crank_round") + quick_line() + " -o run";
+  ASSERT_EQ(run_line(folder_.path(), words).exit_code, 0);
+  const std::string before = read_file(folder_.path() / "run/result.json");
+  const ProgramRun other =
+      run_line(folder_.path(), words + " --resume --set /simulation/spectral_radius=0.7");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, AllOf(HasSubstr("--resume: run holds a run with another problem: "
+                                         "/simulation/spectral_radius is "),
+                               HasSubstr(" there and 0.7 here")));
+  const ProgramRun start = run_line(folder_.path(), words + " --resume --set rod_diameter=15mm");
+  EXPECT_EQ(start.exit_code, 2);
+  const ProgramRun starts = run_line(folder_.path(), words + " --resume --starts 2");
+  EXPECT_THAT(starts.err, HasSubstr("/starts is 1 there and 2 here"));
+  EXPECT_EQ(read_file(folder_.path() / "run/result.json"), before);
+}
+
+TEST_F(Resumed, RecordThatIsNoneIsRefused) {
+  const std::string words = "optimize " + problem("slider_crank_round") + quick_line() + " -o run";
+  ASSERT_EQ(run_line(folder_.path(), words).exit_code, 0);
+  run_line(folder_.path(), "--version; head -c 9000 /dev/zero | tr '\\0' x >run/run.sqlite");
+  const ProgramRun run = run_line(folder_.path(), words + " --resume");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("--resume: run/run.sqlite: "));
+}
+
+TEST_F(Resumed, NothingBegins) {
+  const std::string words = "optimize " + problem("slider_crank_round") + quick_line();
+  EXPECT_EQ(run_line(folder_.path(), words + " -o run --resume").exit_code, 0);
+  EXPECT_EQ(run_line(folder_.path(), words + " -o run --resume --overwrite").exit_code, 2);
+}
+
+/// A record that cannot be written ends no run; the exit code tells.
+TEST_F(Resumed, RecordThatCannotBeWrittenIsNamed) {
+  const std::string words = "optimize " + problem("slider_crank_round") + quick_line() + " -o run";
+  ASSERT_EQ(run_line(folder_.path(), words).exit_code, 0);
+  fs::remove(folder_.path() / "run/run.sqlite");
+  fs::create_directories(folder_.path() / "run/run.sqlite/not_a_file");
+  const ProgramRun run = run_line(folder_.path(), words + " --overwrite");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.out, HasSubstr("VERIFIED"));
+  EXPECT_THAT(run.err, HasSubstr("run.sqlite"));
+}
+
+class Jobs : public Resumed {};
+
+TEST_F(Jobs, DoNotChangeTheAnswerOfSeveralStarts) {
+  for (const int jobs : {1, 2, 3}) {
+    ASSERT_EQ(run_line(folder_.path(),
+                       fmt::format("optimize {}{} --starts 3 --jobs {} -o with{}",
+                                   problem("slider_crank_round"), quick_line(), jobs, jobs))
+                  .exit_code,
+              0);
+  }
+  expect_same("with2", "with1", "history.csv");
+  expect_same("with3", "with1", "history.csv");
+}
+
+TEST_F(Jobs, DoNotChangeTheFront) {
+  for (const int jobs : {1, 2, 3}) {
+    ASSERT_EQ(run_line(folder_.path(),
+                       fmt::format("pareto {}{} --set /pareto/points=5 --jobs {} -o with{}",
+                                   problem("slider_crank_round"), quick_line(), jobs, jobs))
+                  .exit_code,
+              0);
+  }
+  expect_same("with2", "with1", "pareto.csv");
+  expect_same("with3", "with1", "pareto.csv");
+}
+
+/// The search that is killed is tried once more, and is heard once.
+TEST_F(Jobs, MayLoseAProcess) {
+  const std::string words =
+      "optimize " + problem("slider_crank_round") + quick_line() + " --starts 3 --jobs 2 -o ";
+  ASSERT_EQ(run_line(folder_.path(), words + "whole").exit_code, 0);
+  const ProgramRun run = run_line(
+      folder_.path(),
+      words +
+          "hurt >out & p=$!; i=0; while [ $(cat hurt/history.csv 2>/dev/null | wc -l) -lt 3 ] "
+          "&& [ $i -lt 3000 ]; do sleep 0.01; i=$((i + 1)); done; "
+          "kill -9 $(cut -d' ' -f1 /proc/$p/task/$p/children) && echo killed; wait $p; echo $?");
+  EXPECT_EQ(run.out, "killed\n0\n") << run.err;
+  expect_same("hurt", "whole", "history.csv");
+}
+
+TEST_F(Jobs, AreTakenFromTheEnvironment) {
+  const std::string words = "uncertainty " + problem("slider_crank_round");
+  const ProgramRun run =
+      run_line(folder_.path(), "--version; PLEUEL_JOBS=none " PLEUEL_PROGRAM " " + words);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err,
+              HasSubstr("PLEUEL_JOBS must be a whole number from 1 to 1024, got \"none\""));
+}
+
+}  // namespace
+}  // namespace pleuel::test

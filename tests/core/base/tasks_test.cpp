@@ -1,0 +1,185 @@
+#include "core/base/tasks.hpp"
+
+#include <csignal>
+#include <fstream>
+#include <functional>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "core/base/error.hpp"
+#include "core/base/stopwatch.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace pleuel::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// Tasks that are one function, and what was heard of them.
+class Noted : public Tasks {
+ public:
+  using Run = std::function<std::string(int, const std::string&, TaskCaller&)>;
+  Noted(int count, Run run) : count_(count), run_(std::move(run)) {}
+
+  int count() const override { return count_; }
+  std::optional<int> needed_by(int task) const override {
+    return is_chain && task > 0 ? std::optional(task / 2) : std::nullopt;
+  }
+  std::string run(int task, const std::string& needed, TaskCaller& caller) override {
+    return run_(task, needed, caller);
+  }
+  std::string reply(int task, const std::string& question) override {
+    ++replies;
+    return fmt::format("{}{}", question, task);
+  }
+  void hear(int task, const std::string& message) override {
+    notes.push_back(fmt::format("{}: {}", task, message));
+  }
+  void take(int task, const std::string& answer) override {
+    notes.push_back(fmt::format("{} = {}", task, answer));
+  }
+  void fail(int task, const std::string& failure) override {
+    notes.push_back(fmt::format("{} failed: {}", task, failure));
+  }
+
+  bool is_chain = false;
+  int replies = 0;
+  std::vector<std::string> notes;
+
+ private:
+  int count_;
+  Run run_;
+};
+
+/// How often something happened, over all processes.
+class Tally {
+ public:
+  int add() const {
+    std::ofstream(path(), std::ios::app) << 'x';
+    return count();
+  }
+  int count() const {
+    std::ifstream stream(path());
+    return static_cast<int>(std::string(std::istreambuf_iterator<char>(stream), {}).size());
+  }
+
+ private:
+  std::filesystem::path path() const { return folder_.path() / "tally"; }
+  TemporaryFolder folder_;
+};
+
+std::vector<std::string> notes_with(int jobs, const std::function<void(Noted&)>& prepare = {}) {
+  Noted tasks(5, [](int task, const std::string& needed, TaskCaller& caller) {
+    ::usleep(static_cast<useconds_t>(4000 * (5 - task)));  // later ones end first
+    caller.tell("begun with " + needed);
+    caller.tell(caller.ask("asked "));
+    return fmt::format("{}", task * task);
+  });
+  if (prepare) prepare(tasks);
+  run_tasks(tasks, {.jobs = jobs});
+  return tasks.notes;
+}
+
+TEST(Tasks, AreHeardInTheirOrderForAnyNumberOfJobs) {
+  const std::vector<std::string> one = notes_with(1);
+  ASSERT_EQ(one.size(), 15u);
+  EXPECT_EQ(one[3], "1: begun with ");
+  EXPECT_EQ(one[4], "1: asked 1");
+  EXPECT_EQ(one[5], "1 = 1");
+  for (const int jobs : {2, 3, 8}) EXPECT_EQ(notes_with(jobs), one) << jobs;
+}
+
+TEST(Tasks, BeginWithTheAnswerThatTheyNeed) {
+  const auto chain = [](Noted& tasks) { tasks.is_chain = true; };
+  const std::vector<std::string> one = notes_with(1, chain);
+  EXPECT_EQ(one[12], "4: begun with 4");  // 4 needs 2
+  for (const int jobs : {2, 3, 8}) EXPECT_EQ(notes_with(jobs, chain), one) << jobs;
+}
+
+TEST(Tasks, RunInProcessesOfTheirOwn) {
+  int changed = 0;
+  Noted tasks(2, [&](int, const std::string&, TaskCaller&) {
+    ++changed;
+    return std::string(::getpid() == ::getppid() ? "same" : "other");
+  });
+  run_tasks(tasks, {.jobs = 1});
+  EXPECT_EQ(changed, 0);
+}
+
+TEST(Tasks, WhoseProcessIsKilledAreTriedOnceMoreAndHeardOnce) {
+  for (const int jobs : {1, 2}) {
+    const Tally tally;
+    Noted tasks(3, [&](int task, const std::string&, TaskCaller& caller) {
+      caller.tell("begun");
+      if (task == 1 && tally.add() == 1) ::kill(::getpid(), SIGKILL);
+      return std::string("done");
+    });
+    run_tasks(tasks, {.jobs = jobs});
+    EXPECT_EQ(tally.count(), 2);
+    EXPECT_THAT(tasks.notes, ElementsAre("0: begun", "0 = done", "1: begun", "1 = done", "2: begun",
+                                         "2 = done"));
+  }
+}
+
+TEST(Tasks, ThatCrashTwiceFailWithTheSignalAndTheRestGoesOn) {
+  Noted tasks(3, [](int task, const std::string&, TaskCaller&) {
+    if (task == 0) std::raise(SIGSEGV);
+    return std::string("done");
+  });
+  run_tasks(tasks, {.jobs = 2});
+  ASSERT_EQ(tasks.notes.size(), 3u);
+  EXPECT_THAT(tasks.notes[0], HasSubstr("0 failed: its process ended with signal 11"));
+  EXPECT_THAT(tasks.notes[0], HasSubstr("in 2 attempts"));
+  EXPECT_EQ(tasks.notes[2], "2 = done");
+}
+
+TEST(Tasks, ThatHangAreGivenUpAfterTheirTime) {
+  const Stopwatch stopwatch;
+  Noted tasks(2, [](int task, const std::string&, TaskCaller&) {
+    if (task == 0) ::sleep(100);
+    return std::string("done");
+  });
+  run_tasks(tasks, {.jobs = 2, .time_limit = 0.3});
+  EXPECT_THAT(tasks.notes[0], HasSubstr("took longer than the 0.3 s"));
+  EXPECT_EQ(tasks.notes[1], "1 = done");
+  EXPECT_LT(stopwatch.seconds(), 20.0);
+}
+
+/// Of several, what the first one throws, after what the ones before it have told.
+TEST(Tasks, PassOnWhatTheyThrow) {
+  for (const int jobs : {1, 2, 4}) {
+    Noted tasks(4, [](int task, const std::string&, TaskCaller&) -> std::string {
+      if (task == 1) {
+        ::usleep(20000);
+        throw SimulationError("joint");
+      }
+      if (task > 1) throw InputError("/file");
+      return "done";
+    });
+    EXPECT_THROW(run_tasks(tasks, {.jobs = jobs}), SimulationError);
+    EXPECT_THAT(tasks.notes, ElementsAre("0 = done"));
+  }
+}
+
+TEST(Tasks, CarryMegabytes) {
+  const std::string large(3'000'000, 'z');
+  Noted tasks(1, [&](int, const std::string&, TaskCaller& caller) {
+    return caller.ask(large) == large + "0" ? large : std::string();
+  });
+  run_tasks(tasks, {.jobs = 1});
+  EXPECT_EQ(tasks.notes, (std::vector<std::string>{"0 = " + large}));
+}
+
+TEST(Tasks, MayBeNone) {
+  Noted tasks(0, [](int, const std::string&, TaskCaller&) { return std::string(); });
+  run_tasks(tasks, {.jobs = 2});
+  EXPECT_TRUE(tasks.notes.empty());
+}
+
+}  // namespace
+}  // namespace pleuel::test

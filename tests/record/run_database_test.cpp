@@ -1,0 +1,190 @@
+#include "record/run_database.hpp"
+
+#include <csignal>
+#include <fstream>
+#include <limits>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace pleuel::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Record : public testing::Test {
+ protected:
+  std::filesystem::path file() const { return folder_.path() / "run.sqlite"; }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+EvaluationKey key(double x, Request request = Request::values_and_gradients,
+                  const std::string& method = "") {
+  return {"step 1e-05 s", "constraints", method, request, Eigen::Vector2d(x, 1.0 / 3.0)};
+}
+
+/// Of two variables and three constraints.
+StoredEvaluation evaluated(double objective) {
+  StoredEvaluation stored;
+  stored.evaluation.objective = objective;
+  stored.evaluation.constraints = Eigen::Vector3d(0.1, -0.0, 5e-324);
+  stored.evaluation.objective_gradient = Eigen::Vector2d(1.0 / 7.0, 1e308);
+  stored.evaluation.constraint_jacobian = Eigen::MatrixXd::Random(3, 2);
+  stored.method = "adjoint";
+  stored.reason = "fewer values than variables";
+  stored.seconds = 0.25;
+  return stored;
+}
+
+TEST_F(Record, GivesEvaluationsBackBitByBitWhenItIsOpenedAgain) {
+  const StoredEvaluation stored = evaluated(0.1 + 0.2);
+  RunDatabase(file()).keep(key(0.1), stored);
+  RunDatabase again(file());
+  const auto found = again.find(key(0.1));
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->evaluation.objective, stored.evaluation.objective);
+  EXPECT_EQ(found->evaluation.constraints, stored.evaluation.constraints);
+  EXPECT_TRUE(std::signbit(found->evaluation.constraints(1)));
+  EXPECT_EQ(found->evaluation.objective_gradient, stored.evaluation.objective_gradient);
+  EXPECT_EQ(found->evaluation.constraint_jacobian, stored.evaluation.constraint_jacobian);
+  EXPECT_EQ(found->reason, stored.reason);
+  EXPECT_EQ(found->seconds, 0.25);
+  EXPECT_EQ(again.found(), 1);
+}
+
+TEST_F(Record, TellsDesignsApartByTheirLastBit) {
+  RunDatabase record(file());
+  record.keep(key(0.1), evaluated(1.0));
+  EXPECT_FALSE(record.find(key(std::nextafter(0.1, 1.0))));
+}
+
+TEST_F(Record, TellsSettingsRowsAndRequestsApart) {
+  RunDatabase record(file());
+  record.keep(key(0.1), evaluated(1.0));
+  EvaluationKey other = key(0.1);
+  other.setting = "step 2e-05 s";
+  EXPECT_FALSE(record.find(other));
+  other = key(0.1);
+  other.rows = "peaks of 16 windows";
+  EXPECT_FALSE(record.find(other));
+  EXPECT_FALSE(record.find(key(0.1, Request::values)));
+}
+
+/// What was left open is known by what was chosen, too.
+TEST_F(Record, KnowsGradientsByTheMethodThatMadeThem) {
+  RunDatabase record(file());
+  record.keep(key(0.1), evaluated(1.0));
+  EXPECT_TRUE(record.find(key(0.1, Request::values_and_gradients, "adjoint")));
+  EXPECT_FALSE(record.find(key(0.1, Request::values_and_gradients, "direct")));
+}
+
+TEST_F(Record, KeepsWhyAnEvaluationFailed) {
+  RunDatabase record(file());
+  StoredEvaluation failed;
+  failed.failure = "at t = 0.1 s: Newton's method does not converge";
+  record.keep(key(0.1), failed);
+  const auto found = record.find(key(0.1));
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->failure, failed.failure);
+  EXPECT_FALSE(found->evaluation.has_gradients());
+}
+
+TEST_F(Record, KeepsWhatIsNoFiniteNumber) {
+  RunDatabase record(file());
+  record.keep(key(0.1), evaluated(std::numeric_limits<double>::quiet_NaN()));
+  record.keep(key(0.2), evaluated(-std::numeric_limits<double>::infinity()));
+  EXPECT_TRUE(std::isnan(record.find(key(0.1))->evaluation.objective));
+  EXPECT_EQ(record.find(key(0.2))->evaluation.objective, -std::numeric_limits<double>::infinity());
+}
+
+TEST_F(Record, OfNoConstraintsHasGradientsOfNoRows) {
+  RunDatabase record(file());
+  StoredEvaluation stored = evaluated(1.0);
+  stored.evaluation.constraints.resize(0);
+  stored.evaluation.constraint_jacobian.resize(0, 2);
+  record.keep(key(0.1), stored);
+  const Evaluation found = record.find(key(0.1))->evaluation;
+  EXPECT_EQ(found.constraint_jacobian.rows(), 0);
+  EXPECT_EQ(found.constraint_jacobian.cols(), 2);
+}
+
+TEST_F(Record, KeepsTheWayOfTheSearchInItsOrder) {
+  EvaluationRecord record;
+  record.x = Eigen::Vector2d(0.1, 0.2);
+  record.constraints = Eigen::VectorXd::Constant(1, 1.0 / 3.0);
+  record.purpose = Purpose::restoration;
+  record.elements = 8;
+  History seen;
+  RunDatabase database(file());
+  for (const int number : {2, 1}) {
+    record.evaluation = number;
+    record.failure = number == 2 ? "locks" : "";
+    database.add(record);
+  }
+  database.read_history([&](const EvaluationRecord& one) { seen.push_back(one); });
+  ASSERT_EQ(seen.size(), 2u);
+  EXPECT_EQ(seen[0].constraints, record.constraints);
+  EXPECT_EQ(seen[0].purpose, Purpose::restoration);
+  EXPECT_EQ(seen[0].elements, 8);
+  EXPECT_EQ(seen[1].failure, "locks");
+}
+
+TEST_F(Record, RefusesFilesOfAnotherKind) {
+  std::ofstream(file()) << std::string(5000, 'x');
+  EXPECT_THROW(RunDatabase{file()}, DatabaseError);
+}
+
+TEST_F(Record, RefusesTheRecordOfAnotherVersion) {
+  RunDatabase(file()).describe("command", "optimize");
+  Database(file()).execute("PRAGMA user_version = 7");
+  try {
+    RunDatabase{file()};
+    FAIL();
+  } catch (const DatabaseError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("another version"));
+  }
+}
+
+/// A process that is killed at any instant loses nothing that keep() has returned from.
+TEST_F(Record, HasAllThatWasKeptBeforeAKill) {
+  std::mt19937 random(1);
+  int begin = 0;
+  for (int round = 0; round < 10; ++round) {
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    const pid_t writer = ::fork();
+    if (writer == 0) {
+      RunDatabase record(file());
+      for (int i = begin;; ++i) {
+        record.keep(key(i), evaluated(i));
+        if (::write(ends[1], &i, sizeof i) != sizeof i) ::_exit(1);
+      }
+    }
+    ::usleep(std::uniform_int_distribution<useconds_t>(1000, 40000)(random));
+    ::kill(writer, SIGKILL);
+    ::waitpid(writer, nullptr, 0);
+    ::close(ends[1]);
+    int last = begin - 1;
+    for (int i = 0; ::read(ends[0], &i, sizeof i) == sizeof i;) last = i;
+    ::close(ends[0]);
+    RunDatabase record(file());
+    EXPECT_GE(record.evaluations(), last + 1);
+    for (int i = 0; i <= last; ++i) {
+      const auto found = record.find(key(i));
+      ASSERT_TRUE(found) << i;
+      ASSERT_EQ(found->evaluation.objective, i);
+    }
+    begin = last + 1;
+  }
+  EXPECT_GT(begin, 0);
+}
+
+}  // namespace
+}  // namespace pleuel::test
