@@ -3,9 +3,12 @@
 #include "cli/commands/commands.hpp"
 #include "cli/files/csv_file.hpp"
 #include "cli/files/older_run.hpp"
+#include "cli/files/run_again.hpp"
 #include "cli/files/run_store.hpp"
+#include "cli/files/vtk_series.hpp"
 #include "cli/text/json.hpp"
 #include "core/base/error.hpp"
+#include "core/response/analysis.hpp"
 
 /// What a record of evaluations holds, as tables for other programs.
 namespace pleuel {
@@ -93,6 +96,57 @@ class GradientsCsv {
   CsvFile csv_;
 };
 
+/// What was written.
+struct Exported {
+  Json files = Json::array();
+  std::string text;
+  WriteFailures failures;
+};
+
+void export_evaluations(const fs::path& file, const fs::path& target, Exported& exported) {
+  int count = 0;
+  try {
+    const RunDatabase database(file);
+    const Names names = names_in(database);
+    EvaluationsCsv evaluations({target / "evaluations.csv", &exported.failures}, names);
+    GradientsCsv gradients({target / "evaluation_gradients.csv", &exported.failures}, names);
+    database.read_evaluations([&](const NumberedEvaluation& one) {
+      evaluations.add(one);
+      gradients.add(one);
+      ++count;
+    });
+  } catch (const DatabaseError& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+  for (const char* name : {"evaluations.csv", "evaluation_gradients.csv"}) {
+    exported.files.push_back((target / name).string());
+  }
+  exported.text +=
+      fmt::format("{} evaluations written to {}: evaluations.csv, evaluation_gradients.csv\n",
+                  count, target.string());
+}
+
+/// Of an optimization, which has a design at its start and at its end.
+void export_motion(const OlderRun& run, const fs::path& target, Exported& exported) {
+  constexpr int most_instants = 120;
+  if (run.command() != "optimize" || !run.result.is_object()) {
+    throw InputError(fmt::format("--vtk: {} is not the folder of an optimization with a result",
+                                 run.folder.string()));
+  }
+  const ProblemFile problem = problem_of(run.card, run.result);
+  fs::create_directories(target / "vtk");
+  for (const auto& [name, key] : {std::pair{"start", "start"}, std::pair{"optimum", "value"}}) {
+    const auto x = design_in(run.result, problem, key);
+    if (!x) continue;
+    const auto analysis = analyze(problem, *x);
+    const int instants = write_vtk_series(target / "vtk", name, problem, *x, *analysis,
+                                          most_instants, exported.failures);
+    const fs::path series = target / "vtk" / (std::string(name) + ".pvd");
+    exported.files.push_back(series.string());
+    exported.text += fmt::format("{} instants written to {}\n", instants, series.string());
+  }
+}
+
 }  // namespace
 
 Outcome run_export(const Arguments& arguments) {
@@ -104,32 +158,10 @@ Outcome run_export(const Arguments& arguments) {
   }
   const fs::path target = arguments.output.value_or(run.folder);
   fs::create_directories(target);
-  WriteFailures failures;
-  int count = 0;
-  try {
-    const RunDatabase database(file);
-    const Names names = names_in(database);
-    EvaluationsCsv evaluations({target / "evaluations.csv", &failures}, names);
-    GradientsCsv gradients({target / "evaluation_gradients.csv", &failures}, names);
-    database.read_evaluations([&](const NumberedEvaluation& one) {
-      evaluations.add(one);
-      gradients.add(one);
-      ++count;
-    });
-  } catch (const DatabaseError& error) {
-    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
-  }
-  Outcome outcome;
-  outcome.document = {
-      {"evaluations", count},
-      {"files",
-       {(target / "evaluations.csv").string(), (target / "evaluation_gradients.csv").string()}}};
-  outcome.text = fmt::format(
-      "{} evaluations written to {}: evaluations.csv, "
-      "evaluation_gradients.csv\n",
-      count, target.string());
-  outcome.unwritten = failures.files();
-  return outcome;
+  Exported exported;
+  export_evaluations(file, target, exported);
+  if (arguments.wants_vtk) export_motion(run, target, exported);
+  return {ExitCode::done, {{"files", exported.files}}, exported.text, exported.failures.files()};
 }
 
 }  // namespace pleuel

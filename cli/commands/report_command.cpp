@@ -8,6 +8,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/files/report_page.hpp"
+#include "cli/files/run_again.hpp"
 #include "cli/files/run_folder.hpp"
 #include "cli/files/run_picture.hpp"
 #include "cli/files/trajectory_csv.hpp"
@@ -15,8 +16,6 @@
 #include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
-#include "core/response/effect_measurement.hpp"
-#include "core/scene/problem_reader.hpp"
 
 /// Reports of earlier runs: what is shown of the mechanism is simulated again from the run card.
 namespace pleuel {
@@ -34,36 +33,6 @@ Json read_document(const fs::path& path) {
   Json document = Json::parse(stream, nullptr, /*allow_exceptions=*/false);
   if (!document.is_object()) throw InputError(path.string() + ": is not a JSON document");
   return document;
-}
-
-/// The problem as it ran: with the steps and elements that were chosen for an accuracy.
-ProblemFile problem_of(const Json& card, const Json& result) {
-  std::vector<std::string> overrides;
-  if (result.contains("setting") && result["setting"].contains("overrides")) {
-    for (const auto& [pointer, value] : result["setting"]["overrides"].items()) {
-      overrides.push_back(pointer + "=" + value.dump());
-    }
-  }
-  ProblemFile problem = read_problem_text(
-      card.at("problem").dump(), card.at("input").at("file").get<std::string>(), overrides);
-  decide_effects(problem);
-  return problem;
-}
-
-/// The values of a document's variables; nothing if it does not have all of them.
-/// @param key  of {NAME: {key: number}}; empty for {NAME: number}
-std::optional<Eigen::VectorXd> design_in(const Json& document, const ProblemFile& problem,
-                                         const std::string& key) {
-  Eigen::VectorXd x = start_design(problem);
-  if (x.size() == 0) return x;
-  if (!document.contains("variables")) return std::nullopt;
-  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    const Json variable = document["variables"].value(problem.variables[i].name, Json());
-    const Json value = key.empty() ? variable : variable.value(key, Json());
-    if (!value.is_number()) return std::nullopt;
-    x(static_cast<Eigen::Index>(i)) = value.get<double>();
-  }
-  return x;
 }
 
 /// Simulated, if that is possible.

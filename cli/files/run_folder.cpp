@@ -147,6 +147,10 @@ void RunFolder::remove_older_results() const {
     const std::string name = entry.path().filename().string();
     if (name.starts_with("plot") && name.ends_with(".svg")) fs::remove(entry, error);
   }
+  for (const auto& entry : fs::directory_iterator(path_ / "vtk", error)) {
+    const fs::path ending = entry.path().extension();
+    if (ending == ".vtu" || ending == ".pvd") fs::remove(entry, error);
+  }
   for (const auto& entry : fs::directory_iterator(path_ / "bodies", error)) {
     if (entry.is_regular_file() && entry.path().extension() == ".json") fs::remove(entry, error);
   }

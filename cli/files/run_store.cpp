@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/files/command_text.hpp"
+#include "cli/input/fingerprint.hpp"
 #include "cli/text/console.hpp"
 #include "core/base/error.hpp"
 
@@ -16,7 +17,11 @@ namespace {
 
 /// What has to be the same for a run to go on, and how a user would call it.
 constexpr std::pair<const char*, const char*> decisive[] = {
-    {"command", "command"}, {"problem", "problem"}, {"design", "start"}, {"options", "options"}};
+    {"command", "command"},
+    {"problem", "problem"},
+    {"files", "file that the problem names"},
+    {"design", "start"},
+    {"options", "options"}};
 
 std::string utc_now() {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
@@ -46,10 +51,15 @@ RunStore::RunStore(RunRecord& record, const Arguments& arguments, const ProblemI
     design[name] = input.design(static_cast<Eigen::Index>(i));
   }
   for (const auto& constraint : input.problem.constraints) constraints.push_back(constraint.name);
-  description_ = {{"command", arguments.command},  {"arguments", arguments.words},
-                  {"problem", input.effective},    {"design", design},
-                  {"options", std::move(options)}, {"versions", record.versions()},
-                  {"variables", variables},        {"constraints", constraints}};
+  description_ = {{"command", arguments.command},
+                  {"arguments", arguments.words},
+                  {"problem", input.effective},
+                  {"files", fingerprints_of_files(input.effective, input.file)},
+                  {"design", design},
+                  {"options", std::move(options)},
+                  {"versions", record.versions()},
+                  {"variables", variables},
+                  {"constraints", constraints}};
   if (arguments.resumes) open_older();
 }
 

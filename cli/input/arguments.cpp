@@ -246,8 +246,11 @@ void add_export(CLI::App& app, Arguments& arguments) {
                                   "write the evaluations of optimize or pareto as tables (CSV)");
   command->add_option("DIR", arguments.file, "run folder")->required();
   command
-      ->add_option("-o,--output", arguments.output, "where the tables go (default: the run folder)")
+      ->add_option("-o,--output", arguments.output, "where the files go (default: the run folder)")
       ->type_name("DIR");
+  command->add_flag("--vtk", arguments.wants_vtk,
+                    "write the motion of start and optimum for ParaView, too, which are simulated "
+                    "again");
 }
 
 void add_plot(CLI::App& app, Arguments& arguments) {

@@ -39,6 +39,7 @@ struct Arguments {
   std::vector<std::string> names;         ///< of histories that are drawn
   bool wants_effects = false;             ///< what each effect brings and costs
   bool wants_json = false;
+  bool wants_vtk = false;          ///< the motion as files for ParaView
   bool leaves_out_report = false;  ///< no report.html
   bool overwrites = false;         ///< an older run of the same command in the folder
   bool resumes = false;            ///< an older run of the same command in the folder

@@ -1,13 +1,11 @@
 #include "cli/input/problem_input.hpp"
 
-#include <cstdint>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 
 #include <fmt/format.h>
 
 #include "cli/input/design_file.hpp"
+#include "cli/input/fingerprint.hpp"
 #include "cli/text/console.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/effect_measurement.hpp"
@@ -17,25 +15,6 @@
 namespace pleuel {
 
 namespace {
-
-/// Fowler, Noll & Vo, 64 bits: tells inputs apart, protects against nothing.
-class Fingerprint {
- public:
-  void add(const std::string& text) {
-    for (const char c : text) add_byte(static_cast<unsigned char>(c));
-    add_byte(0);  // so that {"a", "b"} differs from {"ab"}
-  }
-  std::string text() const { return fmt::format("fnv1a64:{:016x}", state_); }
-
- private:
-  void add_byte(unsigned char byte) { state_ = (state_ ^ byte) * 0x100000001b3u; }
-  std::uint64_t state_ = 0xcbf29ce484222325u;
-};
-
-std::string whole_text(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 /// Index 3 without numerical damping is unstable: the multipliers swing ever more, and nothing in a
 /// short simulation shows it.

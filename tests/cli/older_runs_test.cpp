@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <iterator>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -88,7 +90,8 @@ TEST_F(OlderRuns, AreExportedAsTables) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const CsvRows evaluations = read_csv(folder_.path() / "runs/one/evaluations.csv");
   const CsvRows history = read_csv(folder_.path() / "runs/one/history.csv");
-  ASSERT_EQ(evaluations.size(), 1 + run.document().at("evaluations").get<std::size_t>());
+  ASSERT_EQ(evaluations.size(), history.size());
+  EXPECT_EQ(run.document().at("files").size(), 2u);
   const auto cell = [](const CsvRows& rows, std::size_t row, const std::string& title) {
     const auto found = std::find(rows[0].begin(), rows[0].end(), title);
     return rows.at(row).at(static_cast<std::size_t>(found - rows[0].begin()));
@@ -102,6 +105,35 @@ TEST_F(OlderRuns, AreExportedAsTables) {
   EXPECT_EQ(gradients[1][1], "objective");
   const ProgramRun none = run_program(folder_.path(), {"export", "runs"});
   EXPECT_EQ(none.exit_code, 2);
+}
+
+/// The files are read by ParaView; here their counts have to fit together.
+TEST_F(OlderRuns, AreExportedAsMotion) {
+  ASSERT_EQ(optimize("one").exit_code, 0);
+  const ProgramRun run =
+      run_program(folder_.path(), {"export", "runs/one", "--vtk", "-o", "out", "--json"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.document().at("files").size(), 4u);
+  const std::string series = read_file(folder_.path() / "out/vtk/optimum.pvd");
+  EXPECT_THAT(series, HasSubstr("file=\"optimum-0000.vtu\""));
+  const std::string grid = read_file(folder_.path() / "out/vtk/optimum-0001.vtu");
+  const auto number_after = [&](const std::string& word) {
+    return std::stoi(grid.substr(grid.find(word) + word.size()));
+  };
+  const auto block = [&](const std::string& name) {
+    const auto begin = grid.find('\n', grid.find("Name=\"" + name + "\"")) + 1;
+    std::istringstream stream(grid.substr(begin, grid.find("</DataArray>", begin) - begin));
+    return std::vector<double>(std::istream_iterator<double>(stream), {});
+  };
+  const auto points = static_cast<std::size_t>(number_after("NumberOfPoints=\""));
+  const auto cells = static_cast<std::size_t>(number_after("NumberOfCells=\""));
+  EXPECT_EQ(block("stress").size(), points);
+  EXPECT_EQ(block("body").size(), cells);
+  ASSERT_EQ(block("offsets").size(), cells);
+  const std::vector<double> connectivity = block("connectivity");
+  EXPECT_EQ(connectivity.size(), block("offsets").back());
+  EXPECT_EQ(*std::max_element(connectivity.begin(), connectivity.end()),
+            static_cast<double>(points - 1));
 }
 
 }  // namespace

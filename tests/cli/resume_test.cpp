@@ -163,6 +163,26 @@ TEST_F(Resumed, RunOfAnotherProblemIsRefused) {
   EXPECT_EQ(read_file(folder_.path() / "run/result.json"), before);
 }
 
+/// What a file says is part of the problem.
+TEST_F(Resumed, RunWithAnotherCatalogueIsRefused) {
+  const std::string words =
+      "optimize " + problem("slider_crank_round") + quick_line() +
+      " --set /scene/catalogue=" + (folder_.path() / "sections.json").string() + " -o run";
+  const std::string section = R"({"type": "circle", "diameter": )";
+  const auto make = [&](const std::string& diameter) {
+    run_line(folder_.path(), "--version; echo '{\"sections\": {\"round\": " + section + diameter +
+                                 "}}}' >sections.json");
+  };
+  make("0.01");
+  const ProgramRun first = run_line(folder_.path(), words);
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_EQ(run_line(folder_.path(), words + " --resume").exit_code, 0);
+  make("0.02");
+  const ProgramRun other = run_line(folder_.path(), words + " --resume");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, HasSubstr("another file that the problem names"));
+}
+
 TEST_F(Resumed, RecordThatIsNoneIsRefused) {
   const std::string words = "optimize " + problem("slider_crank_round") + quick_line() + " -o run";
   ASSERT_EQ(run_line(folder_.path(), words).exit_code, 0);

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "cli/text/json.hpp"
+#include "core/scene/problem_file.hpp"
+
+/// What an earlier run simulated, from its documents.
+namespace pleuel {
+
+/// The problem as it ran: with the steps and elements that were chosen for an accuracy.
+ProblemFile problem_of(const Json& card, const Json& result);
+
+/// The values of a document's variables; nothing if it does not have all of them.
+/// @param key  of {NAME: {key: number}}; empty for {NAME: number}
+std::optional<Eigen::VectorXd> design_in(const Json& document, const ProblemFile& problem,
+                                         const std::string& key);
+
+}  // namespace pleuel

@@ -1,0 +1,58 @@
+#include "cli/input/fingerprint.hpp"
+
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+
+namespace pleuel {
+
+namespace {
+
+void add_file(const Json& name, const std::filesystem::path& folder, Json& fingerprints) {
+  if (!name.is_string()) return;
+  Fingerprint fingerprint;
+  fingerprint.add(whole_text(folder / name.get<std::string>()));
+  fingerprints[name.get<std::string>()] = fingerprint.text();
+}
+
+/// Files of all objects and lists below.
+void add_files(const Json& document, const std::filesystem::path& folder, Json& fingerprints) {
+  if (document.is_object() && document.contains("file")) {
+    add_file(document["file"], folder, fingerprints);
+  }
+  if (!document.is_structured()) return;
+  for (const Json& part : document) add_files(part, folder, fingerprints);
+}
+
+}  // namespace
+
+void Fingerprint::add(const std::string& text) {
+  for (const char c : text) add_byte(static_cast<unsigned char>(c));
+  add_byte(0);  // so that {"a", "b"} differs from {"ab"}
+}
+
+std::string Fingerprint::text() const {
+  return fmt::format("fnv1a64:{:016x}", state_);
+}
+
+void Fingerprint::add_byte(unsigned char byte) {
+  state_ = (state_ ^ byte) * 0x100000001b3u;
+}
+
+std::string whole_text(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+Json fingerprints_of_files(const Json& problem, const std::filesystem::path& file) {
+  Json fingerprints = Json::object();
+  const Json scene = problem.value("scene", Json::object());
+  if (!scene.is_object()) return fingerprints;
+  const std::filesystem::path folder = file.parent_path();
+  if (scene.contains("catalogue")) add_file(scene["catalogue"], folder, fingerprints);
+  add_files(scene.value("bodies", Json::object()), folder, fingerprints);
+  return fingerprints;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/scene/scene.hpp"
+#include "picture/motion.hpp"
+
+namespace pleuel {
+
+/// The surface of a body at an instant.
+struct SweptSurface {
+  Eigen::Matrix3Xd points;              ///< global [m]
+  Eigen::VectorXd stress;               ///< at the points [Pa]; empty where there is none
+  std::vector<std::vector<int>> faces;  ///< polygons of points, anticlockwise seen from outside
+};
+
+/// The outlines of a beam's sections along its deformed axis, with their holes and end faces, one
+/// closed surface a segment. Sections stand normal to the axis, turned as the body frame is;
+/// between stations positions and stresses are interpolated.
+/// @param motion   of the beam
+/// @param instant  a column of it
+SweptSurface swept_beam(const BeamBody& beam, const Design<double>& design,
+                        const BodyMotion& motion, Eigen::Index instant);
+
+}  // namespace pleuel
