@@ -9,33 +9,73 @@ namespace {
 /// Gradients of two peaks that differ by less move alike, as far as an optimizer can tell.
 constexpr double alike = 1e-2;
 
-}  // namespace
-
-std::vector<Kink> find_kinks(Analysis& analysis) {
-  std::vector<SampledValue> values;  // of each response with ties: its value, then its other peaks
+/// The other peaks of all ties, in the order of the responses.
+std::vector<SampledValue> other_peaks(const Analysis& analysis) {
+  std::vector<SampledValue> values;
   for (std::size_t i = 0; i < analysis.reductions.size(); ++i) {
-    const Reduction& reduction = analysis.reductions[i];
-    if (reduction.ties.empty()) continue;
-    values.push_back({i, reduction.samples});
-    for (const PeakTie& tie : reduction.ties) values.push_back({i, tie.other_samples});
+    for (const PeakTie& tie : analysis.reductions[i].ties) {
+      values.push_back({i, tie.other_samples});
+    }
   }
+  return values;
+}
+
+/// @param own     gradients of the responses that have ties, a row each
+/// @param others  those of their other peaks
+std::vector<Kink> kinks_of(const Analysis& analysis, const Eigen::MatrixXd& own,
+                           const Eigen::MatrixXd& others) {
   std::vector<Kink> kinks;
-  if (values.empty()) return kinks;
-  const Eigen::MatrixXd gradients =
-      sampled_gradients(analysis, values, choose_method(analysis, values).method);
-  Eigen::Index row = 0;
+  Eigen::Index first = 0, row = 0;
   for (std::size_t i = 0; i < analysis.reductions.size(); ++i) {
     const Reduction& reduction = analysis.reductions[i];
     if (reduction.ties.empty()) continue;
-    const Eigen::RowVectorXd own = gradients.row(row++);
+    const Eigen::RowVectorXd gradient = own.row(first++);
     for (const PeakTie& tie : reduction.ties) {
-      const double size = own.norm();
-      const double difference = size > 0.0 ? (gradients.row(row) - own).norm() / size : 0.0;
+      const double size = gradient.norm();
+      const double difference = size > 0.0 ? (others.row(row) - gradient).norm() / size : 0.0;
       if (difference > alike) kinks.push_back({i, tie, difference});
       ++row;
     }
   }
   return kinks;
+}
+
+/// Responses that have ties.
+std::vector<Eigen::Index> tied_responses(const Analysis& analysis) {
+  std::vector<Eigen::Index> tied;
+  for (std::size_t i = 0; i < analysis.reductions.size(); ++i) {
+    if (!analysis.reductions[i].ties.empty()) tied.push_back(static_cast<Eigen::Index>(i));
+  }
+  return tied;
+}
+
+}  // namespace
+
+std::vector<Kink> find_kinks(Analysis& analysis) {
+  std::vector<SampledValue> values;
+  for (const Eigen::Index i : tied_responses(analysis)) {
+    const auto response = static_cast<std::size_t>(i);
+    values.push_back({response, analysis.reductions[response].samples});
+  }
+  if (values.empty()) return {};
+  const auto own = static_cast<Eigen::Index>(values.size());
+  const std::vector<SampledValue> others = other_peaks(analysis);
+  values.insert(values.end(), others.begin(), others.end());
+  const Eigen::MatrixXd gradients =
+      sampled_gradients(analysis, values, choose_method(analysis, values).method);
+  return kinks_of(analysis, gradients.topRows(own),
+                  gradients.bottomRows(static_cast<Eigen::Index>(others.size())));
+}
+
+GradientsAndKinks gradients_and_kinks(Analysis& analysis, ExactMethod method) {
+  std::vector<SampledValue> values = response_values(analysis);
+  const auto responses = static_cast<Eigen::Index>(values.size());
+  const std::vector<SampledValue> others = other_peaks(analysis);
+  values.insert(values.end(), others.begin(), others.end());
+  const Eigen::MatrixXd all = sampled_gradients(analysis, values, method);
+  const Eigen::MatrixXd gradients = all.topRows(responses);
+  return {gradients, kinks_of(analysis, gradients(tied_responses(analysis), Eigen::all),
+                              all.bottomRows(static_cast<Eigen::Index>(others.size())))};
 }
 
 }  // namespace pleuel

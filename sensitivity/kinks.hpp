@@ -16,4 +16,11 @@ struct Kink {
 /// Costs one run of direct differentiation, and nothing if there is no tie.
 std::vector<Kink> find_kinks(Analysis& analysis);
 
+/// Gradients of all responses, responses × variables [SI], and the kinks, by one run.
+struct GradientsAndKinks {
+  Eigen::MatrixXd gradients;
+  std::vector<Kink> kinks;
+};
+GradientsAndKinks gradients_and_kinks(Analysis& analysis, ExactMethod method);
+
 }  // namespace pleuel

@@ -21,6 +21,7 @@
 #include "core/scene/shown_unit.hpp"
 #include "core/trust/doubts.hpp"
 #include "sensitivity/gradients.hpp"
+#include "sensitivity/kinks.hpp"
 #include "sensitivity/method_choice.hpp"
 #include "studies/method_comparison.hpp"
 
@@ -67,21 +68,32 @@ struct Observed {
   double simulation_seconds;
 };
 
-std::vector<MethodResult> compute(const ProblemInput& input, Analysis& analysis,
-                                  const std::vector<GradientMethod>& methods,
-                                  const GradientOptions& options, const Observed& observed) {
+struct Computed {
   std::vector<MethodResult> results;
+  std::optional<std::vector<Kink>> kinks;  ///< of an exact method, by the way
+};
+
+Computed compute(const ProblemInput& input, Analysis& analysis,
+                 const std::vector<GradientMethod>& methods, const GradientOptions& options,
+                 const Observed& observed) {
+  Computed computed;
   for (const GradientMethod method : methods) {
     observed.progress.expect(
         to_string(method),
         simulations_of(method, input.design.size(), options.threads) * observed.simulation_seconds);
     const Stopwatch stopwatch;
     MethodResult result{method, {}, 0.0};
-    result.gradients = gradients(input.problem, input.design, analysis, method, options);
+    if (is_difference(method)) {
+      result.gradients = gradients(input.problem, input.design, analysis, method, options);
+    } else {
+      GradientsAndKinks found = gradients_and_kinks(analysis, exact_method(method));
+      result.gradients = std::move(found.gradients);
+      computed.kinks = std::move(found.kinks);
+    }
     result.seconds = stopwatch.seconds();
-    results.push_back(std::move(result));
+    computed.results.push_back(std::move(result));
   }
-  return results;
+  return computed;
 }
 
 Json gradients_document(const ProblemFile& problem, const std::vector<MethodResult>& results,
@@ -293,9 +305,10 @@ Outcome run_gradient(const Arguments& arguments) {
   findings.analysis = analyze(problem, input.design);
   findings.simulation_seconds = stopwatch.seconds();
   findings.choice = resolve(*findings.analysis, methods);
-  findings.results = compute(input, *findings.analysis, methods,
-                             {problem.sensitivity.difference_step, arguments.jobs},
-                             {progress, findings.simulation_seconds});
+  Computed computed = compute(input, *findings.analysis, methods,
+                              {problem.sensitivity.difference_step, arguments.jobs},
+                              {progress, findings.simulation_seconds});
+  findings.results = std::move(computed.results);
   if (arguments.compares_methods) {
     findings.compared = compare_methods(problem, input.design, *findings.analysis,
                                         {arguments.jobs, [&](double step) {
@@ -306,7 +319,8 @@ Outcome run_gradient(const Arguments& arguments) {
                                          }});
   }
   progress.show_share("checking the numbers", 0.0);
-  findings.ties = find_ties(*findings.analysis);
+  findings.ties = computed.kinks ? make_ties(*findings.analysis, *computed.kinks)
+                                 : find_ties(*findings.analysis);
   const Monitors monitors = monitor(findings.analysis->model, findings.analysis->trajectory);
   TrustedRun judged{problem, input.design, *findings.analysis, monitors};
   if (input.choice) judged.known = &input.choice->bars;

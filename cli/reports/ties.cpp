@@ -18,12 +18,16 @@ std::string describe(const Tie& tie, const Response& response) {
 }  // namespace
 
 Ties find_ties(Analysis& analysis) {
+  return make_ties(analysis, find_kinks(analysis));
+}
+
+Ties make_ties(const Analysis& analysis, const std::vector<Kink>& kinks) {
   Ties ties(analysis.responses.size());
   for (std::size_t i = 0; i < ties.size(); ++i) {
     const auto& tie = analysis.reductions[i].tie;
     if (tie) ties[i] = Tie{*tie, std::nullopt};
   }
-  for (const Kink& kink : find_kinks(analysis)) {
+  for (const Kink& kink : kinks) {
     std::optional<Tie>& tie = ties[kink.response];
     if (!tie || !tie->is_kink()) tie = Tie{kink.tie, kink.difference};
   }

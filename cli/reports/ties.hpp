@@ -6,6 +6,7 @@
 
 #include "cli/text/json.hpp"
 #include "core/response/analysis.hpp"
+#include "sensitivity/kinks.hpp"
 
 /// Maxima that two peaks share. If the peaks move alike with the design that is no harm; if not,
 /// the response has a kink there, and its gradient is that of the higher peak only.
@@ -23,6 +24,8 @@ using Ties = std::vector<std::optional<Tie>>;
 
 /// Costs one run of direct differentiation if there is any tie.
 Ties find_ties(Analysis& analysis);
+/// The same with kinks that are known.
+Ties make_ties(const Analysis& analysis, const std::vector<Kink>& kinks);
 
 /// {"times": [s, s], "places": ["…", "…"], "gap", "is_kink"}
 Json tie_document(const Tie& tie, const Response& response);

@@ -4,6 +4,28 @@
 
 namespace pleuel {
 
+namespace {
+
+template <int Size>
+using Vector = Eigen::Matrix<double, Size, 1>;
+
+/// A vector to work with: on the stack where the compiler knows its length.
+template <int Size>
+auto working_vector(Eigen::VectorXd& scratch, Eigen::Index size) {
+  if constexpr (Size == Eigen::Dynamic) {
+    return Eigen::Map<Eigen::VectorXd>(scratch.data(), size);
+  } else {
+    return Vector<Size>();
+  }
+}
+
+template <int Size>
+Eigen::Map<const Vector<Size>> column(const Eigen::MatrixXd& matrix, Eigen::Index i) {
+  return {matrix.data() + i * matrix.rows(), matrix.rows()};
+}
+
+}  // namespace
+
 GeometricStiffening::GeometricStiffening(
     std::string body, std::vector<StiffeningElement> elements, double damping,
     const std::vector<DesignDerivative<std::vector<StiffeningDerivative>>>& derivatives)
@@ -15,8 +37,17 @@ GeometricStiffening::GeometricStiffening(
   for (const auto& [variable, changes] : derivatives) {
     for (const StiffeningDerivative& change : changes) {
       changes_[static_cast<std::size_t>(change.element)].push_back(
-          {variable, change, change.damping != 0.0 || !change.slopes.isZero(0.0)});
+          {variable, change,
+           change.damping != 0.0 || !change.elongation.isZero(0.0) || !change.slopes.isZero(0.0)});
     }
+  }
+  Eigen::Index largest = 0;
+  for (const StiffeningElement& element : elements_) {
+    largest = std::max(largest, element.elongation.size());
+  }
+  for (Eigen::VectorXd* scratch : {&strain_.q, &strain_.v, &strain_.gradient, &strain_.slope_v,
+                                   &unit_forces_, &row_, &bent_, &forces_}) {
+    scratch->resize(largest);
   }
 }
 
@@ -39,39 +70,42 @@ void GeometricStiffening::evaluate(const StiffeningElement& element, const State
 /// `Size` is the number of coordinates where the compiler may know it.
 template <int Size>
 void GeometricStiffening::evaluate(const StiffeningElement& element, const State& state) {
-  constexpr int most = Size == Eigen::Dynamic ? 12 : Size;
-  using Vector = Eigen::Matrix<double, Size, 1, 0, most, 1>;
   const auto size = static_cast<Eigen::Index>(element.coordinates.size());
-  Vector q(size), v(size), slope_q = Vector::Zero(size), slope_v = slope_q;
+  auto q = working_vector<Size>(strain_.q, size), v = working_vector<Size>(strain_.v, size);
+  auto slope_q = working_vector<Size>(strain_.gradient, size);
+  auto slope_v = working_vector<Size>(strain_.slope_v, size);
+  slope_q.setZero();
+  slope_v.setZero();
   for (Eigen::Index i = 0; i < size; ++i) {
     q(i) = state.q(element.coordinates[static_cast<std::size_t>(i)]);
     v(i) = state.v(element.coordinates[static_cast<std::size_t>(i)]);
-    const Eigen::Map<const Vector> slopes(element.slopes.data() + i * size, size);
+    const auto slopes = column<Size>(element.slopes, i);
     slope_q += q(i) * slopes;
     slope_v += v(i) * slopes;
   }
-  const Vector elongation = element.elongation;
+  const Eigen::Map<const Vector<Size>> elongation(element.elongation.data(), size);
   strain_.linear = elongation.dot(q);
   strain_.linear_rate = elongation.dot(v);
   strain_.total = strain_.linear + 0.5 * q.dot(slope_q);
   strain_.total_rate = strain_.linear_rate + v.dot(slope_q);
-  strain_.q = q;
-  strain_.v = v;
-  strain_.gradient = elongation + slope_q;
-  strain_.slope_v = slope_v;
+  strain_.q.head(size) = q;
+  strain_.v.head(size) = v;
+  strain_.gradient.head(size) = elongation + slope_q;
+  strain_.slope_v.head(size) = slope_v;
 }
 
-/// f/κ
-ElementVector GeometricStiffening::unit_forces(const StiffeningElement& element) const {
-  return (strain_.total + damping_ * strain_.total_rate) * strain_.gradient -
-         (strain_.linear + damping_ * strain_.linear_rate) * element.elongation;
+void GeometricStiffening::set_unit_forces(const StiffeningElement& element) {
+  const Eigen::Index size = element.elongation.size();
+  unit_forces_.head(size) =
+      (strain_.total + damping_ * strain_.total_rate) * strain_.gradient.head(size) -
+      (strain_.linear + damping_ * strain_.linear_rate) * element.elongation;
 }
 
-void GeometricStiffening::add_forces(const StiffeningElement& element,
-                                     Eigen::VectorXd& residual) const {
-  const ElementVector forces = element.axial_stiffness * unit_forces(element);
+void GeometricStiffening::add_forces(const StiffeningElement& element, Eigen::VectorXd& residual) {
+  set_unit_forces(element);
   for (std::size_t i = 0; i < element.coordinates.size(); ++i) {
-    residual(element.coordinates[i]) += forces(static_cast<Eigen::Index>(i));
+    residual(element.coordinates[i]) +=
+        element.axial_stiffness * unit_forces_(static_cast<Eigen::Index>(i));
   }
 }
 
@@ -105,19 +139,20 @@ void GeometricStiffening::linearize(const State& state, const WeightList& weight
 
 template <int Size>
 void GeometricStiffening::write_element(const StiffeningElement& element, const Weights& weights,
-                                        double* entries) const {
-  using Vector = Eigen::Matrix<double, Size, 1, 0, Size == Eigen::Dynamic ? 12 : Size, 1>;
+                                        double* entries) {
   const double kappa = element.axial_stiffness;
   const double material = kappa * (weights.q + weights.v * damping_);
   const double geometric = weights.q * kappa * (strain_.total + damping_ * strain_.total_rate);
   const double rate = weights.q * kappa * damping_;
   const Eigen::Index size = element.slopes.rows();
-  const Vector row = material * strain_.gradient + rate * strain_.slope_v;
-  const Vector elongation = element.elongation;
+  const Eigen::Map<const Vector<Size>> gradient(strain_.gradient.data(), size),
+      slope_v(strain_.slope_v.data(), size), elongation(element.elongation.data(), size);
+  auto row = working_vector<Size>(row_, size);
+  row = material * gradient + rate * slope_v;
   for (Eigen::Index i = 0; i < size; ++i) {  // Ĝ is symmetric
-    Eigen::Map<Vector>(entries + i * size, size) =
-        strain_.gradient(i) * row - (material * elongation(i)) * elongation +
-        geometric * Eigen::Map<const Vector>(element.slopes.data() + i * size, size);
+    Eigen::Map<Vector<Size>>(entries + i * size, size) =
+        gradient(i) * row - (material * elongation(i)) * elongation +
+        geometric * column<Size>(element.slopes, i);
   }
 }
 
@@ -126,27 +161,37 @@ void GeometricStiffening::add_design_derivative(const State& state, ConstraintLe
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     if (changes_[e].empty()) continue;
     const StiffeningElement& element = elements_[e];
+    const Eigen::Index size = element.elongation.size();
     evaluate(element, state);
-    const ElementVector unit = unit_forces(element);
+    set_unit_forces(element);
     for (const Change& change : changes_[e]) {
-      ElementVector forces = change.derivative.axial_stiffness * unit;
-      if (change.is_of_shape) forces += element.axial_stiffness * unit_change(element, change);
+      forces_.head(size) = change.derivative.axial_stiffness * unit_forces_.head(size);
+      if (change.is_of_shape) add_unit_change(element, change, element.axial_stiffness);
       for (std::size_t i = 0; i < element.coordinates.size(); ++i) {
-        columns(element.coordinates[i], change.variable) += forces(static_cast<Eigen::Index>(i));
+        columns(element.coordinates[i], change.variable) += forces_(static_cast<Eigen::Index>(i));
       }
     }
   }
 }
 
-/// The derivative of f/κ.
-ElementVector GeometricStiffening::unit_change(const StiffeningElement& element,
-                                               const Change& change) const {
+/// forces_ += factor (f/κ)'
+void GeometricStiffening::add_unit_change(const StiffeningElement& element, const Change& change,
+                                          double factor) {
   const StiffeningDerivative& d = change.derivative;
-  const ElementVector d_slope_q = d.slopes.lazyProduct(strain_.q);
-  const double d_total = 0.5 * strain_.q.dot(d_slope_q) + damping_ * strain_.v.dot(d_slope_q) +
+  const Eigen::Index size = element.elongation.size();
+  const auto q = strain_.q.head(size), v = strain_.v.head(size);
+  auto bent = bent_.head(size);
+  bent.setZero();
+  for (Eigen::Index i = 0; i < size; ++i) bent += q(i) * d.slopes.col(i);
+  const double d_linear =
+      d.elongation.dot(q) + damping_ * d.elongation.dot(v) + d.damping * strain_.linear_rate;
+  const double d_total = d.elongation.dot(q) + 0.5 * q.dot(bent) +
+                         damping_ * (d.elongation.dot(v) + v.dot(bent)) +
                          d.damping * strain_.total_rate;
-  return d_total * strain_.gradient + (strain_.total + damping_ * strain_.total_rate) * d_slope_q -
-         (d.damping * strain_.linear_rate) * element.elongation;
+  const double total = strain_.total + damping_ * strain_.total_rate;
+  const double linear = strain_.linear + damping_ * strain_.linear_rate;
+  forces_.head(size) += factor * (d_total * strain_.gradient.head(size) + total * bent +
+                                  (total - linear) * d.elongation - d_linear * element.elongation);
 }
 
 int GeometricStiffening::design_sum_count() const {
@@ -156,7 +201,7 @@ int GeometricStiffening::design_sum_count() const {
   return static_cast<int>(count);
 }
 
-/// With m = μᵀ (b + Ĝ q), the force in add_design_derivative() read as a function of κ', β', Ĝ'.
+/// With m = μᵀ (b + Ĝ q), the force in add_design_derivative() read as a function of κ', β', b', Ĝ'.
 void GeometricStiffening::add_design_sums(const State& state, ConstraintLevel,
                                           const ConstColumns& mu, Columns sums) {
   if (!is_designed_) return;
@@ -167,18 +212,21 @@ void GeometricStiffening::add_design_sums(const State& state, ConstraintLevel,
     const double kappa = element.axial_stiffness;
     const double total = strain_.total + damping_ * strain_.total_rate;
     const double linear = strain_.linear + damping_ * strain_.linear_rate;
-    const ElementVector half = 0.5 * strain_.q + damping_ * strain_.v;
-    ElementVector local(size);
+    const auto q = strain_.q.head(size), v = strain_.v.head(size);
+    auto local = row_.head(size), weighted = bent_.head(size);
     for (Eigen::Index i = 0; i < mu.cols(); ++i) {
       for (Eigen::Index k = 0; k < size; ++k) {
         local(k) = mu(element.coordinates[static_cast<std::size_t>(k)], i);
       }
-      const double m = local.dot(strain_.gradient), b = local.dot(element.elongation);
+      const double m = local.dot(strain_.gradient.head(size)), b = local.dot(element.elongation);
       auto of_element = sums.col(i).segment(first, sum_count(element));
       of_element(0) += total * m - linear * b;
       of_element(1) += kappa * (strain_.total_rate * m - strain_.linear_rate * b);
-      Eigen::Map<Eigen::MatrixXd>(of_element.data() + 2, size, size) +=
-          kappa * (m * half + total * local) * strain_.q.transpose();
+      of_element.segment(2, size) +=
+          kappa * ((m - b) * (q + damping_ * v) + (total - linear) * local);
+      weighted = kappa * (m * (0.5 * q + damping_ * v) + total * local);
+      Eigen::Map<Eigen::MatrixXd>(of_element.data() + 2 + size, size, size) +=
+          weighted.lazyProduct(q.transpose());
     }
     first += sum_count(element);
   }
@@ -191,9 +239,11 @@ void GeometricStiffening::add_design_gradients(const ConstColumns& sums,
     for (const Change& change : changes_[e]) {
       const StiffeningDerivative& d = change.derivative;
       const Eigen::Map<const Eigen::VectorXd> slopes(d.slopes.data(), d.slopes.size());
+      const Eigen::Index size = d.elongation.size();
       gradients.row(change.variable) +=
           d.axial_stiffness * sums.row(first) + d.damping * sums.row(first + 1) +
-          slopes.transpose() * sums.middleRows(first + 2, slopes.size());
+          d.elongation.transpose() * sums.middleRows(first + 2, size) +
+          slopes.transpose() * sums.middleRows(first + 2 + size, slopes.size());
     }
     first += sum_count(elements_[e]);
   }

@@ -1,23 +1,17 @@
 #pragma once
 
-#include "core/beam/beam.hpp"
-#include "core/beam/beam_shape.hpp"
-#include "core/beam/elastic_coordinates.hpp"
 #include "core/system/quadratic_strain.hpp"
 #include "core/system/term.hpp"
 
 namespace pleuel {
 
-/// Vectors and matrices of at most the twelve coordinates of an element: no heap.
-using ElementVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 12, 1>;
-using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 12, 12>;
-
-/// Constants of geometric stiffening of one element, on its active coordinates.
+/// Constants of geometric stiffening of one member, on the coordinates that move it: those of the
+/// nodes of a finite element, or the elastic coordinates of a body with few of them.
 struct StiffeningElement {
   std::vector<int> coordinates;  ///< indices in q
-  ElementVector elongation;      ///< b: Δu = bᵀ q
+  Eigen::VectorXd elongation;    ///< b: Δu = bᵀ q
   double axial_stiffness = 0.0;  ///< κ = EA/ℓ [N/m]
-  ElementMatrix slopes;          ///< Ĝ: ∫ v'² + w'² dx = qᵀ Ĝ q [1/m]
+  Eigen::MatrixXd slopes;        ///< Ĝ: ∫ v'² + w'² dx = qᵀ Ĝ q [1/m], symmetric
 };
 
 /// Derivative of those constants with respect to one design variable.
@@ -25,7 +19,8 @@ struct StiffeningDerivative {
   int element;
   double axial_stiffness = 0.0;
   double damping = 0.0;
-  ElementMatrix slopes;
+  Eigen::VectorXd elongation;
+  Eigen::MatrixXd slopes;
 };
 
 /// The axial force of a member stiffens its bending, and bending shortens it: von Kármán's strain,
@@ -55,9 +50,10 @@ class GeometricStiffening : public Term, public StrainSource {
   std::vector<QuadraticStrain> strains() const override;
 
  private:
-  /// Strain measures of one element in one state.
+  /// Strain measures of one element in one state. Vectors are as long as the largest element needs
+  /// them: no heap in the time loop.
   struct Strain {
-    ElementVector q, v, gradient, slope_v;          ///< gradient = b + Ĝ q, slope_v = Ĝ q̇
+    Eigen::VectorXd q, v, gradient, slope_v;        ///< gradient = b + Ĝ q, slope_v = Ĝ q̇
     double linear, linear_rate, total, total_rate;  ///< Δu, Δu̇, g, ġ
   };
   /// What a variable changes of one element.
@@ -69,24 +65,27 @@ class GeometricStiffening : public Term, public StrainSource {
   void evaluate(const StiffeningElement& element, const State& state);
   template <int Size>
   void evaluate(const StiffeningElement& element, const State& state);
-  /// Sums of an element: those of κ, of β, of Ĝ.
+  /// Sums of an element: those of κ, of β, of b, of Ĝ.
   static Eigen::Index sum_count(const StiffeningElement& element) {
-    return 2 + element.slopes.size();
+    return 2 + element.elongation.size() + element.slopes.size();
   }
   // From the strain of the last evaluation.
   template <int Size>
-  void write_element(const StiffeningElement& element, const Weights& weights,
-                     double* entries) const;
-  ElementVector unit_forces(const StiffeningElement& element) const;
-  ElementVector unit_change(const StiffeningElement& element, const Change& change) const;
-  void add_forces(const StiffeningElement& element, Eigen::VectorXd& residual) const;
+  void write_element(const StiffeningElement& element, const Weights& weights, double* entries);
+  void set_unit_forces(const StiffeningElement& element);
+  void add_unit_change(const StiffeningElement& element, const Change& change, double factor);
+  void add_forces(const StiffeningElement& element, Eigen::VectorXd& residual);
 
   std::string body_;
   std::vector<StiffeningElement> elements_;
   double damping_;
   std::vector<std::vector<Change>> changes_;  ///< one list an element
   bool is_designed_;
-  Strain strain_;  ///< scratch
+
+  // Scratch, as long as the largest element.
+  Strain strain_;
+  Eigen::VectorXd unit_forces_;  ///< f/κ
+  Eigen::VectorXd row_, bent_, forces_;
 };
 
 }  // namespace pleuel

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/base/dense_solvers.hpp"
+#include "core/base/sparse_rows.hpp"
 #include "core/integration/assembly.hpp"
 #include "core/integration/configuration.hpp"
 
@@ -24,26 +24,25 @@ std::vector<int> rigid_coordinates(const Mechanism& mechanism) {
   return rigid;
 }
 
-/// Φ_q with respect to rigid coordinates over their scale, rows of length one.
-Eigen::MatrixXd rigid_jacobian(const Mechanism& mechanism, const State& state,
-                               const std::vector<int>& rigid) {
+/// Φ_q with respect to rigid coordinates over their scale.
+SparseRows rigid_jacobian(const Mechanism& mechanism, const State& state,
+                          const std::vector<int>& rigid) {
   const System& system = *mechanism.system;
   System::Matrix matrix = system.make_matrix();
   projection_matrix(mechanism, state, matrix);
-  Eigen::MatrixXd jacobian(system.multipliers(), static_cast<Eigen::Index>(rigid.size()));
+  std::vector<bool> is_left_out(static_cast<std::size_t>(system.multipliers()), false);
+  for (const int row : system.left_out()) is_left_out[static_cast<std::size_t>(row)] = true;
+  std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t j = 0; j < rigid.size(); ++j) {
-    jacobian.col(static_cast<Eigen::Index>(j)) =
-        mechanism.scale(rigid[j]) *
-        Eigen::VectorXd(matrix.col(rigid[j])).tail(system.multipliers());
+    for (System::Matrix::InnerIterator entry(matrix, rigid[j]); entry; ++entry) {
+      const auto row = static_cast<int>(entry.row()) - system.coordinates();
+      if (row < 0 || is_left_out[static_cast<std::size_t>(row)]) continue;
+      entries.emplace_back(row, j, mechanism.scale(rigid[j]) * entry.value());
+    }
   }
-  for (const int row : system.left_out()) jacobian.row(row).setZero();
+  SparseRows jacobian(system.multipliers(), static_cast<Eigen::Index>(rigid.size()));
+  jacobian.setFromTriplets(entries.begin(), entries.end());
   return jacobian;
-}
-
-void normalize_rows(Eigen::MatrixXd& matrix) {
-  for (auto row : matrix.rowwise()) {
-    if (row.norm() > 0.0) row.normalize();
-  }
 }
 
 /// Closes the constraints by rigid motion. @returns whether that succeeds
@@ -76,9 +75,8 @@ Freedoms rigid_freedoms(const Mechanism& mechanism, const State& state) {
   Freedoms freedoms;
   freedoms.coordinates = static_cast<int>(rigid.size());
   if (rigid.empty() || mechanism.system->multipliers() == 0) return freedoms;
-  Eigen::MatrixXd jacobian = rigid_jacobian(mechanism, state, rigid);
-  normalize_rows(jacobian);
-  freedoms.constraints = static_cast<int>(PivotedQr(jacobian, independent).rank());
+  freedoms.constraints =
+      static_cast<int>(rank_of_rows(rigid_jacobian(mechanism, state, rigid), independent));
   return freedoms;
 }
 
@@ -87,9 +85,7 @@ Eigen::MatrixXd free_motions(const Mechanism& mechanism, const State& state) {
   const auto size = static_cast<Eigen::Index>(rigid.size());
   Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(size, size);
   if (mechanism.system->multipliers() > 0) {
-    Eigen::MatrixXd jacobian = rigid_jacobian(mechanism, state, rigid);
-    normalize_rows(jacobian);
-    basis = PivotedQr(jacobian.transpose(), independent).normal_space();
+    basis = null_space_of_rows(rigid_jacobian(mechanism, state, rigid), independent);
   }
   Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(state.q.size(), basis.cols());
   for (Eigen::Index j = 0; j < size; ++j) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/dense_solvers.hpp"
+#include "core/base/sparse_rows.hpp"
 #include "core/integration/configuration.hpp"
 
 namespace pleuel {
@@ -38,27 +38,47 @@ class MovedMechanism {
   }
 
   /// Φ_q with respect to coordinates over their scale, m × n.
-  Eigen::MatrixXd jacobian() {
+  SparseRows jacobian() {
     system_.tangent(state_, {.q = 1.0}, ConstraintLevel::position, matrix_);
-    const Eigen::MatrixXd rows = matrix_.bottomRows(system_.multipliers());
-    return rows.leftCols(system_.coordinates()) * scale_.asDiagonal();
+    const int n = system_.coordinates();
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int column = 0; column < n; ++column) {
+      for (System::Matrix::InnerIterator entry(matrix_, column); entry; ++entry) {
+        if (entry.row() < n) continue;
+        entries.emplace_back(entry.row() - n, column, entry.value() * scale_(column));
+      }
+    }
+    SparseRows rows(system_.multipliers(), n);
+    rows.setFromTriplets(entries.begin(), entries.end());
+    return rows;
   }
 
-  /// A motion that the kept constraints leave free, of length one; zero if they leave none.
+  /// A motion that the kept constraints leave free, of length one in each of the parts of the
+  /// mechanism that no constraint connects; zero if they leave none.
   Eigen::VectorXd free_motion(const std::vector<int>& kept) {
-    const Eigen::MatrixXd rows = jacobian()(kept, Eigen::all);
+    const SparseRows all = jacobian(), rows = select_rows(all, kept);
     // A direction of no meaning, the same at every call; its free part is what is left of it.
     Eigen::VectorXd direction(rows.cols());
     for (Eigen::Index i = 0; i < direction.size(); ++i)
       direction(i) = std::sin(1.0 + 2.3 * double(i));
-    direction -= least_norm(rows, rows * direction);
-    if (direction.norm() <= no_direction) return Eigen::VectorXd::Zero(rows.cols());
-    return direction.normalized();
+    direction -= least_norm_solution(rows, rows * direction);
+    Eigen::VectorXd motion = Eigen::VectorXd::Zero(direction.size());
+    for (const RowBlock& block : connected_blocks(all)) {
+      const Eigen::VectorXd part = direction(block.columns);
+      if (part.norm() > no_direction) motion(block.columns) = part.normalized();
+    }
+    return motion;
   }
 
-  /// How far it has been moved, in scales of the coordinates.
-  double way() const {
-    return difference(mechanism_.rotations, state_.q, start_).cwiseQuotient(scale_).norm();
+  /// How far the part of each constraint has been moved, in scales of the coordinates.
+  Eigen::VectorXd ways() {
+    const Eigen::VectorXd moved =
+        difference(mechanism_.rotations, state_.q, start_).cwiseQuotient(scale_);
+    Eigen::VectorXd ways = Eigen::VectorXd::Zero(system_.multipliers());
+    for (const RowBlock& block : connected_blocks(jacobian())) {
+      ways(block.rows).setConstant(Eigen::VectorXd(moved(block.columns)).norm());
+    }
+    return ways;
   }
 
   /// Moves and closes the kept constraints. @returns whether they close
@@ -68,18 +88,12 @@ class MovedMechanism {
     for (int iteration = 0; iteration < max_closing_steps; ++iteration) {
       const Eigen::VectorXd open = constraints()(kept);
       if (open.size() == 0 || open.lpNorm<Eigen::Infinity>() <= 0.1 * closed) return true;
-      const Eigen::MatrixXd rows = jacobian()(kept, Eigen::all);
-      add(-least_norm(rows, open));
+      add(-least_norm_solution(select_rows(jacobian(), kept), open));
     }
     return false;
   }
 
  private:
-  static Eigen::VectorXd least_norm(const Eigen::MatrixXd& rows, const Eigen::VectorXd& rhs) {
-    if (rows.rows() == 0) return Eigen::VectorXd::Zero(rows.cols());
-    return least_norm_solution(rows, rhs);
-  }
-
   void add(const Eigen::VectorXd& scaled) {
     const Eigen::VectorXd start = state_.q;
     advance(mechanism_.rotations, start, scale_.cwiseProduct(scaled), state_.q);
@@ -94,43 +108,23 @@ class MovedMechanism {
   Eigen::VectorXd residual_;
 };
 
-/// Rows in the order of their pivots.
-struct RankedRows {
-  std::vector<int> order;
-  Eigen::VectorXd pivots;  ///< relative to the first
-};
-
-RankedRows rank(Eigen::MatrixXd rows) {
-  for (auto row : rows.rowwise()) {
-    if (row.norm() > 0.0) row.normalize();
-  }
-  const PivotedQr qr(rows.transpose());
-  RankedRows ranked{qr.order(), Eigen::VectorXd::Zero(rows.rows())};
-  const Eigen::VectorXd diagonal = qr.pivots();
-  if (diagonal.size() > 0 && diagonal(0) > 0.0) {
-    ranked.pivots.head(diagonal.size()) = diagonal / diagonal(0);
-  }
-  return ranked;
-}
-
 std::vector<int> first_rows(const RankedRows& ranked, std::size_t count) {
   return {ranked.order.begin(), ranked.order.begin() + static_cast<std::ptrdiff_t>(count)};
 }
 
 /// What is left of a row without its share of others.
-Eigen::VectorXd part_across(const Eigen::MatrixXd& jacobian, int row,
-                            const std::vector<int>& others) {
-  const Eigen::MatrixXd rows = jacobian(others, Eigen::all);
+Eigen::VectorXd part_across(const SparseRows& jacobian, int row, const std::vector<int>& others) {
+  const SparseRows rows = select_rows(jacobian, others);
   const Eigen::VectorXd whole = jacobian.row(row).transpose();
   return whole - least_norm_solution(rows, rows * whole);
 }
 
 /// The rows of which a row is made, after the largest factor.
-std::vector<int> rows_that_make(const Eigen::MatrixXd& jacobian, int row,
+std::vector<int> rows_that_make(const SparseRows& jacobian, int row,
                                 const std::vector<int>& others) {
   constexpr double counts = 0.05;
-  const Eigen::MatrixXd columns = jacobian(others, Eigen::all).transpose();
-  const Eigen::VectorXd factors = least_norm_solution(columns, jacobian.row(row).transpose());
+  const Eigen::VectorXd factors =
+      factors_of_rows(select_rows(jacobian, others), jacobian.row(row).transpose());
   std::vector<int> found;
   if (factors.size() == 0) return found;
   const double largest = factors.lpNorm<Eigen::Infinity>();
@@ -139,6 +133,16 @@ std::vector<int> rows_that_make(const Eigen::MatrixXd& jacobian, int row,
       found.push_back(others[i]);
   }
   return found;
+}
+
+int row_of(const RowBlock& block, int local) {
+  return block.rows[static_cast<std::size_t>(local)];
+}
+
+std::vector<int> rows_of(const RowBlock& block, const std::vector<int>& local) {
+  std::vector<int> rows;
+  for (const int i : local) rows.push_back(row_of(block, i));
+  return rows;
 }
 
 /// Elastic coordinates in units that are as large as those of frames.
@@ -171,17 +175,17 @@ void erase_misaligned(const Mechanism& mechanism, const std::vector<int>& drives
 std::vector<int> redundant_constraints(Mechanism& mechanism, const std::vector<int>& drives) {
   if (mechanism.system->multipliers() == 0) return {};
   MovedMechanism moved(mechanism, mechanism.guess, mechanism.scale);
-  const RankedRows ranked = rank(moved.jacobian());
+  const RankedRows ranked = rank_rows(moved.jacobian(), alignment_tolerance);
   const auto independent =
       static_cast<std::size_t>((ranked.pivots.array() > alignment_tolerance).count());
   std::vector<int> kept = first_rows(ranked, independent);
   std::vector<int> candidates(ranked.order.begin() + static_cast<std::ptrdiff_t>(independent),
                               ranked.order.end());
   if (candidates.empty() || !moved.move(small * moved.free_motion(kept), small, kept)) return {};
-  const double way = std::max(small, moved.way());
+  const Eigen::VectorXd ways = moved.ways().cwiseMax(small);
   const Eigen::VectorXd open = moved.constraints().cwiseAbs();
   std::erase_if(candidates,
-                [&](int row) { return !(open(row) <= closed + alignment_tolerance * way); });
+                [&](int row) { return !(open(row) <= closed + alignment_tolerance * ways(row)); });
   erase_misaligned(mechanism, drives, std::move(kept), candidates);
   std::sort(candidates.begin(), candidates.end());
   return candidates;
@@ -194,27 +198,33 @@ std::vector<NearRedundancy> nearly_redundant_constraints(const Mechanism& mechan
   const System& system = *mechanism.system;
   if (system.multipliers() == 0) return {};
   const Eigen::VectorXd scale = generous_scale(mechanism);
-  Eigen::MatrixXd jacobian = MovedMechanism(mechanism, state, scale).jacobian();
-  for (const int row : system.left_out()) jacobian.row(row).setZero();
-  for (const int row : drives) jacobian.row(row).setZero();
-  const RankedRows ranked = rank(jacobian);
+  SparseRows jacobian = MovedMechanism(mechanism, state, scale).jacobian();
+  for (const int row : system.left_out()) jacobian.row(row) *= 0.0;
+  for (const int row : drives) jacobian.row(row) *= 0.0;
   std::vector<NearRedundancy> found;
-  for (std::size_t i = 1; i < ranked.order.size(); ++i) {
-    const int row = ranked.order[i];
-    const double length = jacobian.row(row).norm();
-    if (ranked.pivots(static_cast<Eigen::Index>(i)) > largest || length == 0.0) continue;
-    const std::vector<int> others = first_rows(ranked, i);
-    const Eigen::VectorXd blocked = part_across(jacobian, row, others);
-    const double misalignment = blocked.norm() / length;
-    if (misalignment > largest || misalignment < no_direction * alignment_tolerance) continue;
-    MovedMechanism moved(mechanism, state, scale);
-    const double before = moved.constraints()(row);
-    const double way = std::clamp(10.0 * misalignment, small, 100.0 * small);
-    if (!moved.move(way * blocked.normalized(), 0.0, others)) continue;
-    const double opened = std::abs(moved.constraints()(row) - before) / length;
-    if (opened > 2.0 * misalignment * way + closed) continue;
-    found.push_back(
-        {row, rows_that_make(jacobian, row, others), misalignment, blocked.normalized()});
+  for (const RowBlock& block : connected_blocks(jacobian)) {
+    // Its rows among all columns.
+    const SparseRows rows = select_rows(jacobian, block.rows);
+    const RankedRows ranked = rank_rows(rows, largest);
+    for (std::size_t i = 1; i < ranked.order.size(); ++i) {
+      if (ranked.pivots(static_cast<Eigen::Index>(i)) > largest) continue;
+      const int local = ranked.order[i];
+      const double length = rows.row(local).norm();
+      if (length == 0.0) continue;
+      const std::vector<int> others = first_rows(ranked, i);
+      const Eigen::VectorXd blocked = part_across(rows, local, others);
+      const double misalignment = blocked.norm() / length;
+      if (misalignment > largest || misalignment < no_direction * alignment_tolerance) continue;
+      MovedMechanism moved(mechanism, state, scale);
+      const int row = row_of(block, local);
+      const double before = moved.constraints()(row);
+      const double way = std::clamp(10.0 * misalignment, small, 100.0 * small);
+      if (!moved.move(way * blocked.normalized(), 0.0, rows_of(block, others))) continue;
+      const double opened = std::abs(moved.constraints()(row) - before) / length;
+      if (opened > 2.0 * misalignment * way + closed) continue;
+      found.push_back({row, rows_of(block, rows_that_make(rows, local, others)), misalignment,
+                       blocked.normalized()});
+    }
   }
   return found;
 }

@@ -16,7 +16,8 @@ class JointTerm : public Term {
             const std::vector<DesignDerivative<JointData<double>>>& derivatives)
       : topology_(std::move(topology)),
         data_(std::move(data)),
-        dual_data_(cast_data<WideDual>(data_)),
+        wide_data_(cast_data<WideDual>(data_)),
+        narrow_data_(cast_data<NarrowDual>(data_)),
         coordinates_(coordinate_indices(topology_.markers)) {
     for (const auto& [variable, derivative] : derivatives) {
       derivatives_.push_back({variable, seed_data(data_, derivative)});
@@ -112,6 +113,9 @@ class JointTerm : public Term {
   /// Bounds the number of local coordinates and equations together.
   static constexpr int max_slots = JointLinearization::max_size + 7;
   using WideDual = DualOf<JointLinearization::max_size>;
+  /// As many directions as joints of planar motion need, and those of rigid bodies in space.
+  static constexpr int narrow = JointLinearization::max_size / 2;
+  using NarrowDual = DualOf<narrow>;
 
   template <class Scalar>
   struct Local {
@@ -168,11 +172,20 @@ class JointTerm : public Term {
                              const EntryBlocks& entries) const {
     const auto uses_q = [](const Weights& w) { return w.q != 0.0; };
     if (std::none_of(weights.begin(), weights.end(), uses_q)) return;
+    if (local_size() <= narrow) {
+      add_third_derivatives(narrow_data_, state, weights, entries);
+    } else {
+      add_third_derivatives(wide_data_, state, weights, entries);
+    }
+  }
+
+  template <class Scalar>
+  void add_third_derivatives(const JointData<Scalar>& data, const State& state,
+                             const WeightList& weights, const EntryBlocks& entries) const {
     const int size = local_size(), count = equations();
-    Local<WideDual> local = load<WideDual>(state);
+    Local<Scalar> local = load<Scalar>(state);
     for (int i = 0; i < size; ++i) local.q[index(i)].derivatives()[i] = 1.0;
-    const Result<WideDual> result =
-        evaluate(dual_data_, local, state.time, ConstraintLevel::acceleration);
+    const Result<Scalar> result = evaluate(data, local, state.time, ConstraintLevel::acceleration);
     for (std::size_t k = 0; k < weights.size(); ++k) {
       double* rows = entries.block(k) + size * (size + count);
       for (int i = 0; i < count; ++i) {
@@ -208,7 +221,8 @@ class JointTerm : public Term {
 
   JointTopology topology_;
   JointData<double> data_;
-  JointData<WideDual> dual_data_;
+  JointData<WideDual> wide_data_;
+  JointData<NarrowDual> narrow_data_;
   std::vector<DesignDerivative<JointData<Dual>>> derivatives_;
   std::vector<int> coordinates_;
   JointLinearization::Hessian curvature_;  ///< scratch: (Φ_qᵀ λ)_q

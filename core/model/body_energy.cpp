@@ -22,20 +22,37 @@ class ElasticForms {
  public:
   template <class Vector>
   ElasticForms(const Invariants<double>& body, const Vector& q, const Vector& v) {
+    switch (body.pairs.size()) {
+      case 4:
+        add<4>(body, q, v);  // planar motion
+        break;
+      case 9:
+        add<9>(body, q, v);  // spatial motion
+        break;
+      default:
+        add<Eigen::Dynamic>(body, q, v);
+    }
+  }
+
+  Matrix3d second = Matrix3d::Zero();       ///< q_fᵀ S_kl q_f
+  Matrix3d second_rate = Matrix3d::Zero();  ///< q_fᵀ S_kl q̇_f
+  double stiffness = 0.0, mass = 0.0, damping = 0.0;
+
+ private:
+  /// `Pairs` is the number of pairs (k, l) where the compiler may know it.
+  template <int Pairs, class Vector>
+  void add(const Invariants<double>& body, const Vector& q, const Vector& v) {
+    using Column = Eigen::Matrix<double, Pairs, 1, 0, Pairs == Eigen::Dynamic ? 9 : Pairs, 1>;
     const auto pairs = static_cast<Eigen::Index>(body.pairs.size());
-    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 9, 1> qq(pairs), qv(pairs);
-    qq.setZero();
-    qv.setZero();
+    Column qq = Column::Zero(pairs), qv = qq;
     for (int row = 0; row < body.size(); ++row) {
       for (int i = body.pattern.row_start[static_cast<std::size_t>(row)];
            i < body.pattern.row_start[static_cast<std::size_t>(row) + 1]; ++i) {
         const int col = body.pattern.column[static_cast<std::size_t>(i)];
         const double q_q = q(row) * q(col), q_v = q(row) * v(col), v_v = v(row) * v(col);
-        const double* moments = body.moments.data() + i * pairs;
-        for (Eigen::Index p = 0; p < pairs; ++p) {
-          qq(p) += moments[p] * q_q;
-          qv(p) += moments[p] * q_v;
-        }
+        const Eigen::Map<const Column> moments(body.moments.data() + i * pairs, pairs);
+        qq += q_q * moments;
+        qv += q_v * moments;
         stiffness += body.stiffness(i) * q_q;
         mass += body.mass_matrix(i) * v_v;
         damping += body.damping(i) * v_v;
@@ -47,10 +64,6 @@ class ElasticForms {
       second_rate(k, l) = qv(static_cast<Eigen::Index>(p));
     }
   }
-
-  Matrix3d second = Matrix3d::Zero();       ///< q_fᵀ S_kl q_f
-  Matrix3d second_rate = Matrix3d::Zero();  ///< q_fᵀ S_kl q̇_f
-  double stiffness = 0.0, mass = 0.0, damping = 0.0;
 };
 
 template <class Vector>

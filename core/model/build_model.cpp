@@ -173,7 +173,7 @@ class ModelBuilder {
       const BodyModel& body = model_.bodies[i];
       model_.terms.bodies.push_back(add_term(make_body_term(body, context_)));
       if (body.has_stiffening) {
-        model_.terms.stiffening.emplace_back(i, add_term(make_stiffening(body, coordinates_)));
+        model_.terms.stiffening.emplace_back(i, add_term(make_stiffening(body)));
       }
       if (body.frame.rotation == RotationCoordinates::rotation_vector) {
         model_.mechanism.rotations.push_back(body.frame.offset + body.frame.translations());

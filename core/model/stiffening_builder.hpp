@@ -8,7 +8,6 @@
 namespace pleuel {
 
 /// Geometric stiffening of a body that has it.
-/// @param coordinates  of the whole system
-std::unique_ptr<Term> make_stiffening(const BodyModel& body, int coordinates);
+std::unique_ptr<Term> make_stiffening(const BodyModel& body);
 
 }  // namespace pleuel

@@ -119,6 +119,10 @@ class BodyGradient {
   void add_elastic(double slope, const SparseMatrix& rows, Eigen::Index row) {
     add_row(slope, rows, row, gradient_.q);
   }
+  /// @param slope  with respect to an elastic coordinate
+  void add_coordinate(double slope, int coordinate) {
+    gradient_.q(body_.elastic_offset() + coordinate) += slope;
+  }
   void add_design(int variable, double slope) { gradient_.design(variable) += slope; }
 
  private:

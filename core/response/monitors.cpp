@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -21,13 +22,32 @@ Eigen::VectorXd integral(const Eigen::VectorXd& time, const Eigen::VectorXd& pow
   return sum;
 }
 
+/// θx θy θz of all places of a body from its elastic coordinates, without rows of zeros.
+SparseMatrix rotation_rows(const BodyModel& body) {
+  const SparseMatrix& shape = body.places.shape;
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::Index rows = 0;
+  for (Eigen::Index row = 0; body.is_elastic && row < shape.rows(); ++row) {
+    if (row % 6 < 3 || shape.row(row).nonZeros() == 0) continue;
+    for (SparseMatrix::InnerIterator entry(shape, row); entry; ++entry) {
+      entries.emplace_back(rows, entry.col(), entry.value());
+    }
+    ++rows;
+  }
+  SparseMatrix rotations(rows, body.elastic_size());
+  rotations.setFromTriplets(entries.begin(), entries.end());
+  return rotations;
+}
+
 class Monitoring {
  public:
   Monitoring(const Model& model, const Trajectory& trajectory)
       : model_(model),
         trajectory_(trajectory),
         terms_(terms_besides_bodies(model)),
-        residual_(model.mechanism.system->size()) {}
+        residual_(model.mechanism.system->size()) {
+    for (const BodyModel& body : model.bodies) rotation_rows_.push_back(rotation_rows(body));
+  }
 
   Monitors run() {
     const Eigen::Index instants = trajectory_.time.size();
@@ -51,20 +71,17 @@ class Monitoring {
     elastic_(instant) = sum.elastic;
     weight_(instant) = sum.weight;
     acting_(instant) = -sum.dissipation;
-    for (const BodyModel& body : model_.bodies) {
-      if (body.is_elastic) observe_rotations(body);
-    }
+    for (std::size_t i = 0; i < model_.bodies.size(); ++i) observe_rotations(i);
   }
 
-  void observe_rotations(const BodyModel& body) {
-    if (body.places.size() == 0) return;
-    const double rotation =
-        body.places.displacements(state_.q.segment(body.elastic_offset(), body.elastic_size()))
-            .bottomRows(3)
-            .lpNorm<Eigen::Infinity>();
+  void observe_rotations(std::size_t body) {
+    const BodyModel& model = model_.bodies[body];
+    rotations_.noalias() =
+        rotation_rows_[body] * state_.q.segment(model.elastic_offset(), model.elastic_size());
+    const double rotation = rotations_.size() > 0 ? rotations_.lpNorm<Eigen::Infinity>() : 0.0;
     if (rotation <= monitors_.elastic_rotation) return;
     monitors_.elastic_rotation = rotation;
-    monitors_.most_bent = body.name;
+    monitors_.most_bent = model.name;
   }
 
   /// One evaluation of joints at position level gives Φ and their forces.
@@ -74,7 +91,7 @@ class Monitoring {
     evaluate(terms_.acting, ConstraintLevel::position);
     acting_(instant) += power();
     monitors_.position_drift = std::max(monitors_.position_drift, drift());
-    evaluate(terms_.acting, ConstraintLevel::velocity);
+    evaluate(model_.terms.joints, ConstraintLevel::velocity);
     monitors_.velocity_drift = std::max(monitors_.velocity_drift, drift());
   }
 
@@ -123,8 +140,9 @@ class Monitoring {
   const Model& model_;
   const Trajectory& trajectory_;
   TermsBesidesBodies terms_;
+  std::vector<SparseMatrix> rotation_rows_;  ///< of each body
   State state_;
-  Eigen::VectorXd residual_;
+  Eigen::VectorXd residual_, rotations_;
   Eigen::VectorXd kinetic_, elastic_, weight_;  ///< energies [J]
   Eigen::VectorXd stretching_, acting_;         ///< powers on the bodies [W]
   Monitors monitors_;

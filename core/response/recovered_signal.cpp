@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/model/stretched_members.hpp"
 #include "core/response/body_state.hpp"
 #include "core/response/place_kinematics.hpp"
 
@@ -14,53 +15,58 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Displacements of a member, twelve at most: no heap.
-using MemberVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 12, 1>;
-
-/// The axial forces N = κ ½ dᵀ Ĝ d of the members of geometric stiffening.
+/// The axial forces N = κ ½ q_fᵀ Ĝ q_f of the members of geometric stiffening.
 class StretchingForces {
  public:
-  explicit StretchingForces(const BodyModel& body) : body_(body) {}
-
-  double force(int member, const BodyState& state) const {
-    const StretchedElement& element = member_of(body_.stretching, member);
-    const MemberVector d = displacements(body_.stretching, element, state);
-    return 0.5 * element.axial_stiffness * d.dot(element.slopes.lazyProduct(d));
+  explicit StretchingForces(const BodyModel& body) : members_(stretched_members(body)) {
+    for (const StretchedElement& member : members_.values) {
+      if (member.elongation.size() <= moved_.size()) continue;
+      moved_.resize(member.elongation.size());
+      bent_.resize(member.elongation.size());
+    }
   }
 
-  void add_gradient(int member, double slope, const BodyState& state, BodyGradient& writer) const {
-    const Stretching& stretching = body_.stretching;
-    const StretchedElement& element = member_of(stretching, member);
-    const MemberVector d = displacements(stretching, element, state);
-    const MemberVector bent = element.slopes.lazyProduct(d);
-    for (Eigen::Index i = 0; i < d.size(); ++i) {
-      writer.add_elastic(slope * element.axial_stiffness * bent(i), stretching.displacements,
-                         element.displacements[static_cast<std::size_t>(i)]);
+  double force(int member, const BodyState& state) {
+    const StretchedElement& element = member_of(members_.values, member);
+    return 0.5 * element.axial_stiffness * square(element, state);
+  }
+
+  void add_gradient(int member, double slope, const BodyState& state, BodyGradient& writer) {
+    const StretchedElement& element = member_of(members_.values, member);
+    const double value = square(element, state);
+    const auto moved = moved_.head(element.elongation.size());
+    for (Eigen::Index i = 0; i < moved.size(); ++i) {
+      writer.add_coordinate(slope * element.axial_stiffness * bent_(i),
+                            element.displacements[static_cast<std::size_t>(i)]);
     }
-    for (const auto& [variable, all] : body_.stretching_x) {
+    for (const auto& [variable, all] : members_.derivatives) {
       const StretchedElement& change = member_of(all, member);
-      const double square =
-          change.axial_stiffness * d.dot(bent) + element.axial_stiffness * d.dot(change.slopes * d);
-      const double moved = element.axial_stiffness * bent.dot(displacements(all, element, state));
-      writer.add_design(variable, slope * (0.5 * square + moved));
+      writer.add_design(
+          variable, 0.5 * slope *
+                        (change.axial_stiffness * value +
+                         element.axial_stiffness * moved.dot(change.slopes.lazyProduct(moved))));
     }
   }
 
  private:
-  static const StretchedElement& member_of(const Stretching& stretching, int member) {
-    return stretching.elements[static_cast<std::size_t>(member)];
+  static const StretchedElement& member_of(const std::vector<StretchedElement>& members,
+                                           int member) {
+    return members[static_cast<std::size_t>(member)];
   }
-  static MemberVector displacements(const Stretching& stretching, const StretchedElement& element,
-                                    const BodyState& state) {
-    MemberVector d(static_cast<Eigen::Index>(element.displacements.size()));
-    for (Eigen::Index i = 0; i < d.size(); ++i) {
-      d(i) = product(stretching.displacements, element.displacements[static_cast<std::size_t>(i)],
-                     state.q());
+  /// q_fᵀ Ĝ q_f; leaves q_f of the member and Ĝ q_f.
+  double square(const StretchedElement& element, const BodyState& state) {
+    const auto q = state.q();
+    auto moved = moved_.head(element.elongation.size());
+    auto bent = bent_.head(element.elongation.size());
+    for (Eigen::Index i = 0; i < moved.size(); ++i) {
+      moved(i) = q(element.displacements[static_cast<std::size_t>(i)]);
     }
-    return d;
+    bent = element.slopes.lazyProduct(moved);
+    return moved.dot(bent);
   }
 
-  const BodyModel& body_;
+  StretchedMembers members_;
+  VectorXd moved_, bent_;  ///< scratch, as long as the largest member
 };
 
 /// Rows of displacements only, three a place.

@@ -3,12 +3,15 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <udunits2.h>
+
+#include "core/scene/common_units.hpp"
 
 namespace pleuel {
 namespace {
@@ -132,33 +135,36 @@ double proportional_factor(const std::string& name, ut_unit* from, ut_unit* to) 
   return scale;
 }
 
-}  // namespace
-
-struct UnitSystem::Database {
-  SystemHandle system;
-};
-
-UnitSystem::UnitSystem() : database_(std::make_unique<Database>()) {
+SystemHandle read_database() {
   ut_set_error_message_handler(ut_ignore);  // the library would print; we throw
-  database_->system.reset(ut_read_xml(nullptr));
-  if (!database_->system)
-    throw std::runtime_error("the UDUNITS-2 database of units is not readable");
-  add_symbol(database_->system.get(), "deg", "degree");
-  add_symbol(database_->system.get(), "rev", "turn");
-  add_symbol(database_->system.get(), "Nm", "N m");
-  add_bytes(database_->system.get());
+  SystemHandle system(ut_read_xml(nullptr));
+  if (!system) throw std::runtime_error("the UDUNITS-2 database of units is not readable");
+  add_symbol(system.get(), "deg", "degree");
+  add_symbol(system.get(), "rev", "turn");
+  add_symbol(system.get(), "Nm", "N m");
+  add_bytes(system.get());
+  return system;
 }
 
-UnitSystem::~UnitSystem() = default;
-UnitSystem::UnitSystem(UnitSystem&&) noexcept = default;
-UnitSystem& UnitSystem::operator=(UnitSystem&&) noexcept = default;
+/// Read when it is needed first: half of what a short run needs before it begins.
+const ut_system* database() {
+  static const SystemHandle system = read_database();
+  return system.get();
+}
+
+}  // namespace
 
 double UnitSystem::scale(const std::string& unit, const Quantity& quantity) const {
   const std::string name = trim(unit);
-  const UnitHandle from =
-      has_stray_number(name) ? nullptr : parse_unit(database_->system.get(), name);
+  if (const auto common = find_common_scale(name, quantity.unit)) return *common;
+  return scale_by_database(name, quantity);
+}
+
+double UnitSystem::scale_by_database(const std::string& unit, const Quantity& quantity) const {
+  const std::string name = trim(unit);
+  const UnitHandle from = has_stray_number(name) ? nullptr : parse_unit(database(), name);
   if (!from) throw UnitError(fmt::format("\"{}\" is not a known unit", name));
-  const UnitHandle to = parse_unit(database_->system.get(), std::string(quantity.unit));
+  const UnitHandle to = parse_unit(database(), std::string(quantity.unit));
   const double cycles = cycles_factor(name, quantity, from.get());
   if (cycles == 1.0 || ut_are_convertible(from.get(), to.get()) == 0) {
     check_dimension(name, from.get(), to.get());

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -79,24 +78,18 @@ WrittenQuantity split_quantity(const std::string& text);
 /// memory "B" (with prefixes), "KiB", "MiB", "GiB".
 class UnitSystem {
  public:
-  /// @throws std::runtime_error if the database of units cannot be read.
-  UnitSystem();
-  ~UnitSystem();
-  UnitSystem(UnitSystem&&) noexcept;
-  UnitSystem& operator=(UnitSystem&&) noexcept;
-
   /// The SI value of one `unit` of a quantity: scale("mm", length) = 0.001. Never 0.
   /// An angle does not come or go silently: "Hz" and "1/min" are no units of angular speed.
   /// @throws UnitError if the unit is unknown or belongs to another quantity.
+  /// @throws std::runtime_error if the database of units is needed (common_units.hpp) and cannot be
+  ///         read.
   double scale(const std::string& unit, const Quantity& quantity) const;
+  /// The same from the database, which is read once.
+  double scale_by_database(const std::string& unit, const Quantity& quantity) const;
 
   /// The SI value of a text such as "120 mm".
   /// @throws UnitError also for a missing unit and for a value out of the range of numbers.
   double read(const std::string& text, const Quantity& quantity) const;
-
- private:
-  struct Database;
-  std::unique_ptr<Database> database_;
 };
 
 }  // namespace pleuel

@@ -163,17 +163,4 @@ void ProjectedTerm::add_design_gradients(const ConstColumns& sums,
   }
 }
 
-std::vector<QuadraticStrain> ProjectedTerm::strains() const {
-  const auto* source = dynamic_cast<const StrainSource*>(inner_.get());
-  if (source == nullptr) return {};
-  std::vector<QuadraticStrain> projected = source->strains();
-  for (QuadraticStrain& strain : projected) {
-    const Eigen::MatrixXd rows = map_.rows(strain.coordinates, Eigen::all);
-    strain.coordinates = map_.coordinates;
-    strain.linear = rows.transpose() * strain.linear.eval();
-    strain.quadratic = rows.transpose() * strain.quadratic.eval() * rows;
-  }
-  return projected;
-}
-
 }  // namespace pleuel

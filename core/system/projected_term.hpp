@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "core/system/coordinate_map.hpp"
-#include "core/system/quadratic_strain.hpp"
 #include "core/system/term.hpp"
 
 namespace pleuel {
@@ -13,7 +12,7 @@ namespace pleuel {
 ///     R_x = Pᵀ R_l,x + P_xᵀ R_l + Pᵀ (T_q P_x q + T_v P_x v + T_a P_x a)
 ///     μᵀ R_x = (P μ)ᵀ R_l,x + P_x : [ R_l μᵀ + (T_qᵀ P μ) qᵀ + (T_vᵀ P μ) vᵀ + (T_aᵀ P μ) aᵀ ]
 /// Rows of multipliers stay what they are.
-class ProjectedTerm final : public Term, public StrainSource {
+class ProjectedTerm final : public Term {
  public:
   /// @param inner  numbers its coordinates and multipliers as the map does
   ProjectedTerm(std::unique_ptr<Term> inner, CoordinateMap map, int coordinates);
@@ -29,7 +28,6 @@ class ProjectedTerm final : public Term, public StrainSource {
   void add_design_sums(const State& state, ConstraintLevel level, const ConstColumns& mu,
                        Columns sums) override;
   void add_design_gradients(const ConstColumns& sums, Eigen::MatrixXd& gradients) const override;
-  std::vector<QuadraticStrain> strains() const override;
 
  private:
   int locals() const { return map_.size(); }

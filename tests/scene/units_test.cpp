@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/scene/common_units.hpp"
+
 namespace pleuel {
 namespace {
 
@@ -34,6 +36,21 @@ TEST_P(UnitReading, GivesTheValueInSi) {
   // Conversion is one or two multiplications: a few units in the last place.
   EXPECT_NEAR(units.read(reading.text, reading.quantity), reading.value,
               1e-14 * std::abs(reading.value));
+}
+
+TEST(CommonUnits, AreWhatTheDatabaseSaysToTheLastBit) {
+  const UnitSystem units;
+  for (const CommonUnit& common : common_units()) {
+    const Quantity quantity{"a quantity", common.si};
+    EXPECT_EQ(common.scale, units.scale_by_database(std::string(common.unit), quantity))
+        << common.unit;
+  }
+}
+
+TEST(CommonUnits, BelongToTheirQuantityOnly) {
+  const UnitSystem units;
+  EXPECT_EQ(units.scale("mm", quantities::length), 1e-3);
+  EXPECT_THROW((void)units.scale("mm", quantities::mass), UnitError);
 }
 
 using namespace quantities;

@@ -1,6 +1,7 @@
 #include "sensitivity/kinks.hpp"
 
 #include <cmath>
+#include <memory>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@ namespace {
 /// A block that swings by A about factor · b, at A = 100 mm and b = 0: its greatest distance is
 /// A + factor · b on one side and A − factor · b on the other, and the gradients (1, ± factor)
 /// differ by 2 factor/√(1 + factor²).
-std::vector<Kink> kinks_with(double factor) {
+std::unique_ptr<Analysis> block_with(double factor) {
   const ProblemFile problem = read_problem_text(fmt::format(R"({{"scene": {{
           "bodies": {{"block": {{"type": "rigid", "at": [0, 0, 0], "mass": 1,
                                 "inertia": [1, 1, 1, 0, 0, 0]}}}},
@@ -30,8 +31,11 @@ std::vector<Kink> kinks_with(double factor) {
                                   "over_time": "max-abs"}}}}}})",
                                                             factor),
                                                 "block.json");
-  const auto analysis = analyze(problem, start_design(problem));
-  return find_kinks(*analysis);
+  return analyze(problem, start_design(problem));
+}
+
+std::vector<Kink> kinks_with(double factor) {
+  return find_kinks(*block_with(factor));
 }
 
 /// Peaks that tie are a kink where their gradients differ by more than a hundredth.
@@ -44,6 +48,21 @@ TEST(Kinks, AreTiesWhoseGradientsDifferByMoreThanAHundredth) {
     EXPECT_NEAR(kinks[0].difference, expected, 1e-3 * expected) << factor;
   }
   EXPECT_TRUE(kinks_with(0.004).empty());
+}
+
+TEST(Kinks, AreTheSameByTheWayOfGradients) {
+  for (const ExactMethod method : {ExactMethod::direct, ExactMethod::adjoint}) {
+    const auto analysis = block_with(0.2);
+    const GradientsAndKinks both = gradients_and_kinks(*analysis, method);
+    const Eigen::MatrixXd gradients =
+        sampled_gradients(*analysis, response_values(*analysis), method);
+    EXPECT_LE((both.gradients - gradients).lpNorm<Eigen::Infinity>(), 1e-14);
+    const std::vector<Kink> alone = find_kinks(*analysis);
+    ASSERT_EQ(both.kinks.size(), alone.size());
+    ASSERT_EQ(alone.size(), 1u);
+    EXPECT_EQ(both.kinks[0].response, alone[0].response);
+    EXPECT_NEAR(both.kinks[0].difference, alone[0].difference, 1e-12);
+  }
 }
 
 }  // namespace

@@ -91,6 +91,44 @@ TEST(RedundantConstraints, LeaveTheMotionThatThePlaneHas) {
   }
 }
 
+/// Four-bars in a row, each with its ground pins; a bar connects each crank with the next if asked.
+enum class Neighbours { apart, connected };
+Scene four_bars(int count, Neighbours neighbours) {
+  Scene all;
+  all.gravity = {0.0, -9.81, 0.0};
+  all.materials.push_back({"steel", 2.1e11, 0.3, 7850.0});
+  for (int i = 0; i < count; ++i) {
+    const double x = 1.5 * i;
+    const std::string of = std::to_string(i);
+    const Point left = {x, 0.0, 0.0}, right = {x + 1.0, 0.0, 0.0}, crank_pin = {x + 0.2, 0.3, 0.0},
+                rocker_pin = {x + 1.1, 0.6, 0.0};
+    all.bodies.push_back(rigid_bar("crank" + of, left, crank_pin));
+    all.bodies.push_back(rigid_bar("coupler" + of, crank_pin, rocker_pin));
+    all.bodies.push_back(rigid_bar("rocker" + of, right, rocker_pin));
+    all.joints.push_back(revolute("left" + of, ground_name, "crank" + of, left));
+    all.joints.push_back(revolute("first" + of, "crank" + of, "coupler" + of, crank_pin));
+    all.joints.push_back(revolute("second" + of, "coupler" + of, "rocker" + of, rocker_pin));
+    all.joints.push_back(revolute("right" + of, ground_name, "rocker" + of, right));
+    if (neighbours == Neighbours::apart || i == 0) continue;
+    const std::string before = std::to_string(i - 1), bar = "bar" + of;
+    const Point from = {x - 0.4, 0.6, 0.0};
+    all.bodies.push_back(rigid_bar(bar, from, crank_pin));
+    all.joints.push_back(revolute("begin" + of, "rocker" + before, bar, from));
+    all.joints.push_back(revolute("end" + of, bar, "crank" + of, crank_pin));
+  }
+  return all;
+}
+
+/// Many links: rows of separate four-bars are ranked by themselves, those of connected ones by a
+/// sparse decomposition. A bar with two joints between moving links closes one more planar loop.
+TEST(RedundantConstraints, OfManyPlanarLoopsInSpaceAreThreeEach) {
+  constexpr int count = 12;
+  const Model apart = in_space(four_bars(count, Neighbours::apart));
+  EXPECT_EQ(apart.mechanism.system->left_out().size(), 3u * count);
+  const Model connected = in_space(four_bars(count, Neighbours::connected));
+  EXPECT_EQ(connected.mechanism.system->left_out().size(), 3u * (2 * count - 1));
+}
+
 /// All links in a line: the rank falls there, but only there.
 TEST(RedundantConstraints, AreToldFromASingularPosition) {
   const Model model = build_model(four_bar({0.5, 0.0, 0.0}, {1.5, 0.0, 0.0}), {}, {}, {});

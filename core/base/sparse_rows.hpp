@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+/// Rank, null space and solutions of least norm of sparse rows, such as constraints. Rows that share
+/// no column with others are decomposed by themselves; blocks of few rows by dense decompositions
+/// (core/base/dense_solvers.hpp), larger ones by a sparse QR decomposition with a minimum-degree
+/// ordering (Davis, Direct Methods for Sparse Linear Systems, ch. 5), whose cost follows the fill-in.
+namespace pleuel {
+
+using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+/// Rows that are connected by the columns that they share, directly or by way of other rows; both
+/// ascending.
+struct RowBlock {
+  std::vector<int> rows, columns;
+};
+
+/// All rows in blocks, from the pattern (a stored zero connects); columns without entries are in
+/// none.
+std::vector<RowBlock> connected_blocks(const SparseRows& matrix);
+
+/// Some of the rows.
+SparseRows select_rows(const SparseRows& matrix, const std::vector<int>& rows);
+/// The rows and columns of a block.
+SparseRows select_block(const SparseRows& matrix, const RowBlock& block);
+
+/// Rows in the order of their pivots.
+struct RankedRows {
+  std::vector<int> order;
+  Eigen::VectorXd pivots;  ///< relative to the largest, descending
+};
+
+/// The pivot of a row is what is left of it across those before it in the order; rows count by their
+/// direction. In a small block every pivot is as large as it can be. In a large one rows keep an
+/// order of little fill-in, and those of which no more than `negligible` is left come last, with
+/// pivots of zero.
+RankedRows rank_rows(SparseRows rows, double negligible);
+
+/// The number of independent rows, by direction: pivots above a threshold.
+Eigen::Index rank_of_rows(SparseRows rows, double threshold);
+
+/// Columns: an orthonormal basis of { x : rows x = 0 }.
+Eigen::MatrixXd null_space_of_rows(SparseRows rows, double threshold);
+
+/// Of all x with rows x = b the shortest one. The rows have to be independent where they are many.
+Eigen::VectorXd least_norm_solution(const SparseRows& rows, const Eigen::VectorXd& b);
+
+/// The z that makes ‖rowsᵀ z − b‖ least: what a vector is made of. Independent rows as above.
+Eigen::VectorXd factors_of_rows(const SparseRows& rows, const Eigen::VectorXd& b);
+
+}  // namespace pleuel
