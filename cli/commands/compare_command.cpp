@@ -5,6 +5,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/files/older_run.hpp"
+#include "cli/text/characters.hpp"
 #include "cli/text/table.hpp"
 #include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
@@ -54,14 +55,22 @@ std::vector<Difference> input_differences(const OlderRun& first, const OlderRun&
   return differences;
 }
 
+constexpr std::size_t widest = 32;  ///< characters of an input that are shown
+
+/// The end of what is too long is left out, at the beginning of a character.
 std::string value_text(const Json& value) {
   if (value.is_null()) return "–";
-  return value.is_string() ? value.get<std::string>() : value.dump();
+  std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  if (characters(text) <= widest) return text;
+  while (characters(text) > widest - 1) text.pop_back();
+  return text + "…";
 }
 
 std::string inputs_text(const std::vector<Difference>& differences) {
   if (differences.empty()) return "The inputs are the same.\n";
-  Table table({{"input", Table::Align::left}, {"first"}, {"second"}});
+  Table table({{"input", Table::Align::left},
+               {"first", Table::Align::left},
+               {"second", Table::Align::left}});
   for (const Difference& one : differences) {
     table.add_row({one.place, value_text(one.first), value_text(one.second)});
   }
@@ -138,6 +147,7 @@ std::string outcomes_text(const OlderRun& first, const OlderRun& second,
               2);
   table.add_row({"status", "", first.status(), second.status(), ""});
   const auto number = [](const Json& value) {
+    if (value.is_number_integer()) return value.dump();
     return value.is_number() ? significant(value.get<double>(), 6) : "–";
   };
   for (const Compared& value : values) {
