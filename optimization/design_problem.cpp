@@ -46,8 +46,13 @@ std::string DesignProblem::constraint_text(std::size_t constraint, double value)
   return text_in(unit_of(file_, file_.constraints[constraint]), value);
 }
 
+std::string DesignProblem::objective_name() const {
+  return (objective_sign() < 0.0 ? "-" : "") + file_.objective->response;
+}
+
 std::string DesignProblem::objective_text(double value) const {
-  return text_in(unit_of(find_response(file_, objective_name())), value);
+  return text_in(unit_of(find_response(file_, file_.objective->response)),
+                 objective_sign() * value);
 }
 
 std::size_t DesignProblem::response_index(const std::string& name) const {
@@ -93,7 +98,7 @@ std::optional<std::size_t> DesignProblem::response_of(const ConstraintRow& row) 
 }
 
 double DesignProblem::row_value(const Analysis& analysis, const ConstraintRow& row) const {
-  if (row.peak) return row.peak->value;
+  if (row.peak) return (row.constraint ? 1.0 : objective_sign()) * row.peak->value;
   if (const auto response = response_of(row)) return analysis.reductions[*response].value;
   double sum = 0.0;
   for (const auto& [variable, factor] : file_.constraints[*row.constraint].linear) {
@@ -114,10 +119,18 @@ Eigen::MatrixXd DesignProblem::gradients_of(Analysis& analysis, const RowsOf& ro
   }
   if (!choice_) choice_ = choose_gradients(file_.sensitivity.method, analysis, values);
   if (!is_difference(choice_->method)) {
-    return sampled_gradients(analysis, values, exact_method(choice_->method));
+    Eigen::MatrixXd gradients = sampled_gradients(analysis, values, exact_method(choice_->method));
+    gradients.row(0) *= objective_sign();
+    Eigen::Index next = 1;
+    for (const ConstraintRow& row : rows_of(analysis)) {
+      if (!response_of(row)) continue;
+      if (!row.constraint) gradients.row(next) *= objective_sign();
+      ++next;
+    }
+    return gradients;
   }
   const ValuesOf numbers = [&](const Analysis& at) {
-    std::vector<double> all{at.reductions[objective].value};
+    std::vector<double> all{objective_sign() * at.reductions[objective].value};
     for (const ConstraintRow& row : rows_of(at)) {
       if (response_of(row)) all.push_back(row_value(at, row));
     }
@@ -175,7 +188,7 @@ Evaluation DesignProblem::simulated_rows(const Eigen::VectorXd& x, Request reque
   const std::size_t objective = response_index(file_.objective->response);
   const auto count = static_cast<Eigen::Index>(rows.size());
   Evaluation evaluation;
-  evaluation.objective = analysis.reductions[objective].value;
+  evaluation.objective = objective_sign() * analysis.reductions[objective].value;
   evaluation.constraints.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     evaluation.constraints(i) = row_value(analysis, rows[static_cast<std::size_t>(i)]);

@@ -32,7 +32,7 @@ struct NamedRows {
 };
 
 /// The optimization problem that a problem file describes: responses of the simulated mechanism as
-/// objective and constraints, gradients by the method of the file; where that leaves it open, by
+/// objective (of a response that is maximized its negative) and constraints, gradients by the method of the file; where that leaves it open, by
 /// the exact one that suits its first design.
 class DesignProblem : public Problem {
  public:
@@ -48,11 +48,15 @@ class DesignProblem : public Problem {
 
   const std::vector<Variable>& variables() const override { return variables_; }
   const std::vector<Constraint>& constraints() const override { return constraints_; }
-  std::string objective_name() const override { return file_.objective->response; }
+  /// With a minus where the response is maximized.
+  std::string objective_name() const override;
   /// In the units that the user wrote, or those of engineers.
   std::string variable_text(std::size_t variable, double value) const override;
   std::string constraint_text(std::size_t constraint, double value) const override;
+  /// @param value  of the objective, the negative of a response that is maximized
   std::string objective_text(double value) const;
+  /// 1, or −1 where the response is maximized: objective = sign · response.
+  double objective_sign() const { return file_.objective->sign(); }
 
   /// The simulation of the design seen last is kept, so that its gradients cost no second one.
   Evaluation evaluate(const Eigen::VectorXd& x, Request request) override;

@@ -49,14 +49,15 @@ bool may_break(const ConstraintSettings& limit, double value, double error) {
          (limit.lower && value - error < *limit.lower);
 }
 
-/// Calls add(response, factor) for what f + Σ μ c is made of: the objective and what is limited.
+/// Calls add(response, factor) for what f + Σ μ c is made of: the objective and what is limited. Of a
+/// response f that is maximized f − Σ μ c, as the multipliers are of −f.
 template <class Add>
 void for_each_share(const DesignProblem& design, const Result& result, const Add& add) {
   add(*design.response_of({}), 1.0);
   for (std::size_t i = 0; i < design.constraints().size(); ++i) {
     const auto response = design.response_of({i, std::nullopt});
     const double multiplier = result.constraint_multipliers(static_cast<Eigen::Index>(i));
-    if (response && multiplier != 0.0) add(*response, multiplier);
+    if (response && multiplier != 0.0) add(*response, design.objective_sign() * multiplier);
   }
 }
 
@@ -110,7 +111,7 @@ std::string inaccuracy(const DesignProblem& design, const Result& result, const 
   const std::vector<std::optional<ErrorBar>>& errors = trust.errors;
   const ProblemFile& file = design.file();
   const std::string of_objective =
-      complaint(file, fmt::format("the optimum of {}", design.objective_name()), *bar,
+      complaint(file, fmt::format("the optimum of {}", file.objective->response), *bar,
                 std::abs(result.evaluation.objective));
   if (!of_objective.empty()) return of_objective;
   for (std::size_t i = 0; i < file.constraints.size(); ++i) {

@@ -77,7 +77,10 @@ void PeakProblem::add_rows(const Split& split, const Constraint& limits) {
 void PeakProblem::bound_objective() {
   const std::size_t objective = *problem_.response_of({});
   const ResponseSettings& response = problem_.file().responses[objective];
-  if (!has_peaks(response) || response.over_time == OverTime::min) return;
+  // What is pressed down from above: a maximum that is minimized, a minimum that is maximized.
+  const bool is_minimum = response.over_time == OverTime::min;
+  const bool is_maximized = problem_.file().objective->aim == Aim::maximize;
+  if (!has_peaks(response) || is_minimum != is_maximized) return;
   bound_ = split(std::nullopt);
   add_rows(*bound_, {response.name, -infinity, 0.0});
   Eigen::VectorXd start(static_cast<Eigen::Index>(variables_.size()));

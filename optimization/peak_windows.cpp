@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/response/stress_signal.hpp"
+#include "core/scene/response_parts.hpp"
 #include "sensitivity/method_choice.hpp"
 
 namespace pleuel {
@@ -113,6 +114,9 @@ Reduction of_whole(Reduction peak, Eigen::Index first) {
 
 int place_count(const ProblemFile& file, const ResponseSettings& response) {
   if (response.type != ResponseType::stress || response.station || !has_peaks(response)) return 1;
+  if (response.bodies.size() > 1) {
+    return std::min(places_of_a_part * static_cast<int>(response.bodies.size()), most_places);
+  }
   const int segments = segments_of(file, response);
   return segments > 1 ? std::min(segments, most_places) : places_of_a_part;
 }
@@ -121,7 +125,7 @@ std::vector<ChannelRange> places_of(const Analysis& analysis, const ProblemFile&
                                     std::size_t response, int places) {
   const Eigen::Index channels = analysis.histories[response].rows();
   const ResponseSettings& settings = file.responses[response];
-  if (places == segments_of(file, settings)) {
+  if (settings.bodies.size() == 1 && places == segments_of(file, settings)) {
     auto ranges = places_of_segments(analysis, settings, channels, places);
     if (!ranges.empty()) return ranges;
   }
@@ -146,8 +150,9 @@ std::vector<Reduction> peaks_of_places(const Analysis& analysis, std::size_t res
 }
 
 bool has_peaks(const ResponseSettings& response) {
-  const bool is_constant =
-      response.type == ResponseType::mass || response.type == ResponseType::frequency;
+  const bool is_constant = response.type == ResponseType::mass ||
+                           response.type == ResponseType::frequency ||
+                           response.type == ResponseType::expression;
   return !is_constant && is_peak(response.over_time);
 }
 
@@ -172,11 +177,13 @@ int windows_that_part_peaks(DesignProblem& problem, const Eigen::VectorXd& x, in
 }
 
 std::vector<std::size_t> optimized_responses(const DesignProblem& problem) {
-  std::vector<std::size_t> responses = {*problem.response_of({})};
+  std::vector<std::size_t> responses;
+  const auto add = [&](std::size_t response) {
+    for (const std::size_t part : parts_of(problem.file(), response)) responses.push_back(part);
+  };
+  add(*problem.response_of({}));
   for (std::size_t i = 0; i < problem.constraints().size(); ++i) {
-    if (const auto response = problem.response_of({i, std::nullopt})) {
-      responses.push_back(*response);
-    }
+    if (const auto response = problem.response_of({i, std::nullopt})) add(*response);
   }
   return responses;
 }

@@ -36,7 +36,8 @@ std::vector<Reduction> peaks_of_places(const Analysis& analysis, std::size_t res
 /// @returns `fewest` if the design cannot be simulated
 int windows_that_part_peaks(DesignProblem& problem, const Eigen::VectorXd& x, int fewest, int most);
 
-/// The objective and what constraints limit, in this order; indices of responses.
+/// The objective and what constraints limit, in this order; indices of responses. Of an expression
+/// those that it is made from.
 std::vector<std::size_t> optimized_responses(const DesignProblem& problem);
 
 }  // namespace pleuel

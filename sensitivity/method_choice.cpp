@@ -59,14 +59,10 @@ double seconds_of_repetition(const Trajectory& trajectory, int steps) {
 
 /// How much of the time the adjoints of the values are alive, in columns: a value counts from its
 /// last sample back to the start.
-double mean_columns(const std::vector<SampledValue>& values, int steps) {
+double mean_columns(const Analysis& analysis, const std::vector<SampledValue>& values) {
   double sum = 0.0;
-  for (const SampledValue& value : values) {
-    int last = 0;
-    for (const Sample& sample : value.samples) last = std::max(last, sample.step);
-    sum += static_cast<double>(last) / steps;
-  }
-  return sum;
+  for (const SampledValue& value : values) sum += std::max(last_step(analysis, value), 0);
+  return sum / analysis.trajectory.steps();
 }
 
 }  // namespace
@@ -78,8 +74,10 @@ ExactMethod cheaper_method(double direct, double adjoint) {
 MethodChoice choose_method(Analysis& analysis, const std::vector<SampledValue>& values) {
   Mechanism& mechanism = analysis.model.mechanism;
   const int variables = mechanism.system->variables();
-  const auto functions = static_cast<int>(std::count_if(
-      values.begin(), values.end(), [](const auto& value) { return !value.samples.empty(); }));
+  const auto functions =
+      static_cast<int>(std::count_if(values.begin(), values.end(), [&](const SampledValue& value) {
+        return last_step(analysis, value) >= 0;
+      }));
   const std::string counts =
       fmt::format("{} variable{}, {} value{} of the motion", variables, variables == 1 ? "" : "s",
                   functions, functions == 1 ? "" : "s");
@@ -92,7 +90,7 @@ MethodChoice choose_method(Analysis& analysis, const std::vector<SampledValue>& 
       repetition + seconds_of([&] {
         differentiate(mechanism, part, [](int, const State&, const StateSensitivity&) {});
       });
-  const int columns = std::max(1, static_cast<int>(std::lround(mean_columns(values, steps))));
+  const int columns = std::max(1, static_cast<int>(std::lround(mean_columns(analysis, values))));
   const double adjoint =
       repetition + seconds_of([&] {
         adjoint_gradients(mechanism, part, columns, [&](int step, const State&, StateAdjoint& of) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "core/response/linearized_expression.hpp"
 #include "sensitivity/adjoint.hpp"
 #include "sensitivity/direct.hpp"
 #include "sensitivity/frequency_sensitivity.hpp"
@@ -18,6 +19,25 @@ std::string to_string(ExactMethod method) {
 namespace {
 
 using Gradients = Eigen::MatrixXd;  // values × variables
+
+/// Part of a value: samples of one response that is no expression.
+struct Part {
+  std::size_t response;
+  const std::vector<Sample>* samples;
+  double weight;
+};
+
+/// A value itself, or what its expression is made from.
+std::vector<Part> parts_of(const Analysis& analysis, const SampledValue& value) {
+  if (!analysis.responses[value.response].expression()) {
+    return {{value.response, &value.samples, 1.0}};
+  }
+  std::vector<Part> parts;
+  for (const WeightedResponse& one : linearized(analysis, value.response).parts) {
+    parts.push_back({one.response, &analysis.reductions[one.response].samples, one.weight});
+  }
+  return parts;
+}
 
 /// A sample of a value at a step that is known.
 struct Use {
@@ -84,16 +104,24 @@ class SampledGradients {
 
  private:
   void add_value(std::size_t i, const SampledValue& value) {
-    const Response& response = analysis_.responses[value.response];
     const auto row = static_cast<Eigen::Index>(i);
+    if (analysis_.responses[value.response].expression()) {
+      require_derivatives(analysis_, value.response);
+      gradients_.row(row) += linearized(analysis_, value.response).design.transpose();
+    }
+    for (const Part& part : parts_of(analysis_, value)) add_part(row, part);
+  }
+
+  void add_part(Eigen::Index row, const Part& part) {
+    const Response& response = analysis_.responses[part.response];
     if (const auto* constant = std::get_if<DesignConstant>(&response.source)) {
-      gradients_.row(row) = constant->derivatives.transpose();
+      gradients_.row(row) += part.weight * constant->derivatives.transpose();
     } else if (response.frequency()) {
-      gradients_.row(row) = frequency_gradient(response.frequency()->mode);
+      gradients_.row(row) += part.weight * frequency_gradient(response.frequency()->mode);
     } else {
       Signal* signal = response.history()->signal.get();
-      for (const Sample& sample : value.samples) {
-        uses_[sample.step].push_back({row, signal, sample.channel, sample.weight});
+      for (const Sample& sample : *part.samples) {
+        uses_[sample.step].push_back({row, signal, sample.channel, part.weight * sample.weight});
       }
     }
   }
@@ -145,15 +173,22 @@ class SampledGradients {
 };
 
 /// What is measured in the mechanism without elasticity, and which of the values it is taken from.
-std::vector<SampledValue> rigid_values(const Analysis& analysis,
-                                       const std::vector<SampledValue>& values,
-                                       std::vector<Eigen::Index>& rows) {
-  std::vector<SampledValue> rigid;
+struct RigidValues {
+  std::vector<SampledValue> values;
+  std::vector<Eigen::Index> rows;
+  std::vector<double> weights;
+};
+
+RigidValues rigid_values(const Analysis& analysis, const std::vector<SampledValue>& values) {
+  RigidValues rigid;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const ResponseHistory* history = analysis.responses[values[i].response].history();
-    if (!history || !history->rigid_response) continue;
-    rigid.push_back({*history->rigid_response, values[i].samples});
-    rows.push_back(static_cast<Eigen::Index>(i));
+    for (const Part& part : parts_of(analysis, values[i])) {
+      const ResponseHistory* history = analysis.responses[part.response].history();
+      if (!history || !history->rigid_response) continue;
+      rigid.values.push_back({*history->rigid_response, *part.samples});
+      rigid.rows.push_back(static_cast<Eigen::Index>(i));
+      rigid.weights.push_back(part.weight);
+    }
   }
   return rigid;
 }
@@ -164,12 +199,21 @@ Eigen::MatrixXd sampled_gradients(Analysis& analysis, const std::vector<SampledV
                                   ExactMethod method) {
   SampledGradients run(analysis, values);
   Gradients gradients = method == ExactMethod::direct ? run.direct() : run.adjoint();
-  std::vector<Eigen::Index> rows;
-  const auto rigid = rigid_values(analysis, values, rows);
-  if (!rigid.empty()) {
-    gradients(rows, Eigen::all) -= sampled_gradients(*analysis.rigid, rigid, method);
+  const RigidValues rigid = rigid_values(analysis, values);
+  if (rigid.values.empty()) return gradients;
+  const Gradients found = sampled_gradients(*analysis.rigid, rigid.values, method);
+  for (std::size_t i = 0; i < rigid.rows.size(); ++i) {
+    gradients.row(rigid.rows[i]) -= rigid.weights[i] * found.row(static_cast<Eigen::Index>(i));
   }
   return gradients;
+}
+
+int last_step(const Analysis& analysis, const SampledValue& value) {
+  int last = -1;
+  for (const Part& part : parts_of(analysis, value)) {
+    for (const Sample& sample : *part.samples) last = std::max(last, sample.step);
+  }
+  return last;
 }
 
 std::vector<SampledValue> response_values(const Analysis& analysis) {

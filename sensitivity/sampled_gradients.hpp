@@ -8,7 +8,7 @@
 namespace pleuel {
 
 /// Something whose gradient is asked for: Σ weight · (channel at step) of a response's signal, or a
-/// response that is constant in time (no samples).
+/// response that is constant in time or an expression (no samples).
 struct SampledValue {
   std::size_t response;
   std::vector<Sample> samples;
@@ -16,6 +16,9 @@ struct SampledValue {
 
 /// All responses of an analysis as such values, in their order.
 std::vector<SampledValue> response_values(const Analysis& analysis);
+
+/// The last step that a value depends on; −1 if it does not depend on the motion.
+int last_step(const Analysis& analysis, const SampledValue& value);
 
 /// Methods that differentiate the discrete scheme; their gradients agree up to round-off.
 enum class ExactMethod {

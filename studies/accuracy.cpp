@@ -9,6 +9,7 @@
 #include "core/base/relative_error.hpp"
 #include "core/base/stop.hpp"
 #include "core/response/analysis.hpp"
+#include "core/scene/response_parts.hpp"
 #include "core/trust/asked_responses.hpp"
 
 namespace pleuel {
@@ -29,12 +30,6 @@ void raise_to_errors_of(const AccuracyRun& reference, AccuracyRun& run) {
   if (run.has_failed()) return;
   run.errors = run.errors.cwiseMax(reference.errors);
   run.gradient_errors = run.gradient_errors.cwiseMax(reference.gradient_errors);
-}
-
-/// Errors of the integration: not the same in two formulations, however short the steps are.
-bool is_monitor(const ResponseSettings& response) {
-  return response.type == ResponseType::energy_balance ||
-         response.type == ResponseType::constraint_drift;
 }
 
 Recommendation recommend(const AccuracyStudy& study, double target) {
@@ -124,7 +119,8 @@ class RefinementStudy {
     const AccuracyRun& reference = study_.reference;
     study_.check.differences = Eigen::VectorXd::Zero(values.size());
     for (Eigen::Index i = 0; i < values.size(); ++i) {
-      if (is_monitor(problem_.responses[static_cast<std::size_t>(i)])) continue;
+      // Errors of the integration are not the same in two formulations, however short the steps are.
+      if (is_monitor(problem_, static_cast<std::size_t>(i))) continue;
       study_.check.differences(i) =
           value_error(values(i), reference.values(i), reference.magnitudes(i));
     }

@@ -38,12 +38,13 @@ Result solve_from(ProblemFile problem, const Eigen::VectorXd* start, const Solve
   return solve_design(design, options);
 }
 
-void keep(const Result& result, OptimumRun& run) {
+/// @param sign  Objective::sign()
+void keep(const Result& result, double sign, OptimumRun& run) {
   run.status = result.status;
   run.evaluations = result.evaluations;
   if (has_design(result)) {
     run.x = result.x;
-    run.objective = result.evaluation.objective;
+    run.objective = sign * result.evaluation.objective;
   } else {
     run.failure = to_string(result.status) + ": " + result.message;
   }
@@ -58,7 +59,7 @@ OptimumRun optimize_with(const ProblemFile& problem, const Discretization& setti
     Result result;
     run.seconds = least_seconds([&] { result = plain_optimum(discrete, options); });
     if (result.status == Status::interrupted) throw Stopped{};
-    keep(result, run);
+    keep(result, problem.objective->sign(), run);
   } catch (const SimulationError& error) {
     run.failure = error.what();
   } catch (const InputError& error) {  // a window of time without steps
@@ -75,7 +76,7 @@ OptimumRun find_reference(const ProblemFile& problem, const Eigen::VectorXd& x,
   run.seconds =
       processor_seconds([&] { result = solve_from(discretized(problem, settings), &x, options); });
   if (result.status == Status::interrupted) throw Stopped{};
-  keep(result, run);
+  keep(result, problem.objective->sign(), run);
   return run;
 }
 

@@ -217,6 +217,9 @@ PriceList number_prices(const ProblemText& text, const ProblemFile& problem,
   add_limits(problem, optimum, list);
   add_variables(problem, optimum, pricing, list);
   add_numbers(extended, groups, pricing, list);
+  const double sign = problem.objective->sign();
+  list.objective *= sign;
+  for (NumberPrice& price : list.prices) price.per_unit *= sign;
   std::stable_sort(list.prices.begin(), list.prices.end(),
                    [](const NumberPrice& a, const NumberPrice& b) {
                      return std::abs(a.per_percent()) > std::abs(b.per_percent());

@@ -112,7 +112,7 @@ Result interrupted_result(const DesignProblem& problem, const SolveOptions& opti
   result.message = fmt::format(
       "{} evaluations were made; the best design among them has {} = {} and exceeds no limit by "
       "more than {:.1e} (relative)",
-      seen.size(), problem.objective_name(), problem.objective_text(best.objective),
+      seen.size(), problem.file().objective->response, problem.objective_text(best.objective),
       best.max_violation);
   result.backend = options.backend;
   result.x = best.x;
@@ -134,10 +134,11 @@ MultiStart solve_visibly(const ProblemInput& input, const SolveOptions& options,
   auto first = std::make_unique<DesignProblem>(input.problem, arguments.jobs);
   const DesignProblem& problem = *first;
   std::FILE* out = arguments.progress();
-  show(out, wrapped(fmt::format("{}: minimize {} by {} variables under {} constraints, with {}\n\n",
-                                problem.file().name, problem.objective_name(),
-                                problem.variables().size(), problem.constraints().size(),
-                                options.backend)));
+  show(out, wrapped(fmt::format("{}: {} {} by {} variables under {} constraints, with {}\n\n",
+                                problem.file().name,
+                                problem.objective_sign() < 0.0 ? "maximize" : "minimize",
+                                problem.file().objective->response, problem.variables().size(),
+                                problem.constraints().size(), options.backend)));
   show(out, warnings_text(impossible_corners(problem.file())));
   std::optional<HistoryCsv> history;  // with the first evaluation
   IterationLines lines(out, problem.file());

@@ -41,12 +41,14 @@ std::string limited_name(const ConstraintSettings& constraint) {
 class ParetoCsv {
  public:
   ParetoCsv(const ResultFile& file, const ProblemFile& problem)
-      : csv_(file, header(problem)), variables_(problem.variables.size()) {}
+      : csv_(file, header(problem)),
+        variables_(problem.variables.size()),
+        sign_(problem.objective->sign()) {}
 
   void add(const ParetoPoint& point) {
     csv_.add(to_string(point.result.status)).add(point.limit);
-    const std::vector<double> goals = {point.result.evaluation.objective, point.limited_value,
-                                       point.multiplier};
+    const std::vector<double> goals = {sign_ * point.result.evaluation.objective,
+                                       point.limited_value, sign_ * point.multiplier};
     for (std::size_t i = 0; i < goals.size(); ++i) {
       const bool is_known = i < 2 ? point.has_design() : has_prices(point.result);
       is_known ? csv_.add(goals[i]) : csv_.add(std::string());
@@ -70,6 +72,7 @@ class ParetoCsv {
 
   CsvFile csv_;
   std::size_t variables_;
+  double sign_;  ///< Objective::sign()
 };
 
 void write_in_order(RunRecord& record, const ProblemFile& problem,
@@ -88,9 +91,11 @@ Json point_document(const ProblemFile& problem, const ParetoPoint& point) {
   if (point.has_design()) {
     document["warnings"] = point.result.warnings;
     document["error"] = error_document(point.result.error);
-    document["objectives"] = {{problem.objective->response, point.result.evaluation.objective},
-                              {limited_name(varied_constraint(problem)), point.limited_value}};
-    if (has_prices(point.result)) document["multiplier"] = point.multiplier;
+    const double sign = problem.objective->sign();
+    document["objectives"] = {
+        {problem.objective->response, sign * point.result.evaluation.objective},
+        {limited_name(varied_constraint(problem)), point.limited_value}};
+    if (has_prices(point.result)) document["multiplier"] = sign * point.multiplier;
   }
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     document["variables"][problem.variables[i].name] = point.result.x(static_cast<Eigen::Index>(i));
@@ -140,17 +145,18 @@ std::string points_text(const ProblemFile& problem, const std::vector<ParetoPoin
   const ShownUnit limited = unit_of(problem, varied_constraint(problem));
   const ShownUnit goal = unit_of(find_response(problem, problem.objective->response));
   const std::vector<ShownUnit> units = variable_units(problem);
+  const double sign = problem.objective->sign();
   Table table(design_columns(problem));
   for (const ParetoPoint& point : points) {
     std::vector<std::string> cells = {significant(limited.shown(point.limit)), "–", "–", "–", "–"};
     if (point.has_design()) {
       cells[1] = significant(limited.shown(point.limited_value));
-      cells[2] = significant(goal.shown(point.result.evaluation.objective));
+      cells[2] = significant(goal.shown(sign * point.result.evaluation.objective));
       if (const auto& error = point.result.error; error && error->is_resolved()) {
         cells[3] = significant(goal.shown(error->bound()), 2);
       }
       if (has_prices(point.result))
-        cells[4] = significant(goal.shown(point.multiplier) * limited.factor, 3);
+        cells[4] = significant(goal.shown(sign * point.multiplier) * limited.factor, 3);
     }
     for (std::size_t i = 0; i < problem.variables.size(); ++i) {
       cells.push_back(significant(units[i].shown(point.result.x(static_cast<Eigen::Index>(i)))));

@@ -23,8 +23,10 @@ std::string to_string(Request request) {
   return request == Request::values ? "values" : "gradients";
 }
 
-HistoryCsv::HistoryCsv(const ResultFile& file, const Problem& problem)
-    : constraints_(problem.constraints().size()), csv_(file, header(problem)) {}
+HistoryCsv::HistoryCsv(const ResultFile& file, const DesignProblem& problem)
+    : constraints_(problem.constraints().size()),
+      objective_sign_(problem.objective_sign()),
+      csv_(file, header(problem)) {}
 
 void HistoryCsv::add(const EvaluationRecord& record) {
   const bool has_failed = record.has_failed();
@@ -35,7 +37,7 @@ void HistoryCsv::add(const EvaluationRecord& record) {
   csv_.add(to_string(record.purpose)).add(to_string(record.request));
   add_value(record.max_violation);
   csv_.add(record.step);
-  add_value(record.objective);
+  add_value(objective_sign_ * record.objective);
   for (std::size_t i = 0; i < constraints_; ++i) {
     add_value(has_failed ? 0.0 : record.constraints(static_cast<Eigen::Index>(i)));
   }

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "cli/files/csv_file.hpp"
+#include "optimization/design_problem.hpp"
 #include "optimization/history.hpp"
-#include "optimization/problem.hpp"
 
 namespace pleuel {
 
@@ -12,11 +12,12 @@ std::string to_string(Request request);
 /// history.csv: a line for every evaluation as it happens [SI].
 class HistoryCsv {
  public:
-  HistoryCsv(const ResultFile& file, const Problem& problem);
+  HistoryCsv(const ResultFile& file, const DesignProblem& problem);
   void add(const EvaluationRecord& record);
 
  private:
   std::size_t constraints_;
+  double objective_sign_;
   CsvFile csv_;
 };
 

@@ -118,7 +118,7 @@ Json response_document(const ProblemFile& problem, const ShownDesign& design, st
     document["peak_place"] = place;
     const std::vector<std::string>& bodies = problem.responses[i].bodies;
     const auto share =
-        bodies.empty() ? std::nullopt : share_of_place(analysis.model, bodies.front(), place);
+        bodies.size() != 1 ? std::nullopt : share_of_place(analysis.model, bodies.front(), place);
     if (share) document["peak_share"] = *share;
     for (const Sample& sample : reduction.samples) kept.push_back(sample.step);
   }

@@ -107,9 +107,10 @@ std::optional<double> stress_limit(const ProblemFile& problem, const std::string
   for (const ConstraintSettings& constraint : problem.constraints) {
     if (constraint.response.empty() || !constraint.upper) continue;
     const ResponseSettings& response = find_response(problem, constraint.response);
+    const std::vector<std::string>& bodies = response.bodies;
     const bool is_of_body = response.type == ResponseType::stress &&
                             response.part == StressPart::von_mises &&
-                            response.bodies.front() == body;
+                            std::find(bodies.begin(), bodies.end(), body) != bodies.end();
     if (is_of_body && (!limit || *constraint.upper < *limit)) limit = *constraint.upper;
   }
   return limit;

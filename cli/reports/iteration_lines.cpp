@@ -34,7 +34,9 @@ const char* describe(Purpose purpose) {
 }  // namespace
 
 IterationLines::IterationLines(std::FILE* out, const ProblemFile& problem)
-    : out_(out), unit_(unit_of(find_response(problem, problem.objective->response))) {
+    : out_(out),
+      unit_(unit_of(find_response(problem, problem.objective->response))),
+      sign_(problem.objective->sign()) {
   show(out_, fmt::format(line_columns, "iteration", fmt::format("objective [{}]", unit_.name),
                          "max violation", "step", "seconds"));
 }
@@ -50,10 +52,10 @@ void IterationLines::see(const EvaluationRecord& record) {
     show(out_, fmt::format("  evaluation {} failed: {}\n", record.evaluation,
                            first_clause(record.failure)));
   } else if (purpose_ != Purpose::audit && record.iteration > iteration_) {
-    show(out_,
-         fmt::format(line_columns, record.iteration, significant(unit_.shown(record.objective), 6),
-                     magnitude(record.max_violation), magnitude(step_),
-                     fmt::format("{:.1f}", record.seconds)));
+    show(out_, fmt::format(line_columns, record.iteration,
+                           significant(unit_.shown(sign_ * record.objective), 6),
+                           magnitude(record.max_violation), magnitude(step_),
+                           fmt::format("{:.1f}", record.seconds)));
     iteration_ = record.iteration;
     step_ = 0.0;
   }

@@ -17,6 +17,7 @@ class IterationLines {
  private:
   std::FILE* out_;
   ShownUnit unit_;
+  double sign_;  ///< Objective::sign()
   Purpose purpose_ = Purpose::search;
   int iteration_ = 0;
   double step_ = 0.0;  ///< the longest since the line before

@@ -14,8 +14,9 @@ Json objective_document(const Optimum& optimum) {
   const std::string& name = optimum.problem.objective->response;
   Json document = {{"name", name}, {"unit", unit_of(find_response(optimum.problem, name)).si}};
   if (!optimum.has_design()) return document;
-  document["value"] = optimum.result.evaluation.objective;
-  document["start"] = first_design(optimum.result.history).objective;
+  const double sign = optimum.problem.objective->sign();
+  document["value"] = sign * optimum.result.evaluation.objective;
+  document["start"] = sign * first_design(optimum.result.history).objective;
   if (optimum.result.error) document["error"] = error_document(optimum.result.error);
   return document;
 }
@@ -30,7 +31,8 @@ Json constraint_document(const Optimum& optimum, std::size_t i) {
                    {"side", used.is_upper ? "upper" : "lower"},
                    {"unit", unit_of(optimum.problem, constraint).si}};
   if (has_prices(optimum.result)) {
-    document["multiplier"] = optimum.result.constraint_multipliers(row);
+    document["multiplier"] =
+        optimum.problem.objective->sign() * optimum.result.constraint_multipliers(row);
   }
   if (used.utilisation) document["utilisation"] = *used.utilisation;
   if (constraint.deviations > 0.0) document["deviations"] = constraint.deviations;

@@ -36,8 +36,9 @@ std::string status_text(const Result& result) {
 std::string objective_text(const Optimum& optimum) {
   const std::string& name = optimum.problem.objective->response;
   const ShownUnit unit = unit_of(find_response(optimum.problem, name));
-  const double start = first_design(optimum.result.history).objective;
-  const double end = optimum.result.evaluation.objective;
+  const double sign = optimum.problem.objective->sign();
+  const double start = sign * first_design(optimum.result.history).objective;
+  const double end = sign * optimum.result.evaluation.objective;
   std::string text = fmt::format("{}: {} → {} {}", name, significant(unit.shown(start)),
                                  significant(unit.shown(end)), unit.name);
   if (start != 0.0) text += fmt::format(" ({})", signed_percent((end - start) / std::abs(start)));
@@ -94,7 +95,9 @@ std::vector<std::string> constraint_row(const Optimum& optimum, std::size_t i) {
   const auto row = static_cast<Eigen::Index>(i);
   const double value = optimum.result.evaluation.constraints(row);
   std::optional<double> multiplier;
-  if (has_prices(optimum.result)) multiplier = optimum.result.constraint_multipliers(row);
+  if (has_prices(optimum.result)) {
+    multiplier = optimum.problem.objective->sign() * optimum.result.constraint_multipliers(row);
+  }
   const UsedLimit used = used_limit(constraint, value);
   const ShownUnit unit = unit_of(optimum.problem, constraint);
   const ShownUnit objective_unit =

@@ -38,8 +38,9 @@ std::string starts_text(const ProblemFile& problem, const MultiStart& all) {
   columns.push_back({"from starts", Table::Align::left});
   Table table(std::move(columns), 2);
   for (const LocalOptimum& one : all.optima) {
-    std::vector<std::string> cells = {significant(unit.shown(one.objective)),
-                                      fmt::format("{}", one.starts.size())};
+    std::vector<std::string> cells = {
+        significant(unit.shown(problem.objective->sign() * one.objective)),
+        fmt::format("{}", one.starts.size())};
     for (std::size_t i = 0; i < units.size(); ++i) {
       cells.push_back(significant(units[i].shown(one.x(static_cast<Eigen::Index>(i)))));
     }
@@ -50,16 +51,17 @@ std::string starts_text(const ProblemFile& problem, const MultiStart& all) {
 }
 
 Json starts_document(const ProblemFile& problem, const MultiStart& all) {
+  const double sign = problem.objective->sign();
   Json optima = Json::array(), runs = Json::array();
   for (const LocalOptimum& one : all.optima) {
-    optima.push_back({{"objective", one.objective},
+    optima.push_back({{"objective", sign * one.objective},
                       {"found", one.starts.size()},
                       {"variables", design_document(problem, one.x)}});
   }
   for (const StartRun& one : all.runs) {
     Json run = {{"start", design_document(problem, one.start)},
                 {"status", to_string(one.status)},
-                {"objective", one.objective},
+                {"objective", sign * one.objective},
                 {"max_violation", one.max_violation},
                 {"evaluations", one.evaluations}};
     if (one.optimum) run["optimum"] = *one.optimum;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/base/time_law.hpp"
+#include "core/forces/gauge.hpp"
 #include "core/frame/marker.hpp"
 #include "core/system/term.hpp"
 
@@ -56,6 +57,11 @@ struct JointForceTopology {
 /// The term throws SimulationError, with name and time, where the angle has no value.
 /// @param derivatives  of the numbers with respect to the variables they depend on
 std::unique_ptr<Term> make_joint_force_term(
+    JointForceTopology topology, JointForceData<double> data,
+    std::vector<DesignDerivative<JointForceData<double>>> derivatives);
+
+/// Reads s, ṡ, −k (s − s₀) − c ṡ and the power m ṡ of the motor.
+std::unique_ptr<Gauge> make_joint_gauge(
     JointForceTopology topology, JointForceData<double> data,
     std::vector<DesignDerivative<JointForceData<double>>> derivatives);
 

@@ -4,6 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/forces/force_term.hpp"
+#include "core/forces/marker_gauge.hpp"
 
 namespace pleuel {
 
@@ -22,6 +23,43 @@ struct SpringDamperLaw {
   template <class Scalar>
   void add_forces(const Data<Scalar>& data, double time,
                   MarkerKinematics<Scalar, 2>& markers) const {
+    const Stretch<Scalar> now = stretch(data, time, markers);
+    const Vector3<Scalar> F = pull(data, now) * now.direction;
+    markers.add_force(0, F, data.points[0]);
+    markers.add_force(1, -F, data.points[1]);
+  }
+
+  template <class Scalar>
+  Scalar read(const Data<Scalar>& data, double time, const MarkerKinematics<Scalar, 2>& markers,
+              Reading reading) const {
+    const Stretch<Scalar> now = stretch(data, time, markers);
+    switch (reading) {
+      case Reading::coordinate:
+        return now.length;
+      case Reading::rate:
+        return now.rate;
+      case Reading::force:
+        return pull(data, now);
+      case Reading::motor_power:
+        break;
+    }
+    return Scalar(0);
+  }
+
+  bool couples(const LocalCoordinate& row, const LocalCoordinate& col) const {
+    return row.part != CoordinatePart::turn && col.part != CoordinatePart::turn;
+  }
+
+ private:
+  template <class Scalar>
+  struct Stretch {
+    Scalar length, rate;
+    Vector3<Scalar> direction;
+  };
+
+  template <class Scalar>
+  Stretch<Scalar> stretch(const Data<Scalar>& data, double time,
+                          const MarkerKinematics<Scalar, 2>& markers) const {
     using std::sqrt;
     const Vector3<Scalar> D =
         markers.position(1, data.points[1]) - markers.position(0, data.points[0]);
@@ -31,14 +69,12 @@ struct SpringDamperLaw {
     const Vector3<Scalar> e = D / length;
     const Vector3<Scalar> D_dot =
         markers.velocity(1, data.points[1]) - markers.velocity(0, data.points[0]);
-    const Scalar force = data.stiffness * (length - data.free_length) + data.damping * e.dot(D_dot);
-    const Vector3<Scalar> F = force * e;
-    markers.add_force(0, F, data.points[0]);
-    markers.add_force(1, -F, data.points[1]);
+    return {length, e.dot(D_dot), e};
   }
 
-  bool couples(const LocalCoordinate& row, const LocalCoordinate& col) const {
-    return row.part != CoordinatePart::turn && col.part != CoordinatePart::turn;
+  template <class Scalar>
+  static Scalar pull(const Data<Scalar>& data, const Stretch<Scalar>& now) {
+    return data.stiffness * (now.length - data.free_length) + data.damping * now.rate;
   }
 
   [[noreturn]] void throw_coincident(double time) const {
@@ -55,6 +91,14 @@ std::unique_ptr<Term> make_spring_damper_term(
     SpringDamperTopology topology, SpringDamperData<double> data,
     std::vector<DesignDerivative<SpringDamperData<double>>> derivatives) {
   return std::make_unique<ForceTerm<SpringDamperLaw>>(
+      SpringDamperLaw{"spring-damper " + topology.name}, std::move(topology.markers),
+      std::move(data), derivatives);
+}
+
+std::unique_ptr<Gauge> make_spring_gauge(
+    SpringDamperTopology topology, SpringDamperData<double> data,
+    std::vector<DesignDerivative<SpringDamperData<double>>> derivatives) {
+  return std::make_unique<MarkerGauge<SpringDamperLaw>>(
       SpringDamperLaw{"spring-damper " + topology.name}, std::move(topology.markers),
       std::move(data), derivatives);
 }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "core/forces/gauge.hpp"
 #include "core/frame/marker.hpp"
 #include "core/system/term.hpp"
 
@@ -36,6 +37,11 @@ struct SpringDamperTopology {
 /// The term throws SimulationError, with name and time, where the two points coincide.
 /// @param derivatives  of the numbers with respect to the variables they depend on
 std::unique_ptr<Term> make_spring_damper_term(
+    SpringDamperTopology topology, SpringDamperData<double> data,
+    std::vector<DesignDerivative<SpringDamperData<double>>> derivatives);
+
+/// Reads its length l, l̇ and its pull.
+std::unique_ptr<Gauge> make_spring_gauge(
     SpringDamperTopology topology, SpringDamperData<double> data,
     std::vector<DesignDerivative<SpringDamperData<double>>> derivatives);
 

@@ -95,7 +95,7 @@ Eigen::Vector3d reference_direction(std::span<const Attachment> attachments,
 void Attachment::add_variables(std::set<int>& variables) const {
   if (body_) variables.merge(variables_of(*body_, context_.scene));
   for (const Number& number : at_) {
-    if (number.is_bound()) variables.insert(number.variable);
+    for (const int variable : number.variables()) variables.insert(variable);
   }
 }
 

@@ -215,8 +215,8 @@ class BasisBuilder {
     };
     std::vector<DampedMatrices> changes;
     for (const auto& [variable, change] : model_.invariants_x) {
-      const bool is_ratio = beam_.damping.modal.variable == variable;
-      changes.push_back(dense(change, is_ratio ? beam_.damping.modal.factor : 0.0));
+      changes.push_back(
+          dense(change, derivative_by(variable, beam_.damping.modal, context_.design)));
     }
     const ModalDamping damping = modal_damping(
         dense(model_.invariants, resolve(beam_.damping.modal, context_.design)), changes);

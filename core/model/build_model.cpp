@@ -223,6 +223,7 @@ class ModelBuilder {
           make_joint(joint, model_.bodies, context_, coordinates_, multipliers_));
       JointModel& added = model_.joints.back();
       added.is_division = static_cast<int>(model_.joints.size()) <= divisions_;
+      add_gauges(joint, model_.bodies, context_, added);
       multipliers_ += added.equations();
       if (added.equations() == 0) continue;
       model_.terms.joints.push_back(add_term(make_joint_term(added, coordinates_)));
@@ -231,8 +232,9 @@ class ModelBuilder {
 
   void add_loads() {
     for (const Load& load : context_.scene.loads) {
-      model_.terms.loads.push_back(
-          add_term(make_load_term(load, model_.bodies, context_, coordinates_)));
+      BuiltLoad built = make_load(load, model_.bodies, context_, coordinates_);
+      model_.terms.loads.push_back(add_term(std::move(built.term)));
+      model_.loads.push_back({load.name, std::move(built.gauge)});
     }
   }
 

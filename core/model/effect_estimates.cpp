@@ -133,7 +133,9 @@ bool asks_for(const ProblemFile& problem, const std::string& body,
   for (const ResponseSettings& response : problem.responses) {
     if (std::find(types.begin(), types.end(), response.type) == types.end()) continue;
     if (response.bodies.empty()) return true;  // frequencies of the whole mechanism
-    if (response.bodies.front() == body) return true;
+    if (std::find(response.bodies.begin(), response.bodies.end(), body) != response.bodies.end()) {
+      return true;
+    }
   }
   return false;
 }
@@ -235,18 +237,22 @@ class Estimation {
     constexpr double always = std::numeric_limits<double>::infinity();
     BeamEstimates estimates;
     estimates.elasticity = change(d.displacement, d.acceleration);
-    if (asks_for(problem_, body.name,
-                 {ResponseType::stress, ResponseType::deflection, ResponseType::frequency,
-                  ResponseType::buckling, ResponseType::elastic_energy})) {
+    if (asks_for(
+            problem_, body.name,
+            {ResponseType::stress, ResponseType::deflection, ResponseType::frequency,
+             ResponseType::buckling, ResponseType::elastic_energy, ResponseType::section_force})) {
       estimates.elasticity = always;
     }
     estimates.axial_elasticity = change(d.axial, d.axial_acceleration);
     if (asks_for(problem_, body.name,
-                 {ResponseType::stress, ResponseType::buckling, ResponseType::elastic_energy})) {
+                 {ResponseType::stress, ResponseType::buckling, ResponseType::elastic_energy,
+                  ResponseType::section_force})) {
       estimates.axial_elasticity = always;
     }
     estimates.torsional_elasticity = change(d.twist, d.twist_acceleration);
-    if (asks_for(problem_, body.name, {ResponseType::stress, ResponseType::elastic_energy})) {
+    if (asks_for(
+            problem_, body.name,
+            {ResponseType::stress, ResponseType::elastic_energy, ResponseType::section_force})) {
       estimates.torsional_elasticity = always;
     }
     estimates.geometric_stiffening = d.axial_force / euler_load(body, beam);

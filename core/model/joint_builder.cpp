@@ -264,7 +264,7 @@ class JointBuilder {
     std::set<int> all;
     for (const Attachment& side : sides_) side.add_variables(all);
     visit_numbers(joint_, [&](const Number& number, const Quantity&) {
-      if (number.is_bound()) all.insert(number.variable);
+      for (const int variable : number.variables()) all.insert(variable);
     });
     return all;
   }

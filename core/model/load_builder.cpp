@@ -1,5 +1,6 @@
 #include "core/model/load_builder.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 #include "core/base/find_named.hpp"
@@ -27,7 +28,7 @@ class LoadBuilder {
               int coordinates)
       : load_(load), bodies_(bodies), context_(context), coordinates_(coordinates) {}
 
-  std::unique_ptr<Term> operator()(const PointForce& force) {
+  BuiltLoad operator()(const PointForce& force) {
     attach(force.body, force.at);
     PointForceTopology topology;
     topology.name = load_.name;
@@ -39,13 +40,13 @@ class LoadBuilder {
       numbers.value = resolve_time_law(force.value, design);
       return numbers;
     };
-    return finish<PointForceData>(data, [&](std::span<const Marker> markers, auto numbers, auto x) {
-      topology.marker = markers[0];
-      return make_point_force_term(topology, numbers, x);
-    });
+    const auto parts = parts_of<PointForceData>(data);
+    topology.marker = parts.markers[0];
+    return {project(make_point_force_term(topology, parts.numbers, parts.derivatives), parts.map),
+            std::nullopt};
   }
 
-  std::unique_ptr<Term> operator()(const PointTorque& torque) {
+  BuiltLoad operator()(const PointTorque& torque) {
     attach(torque.body, torque.at);
     PointTorqueTopology topology;
     topology.name = load_.name;
@@ -56,14 +57,13 @@ class LoadBuilder {
       numbers.value = resolve_time_law(torque.value, design);
       return numbers;
     };
-    return finish<PointTorqueData>(data,
-                                   [&](std::span<const Marker> markers, auto numbers, auto x) {
-                                     topology.marker = markers[0];
-                                     return make_point_torque_term(topology, numbers, x);
-                                   });
+    const auto parts = parts_of<PointTorqueData>(data);
+    topology.marker = parts.markers[0];
+    return {project(make_point_torque_term(topology, parts.numbers, parts.derivatives), parts.map),
+            std::nullopt};
   }
 
-  std::unique_ptr<Term> operator()(const SpringDamper& spring) {
+  BuiltLoad operator()(const SpringDamper& spring) {
     for (std::size_t i = 0; i < 2; ++i) attach(spring.bodies[i], spring.at[i]);
     const auto data = [&](const auto& design) {
       using Scalar = ScalarOf<decltype(design)>;
@@ -78,44 +78,68 @@ class LoadBuilder {
                                              .norm());
       return numbers;
     };
-    return finish<SpringDamperData>(
-        data, [&](std::span<const Marker> markers, auto numbers, auto x) {
-          return make_spring_damper_term({load_.name, {markers[0], markers[1]}}, numbers, x);
-        });
+    const auto parts = parts_of<SpringDamperData>(data);
+    const SpringDamperTopology topology{load_.name, {parts.markers[0], parts.markers[1]}};
+    return {project(make_spring_damper_term(topology, parts.numbers, parts.derivatives), parts.map),
+            GaugeModel{make_spring_gauge(topology, parts.numbers, parts.derivatives), parts.map}};
   }
 
-  std::unique_ptr<Term> operator()(const JointForce& force) {
+  BuiltLoad operator()(const JointForce& force) {
     const Joint& joint = find_joint(context_.scene, force.joint);
     for (const std::string& body : joint.bodies) attach(body, joint.at);
     visit_joint_ = &joint;
-    const Eigen::Vector3d axis = to_vector(joint.axis).normalized();
-    JointForceTopology topology;
-    topology.name = load_.name;
-    topology.coordinate = RelativeCoordinate::displacement;
-    if (force.coordinate == DrivenCoordinate::angle) {
-      topology.coordinate =
-          context_.plane ? RelativeCoordinate::planar_angle : RelativeCoordinate::angle;
-    }
-    if (context_.plane && axis.dot(context_.plane->normal) < 0.0) topology.sense = -1.0;
+    JointForceTopology topology = joint_topology(joint, force.coordinate);
     const auto data = [&](const auto& design) {
-      JointForceData<ScalarOf<decltype(design)>> numbers;
-      for (std::size_t i = 0; i < 2; ++i) numbers.points[i] = places_[i].local_point(design);
-      set_directions(joint, axis, topology.coordinate, design, numbers);
+      auto numbers = joint_numbers(joint, topology.coordinate, design);
       numbers.stiffness = resolve(force.stiffness, design);
       numbers.damping = resolve(force.damping, design);
       numbers.rest = resolve(force.rest, design);
       if (force.motor) numbers.motor = resolve_time_law(*force.motor, design);
       return numbers;
     };
-    return finish<JointForceData>(data, [&](std::span<const Marker> markers, auto numbers, auto x) {
-      topology.markers = {markers[0], markers[1]};
-      return make_joint_force_term(topology, numbers, x);
-    });
+    const auto parts = parts_of<JointForceData>(data);
+    topology.markers = {parts.markers[0], parts.markers[1]};
+    return {project(make_joint_force_term(topology, parts.numbers, parts.derivatives), parts.map),
+            GaugeModel{make_joint_gauge(topology, parts.numbers, parts.derivatives), parts.map}};
+  }
+
+  /// Of a joint in which nothing acts.
+  GaugeModel gauge_of(const Joint& joint, DrivenCoordinate coordinate) {
+    for (const std::string& body : joint.bodies) attach(body, joint.at);
+    visit_joint_ = &joint;
+    JointForceTopology topology = joint_topology(joint, coordinate);
+    const auto parts = parts_of<JointForceData>(
+        [&](const auto& design) { return joint_numbers(joint, topology.coordinate, design); });
+    topology.markers = {parts.markers[0], parts.markers[1]};
+    return {make_joint_gauge(topology, parts.numbers, parts.derivatives), parts.map};
   }
 
  private:
   template <class Design>
   using ScalarOf = typename std::remove_cvref_t<Design>::value_type;
+
+  JointForceTopology joint_topology(const Joint& joint, DrivenCoordinate coordinate) const {
+    JointForceTopology topology;
+    topology.name = load_.name;
+    topology.coordinate = RelativeCoordinate::displacement;
+    if (coordinate == DrivenCoordinate::angle) {
+      topology.coordinate =
+          context_.plane ? RelativeCoordinate::planar_angle : RelativeCoordinate::angle;
+    }
+    const Eigen::Vector3d axis = to_vector(joint.axis).normalized();
+    if (context_.plane && axis.dot(context_.plane->normal) < 0.0) topology.sense = -1.0;
+    return topology;
+  }
+
+  /// Of the joint, without what acts in it.
+  template <class Scalar>
+  JointForceData<Scalar> joint_numbers(const Joint& joint, RelativeCoordinate coordinate,
+                                       const Design<Scalar>& design) const {
+    JointForceData<Scalar> numbers;
+    for (std::size_t i = 0; i < 2; ++i) numbers.points[i] = places_[i].local_point(design);
+    set_directions(joint, to_vector(joint.axis).normalized(), coordinate, design, numbers);
+    return numbers;
+  }
 
   void attach(const std::string& body, const Point& at) {
     places_.emplace_back(body, at, bodies_, context_);
@@ -152,33 +176,45 @@ class LoadBuilder {
     std::set<int> all;
     for (const Attachment& place : places_) place.add_variables(all);
     const auto add = [&](const Number& number, const Quantity&) {
-      if (number.is_bound()) all.insert(number.variable);
+      for (const int variable : number.variables()) all.insert(variable);
     };
     visit_numbers(load_, add);
     if (visit_joint_) visit_numbers(*visit_joint_, add);
     return all;
   }
 
-  /// @param data  design → numbers;  @param make  markers, numbers, derivatives → term
-  template <template <class> class Data, class MakeData, class MakeTerm>
-  std::unique_ptr<Term> finish(const MakeData& data, const MakeTerm& make) {
+  /// What a force element is made of.
+  template <template <class> class Data>
+  struct Parts {
+    std::vector<Marker> markers;
+    Data<double> numbers;
     std::vector<DesignDerivative<Data<double>>> derivatives;
+    std::optional<CoordinateMap> map;  ///< none: its coordinates are those of the system
+  };
+
+  /// @param data  design → numbers
+  template <template <class> class Data, class MakeData>
+  Parts<Data> parts_of(const MakeData& data) const {
+    Parts<Data> parts;
     for (int variable : variables()) {
       if (auto change = derivative_data(Data<Dual>(data(context_.seeded(variable))))) {
-        derivatives.push_back({variable, std::move(*change)});
+        parts.derivatives.push_back({variable, std::move(*change)});
       }
     }
-    std::vector<Marker> markers;
     bool is_direct = true;
     for (const Attachment& place : places_) {
-      markers.push_back(place.marker());
+      parts.markers.push_back(place.marker());
       is_direct = is_direct && place.is_direct();
     }
-    const Data<double> numbers = data(context_.design);
-    if (is_direct) return make(markers, numbers, derivatives);
-    CoordinateMap map = make_local(places_, markers);
-    return std::make_unique<ProjectedTerm>(make(markers, numbers, derivatives), std::move(map),
-                                           coordinates_);
+    parts.numbers = data(context_.design);
+    if (!is_direct) parts.map = make_local(places_, parts.markers);
+    return parts;
+  }
+
+  std::unique_ptr<Term> project(std::unique_ptr<Term> term,
+                                const std::optional<CoordinateMap>& map) const {
+    if (!map) return term;
+    return std::make_unique<ProjectedTerm>(std::move(term), *map, coordinates_);
   }
 
   const Load& load_;
@@ -191,9 +227,36 @@ class LoadBuilder {
 
 }  // namespace
 
-std::unique_ptr<Term> make_load_term(const Load& load, const std::vector<BodyModel>& bodies,
-                                     const BuildContext& context, int coordinates) {
+BuiltLoad make_load(const Load& load, const std::vector<BodyModel>& bodies,
+                    const BuildContext& context, int coordinates) {
   return std::visit(LoadBuilder(load, bodies, context, coordinates), load.element);
+}
+
+namespace {
+
+bool has_angle(JointType type) {
+  return type == JointType::revolute || type == JointType::universal || type == JointType::planar ||
+         type == JointType::cylindrical;
+}
+
+bool has_displacement(JointType type) {
+  return type == JointType::prismatic || type == JointType::point_on_line ||
+         type == JointType::cylindrical;
+}
+
+}  // namespace
+
+void add_gauges(const Joint& joint, const std::vector<BodyModel>& bodies,
+                const BuildContext& context, JointModel& model) {
+  const Load nothing{joint.name, JointForce{}};
+  const auto gauge = [&](DrivenCoordinate coordinate) {
+    return LoadBuilder(nothing, bodies, context, 0).gauge_of(joint, coordinate);
+  };
+  const bool turns = std::all_of(
+      joint.bodies.begin(), joint.bodies.end(),
+      [&](const std::string& body) { return Attachment(body, joint.at, bodies, context).turns(); });
+  if (has_angle(joint.type) && turns) model.angle = gauge(DrivenCoordinate::angle);
+  if (has_displacement(joint.type)) model.displacement = gauge(DrivenCoordinate::displacement);
 }
 
 }  // namespace pleuel

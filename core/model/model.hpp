@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -65,6 +66,20 @@ struct BodyModel : ElasticBody {
   }
 };
 
+class Gauge;  // core/forces/gauge.hpp
+
+/// What can be read of a joint or a load. Its coordinates are local where `map` is set.
+struct GaugeModel {
+  std::shared_ptr<const Gauge> gauge;
+  std::optional<CoordinateMap> map;
+};
+
+/// A load of the model: what responses need to know of it.
+struct LoadModel {
+  std::string name;
+  std::optional<GaugeModel> gauge;  ///< of springs, and of loads in joints
+};
+
 /// A joint of the model: what responses need to know of it. Its numbers are local where `map` is
 /// set, and those of the system elsewhere.
 struct JointModel {
@@ -76,6 +91,8 @@ struct JointModel {
   std::vector<DesignDerivative<JointData<double>>> derivatives;
   std::optional<CoordinateMap> map;
   bool is_division = false;  ///< welds two frames of one beam: no joint of the scene
+  /// Of its relative coordinates, as far as it has them.
+  std::optional<GaugeModel> angle, displacement;
 
   int equations() const { return static_cast<int>(topology.equations.size()); }
 };
@@ -115,6 +132,7 @@ struct Model {
   /// the system.
   std::vector<BodyModel> undivided;
   std::vector<JointModel> joints;
+  std::vector<LoadModel> loads;
   std::vector<EffectRecord> effects;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
 

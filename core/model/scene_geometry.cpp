@@ -7,7 +7,7 @@ namespace pleuel {
 std::set<int> variables_of(const Body& body, const Scene& scene) {
   std::set<int> variables;
   const auto collect = [&](const Number& number, const Quantity&) {
-    if (number.is_bound()) variables.insert(number.variable);
+    for (const int variable : number.variables()) variables.insert(variable);
   };
   visit_numbers(body, collect);
   if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {

@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/machine_memory.hpp"
+#include "core/response/expression_value.hpp"
 #include "core/response/make_responses.hpp"
 #include "core/response/mechanism_modes.hpp"
 #include "core/response/misalignment.hpp"
@@ -153,9 +154,24 @@ Reduction reduce_response(std::size_t i, Analysis& analysis) {
     return reduce_history(response, analysis.trajectory.time, analysis.breaks, history);
   }
   Reduction constant;
+  if (response.expression()) {
+    constant.value = expression_value(analysis.responses, analysis.reductions, analysis.x, i);
+    return constant;
+  }
   constant.value = response.frequency() ? analysis.mechanism_frequencies(response.frequency()->mode)
                                         : std::get<DesignConstant>(response.source).value;
   return constant;
+}
+
+/// Expressions come last, in the order of the file: they may name expressions before them.
+void reduce_responses(Analysis& analysis) {
+  analysis.reductions.resize(analysis.responses.size());
+  for (const bool of_expressions : {false, true}) {
+    for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
+      const bool is_expression = analysis.responses[i].expression() != nullptr;
+      if (is_expression == of_expressions) analysis.reductions[i] = reduce_response(i, analysis);
+    }
+  }
 }
 
 }  // namespace
@@ -189,6 +205,7 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   const Eigen::VectorXd start = start_design(problem);
   const Design<double> design(x.begin(), x.end()), start_values(start.begin(), start.end());
   auto analysis = std::make_unique<Analysis>();
+  analysis->x = x;
   analysis->model = build_model(problem.scene, problem.effects, start_values, design,
                                 problem.sensitivity.invariants);
   analysis->model.mechanism.starts_in_equilibrium = problem.simulation.quasi_static_start;
@@ -212,9 +229,7 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   analysis->histories = recorder.take(analysis->trajectory.steps() + 1);
   set_mechanism_frequencies(*analysis);
   set_rigid_mechanism(problem, x, *analysis);
-  for (std::size_t i = 0; i < analysis->responses.size(); ++i) {
-    analysis->reductions.push_back(reduce_response(i, *analysis));
-  }
+  reduce_responses(*analysis);
   require_finite(analysis->responses, analysis->reductions, analysis->histories,
                  analysis->trajectory);
   return analysis;

@@ -12,6 +12,7 @@ namespace pleuel {
 
 /// One simulated design: everything that values and gradients are made from.
 struct Analysis {
+  Eigen::VectorXd x;  ///< design variables [SI]
   Model model;
   Trajectory trajectory;
   BrokenInstants breaks;  ///< of the trajectory, where something that acts jumps or has a kink

@@ -9,6 +9,8 @@
 
 #include "core/base/error.hpp"
 #include "core/model/effect_estimates.hpp"
+#include "core/response/linearized_expression.hpp"
+#include "core/scene/response_parts.hpp"
 
 namespace pleuel {
 
@@ -21,17 +23,10 @@ constexpr double round_off = 1e-9;
 /// One effect of one body: (body, name of the effect), as in EffectDecisions::measured.
 using Unit = std::pair<std::string, std::string>;
 
-double magnitude_of(const Analysis& analysis, std::size_t response) {
-  const Eigen::MatrixXd& history = analysis.histories[response];
+double size_of(const Analysis& analysis, std::size_t response) {
   const double value = std::abs(analysis.reductions[response].value);
-  const bool is_integral = analysis.responses[response].is_reduced_by(OverTime::integral);
-  if (history.size() == 0 || is_integral) return value;
-  return std::max(value, history.cwiseAbs().maxCoeff());
-}
-
-bool is_monitor(const ResponseSettings& response) {
-  return response.type == ResponseType::energy_balance ||
-         response.type == ResponseType::constraint_drift;
+  if (analysis.responses[response].is_reduced_by(OverTime::integral)) return value;
+  return std::max(value, magnitude_of(analysis, response));
 }
 
 std::unique_ptr<Analysis> try_to_analyze(const ProblemFile& problem) {
@@ -138,15 +133,15 @@ LargestChange largest_change(const ProblemFile& problem, const Analysis& referen
   std::map<std::string, double> floors;
   for (std::size_t i = 0; i < problem.responses.size(); ++i) {
     double& floor = floors[reference.responses[i].unit];
-    floor = std::max(floor, round_off * magnitude_of(reference, i));
+    floor = std::max(floor, round_off * size_of(reference, i));
   }
   LargestChange largest;
   for (std::size_t i = 0; i < problem.responses.size(); ++i) {
-    if (is_monitor(problem.responses[i])) continue;
+    if (is_monitor(problem, i)) continue;
     const double value = reference.reductions[i].value;
     const double difference = std::abs(other.reductions[i].value - value);
     if (difference <= floors[reference.responses[i].unit]) continue;
-    const double scale = std::max(std::abs(value), near_zero * magnitude_of(reference, i));
+    const double scale = std::max(std::abs(value), near_zero * size_of(reference, i));
     const double change =
         scale > 0.0 ? difference / scale : std::numeric_limits<double>::infinity();
     if (!(change <= largest.relative)) largest = {change, problem.responses[i].name};

@@ -9,6 +9,7 @@
 #include "core/response/drift_signal.hpp"
 #include "core/response/drive_signals.hpp"
 #include "core/response/energy_signals.hpp"
+#include "core/response/gauge_signal.hpp"
 #include "core/response/least_norm_signal.hpp"
 #include "core/response/projected_signal.hpp"
 #include "core/response/reaction_signal.hpp"
@@ -46,6 +47,8 @@ class ResponseMaker {
     Response response{settings_.name, std::string(quantity_of(settings_).unit), {}};
     if (settings_.type == ResponseType::mass) {
       response.source = mass_of(settings_, model_);
+    } else if (settings_.type == ResponseType::expression) {
+      response.source = ResponseExpression{settings_.expression};
     } else if (settings_.type != ResponseType::frequency) {
       response.source = history();
     } else if (settings_.bodies.empty()) {
@@ -96,12 +99,24 @@ class ResponseMaker {
       case ResponseType::constraint_drift:
         if (model_.mechanism.system->multipliers() == 0) fail("the mechanism has no constraints");
         return make_drift_signal(model_, settings_.level);
+      case ResponseType::angular_velocity:
+      case ResponseType::section_force:
+        return make_signal_of_body(settings_, model_);
+      case ResponseType::joint_position:
+      case ResponseType::joint_velocity:
+      case ResponseType::spring_length:
+      case ResponseType::spring_force:
+      case ResponseType::motor_power:
+        return make_reading();
       case ResponseType::mass:
       case ResponseType::frequency:
+      case ResponseType::expression:
         break;
     }
     throw std::logic_error("a response without a signal");
   }
+
+  std::unique_ptr<Signal> make_reading() const { return make_gauge_signal(settings_, model_); }
 
   DesignConstant frequency_of_body() const {
     const BodyModel& body = with_all_modes_.body(settings_.bodies.front());

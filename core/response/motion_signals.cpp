@@ -116,7 +116,38 @@ class AxisSignal final : public Signal {
   int axis_;
 };
 
+class SpinSignal final : public Signal {
+ public:
+  SpinSignal(const BodyModel& body, int direction) : body_(body), direction_(direction) {}
+
+  int channels() const override { return 1; }
+  std::string describe(int) const override {
+    return fmt::format("body frame, {}", component_name(direction_));
+  }
+  void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
+    values(0) = evaluate<double>(BodyState(body_, state).frame());
+  }
+  void add_gradient(const State& state, int, double weight, SignalGradient& gradient) override {
+    const BodyState of_body(body_, state);
+    const FrameDual spin = evaluate<FrameDual>(of_body.seeded_frame<FrameDual>());
+    BodyGradient(body_, of_body, gradient).add_frame(weight, spin.derivatives());
+  }
+
+ private:
+  template <class Scalar>
+  Scalar evaluate(const FrameMotion<Scalar>& frame) const {
+    return component_of<Scalar>(Vector3<Scalar>(frame.A * frame.omega), direction_);
+  }
+
+  const BodyModel& body_;
+  int direction_;
+};
+
 }  // namespace
+
+std::unique_ptr<Signal> make_spin_signal(const BodyModel& body, int direction) {
+  return std::make_unique<SpinSignal>(body, direction);
+}
 
 std::unique_ptr<Signal> make_deflection_signal(const BodyModel& body, NamedPoint point,
                                                int direction) {

@@ -25,6 +25,10 @@ std::unique_ptr<Signal> make_deflection_signal(const BodyModel& body, NamedPoint
 /// @param axis  0 … 2
 std::unique_ptr<Signal> make_axis_signal(const BodyModel& body, int axis);
 
+/// Angular velocity A ω of the body frame, global axes [rad/s].
+/// @param direction  0 … 2: global x, y, z; −1: magnitude
+std::unique_ptr<Signal> make_spin_signal(const BodyModel& body, int direction);
+
 /// Motion of a point in global axes. With p the point in the frame, displaced:
 ///     r + A p [m],    ṙ + Ȧ p + A ṗ [m/s],    r̈ + Ä p + 2 Ȧ ṗ + A p̈ [m/s²]
 /// The acceleration is that of the true a, not the scheme's.

@@ -21,6 +21,11 @@ struct InitialFrequency {
   int mode = 0;  ///< from 0
 };
 
+/// A formula of other responses and of design variables (core/response/linearized_expression.hpp).
+struct ResponseExpression {
+  std::shared_ptr<const Expression> expression;
+};
+
 /// What becomes of the observed numbers before they are reduced.
 enum class HistoryTransform {
   none,
@@ -43,11 +48,15 @@ struct ResponseHistory {
 struct Response {
   std::string name;
   std::string unit;  ///< SI
-  std::variant<DesignConstant, InitialFrequency, ResponseHistory> source;
+  std::variant<DesignConstant, InitialFrequency, ResponseHistory, ResponseExpression> source;
 
   /// What is observed; null for a number that is none of a motion.
   const ResponseHistory* history() const { return std::get_if<ResponseHistory>(&source); }
   const InitialFrequency* frequency() const { return std::get_if<InitialFrequency>(&source); }
+  const Expression* expression() const {
+    const auto* formula = std::get_if<ResponseExpression>(&source);
+    return formula ? formula->expression.get() : nullptr;
+  }
   bool is_balance() const { return history() && history()->is_balance(); }
   /// Whether its number is reduced over time in one of these ways.
   bool is_reduced_by(OverTime kind) const { return history() && history()->over_time == kind; }

@@ -1,15 +1,18 @@
 #include "core/response/signal_of_body.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/response/buckling_signal.hpp"
 #include "core/response/divided_deflection.hpp"
 #include "core/response/motion_signals.hpp"
+#include "core/response/norm_signal.hpp"
 #include "core/response/point_stress_signal.hpp"
 #include "core/response/response.hpp"
 #include "core/response/scaled_signal.hpp"
+#include "core/response/section_force_signal.hpp"
 #include "core/response/signal_list.hpp"
 #include "core/response/signal_sum.hpp"
 #include "core/response/stress_signal.hpp"
@@ -36,6 +39,12 @@ class BodySignalMaker {
         return make_motion(TimeDerivative::none);
       case ResponseType::velocity:
         return make_motion(TimeDerivative::first);
+      case ResponseType::section_force:
+        check_section_forces();
+        return make_section_force_signal(body_, model_.gravity, settings_.section_part,
+                                         {std::nullopt, settings_.station});
+      case ResponseType::angular_velocity:
+        return make_spin_signal(body_, settings_.direction);
       default:
         return make_motion(TimeDerivative::second);
     }
@@ -56,13 +65,17 @@ class BodySignalMaker {
   /// Section forces come from strain.
   void check_section_forces() const {
     if (!body_.is_elastic) fail(fmt::format("\"{}\" is rigid", body_.name));
+    const bool is_section_force = settings_.type == ResponseType::section_force;
     const bool needs_axial =
-        settings_.type == ResponseType::buckling || settings_.part == StressPart::axial;
+        settings_.type == ResponseType::buckling || settings_.part == StressPart::axial ||
+        (is_section_force && settings_.section_part == SectionForcePart::axial);
     if (needs_axial && !has_displacement(0)) {
       fail(fmt::format("\"{}\" has no axial elasticity", body_.name));
     }
-    const bool needs_twist = settings_.part == StressPart::shear &&
-                             body_.frame.rotation == RotationCoordinates::rotation_vector;
+    const bool is_twist = settings_.part == StressPart::shear ||
+                          (is_section_force && settings_.section_part == SectionForcePart::torque);
+    const bool needs_twist =
+        is_twist && body_.frame.rotation == RotationCoordinates::rotation_vector;
     if (needs_twist && !has_displacement(3)) {
       fail(fmt::format("\"{}\" has no torsional elasticity", body_.name));
     }
@@ -149,6 +162,7 @@ class DividedSignalMaker {
   std::unique_ptr<Signal> make() const {
     switch (settings_.type) {
       case ResponseType::stress:
+      case ResponseType::section_force:
         return make_stress();
       case ResponseType::buckling:
         return make_buckling();
@@ -233,6 +247,12 @@ class DividedSignalMaker {
   }
 
   std::unique_ptr<Signal> make_deflection() const {
+    if (settings_.direction == 0) {
+      refuse_response(settings_.name,
+                      fmt::format("\"{}\" is divided into frames, of which each has an axis of its "
+                                  "own: take the direction y or z",
+                                  settings_.bodies.front()));
+    }
     const ReferenceCondition frame = parts_.front()->condition;
     const bool is_chord =
         settings_.against == DeflectionReference::chord || frame == ReferenceCondition::chord;
@@ -258,7 +278,57 @@ class DividedSignalMaker {
 
 }  // namespace
 
+namespace {
+
+/// √(y² + z²) of a deflection.
+std::unique_ptr<Signal> make_resultant(ResponseSettings settings, const Model& model) {
+  settings.direction = 1;
+  auto along_y = make_signal_of_body(settings, model);
+  settings.direction = 2;
+  return std::make_unique<NormSignal>(std::move(along_y), make_signal_of_body(settings, model));
+}
+
+/// A signal whose places are named with their body.
+class SignalOfNamedBody final : public Signal {
+ public:
+  SignalOfNamedBody(std::string body, std::unique_ptr<Signal> signal)
+      : body_(std::move(body)), signal_(std::move(signal)) {}
+
+  int channels() const override { return signal_->channels(); }
+  void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
+    signal_->observe(state, values);
+  }
+  void add_gradient(const State& state, int channel, double weight,
+                    SignalGradient& gradient) override {
+    signal_->add_gradient(state, channel, weight, gradient);
+  }
+  std::string describe(int channel) const override {
+    return body_ + ", " + signal_->describe(channel);
+  }
+
+ private:
+  std::string body_;
+  std::unique_ptr<Signal> signal_;
+};
+
+/// Stress of several bodies.
+std::unique_ptr<Signal> make_list(ResponseSettings settings, const Model& model) {
+  std::vector<std::unique_ptr<Signal>> signals;
+  for (const std::string& body : std::exchange(settings.bodies, {})) {
+    settings.bodies = {body};
+    signals.push_back(
+        std::make_unique<SignalOfNamedBody>(body, make_signal_of_body(settings, model)));
+  }
+  return std::make_unique<SignalList>(std::move(signals));
+}
+
+}  // namespace
+
 std::unique_ptr<Signal> make_signal_of_body(const ResponseSettings& settings, const Model& model) {
+  if (settings.bodies.size() > 1) return make_list(settings, model);
+  if (settings.type == ResponseType::deflection && settings.direction == magnitude) {
+    return make_resultant(settings, model);
+  }
   const std::vector<const BodyModel*> parts = model.parts(settings.bodies.front());
   if (parts.size() > 1) return DividedSignalMaker(settings, model).make();
   return BodySignalMaker(settings, model, *parts.front()).make();

@@ -18,6 +18,8 @@ constexpr double design_tolerance = 1e-3;
 constexpr double inertia_tolerance = 1e-3;
 /// Moments smaller than this share of their sum are not given.
 constexpr double not_given = 1e-9;
+/// Variables of an inertia whose bounds are looked at: 2ⁿ corners.
+constexpr std::size_t most_corners = 10;
 
 struct RulesOfSection {
   using Rules = std::vector<SectionRule>;
@@ -49,12 +51,25 @@ Eigen::Vector3d principal_moments(const RigidBody& body, const Design<double>& d
   return inertia.selfadjointView<Eigen::Lower>().eigenvalues();
 }
 
-/// Coefficients of size − share · limit, by variable.
-std::map<int, double> coefficients_of(const SectionRule& rule) {
+/// Coefficients of size − share · limit at a design, by variable.
+std::map<int, double> coefficients_of(const SectionRule& rule, const Design<double>& design) {
   std::map<int, double> coefficients;
-  if (rule.size.is_bound()) coefficients[rule.size.variable] += rule.size.factor;
-  if (rule.of.is_bound()) coefficients[rule.of.variable] -= rule.share * rule.of.factor;
+  for (const int variable : rule.size.variables()) {
+    coefficients[variable] += derivative_by(variable, rule.size, design);
+  }
+  for (const int variable : rule.of.variables()) {
+    coefficients[variable] -= rule.share * derivative_by(variable, rule.of, design);
+  }
   return coefficients;
+}
+
+/// What can be done about a rule that bounds do not keep.
+std::string remedy(const SectionRule& rule, const std::string& terms) {
+  if (rule.size.expression || rule.of.expression) {
+    return "other bounds, or a constraint on a response of type \"expression\"";
+  }
+  return fmt::format("other bounds, or a constraint {{\"linear\": {{{}}}, \"upper\": {:g}}}", terms,
+                     rule.share * rule.of.constant - rule.size.constant);
 }
 
 class Corners {
@@ -81,9 +96,10 @@ class Corners {
     return problem_.variables[static_cast<std::size_t>(index)];
   }
 
-  /// The rule is linear: it is broken most where each variable is at one certain bound.
+  /// The rule is linear (or taken to be, of an expression): it is broken most where each variable is
+  /// at one certain bound.
   void look_at(const Body& body, const SectionRule& rule) {
-    const std::map<int, double> coefficients = coefficients_of(rule);
+    const std::map<int, double> coefficients = coefficients_of(rule, start_);
     Corner corner;
     for (const auto& [index, coefficient] : coefficients) {
       corner[index] = coefficient > 0.0 ? variable(index).upper : variable(index).lower;
@@ -96,18 +112,17 @@ class Corners {
       terms += fmt::format("{}\"{}\": {:g}", terms.empty() ? "" : ", ", variable(index).name,
                            coefficient);
     }
-    const double limit = rule.share * rule.of.constant - rule.size.constant;
-    add(body, "section's " + std::string(rule.key), *broken, corner,
-        fmt::format("other bounds, or a constraint {{\"linear\": {{{}}}, \"upper\": {:g}}}", terms,
-                    limit));
+    add(body, "section's " + std::string(rule.key), *broken, corner, remedy(rule, terms));
   }
 
   void look_at(const Body& body, const RigidBody& rigid) {
     std::vector<int> bound;
     for (const Number& number : rigid.inertia) {
-      const bool is_new = std::find(bound.begin(), bound.end(), number.variable) == bound.end();
-      if (number.is_bound() && is_new) bound.push_back(number.variable);
+      for (const int of : number.variables()) {
+        if (std::find(bound.begin(), bound.end(), of) == bound.end()) bound.push_back(of);
+      }
     }
+    if (bound.size() > most_corners) bound.resize(most_corners);
     for (unsigned bits = 0; bits < (1U << bound.size()); ++bits) {
       Corner corner;
       for (std::size_t i = 0; i < bound.size(); ++i) {

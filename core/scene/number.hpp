@@ -1,16 +1,22 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <type_traits>
 #include <vector>
+
+#include "core/base/dual.hpp"
+#include "core/scene/expression.hpp"
 
 namespace pleuel {
 
-/// A number of the scene in SI units, fixed or bound to a design variable:
-///     value = constant + factor · x[variable]
+/// A number of the scene in SI units, fixed or bound to design variables:
+///     value = constant + factor · x[variable]    or    constant + factor · expression(x)
 struct Number {
   double constant = 0.0;
-  int variable = -1;  ///< index into the design variables; −1 = fixed
+  int variable = -1;  ///< index into the design variables; −1 = none
   double factor = 0.0;
+  std::shared_ptr<const Expression> expression = {};  ///< of design variables only; null = none
 
   Number() = default;
   Number(double fixed) : constant(fixed) {}  // NOLINT: a plain number is a Number
@@ -20,7 +26,17 @@ struct Number {
     number.factor = factor;
     return number;
   }
-  bool is_bound() const { return variable >= 0; }
+  static Number bound(std::shared_ptr<const Expression> expression) {
+    Number number;
+    number.expression = std::move(expression);
+    number.factor = 1.0;
+    return number;
+  }
+  bool is_bound() const { return variable >= 0 || expression != nullptr; }
+
+  /// The design variables that it depends on.
+  std::vector<int> variables() const;
+  bool depends_on(int design_variable) const;
 };
 
 using Point = std::array<Number, 3>;  ///< [m], global axes
@@ -30,11 +46,37 @@ using Point = std::array<Number, 3>;  ///< [m], global axes
 template <class Scalar>
 using Design = std::vector<Scalar>;
 
+/// Exact in the first derivatives that the scalar type carries.
+template <class Scalar>
+Scalar resolve(const Expression& expression, const Design<Scalar>& design) {
+  const auto argument = [&](std::size_t i) -> const Scalar& {
+    return design[expression.arguments[i].index];
+  };
+  std::vector<double> arguments;
+  for (std::size_t i = 0; i < expression.arguments.size(); ++i) {
+    arguments.push_back(value_of(argument(i)));
+  }
+  const ExpressionValue at = evaluate(expression, arguments);
+  Scalar value(at.value);
+  if constexpr (!std::is_same_v<Scalar, double>) {
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+      value += at.derivatives[i] * (argument(i) - arguments[i]);
+    }
+  }
+  return value;
+}
+
 template <class Scalar>
 Scalar resolve(const Number& number, const Design<Scalar>& design) {
   Scalar value(number.constant);
-  if (number.is_bound()) value += number.factor * design[static_cast<std::size_t>(number.variable)];
+  if (number.variable >= 0) {
+    value += number.factor * design[static_cast<std::size_t>(number.variable)];
+  }
+  if (number.expression) value += number.factor * resolve(*number.expression, design);
   return value;
 }
+
+/// ∂(number)/∂x[variable]
+double derivative_by(int variable, const Number& number, const Design<double>& design);
 
 }  // namespace pleuel

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -64,7 +65,8 @@ struct SimulationSettings : TimeIntegration {
 struct DesignVariable {
   std::string name;
   double start = 0.0, lower = 0.0, upper = 0.0;  ///< SI
-  std::string unit;  ///< as the user wrote it, for display; may be empty
+  std::string unit;                       ///< as the user wrote it, for display; may be empty
+  std::optional<Quantity> quantity = {};  ///< what it measures; none: see variable_quantity()
 };
 
 enum class ResponseType {
@@ -84,7 +86,15 @@ enum class ResponseType {
   kinetic_energy,
   elastic_energy,
   energy_balance,
-  constraint_drift
+  constraint_drift,
+  expression,        ///< a formula of other responses and of variables
+  section_force,     ///< of a beam, at a place
+  angular_velocity,  ///< of a body frame
+  joint_position,    ///< relative angle or displacement of both bodies
+  joint_velocity,
+  spring_length,
+  spring_force,  ///< positive: it pulls
+  motor_power    ///< of a motor in a joint
 };
 enum class OverTime { max, min, max_abs, rms, mean, integral, final };
 
@@ -96,6 +106,14 @@ enum class StressPart {
   bending,     ///< without N/A
   shear,       ///< of torsion
   utilization  ///< von Mises stress over the strength of the material
+};
+
+/// Section forces of a beam, local axes: those of the part behind the section on the part before it.
+enum class SectionForcePart {
+  axial,     ///< N, positive: tension
+  moment_y,  ///< bends in the plane of x and z
+  moment_z,  ///< bends in the plane of x and y
+  torque     ///< about the axis of the beam
 };
 
 /// What a deflection is measured against.
@@ -117,21 +135,35 @@ struct ResponseSettings {
   std::optional<int> segment;     ///< stress: only this segment, from 0
   std::optional<double> station;  ///< stress: only at this place along the beam, 0 … 1
   StressPart part = StressPart::von_mises;
+  SectionForcePart section_part = SectionForcePart::axial;
   double at = 0.0;    ///< deflection, position …: place along the beam, 0 … 1
   std::string place;  ///< the same of an imported body: its name
   DeflectionReference against = DeflectionReference::frame;
-  /// deflection: 1 = local y, 2 = local z; deflection against the rigid mechanism, position,
-  /// velocity, acceleration, reaction: 0 … 2 global axes, −1 = magnitude
+  /// deflection: 0 … 2 = local x, y, z, −1 = √(y² + z²); deflection against the rigid mechanism,
+  /// position, velocity, acceleration, angular velocity, reaction: 0 … 2 global axes, −1 =
+  /// magnitude
   int direction = 1;
-  std::string joint;                        ///< drive torque and power, reactions
-  int mode = 0;                             ///< frequency: from 0 for the lowest
-  DriftLevel level = DriftLevel::position;  ///< constraint drift
+  std::string joint;  ///< drive torque and power, reactions, position and velocity of a joint
+  DrivenCoordinate coordinate = DrivenCoordinate::angle;  ///< position and velocity of a joint
+  std::string load;                                       ///< spring length and force, motor power
+  int mode = 0;                                           ///< frequency: from 0 for the lowest
+  DriftLevel level = DriftLevel::position;                ///< constraint drift
   OverTime over_time = OverTime::max;
-  std::optional<double> from, to;  ///< window of time [s]
+  std::optional<double> from, to;                     ///< window of time [s]
+  std::shared_ptr<const Expression> expression = {};  ///< expression
+  std::string unit;         ///< expression: as the user wants to see it; may be empty
+  double unit_scale = 1.0;  ///< SI value of that unit
 };
+
+/// Whether the objective is to be small or large.
+enum class Aim { minimize, maximize };
 
 struct Objective {
   std::string response;
+  Aim aim = Aim::minimize;
+
+  /// What is minimized is this times the response: a problem of optimization knows minima only.
+  double sign() const { return aim == Aim::maximize ? -1.0 : 1.0; }
 };
 
 /// lower ≤ response ≤ upper, or lower ≤ Σ coefficient · variable ≤ upper; SI.

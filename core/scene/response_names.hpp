@@ -24,6 +24,14 @@ inline constexpr Choice<ResponseType> response_types[] = {
     {"elastic-energy", ResponseType::elastic_energy},
     {"energy-balance", ResponseType::energy_balance},
     {"constraint-drift", ResponseType::constraint_drift},
+    {"expression", ResponseType::expression},
+    {"section-force", ResponseType::section_force},
+    {"angular-velocity", ResponseType::angular_velocity},
+    {"joint-position", ResponseType::joint_position},
+    {"joint-velocity", ResponseType::joint_velocity},
+    {"spring-length", ResponseType::spring_length},
+    {"spring-force", ResponseType::spring_force},
+    {"motor-power", ResponseType::motor_power},
 };
 
 inline constexpr Choice<OverTime> over_time_kinds[] = {

@@ -5,6 +5,7 @@ namespace pleuel {
 namespace {
 
 Quantity instant_quantity(const ResponseSettings& response) {
+  const bool is_angle = response.coordinate == DrivenCoordinate::angle;
   switch (response.type) {
     case ResponseType::stress:
       return response.part == StressPart::utilization ? quantities::pure_number
@@ -29,11 +30,27 @@ Quantity instant_quantity(const ResponseSettings& response) {
     case ResponseType::buckling:
     case ResponseType::constraint_drift:
       return quantities::pure_number;
+    case ResponseType::section_force:
+      return response.section_part == SectionForcePart::axial ? quantities::force
+                                                              : quantities::torque;
+    case ResponseType::angular_velocity:
+      return quantities::angular_speed;
+    case ResponseType::joint_position:
+      return is_angle ? quantities::angle : quantities::length;
+    case ResponseType::joint_velocity:
+      return is_angle ? quantities::angular_speed : quantities::speed;
+    case ResponseType::spring_length:
+      return quantities::length;
+    case ResponseType::spring_force:
+      return quantities::force;
+    case ResponseType::motor_power:
+      return quantities::power;
     case ResponseType::kinetic_energy:
     case ResponseType::elastic_energy:
     case ResponseType::energy_balance:
       return quantities::energy;
     case ResponseType::mass:
+    case ResponseType::expression:
       break;
   }
   return quantities::mass;
@@ -42,6 +59,9 @@ Quantity instant_quantity(const ResponseSettings& response) {
 }  // namespace
 
 Quantity quantity_of(const ResponseSettings& response) {
+  if (response.type == ResponseType::expression) {
+    return {response.expression->quantity, response.expression->unit};
+  }
   const Quantity quantity = instant_quantity(response);
   return response.over_time == OverTime::integral ? times_time(quantity) : quantity;
 }

@@ -38,8 +38,14 @@ std::vector<ShownUnit> variable_units(const ProblemFile& problem) {
 }
 
 ShownUnit unit_of(const ResponseSettings& response) {
-  if (response.type == ResponseType::frequency) return {"rad/s", "Hz", 2.0 * std::numbers::pi};
-  return engineering_unit(quantity_of(response).unit);
+  const Quantity quantity = quantity_of(response);
+  if (!response.unit.empty()) {
+    return {std::string(quantity.unit), response.unit, response.unit_scale};
+  }
+  const bool is_frequency = quantity.name == quantities::angular_frequency.name &&
+                            quantity.unit == quantities::angular_frequency.unit;
+  if (is_frequency) return {"rad/s", "Hz", 2.0 * std::numbers::pi};
+  return engineering_unit(quantity.unit);
 }
 
 ShownUnit unit_of(const ProblemFile& problem, const ConstraintSettings& constraint) {

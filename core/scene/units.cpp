@@ -12,6 +12,7 @@
 #include <udunits2.h>
 
 #include "core/scene/common_units.hpp"
+#include "core/scene/dimension.hpp"
 
 namespace pleuel {
 namespace {
@@ -135,6 +136,50 @@ double proportional_factor(const std::string& name, ut_unit* from, ut_unit* to) 
   return scale;
 }
 
+/// Takes a unit apart; callbacks of the library. Its status tells what is no product of base units:
+/// logarithms, dates, and temperatures that do not count from zero.
+struct UnitTaker {
+  MeasuredUnit found;
+
+  bool take(const ut_unit* unit) {
+    static constexpr ut_visitor visitor = {take_basic, take_product, take_scaled, refuse_date,
+                                           refuse_logarithm};
+    return ut_accept_visitor(unit, &visitor, this) == UT_SUCCESS;
+  }
+
+ private:
+  void add(const ut_unit* basic, int power) {
+    const char* symbol = ut_get_symbol(basic, UT_ASCII);
+    std::size_t base = Dimension::bases.size() - 1;  // bytes: the library has no symbol for them
+    for (std::size_t i = 0; symbol != nullptr && i < Dimension::bases.size(); ++i) {
+      if (std::string_view(symbol) == Dimension::bases[i]) base = i;
+    }
+    found.dimension.powers[base] += power;
+  }
+
+  static ut_status take_basic(const ut_unit* unit, void* self) {
+    static_cast<UnitTaker*>(self)->add(unit, 1);
+    return UT_SUCCESS;
+  }
+  static ut_status take_product(const ut_unit*, int count, const ut_unit* const* basic,
+                                const int* powers, void* self) {
+    for (int i = 0; i < count; ++i) static_cast<UnitTaker*>(self)->add(basic[i], powers[i]);
+    return UT_SUCCESS;
+  }
+  static ut_status take_scaled(const ut_unit*, double scale, const ut_unit* underlying,
+                               double offset, void* self) {
+    auto* taker = static_cast<UnitTaker*>(self);
+    taker->found.scale *= scale;
+    return offset == 0.0 && taker->take(underlying) ? UT_SUCCESS : UT_MEANINGLESS;
+  }
+  static ut_status refuse_logarithm(const ut_unit*, double, const ut_unit*, void*) {
+    return UT_MEANINGLESS;
+  }
+  static ut_status refuse_date(const ut_unit*, const ut_unit*, double, void*) {
+    return UT_MEANINGLESS;
+  }
+};
+
 SystemHandle read_database() {
   ut_set_error_message_handler(ut_ignore);  // the library would print; we throw
   SystemHandle system(ut_read_xml(nullptr));
@@ -170,6 +215,17 @@ double UnitSystem::scale_by_database(const std::string& unit, const Quantity& qu
     check_dimension(name, from.get(), to.get());
   }
   return cycles * proportional_factor(name, from.get(), to.get());
+}
+
+MeasuredUnit UnitSystem::measure(const std::string& unit) const {
+  const std::string name = trim(unit);
+  const UnitHandle handle = has_stray_number(name) ? nullptr : parse_unit(database(), name);
+  if (!handle && name != "1") throw UnitError(fmt::format("\"{}\" is not a known unit", name));
+  UnitTaker taker;
+  if (handle && !taker.take(handle.get())) {
+    throw UnitError(fmt::format("\"{}\" does not count from zero", name));
+  }
+  return taker.found;
 }
 
 double UnitSystem::read(const std::string& text, const Quantity& quantity) const {

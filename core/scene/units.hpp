@@ -74,6 +74,8 @@ struct WrittenQuantity {
 /// Splits "120 mm". @throws UnitError if the text does not begin with a finite number.
 WrittenQuantity split_quantity(const std::string& text);
 
+struct MeasuredUnit;  // core/scene/dimension.hpp
+
 /// The units that can be written: those of the UDUNITS-2 database and "deg", "rev", "Nm", and of
 /// memory "B" (with prefixes), "KiB", "MiB", "GiB".
 class UnitSystem {
@@ -90,6 +92,10 @@ class UnitSystem {
   /// The SI value of a text such as "120 mm".
   /// @throws UnitError also for a missing unit and for a value out of the range of numbers.
   double read(const std::string& text, const Quantity& quantity) const;
+
+  /// Scale and dimension of a unit by itself: "km/h" is 1/3.6 m/s.
+  /// @throws UnitError if it is unknown or does not count from zero
+  MeasuredUnit measure(const std::string& unit) const;
 };
 
 }  // namespace pleuel

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/response/linearized_expression.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -59,6 +61,7 @@ Eigen::Index nearest(const Eigen::VectorXd& times, double time) {
   return index;
 }
 
+/// Of a response that is no expression:
 /// Σ weight (y − y_other) over what a value depends on, each at the nearest instant of the other
 /// run: the difference at a fixed time, where that of two peaks leaves out what moved them.
 double local_difference(const Analysis& analysis, std::size_t response, const NestedRun& other) {
@@ -73,6 +76,16 @@ double local_difference(const Analysis& analysis, std::size_t response, const Ne
                                    other.histories[response](sample.channel, there));
   }
   return std::abs(difference);
+}
+
+/// Of an expression, what its parts differ by, without regard to signs.
+double local_difference_of_parts(const Analysis& analysis, std::size_t response,
+                                 const NestedRun& other) {
+  double sum = 0.0;
+  for (const WeightedResponse& part : linearized(analysis, response).parts) {
+    sum += std::abs(part.weight) * local_difference(analysis, part.response, other);
+  }
+  return sum;
 }
 
 double small(const Evidence& evidence) {
@@ -187,14 +200,12 @@ void Evidence::add(const Evidence& other, double factor) {
 
 Evidence evidence_of(const Analysis& analysis, std::size_t response, const JudgingRuns& runs,
                      double order) {
-  const Eigen::MatrixXd& history = analysis.histories[response];
   Evidence evidence;
   evidence.order = order;
   evidence.value = analysis.reductions[response].value;
-  evidence.magnitude =
-      history.size() > 0 ? history.cwiseAbs().maxCoeff() : std::abs(evidence.value);
+  evidence.magnitude = magnitude_of(analysis, response);
   if (runs.twice_step != nullptr && !runs.twice_step->has_failed()) {
-    evidence.local = local_difference(analysis, response, *runs.twice_step);
+    evidence.local = local_difference_of_parts(analysis, response, *runs.twice_step);
   }
   evidence.quarter_step = value_of(runs.quarter_step, response);
   evidence.half_step = value_of(runs.half_step, response);
@@ -202,7 +213,8 @@ Evidence evidence_of(const Analysis& analysis, std::size_t response, const Judgi
   evidence.four_steps = value_of(runs.four_steps, response);
   evidence.more_elements = difference(runs.more_elements, response);
   evidence.fewer_elements = difference(runs.fewer_elements, response);
-  if (history.size() == 0) {  // a constant does not depend on the step, though runs may fail
+  if (!depends_on_motion(
+          analysis, response)) {  // a constant does not depend on the step, though runs may fail
     for (auto* run : {&evidence.quarter_step, &evidence.half_step}) {
       if (*run) *run = evidence.value;
     }

@@ -11,6 +11,7 @@
 #include "core/base/find_named.hpp"
 #include "core/integration/freedoms.hpp"
 #include "core/model/body_energy.hpp"
+#include "core/scene/response_parts.hpp"
 #include "core/trust/connections.hpp"
 
 namespace pleuel {
@@ -91,7 +92,8 @@ class IdleFreedoms {
            std::all_of(responses.begin(), responses.end(),
                        [](const ResponseSettings& response) {
                          return response.type == ResponseType::frequency ||
-                                response.type == ResponseType::mass;
+                                response.type == ResponseType::mass ||
+                                response.type == ResponseType::expression;
                        }) &&
            std::any_of(responses.begin(), responses.end(), [](const ResponseSettings& response) {
              return response.type == ResponseType::frequency;
@@ -254,18 +256,25 @@ class IdleFreedoms {
     const auto is_one = [&](const std::string& name) {
       return std::find(names.begin(), names.end(), name) != names.end();
     };
-    std::vector<std::string> found;
-    for (const ResponseSettings& response : run_.problem.responses) {
-      if (response.type == ResponseType::mass) continue;
-      bool is_concerned = response.joint.empty() ? response.bodies.empty() ||
-                                                       std::any_of(response.bodies.begin(),
-                                                                   response.bodies.end(), is_one)
-                                                 : false;
+    const auto is_concerned = [&](std::size_t part) {
+      const ResponseSettings& response = run_.problem.responses[part];
+      if (response.type == ResponseType::mass) return false;
+      bool is_of_one = response.joint.empty()
+                           ? response.bodies.empty() ||
+                                 std::any_of(response.bodies.begin(), response.bodies.end(), is_one)
+                           : false;
       for (const Joint& joint : run_.problem.scene.joints) {
         if (joint.name != response.joint) continue;
-        is_concerned = is_one(joint.bodies[0]) || is_one(joint.bodies[1]);
+        is_of_one = is_one(joint.bodies[0]) || is_one(joint.bodies[1]);
       }
-      if (is_concerned) found.push_back(response.name);
+      return is_of_one;
+    };
+    std::vector<std::string> found;
+    for (std::size_t i = 0; i < run_.problem.responses.size(); ++i) {
+      const std::vector<std::size_t> parts = parts_of(run_.problem, i);
+      if (std::any_of(parts.begin(), parts.end(), is_concerned)) {
+        found.push_back(run_.problem.responses[i].name);
+      }
     }
     return found;
   }

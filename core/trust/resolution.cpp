@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/base/relative_error.hpp"
+#include "core/response/linearized_expression.hpp"
+#include "core/scene/response_parts.hpp"
 #include "core/trust/asked_responses.hpp"
 #include "core/trust/error_bands.hpp"
 #include "core/trust/nested_runs.hpp"
@@ -58,9 +60,7 @@ class Judgement {
   explicit Judgement(const TrustedRun& run)
       : run_(run), problem_(run.problem), found_(nested_run_of(run.analysis)) {
     for (std::size_t i = 0; i < run.analysis.responses.size(); ++i) {
-      const bool is_error_itself = run.analysis.responses[i].is_balance() ||
-                                   problem_.responses[i].type == ResponseType::constraint_drift;
-      if (!is_error_itself) judged_.push_back(i);
+      if (!is_monitor(problem_, i)) judged_.push_back(i);
     }
   }
 
@@ -125,8 +125,10 @@ class Judgement {
 
   double magnitude(const NestedRun& run, std::size_t i) const {
     const Eigen::MatrixXd& history = run.histories[i];
-    return history.size() > 0 ? history.cwiseAbs().maxCoeff()
-                              : std::abs(run.values(static_cast<Eigen::Index>(i)));
+    if (history.size() > 0) return history.cwiseAbs().maxCoeff();
+    const double value = std::abs(run.values(static_cast<Eigen::Index>(i)));
+    return run_.analysis.responses[i].expression() ? std::max(value, magnitude_of(run_.analysis, i))
+                                                   : value;
   }
 
   /// Of the value of a response, relative to the second run.

@@ -5,6 +5,7 @@
 
 #include "core/response/make_responses.hpp"
 #include "core/response/recorder.hpp"
+#include "core/scene/response_parts.hpp"
 
 namespace pleuel {
 
@@ -54,10 +55,20 @@ class RoundOff {
       is_round_off[i] =
           run_.analysis.responses[i].history() && largest(run_.analysis.histories[i]) <= scale;
     }
+    for (std::size_t i = 0; i < responses.size(); ++i) {
+      if (responses[i].type == ResponseType::expression) is_round_off[i] = are_all(is_round_off, i);
+    }
     return is_round_off;
   }
 
  private:
+  /// Whether all parts of an expression are round-off.
+  bool are_all(const std::vector<bool>& is_round_off, std::size_t expression) const {
+    const std::vector<std::size_t> parts = parts_of(run_.problem, expression);
+    return !parts.empty() && std::all_of(parts.begin(), parts.end(),
+                                         [&](std::size_t part) { return is_round_off[part]; });
+  }
+
   /// Of a length and its rates.
   double length_scale(const ResponseSettings& response) const {
     const Trajectory& trajectory = run_.analysis.trajectory;
@@ -66,13 +77,25 @@ class RoundOff {
       case ResponseType::position:
       case ResponseType::deflection:
         return tiny_length * size_;
+      case ResponseType::spring_length:
+        return tiny_length * size_;
+      case ResponseType::joint_position:
+        return tiny_length * (is_angle(response) ? 1.0 : size_);
       case ResponseType::velocity:
         return tiny_way * size_ / step;
+      case ResponseType::joint_velocity:
+        return tiny_way * (is_angle(response) ? 1.0 : size_) / step;
+      case ResponseType::angular_velocity:
+        return tiny_way / step;
       case ResponseType::acceleration:
         return tiny_way * size_ / (step * step);
       default:
         return 0.0;
     }
+  }
+
+  static bool is_angle(const ResponseSettings& response) {
+    return response.coordinate == DrivenCoordinate::angle;
   }
 
   std::vector<Measure> measures_of(const ResponseSettings& response) const {
@@ -84,8 +107,11 @@ class RoundOff {
         if (response.part == StressPart::utilization) return {};
         whole.part = StressPart::von_mises;
         return {{whole}};
+      case ResponseType::section_force:
+        return section_moments(whole);
       case ResponseType::velocity:
       case ResponseType::acceleration:
+      case ResponseType::angular_velocity:
         whole.direction = -1;
         return {{whole}};
       case ResponseType::reaction_force:
@@ -96,6 +122,17 @@ class RoundOff {
       default:
         return {};
     }
+  }
+
+  /// Both bending moments of the same section; an axial force is one by the size of the mechanism.
+  std::vector<Measure> section_moments(ResponseSettings whole) const {
+    const bool is_force = whole.section_part == SectionForcePart::axial;
+    std::vector<Measure> measures;
+    for (const SectionForcePart part : {SectionForcePart::moment_y, SectionForcePart::moment_z}) {
+      whole.section_part = part;
+      measures.push_back({whole, tiny_force / (is_force ? size_ : 1.0)});
+    }
+    return measures;
   }
 
   /// Force and moment in the joint, and the energy of motion; a moment as a force at the size of

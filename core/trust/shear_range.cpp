@@ -323,7 +323,10 @@ class ShearDoubts {
     switch (response.type) {
       case ResponseType::deflection: {
         if (response.against == DeflectionReference::rigid_mechanism) return moved(index, share);
-        const double own = response.direction == 1 ? share.along_y : share.along_z;
+        if (response.direction == 0) return 0.0;  // along the beam
+        const double own = response.direction == 1   ? share.along_y
+                           : response.direction == 2 ? share.along_z
+                                                     : share.largest();
         return is_of_body ? own / (1.0 + own) : 0.0;
       }
       case ResponseType::position:
@@ -335,6 +338,7 @@ class ShearDoubts {
       case ResponseType::frequency:
         return is_of_body ? mode_share(body, response.mode) : 0.0;
       case ResponseType::stress:
+      case ResponseType::section_force:
         return is_held_twice_ && is_of_body ? largest : 0.0;
       case ResponseType::reaction_force:
       case ResponseType::reaction_moment:

@@ -34,7 +34,7 @@ INSTANTIATE_TEST_SUITE_P(
             R"(/scene/bodies/rod/reduction/frequency must be a frequency [Hz], got "2 rad": "rad" measures something else)"},
         BadEdit{
             "/scene/bodies/rod/reduction/frequency", R"({"variable": "speed"})",
-            R"(/scene/bodies/rod/reduction/frequency must be a frequency [Hz]: a number in SI units or a text with unit, got {"variable":"speed"})"},
+            R"(/scene/bodies/rod/reduction/frequency must be a frequency [Hz]: a number in SI units, a text with unit or a formula, got {"variable":"speed"})"},
         BadEdit{"/scene/bodies/arm/reduction", "remove",
                 R"(/scene/bodies/arm/damping/modal is for beams with a "reduction" only)"},
         BadEdit{"/scene/bodies/arm/damping/mass", "0",

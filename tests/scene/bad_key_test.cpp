@@ -10,7 +10,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadEdit{
             "/colour", "1",
-            R"(the problem has the unknown key "colour"; known are "$schema", "name", "description", "scene", "effects", "simulation", "sensitivity", "variables", "responses", "objective", "constraints", "optimizer", "pareto", "accuracy" and "uncertainty")"},
+            R"(the problem has the unknown key "colour"; known are "$schema", "name", "description", "scene", "effects", "simulation", "sensitivity", "constants", "variables", "responses", "objective", "constraints", "optimizer", "pareto", "accuracy" and "uncertainty")"},
         BadEdit{
             "/scene/bodies/crank/section/heigth", "1",
             R"(/scene/bodies/crank/section has the unknown key "heigth"; did you mean "height"?)"},
@@ -18,7 +18,7 @@ INSTANTIATE_TEST_SUITE_P(
             "/scene/bodies/slider/elements", "1",
             R"(/scene/bodies/slider has the unknown key "elements"; known are "type", "at", "mass" and "velocity")"},
         BadEdit{"/objective/scale", "2",
-                R"(/objective has the unknown key "scale"; known is "minimize")"},
+                R"(/objective has the unknown key "scale"; known are "minimize" and "maximize")"},
         BadEdit{"/scene", "remove", R"(the problem is missing the key "scene")"},
         BadEdit{"/simulation", "remove", R"(the problem is missing the key "simulation")"},
         BadEdit{"/scene/bodies", "remove", R"(/scene is missing the key "bodies")"},
@@ -38,7 +38,7 @@ INSTANTIATE_TEST_SUITE_P(
             R"(/effects has the unknown key "torsion"; known are "spatial_motion", "geometric_stiffening", "rotary_inertia", "elasticity", "axial_elasticity", "torsional_elasticity" and "tolerance")"},
         BadEdit{
             "/robustness", "{}",
-            R"(the problem has the unknown key "robustness"; known are "$schema", "name", "description", "scene", "effects", "simulation", "sensitivity", "variables", "responses", "objective", "constraints", "optimizer", "pareto", "accuracy" and "uncertainty")"},
+            R"(the problem has the unknown key "robustness"; known are "$schema", "name", "description", "scene", "effects", "simulation", "sensitivity", "constants", "variables", "responses", "objective", "constraints", "optimizer", "pareto", "accuracy" and "uncertainty")"},
         BadEdit{"/variables/width/lower", "remove",
                 R"(/variables/width is missing the key "lower")"},
         BadEdit{"/scene/joints/bearing/drive/ramp", "remove",
@@ -100,8 +100,8 @@ INSTANTIATE_TEST_SUITE_P(
             "/pareto/constraint", R"("effort")",
             R"(/pareto/constraint must name a constraint with one limit, but "effort" has two)"},
         BadEdit{"/variables/spare", R"({"start": 1, "lower": 0, "upper": 2})",
-                "/variables/spare is not used: no number of the scene and no linear constraint "
-                "names it"},
+                "/variables/spare is not used: no number of the scene, no formula and no linear "
+                "constraint names it"},
         BadEdit{
             "/variables", "remove",
             R"(/scene/bodies/crank/section/width/variable names the unknown variable "width"; there are none)"},

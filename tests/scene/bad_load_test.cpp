@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(
             R"(/scene/loads/push/value must be a force [N], got "2 kg": "kg" measures something else)"},
         BadEdit{
             "/scene/loads/push/value", "null",
-            R"(/scene/loads/push/value must be a force [N]: a number in SI units, a text with unit or {"variable": name}, got null)"},
+            R"(/scene/loads/push/value must be a force [N]: a number in SI units, a text with unit, a formula "= …" or {"variable": name}, got null)"},
         BadEdit{"/scene/loads/push/value", "{}",
                 R"(/scene/loads/push/value is missing the key "type")"},
         BadEdit{

@@ -95,11 +95,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadSection{general("inertia_y", "0"), "/inertia_y must be positive [m^4], got 0"},
         BadSection{general("torsion", "true"),
                    "/torsion must be a second moment of area [m^4]: a number in SI units, a text "
-                   R"(with unit or {"variable": name}, got true)"},
+                   R"(with unit, a formula "= …" or {"variable": name}, got true)"},
         BadSection{general("points/0/shear", "-1"),
                    "/points/0/shear must not be negative [1/m^3], got -1"},
         BadSection{general("points/0/y", R"({"variable": "diameter"})"),
-                   "/points/0/y must be a length [m]: a number in SI units or a text with unit, "
+                   "/points/0/y must be a length [m]: a number in SI units, a text with unit or a "
+                   "formula, "
                    R"(got {"variable":"diameter"})"},
         BadSection{R"({"type": "box", "width": 0.01, "height": 0.02, "thickness": "5.1 mm"})",
                    "/thickness must not exceed half the width 0.005 [m] of the box, got 0.0051"},

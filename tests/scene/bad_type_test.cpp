@@ -21,10 +21,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "/scene/bodies/crank/from must be a list of 3 values, got [0,0]"},
         BadEdit{
             "/scene/bodies/crank/from/1", "null",
-            R"(/scene/bodies/crank/from/1 must be a length [m]: a number in SI units, a text with unit or {"variable": name}, got null)"},
+            R"(/scene/bodies/crank/from/1 must be a length [m]: a number in SI units, a text with unit, a formula "= …" or {"variable": name}, got null)"},
         BadEdit{
             "/scene/bodies/crank/from/1", "[1]",
-            R"(/scene/bodies/crank/from/1 must be a length [m]: a number in SI units, a text with unit or {"variable": name}, got [1])"},
+            R"(/scene/bodies/crank/from/1 must be a length [m]: a number in SI units, a text with unit, a formula "= …" or {"variable": name}, got [1])"},
         BadEdit{"/scene/bodies/crank/elements", R"("4")",
                 R"(/scene/bodies/crank/elements must be a whole number from 1 to 10000, got "4")"},
         BadEdit{"/scene/bodies/crank/elements", "2.5",
@@ -32,11 +32,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{"/name", R"("")", R"(/name must be a text in quotes, not empty, got "")"},
         BadEdit{"/name", "7", "/name must be a text in quotes, not empty, got 7"},
         BadEdit{"/simulation/end_time", "true",
-                "/simulation/end_time must be a time [s]: a number in SI units or a text with "
-                "unit, got true"},
+                "/simulation/end_time must be a time [s]: a number in SI units, a text with "
+                "unit or a formula, got true"},
         BadEdit{
             "/simulation/end_time", R"({"variable": "width"})",
-            R"(/simulation/end_time must be a time [s]: a number in SI units or a text with unit, got {"variable":"width"})"},
+            R"(/simulation/end_time must be a time [s]: a number in SI units, a text with unit or a formula, got {"variable":"width"})"},
         BadEdit{
             "/simulation/scheme", R"("euler")",
             R"(/simulation/scheme must be "generalized-alpha", "newmark" or "implicit-euler", got "euler")"},

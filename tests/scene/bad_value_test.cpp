@@ -81,8 +81,8 @@ INSTANTIATE_TEST_SUITE_P(
             R"(/responses/bow/over_time must be "max", "min", "max-abs", "rms", "mean", "integral" or "final", got "maxabs"; did you mean "max-abs"?)"},
         BadEdit{"/responses/weight/over_time", R"("max")",
                 "/responses/weight/over_time is not for a mass, which does not change in time"},
-        BadEdit{"/responses/bow/direction", R"("x")",
-                R"(/responses/bow/direction must be "y" or "z", got "x")"},
+        BadEdit{"/responses/bow/direction", R"("w")",
+                R"(/responses/bow/direction must be "y", "z", "x" or "resultant", got "w")"},
         BadEdit{
             "/responses/bow/against", R"("cord")",
             R"(/responses/bow/against must be "frame", "chord" or "rigid-mechanism", got "cord"; did you mean "chord"?)"},

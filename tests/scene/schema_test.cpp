@@ -94,6 +94,21 @@ TEST_F(ProblemSchema, AcceptsTheGoodProblem) {
   EXPECT_EQ(complaints(nlohmann::json::parse(good_text())), "");
 }
 
+TEST_F(ProblemSchema, AcceptsFormulas) {
+  for (const auto& [pointer, value] :
+       {std::pair("/constants", R"({"stroke": "80 mm", "half": "= stroke/2", "ratio": 2.5})"),
+        std::pair("/scene/bodies/crank/to/0", R"("= 3*width")"),
+        std::pair("/simulation/end_time", R"(" = 2*50 ms")"),
+        std::pair("/objective", R"({"maximize": "= place - bow"})"),
+        std::pair("/constraints/effort", R"({"response": "= bow/place", "upper": "= 1/3"})"),
+        std::pair("/responses/sum",
+                  R"({"type": "expression", "value": "place - bow", "unit": "cm"})")}) {
+    EXPECT_EQ(complaints_about_edit(pointer, value), "") << pointer;
+  }
+  EXPECT_NE(complaints_about_edit("/objective/maximize", R"("weight")"), "");  // minimize, too
+  EXPECT_NE(complaints_about_edit("/responses/sum", R"({"type": "expression"})"), "");
+}
+
 TEST_F(ProblemSchema, AcceptsEverySectionOfTheCatalogue) {
   const nlohmann::json catalogue = load(problems / "catalogue.json");
   for (const auto& [name, section] : catalogue.at("sections").items()) {
@@ -268,7 +283,7 @@ TEST_F(ProblemSchema, RefusesWhatTheReaderRefuses) {
       {"/responses/weight/over_time", "\"max\""},
       {"/responses/stress/over_time", "remove"},
       {"/responses/bow/at", "1.5"},
-      {"/responses/bow/direction", "\"x\""},
+      {"/responses/bow/direction", "\"w\""},
       {"/responses/bow/against", "\"cord\""},
       {"/constraints/strength/upper", "remove"},
       {"/constraints/slender/response", "\"bow\""},

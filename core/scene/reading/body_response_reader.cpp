@@ -1,5 +1,7 @@
 #include "core/scene/reading/body_response_reader.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/scene/reading/scene_reader.hpp"
@@ -41,9 +43,56 @@ void read_imported_stress(const JsonNode& node, const ImportedBody& body,
   read_history(node, context, response);
 }
 
+StressPart read_stress_part(const JsonNode& node) {
+  return read_choice<StressPart>(node, {{"von-mises", StressPart::von_mises},
+                                        {"normal", StressPart::normal},
+                                        {"axial", StressPart::axial},
+                                        {"bending", StressPart::bending},
+                                        {"shear", StressPart::shear},
+                                        {"utilization", StressPart::utilization}});
+}
+
+void check_strength(const JsonNode& part, const std::string& name, const Scene& scene) {
+  const Material* material = find_named(scene.materials, name);
+  const bool has_strength = material != nullptr && material->strength.has_value();
+  if (has_strength) return;
+  part.fail(fmt::format("needs the strength of the material \"{}\", which has none", name));
+}
+
+/// Of several beams at once.
+void read_stress_of_beams(const JsonNode& node, const JsonNode& list,
+                          const ResponseContext& context, ResponseSettings& response) {
+  allow_history_keys(node, {"bodies", "part"});
+  const auto part = node.find("part");
+  if (part) response.part = read_stress_part(*part);
+  std::vector<std::string> bodies;
+  for (const JsonNode& item : list.items()) {
+    const Body& body = read_body_name(item, context.scene);
+    const auto* beam = std::get_if<BeamBody>(&body.shape);
+    if (beam == nullptr || beam->is_rigid) {
+      item.fail(fmt::format("must name an elastic beam, but \"{}\" is none", body.name));
+    }
+    if (std::find(bodies.begin(), bodies.end(), body.name) != bodies.end()) {
+      item.fail(fmt::format("names the body \"{}\" a second time", body.name));
+    }
+    if (response.part == StressPart::utilization) {
+      check_strength(*part, beam->material, context.scene);
+    }
+    bodies.push_back(body.name);
+  }
+  if (bodies.empty()) list.fail("must name at least one body");
+  response.bodies = std::move(bodies);
+  read_history(node, context, response);
+}
+
 }  // namespace
 
 void read_stress(const JsonNode& node, const ResponseContext& context, ResponseSettings& response) {
+  if (const auto list = node.find("bodies")) {
+    if (node.find("body")) node.fail("has both \"body\" and \"bodies\"");
+    read_stress_of_beams(node, *list, context, response);
+    return;
+  }
   if (const auto* imported = find_imported(node, context.scene, response)) {
     read_imported_stress(node, *imported, context, response);
     return;
@@ -57,19 +106,37 @@ void read_stress(const JsonNode& node, const ResponseContext& context, ResponseS
   }
   if (place) response.station = read_place(*place);
   if (const auto part = node.find("part")) {
-    response.part = read_choice<StressPart>(*part, {{"von-mises", StressPart::von_mises},
-                                                    {"normal", StressPart::normal},
-                                                    {"axial", StressPart::axial},
-                                                    {"bending", StressPart::bending},
-                                                    {"shear", StressPart::shear},
-                                                    {"utilization", StressPart::utilization}});
-    const Material* material = find_named(context.scene.materials, beam.material);
-    const bool has_strength = material != nullptr && material->strength.has_value();
-    if (response.part == StressPart::utilization && !has_strength) {
-      part->fail(
-          fmt::format("needs the strength of the material \"{}\", which has none", beam.material));
+    response.part = read_stress_part(*part);
+    if (response.part == StressPart::utilization) {
+      check_strength(*part, beam.material, context.scene);
     }
   }
+  read_history(node, context, response);
+}
+
+void read_section_force(const JsonNode& node, const ResponseContext& context,
+                        ResponseSettings& response) {
+  allow_history_keys(node, {"body", "at", "part"});
+  read_elastic_beam(node, context.scene, response);
+  response.station = read_place(node.at("at"));
+  response.section_part =
+      read_choice<SectionForcePart>(node.at("part"), {{"axial", SectionForcePart::axial},
+                                                      {"moment-y", SectionForcePart::moment_y},
+                                                      {"moment-z", SectionForcePart::moment_z},
+                                                      {"torque", SectionForcePart::torque}});
+  read_history(node, context, response);
+}
+
+void read_angular_velocity(const JsonNode& node, const ResponseContext& context,
+                           ResponseSettings& response) {
+  allow_history_keys(node, {"body", "direction"});
+  const JsonNode name = node.at("body");
+  const Body& body = read_body_name(name, context.scene);
+  if (std::holds_alternative<PointMass>(body.shape)) {
+    name.fail(fmt::format("must name a body that can turn, but \"{}\" is a point mass", body.name));
+  }
+  response.bodies = {body.name};
+  response.direction = read_direction_or_magnitude(node.at("direction"));
   read_history(node, context, response);
 }
 
@@ -95,7 +162,10 @@ void read_deflection(const JsonNode& node, const ResponseContext& context,
   if (response.against == DeflectionReference::rigid_mechanism) {
     response.direction = read_choice<int>(node.at("direction"), {{"x", 0}, {"y", 1}, {"z", 2}});
   } else if (const auto direction = node.find("direction")) {
-    response.direction = read_choice<int>(*direction, {{"y", 1}, {"z", 2}});
+    response.direction =
+        response.against == DeflectionReference::frame
+            ? read_choice<int>(*direction, {{"y", 1}, {"z", 2}, {"x", 0}, {"resultant", -1}})
+            : read_choice<int>(*direction, {{"y", 1}, {"z", 2}, {"resultant", -1}});
   }
   read_history(node, context, response);
 }

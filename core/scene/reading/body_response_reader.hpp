@@ -8,6 +8,13 @@ namespace pleuel {
 
 void read_stress(const JsonNode& node, const ResponseContext& context, ResponseSettings& response);
 
+/// N, M or T at a place of a beam.
+void read_section_force(const JsonNode& node, const ResponseContext& context,
+                        ResponseSettings& response);
+
+void read_angular_velocity(const JsonNode& node, const ResponseContext& context,
+                           ResponseSettings& response);
+
 void read_deflection(const JsonNode& node, const ResponseContext& context,
                      ResponseSettings& response);
 

@@ -15,8 +15,8 @@ namespace {
 
 void read_heading(const JsonNode& root, ProblemFile& problem) {
   root.allow_keys({"$schema", "name", "description", "scene", "effects", "simulation",
-                   "sensitivity", "variables", "responses", "objective", "constraints", "optimizer",
-                   "pareto", "accuracy", "uncertainty"});
+                   "sensitivity", "constants", "variables", "responses", "objective", "constraints",
+                   "optimizer", "pareto", "accuracy", "uncertainty"});
   if (const auto schema = root.find("$schema")) schema->text();
   if (const auto name = root.find("name")) problem.name = name->text();
   if (const auto description = root.find("description")) problem.description = description->text();
@@ -76,13 +76,14 @@ std::vector<std::string> variable_names(const JsonNode& root) {
 ProblemFile read_document(const JsonNode& root, NumberReader& numbers) {
   ProblemFile problem;
   read_heading(root, problem);
+  numbers.declare(root);
   problem.scene = read_scene(root.at("scene"), numbers);
   problem.simulation = read_simulation(root.at("simulation"), numbers);
   if (const auto responses = root.find("responses")) {
     problem.responses = read_responses(*responses, {problem.scene, problem.simulation, numbers});
   }
   if (const auto objective = root.find("objective")) {
-    problem.objective = read_objective(*objective, problem.responses);
+    problem.objective = read_objective(*objective, problem.responses, numbers);
   }
   if (const auto constraints = root.find("constraints")) {
     problem.constraints = read_constraints(*constraints, problem.responses, numbers);

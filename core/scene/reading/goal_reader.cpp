@@ -3,17 +3,12 @@
 #include <fmt/format.h>
 
 #include "core/base/find_named.hpp"
+#include "core/scene/reading/expression_response_reader.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/response_quantity.hpp"
 
 namespace pleuel {
 namespace {
-
-const ResponseSettings& read_response_name(const JsonNode& node,
-                                           const std::vector<ResponseSettings>& responses) {
-  const std::string name = read_known_name(node, "response", names_of(responses));
-  return *find_named(responses, name);
-}
 
 /// The quantity that the terms have in common: that of the first variable bound in the scene.
 Quantity quantity_of(const std::vector<std::pair<int, double>>& linear,
@@ -57,7 +52,7 @@ void read_limits(const JsonNode& node, const Quantity& quantity, const NumberRea
 }
 
 ConstraintSettings read_constraint(const std::string& name, const JsonNode& node,
-                                   const std::vector<ResponseSettings>& responses,
+                                   std::vector<ResponseSettings>& responses,
                                    NumberReader& numbers) {
   node.allow_keys({"response", "linear", "lower", "upper", "deviations"});
   ConstraintSettings constraint;
@@ -68,7 +63,8 @@ ConstraintSettings read_constraint(const std::string& name, const JsonNode& node
     read_limits(node, read_linear(*linear, constraint, numbers), numbers, constraint);
     return constraint;
   }
-  const ResponseSettings& response = read_response_name(node.at("response"), responses);
+  const ResponseSettings& response =
+      read_response_or_formula(node.at("response"), responses, numbers);
   constraint.response = response.name;
   read_limits(node, quantity_of(response), numbers, constraint);
   return constraint;
@@ -92,13 +88,18 @@ Quantity quantity_of(const ConstraintSettings& constraint, const ProblemFile& pr
 
 }  // namespace
 
-Objective read_objective(const JsonNode& node, const std::vector<ResponseSettings>& responses) {
-  node.allow_keys({"minimize"});
-  return {read_response_name(node.at("minimize"), responses).name};
+Objective read_objective(const JsonNode& node, std::vector<ResponseSettings>& responses,
+                         NumberReader& numbers) {
+  node.allow_keys({"minimize", "maximize"});
+  const auto largest = node.find("maximize");
+  if (largest && node.find("minimize")) node.fail("has both \"minimize\" and \"maximize\"");
+  const JsonNode name = largest ? *largest : node.at("minimize");
+  return {read_response_or_formula(name, responses, numbers).name,
+          largest ? Aim::maximize : Aim::minimize};
 }
 
 std::vector<ConstraintSettings> read_constraints(const JsonNode& node,
-                                                 const std::vector<ResponseSettings>& responses,
+                                                 std::vector<ResponseSettings>& responses,
                                                  NumberReader& numbers) {
   std::vector<ConstraintSettings> constraints;
   for (const auto& [name, constraint] : node.members()) {

@@ -10,13 +10,16 @@
 /// other.
 namespace pleuel {
 
+// Formulas that stand in place of a response's name become responses, at the end of the list.
+
 /// @throws InputError
-Objective read_objective(const JsonNode& node, const std::vector<ResponseSettings>& responses);
+Objective read_objective(const JsonNode& node, std::vector<ResponseSettings>& responses,
+                         NumberReader& numbers);
 
 /// Limits have the unit of the response, or of the variables in a linear constraint.
 /// @throws InputError
 std::vector<ConstraintSettings> read_constraints(const JsonNode& node,
-                                                 const std::vector<ResponseSettings>& responses,
+                                                 std::vector<ResponseSettings>& responses,
                                                  NumberReader& numbers);
 
 /// `problem` has its constraints already. @throws InputError

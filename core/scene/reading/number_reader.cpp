@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/reading/symbols.hpp"
+
 namespace pleuel {
 namespace {
 
@@ -60,6 +62,8 @@ double NumberReader::fixed(const JsonNode& node, const Quantity& quantity, Range
   double value = 0.0;
   if (node.value().is_number()) {
     value = node.value().get<double>();
+  } else if (is_formula(node)) {
+    value = constant_formula(node, quantity);
   } else if (node.value().is_string()) {
     try {
       value = units_->read(node.value().get<std::string>(), quantity);
@@ -67,7 +71,7 @@ double NumberReader::fixed(const JsonNode& node, const Quantity& quantity, Range
       node.fail_with_value(expected, fmt::format(": {}", error.what()));
     }
   } else {
-    node.fail_with_value(expected + ": a number in SI units or a text with unit");
+    node.fail_with_value(expected + ": a number in SI units, a text with unit or a formula");
   }
   if (!is_within(range, value)) node.fail_with_value(rule_of(range, quantity));
   return value;
@@ -75,14 +79,94 @@ double NumberReader::fixed(const JsonNode& node, const Quantity& quantity, Range
 
 Number NumberReader::designable(const JsonNode& node, const Quantity& quantity, Range range) {
   if (node.value().is_object()) return binding(node, quantity, range);
+  if (is_formula(node)) return designable_formula(node, quantity, range);
   if (node.value().is_number() || node.value().is_string()) {
     const double value = fixed(node, quantity, range);
     fixed_.push_back({node, value, quantity});
     return value;
   }
   node.fail_with_value(
-      fmt::format("must be {}: a number in SI units, a text with unit or {{\"variable\": name}}",
+      fmt::format("must be {}: a number in SI units, a text with unit, a formula \"= …\" or "
+                  "{{\"variable\": name}}",
                   describe(quantity)));
+}
+
+void NumberReader::declare(const JsonNode& root) {
+  symbols_ = read_symbols(root, *units_);
+}
+
+ReadExpression NumberReader::formula(const JsonNode& node, const std::vector<Symbol>& more) {
+  std::vector<Symbol> all = symbols_;
+  all.insert(all.end(), more.begin(), more.end());
+  ReadExpression read = read_formula(node, all, *units_);
+  for (const ExpressionArgument& argument : read.expression->arguments) {
+    if (argument.kind != ExpressionArgument::Kind::variable) continue;
+    mentions_.push_back({static_cast<int>(argument.index), node});
+  }
+  return read;
+}
+
+double NumberReader::constant_formula(const JsonNode& node, const Quantity& quantity) const {
+  const ReadExpression read = read_formula(node, symbols_, *units_);
+  if (!read.constant) {
+    node.fail_with_value(
+        "must be fixed here; a formula of design variables can stand for numbers "
+        "of the scene");
+  }
+  check_quantity(node, read, quantity);
+  return *read.constant;
+}
+
+/// A plain 0 is as well no length, no mass, …
+void NumberReader::check_quantity(const JsonNode& node, const ReadExpression& read,
+                                  const Quantity& quantity) const {
+  const bool is_zero = read.constant && *read.constant == 0.0 && read.dimension.is_number();
+  const Dimension asked = dimension_of(quantity);
+  if (is_zero || asked == read.dimension) return;
+  std::string more = fmt::format(", which is {}", describe(read.dimension, *units_));
+  if (asked / Dimension::angle() == read.dimension) {
+    more += "; angles never come or go silently: multiply by 1 rad, or take \"rev/s\" for cycles";
+  } else if (read.dimension.is_number()) {
+    more += "; give it its unit, as in \"5 mm\"";
+  }
+  node.fail_with_value(fmt::format("must be {}", describe(quantity)), more);
+}
+
+Number NumberReader::designable_formula(const JsonNode& node, const Quantity& quantity,
+                                        Range range) {
+  const ReadExpression read = formula(node);
+  check_quantity(node, read, quantity);
+  if (read.constant) {
+    if (!is_within(range, *read.constant)) node.fail_with_value(rule_of(range, quantity));
+    return *read.constant;
+  }
+  const Number number = Number::bound(read.expression);
+  add_use({number, quantity, range, node});
+  return number;
+}
+
+const Symbol* NumberReader::symbol_of(int variable) const {
+  const auto found = std::find_if(symbols_.begin(), symbols_.end(), [&](const Symbol& symbol) {
+    return symbol.argument && static_cast<int>(symbol.argument->index) == variable;
+  });
+  return found == symbols_.end() ? nullptr : &*found;
+}
+
+void NumberReader::check_mention(const VariableMention& mention) const {
+  const std::string& name = variables_[static_cast<std::size_t>(mention.variable)];
+  const Dimension dimension = symbol_of(mention.variable)->dimension;
+  const auto quantity = quantity_of(mention.variable);
+  if (!quantity) {
+    mention.node.fail(fmt::format(
+        "names the variable \"{}\", which is {}: variables have units of numbers of the scene",
+        name, describe(dimension, *units_)));
+  }
+  if (dimension == dimension_of(*quantity)) return;
+  mention.node.fail(fmt::format(
+      "takes the variable \"{}\" for {}, as its start is written, but {} uses it as {}; give the "
+      "start of the variable its unit",
+      name, describe(dimension, *units_), first_use(mention.variable)->node.place(),
+      describe(*quantity)));
 }
 
 Number NumberReader::binding(const JsonNode& node, const Quantity& quantity, Range range) {
@@ -130,6 +214,10 @@ std::optional<int> NumberReader::find_variable(const std::string& name) const {
 }
 
 void NumberReader::add_use(VariableUse use) {
+  if (use.number.expression) {
+    uses_.push_back(std::move(use));
+    return;
+  }
   const VariableUse* first = first_use(use.number.variable);
   if (first != nullptr && !(first->quantity == use.quantity)) {
     use.node.fail(fmt::format("uses the variable \"{}\" as {}, but {} uses it as {}",
@@ -148,8 +236,12 @@ const VariableUse* NumberReader::first_use(int variable) const {
 }
 
 std::optional<Quantity> NumberReader::quantity_of(int variable) const {
-  const VariableUse* first = first_use(variable);
-  return first == nullptr ? std::nullopt : std::optional<Quantity>(first->quantity);
+  if (const VariableUse* first = first_use(variable)) return first->quantity;
+  const bool is_mentioned =
+      std::any_of(mentions_.begin(), mentions_.end(),
+                  [&](const VariableMention& mention) { return mention.variable == variable; });
+  if (!is_mentioned) return std::nullopt;
+  return find_quantity(symbol_of(variable)->dimension, *units_);
 }
 
 }  // namespace pleuel

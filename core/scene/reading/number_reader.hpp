@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/scene/number.hpp"
+#include "core/scene/reading/expression_parser.hpp"
 #include "core/scene/reading/json_node.hpp"
 #include "core/scene/units.hpp"
 
@@ -42,17 +43,27 @@ struct FixedNumber {
   Quantity quantity;
 };
 
-/// Reads numbers with units and bindings to design variables. The quantity of a variable is that of
-/// the places it is used in, which must agree. Everything throws InputError.
+/// A formula that names a design variable.
+struct VariableMention {
+  int variable;
+  JsonNode node;
+};
+
+/// Reads numbers with units, formulas, and bindings to design variables. The quantity of a variable
+/// is that of the places it is used in, which must agree; of one that only formulas name, that of
+/// its unit. Everything throws InputError.
 class NumberReader {
  public:
   /// @param variables  names in the order of the design.
   NumberReader(const UnitSystem& units, std::vector<std::string> variables);
 
-  /// A number in SI or a text with unit, not designable.
+  /// Takes from the document what formulas may name (symbols.hpp).
+  void declare(const JsonNode& root);
+
+  /// A number in SI, a text with unit or a formula of constants, not designable.
   double fixed(const JsonNode& node, const Quantity& quantity, Range range = Range::any) const;
 
-  /// A number in SI, a text with unit, or {"variable": name, "factor": number}.
+  /// A number in SI, a text with unit, a formula, or {"variable": name, "factor": number}.
   /// The range of a bound number is checked later, when the bounds are known.
   Number designable(const JsonNode& node, const Quantity& quantity, Range range = Range::any);
 
@@ -65,6 +76,9 @@ class NumberReader {
   /// The same, made a unit vector.
   std::array<double, 3> unit_vector(const JsonNode& node) const;
 
+  /// A formula that may name constants, design variables and these symbols, besides.
+  ReadExpression formula(const JsonNode& node, const std::vector<Symbol>& more = {});
+
   /// Index of the variable with this name, which the document has at `node`.
   int variable(const JsonNode& node, const std::string& name) const;
 
@@ -76,23 +90,39 @@ class NumberReader {
 
   const std::vector<VariableUse>& uses() const { return uses_; }
 
-  /// All that designable() found to be fixed, in the order of reading.
+  const std::vector<VariableMention>& mentions() const { return mentions_; }
+
+  /// Whether a formula takes the variable for another quantity than its uses do: what is wrong with
+  /// it. @pre it is used or mentioned
+  void check_mention(const VariableMention& mention) const;
+
+  /// All that designable() found to be fixed, in the order of reading. Formulas are not among them.
   const std::vector<FixedNumber>& fixed_numbers() const { return fixed_; }
 
-  /// The quantity of a variable; nothing if it is not used.
+  /// The quantity of a variable; nothing if it is not used, or has a unit that no number has.
   std::optional<Quantity> quantity_of(int variable) const;
 
   /// The SI value of one unit.
   double scale(const std::string& unit, const Quantity& quantity) const {
     return units_->scale(unit, quantity);
   }
+  Dimension dimension_of(const Quantity& quantity) const {
+    return units_->measure(std::string(quantity.unit)).dimension;
+  }
 
  private:
   const VariableUse* first_use(int variable) const;
   Number binding(const JsonNode& node, const Quantity& quantity, Range range);
+  double constant_formula(const JsonNode& node, const Quantity& quantity) const;
+  void check_quantity(const JsonNode& node, const ReadExpression& read,
+                      const Quantity& quantity) const;
+  Number designable_formula(const JsonNode& node, const Quantity& quantity, Range range);
+  const Symbol* symbol_of(int variable) const;
 
   const UnitSystem* units_;
   std::vector<std::string> variables_;
+  std::vector<Symbol> symbols_;
+  std::vector<VariableMention> mentions_;
   std::vector<VariableUse> uses_;
   std::vector<FixedNumber> fixed_;
 };

@@ -14,7 +14,7 @@ namespace pleuel {
 struct ResponseContext {
   const Scene& scene;
   const SimulationSettings& simulation;
-  const NumberReader& numbers;
+  NumberReader& numbers;
 };
 
 const Body& read_body_name(const JsonNode& node, const Scene& scene);

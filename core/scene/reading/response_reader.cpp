@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include "core/scene/reading/body_response_reader.hpp"
+#include "core/scene/reading/expression_response_reader.hpp"
+#include "core/scene/reading/joint_type.hpp"
 #include "core/scene/reading/limits.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/response_names.hpp"
@@ -39,6 +41,54 @@ void read_drive_effort(const JsonNode& node, const ResponseContext& context,
   }
   check_effort(name, joint, response.type);
   response.joint = joint.name;
+  read_history(node, context, response);
+}
+
+/// Position or velocity.
+void read_joint_motion(const JsonNode& node, const ResponseContext& context,
+                       ResponseSettings& response) {
+  allow_history_keys(node, {"joint", "coordinate"});
+  const JsonNode name = node.at("joint");
+  const Joint& joint = read_joint_name(name, context.scene);
+  std::vector<JointType> types = drivable_types();
+  std::erase(types, JointType::distance);
+  if (std::find(types.begin(), types.end(), joint.type) == types.end()) {
+    fail_joint_type(name, joint, types);
+  }
+  response.joint = joint.name;
+  response.coordinate = read_coordinate(node, joint);
+  read_history(node, context, response);
+}
+
+const Load& read_load_name(const JsonNode& node, const Scene& scene) {
+  return *find_named(scene.loads, read_known_name(node, "load", names_of(scene.loads)));
+}
+
+/// Length or force.
+void read_spring_state(const JsonNode& node, const ResponseContext& context,
+                       ResponseSettings& response) {
+  allow_history_keys(node, {"load"});
+  const JsonNode name = node.at("load");
+  const Load& load = read_load_name(name, context.scene);
+  if (!std::holds_alternative<SpringDamper>(load.element)) {
+    name.fail(
+        fmt::format("must name a load of the type \"spring\", but \"{}\" is none", load.name));
+  }
+  response.load = load.name;
+  read_history(node, context, response);
+}
+
+void read_motor_power(const JsonNode& node, const ResponseContext& context,
+                      ResponseSettings& response) {
+  allow_history_keys(node, {"load"});
+  const JsonNode name = node.at("load");
+  const Load& load = read_load_name(name, context.scene);
+  const auto* force = std::get_if<JointForce>(&load.element);
+  if (force == nullptr || !force->motor) {
+    name.fail(
+        fmt::format("must name a load with a motor in a joint, but \"{}\" has none", load.name));
+  }
+  response.load = load.name;
   read_history(node, context, response);
 }
 
@@ -168,6 +218,25 @@ ResponseSettings read_response(const std::string& name, const JsonNode& node,
     case ResponseType::constraint_drift:
       read_drift(node, context, response);
       break;
+    case ResponseType::section_force:
+      read_section_force(node, context, response);
+      break;
+    case ResponseType::angular_velocity:
+      read_angular_velocity(node, context, response);
+      break;
+    case ResponseType::joint_position:
+    case ResponseType::joint_velocity:
+      read_joint_motion(node, context, response);
+      break;
+    case ResponseType::spring_length:
+    case ResponseType::spring_force:
+      read_spring_state(node, context, response);
+      break;
+    case ResponseType::motor_power:
+      read_motor_power(node, context, response);
+      break;
+    case ResponseType::expression:  // once all others are read
+      break;
   }
   return response;
 }
@@ -179,6 +248,11 @@ std::vector<ResponseSettings> read_responses(const JsonNode& node, const Respons
   for (const auto& [name, response] : node.members()) {
     check_column(name, response);
     responses.push_back(read_response(name, response, context));
+  }
+  for (ResponseSettings& response : responses) {
+    if (response.type != ResponseType::expression) continue;
+    response =
+        read_expression_response(response.name, node.at(response.name), responses, context.numbers);
   }
   return responses;
 }

@@ -8,6 +8,7 @@
 
 #include "core/base/machine_memory.hpp"
 #include "core/scene/reading/limits.hpp"
+#include "core/scene/reading/sample.hpp"
 #include "core/scene/sample_extent.hpp"
 
 namespace pleuel {
@@ -322,12 +323,14 @@ UncertainParameter read_parameter(const std::string& name, const JsonNode& node,
 
 /// The numbers of the scene that depend on the parameter must make sense in all of its range.
 void check_range(const JsonNode& node, const UncertainParameter& parameter,
-                 const DesignVariable& variable, const NumberReader& numbers) {
+                 const std::vector<DesignVariable>& variables, const NumberReader& numbers) {
+  const Design<double> start = make_samples(variables).front().design;
   for (const VariableUse& use : numbers.uses()) {
-    if (use.number.variable != parameter.variable) continue;
+    if (!use.number.depends_on(parameter.variable)) continue;
     for (const double sign : {-1.0, 1.0}) {
-      const double value = use.number.constant +
-                           use.number.factor * (variable.start + sign * sample_extent(parameter));
+      Design<double> design = start;
+      design[static_cast<std::size_t>(parameter.variable)] += sign * sample_extent(parameter);
+      const double value = resolve(use.number, design);
       if (is_within(use.range, value)) continue;
       node.fail(fmt::format("leads to {:g} for {}, which {}", value, use.node.place(),
                             rule_of(use.range, use.quantity)));
@@ -343,8 +346,7 @@ UncertaintySettings read_uncertainty(const JsonNode& node, const NumberReader& n
   UncertaintySettings settings;
   for (const auto& [name, parameter] : node.at("parameters").members()) {
     settings.parameters.push_back(read_parameter(name, parameter, numbers));
-    const auto variable = static_cast<std::size_t>(settings.parameters.back().variable);
-    check_range(parameter, settings.parameters.back(), variables[variable], numbers);
+    check_range(parameter, settings.parameters.back(), variables, numbers);
   }
   if (settings.parameters.empty()) node.at("parameters").fail("must have at least one parameter");
   if (const auto samples = node.find("samples")) {

@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/reading/sample.hpp"
+#include "core/scene/reading/symbols.hpp"
+
 namespace pleuel {
 namespace {
 
 /// The unit in the first of the texts that has one.
 std::string written_unit(std::initializer_list<JsonNode> nodes) {
   for (const JsonNode& node : nodes) {
-    if (!node.value().is_string()) continue;
+    if (!node.value().is_string() || is_formula(node)) continue;
     const std::string unit = split_quantity(node.value().get<std::string>()).unit;
     if (!unit.empty()) return unit;
   }
@@ -25,20 +28,32 @@ DesignVariable read_variable(const std::string& name, const JsonNode& node,
   variable.lower = numbers.fixed(lower, quantity);
   variable.upper = numbers.fixed(upper, quantity);
   variable.unit = written_unit({start, lower, upper});
+  variable.quantity = quantity;
   if (variable.lower > variable.upper) lower.fail_with_value("must not be above the upper bound");
   if (variable.start < variable.lower) start.fail_with_value("must not be below the lower bound");
   if (variable.start > variable.upper) start.fail_with_value("must not be above the upper bound");
   return variable;
 }
 
+/// At the start, and with each variable at either bound.
+void check_formula(const VariableUse& use, const std::vector<Sample>& samples) {
+  for (const Sample& sample : samples) {
+    const double value = resolve(use.number, sample.design);
+    if (is_within(use.range, value)) continue;
+    use.node.fail_with_value(rule_of(use.range, use.quantity),
+                             fmt::format(", which is {:g}{}", value,
+                                         sample.where.empty() ? " at the start" : sample.where));
+  }
+}
+
 void check_range(const VariableUse& use, const DesignVariable& variable) {
-  struct Sample {
+  struct Bound {
     double value;
     const char* where;
   };
-  for (const Sample& sample :
-       {Sample{variable.start, "start value"}, Sample{variable.lower, "lower bound"},
-        Sample{variable.upper, "upper bound"}}) {
+  for (const Bound& sample :
+       {Bound{variable.start, "start value"}, Bound{variable.lower, "lower bound"},
+        Bound{variable.upper, "upper bound"}}) {
     const double value = use.number.constant + use.number.factor * sample.value;
     if (is_within(use.range, value)) continue;
     use.node.fail(fmt::format("{}, got {:g} with the variable \"{}\" at its {}",
@@ -50,16 +65,23 @@ void check_range(const VariableUse& use, const DesignVariable& variable) {
 }  // namespace
 
 std::vector<DesignVariable> read_variables(const JsonNode& node, const NumberReader& numbers) {
+  for (const VariableMention& mention : numbers.mentions()) numbers.check_mention(mention);
   std::vector<DesignVariable> variables;
   for (const auto& [name, member] : node.members()) {
     const auto quantity = numbers.quantity_of(static_cast<int>(variables.size()));
     if (!quantity) {
-      member.fail("is not used: no number of the scene and no linear constraint names it");
+      member.fail(
+          "is not used: no number of the scene, no formula and no linear constraint names it");
     }
     variables.push_back(read_variable(name, member, *quantity, numbers));
   }
+  const std::vector<Sample> samples = make_samples(variables);
   for (const VariableUse& use : numbers.uses()) {
-    check_range(use, variables[static_cast<std::size_t>(use.number.variable)]);
+    if (use.number.expression) {
+      check_formula(use, samples);
+    } else {
+      check_range(use, variables[static_cast<std::size_t>(use.number.variable)]);
+    }
   }
   return variables;
 }

@@ -53,10 +53,54 @@ inline void add_beam_responses(const BodyModel& body, std::vector<ResponseSettin
   all.push_back(settings);
   settings.type = ResponseType::deflection;
   settings.at = 0.6;
-  for (int direction : {1, 2}) {
+  for (int direction : {1, 2, 0, magnitude_of}) {
     settings.direction = direction;
     settings.name = body.name + " deflection " + std::to_string(direction);
     all.push_back(settings);
+  }
+  settings.type = ResponseType::section_force;
+  settings.station = 0.37;
+  for (SectionForcePart part : {SectionForcePart::axial, SectionForcePart::moment_y,
+                                SectionForcePart::moment_z, SectionForcePart::torque}) {
+    settings.section_part = part;
+    settings.name = body.name + " section force " + std::to_string(static_cast<int>(part));
+    all.push_back(settings);
+  }
+}
+
+inline void add_spin_responses(const BodyModel& body, std::vector<ResponseSettings>& all) {
+  ResponseSettings settings;
+  settings.bodies = {body.name};
+  settings.type = ResponseType::angular_velocity;
+  for (int direction : {0, 1, 2, magnitude_of}) {
+    settings.direction = direction;
+    settings.name = body.name + " angular velocity " + std::to_string(direction);
+    all.push_back(settings);
+  }
+}
+
+inline void add_joint_motion(const JointModel& joint, std::vector<ResponseSettings>& all) {
+  ResponseSettings settings;
+  settings.joint = joint.name;
+  for (ResponseType type : {ResponseType::joint_position, ResponseType::joint_velocity}) {
+    settings.type = type;
+    settings.name = joint.name + " motion " + std::to_string(static_cast<int>(type));
+    settings.coordinate = DrivenCoordinate::angle;
+    if (joint.angle) all.push_back(settings);
+    settings.coordinate = DrivenCoordinate::displacement;
+    settings.name += " along";
+    if (joint.displacement) all.push_back(settings);
+  }
+}
+
+inline void add_load_responses(const LoadModel& load, std::vector<ResponseSettings>& all) {
+  ResponseSettings settings;
+  settings.load = load.name;
+  for (ResponseType type :
+       {ResponseType::spring_length, ResponseType::spring_force, ResponseType::motor_power}) {
+    settings.type = type;
+    settings.name = load.name + " reading " + std::to_string(static_cast<int>(type));
+    if (load.gauge) all.push_back(settings);
   }
 }
 
@@ -128,8 +172,13 @@ inline std::vector<ResponseSettings> all_histories(const Model& model) {
   for (const BodyModel& body : model.bodies) {
     if (body.is_beam() && body.is_elastic) add_beam_responses(body, all);
     add_motion_responses(body, all);
+    if (body.frame.rotations() > 0) add_spin_responses(body, all);
   }
-  for (const JointModel& joint : model.joints) add_joint_responses(joint, all);
+  for (const JointModel& joint : model.joints) {
+    add_joint_responses(joint, all);
+    add_joint_motion(joint, all);
+  }
+  for (const LoadModel& load : model.loads) add_load_responses(load, all);
   add_monitor_responses(model, all);
   return all;
 }

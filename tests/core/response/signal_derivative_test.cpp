@@ -103,6 +103,22 @@ TEST_P(EverySignal, OfAMotionIsTheTimeDerivativeOfThePosition) {
   }
 }
 
+/// The same of relative coordinates of joints, with and without elasticity.
+TEST_P(EverySignal, OfAJointIsTheTimeDerivativeOfItsPosition) {
+  for (ResponseSettings settings : all_histories(model_)) {
+    if (settings.type != ResponseType::joint_position) continue;
+    const auto position = [&](double t) {
+      State at = state_;
+      advance(model_.mechanism.rotations, state_.q, t * state_.v, at.q);
+      return observed(model_, settings, at);
+    };
+    const double rate = derivative_at_zero(position, 2e-3);
+    settings.type = ResponseType::joint_velocity;
+    EXPECT_NEAR(observed(model_, settings, state_), rate, 1e-6 * (1.0 + std::abs(rate)))
+        << settings.name;
+  }
+}
+
 /// Central differences of simulated positions over the second half of 200 steps. 2e-3 of the
 /// largest speed: terms of second order in the step, of beams that vibrate (measured 9.5e-4).
 TEST_P(EverySignal, OfAMotionFollowsTheSimulatedPosition) {

@@ -1,0 +1,117 @@
+#include "core/scene/expression.hpp"
+
+#include <cmath>
+
+namespace pleuel {
+
+namespace {
+
+/// A result with its partial derivatives by both operands.
+struct Partials {
+  double value = 0.0;
+  double by_first = 0.0, by_second = 0.0;
+};
+
+/// The operand that counts; at a tie the mean of both.
+Partials chosen(double a, double b, bool is_first) {
+  if (a == b) return {a, 0.5, 0.5};
+  return is_first ? Partials{a, 1.0, 0.0} : Partials{b, 0.0, 1.0};
+}
+
+double sign(double a) {
+  if (a == 0.0) return 0.0;
+  return a > 0.0 ? 1.0 : -1.0;
+}
+
+/// aᵇ: ∂/∂b = aᵇ ln a, which is 0 in the limit of a → 0 for b > 0.
+Partials power(double a, double b) {
+  const double value = std::pow(a, b);
+  const double by_base = b == 0.0 ? 0.0 : b * std::pow(a, b - 1.0);
+  return {value, by_base, a == 0.0 && b > 0.0 ? 0.0 : value * std::log(a)};
+}
+
+Partials apply(Operation operation, double a, double b) {
+  switch (operation) {
+    case Operation::plus:
+      return {a + b, 1.0, 1.0};
+    case Operation::minus:
+      return {a - b, 1.0, -1.0};
+    case Operation::times:
+      return {a * b, b, a};
+    case Operation::over:
+      return {a / b, 1.0 / b, -a / (b * b)};
+    case Operation::power:
+      return power(a, b);
+    case Operation::negated:
+      return {-a, -1.0};
+    case Operation::square_root:
+      return {std::sqrt(a), 0.5 / std::sqrt(a)};
+    case Operation::sine:
+      return {std::sin(a), std::cos(a)};
+    case Operation::cosine:
+      return {std::cos(a), -std::sin(a)};
+    case Operation::tangent:
+      return {std::tan(a), 1.0 + std::tan(a) * std::tan(a)};
+    case Operation::arc_sine:
+      return {std::asin(a), 1.0 / std::sqrt(1.0 - a * a)};
+    case Operation::arc_cosine:
+      return {std::acos(a), -1.0 / std::sqrt(1.0 - a * a)};
+    case Operation::arc_tangent:
+      return {std::atan(a), 1.0 / (1.0 + a * a)};
+    case Operation::arc_tangent_2: {
+      const double square = a * a + b * b;
+      return {std::atan2(a, b), b / square, -a / square};
+    }
+    case Operation::smaller:
+      return chosen(a, b, a < b);
+    case Operation::larger:
+      return chosen(a, b, a > b);
+    case Operation::magnitude:
+      return {std::abs(a), sign(a)};
+    case Operation::constant:
+    case Operation::argument:
+      break;
+  }
+  return {};
+}
+
+Partials compute(const ExpressionStep& step, const std::vector<Partials>& results,
+                 const std::vector<double>& arguments) {
+  if (step.operation == Operation::constant) return {step.constant};
+  if (step.operation == Operation::argument) {
+    return {arguments[static_cast<std::size_t>(step.first)]};
+  }
+  const auto result = [&](int of) {
+    return of < 0 ? 0.0 : results[static_cast<std::size_t>(of)].value;
+  };
+  return apply(step.operation, result(step.first), result(step.second));
+}
+
+}  // namespace
+
+ExpressionValue evaluate(const Expression& expression, const std::vector<double>& arguments) {
+  const std::vector<ExpressionStep>& steps = expression.steps;
+  std::vector<Partials> results;
+  for (const ExpressionStep& step : steps) results.push_back(compute(step, results, arguments));
+
+  ExpressionValue found;
+  found.value = results.back().value;
+  found.derivatives.assign(expression.arguments.size(), 0.0);
+  std::vector<double> slopes(steps.size(), 0.0);  // of the whole by each step
+  slopes.back() = 1.0;
+  for (std::size_t i = steps.size(); i-- > 0;) {
+    if (slopes[i] == 0.0 || steps[i].operation == Operation::constant) continue;
+    const auto first = static_cast<std::size_t>(steps[i].first);
+    if (steps[i].operation == Operation::argument) {
+      found.derivatives[first] += slopes[i];
+      continue;
+    }
+    slopes[first] += slopes[i] * results[i].by_first;
+    if (steps[i].second >= 0) {
+      slopes[static_cast<std::size_t>(steps[i].second)] += slopes[i] * results[i].by_second;
+    }
+  }
+  return found;
+}
+
+}  // namespace pleuel

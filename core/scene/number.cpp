@@ -1,0 +1,28 @@
+#include "core/scene/number.hpp"
+
+#include <algorithm>
+
+namespace pleuel {
+
+std::vector<int> Number::variables() const {
+  std::vector<int> all;
+  if (variable >= 0) all.push_back(variable);
+  if (!expression) return all;
+  for (const ExpressionArgument& argument : expression->arguments) {
+    all.push_back(static_cast<int>(argument.index));
+  }
+  return all;
+}
+
+bool Number::depends_on(int design_variable) const {
+  const std::vector<int> all = variables();
+  return std::find(all.begin(), all.end(), design_variable) != all.end();
+}
+
+double derivative_by(int variable, const Number& number, const Design<double>& design) {
+  Design<Dual> seeded(design.begin(), design.end());
+  seeded[static_cast<std::size_t>(variable)].derivatives()[0] = 1.0;
+  return derivative_of(resolve(number, seeded));
+}
+
+}  // namespace pleuel

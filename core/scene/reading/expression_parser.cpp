@@ -1,0 +1,507 @@
+#include "core/scene/reading/expression_parser.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <mpParser.h>
+
+#include "core/scene/reading/suggestion.hpp"
+#include "core/scene/reading/unit_scanner.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// What is known of the result of a step while the text is read.
+struct StepFacts {
+  Dimension dimension;
+  std::optional<double> constant;  ///< its value, if it depends on nothing
+  /// A plain 0, which is as well no length, no mass, …
+  bool is_zero() const { return constant && *constant == 0.0 && dimension.is_number(); }
+};
+
+struct Function {
+  const char* name;
+  Operation operation;
+  int arguments;  ///< -1: two or more
+};
+constexpr Function functions[] = {
+    {"sqrt", Operation::square_root, 1}, {"sin", Operation::sine, 1},
+    {"cos", Operation::cosine, 1},       {"tan", Operation::tangent, 1},
+    {"asin", Operation::arc_sine, 1},    {"acos", Operation::arc_cosine, 1},
+    {"atan", Operation::arc_tangent, 1}, {"atan2", Operation::arc_tangent_2, 2},
+    {"min", Operation::smaller, -1},     {"max", Operation::larger, -1},
+    {"abs", Operation::magnitude, 1}};
+
+/// "m ^ 2" → "m^2"
+std::string without_blanks_at_powers(const std::string& unit) {
+  std::string text;
+  for (const char c : unit) {
+    if (c == '^') text.erase(text.find_last_not_of(' ') + 1);
+    if (c != ' ' || !text.ends_with('^')) text += c;
+  }
+  return text;
+}
+
+/// Puts steps together and checks that units fit. Operands are indices of steps.
+class Builder {
+ public:
+  Builder(std::string_view text, const std::vector<Symbol>& symbols, const UnitSystem& units)
+      : text_(text), symbols_(symbols), units_(units) {}
+
+  [[noreturn]] void fail(std::size_t position, const std::string& why) const {
+    std::size_t column = 1;
+    for (std::size_t i = 0; i < std::min(position, text_.size()); ++i) {
+      if ((static_cast<unsigned char>(text_[i]) & 0xC0U) != 0x80U) ++column;
+    }
+    throw ExpressionError(column, why);
+  }
+
+  int add_constant(double value, const Dimension& dimension) {
+    return add({Operation::constant, value}, {dimension, value});
+  }
+
+  int add_symbol(const Symbol& symbol) {
+    if (symbol.constant) return add_constant(*symbol.constant, symbol.dimension);
+    std::vector<ExpressionArgument>& all = expression_.arguments;
+    const auto known = std::find_if(all.begin(), all.end(), [&](const ExpressionArgument& one) {
+      return one.kind == symbol.argument->kind && one.index == symbol.argument->index;
+    });
+    const auto index = static_cast<int>(known - all.begin());
+    if (known == all.end()) all.push_back(*symbol.argument);
+    return add({Operation::argument, 0.0, index}, {symbol.dimension, std::nullopt});
+  }
+
+  /// Of one operand, or of two.
+  int apply(std::size_t position, Operation operation, int first, int second = -1) {
+    StepFacts facts;
+    facts.dimension = dimension_of(position, operation, first, second);
+    const bool is_constant = fact(first).constant && (second < 0 || fact(second).constant);
+    const int step = add({operation, 0.0, first, second}, facts);
+    if (is_constant) fold(position, step);
+    return step;
+  }
+
+  const Symbol* find(const std::string& name) const {
+    for (const Symbol& symbol : symbols_) {
+      if (symbol.name == name) return &symbol;
+    }
+    return nullptr;
+  }
+
+  /// @throws ExpressionError for a name that means nothing, or two things
+  int add_name(std::size_t position, const std::string& name) {
+    const Symbol* symbol = find(name);
+    if (symbol == nullptr) fail_unknown(position, name);
+    const bool is_of_two =
+        name == "pi" || std::count_if(symbols_.begin(), symbols_.end(),
+                                      [&](const Symbol& one) { return one.name == name; }) > 1;
+    if (is_of_two) {
+      fail(position,
+           fmt::format("the name \"{}\" stands for two things; rename one of them", name));
+    }
+    return add_symbol(*symbol);
+  }
+
+  /// @param value  the number before the unit
+  int add_quantity(std::size_t position, double value, const std::string& unit) {
+    MeasuredUnit measured;
+    try {
+      if (!unit.empty()) measured = units_.measure(without_blanks_at_powers(unit));
+    } catch (const UnitError& error) {
+      const bool is_product = find(unit) != nullptr || unit == "pi";
+      fail(position, is_product ? std::string("a product needs its *") : error.what());
+    }
+    const double si = value * measured.scale;
+    if (!std::isfinite(si)) fail(position, "the number is out of range");
+    return add_constant(si, measured.dimension);
+  }
+
+  bool is_unit(const std::string& name) const {
+    try {
+      units_.measure(name);
+      return true;
+    } catch (const UnitError&) {
+      return false;
+    }
+  }
+
+  ReadExpression take(int last) {
+    expression_.steps.resize(static_cast<std::size_t>(last) + 1);
+    facts_.resize(static_cast<std::size_t>(last) + 1);
+    expression_.text = std::string(text_);
+    const auto quantity = find_quantity(facts_.back().dimension, units_);
+    expression_.quantity = quantity ? quantity->name : "a quantity";
+    expression_.unit = quantity ? std::string(quantity->unit) : base_units(facts_.back().dimension);
+    return {std::make_shared<const Expression>(std::move(expression_)), facts_.back().dimension,
+            facts_.back().constant};
+  }
+
+  std::string described(int step) const { return describe(fact(step).dimension, units_); }
+
+ private:
+  const StepFacts& fact(int step) const { return facts_[static_cast<std::size_t>(step)]; }
+
+  int add(const ExpressionStep& step, const StepFacts& facts) {
+    expression_.steps.push_back(step);
+    facts_.push_back(facts);
+    return static_cast<int>(facts_.size()) - 1;
+  }
+
+  void fold(std::size_t position, int step) {
+    Expression whole;
+    whole.steps = expression_.steps;
+    // Steps before it may depend on arguments; what counts does not.
+    const double value =
+        evaluate(whole, std::vector<double>(expression_.arguments.size(), 1.0)).value;
+    if (!std::isfinite(value)) fail(position, "the result is no finite number");
+    facts_[static_cast<std::size_t>(step)].constant = value;
+  }
+
+  [[noreturn]] void fail_unknown(std::size_t position, const std::string& name) const {
+    for (const char* sign : {"·", "²", "³"}) {  // of units only
+      if (name.find(sign) != std::string::npos) {
+        fail(position, fmt::format("\"{}\": a product is written \"*\", a power \"^\"", name));
+      }
+    }
+    std::vector<std::string> known;
+    for (const Symbol& symbol : symbols_) known.push_back(symbol.name);
+    std::string more = hint(name, known);
+    if (is_unit(name)) {
+      more += fmt::format(
+          ". If the unit is meant: it stands right behind its number, as in \"1 {}\"", name);
+    }
+    fail(position, fmt::format("unknown name \"{}\"{}", name, more));
+  }
+
+  Dimension dimension_of(std::size_t position, Operation operation, int first, int second) const {
+    switch (operation) {
+      case Operation::plus:
+        return common(position, first, second, "+");
+      case Operation::minus:
+        return common(position, first, second, "-");
+      case Operation::smaller:
+      case Operation::larger:
+        return common(position, first, second, "compared with");
+      case Operation::arc_tangent_2:
+        common(position, first, second, "over");
+        return Dimension::angle();
+      case Operation::times:
+        return fact(first).dimension * fact(second).dimension;
+      case Operation::over:
+        return fact(first).dimension / fact(second).dimension;
+      case Operation::power:
+        return power(position, first, second);
+      case Operation::square_root:
+        return fact(first).dimension.to_the(0.5);
+      case Operation::sine:
+      case Operation::cosine:
+      case Operation::tangent:
+        if (!fact(first).dimension.is_angle() && !fact(first).is_zero()) {
+          fail(position, fmt::format("needs an angle, got {}; give a number its unit, as in "
+                                     "\"30 deg\" or \"pi rad\"",
+                                     described(first)));
+        }
+        return {};
+      case Operation::arc_sine:
+      case Operation::arc_cosine:
+      case Operation::arc_tangent:
+        if (!fact(first).dimension.is_number()) {
+          fail(position, fmt::format("needs a number without unit, got {}", described(first)));
+        }
+        return Dimension::angle();
+      default:
+        return fact(first).dimension;
+    }
+  }
+
+  Dimension common(std::size_t position, int first, int second, const char* what) const {
+    if (fact(first).dimension == fact(second).dimension) return fact(first).dimension;
+    if (fact(first).is_zero()) return fact(second).dimension;
+    if (fact(second).is_zero()) return fact(first).dimension;
+    const bool is_plain = fact(first).dimension.is_number() || fact(second).dimension.is_number();
+    const Dimension ratio = fact(first).dimension / fact(second).dimension;
+    const bool differs_by_angle = ratio.is_angle() || (Dimension{} / ratio).is_angle();
+    std::string more;
+    if (differs_by_angle) {
+      more = "; angles never come or go silently: multiply or divide by 1 rad (a cycle is 1 rev)";
+    } else if (is_plain) {
+      more = "; here a number needs its unit, as in \"5 mm\"";
+    }
+    fail(position,
+         fmt::format("units differ: {} {} {}{}", described(first), what, described(second), more));
+  }
+
+  Dimension power(std::size_t position, int base, int exponent) const {
+    if (!fact(exponent).dimension.is_number()) {
+      fail(position, fmt::format("an exponent has no unit, got {}", described(exponent)));
+    }
+    if (fact(base).dimension.is_number()) return {};
+    if (!fact(exponent).constant) {
+      fail(position, fmt::format("the exponent of {} must be a fixed number", described(base)));
+    }
+    return fact(base).dimension.to_the(*fact(exponent).constant);
+  }
+
+  std::string_view text_;
+  const std::vector<Symbol>& symbols_;
+  const UnitSystem& units_;
+  Expression expression_;
+  std::vector<StepFacts> facts_;  ///< one a step
+};
+
+// The parser calls these while it goes through the text; its values are indices of steps.
+
+int index_of(const mup::ptr_val_type& value) {
+  return static_cast<int>(value->GetInteger());
+}
+mup::int_type value_of_step(int step) {
+  return step;
+}
+
+class BinaryOperator : public mup::IOprtBin {
+ public:
+  BinaryOperator(Builder& builder, const char* name, Operation operation, int precedence,
+                 mup::EOprtAsct associativity)
+      : IOprtBin(name, precedence, associativity), builder_(&builder), operation_(operation) {}
+
+  void Eval(mup::ptr_val_type& result, const mup::ptr_val_type* operands, int) override {
+    *result = value_of_step(builder_->apply(static_cast<std::size_t>(GetExprPos()), operation_,
+                                            index_of(operands[0]), index_of(operands[1])));
+  }
+  const mup::char_type* GetDesc() const override { return ""; }
+  mup::IToken* Clone() const override { return new BinaryOperator(*this); }
+
+ private:
+  Builder* builder_;
+  Operation operation_;
+};
+
+class SignOperator : public mup::IOprtInfix {
+ public:
+  SignOperator(Builder& builder, const char* name)
+      : IOprtInfix(name, mup::prINFIX), builder_(&builder), is_minus_(name[0] == '-') {}
+
+  void Eval(mup::ptr_val_type& result, const mup::ptr_val_type* operands, int) override {
+    const int of = index_of(operands[0]);
+    const auto position = static_cast<std::size_t>(GetExprPos());
+    *result = value_of_step(is_minus_ ? builder_->apply(position, Operation::negated, of) : of);
+  }
+  const mup::char_type* GetDesc() const override { return ""; }
+  mup::IToken* Clone() const override { return new SignOperator(*this); }
+
+ private:
+  Builder* builder_;
+  bool is_minus_;
+};
+
+class FunctionCall : public mup::ICallback {
+ public:
+  FunctionCall(Builder& builder, const Function& function)
+      : ICallback(mup::cmFUNC, function.name, function.arguments),
+        builder_(&builder),
+        function_(&function) {}
+
+  void Eval(mup::ptr_val_type& result, const mup::ptr_val_type* operands, int count) override {
+    const auto position = static_cast<std::size_t>(GetExprPos());
+    if (function_->arguments < 0 && count < 2) {
+      builder_->fail(position, fmt::format("{} needs two numbers at least", function_->name));
+    }
+    int step = index_of(operands[0]);
+    if (count == 1) {
+      step = builder_->apply(position, function_->operation, step);
+    }
+    for (int i = 1; i < count; ++i) {
+      step = builder_->apply(position, function_->operation, step, index_of(operands[i]));
+    }
+    *result = value_of_step(step);
+  }
+  const mup::char_type* GetDesc() const override { return ""; }
+  mup::IToken* Clone() const override { return new FunctionCall(*this); }
+
+ private:
+  Builder* builder_;
+  const Function* function_;
+};
+
+/// Numbers with units, and names.
+class OperandReader : public mup::IValueReader {
+ public:
+  OperandReader(Builder& builder) : builder_(&builder) {}
+
+  bool IsValue(const mup::char_type* whole, int& position, mup::Value& value) override {
+    const std::string_view text(whole);
+    const auto at = static_cast<std::size_t>(position);
+    std::size_t end = at;
+    const std::optional<int> step = read(text, at, end);
+    if (!step) return false;
+    value = value_of_step(*step);
+    position = static_cast<int>(end);
+    return true;
+  }
+  mup::IValueReader* Clone(mup::TokenReader* parent) const override {
+    auto* copy = new OperandReader(*this);
+    copy->SetParent(parent);
+    return copy;
+  }
+
+ private:
+  std::optional<int> read(std::string_view text, std::size_t at, std::size_t& end) {
+    const char c = text[at];
+    const bool is_fraction = c == '.' && at + 1 < text.size() && is_digit_character(text[at + 1]);
+    if (is_digit_character(c) || is_fraction) return read_number(text, at, end);
+    if (c == '\'') return read_quoted(text, at, end);
+    if (is_name_character(c)) return read_name(text, at, end);
+    return std::nullopt;
+  }
+
+  int read_number(std::string_view text, std::size_t at, std::size_t& end) {
+    double value = 0.0;
+    const auto [rest, status] = std::from_chars(text.data() + at, text.data() + text.size(), value);
+    if (status != std::errc() || !std::isfinite(value)) {
+      builder_->fail(at, "the number is out of range");
+    }
+    return read_unit(text, static_cast<std::size_t>(rest - text.data()), value, end);
+  }
+
+  int read_unit(std::string_view text, std::size_t at, double value, std::size_t& end) {
+    const std::string_view rest = text.substr(at);
+    const std::size_t length = unit_length(rest, [&](const std::string& word) {
+      const bool is_unit = builder_->is_unit(word);
+      if (is_unit && builder_->find(word) != nullptr) {
+        builder_->fail(at, fmt::format("\"/{}\" may be a unit or the name \"{}\"; put the number "
+                                       "with its unit in brackets, or write the power \"{}^-1\"",
+                                       word, word, word));
+      }
+      return is_unit;
+    });
+    end = at + length;
+    const std::size_t first = std::min(text.find_first_not_of(' ', at), end);
+    return builder_->add_quantity(first, value, std::string(text.substr(first, end - first)));
+  }
+
+  int read_quoted(std::string_view text, std::size_t at, std::size_t& end) {
+    const std::size_t close = text.find('\'', at + 1);
+    if (close == std::string_view::npos) builder_->fail(at, "a quote is not closed");
+    end = close + 1;
+    return builder_->add_name(at, std::string(text.substr(at + 1, close - at - 1)));
+  }
+
+  std::optional<int> read_name(std::string_view text, std::size_t at, std::size_t& end) {
+    std::size_t stop = at;
+    while (stop < text.size() && is_name_character(text[stop])) ++stop;
+    const std::size_t next = text.find_first_not_of(' ', stop);
+    const std::string name(text.substr(at, stop - at));
+    if (next != std::string_view::npos && text[next] == '(') {
+      check_function(at, name);
+      return std::nullopt;
+    }
+    end = stop;
+    if (name == "pi" && builder_->find(name) == nullptr) {
+      return read_unit(text, stop, std::numbers::pi, end);
+    }
+    return builder_->add_name(at, name);
+  }
+
+  void check_function(std::size_t at, const std::string& name) const {
+    std::vector<std::string> known;
+    for (const Function& function : functions) {
+      if (name == function.name) return;
+      known.emplace_back(function.name);
+    }
+    if (builder_->find(name) != nullptr || name == "pi") {
+      builder_->fail(at, fmt::format("\"{}\" is no function; a product needs its *", name));
+    }
+    builder_->fail(at, fmt::format("unknown function \"{}\"{}", name, hint(name, known)));
+  }
+
+  Builder* builder_;
+};
+
+/// The parser without anything it would know by itself.
+mup::ParserX make_parser(Builder& builder) {
+  mup::ParserX parser(0U);
+  const auto define = [&](const char* name, Operation operation, int precedence,
+                          mup::EOprtAsct associativity) {
+    parser.DefineOprt(new BinaryOperator(builder, name, operation, precedence, associativity));
+  };
+  define("+", Operation::plus, mup::prADD_SUB, mup::oaLEFT);
+  define("-", Operation::minus, mup::prADD_SUB, mup::oaLEFT);
+  define("*", Operation::times, mup::prMUL_DIV, mup::oaLEFT);
+  define("/", Operation::over, mup::prMUL_DIV, mup::oaLEFT);
+  define("^", Operation::power, mup::prPOW, mup::oaRIGHT);
+  parser.DefineInfixOprt(new SignOperator(builder, "-"));
+  parser.DefineInfixOprt(new SignOperator(builder, "+"));
+  for (const Function& function : functions) parser.DefineFun(new FunctionCall(builder, function));
+  parser.AddValueReader(new OperandReader(builder));
+  return parser;
+}
+
+/// Characters that mean something to the parser, or to other people, but nothing here.
+void check_characters(const Builder& builder, std::string_view text) {
+  bool is_quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\'') is_quoted = !is_quoted;
+    if (is_quoted) continue;
+    const std::string_view rest = text.substr(i);
+    if (rest.starts_with("**")) builder.fail(i, "a power is written \"^\", not \"**\"");
+    for (const char* sign : {"×", "−", "–", "÷"}) {
+      if (rest.starts_with(sign)) {
+        builder.fail(i, fmt::format("\"{}\" is no sign of a formula; there are + - * / ^", sign));
+      }
+    }
+    if (std::string_view("[]{}?:;=<>!&|#\"\\\n\t").find(text[i]) != std::string_view::npos) {
+      builder.fail(i, fmt::format("\"{}\" means nothing in a formula", text[i]));
+    }
+  }
+}
+
+/// What the parser says of the grammar, in our words.
+std::string grammar_error(const mup::ParserError& error) {
+  switch (error.GetCode()) {
+    case mup::ecUNEXPECTED_EOF:
+      return "the formula ends too early";
+    case mup::ecMISSING_PARENS:
+      return "a bracket is not closed";
+    case mup::ecUNEXPECTED_PARENS:
+      return "there is a bracket too many";
+    case mup::ecTOO_MANY_PARAMS:
+      return fmt::format("too many arguments of {}", error.GetToken());
+    case mup::ecTOO_FEW_PARAMS:
+      return fmt::format("too few arguments of {}", error.GetToken());
+    case mup::ecUNEXPECTED_COMMA:
+      return "there is a comma outside a function; decimals have a point";
+    case mup::ecUNEXPECTED_VAL:
+      return "a sign + - * / ^ is missing before this";
+    default:
+      return fmt::format("{} is not understood here",
+                         error.GetToken().empty() ? "this" : "\"" + error.GetToken() + "\"");
+  }
+}
+
+}  // namespace
+
+ReadExpression read_expression(const std::string& text, const std::vector<Symbol>& symbols,
+                               const UnitSystem& units) {
+  // The sign "=" becomes a blank: columns are those of the whole text.
+  std::string formula = text;
+  const std::size_t first = formula.find_first_not_of(' ');
+  if (first != std::string::npos && formula[first] == '=') formula[first] = ' ';
+  Builder builder(formula, symbols, units);
+  if (formula.find_first_not_of(' ') == std::string::npos) builder.fail(0, "there is no formula");
+  check_characters(builder, formula);
+  try {
+    mup::ParserX parser = make_parser(builder);
+    parser.SetExpr(formula);
+    return builder.take(index_of(mup::ptr_val_type(parser.Eval().Clone()->AsIValue())));
+  } catch (const mup::ParserError& error) {
+    const int position = error.GetPos();
+    builder.fail(position < 0 ? formula.size() : static_cast<std::size_t>(position),
+                 grammar_error(error));
+  }
+}
+
+}  // namespace pleuel

@@ -1,0 +1,101 @@
+#include "core/scene/reading/symbols.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace pleuel {
+
+namespace {
+
+/// A constant, or the dimension of a bound of a variable.
+struct WrittenValue {
+  double value = 0.0;
+  Dimension dimension;
+};
+
+WrittenValue read_text(const JsonNode& node, const std::vector<Symbol>& symbols,
+                       const UnitSystem& units) {
+  if (is_formula(node)) {
+    const ReadExpression read = read_formula(node, symbols, units);
+    if (!read.constant) node.fail_with_value("must not depend on design variables");
+    return {*read.constant, read.dimension};
+  }
+  const WrittenQuantity written = split_quantity(node.value().get<std::string>());
+  if (written.unit.empty()) return {written.value, {}};
+  const MeasuredUnit unit = units.measure(written.unit);
+  return {written.value * unit.scale, unit.dimension};
+}
+
+Symbol read_constant(const std::string& name, const JsonNode& node,
+                     const std::vector<Symbol>& symbols, const UnitSystem& units) {
+  if (node.value().is_number()) return {name, {}, node.value().get<double>()};
+  if (!node.value().is_string()) {
+    node.fail_with_value("must be a number, a text with unit, or a formula \"= …\"");
+  }
+  try {
+    const WrittenValue written = read_text(node, symbols, units);
+    return {name, written.dimension, written.value};
+  } catch (const UnitError& error) {
+    node.fail_with_value("must be a number, a text with unit, or a formula \"= …\"",
+                         fmt::format(": {}", error.what()));
+  }
+}
+
+/// What is wrong with the text of a bound is said where it is read.
+Dimension dimension_of_variable(const JsonNode& node, const std::vector<Symbol>& symbols,
+                                const UnitSystem& units) {
+  for (const char* key : {"start", "lower", "upper"}) {
+    if (!node.value().is_object()) break;
+    const auto bound = node.find(key);
+    if (!bound || !bound->value().is_string()) continue;
+    try {
+      const Dimension dimension = read_text(*bound, symbols, units).dimension;
+      if (!dimension.is_number()) return dimension;
+    } catch (const UnitError&) {
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+bool is_formula(const JsonNode& node) {
+  if (!node.value().is_string()) return false;
+  const auto& text = node.value().get_ref<const std::string&>();
+  const std::size_t first = text.find_first_not_of(' ');
+  return first != std::string::npos && text[first] == '=';
+}
+
+ReadExpression read_formula(const JsonNode& node, const std::vector<Symbol>& symbols,
+                            const UnitSystem& units) {
+  const std::string text = node.text();
+  try {
+    return read_expression(text, symbols, units);
+  } catch (const ExpressionError& error) {
+    node.fail(
+        fmt::format("has an error at column {} of \"{}\": {}", error.column(), text, error.what()));
+  }
+}
+
+std::vector<Symbol> read_symbols(const JsonNode& root, const UnitSystem& units) {
+  std::vector<Symbol> constants, variables;
+  const auto list = root.find("variables");
+  if (const auto node = root.find("constants")) {
+    for (const auto& [name, member] : node->members()) {
+      if (name == "pi") member.fail("has a name that is taken: pi is 3.14159…");
+      if (list && list->find(name)) member.fail("has the name of a design variable");
+      constants.push_back(read_constant(name, member, constants, units));
+    }
+  }
+  std::vector<Symbol> all = constants;
+  if (!list) return all;
+  std::size_t index = 0;
+  for (const auto& [name, member] : list->members()) {
+    all.push_back({name, dimension_of_variable(member, constants, units), std::nullopt,
+                   ExpressionArgument{ExpressionArgument::Kind::variable, index++}});
+  }
+  return all;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "core/scene/reading/expression_parser.hpp"
+#include "core/scene/reading/json_node.hpp"
+
+namespace pleuel {
+
+/// Whether the value is a text that begins with "=": a formula where a number could stand.
+bool is_formula(const JsonNode& node);
+
+/// A formula of the document, or another text that is one. @throws InputError with its column
+ReadExpression read_formula(const JsonNode& node, const std::vector<Symbol>& symbols,
+                            const UnitSystem& units);
+
+/// The names that all formulas of a document may use: its constants (which may be formulas of
+/// constants before them) and its design variables. A design variable has the unit that its
+/// "start" (or else a bound) is written with.
+/// @throws InputError
+std::vector<Symbol> read_symbols(const JsonNode& root, const UnitSystem& units);
+
+}  // namespace pleuel

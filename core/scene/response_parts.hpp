@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/scene/problem_file.hpp"
+
+namespace pleuel {
+
+/// Indices of the responses that a response is made from and that are no expressions themselves, in
+/// increasing order; of one that is no expression its own.
+std::vector<std::size_t> parts_of(const ProblemFile& problem, std::size_t response);
+
+/// Whether it is an error itself, or is made from one: an energy balance, a drift of constraints.
+bool is_monitor(const ProblemFile& problem, std::size_t response);
+
+}  // namespace pleuel

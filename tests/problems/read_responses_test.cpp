@@ -1,0 +1,174 @@
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/response/analysis.hpp"
+#include "core/scene/problem_reader.hpp"
+#include "sensitivity/gradients.hpp"
+#include "tests/support/problem_runs.hpp"
+
+/// Responses of joints, springs, motors and sections in closed form.
+namespace {
+
+using namespace pleuel;
+using Json = nlohmann::ordered_json;
+
+struct Simulated {
+  ProblemFile problem;
+  std::unique_ptr<Analysis> analysis;
+
+  explicit Simulated(const char* text)
+      : problem(read_problem_text(text, "test.json")),
+        analysis(analyze(problem, start_design(problem))) {}
+
+  double value(const char* name) const {
+    return analysis->reductions[static_cast<std::size_t>(response_index(problem, name))].value;
+  }
+  Eigen::RowVectorXd gradient(const char* name) {
+    return direct_gradients(*analysis).row(response_index(problem, name));
+  }
+};
+
+/// A block that is driven along x by v t, on a spring from the ground at −l₀.
+TEST(SpringResponse, IsThatOfTheSpringLaw) {
+  Simulated block(R"({
+    "scene": {
+      "bodies": {"block": {"type": "rigid", "at": [0, 0, 0], "mass": 2,
+                           "inertia": [0.1, 0.1, 0.1, 0, 0, 0]}},
+      "joints": {"guide": {"type": "prismatic", "bodies": ["ground", "block"], "at": [0, 0, 0],
+                           "axis": [1, 0, 0],
+                           "drive": {"type": "constant-speed", "speed": "= speed"}}},
+      "loads": {"spring": {"type": "spring", "bodies": ["ground", "block"],
+                           "at": [["-200 mm", 0, 0], [0, 0, 0]], "stiffness": "= stiffness",
+                           "damping": "7 N s/m", "free_length": "150 mm"}}
+    },
+    "simulation": {"end_time": "0.1 s", "step": "1 ms"},
+    "variables": {"speed": {"start": "0.5 m/s", "lower": "0.1 m/s", "upper": "1 m/s"},
+                  "stiffness": {"start": "300 N/m", "lower": "1 N/m", "upper": "1 N/mm"}},
+    "responses": {
+      "length": {"type": "spring-length", "load": "spring", "over_time": "final"},
+      "force": {"type": "spring-force", "load": "spring", "over_time": "final"},
+      "travel": {"type": "joint-position", "joint": "guide", "over_time": "final"},
+      "speed": {"type": "joint-velocity", "joint": "guide", "over_time": "mean"}
+    }})");
+  EXPECT_NEAR(block.value("length"), 0.25, 1e-10);               // 200 mm + v t
+  EXPECT_NEAR(block.value("force"), 300 * 0.1 + 7 * 0.5, 1e-7);  // k (l − l₀) + c v
+  EXPECT_NEAR(block.value("travel"), 0.05, 1e-10);
+  EXPECT_NEAR(block.value("speed"), 0.5, 1e-9);
+  const Eigen::RowVectorXd by = block.gradient("force");
+  EXPECT_NEAR(by(0), 300 * 0.1 + 7, 1e-6);  // k t + c
+  EXPECT_NEAR(by(1), 0.1, 1e-9);            // l − l₀
+}
+
+/// A wheel with the moment of inertia I under a motor m: ω = m t/I, φ = m t²/(2 I), P = m ω.
+TEST(MotorResponse, IsTorqueTimesAngularVelocity) {
+  Simulated wheel(R"({
+    "scene": {
+      "bodies": {"wheel": {"type": "rigid", "at": [0, 0, 0], "mass": 3,
+                           "inertia": [0.2, 0.2, 0.4, 0, 0, 0]}},
+      "joints": {"axle": {"type": "revolute", "bodies": ["ground", "wheel"], "at": [0, 0, 0],
+                          "axis": [0, 0, -1]}},
+      "loads": {"motor": {"type": "joint", "joint": "axle", "motor": {"variable": "torque"}}}
+    },
+    "simulation": {"end_time": "2 s", "step": "10 ms"},
+    "variables": {"torque": {"start": "8 N m", "lower": "1 N m", "upper": "9 N m"}},
+    "responses": {
+      "angle": {"type": "joint-position", "joint": "axle", "over_time": "final"},
+      "rate": {"type": "joint-velocity", "joint": "axle", "over_time": "final"},
+      "spin": {"type": "angular-velocity", "body": "wheel", "direction": "z", "over_time": "final"},
+      "size": {"type": "angular-velocity", "body": "wheel", "direction": "magnitude",
+               "over_time": "final"},
+      "power": {"type": "motor-power", "load": "motor", "over_time": "final"}
+    }})");
+  EXPECT_NEAR(wheel.value("rate"), 40.0, 1e-8);   // 8 · 2/0.4
+  EXPECT_NEAR(wheel.value("angle"), 40.0, 1e-8);  // 8 · 4/0.8: more than six turns
+  EXPECT_NEAR(wheel.value("spin"), -40.0, 1e-8);  // about the axis −z
+  EXPECT_NEAR(wheel.value("size"), 40.0, 1e-8);
+  EXPECT_NEAR(wheel.value("power"), 320.0, 1e-6);
+  EXPECT_NEAR(wheel.gradient("power")(0), 80.0, 1e-5);  // 2 m t/I
+}
+
+/// A cantilever of 1 m under forces at its tip, in equilibrium.
+constexpr const char* cantilever = R"({
+    "scene": {
+      "bodies": {
+        "bar": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
+                "section": {"type": "rectangle", "width": "30 mm", "height": "= height"},
+                "elements": 4},
+        "stub": {"type": "beam", "from": [0, 0, 1], "to": [1, 0, 1], "material": "steel",
+                 "section": {"type": "rectangle", "width": "30 mm", "height": "40 mm"},
+                 "elements": 2}},
+      "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]},
+                 "other": {"type": "fixed", "bodies": ["ground", "stub"], "at": [0, 0, 1]}},
+      "loads": {
+        "down": {"type": "force", "body": "bar", "at": [1, 0, 0], "direction": [0, -1, 0],
+                 "value": "= force"},
+        "aside": {"type": "force", "body": "bar", "at": [1, 0, 0], "direction": [0, 0, 1],
+                  "value": "30 N"},
+        "pull": {"type": "force", "body": "bar", "at": [1, 0, 0], "direction": [1, 0, 0],
+                 "value": "500 N"},
+        "twist": {"type": "torque", "body": "bar", "at": [1, 0, 0], "direction": [1, 0, 0],
+                  "value": "0.9 N m"},
+        "small": {"type": "force", "body": "stub", "at": [1, 0, 1], "direction": [0, -1, 0],
+                  "value": "10 N"}}
+    },
+    "effects": {"geometric_stiffening": "off"},
+    "simulation": {"end_time": "1 ms", "step": "0.1 ms", "initial_state": "quasi-static"},
+    "variables": {"height": {"start": "40 mm", "lower": "20 mm", "upper": "60 mm"},
+                  "force": {"start": "40 N", "lower": "1 N", "upper": "60 N"}},
+    "responses": {
+      "N": {"type": "section-force", "body": "bar", "at": 0.3, "part": "axial",
+            "over_time": "mean"},
+      "Mz": {"type": "section-force", "body": "bar", "at": 0.25, "part": "moment-z",
+             "over_time": "max-abs"},
+      "My": {"type": "section-force", "body": "bar", "at": 0.6, "part": "moment-y",
+             "over_time": "max-abs"},
+      "T": {"type": "section-force", "body": "bar", "at": 0.6, "part": "torque",
+            "over_time": "mean"},
+      "y": {"type": "deflection", "body": "bar", "at": 1, "over_time": "max-abs"},
+      "z": {"type": "deflection", "body": "bar", "at": 1, "direction": "z",
+            "over_time": "max-abs"},
+      "x": {"type": "deflection", "body": "bar", "at": 1, "direction": "x",
+            "over_time": "max-abs"},
+      "resultant": {"type": "deflection", "body": "bar", "at": 1, "direction": "resultant",
+                    "over_time": "max"},
+      "bar": {"type": "stress", "body": "bar", "over_time": "max"},
+      "stub": {"type": "stress", "body": "stub", "over_time": "max"},
+      "both": {"type": "stress", "bodies": ["stub", "bar"], "over_time": "max"}
+    }})";
+
+TEST(SectionForce, IsThatOfStatics) {
+  Simulated bar(cantilever);
+  // The torque at the turned tip has a share across the beam: 0.9 N m · 8e-4 rad/2.
+  EXPECT_NEAR(bar.value("N"), 500.0, 5e-3);
+  EXPECT_NEAR(bar.value("Mz"), 40.0 * 0.75, 1e-3);
+  EXPECT_NEAR(bar.value("My"), 30.0 * 0.4, 1e-3);
+  EXPECT_NEAR(bar.value("T"), 0.9, 1e-5);
+  const Eigen::RowVectorXd by = bar.gradient("Mz");
+  EXPECT_NEAR(by(0), 0.0, 0.1);  // a moment of statics does not depend on the height
+  EXPECT_NEAR(by(1), 0.75, 1e-4);
+}
+
+TEST(Deflection, HasAResultantAndAnAxialPart) {
+  Simulated bar(cantilever);
+  EXPECT_NEAR(bar.value("resultant"), std::hypot(bar.value("y"), bar.value("z")),
+              1e-9 * bar.value("resultant"));
+  EXPECT_NEAR(bar.value("x"), 500.0 / (210e9 * 0.03 * 0.04), 1e-10);  // F L/(E A)
+  const Eigen::RowVectorXd by = bar.gradient("resultant"), y = bar.gradient("y"),
+                           z = bar.gradient("z");
+  const Eigen::RowVectorXd expected =
+      (bar.value("y") * y + bar.value("z") * z) / bar.value("resultant");
+  EXPECT_LT((by - expected).norm(), 1e-6 * expected.norm());
+}
+
+TEST(Stress, OfSeveralBodiesIsTheLargestOfThem) {
+  Simulated bars(cantilever);
+  EXPECT_GT(bars.value("bar"), bars.value("stub"));
+  EXPECT_EQ(bars.value("both"), bars.value("bar"));
+  EXPECT_LT((bars.gradient("both") - bars.gradient("bar")).norm(),
+            1e-12 * bars.gradient("bar").norm());
+}
+
+}  // namespace
