@@ -84,6 +84,25 @@ void normalize(SparseRows& rows) {
   }
 }
 
+void normalize_columns(SparseRows& rows) {
+  VectorXd squares = VectorXd::Zero(rows.cols());
+  for (Index row = 0; row < rows.rows(); ++row) {
+    for (SparseRows::InnerIterator entry(rows, row); entry; ++entry) {
+      squares(entry.col()) += entry.value() * entry.value();
+    }
+  }
+  for (double& square : squares) {
+    if (square == 0.0) square = 1.0;
+  }
+  rows = rows * squares.cwiseSqrt().cwiseInverse().asDiagonal();
+}
+
+Index sparse_rank(SparseRows rows, double threshold) {
+  normalize_columns(rows);
+  normalize(rows);
+  return SparseFactors(rows, threshold).rank();
+}
+
 /// Union of sets, with the smallest member as the name of each.
 class Sets {
  public:
@@ -157,6 +176,10 @@ std::vector<RowBlock> connected_blocks(const SparseRows& matrix) {
   return blocks;
 }
 
+bool is_large(const RowBlock& block) {
+  return static_cast<Index>(block.rows.size()) > most_dense_rows;
+}
+
 SparseRows select_rows(const SparseRows& matrix, const std::vector<int>& rows) {
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -211,7 +234,7 @@ Index rank_of_rows(SparseRows rows, double threshold) {
   for (const RowBlock& block : connected_blocks(rows)) {
     const SparseRows part = select_block(rows, block);
     rank += is_small(part) ? PivotedQr(MatrixXd(part).transpose(), threshold).rank()
-                           : SparseFactors(part, threshold).rank();
+                           : sparse_rank(part, threshold);
   }
   return rank;
 }

@@ -23,6 +23,9 @@ struct RowBlock {
 /// none.
 std::vector<RowBlock> connected_blocks(const SparseRows& matrix);
 
+/// Whether it is decomposed sparsely.
+bool is_large(const RowBlock& block);
+
 /// Some of the rows.
 SparseRows select_rows(const SparseRows& matrix, const std::vector<int>& rows);
 /// The rows and columns of a block.
@@ -40,7 +43,8 @@ struct RankedRows {
 /// pivots of zero.
 RankedRows rank_rows(SparseRows rows, double negligible);
 
-/// The number of independent rows, by direction: pivots above a threshold.
+/// The number of independent rows, by direction: pivots above a threshold. In large blocks all
+/// columns count alike.
 Eigen::Index rank_of_rows(SparseRows rows, double threshold);
 
 /// Columns: an orthonormal basis of { x : rows x = 0 }.

@@ -1,6 +1,9 @@
 #include "core/effects/geometric_stiffening.hpp"
 
 #include <algorithm>
+#include <array>
+#include <type_traits>
+#include <utility>
 
 namespace pleuel {
 
@@ -24,15 +27,51 @@ Eigen::Map<const Vector<Size>> column(const Eigen::MatrixXd& matrix, Eigen::Inde
   return {matrix.data() + i * matrix.rows(), matrix.rows()};
 }
 
+/// Sizes up to the largest of these are known to the compiler: elements of planar motion have six
+/// coordinates, those of spatial motion twelve, those of reduced bodies any number.
+constexpr std::array<Eigen::Index, 4> known_sizes = {6, 8, 12, 16};
+
+Eigen::Index padded_size(Eigen::Index size) {
+  for (const Eigen::Index known : known_sizes) {
+    if (size <= known) return known;
+  }
+  return size;
+}
+
+/// Calls a function with the size as a constant.
+template <class Function>
+void with_known_size(Eigen::Index size, const Function& function) {
+  switch (size) {
+    case 6:
+      return function(std::integral_constant<int, 6>());
+    case 8:
+      return function(std::integral_constant<int, 8>());
+    case 12:
+      return function(std::integral_constant<int, 12>());
+    case 16:
+      return function(std::integral_constant<int, 16>());
+    default:
+      return function(std::integral_constant<int, Eigen::Dynamic>());
+  }
+}
+
 }  // namespace
+
+GeometricStiffening::PaddedElement::PaddedElement(StiffeningElement element)
+    : StiffeningElement(std::move(element)) {
+  const Eigen::Index padded = padded_size(size());
+  padded_elongation.setZero(padded);
+  padded_elongation.head(size()) = elongation;
+  padded_slopes.setZero(padded, padded);
+  padded_slopes.topLeftCorner(size(), size()) = slopes;
+}
 
 GeometricStiffening::GeometricStiffening(
     std::string body, std::vector<StiffeningElement> elements, double damping,
     const std::vector<DesignDerivative<std::vector<StiffeningDerivative>>>& derivatives)
     : body_(std::move(body)),
-      elements_(std::move(elements)),
       damping_(damping),
-      changes_(elements_.size()),
+      changes_(elements.size()),
       is_designed_(!derivatives.empty()) {
   for (const auto& [variable, changes] : derivatives) {
     for (const StiffeningDerivative& change : changes) {
@@ -42,56 +81,55 @@ GeometricStiffening::GeometricStiffening(
     }
   }
   Eigen::Index largest = 0;
-  for (const StiffeningElement& element : elements_) {
-    largest = std::max(largest, element.elongation.size());
+  for (StiffeningElement& element : elements) {
+    elements_.emplace_back(std::move(element));
+    largest = std::max(largest, elements_.back().padded_elongation.size());
   }
   for (Eigen::VectorXd* scratch : {&strain_.q, &strain_.v, &strain_.gradient, &strain_.slope_v,
-                                   &unit_forces_, &row_, &bent_, &forces_}) {
+                                   &unit_forces_, &row_, &column_, &bent_, &forces_}) {
     scratch->resize(largest);
   }
 }
 
 void GeometricStiffening::declare_entries(EntryList& entries) const {
-  for (const StiffeningElement& element : elements_) {
+  for (const PaddedElement& element : elements_) {
     for (int row : element.coordinates) {
       for (int col : element.coordinates) entries.emplace_back(row, col);
     }
   }
 }
 
-void GeometricStiffening::evaluate(const StiffeningElement& element, const State& state) {
-  if (element.coordinates.size() == 6) {
-    evaluate<6>(element, state);  // planar motion
-  } else {
-    evaluate<Eigen::Dynamic>(element, state);
-  }
+void GeometricStiffening::evaluate(const PaddedElement& element, const State& state) {
+  with_known_size(element.padded_elongation.size(),
+                  [&](auto size) { evaluate<decltype(size)::value>(element, state); });
 }
 
-/// `Size` is the number of coordinates where the compiler may know it.
 template <int Size>
-void GeometricStiffening::evaluate(const StiffeningElement& element, const State& state) {
-  const auto size = static_cast<Eigen::Index>(element.coordinates.size());
-  auto q = working_vector<Size>(strain_.q, size), v = working_vector<Size>(strain_.v, size);
-  auto slope_q = working_vector<Size>(strain_.gradient, size);
-  auto slope_v = working_vector<Size>(strain_.slope_v, size);
+void GeometricStiffening::evaluate(const PaddedElement& element, const State& state) {
+  const Eigen::Index padded = element.padded_elongation.size();
+  auto q = working_vector<Size>(strain_.q, padded), v = working_vector<Size>(strain_.v, padded);
+  auto slope_q = working_vector<Size>(strain_.gradient, padded);
+  auto slope_v = working_vector<Size>(strain_.slope_v, padded);
+  q.setZero();
+  v.setZero();
   slope_q.setZero();
   slope_v.setZero();
-  for (Eigen::Index i = 0; i < size; ++i) {
+  for (Eigen::Index i = 0; i < element.size(); ++i) {
     q(i) = state.q(element.coordinates[static_cast<std::size_t>(i)]);
     v(i) = state.v(element.coordinates[static_cast<std::size_t>(i)]);
-    const auto slopes = column<Size>(element.slopes, i);
+    const auto slopes = column<Size>(element.padded_slopes, i);
     slope_q += q(i) * slopes;
     slope_v += v(i) * slopes;
   }
-  const Eigen::Map<const Vector<Size>> elongation(element.elongation.data(), size);
+  const Eigen::Map<const Vector<Size>> elongation(element.padded_elongation.data(), padded);
   strain_.linear = elongation.dot(q);
   strain_.linear_rate = elongation.dot(v);
   strain_.total = strain_.linear + 0.5 * q.dot(slope_q);
   strain_.total_rate = strain_.linear_rate + v.dot(slope_q);
-  strain_.q.head(size) = q;
-  strain_.v.head(size) = v;
-  strain_.gradient.head(size) = elongation + slope_q;
-  strain_.slope_v.head(size) = slope_v;
+  strain_.q.head(padded) = q;
+  strain_.v.head(padded) = v;
+  strain_.gradient.head(padded) = elongation + slope_q;
+  strain_.slope_v.head(padded) = slope_v;
 }
 
 void GeometricStiffening::set_unit_forces(const StiffeningElement& element) {
@@ -111,7 +149,7 @@ void GeometricStiffening::add_forces(const StiffeningElement& element, Eigen::Ve
 
 void GeometricStiffening::add_residual(const State& state, ConstraintLevel,
                                        Eigen::VectorXd& residual) {
-  for (const StiffeningElement& element : elements_) {
+  for (const PaddedElement& element : elements_) {
     evaluate(element, state);
     add_forces(element, residual);
   }
@@ -120,39 +158,45 @@ void GeometricStiffening::add_residual(const State& state, ConstraintLevel,
 void GeometricStiffening::linearize(const State& state, const WeightList& weights, ConstraintLevel,
                                     Eigen::VectorXd& residual, const EntryBlocks& entries) {
   std::ptrdiff_t first = 0;
-  for (const StiffeningElement& element : elements_) {
+  for (const PaddedElement& element : elements_) {
     evaluate(element, state);
     add_forces(element, residual);
     for (std::size_t i = 0; i < weights.size(); ++i) {
       double* block = entries.block(i) + first;
       if (weights[i].q == 0.0 && weights[i].v == 0.0) {
         std::fill_n(block, element.slopes.size(), 0.0);
-      } else if (element.coordinates.size() == 6) {
-        write_element<6>(element, weights[i], block);  // planar motion
       } else {
-        write_element<Eigen::Dynamic>(element, weights[i], block);
+        write_element(element, weights[i], block);
       }
     }
     first += element.slopes.size();
   }
 }
 
+void GeometricStiffening::write_element(const PaddedElement& element, const Weights& weights,
+                                        double* entries) {
+  with_known_size(element.padded_elongation.size(), [&](auto size) {
+    write_element<decltype(size)::value>(element, weights, entries);
+  });
+}
+
 template <int Size>
-void GeometricStiffening::write_element(const StiffeningElement& element, const Weights& weights,
+void GeometricStiffening::write_element(const PaddedElement& element, const Weights& weights,
                                         double* entries) {
   const double kappa = element.axial_stiffness;
   const double material = kappa * (weights.q + weights.v * damping_);
   const double geometric = weights.q * kappa * (strain_.total + damping_ * strain_.total_rate);
   const double rate = weights.q * kappa * damping_;
-  const Eigen::Index size = element.slopes.rows();
-  const Eigen::Map<const Vector<Size>> gradient(strain_.gradient.data(), size),
-      slope_v(strain_.slope_v.data(), size), elongation(element.elongation.data(), size);
-  auto row = working_vector<Size>(row_, size);
+  const Eigen::Index padded = element.padded_elongation.size(), size = element.size();
+  const Eigen::Map<const Vector<Size>> gradient(strain_.gradient.data(), padded),
+      slope_v(strain_.slope_v.data(), padded), elongation(element.padded_elongation.data(), padded);
+  auto row = working_vector<Size>(row_, padded),
+       entries_of_row = working_vector<Size>(column_, padded);
   row = material * gradient + rate * slope_v;
   for (Eigen::Index i = 0; i < size; ++i) {  // Ĝ is symmetric
-    Eigen::Map<Vector<Size>>(entries + i * size, size) =
-        gradient(i) * row - (material * elongation(i)) * elongation +
-        geometric * column<Size>(element.slopes, i);
+    entries_of_row = gradient(i) * row - (material * elongation(i)) * elongation +
+                     geometric * column<Size>(element.padded_slopes, i);
+    std::copy_n(entries_of_row.data(), size, entries + i * size);
   }
 }
 
@@ -160,7 +204,7 @@ void GeometricStiffening::add_design_derivative(const State& state, ConstraintLe
                                                 Eigen::MatrixXd& columns) {
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     if (changes_[e].empty()) continue;
-    const StiffeningElement& element = elements_[e];
+    const PaddedElement& element = elements_[e];
     const Eigen::Index size = element.elongation.size();
     evaluate(element, state);
     set_unit_forces(element);
@@ -197,7 +241,7 @@ void GeometricStiffening::add_unit_change(const StiffeningElement& element, cons
 int GeometricStiffening::design_sum_count() const {
   if (!is_designed_) return 0;
   Eigen::Index count = 0;
-  for (const StiffeningElement& element : elements_) count += sum_count(element);
+  for (const PaddedElement& element : elements_) count += sum_count(element);
   return static_cast<int>(count);
 }
 
@@ -206,7 +250,7 @@ void GeometricStiffening::add_design_sums(const State& state, ConstraintLevel,
                                           const ConstColumns& mu, Columns sums) {
   if (!is_designed_) return;
   Eigen::Index first = 0;
-  for (const StiffeningElement& element : elements_) {
+  for (const PaddedElement& element : elements_) {
     evaluate(element, state);
     const auto size = static_cast<Eigen::Index>(element.coordinates.size());
     const double kappa = element.axial_stiffness;
@@ -251,7 +295,7 @@ void GeometricStiffening::add_design_gradients(const ConstColumns& sums,
 
 std::vector<QuadraticStrain> GeometricStiffening::strains() const {
   std::vector<QuadraticStrain> strains;
-  for (const StiffeningElement& element : elements_) {
+  for (const PaddedElement& element : elements_) {
     strains.push_back(
         {element.coordinates, element.elongation, element.slopes, element.axial_stiffness});
   }

@@ -50,6 +50,13 @@ class GeometricStiffening : public Term, public StrainSource {
   std::vector<QuadraticStrain> strains() const override;
 
  private:
+  /// An element with its constants filled up by zeros to a size that the compiler knows.
+  struct PaddedElement : StiffeningElement {
+    explicit PaddedElement(StiffeningElement element);
+    Eigen::Index size() const { return elongation.size(); }
+    Eigen::VectorXd padded_elongation;
+    Eigen::MatrixXd padded_slopes;
+  };
   /// Strain measures of one element in one state. Vectors are as long as the largest element needs
   /// them: no heap in the time loop.
   struct Strain {
@@ -62,22 +69,23 @@ class GeometricStiffening : public Term, public StrainSource {
     StiffeningDerivative derivative;
     bool is_of_shape;  ///< not of κ alone
   };
-  void evaluate(const StiffeningElement& element, const State& state);
+  void evaluate(const PaddedElement& element, const State& state);
   template <int Size>
-  void evaluate(const StiffeningElement& element, const State& state);
+  void evaluate(const PaddedElement& element, const State& state);
+  void write_element(const PaddedElement& element, const Weights& weights, double* entries);
   /// Sums of an element: those of κ, of β, of b, of Ĝ.
   static Eigen::Index sum_count(const StiffeningElement& element) {
     return 2 + element.elongation.size() + element.slopes.size();
   }
   // From the strain of the last evaluation.
   template <int Size>
-  void write_element(const StiffeningElement& element, const Weights& weights, double* entries);
+  void write_element(const PaddedElement& element, const Weights& weights, double* entries);
   void set_unit_forces(const StiffeningElement& element);
   void add_unit_change(const StiffeningElement& element, const Change& change, double factor);
   void add_forces(const StiffeningElement& element, Eigen::VectorXd& residual);
 
   std::string body_;
-  std::vector<StiffeningElement> elements_;
+  std::vector<PaddedElement> elements_;
   double damping_;
   std::vector<std::vector<Change>> changes_;  ///< one list an element
   bool is_designed_;
@@ -85,7 +93,7 @@ class GeometricStiffening : public Term, public StrainSource {
   // Scratch, as long as the largest element.
   Strain strain_;
   Eigen::VectorXd unit_forces_;  ///< f/κ
-  Eigen::VectorXd row_, bent_, forces_;
+  Eigen::VectorXd row_, column_, bent_, forces_;
 };
 
 }  // namespace pleuel

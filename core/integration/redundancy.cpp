@@ -153,6 +153,25 @@ Eigen::VectorXd generous_scale(const Mechanism& mechanism) {
   return scale;
 }
 
+/// In a large part of the mechanism every coordinate counts alike: it may be so much larger than its
+/// bodies that, in its size, their turning would count for nothing.
+Eigen::VectorXd local_scale(const Mechanism& mechanism, const State& state, Eigen::VectorXd scale) {
+  const SparseRows jacobian = MovedMechanism(mechanism, state, scale).jacobian();
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(scale.size());
+  for (Eigen::Index row = 0; row < jacobian.rows(); ++row) {
+    for (SparseRows::InnerIterator entry(jacobian, row); entry; ++entry) {
+      squares(entry.col()) += entry.value() * entry.value();
+    }
+  }
+  for (const RowBlock& block : connected_blocks(jacobian)) {
+    if (!is_large(block)) continue;
+    for (const int column : block.columns) {
+      if (squares(column) > 0.0) scale(column) /= std::sqrt(squares(column));
+    }
+  }
+  return scale;
+}
+
 /// Takes out what opens a little when drives are let go.
 void erase_misaligned(const Mechanism& mechanism, const std::vector<int>& drives,
                       std::vector<int> kept, std::vector<int>& candidates) {
@@ -160,7 +179,8 @@ void erase_misaligned(const Mechanism& mechanism, const std::vector<int>& drives
     return std::find(drives.begin(), drives.end(), row) != drives.end();
   };
   if (std::erase_if(kept, is_drive) == 0) return;
-  MovedMechanism moved(mechanism, mechanism.guess, mechanism.scale);
+  MovedMechanism moved(mechanism, mechanism.guess,
+                       local_scale(mechanism, mechanism.guess, mechanism.scale));
   const Eigen::VectorXd motion = moved.free_motion(kept);
   if (motion.isZero(0.0) || !moved.move(small * motion, 0.0, kept)) return;
   const Eigen::VectorXd open = moved.constraints().cwiseAbs();
@@ -174,7 +194,8 @@ void erase_misaligned(const Mechanism& mechanism, const std::vector<int>& drives
 
 std::vector<int> redundant_constraints(Mechanism& mechanism, const std::vector<int>& drives) {
   if (mechanism.system->multipliers() == 0) return {};
-  MovedMechanism moved(mechanism, mechanism.guess, mechanism.scale);
+  MovedMechanism moved(mechanism, mechanism.guess,
+                       local_scale(mechanism, mechanism.guess, mechanism.scale));
   const RankedRows ranked = rank_rows(moved.jacobian(), alignment_tolerance);
   const auto independent =
       static_cast<std::size_t>((ranked.pivots.array() > alignment_tolerance).count());
@@ -197,7 +218,7 @@ std::vector<NearRedundancy> nearly_redundant_constraints(const Mechanism& mechan
                                                          double largest) {
   const System& system = *mechanism.system;
   if (system.multipliers() == 0) return {};
-  const Eigen::VectorXd scale = generous_scale(mechanism);
+  const Eigen::VectorXd scale = local_scale(mechanism, state, generous_scale(mechanism));
   SparseRows jacobian = MovedMechanism(mechanism, state, scale).jacobian();
   for (const int row : system.left_out()) jacobian.row(row) *= 0.0;
   for (const int row : drives) jacobian.row(row) *= 0.0;
