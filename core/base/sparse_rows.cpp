@@ -1,10 +1,11 @@
 #include "core/base/sparse_rows.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <Eigen/OrderingMethods>
-#include <Eigen/SparseQR>
 
 #include "core/base/dense_solvers.hpp"
 
@@ -23,66 +24,180 @@ bool is_small(const SparseRows& rows) {
   return rows.rows() <= most_dense_rows;
 }
 
-/// Q R = rowsᵀ P, columns with pivots below a threshold last.
-class SparseFactors {
- public:
-  explicit SparseFactors(const SparseRows& rows) { compute(rows); }
-  SparseFactors(const SparseRows& rows, double threshold) {
-    qr_.setPivotThreshold(threshold);
-    compute(rows);
+VectorXd lengths_of(const SparseRows& rows) {
+  VectorXd squares = VectorXd::Zero(rows.rows());
+  for (Index row = 0; row < rows.rows(); ++row) {
+    for (SparseRows::InnerIterator entry(rows, row); entry; ++entry) {
+      squares(row) += entry.value() * entry.value();
+    }
   }
-
-  Index rank() const { return qr_.rank(); }
-  std::vector<int> order() const {
-    const auto& indices = qr_.colsPermutation().indices();
-    return {indices.begin(), indices.end()};
-  }
-  /// |R_ii| of the independent rows.
-  VectorXd pivots() const {
-    VectorXd pivots(rank());
-    for (Index i = 0; i < pivots.size(); ++i) pivots(i) = std::abs(triangle_.coeff(i, i));
-    return pivots;
-  }
-  MatrixXd normal_space() const {
-    const Index size = qr_.rows();
-    MatrixXd units = MatrixXd::Zero(size, size - rank());
-    units.bottomRows(size - rank()).setIdentity();
-    return qr_.matrixQ() * units;
-  }
-  VectorXd least_norm(const VectorXd& b) const {
-    const std::vector<int> first = order();
-    VectorXd y = VectorXd::Zero(qr_.rows());
-    for (Index i = 0; i < rank(); ++i) y(i) = b(first[static_cast<std::size_t>(i)]);
-    VectorXd head = y.head(rank());
-    triangle_.transpose().triangularView<Eigen::Lower>().solveInPlace(head);
-    y.head(rank()) = head;
-    return qr_.matrixQ() * y;
-  }
-  VectorXd factors(const VectorXd& b) const { return qr_.solve(b); }
-
- private:
-  void compute(const SparseRows& rows) {
-    Eigen::SparseMatrix<double> columns = rows.transpose();
-    columns.makeCompressed();
-    qr_.compute(columns);
-    triangle_ = qr_.matrixR().topLeftCorner(rank(), rank());
-  }
-
-  Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> qr_;
-  SparseRows triangle_;
-};
+  return squares.cwiseSqrt();
+}
 
 void normalize(SparseRows& rows) {
+  const VectorXd lengths = lengths_of(rows);
   for (Index row = 0; row < rows.rows(); ++row) {
-    double square = 0.0;
+    if (lengths(row) == 0.0) continue;
     for (SparseRows::InnerIterator entry(rows, row); entry; ++entry) {
-      square += entry.value() * entry.value();
+      entry.valueRef() /= lengths(row);
     }
-    if (square == 0.0) continue;
-    const double length = std::sqrt(square);
-    for (SparseRows::InnerIterator entry(rows, row); entry; ++entry) entry.valueRef() /= length;
   }
 }
+
+/// L D Lᵀ = A Aᵀ of rows of length one; dependent rows have no column in L.
+class SparseFactors {
+ public:
+  explicit SparseFactors(const SparseRows& rows, double threshold = 0.0)
+      : lengths_(lengths_of(rows)), rows_(rows) {
+    for (double& length : lengths_) {
+      if (length == 0.0) length = 1.0;
+    }
+    normalize(rows_);
+    const Eigen::SparseMatrix<double> products = rows_ * SparseRows(rows_.transpose());
+    set_order(products);
+    factorize(products, std::max(threshold * threshold, smallest_pivot));
+  }
+
+  Index rank() const { return rank_; }
+
+  /// Independent rows first; what is left of them.
+  std::vector<int> order() const {
+    std::vector<int> order;
+    for (const bool asked : {true, false}) {
+      for (std::size_t k = 0; k < order_.size(); ++k) {
+        if (is_independent(k) == asked) order.push_back(order_[k]);
+      }
+    }
+    return order;
+  }
+  VectorXd pivots() const {
+    VectorXd pivots(rank_);
+    Index i = 0;
+    for (const double pivot : pivots_) {
+      if (pivot > 0.0) pivots(i++) = std::sqrt(pivot);
+    }
+    return pivots;
+  }
+
+  VectorXd least_norm(const VectorXd& b) const {
+    const VectorXd right = b.cwiseQuotient(lengths_);
+    VectorXd x = VectorXd::Zero(rows_.cols());
+    for (int i = 0; i < solutions; ++i) x += rows_.transpose() * solve(right - rows_ * x);
+    return x;
+  }
+  VectorXd factors(const VectorXd& b) const {
+    VectorXd z = VectorXd::Zero(rows_.rows());
+    for (int i = 0; i < solutions; ++i) z += solve(rows_ * (b - rows_.transpose() * z));
+    return z.cwiseQuotient(lengths_);
+  }
+
+  /// Directions of no meaning, without their shares of rows and of each other.
+  MatrixXd normal_space() const {
+    const Index size = rows_.cols();
+    MatrixXd space(size, size - rank_);
+    for (Index k = 0; k < space.cols(); ++k) {
+      VectorXd direction(size);
+      for (Index i = 0; i < size; ++i) {
+        direction(i) = std::sin(1.0 + 2.3 * double(i) + 0.7 * double(k) * double(i * i % 97));
+      }
+      for (int i = 0; i < solutions; ++i) {
+        direction -= least_norm(lengths_.cwiseProduct(rows_ * direction));
+        direction -= space.leftCols(k) * (space.leftCols(k).transpose() * direction);
+        direction.normalize();
+      }
+      space.col(k) = direction;
+    }
+    return space;
+  }
+
+ private:
+  /// Of squares of lengths, which are known to round-off.
+  static constexpr double smallest_pivot = 1e-13;
+  /// The first, and those that refine it.
+  static constexpr int solutions = 3;
+
+  bool is_independent(std::size_t k) const { return pivots_[k] > 0.0; }
+
+  void set_order(const Eigen::SparseMatrix<double>& products) {
+    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
+    Eigen::AMDOrdering<int>()(products, order);
+    order_.assign(order.indices().begin(), order.indices().end());
+    place_.resize(order_.size());
+    for (std::size_t k = 0; k < order_.size(); ++k) {
+      place_[static_cast<std::size_t>(order_[k])] = static_cast<int>(k);
+    }
+  }
+
+  /// Row by row of L; the pattern of a row are the paths in the elimination tree from the entries
+  /// of A Aᵀ.
+  void factorize(const Eigen::SparseMatrix<double>& products, double threshold) {
+    const std::size_t size = order_.size();
+    columns_.resize(size);
+    pivots_.assign(size, 0.0);
+    std::vector<std::size_t> parent(size, size), seen(size, size), path, pattern;
+    std::vector<double> y(size, 0.0);
+    for (std::size_t k = 0; k < size; ++k) {
+      pattern.clear();
+      seen[k] = k;
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(products, order_[k]); entry; ++entry) {
+        auto i = static_cast<std::size_t>(place_[static_cast<std::size_t>(entry.row())]);
+        if (i > k) continue;
+        y[i] += entry.value();
+        path.clear();
+        for (; seen[i] != k; i = parent[i]) {
+          if (parent[i] == size) parent[i] = k;
+          path.push_back(i);
+          seen[i] = k;
+        }
+        pattern.insert(pattern.end(), path.rbegin(), path.rend());
+      }
+      double pivot = y[k];
+      y[k] = 0.0;
+      // Paths were found from their ends: the last one comes first.
+      for (auto place = pattern.rbegin(); place != pattern.rend(); ++place) {
+        const std::size_t i = *place;
+        const double value = y[i];
+        y[i] = 0.0;
+        if (!is_independent(i)) continue;
+        for (const auto& [row, factor] : columns_[i]) y[row] -= factor * value;
+        const double factor = value / pivots_[i];
+        pivot -= factor * value;
+        columns_[i].emplace_back(k, factor);
+      }
+      if (pivot <= threshold) continue;
+      pivots_[k] = pivot;
+      ++rank_;
+    }
+  }
+
+  /// A Aᵀ z = b for the independent rows, zero for the others.
+  VectorXd solve(const VectorXd& b) const {
+    const std::size_t size = order_.size();
+    std::vector<double> z(size);
+    for (std::size_t k = 0; k < size; ++k) z[k] = is_independent(k) ? b(order_[k]) : 0.0;
+    for (std::size_t k = 0; k < size; ++k) {
+      for (const auto& [row, factor] : columns_[k]) {
+        if (is_independent(row)) z[row] -= factor * z[k];
+      }
+    }
+    for (std::size_t k = 0; k < size; ++k) {
+      if (is_independent(k)) z[k] /= pivots_[k];
+    }
+    for (std::size_t k = size; k-- > 0;) {
+      for (const auto& [row, factor] : columns_[k]) z[k] -= factor * z[row];
+    }
+    VectorXd solution(static_cast<Index>(size));
+    for (std::size_t k = 0; k < size; ++k) solution(order_[k]) = z[k];
+    return solution;
+  }
+
+  VectorXd lengths_;
+  SparseRows rows_;
+  std::vector<int> order_, place_;  ///< which row is the k-th; the inverse
+  std::vector<std::vector<std::pair<std::size_t, double>>> columns_;  ///< of L, below the diagonal
+  std::vector<double> pivots_;                                        ///< D; zero: dependent
+  Index rank_ = 0;
+};
 
 void normalize_columns(SparseRows& rows) {
   VectorXd squares = VectorXd::Zero(rows.cols());
@@ -99,7 +214,6 @@ void normalize_columns(SparseRows& rows) {
 
 Index sparse_rank(SparseRows rows, double threshold) {
   normalize_columns(rows);
-  normalize(rows);
   return SparseFactors(rows, threshold).rank();
 }
 

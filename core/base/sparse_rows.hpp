@@ -5,10 +5,12 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-/// Rank, null space and solutions of least norm of sparse rows, such as constraints. Rows that share
+/// Rank, null space and solutions of least norm of sparse rows A, such as constraints. Rows that share
 /// no column with others are decomposed by themselves; blocks of few rows by dense decompositions
-/// (core/base/dense_solvers.hpp), larger ones by a sparse QR decomposition with a minimum-degree
-/// ordering (Davis, Direct Methods for Sparse Linear Systems, ch. 5), whose cost follows the fill-in.
+/// (core/base/dense_solvers.hpp), larger ones by a sparse factorisation A Aᵀ = L D Lᵀ of rows of
+/// length one (Davis 2005, Algorithm 849, with minimum-degree ordering), whose cost follows the
+/// fill-in: D_kk is the square of what is left of a row across those before it. Rows of which less
+/// than 3e-7 is left cannot be told from dependent ones this way; solutions are refined.
 namespace pleuel {
 
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;

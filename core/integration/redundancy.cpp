@@ -153,8 +153,9 @@ Eigen::VectorXd generous_scale(const Mechanism& mechanism) {
   return scale;
 }
 
-/// In a large part of the mechanism every coordinate counts alike: it may be so much larger than its
-/// bodies that, in its size, their turning would count for nothing.
+/// In a large part of the mechanism, and in one of several parts, every coordinate counts alike: the
+/// whole may be so much larger than its bodies that, in its size, their turning would count for
+/// nothing.
 Eigen::VectorXd local_scale(const Mechanism& mechanism, const State& state, Eigen::VectorXd scale) {
   const SparseRows jacobian = MovedMechanism(mechanism, state, scale).jacobian();
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(scale.size());
@@ -163,8 +164,9 @@ Eigen::VectorXd local_scale(const Mechanism& mechanism, const State& state, Eige
       squares(entry.col()) += entry.value() * entry.value();
     }
   }
-  for (const RowBlock& block : connected_blocks(jacobian)) {
-    if (!is_large(block)) continue;
+  const std::vector<RowBlock> blocks = connected_blocks(jacobian);
+  for (const RowBlock& block : blocks) {
+    if (blocks.size() == 1 && !is_large(block)) continue;
     for (const int column : block.columns) {
       if (squares(column) > 0.0) scale(column) /= std::sqrt(squares(column));
     }
