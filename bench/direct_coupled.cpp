@@ -27,10 +27,10 @@ class BorrowedTerm : public Term {
                              Eigen::MatrixXd& columns) override {
     term_.add_design_derivative(state, level, columns);
   }
-  int design_sum_count() const override { return term_.design_sum_count(); }
-  void add_design_sums(const State& state, ConstraintLevel level, const ConstColumns& mu,
-                       Columns sums) override {
-    term_.add_design_sums(state, level, mu, sums);
+  int parameter_adjoint_count() const override { return term_.parameter_adjoint_count(); }
+  void add_parameter_adjoints(const State& state, ConstraintLevel level, const ConstColumns& mu,
+                              Columns sums) override {
+    term_.add_parameter_adjoints(state, level, mu, sums);
   }
   void add_design_gradients(const ConstColumns& sums, Eigen::MatrixXd& gradients) const override {
     term_.add_design_gradients(sums, gradients);
@@ -91,7 +91,7 @@ std::unique_ptr<System> coupled_system(const Model& model, const System& system)
   }
   auto coupled = std::make_unique<System>(system.coordinates(), system.multipliers(),
                                           system.variables(), std::move(terms));
-  coupled->leave_out(system.left_out());
+  coupled->deactivate(system.left_out());
   return coupled;
 }
 

@@ -8,7 +8,7 @@ namespace pleuel {
 
 namespace {
 
-extern "C" void note_interruption(int signal) {
+extern "C" void record_interruption(int signal) {
   request_stop();
   std::signal(signal, SIG_DFL);
 }
@@ -16,8 +16,8 @@ extern "C" void note_interruption(int signal) {
 }  // namespace
 
 Interruption::Interruption() {
-  before_interrupt_ = std::signal(SIGINT, note_interruption);
-  before_end_ = std::signal(SIGTERM, note_interruption);
+  before_interrupt_ = std::signal(SIGINT, record_interruption);
+  before_end_ = std::signal(SIGTERM, record_interruption);
   // A program started in the background ignores interrupts, and shall go on doing so.
   if (before_interrupt_ == SIG_IGN) std::signal(SIGINT, SIG_IGN);
 }

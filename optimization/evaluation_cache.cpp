@@ -56,7 +56,7 @@ Attempt attempt_evaluation(Problem& problem, const Eigen::VectorXd& x, Request r
   }
 }
 
-EvaluationCache::EvaluationCache(Problem& problem, const KnownDesign& start, Scales scales,
+EvaluationCache::EvaluationCache(Problem& problem, const EvaluatedDesign& start, Scales scales,
                                  Watch watch)
     : problem_(problem), scales_(std::move(scales)), watch_(std::move(watch)) {
   remember(start.x, Request::values_and_gradients, {start.evaluation, ""});

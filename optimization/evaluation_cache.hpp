@@ -23,7 +23,7 @@ struct Attempt {
 Attempt attempt_evaluation(Problem& problem, const Eigen::VectorXd& x, Request request);
 
 /// A design together with what is known of it.
-struct KnownDesign {
+struct EvaluatedDesign {
   Eigen::VectorXd x;
   Evaluation evaluation;
   double max_violation = 0.0;  ///< relative
@@ -46,7 +46,7 @@ class EvaluationCache {
   };
 
   /// The first evaluation, that of the start, has been made: the scales follow from it.
-  EvaluationCache(Problem& problem, const KnownDesign& start, Scales scales, Watch watch);
+  EvaluationCache(Problem& problem, const EvaluatedDesign& start, Scales scales, Watch watch);
 
   /// The evaluation at x, made only if it is not known yet; nullptr if it failed. The pointer is
   /// valid until the next call. Once gradients have failed where the values alone did not, values

@@ -80,7 +80,7 @@ std::vector<Eigen::VectorXd> generic_directions(const Problem& problem, const Ei
 }
 
 /// Differences of the objective (first) and of the constraints along the direction.
-std::optional<Eigen::VectorXd> differences(EvaluationCache& cache, const KnownDesign& design,
+std::optional<Eigen::VectorXd> differences(EvaluationCache& cache, const EvaluatedDesign& design,
                                            const Eigen::VectorXd& direction, double h) {
   const auto values = [](const Evaluation& evaluation) {
     Eigen::VectorXd all(1 + evaluation.constraints.size());
@@ -96,7 +96,7 @@ std::optional<Eigen::VectorXd> differences(EvaluationCache& cache, const KnownDe
 }
 
 /// |error| of the directional derivatives, each weighted with its multiplier (1 for the objective).
-Eigen::VectorXd weighted_errors(const Eigen::VectorXd& difference, const KnownDesign& design,
+Eigen::VectorXd weighted_errors(const Eigen::VectorXd& difference, const EvaluatedDesign& design,
                                 const KktAudit& audit, const Eigen::VectorXd& direction) {
   Eigen::VectorXd derivative(difference.size());
   derivative << design.evaluation.objective_gradient.dot(direction),
@@ -112,7 +112,7 @@ struct DirectionError {
 };
 
 /// The largest error along a direction; nullopt if it cannot be had.
-std::optional<DirectionError> error_along(EvaluationCache& cache, const KnownDesign& design,
+std::optional<DirectionError> error_along(EvaluationCache& cache, const EvaluatedDesign& design,
                                           const KktAudit& audit, const Eigen::VectorXd& direction,
                                           double h) {
   const auto difference = differences(cache, design, direction, h);
@@ -127,7 +127,7 @@ std::optional<DirectionError> error_along(EvaluationCache& cache, const KnownDes
 
 }  // namespace
 
-GradientCheck check_gradients(EvaluationCache& cache, const KnownDesign& design,
+GradientCheck check_gradients(EvaluationCache& cache, const EvaluatedDesign& design,
                               const KktAudit& audit, double good_enough) {
   const Problem& problem = cache.problem();
   GradientCheck check;

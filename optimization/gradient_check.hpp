@@ -26,7 +26,7 @@ struct GradientCheck {
 /// error counts. Six evaluations of values, twice as many where that happens. Errors across that
 /// plane are not seen. The error estimates ‖s ∘ (error of ∇f)‖₂: a generic direction sees 1/√n of
 /// it.
-GradientCheck check_gradients(EvaluationCache& cache, const KnownDesign& design,
+GradientCheck check_gradients(EvaluationCache& cache, const EvaluatedDesign& design,
                               const KktAudit& audit, double good_enough);
 
 }  // namespace pleuel

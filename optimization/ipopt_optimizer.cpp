@@ -144,7 +144,7 @@ class IpoptOptimizer : public Optimizer {
 
   bool takes_equalities() const override { return true; }
 
-  BackendEnd minimize(ScaledProblem& problem) override {
+  BackendResult minimize(ScaledProblem& problem) override {
     const Ipopt::SmartPtr<TranslatedProblem> translated = new TranslatedProblem(problem);
     const Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);
     set_options(*application->Options(), options_);

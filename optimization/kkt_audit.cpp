@@ -134,13 +134,13 @@ class MultiplierSystem {
 };
 
 /// |f|, but not nothing where f vanishes at the optimum.
-double objective_value_scale(const KnownDesign& design, const Evaluation& start) {
+double objective_value_scale(const EvaluatedDesign& design, const Evaluation& start) {
   return std::max({std::abs(design.evaluation.objective), 1e-3 * std::abs(start.objective),
                    std::numeric_limits<double>::min()});
 }
 
-double gradient_scale(const Problem& problem, const KnownDesign& design, const Evaluation& start,
-                      const Eigen::VectorXd& scales) {
+double gradient_scale(const Problem& problem, const EvaluatedDesign& design,
+                      const Evaluation& start, const Eigen::VectorXd& scales) {
   const double here = scaled_objective_gradient(problem, design.evaluation, scales).norm();
   const double at_start = std::max(scaled_objective_gradient(problem, start, scales).norm(),
                                    std::abs(start.objective - design.evaluation.objective));
@@ -164,7 +164,7 @@ Eigen::VectorXd KktAudit::variable_residuals(const Eigen::VectorXd& curvatures) 
       magnitudes.cwiseMax(least_part * gradient_scale));
 }
 
-KktAudit audit_kkt(const Problem& problem, const KnownDesign& design, const Evaluation& start,
+KktAudit audit_kkt(const Problem& problem, const EvaluatedDesign& design, const Evaluation& start,
                    const Eigen::VectorXd& scales) {
   const Eigen::VectorXd s = local_scales(problem, design.x);
   std::vector<Limit> limits = near_constraints(problem, design.evaluation, scales, s);

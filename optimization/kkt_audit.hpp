@@ -57,7 +57,7 @@ struct KktAudit {
 /// @param design  with gradients of the true, un-aggregated constraints.
 /// @param start   evaluation of the first design, with gradients.
 /// @param scales  magnitudes C of the constraints.
-KktAudit audit_kkt(const Problem& problem, const KnownDesign& design, const Evaluation& start,
+KktAudit audit_kkt(const Problem& problem, const EvaluatedDesign& design, const Evaluation& start,
                    const Eigen::VectorXd& scales);
 
 }  // namespace pleuel

@@ -44,7 +44,7 @@ struct Holding {
   std::vector<bool> constraints;
 };
 
-Holding holding_limits(const Problem& problem, const KnownDesign& design, const KktAudit& audit,
+Holding holding_limits(const Problem& problem, const EvaluatedDesign& design, const KktAudit& audit,
                        const Eigen::VectorXd& s) {
   const double threshold = held * audit.gradient_scale;
   Holding holding;
@@ -118,7 +118,7 @@ Eigen::MatrixXd tangent_basis(const Eigen::MatrixXd& rows, const Holding& holdin
 
 class Exploration {
  public:
-  Exploration(EvaluationCache& cache, const KnownDesign& design, const KktAudit& audit)
+  Exploration(EvaluationCache& cache, const EvaluatedDesign& design, const KktAudit& audit)
       : cache_(cache),
         design_(design),
         multipliers_(audit.constraint_multipliers),
@@ -272,7 +272,7 @@ class Exploration {
   }
 
   EvaluationCache& cache_;
-  const KnownDesign& design_;
+  const EvaluatedDesign& design_;
   const Eigen::VectorXd multipliers_, bound_multipliers_;
   const Eigen::VectorXd s_;
   const Holding holding_;
@@ -281,7 +281,7 @@ class Exploration {
 
 }  // namespace
 
-Neighbourhood explore_neighbourhood(EvaluationCache& cache, const KnownDesign& design,
+Neighbourhood explore_neighbourhood(EvaluationCache& cache, const EvaluatedDesign& design,
                                     const KktAudit& audit, const Evaluation& start,
                                     double least_gain) {
   const double value_scale =

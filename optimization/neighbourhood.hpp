@@ -38,7 +38,7 @@ struct Neighbourhood {
 /// lowest curvature that was found.
 /// @param least_gain  relative to |f| (at least 10⁻³ |f(start)|)
 /// @param start       evaluation of the first design
-Neighbourhood explore_neighbourhood(EvaluationCache& cache, const KnownDesign& design,
+Neighbourhood explore_neighbourhood(EvaluationCache& cache, const EvaluatedDesign& design,
                                     const KktAudit& audit, const Evaluation& start,
                                     double least_gain);
 

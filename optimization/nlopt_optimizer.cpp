@@ -158,7 +158,7 @@ class NloptOptimizer : public Optimizer {
 
   bool takes_equalities() const override { return algorithm_ == NLOPT_LD_SLSQP; }
 
-  BackendEnd minimize(ScaledProblem& problem) override {
+  BackendResult minimize(ScaledProblem& problem) override {
     const double violation = elastic_violation(problem);
     Eigen::VectorXd lower = problem.lower(), upper = problem.upper(), y = problem.start();
     if (violation > 0.0) {

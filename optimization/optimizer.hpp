@@ -17,7 +17,7 @@ struct BackendOptions {
 };
 
 /// Where a backend stopped and what it says of it. Nobody believes it: see verdict.hpp.
-struct BackendEnd {
+struct BackendResult {
   Eigen::VectorXd y;
   std::string reason;
 };
@@ -31,7 +31,7 @@ class Optimizer {
 
   /// Goes downhill from problem.start(). A failed evaluation is a wall that it steps back from; it
   /// ends soon after problem.should_stop().
-  virtual BackendEnd minimize(ScaledProblem& problem) = 0;
+  virtual BackendResult minimize(ScaledProblem& problem) = 0;
 };
 
 }  // namespace pleuel

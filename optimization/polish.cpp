@@ -33,13 +33,13 @@ bool is_worth_polishing(const Verdict& verdict, const Tolerances& tolerances) {
          verdict.design.max_violation <= near_limits && verdict.audit.residual <= near_optimum;
 }
 
-Eigen::VectorXd polish(EvaluationCache& cache, const KnownDesign& from, const KktAudit& audit,
+Eigen::VectorXd polish(EvaluationCache& cache, const EvaluatedDesign& from, const KktAudit& audit,
                        const PolishBudget& budget) {
   ScaledProblem scaled(
       cache, from, {budget.iterations, budget.evaluations, consecutive_failures, line_search, 0},
       balance(audit));
   if (scaled.variables() == 0) return from.x;
-  const BackendEnd end = make_optimizer(polisher, {tolerance})->minimize(scaled);
+  const BackendResult end = make_optimizer(polisher, {tolerance})->minimize(scaled);
   scaled.rethrow();
   return scaled.to_design(end.y);
 }

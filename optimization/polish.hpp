@@ -25,7 +25,7 @@ struct PolishBudget {
 /// objective has a curvature of about its terms. A Hessian near 1 is what the polisher begins with;
 /// small parts would come after many steps only.
 /// @returns the design where it ends, within its bounds
-Eigen::VectorXd polish(EvaluationCache& cache, const KnownDesign& from, const KktAudit& audit,
+Eigen::VectorXd polish(EvaluationCache& cache, const EvaluatedDesign& from, const KktAudit& audit,
                        const PolishBudget& budget);
 
 }  // namespace pleuel

@@ -125,7 +125,7 @@ Eigen::VectorXd step_in_box(const Linearized& model, const Eigen::VectorXd& down
 
 class Restoration {
  public:
-  Restoration(Problem& problem, const RestorationBudget& budget, KnownDesign start)
+  Restoration(Problem& problem, const RestorationBudget& budget, EvaluatedDesign start)
       : problem_(problem),
         budget_(budget),
         coordinates_(problem, start.x),
@@ -218,7 +218,7 @@ class Restoration {
   Coordinates coordinates_;
   Eigen::VectorXd magnitudes_;
   std::vector<LimitSide> sides_;
-  KnownDesign design_;
+  EvaluatedDesign design_;
   int gradients_ = 1, evaluations_ = 1;
 };
 

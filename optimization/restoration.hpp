@@ -14,7 +14,7 @@ struct RestorationBudget {
 };
 
 struct Restored {
-  KnownDesign design;          ///< with gradients; max_violation relative to the magnitudes
+  EvaluatedDesign design;      ///< with gradients; max_violation relative to the magnitudes
   Eigen::VectorXd magnitudes;  ///< C of the constraints, see scaling.hpp
   /// No limit is exceeded; of equalities none by more than 1e-7.
   bool keeps_limits = false;

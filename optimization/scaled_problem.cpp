@@ -15,7 +15,7 @@ constexpr double least_progress = 1e-4;
 
 }  // namespace
 
-ScaledProblem::ScaledProblem(EvaluationCache& cache, const KnownDesign& around, Budget budget,
+ScaledProblem::ScaledProblem(EvaluationCache& cache, const EvaluatedDesign& around, Budget budget,
                              const Eigen::VectorXd& factors)
     : cache_(cache),
       iterations_(cache.iterations()),

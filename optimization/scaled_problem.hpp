@@ -39,7 +39,7 @@ class ScaledProblem {
   /// @param around   the design whose magnitudes scale the problem, and where the backend starts;
   ///                 with gradients.
   /// @param factors  of s, one a variable, positive; empty: 1.
-  ScaledProblem(EvaluationCache& cache, const KnownDesign& around, Budget budget,
+  ScaledProblem(EvaluationCache& cache, const EvaluatedDesign& around, Budget budget,
                 const Eigen::VectorXd& factors = {});
 
   int variables() const { return static_cast<int>(free_.size()); }

@@ -53,7 +53,7 @@ Result failed_start(const Problem& problem, const Eigen::VectorXd& x, const std:
   return result;
 }
 
-EvaluationCache make_cache(Problem& problem, const KnownDesign& start,
+EvaluationCache make_cache(Problem& problem, const EvaluatedDesign& start,
                            EvaluationCache::Watch watch) {
   const Eigen::VectorXd variables = variable_scales(problem, start.x);
   const Eigen::VectorXd constraints = constraint_scales(problem, start.evaluation, variables);
@@ -63,14 +63,14 @@ EvaluationCache make_cache(Problem& problem, const KnownDesign& start,
 /// One optimization from a start that could be evaluated.
 class Run {
  public:
-  Run(EvaluationCache& cache, const KnownDesign& start, const SolveOptions& options)
+  Run(EvaluationCache& cache, const EvaluatedDesign& start, const SolveOptions& options)
       : cache_(cache), options_(options), start_(start), begun_at_(start.x) {}
 
   Result solve() {
     double tolerance = options_.tolerance;
     Verdict verdict = polished(improve(start_, tolerance));
     while (may_restart(verdict)) {
-      const KnownDesign from = start_of_restart(verdict);
+      const EvaluatedDesign from = start_of_restart(verdict);
       restart_size_ = from.x == begun_at_ ? size_of_other_steps * restart_size_ : 1.0;
       begun_at_ = from.x;
       tolerance *= tolerance_factor;
@@ -108,10 +108,10 @@ class Run {
   static constexpr double strict_violation = 1e-6;
 
   /// A better design beside this one, or this one itself.
-  KnownDesign start_of_restart(const Verdict& verdict) {
+  EvaluatedDesign start_of_restart(const Verdict& verdict) {
     if (verdict.better_neighbour) {
       ++escapes_;
-      std::optional<KnownDesign> neighbour = known(*verdict.better_neighbour);
+      std::optional<EvaluatedDesign> neighbour = known(*verdict.better_neighbour);
       if (neighbour) return std::move(*neighbour);
     }
     ++restarts_;
@@ -120,7 +120,7 @@ class Run {
 
   /// Where the backend comes to from this design, or the best design seen so far if that is better:
   /// a backend may stop slightly outside the limits, or leave a good point.
-  Verdict improve(const KnownDesign& from, double tolerance) {
+  Verdict improve(const EvaluatedDesign& from, double tolerance) {
     const Eigen::VectorXd end = run_backend(from, tolerance);
     const History steps = search_steps();
     return best_of({end, best_record(steps, strict_violation).x,
@@ -138,7 +138,7 @@ class Run {
 
   /// The best one of some designs and of that where they come from, judged. The first one that is
   /// proven, strictly within the limits, is it.
-  Verdict best_of(const std::vector<Eigen::VectorXd>& designs, const KnownDesign& from) {
+  Verdict best_of(const std::vector<Eigen::VectorXd>& designs, const EvaluatedDesign& from) {
     cache_.set_purpose(Purpose::audit);
     Verdict verdict = judged(from);
     for (const Eigen::VectorXd& x : designs) {
@@ -192,7 +192,7 @@ class Run {
     return is_proof || (keeps_limits && is_better(next, verdict));
   }
 
-  Eigen::VectorXd run_backend(const KnownDesign& from, double tolerance) {
+  Eigen::VectorXd run_backend(const EvaluatedDesign& from, double tolerance) {
     cache_.set_purpose(Purpose::search);
     const double size = std::sqrt(options_.first_step) * restart_size_;
     ScaledProblem scaled(
@@ -201,7 +201,7 @@ class Run {
          longest_line_search, options_.patience},
         Eigen::VectorXd::Constant(from.x.size(), size));
     if (scaled.variables() == 0) return from.x;
-    const BackendEnd end = make_optimizer(options_.backend, {tolerance})->minimize(scaled);
+    const BackendResult end = make_optimizer(options_.backend, {tolerance})->minimize(scaled);
     scaled.rethrow();
     backend_reason_ = end.reason;
     is_lost_ = cache_.consecutive_failures() >= options_.max_consecutive_failures;
@@ -213,22 +213,22 @@ class Run {
     for (const Verdict& verdict : verdicts_) {
       if (verdict.design.x == x) return verdict;
     }
-    const std::optional<KnownDesign> design = known(x);
+    const std::optional<EvaluatedDesign> design = known(x);
     if (!design) return std::nullopt;
     return judged(*design);
   }
 
   /// nullopt if the design, or its gradients, cannot be evaluated.
-  std::optional<KnownDesign> known(const Eigen::VectorXd& x) {
+  std::optional<EvaluatedDesign> known(const Eigen::VectorXd& x) {
     const Evaluation* evaluation = cache_.evaluate(x, Request::values_and_gradients);
     if (evaluation == nullptr) return std::nullopt;
-    return KnownDesign{
+    return EvaluatedDesign{
         x, *evaluation,
         max_violation(cache_.problem(), evaluation->constraints, cache_.scales().constraints)};
   }
 
   /// Judges a design once.
-  Verdict judged(const KnownDesign& design) {
+  Verdict judged(const EvaluatedDesign& design) {
     for (const Verdict& verdict : verdicts_) {
       if (verdict.design.x == design.x) return verdict;
     }
@@ -337,7 +337,7 @@ class Run {
 
   EvaluationCache& cache_;
   const SolveOptions& options_;
-  const KnownDesign start_;
+  const EvaluatedDesign start_;
   std::vector<Verdict> verdicts_;  ///< of all designs that were judged
   int restarts_ = 0;
   int escapes_ = 0;
@@ -359,7 +359,7 @@ Result run(Problem& problem, const SolveOptions& options, const Observer& observ
   Attempt first = attempt_evaluation(problem, x, Request::values_and_gradients);
   if (!first.evaluation) return failed_start(problem, x, first.failure, options.backend, watch);
 
-  KnownDesign start{x, std::move(*first.evaluation)};
+  EvaluatedDesign start{x, std::move(*first.evaluation)};
   EvaluationCache cache = make_cache(problem, start, watch);
   start.max_violation = cache.history().front().max_violation;
   Run one(cache, start, options);

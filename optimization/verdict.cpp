@@ -20,7 +20,7 @@ constexpr double probe = 0.01;
 
 /// κ of KktAudit::variable_residuals() for the variables whose residuals are too large, by one
 /// gradient at a design where they are moved downhill; zeros for the others, or where it fails.
-Eigen::VectorXd probe_curvatures(EvaluationCache& cache, const KnownDesign& design,
+Eigen::VectorXd probe_curvatures(EvaluationCache& cache, const EvaluatedDesign& design,
                                  const KktAudit& audit, double allowed) {
   const Eigen::VectorXd s = local_scales(cache.problem(), design.x);
   const Eigen::VectorXd residuals = audit.variable_residuals();
@@ -106,7 +106,7 @@ void judge_neighbourhood(Verdict& verdict, EvaluationCache& cache, const Evaluat
         "to be left to it",
         verdict.gain_left, tolerances.gain);
   } else if (around.dimension == 0) {
-    verdict.message += "; its limits leave no direction open";
+    verdict.message += "; its active limits alone determine it";
   } else {
     verdict.message += fmt::format(
         "; no better design nearby, along {} of the {} directions that its limits "
@@ -123,7 +123,7 @@ std::string to_string(Status status) {
   return names[static_cast<std::size_t>(status)];
 }
 
-Verdict judge(EvaluationCache& cache, const KnownDesign& design, const Evaluation& start,
+Verdict judge(EvaluationCache& cache, const EvaluatedDesign& design, const Evaluation& start,
               const Tolerances& tolerances) {
   Verdict verdict;
   verdict.design = design;

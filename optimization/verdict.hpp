@@ -43,8 +43,8 @@ struct Tolerances {
 /// A design and what our audit says of it.
 struct Verdict {
   Status status = Status::stalled;
-  std::string message;  ///< a sentence
-  KnownDesign design;   ///< with gradients
+  std::string message;     ///< a sentence
+  EvaluatedDesign design;  ///< with gradients
   KktAudit audit;
   bool gradients_are_disproved = false;  ///< by differences, where all else is well
   /// What is estimated to be left to the local optimum, relative to the objective: slack and
@@ -62,7 +62,7 @@ struct Verdict {
 /// and no word on other optima further away.
 /// @param design  with gradients.
 /// @param start   evaluation of the first design, with gradients.
-Verdict judge(EvaluationCache& cache, const KnownDesign& design, const Evaluation& start,
+Verdict judge(EvaluationCache& cache, const EvaluatedDesign& design, const Evaluation& start,
               const Tolerances& tolerances);
 
 }  // namespace pleuel

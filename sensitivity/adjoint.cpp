@@ -36,7 +36,7 @@ class AdjointRun {
         adjoint_(zero_adjoint(system_, functions)),
         before_(adjoint_),
         y_(Eigen::MatrixXd::Zero(equations_.size(), functions)),
-        sums_(Eigen::MatrixXd::Zero(system_.design_sum_count(), functions)) {
+        sums_(Eigen::MatrixXd::Zero(system_.parameter_adjoint_count(), functions)) {
     if (trajectory.is_projected()) projection_.emplace(mechanism);
   }
 
@@ -80,7 +80,8 @@ class AdjointRun {
     }
     const auto of = [this](Eigen::MatrixXd& all) { return all.leftCols(active_); };
     before_.q.setZero();
-    equations_.pull_back(state_, of(y_), of(adjoint_.v), of(adjoint_.a), of(before_.q), of(sums_));
+    equations_.differentiate_transposed(state_, of(y_), of(adjoint_.v), of(adjoint_.a),
+                                        of(before_.q), of(sums_));
     combine();
     std::swap(adjoint_, before_);
     adjoint_.lambda.setZero();
@@ -92,8 +93,8 @@ class AdjointRun {
     state_.q = state_.drifted_q;
     state_.v = state_.drifted_v;
     projection_->linearize(state_);
-    projection_->pull_back(adjoint_.q.leftCols(active_), adjoint_.v.leftCols(active_),
-                           sums_.leftCols(active_));
+    projection_->differentiate_transposed(adjoint_.q.leftCols(active_),
+                                          adjoint_.v.leftCols(active_), sums_.leftCols(active_));
   }
 
   void prepare(int step) {

@@ -201,7 +201,7 @@ void leave_out_with(const char* name, EffectChoice EffectSettings::*member, Vari
   };
 }
 
-Variation leave_out(const BeamEffect& effect, const ProblemFile& problem, bool is_stiffened) {
+Variation deactivate(const BeamEffect& effect, const ProblemFile& problem, bool is_stiffened) {
   Variation without = make_effect(effect, EffectChoice::off);
   const EffectSettings& settings = problem.effects;
   if (effect.choice == &EffectSettings::axial_elasticity && is_stiffened) {
@@ -285,7 +285,7 @@ std::vector<Variation> effect_variations(const ProblemFile& problem, const Model
   for (const BeamEffect& effect : beam_effects) {
     if (effect.choice == &EffectSettings::elasticity && needs_elasticity(problem)) continue;
     if (is_there(effect.name, model)) {
-      all.push_back(leave_out(effect, problem, is_stiffened));
+      all.push_back(deactivate(effect, problem, is_stiffened));
     } else if (is_left_out(effect.name, model) && is_possible(effect, problem.effects)) {
       all.push_back(make_effect(effect, EffectChoice::on));
     }

@@ -33,7 +33,7 @@ constexpr int usual_difference_steps = 4;
 
 struct Examination {
   std::unique_ptr<Analysis> analysis;
-  Freedoms freedoms;
+  DegreesOfFreedom freedoms;
   double simulation_seconds = 0.0, gradient_seconds = 0.0;
   Ties ties;
   std::vector<EffectInfluence> influences;
@@ -55,7 +55,7 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
   findings.simulation_seconds = simulation.seconds();
   State initial;
   findings.analysis->trajectory.states->load(0, initial);
-  findings.freedoms = rigid_freedoms(findings.analysis->model.mechanism, initial);
+  findings.freedoms = rigid_degrees_of_freedom(findings.analysis->model.mechanism, initial);
   findings.ties = find_ties(*findings.analysis);
   warn(texts_of(find_doubts(problem, x, *findings.analysis)));
   ProgressLine progress(arguments, "measuring effects");

@@ -15,7 +15,7 @@
 #include "cli/reports/warnings.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
-#include "core/integration/freedoms.hpp"
+#include "core/integration/degrees_of_freedom.hpp"
 #include "core/integration/initial_state.hpp"
 #include "core/response/misalignment.hpp"
 #include "core/scene/body_rules.hpp"
@@ -35,7 +35,7 @@ struct Shown {
   std::string text;
 };
 
-/// Freedoms and size of the mechanism, if it can be assembled.
+/// DegreesOfFreedom and size of the mechanism, if it can be assembled.
 void add_assembly(const ProblemFile& problem, Model& model, Shown& shown,
                   std::vector<std::string>& warnings) {
   for (const Misalignment& found : find_misalignments(model, model.mechanism.guess, 1e-6)) {
@@ -43,7 +43,8 @@ void add_assembly(const ProblemFile& problem, Model& model, Shown& shown,
   }
   model.mechanism.starts_in_equilibrium = false;
   try {
-    const Freedoms freedoms = rigid_freedoms(model.mechanism, initial_state(model.mechanism).state);
+    const DegreesOfFreedom freedoms =
+        rigid_degrees_of_freedom(model.mechanism, initial_state(model.mechanism).state);
     shown.document["rigid_motion"] = freedoms_document(freedoms, model);
     shown.text += "\n" + freedoms_text(freedoms, model);
   } catch (const SimulationError& error) {

@@ -46,7 +46,8 @@ std::string response_verdict(const ProblemFile& problem, const DerivativeCheck& 
     case DerivativeVerdict::agrees:
       return check.error == 0.0 ? "agrees exactly" : "agrees to " + magnitude(check.error);
     case DerivativeVerdict::noise:
-      return fmt::format("differences cannot tell that of {}", problem.variables[worst].name);
+      return fmt::format("differences are too inexact to check that of {}",
+                         problem.variables[worst].name);
     case DerivativeVerdict::kink:
       return fmt::format("at a kink, see below ({})", magnitude(worst_error));
     default:

@@ -76,14 +76,14 @@ std::string bodies_text(const Model& model) {
   return table.text();
 }
 
-Json freedoms_document(const Freedoms& freedoms, const Model& model) {
+Json freedoms_document(const DegreesOfFreedom& freedoms, const Model& model) {
   return {{"coordinates", freedoms.coordinates},
           {"constraints", freedoms.constraints},
           {"drives", drives(model)},
           {"free", freedoms.free()}};
 }
 
-std::string freedoms_text(const Freedoms& freedoms, const Model& model) {
+std::string freedoms_text(const DegreesOfFreedom& freedoms, const Model& model) {
   const int driven = drives(model);
   std::string text = fmt::format(
       "Rigid motion: {} coordinates, {} independent constraints ({} of drives): ",

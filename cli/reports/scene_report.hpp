@@ -3,7 +3,7 @@
 #include <string>
 
 #include "cli/text/json.hpp"
-#include "core/integration/freedoms.hpp"
+#include "core/integration/degrees_of_freedom.hpp"
 #include "core/response/analysis.hpp"
 
 /// What `check` says of bodies and variables.
@@ -15,8 +15,8 @@ std::string bodies_text(const Model& model);
 
 /// {"coordinates", "constraints", "drives", "free"}: how joints and drives hold the mechanism if
 /// its bodies do not deform, at the start of the simulation.
-Json freedoms_document(const Freedoms& freedoms, const Model& model);
-std::string freedoms_text(const Freedoms& freedoms, const Model& model);
+Json freedoms_document(const DegreesOfFreedom& freedoms, const Model& model);
+std::string freedoms_text(const DegreesOfFreedom& freedoms, const Model& model);
 
 /// Says how far assembly moved the mechanism from where the file places it; empty if it did not.
 std::string assembly_text(const Analysis& analysis);

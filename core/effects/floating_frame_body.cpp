@@ -145,8 +145,8 @@ void FloatingFrameBody::add_design_derivative(const State& state, ConstraintLeve
   }
 }
 
-void FloatingFrameBody::add_design_sums(const State& state, ConstraintLevel, const ConstColumns& mu,
-                                        Columns sums) {
+void FloatingFrameBody::add_parameter_adjoints(const State& state, ConstraintLevel,
+                                               const ConstColumns& mu, Columns sums) {
   if (!is_designed()) return;
   evaluate(state);
   const int k = frame_.translations(), rotations = frame_.rotations();

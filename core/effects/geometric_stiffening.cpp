@@ -238,7 +238,7 @@ void GeometricStiffening::add_unit_change(const StiffeningElement& element, cons
                                   (total - linear) * d.elongation - d_linear * element.elongation);
 }
 
-int GeometricStiffening::design_sum_count() const {
+int GeometricStiffening::parameter_adjoint_count() const {
   if (!is_designed_) return 0;
   Eigen::Index count = 0;
   for (const PaddedElement& element : elements_) count += sum_count(element);
@@ -246,8 +246,8 @@ int GeometricStiffening::design_sum_count() const {
 }
 
 /// With m = μᵀ (b + Ĝ q), the force in add_design_derivative() read as a function of κ', β', b', Ĝ'.
-void GeometricStiffening::add_design_sums(const State& state, ConstraintLevel,
-                                          const ConstColumns& mu, Columns sums) {
+void GeometricStiffening::add_parameter_adjoints(const State& state, ConstraintLevel,
+                                                 const ConstColumns& mu, Columns sums) {
   if (!is_designed_) return;
   Eigen::Index first = 0;
   for (const PaddedElement& element : elements_) {

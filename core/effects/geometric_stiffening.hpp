@@ -43,9 +43,9 @@ class GeometricStiffening : public Term, public StrainSource {
                  Eigen::VectorXd& residual, const EntryBlocks& entries) override;
   void add_design_derivative(const State& state, ConstraintLevel level,
                              Eigen::MatrixXd& columns) override;
-  int design_sum_count() const override;
-  void add_design_sums(const State& state, ConstraintLevel level, const ConstColumns& mu,
-                       Columns sums) override;
+  int parameter_adjoint_count() const override;
+  void add_parameter_adjoints(const State& state, ConstraintLevel level, const ConstColumns& mu,
+                              Columns sums) override;
   void add_design_gradients(const ConstColumns& sums, Eigen::MatrixXd& gradients) const override;
   std::vector<QuadraticStrain> strains() const override;
 

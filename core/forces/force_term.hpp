@@ -94,10 +94,10 @@ class ForceTerm : public Term {
     }
   }
 
-  int design_sum_count() const override { return static_cast<int>(derivatives_.size()); }
+  int parameter_adjoint_count() const override { return static_cast<int>(derivatives_.size()); }
 
-  void add_design_sums(const State& state, ConstraintLevel, const ConstColumns& mu,
-                       Columns sums) override {
+  void add_parameter_adjoints(const State& state, ConstraintLevel, const ConstColumns& mu,
+                              Columns sums) override {
     Local<Dual> q, v;
     load<Dual>(state, q, v);
     for (std::size_t k = 0; k < derivatives_.size(); ++k) {

@@ -16,7 +16,9 @@ struct Marker {
   std::array<int, 6> elastic = {-1, -1, -1, -1, -1, -1};
 
   /// Whether it has an elastic rotation.
-  bool turns() const { return elastic[3] >= 0 || elastic[4] >= 0 || elastic[5] >= 0; }
+  bool has_elastic_rotation() const {
+    return elastic[3] >= 0 || elastic[4] >= 0 || elastic[5] >= 0;
+  }
 };
 
 /// Compiled once, for tangents with respect to all coordinates of one marker or of two.

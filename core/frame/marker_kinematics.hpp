@@ -201,7 +201,7 @@ class MarkerKinematics {
         (i < 3 ? state.u : state.psi)[order](i % 3) = is_active ? *next++ : Scalar(0);
       }
     }
-    if (marker.turns()) {
+    if (marker.has_elastic_rotation()) {
       state.turn = ElasticRotation<Scalar>(state.psi[0]);
       state.spin = state.turn.spin(state.psi[1]);
       if (a != nullptr) state.spin_rate = state.turn.spin_rate(state.psi[1], state.psi[2]);

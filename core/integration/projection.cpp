@@ -154,7 +154,7 @@ void Projection::differentiate(Eigen::MatrixXd& q, Eigen::MatrixXd& v) {
 }
 
 // The same, transposed: the last equation first.
-void Projection::pull_back(Columns q, Columns v, Columns sums) {
+void Projection::differentiate_transposed(Columns q, Columns v, Columns sums) {
   const int n = system_.coordinates(), m = system_.multipliers();
   const Rotations& rotations = mechanism_.rotations;
   Eigen::MatrixXd mu = Eigen::MatrixXd::Zero(n + m, q.cols()), forces = mu, constraints = mu;
@@ -168,8 +168,8 @@ void Projection::pull_back(Columns q, Columns v, Columns sums) {
   v += velocity_rows_.leftCols(n).transpose() * constraints;
   q += rate_rows_.leftCols(n).transpose() * constraints;
   q += velocity_forces_q_.leftCols(n).transpose() * forces;
-  system_.add_design_sums(projected_, ConstraintLevel::velocity, constraints, sums);
-  velocity_forces_.add_design_sums(forces, sums);
+  system_.add_parameter_adjoints(projected_, ConstraintLevel::velocity, constraints, sums);
+  velocity_forces_.add_parameter_adjoints(forces, sums);
 
   push_forward_transposed(rotations, delta_.move, q);
   mu.setZero();
@@ -179,8 +179,8 @@ void Projection::pull_back(Columns q, Columns v, Columns sums) {
   q += position_rows_.leftCols(n).transpose() * constraints;
   pull_back_transposed(rotations, delta_.move, q);
   q += position_forces_q_.leftCols(n).transpose() * forces;
-  system_.add_design_sums(projected_, ConstraintLevel::position, constraints, sums);
-  position_forces_.add_design_sums(forces, sums);
+  system_.add_parameter_adjoints(projected_, ConstraintLevel::position, constraints, sums);
+  position_forces_.add_parameter_adjoints(forces, sums);
 }
 
 }  // namespace pleuel

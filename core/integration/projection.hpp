@@ -33,8 +33,8 @@ class Projection {
   /// Derivatives before to those after the projection, n × variables.
   void differentiate(Eigen::MatrixXd& q, Eigen::MatrixXd& v);
   /// The transposed of it: derivatives of functions with respect to q* and v* to those with respect
-  /// to q and v (n × functions), and the design sums (System::add_design_sums).
-  void pull_back(Columns q, Columns v, Columns sums);
+  /// to q and v (n × functions), and the parameter adjoints (System::add_parameter_adjoints).
+  void differentiate_transposed(Columns q, Columns v, Columns sums);
 
  private:
   /// The change of positions or of velocities, and the multipliers that make it.

@@ -289,21 +289,21 @@ void StepEquations::differentiate(const StepState& state, const Eigen::MatrixXd&
   if (is_stabilized()) differentiate_old_constraints(state, old_q, rhs);
 }
 
-void StepEquations::pull_back(const StepState& state, const ConstColumns& y, Columns v, Columns a,
-                              Columns old_q, Columns sums) {
+void StepEquations::differentiate_transposed(const StepState& state, const ConstColumns& y,
+                                             Columns v, Columns a, Columns old_q, Columns sums) {
   const int n = system_.coordinates(), m = system_.multipliers();
   mu_.resize(n + m, y.cols());
   mu_.topRows(n) = -dynamic_scale_ * y.topRows(n);
   mu_.bottomRows(m) = -constraint_scale_ * y.middleRows(n, m);
-  system_.add_design_sums(state, level_.level, mu_, sums);
+  system_.add_parameter_adjoints(state, level_.level, mu_, sums);
   for (const Level& other : other_levels_) {
     other_mu_.setZero(n + m, y.cols());
     other_mu_.bottomRows(m) = other.factor * mu_.bottomRows(m);
-    system_.add_design_sums(state, other.level, other_mu_, sums);
+    system_.add_parameter_adjoints(state, other.level, other_mu_, sums);
   }
   v.noalias() += matrices_[1].leftCols(n).transpose() * mu_;
   a.noalias() += matrices_[2].leftCols(n).transpose() * mu_;
-  if (is_stabilized()) pull_back_old_constraints(state, y, old_q, sums);
+  if (is_stabilized()) differentiate_old_constraints_transposed(state, y, old_q, sums);
 }
 
 /// The rows of the shift, −(Φ_q(q)ᵀ η)_q s_q − (Φ_q(q)ᵀ η)_x, and of Φ(q⁺), −Φ_x.
@@ -321,18 +321,19 @@ void StepEquations::differentiate_old_constraints(const StepState& state,
 }
 
 /// As above, transposed.
-void StepEquations::pull_back_old_constraints(const StepState& state, const ConstColumns& y,
-                                              Columns old_q, Columns sums) {
+void StepEquations::differentiate_old_constraints_transposed(const StepState& state,
+                                                             const ConstColumns& y, Columns old_q,
+                                                             Columns sums) {
   const int n = system_.coordinates(), m = system_.multipliers();
   other_mu_.setZero(n + m, y.cols());
   other_mu_.topRows(n) = -y.middleRows(n + m, n);
   shift_forces_.set(old_, state.eta);
   shift_forces_.tangent(matrices_.front());
   old_q.noalias() += matrices_.front().leftCols(n).transpose() * other_mu_;
-  shift_forces_.add_design_sums(other_mu_, sums);
+  shift_forces_.add_parameter_adjoints(other_mu_, sums);
   other_mu_.topRows(n).setZero();
   other_mu_.bottomRows(m) = -y.bottomRows(m);
-  system_.add_design_sums(state, ConstraintLevel::position, other_mu_, sums);
+  system_.add_parameter_adjoints(state, ConstraintLevel::position, other_mu_, sums);
 }
 
 }  // namespace pleuel

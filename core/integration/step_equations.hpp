@@ -64,9 +64,9 @@ class StepEquations {
                      const Eigen::MatrixXd& old_q, Eigen::MatrixXd& rhs);
   /// The transposed of differentiate(): adds what the derivatives y of functions with respect to
   /// rhs (size() × functions) make of those with respect to v, a and old_q (n × functions), and the
-  /// design sums (System::add_design_sums).
-  void pull_back(const StepState& state, const ConstColumns& y, Columns v, Columns a, Columns old_q,
-                 Columns sums);
+  /// parameter adjoints (System::add_parameter_adjoints).
+  void differentiate_transposed(const StepState& state, const ConstColumns& y, Columns v, Columns a,
+                                Columns old_q, Columns sums);
 
  private:
   /// A level on which constraints stand in the residual, and with which factor.
@@ -85,8 +85,8 @@ class StepEquations {
   void write_matrix(const StepState& state, std::size_t q, std::size_t v, System::Matrix& matrix);
   void differentiate_old_constraints(const StepState& state, const Eigen::MatrixXd& old_q,
                                      Eigen::MatrixXd& rhs);
-  void pull_back_old_constraints(const StepState& state, const ConstColumns& y, Columns old_q,
-                                 Columns sums);
+  void differentiate_old_constraints_transposed(const StepState& state, const ConstColumns& y,
+                                                Columns old_q, Columns sums);
 
   Mechanism& mechanism_;
   System& system_;

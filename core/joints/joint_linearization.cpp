@@ -59,7 +59,7 @@ void JointLinearization::set_marker(std::size_t m, const double* q) {
     if (marker.elastic[static_cast<std::size_t>(i)] < 0) continue;
     (i < 3 ? state.u : state.psi)(i % 3) += q[next++];
   }
-  if (marker.turns()) {
+  if (marker.has_elastic_rotation()) {
     state.turn = ElasticRotation<double>(state.psi);
     state.turn_tangent = state.turn.tangent();
   }
@@ -105,7 +105,7 @@ JointLinearization::Attached JointLinearization::direction(std::size_t m,
                                                            const Vector3d& local) const {
   const MarkerState& state = markers_[m];
   const Marker& marker = topology_.markers[m];
-  const Vector3d s = marker.turns() ? state.turn.turned(local) : local;
+  const Vector3d s = marker.has_elastic_rotation() ? state.turn.turned(local) : local;
   Attached attached{AttachedKind::direction,
                     m,
                     s,
@@ -161,7 +161,7 @@ void JointLinearization::add_curvature(const Attached& a, const Vector3d& g) {
 void JointLinearization::add_elastic_curvature(const Attached& a, const Vector3d& local) {
   const MarkerState& state = markers_[a.marker];
   const Marker& marker = topology_.markers[a.marker];
-  if (!marker.turns()) return;
+  if (!marker.has_elastic_rotation()) return;
   const Matrix3d curvature = state.turn.curvature(state.turn_tangent, a.s, local);
   std::array<int, 3> index{-1, -1, -1};
   int next = state.start + state.frame;

@@ -86,10 +86,10 @@ class JointTerm : public Term {
     }
   }
 
-  int design_sum_count() const override { return static_cast<int>(derivatives_.size()); }
+  int parameter_adjoint_count() const override { return static_cast<int>(derivatives_.size()); }
 
-  void add_design_sums(const State& state, ConstraintLevel level, const ConstColumns& mu,
-                       Columns sums) override {
+  void add_parameter_adjoints(const State& state, ConstraintLevel level, const ConstColumns& mu,
+                              Columns sums) override {
     const Local<Dual> local = load<Dual>(state);
     for (std::size_t k = 0; k < derivatives_.size(); ++k) {
       const Result<Dual> result = evaluate(derivatives_[k].data, local, state.time, level);

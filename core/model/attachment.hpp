@@ -17,7 +17,7 @@ class Attachment {
              const BuildContext& context);
 
   bool is_ground() const { return body_ == nullptr; }
-  bool turns() const { return model_ == nullptr || model_->frame.rotations() > 0; }
+  bool has_orientation() const { return model_ == nullptr || model_->frame.rotations() > 0; }
   /// Whether its displacements are coordinates themselves, so that a marker can name them.
   bool is_direct() const { return is_direct_; }
   const BodyModel* model() const { return model_; }

@@ -191,11 +191,11 @@ class ModelBuilder {
       if (!model_.bodies[i].is_beam() || model_.bodies[i].stretch.begin > 0.0) continue;
       add_beam_records(model_.bodies[i].name);
     }
-    note_exact("damping", has_damping, has_damping ? "given for a body" : "no body has any");
+    record_exact("damping", has_damping, has_damping ? "given for a body" : "no body has any");
     const bool has_gravity = !context_.gravity.isZero();
-    note_exact("gravity", has_gravity, has_gravity ? "given" : "none is given");
+    record_exact("gravity", has_gravity, has_gravity ? "given" : "none is given");
     const bool has_loads = !context_.scene.loads.empty();
-    note_exact("loads", has_loads, has_loads ? "given" : "none are given");
+    record_exact("loads", has_loads, has_loads ? "given" : "none are given");
   }
 
   /// One set of records a beam, whatever number of frames it has.
@@ -213,7 +213,7 @@ class ModelBuilder {
     std::move(records.begin(), records.end(), std::back_inserter(model_.effects));
   }
 
-  void note_exact(const std::string& name, bool is_built, const std::string& reason) {
+  void record_exact(const std::string& name, bool is_built, const std::string& reason) {
     model_.effects.push_back({name, "", is_built, EffectRecord::Kind::exact, reason, {}, 0});
   }
 
@@ -255,7 +255,7 @@ class ModelBuilder {
   void leave_out_redundant() {
     const std::vector<int> redundant = redundant_constraints(model_.mechanism, drive_rows(model_));
     if (redundant.empty()) return;
-    model_.mechanism.system->leave_out(redundant);
+    model_.mechanism.system->deactivate(redundant);
     std::map<std::string, int> counts;
     for (int row : redundant) {
       const JointModel& joint = joint_of(row);
@@ -265,7 +265,7 @@ class ModelBuilder {
     for (const auto& [name, count] : counts) {
       text += fmt::format("{}{} of {}", text.empty() ? "" : ", ", count, name);
     }
-    note_exact(
+    record_exact(
         "redundant_constraints", false,
         fmt::format("{} follow from the others; reactions are not unique: those of least norm",
                     text));

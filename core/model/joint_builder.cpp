@@ -80,7 +80,8 @@ class JointBuilder {
     add(equation);
   }
   void add_perpendicular(const Eigen::Vector3d& first, const Eigen::Vector3d& second) {
-    if (!sides_[0].turns() || !sides_[1].turns()) return;  // a point mass has no orientation
+    if (!sides_[0].has_orientation() || !sides_[1].has_orientation())
+      return;  // a point mass has no orientation
     JointEquation equation{EquationKind::perpendicular};
     equation.first = add_direction(0, first);
     equation.second = add_direction(1, second);
@@ -94,7 +95,7 @@ class JointBuilder {
   }
   /// @param axis  about which the angle counts, parallel to the normal
   void add_planar_angle(const Eigen::Vector3d& axis, const Eigen::Vector3d& normal) {
-    if (!sides_[0].turns() || !sides_[1].turns()) return;
+    if (!sides_[0].has_orientation() || !sides_[1].has_orientation()) return;
     JointEquation equation{EquationKind::planar_angle};
     equation.sense = axis.dot(normal) < 0.0 ? -1.0 : 1.0;
     add(equation);
@@ -105,7 +106,7 @@ class JointBuilder {
     return joint_.drive && joint_.drive->coordinate == coordinate;
   }
   /// The last equation is the drive's.
-  void note_drive() {
+  void record_drive() {
     drive_equation_ = model_.equations() - 1;
     model_.topology.equations.back().is_driven = true;
   }
@@ -114,7 +115,7 @@ class JointBuilder {
     JointEquation equation{EquationKind::slide};
     equation.first = add_direction(0, axis);
     add(equation);
-    note_drive();
+    record_drive();
   }
   /// @param reference  turns about the axis with the second body
   void add_driven_angle(const Eigen::Vector3d& axis, const Eigen::Vector3d& reference) {
@@ -124,7 +125,7 @@ class JointBuilder {
     equation.second = add_direction(1, reference);
     equation.third = add_direction(0, axis.cross(reference));
     add(equation);
-    note_drive();
+    record_drive();
   }
 
   /// What is left of a joint in motion in a plane that it is symmetric about.
@@ -157,13 +158,13 @@ class JointBuilder {
     }
     if (drives(DrivenCoordinate::angle)) {
       add_planar_angle(axis, plane.normal);
-      note_drive();
+      record_drive();
     } else if (holds_planar_angle(axis, plane)) {
       add_planar_angle(plane.normal, plane.normal);
     }
     if (!drives(DrivenCoordinate::displacement)) return;
     if (joint_.type == JointType::distance) {
-      note_drive();
+      record_drive();
     } else {
       add_driven_slide(axis);
     }
@@ -234,7 +235,7 @@ class JointBuilder {
         break;
       case JointType::distance:
         add_distance();
-        if (joint_.drive) note_drive();
+        if (joint_.drive) record_drive();
         return;
     }
     add_driven_angle(n, a);
@@ -248,7 +249,7 @@ class JointBuilder {
     for (const AttachedDirection& direction : directions_) {
       data.directions.push_back(sides_[direction.marker].local_direction(direction.global, design));
     }
-    if (context_.plane && sides_[0].turns() && sides_[1].turns()) {
+    if (context_.plane && sides_[0].has_orientation() && sides_[1].has_orientation()) {
       data.offset = sides_[1].start_angle(design) - sides_[0].start_angle(design);
     }
     if (joint_.type == JointType::distance) {

@@ -225,14 +225,14 @@ class RecoveredSignal final : public Signal {
   void prepare_derivatives() {
     if (!near_.empty()) return;
     near_.resize(static_cast<std::size_t>(recovery_.of_coordinates.rows() / stations_->numbers()));
-    note_near(recovery_);
+    record_near(recovery_);
     for (std::size_t k = 0; k < body_.places_x.size(); ++k) {
       changes_.push_back(stations_->recovery_derivative(k));
-      note_near(changes_.back());
+      record_near(changes_.back());
     }
   }
 
-  void note_near(const Recovery& recovery) {
+  void record_near(const Recovery& recovery) {
     const auto note = [&](const SparseMatrix& rows, Eigen::Index divisor, auto part) {
       for (Eigen::Index row = 0; row < rows.rows(); ++row) {
         Near& near = near_[static_cast<std::size_t>(row / stations_->numbers())];

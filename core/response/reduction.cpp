@@ -131,7 +131,7 @@ std::vector<Peak> choose_ties(const Eigen::MatrixXd& values, const Peak& best,
   return chosen;
 }
 
-/// Every so-manieth, at distances that are in step with no period (multiples of the golden ratio).
+/// Every nth, at distances that are in step with no period (multiples of the golden ratio).
 std::vector<Peak> thin_out(const std::vector<Peak>& tied) {
   if (tied.size() <= max_candidates) return tied;
   std::vector<std::size_t> indices;
@@ -146,8 +146,8 @@ std::vector<Peak> thin_out(const std::vector<Peak>& tied) {
   return kept;
 }
 
-void note_ties(const Search& search, const std::vector<Peak>& peaks, const Peak& best,
-               Reduction& reduction) {
+void record_ties(const Search& search, const std::vector<Peak>& peaks, const Peak& best,
+                 Reduction& reduction) {
   const auto gap_of = [&](const Peak& peak) {
     return (best.height - peak.height) / std::abs(best.height);
   };
@@ -194,7 +194,7 @@ Reduction reduce_peaks(const Search& search, const std::vector<double>& signs) {
   if (best == peaks.end() || best->height < reduction.value) return reduction;
   reduction.value = best->height;
   reduction.samples = samples_of(*best);
-  note_ties(search, peaks, *best, reduction);
+  record_ties(search, peaks, *best, reduction);
   return reduction;
 }
 

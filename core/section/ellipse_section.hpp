@@ -7,7 +7,7 @@
 namespace pleuel {
 
 /// Solid ellipse, `width` along z, `height` along y: full axes [m]. Exact (Timoshenko & Goodier,
-/// Theory of Elasticity, §106). With the half axes a (along y) and b (along z):
+/// Theory of Elasticity, §106). With the semi-axes a (along y) and b (along z):
 ///     A = πab,   I_z = πa³b/4,   I_y = πab³/4,   J = πa³b³/(a² + b²)
 ///     shear per torque at the ends of the axes   2/(πa²b) at y = ±a,   2/(πab²) at z = ±b
 /// and between them τ² = (τ_a cos θ)² + (τ_b sin θ)² at y = a cos θ, z = b sin θ.

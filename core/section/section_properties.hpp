@@ -23,7 +23,7 @@ struct SectionProperties {
   Scalar torsion;    ///< torsion constant J [m⁴]
   /// Half axes of a round outline, a circle or an ellipse (zero for others): it has no corners, and
   /// the place of the largest stress moves with the load (core/section/section_stress.hpp). Its
-  /// points are the ends of the half axes: y, −y, z, −z.
+  /// points are the ends of the semi-axes: y, −y, z, −z.
   Scalar radius_y = Scalar(0), radius_z = Scalar(0);
   std::vector<StressPoint<Scalar>> points;
 

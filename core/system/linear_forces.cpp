@@ -43,10 +43,10 @@ const Eigen::MatrixXd& LinearForces::design_derivative() {
   return columns_;
 }
 
-void LinearForces::add_design_sums(const ConstColumns& mu, Columns sums) {
-  system_.add_design_sums(with_, level_, mu, sums);
+void LinearForces::add_parameter_adjoints(const ConstColumns& mu, Columns sums) {
+  system_.add_parameter_adjoints(with_, level_, mu, sums);
   minus_mu_ = -mu;
-  system_.add_design_sums(without_, level_, minus_mu_, sums);
+  system_.add_parameter_adjoints(without_, level_, minus_mu_, sums);
 }
 
 }  // namespace pleuel

@@ -27,8 +27,8 @@ class LinearForces {
   /// ∂F/∂x at fixed q, a and λ, (n + m) × variables; valid until the next call.
   const Eigen::MatrixXd& design_derivative();
 
-  /// sums += those of μᵀ ∂F/∂x (System::add_design_sums); μ is (n + m) × any number.
-  void add_design_sums(const ConstColumns& mu, Columns sums);
+  /// sums += those of μᵀ ∂F/∂x (System::add_parameter_adjoints); μ is (n + m) × any number.
+  void add_parameter_adjoints(const ConstColumns& mu, Columns sums);
 
  private:
   System& system_;

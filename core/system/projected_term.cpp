@@ -122,8 +122,8 @@ void ProjectedTerm::add_moving_map(ConstraintLevel level, Eigen::MatrixXd& colum
   }
 }
 
-void ProjectedTerm::add_design_sums(const State& state, ConstraintLevel level,
-                                    const ConstColumns& mu, Columns sums) {
+void ProjectedTerm::add_parameter_adjoints(const State& state, ConstraintLevel level,
+                                           const ConstColumns& mu, Columns sums) {
   if (sums.rows() == 0) return;
   state_.set(map_, state);
   inner_mu_.resize(residual_.size(), mu.cols());
@@ -131,7 +131,8 @@ void ProjectedTerm::add_design_sums(const State& state, ConstraintLevel level,
   for (int i = 0; i < multipliers(); ++i) {
     inner_mu_.row(locals() + i) = mu.row(row_of_multiplier(i));
   }
-  inner_->add_design_sums(state_.local, level, inner_mu_, sums.topRows(inner_->design_sum_count()));
+  inner_->add_parameter_adjoints(state_.local, level, inner_mu_,
+                                 sums.topRows(inner_->parameter_adjoint_count()));
   if (!map_.derivatives.empty()) add_map_sums(level, mu, sums.bottomRows(map_sum_count()));
 }
 
@@ -156,7 +157,7 @@ void ProjectedTerm::add_map_sums(ConstraintLevel level, const ConstColumns& mu, 
 
 void ProjectedTerm::add_design_gradients(const ConstColumns& sums,
                                          Eigen::MatrixXd& gradients) const {
-  inner_->add_design_gradients(sums.topRows(inner_->design_sum_count()), gradients);
+  inner_->add_design_gradients(sums.topRows(inner_->parameter_adjoint_count()), gradients);
   for (const auto& [variable, rows] : map_.derivatives) {
     const Eigen::Map<const Eigen::VectorXd> flat(rows.data(), rows.size());
     gradients.row(variable) += flat.transpose() * sums.bottomRows(map_sum_count());

@@ -24,9 +24,11 @@ class ProjectedTerm final : public Term {
                  Eigen::VectorXd& residual, const EntryBlocks& entries) override;
   void add_design_derivative(const State& state, ConstraintLevel level,
                              Eigen::MatrixXd& columns) override;
-  int design_sum_count() const override { return inner_->design_sum_count() + map_sum_count(); }
-  void add_design_sums(const State& state, ConstraintLevel level, const ConstColumns& mu,
-                       Columns sums) override;
+  int parameter_adjoint_count() const override {
+    return inner_->parameter_adjoint_count() + map_sum_count();
+  }
+  void add_parameter_adjoints(const State& state, ConstraintLevel level, const ConstColumns& mu,
+                              Columns sums) override;
   void add_design_gradients(const ConstColumns& sums, Eigen::MatrixXd& gradients) const override;
 
  private:

@@ -14,7 +14,7 @@ System::System(int coordinates, int multipliers, int variables,
   build_pattern();
 }
 
-void System::leave_out(const std::vector<int>& multipliers) {
+void System::deactivate(const std::vector<int>& multipliers) {
   left_out_ = multipliers;
   build_pattern();
 }
@@ -116,14 +116,14 @@ void System::design_derivative(const State& state, ConstraintLevel level,
   for (int i : left_out_) columns.row(coordinates_ + i).setZero();
 }
 
-int System::design_sum_count() const {
+int System::parameter_adjoint_count() const {
   int count = 0;
-  for (const auto& term : terms_) count += term->design_sum_count();
+  for (const auto& term : terms_) count += term->parameter_adjoint_count();
   return count;
 }
 
-void System::add_design_sums(const State& state, ConstraintLevel level, const ConstColumns& mu,
-                             Columns sums) {
+void System::add_parameter_adjoints(const State& state, ConstraintLevel level,
+                                    const ConstColumns& mu, Columns sums) {
   if (!left_out_.empty()) {
     kept_mu_ = mu;
     for (int i : left_out_) kept_mu_.row(coordinates_ + i).setZero();
@@ -131,8 +131,8 @@ void System::add_design_sums(const State& state, ConstraintLevel level, const Co
   const ConstColumns kept = left_out_.empty() ? mu : ConstColumns(kept_mu_);
   Eigen::Index first = 0;
   for (const auto& term : terms_) {
-    const Eigen::Index count = term->design_sum_count();
-    if (count > 0) term->add_design_sums(state, level, kept, sums.middleRows(first, count));
+    const Eigen::Index count = term->parameter_adjoint_count();
+    if (count > 0) term->add_parameter_adjoints(state, level, kept, sums.middleRows(first, count));
     first += count;
   }
 }
@@ -141,7 +141,7 @@ Eigen::MatrixXd System::design_gradients(const ConstColumns& sums) const {
   Eigen::MatrixXd gradients = Eigen::MatrixXd::Zero(variables_, sums.cols());
   Eigen::Index first = 0;
   for (const auto& term : terms_) {
-    const Eigen::Index count = term->design_sum_count();
+    const Eigen::Index count = term->parameter_adjoint_count();
     if (count > 0) term->add_design_gradients(sums.middleRows(first, count), gradients);
     first += count;
   }

@@ -27,7 +27,7 @@ class System {
   const std::vector<std::unique_ptr<Term>>& terms() const { return terms_; }
 
   /// Replaces constraints that follow from the others by λ_i = 0, before any matrix is made.
-  void leave_out(const std::vector<int>& multipliers);
+  void deactivate(const std::vector<int>& multipliers);
   const std::vector<int>& left_out() const { return left_out_; }
 
   /// A zero matrix with the pattern of the tangent, (n + m) × (n + m).
@@ -53,10 +53,10 @@ class System {
   // Σ μᵀ ∂R/∂x over instants for several μ, at a cost that does not grow with the number of
   // variables (term.hpp).
 
-  int design_sum_count() const;
-  /// sums (design_sum_count() × columns of μ) += what this instant adds; μ is (n + m) × any number.
-  void add_design_sums(const State& state, ConstraintLevel level, const ConstColumns& mu,
-                       Columns sums);
+  int parameter_adjoint_count() const;
+  /// sums (parameter_adjoint_count() × columns of μ) += what this instant adds; μ is (n + m) × any number.
+  void add_parameter_adjoints(const State& state, ConstraintLevel level, const ConstColumns& mu,
+                              Columns sums);
   /// Σ μᵀ ∂R/∂x, variables × columns of μ.
   Eigen::MatrixXd design_gradients(const ConstColumns& sums) const;
 

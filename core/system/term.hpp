@@ -87,12 +87,12 @@ class Term {
   // multiplies the derivatives of the term's data is summed first, the derivatives come last.
 
   /// How many numbers a term sums for each μ.
-  virtual int design_sum_count() const = 0;
+  virtual int parameter_adjoint_count() const = 0;
   /// sums.col(i) += what multiplies the derivatives of the data in mu.col(i)ᵀ ∂R/∂x.
   /// @param mu    (n + m) × any number
-  /// @param sums  design_sum_count() × the same number
-  virtual void add_design_sums(const State& state, ConstraintLevel level, const ConstColumns& mu,
-                               Columns sums) = 0;
+  /// @param sums  parameter_adjoint_count() × the same number
+  virtual void add_parameter_adjoints(const State& state, ConstraintLevel level,
+                                      const ConstColumns& mu, Columns sums) = 0;
   /// gradients.col(i) += Σ μᵀ ∂R/∂x of sums.col(i), variables × the same number.
   virtual void add_design_gradients(const ConstColumns& sums, Eigen::MatrixXd& gradients) const = 0;
 };

@@ -28,7 +28,7 @@ void keep_larger(double value, int step, double& largest, int& at) {
   at = step;
 }
 
-void note_beam(const BodyModel& body, const State& state, int step, LargestDeformation& largest) {
+void record_beam(const BodyModel& body, const State& state, int step, LargestDeformation& largest) {
   const Eigen::MatrixXd nodal = nodal_displacements(body, state);
   const double bending = std::sqrt(nodal.bottomRows(2).colwise().squaredNorm().maxCoeff());
   keep_larger(bending, step, largest.bending, largest.bending_step);
@@ -41,8 +41,8 @@ void note_beam(const BodyModel& body, const State& state, int step, LargestDefor
   }
 }
 
-void note_imported(const BodyModel& body, const State& state, int step,
-                   LargestDeformation& largest) {
+void record_imported(const BodyModel& body, const State& state, int step,
+                     LargestDeformation& largest) {
   const double turned = nodal_displacements(body, state).bottomRows(3).colwise().norm().maxCoeff();
   keep_larger(turned, step, largest.bending, largest.bending_step);
 }
@@ -59,9 +59,9 @@ std::vector<LargestDeformation> largest_deformations(const Model& model,
       const BodyModel& body = model.bodies[i];
       if (!body.is_elastic || body.elastic_size() == 0) continue;
       if (body.is_imported()) {
-        note_imported(body, state, step, all[i]);
+        record_imported(body, state, step, all[i]);
       } else {
-        note_beam(body, state, step, all[i]);
+        record_beam(body, state, step, all[i]);
       }
     }
   }

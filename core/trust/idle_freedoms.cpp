@@ -9,7 +9,7 @@
 
 #include "core/base/dense_solvers.hpp"
 #include "core/base/find_named.hpp"
-#include "core/integration/freedoms.hpp"
+#include "core/integration/degrees_of_freedom.hpp"
 #include "core/model/body_energy.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/trust/connections.hpp"
@@ -48,7 +48,7 @@ State least_free_state(const Analysis& analysis) {
   const int steps = analysis.trajectory.steps();
   for (int i = 0; i <= 4; ++i) {
     analysis.trajectory.states->load(i * steps / 4, state);
-    const int free = rigid_freedoms(analysis.model.mechanism, state).free();
+    const int free = rigid_degrees_of_freedom(analysis.model.mechanism, state).free();
     if (i > 0 && free >= fewest) continue;
     best = state;
     fewest = free;
@@ -65,7 +65,7 @@ class IdleFreedoms {
   std::vector<Doubt> find() {
     if (looks_at_no_motion()) return {};
     state_ = least_free_state(run_.analysis);
-    if (rigid_freedoms(model_.mechanism, state_).free() <= 0) return {};
+    if (rigid_degrees_of_freedom(model_.mechanism, state_).free() <= 0) return {};
     for (const int i : model_.mechanism.elastic) state_.q(i) = 0.0;
     state_ = generic_position(model_.mechanism, state_);
     state_.v.setZero();

@@ -39,7 +39,7 @@ class CacheOfEvaluations : public testing::Test {
 
   std::vector<Request> requests_;  ///< that reached the problem
   FunctionProblem problem_;
-  KnownDesign start_;
+  EvaluatedDesign start_;
   EvaluationCache cache_;
 };
 

@@ -28,7 +28,7 @@ class TwoVariables {
         start_(checked_start(problem_)) {}
 
   GradientCheck check() {
-    const KnownDesign design{start_, problem_.evaluate(start_, Request::values_and_gradients)};
+    const EvaluatedDesign design{start_, problem_.evaluate(start_, Request::values_and_gradients)};
     EvaluationCache cache(problem_, design, {variable_scales(problem_, start_), {}}, {{}, {}});
     KktAudit audit;
     audit.gradient_scale =

@@ -31,7 +31,7 @@ class EveryKind : public testing::Test {
                             {"free", -infinity, infinity}},
                            by_complex_step([](const auto& x) { return responses(x); })};
   Eigen::VectorXd start_ = checked_start(problem_);
-  KnownDesign design_{start_, problem_.evaluate(start_, Request::values_and_gradients)};
+  EvaluatedDesign design_{start_, problem_.evaluate(start_, Request::values_and_gradients)};
   Eigen::VectorXd scales_ = variable_scales(problem_, start_);
   EvaluationCache cache_{problem_,
                          design_,
@@ -102,7 +102,7 @@ TEST(NumbersThatAreNotFinite, ReachNoBackend) {
                               if (x != start) mishap(evaluation);
                               return evaluation;
                             });
-    const KnownDesign design{start, problem.evaluate(start, Request::values_and_gradients)};
+    const EvaluatedDesign design{start, problem.evaluate(start, Request::values_and_gradients)};
     const Eigen::VectorXd scales = variable_scales(problem, start);
     EvaluationCache cache(
         problem, design, {scales, constraint_scales(problem, design.evaluation, scales)}, {{}, {}});

@@ -1,8 +1,7 @@
-#include "core/integration/freedoms.hpp"
-
 #include <gtest/gtest.h>
 
 #include "core/integration/configuration.hpp"
+#include "core/integration/degrees_of_freedom.hpp"
 #include "core/response/analysis.hpp"
 #include "tests/support/problem_runs.hpp"
 
@@ -24,7 +23,7 @@ TEST_P(RigidFreedoms, AreThoseOfTheMechanism) {
   const auto analysis = analyze(problem, start_design(problem));
   State initial;
   analysis->trajectory.states->load(0, initial);
-  const Freedoms freedoms = rigid_freedoms(analysis->model.mechanism, initial);
+  const DegreesOfFreedom freedoms = rigid_degrees_of_freedom(analysis->model.mechanism, initial);
   EXPECT_EQ(freedoms.coordinates, expected.coordinates);
   EXPECT_EQ(freedoms.free(), expected.free);
 }

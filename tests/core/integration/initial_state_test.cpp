@@ -95,8 +95,9 @@ class Impossible : public Term {
     }
   }
   void add_design_derivative(const State&, ConstraintLevel, Eigen::MatrixXd&) override {}
-  int design_sum_count() const override { return 0; }
-  void add_design_sums(const State&, ConstraintLevel, const ConstColumns&, Columns) override {}
+  int parameter_adjoint_count() const override { return 0; }
+  void add_parameter_adjoints(const State&, ConstraintLevel, const ConstColumns&,
+                              Columns) override {}
   void add_design_gradients(const ConstColumns&, Eigen::MatrixXd&) const override {}
 };
 

@@ -112,8 +112,8 @@ TEST_P(LinearForcesOf, SumWhatMultipliesTheirDesignDerivatives) {
   LinearForces forces(system_, on_acceleration_level);
   forces.set(state_, state_.a, state_.lambda);
   const Eigen::MatrixXd mu = Eigen::MatrixXd::Random(system_.size(), 3);
-  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(system_.design_sum_count(), 3);
-  forces.add_design_sums(mu, sums);
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(system_.parameter_adjoint_count(), 3);
+  forces.add_parameter_adjoints(mu, sums);
   const Eigen::MatrixXd found = system_.design_gradients(sums);
   const Eigen::MatrixXd expected = forces.design_derivative().transpose() * mu;
   const double residual = forces.residual().lpNorm<Eigen::Infinity>();

@@ -177,12 +177,12 @@ TEST_P(EveryTerm, SumsWhatMultipliesItsDesignDerivatives) {
   const Eigen::MatrixXd mu = Eigen::MatrixXd::Random(system.size(), 3);
   for (const auto& term : system.terms()) {
     Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(system.variables(), 3);
-    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(term->design_sum_count(), 3);
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(term->parameter_adjoint_count(), 3);
     for (const State& state : {state_, other}) {
       Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(system.size(), system.variables());
       term->add_design_derivative(state, GetParam().level, columns);
       expected += columns.transpose() * mu;
-      term->add_design_sums(state, GetParam().level, mu, sums);
+      term->add_parameter_adjoints(state, GetParam().level, mu, sums);
     }
     Eigen::MatrixXd found = Eigen::MatrixXd::Zero(system.variables(), 3);
     term->add_design_gradients(sums, found);

@@ -1,4 +1,4 @@
-/// Freedoms that nothing moves, and bodies that nothing holds.
+/// DegreesOfFreedom that nothing moves, and bodies that nothing holds.
 
 #include "core/trust/idle_freedoms.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/integration/freedoms.hpp"
+#include "core/integration/degrees_of_freedom.hpp"
 
 #include <cmath>
 #include <vector>
@@ -70,9 +70,9 @@ bool close(const Mechanism& mechanism, const std::vector<int>& rigid, State& sta
 
 }  // namespace
 
-Freedoms rigid_freedoms(const Mechanism& mechanism, const State& state) {
+DegreesOfFreedom rigid_degrees_of_freedom(const Mechanism& mechanism, const State& state) {
   const std::vector<int> rigid = rigid_coordinates(mechanism);
-  Freedoms freedoms;
+  DegreesOfFreedom freedoms;
   freedoms.coordinates = static_cast<int>(rigid.size());
   if (rigid.empty() || mechanism.system->multipliers() == 0) return freedoms;
   freedoms.constraints =

@@ -8,7 +8,7 @@ namespace pleuel {
 
 /// How rigid motion is held: the coordinates of frames and point masses against the constraints
 /// that act on them while bodies do not deform.
-struct Freedoms {
+struct DegreesOfFreedom {
   int coordinates = 0;  ///< of rigid motion
   int constraints = 0;  ///< rows of Φ that are independent for rigid motion
 
@@ -17,7 +17,7 @@ struct Freedoms {
 
 /// At a state: in a singular position, such as a dead centre, fewer constraints are independent.
 /// By a rank-revealing QR decomposition of Φ_q: for descriptions, not for loops.
-Freedoms rigid_freedoms(const Mechanism& mechanism, const State& state);
+DegreesOfFreedom rigid_degrees_of_freedom(const Mechanism& mechanism, const State& state);
 
 /// The rigid motions that constraints and drives leave free, as velocities: n × free(), columns
 /// orthonormal in coordinates over their scale (which is how they are given). Elastic rows are
