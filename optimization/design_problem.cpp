@@ -34,7 +34,7 @@ DesignProblem::DesignProblem(ProblemFile file, int threads, EvaluationStore* sto
 
 void DesignProblem::start_from(const Eigen::VectorXd& x) {
   for (std::size_t i = 0; i < variables_.size(); ++i) {
-    variables_[i].start = x(static_cast<Eigen::Index>(i));
+    variables_[i].start = x(i);
   }
 }
 
@@ -63,8 +63,7 @@ std::size_t DesignProblem::response_index(const std::string& name) const {
 }
 
 Eigen::VectorXd DesignProblem::variable_deviations() const {
-  Eigen::VectorXd deviations =
-      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(file_.variables.size()));
+  Eigen::VectorXd deviations = Eigen::VectorXd::Zero(file_.variables.size());
   if (!file_.uncertainty) return deviations;
   for (const UncertainParameter& parameter : file_.uncertainty->parameters) {
     deviations(parameter.variable) = parameter.standard_deviation();
@@ -191,7 +190,7 @@ Evaluation DesignProblem::simulated_rows(const Eigen::VectorXd& x, Request reque
   evaluation.objective = objective_sign() * analysis.reductions[objective].value;
   evaluation.constraints.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    evaluation.constraints(i) = row_value(analysis, rows[static_cast<std::size_t>(i)]);
+    evaluation.constraints(i) = row_value(analysis, rows[i]);
   }
   if (request == Request::values) return evaluation;
 
@@ -200,7 +199,7 @@ Evaluation DesignProblem::simulated_rows(const Eigen::VectorXd& x, Request reque
   evaluation.constraint_jacobian = Eigen::MatrixXd::Zero(count, x.size());
   Eigen::Index next = 1;
   for (Eigen::Index i = 0; i < count; ++i) {
-    const ConstraintRow& row = rows[static_cast<std::size_t>(i)];
+    const ConstraintRow& row = rows[i];
     if (response_of(row)) {
       evaluation.constraint_jacobian.row(i) = gradients.row(next++);
       continue;

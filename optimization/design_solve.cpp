@@ -141,7 +141,7 @@ bool keeps_margins(DesignProblem& design, const Eigen::VectorXd& x, double toler
   const Eigen::VectorXd values = peaks.fold_values(rows);
   for (std::size_t i = 0; i < design.constraints().size(); ++i) {
     const Constraint& constraint = design.constraints()[i];
-    const double value = values(static_cast<Eigen::Index>(i));
+    const double value = values(i);
     const double excess = std::max(value - constraint.upper, constraint.lower - value);
     if (excess > tolerance * std::abs(value)) return false;
   }
@@ -222,9 +222,9 @@ class SearchedDesign : public SearchedProblem {
   }
 
   LimitRows limit_rows() override {
-    Eigen::VectorXd start(static_cast<Eigen::Index>(design_.variables().size()));
+    Eigen::VectorXd start(design_.variables().size());
     for (Eigen::Index i = 0; i < start.size(); ++i) {
-      start(i) = design_.variables()[static_cast<std::size_t>(i)].start;
+      start(i) = design_.variables()[i].start;
     }
     robust_peaks_.reset();
     peaks_ =

@@ -28,7 +28,7 @@ std::vector<LimitSide> limit_sides(const Problem& problem, const Eigen::VectorXd
   std::vector<LimitSide> sides;
   for (std::size_t i = 0; i < problem.constraints().size(); ++i) {
     const Constraint& limits = problem.constraints()[i];
-    const double magnitude = magnitudes[static_cast<Eigen::Index>(i)];
+    const double magnitude = magnitudes[i];
     if (limits.upper < practically_infinite) sides.push_back({i, 1.0, limits.upper, magnitude});
     if (limits.lower > -practically_infinite) sides.push_back({i, -1.0, limits.lower, magnitude});
   }
@@ -49,8 +49,7 @@ ElasticProblem::ElasticProblem(Problem& problem, const std::vector<bool>& is_ela
   }
   for (std::size_t i = 0; i < variables_.size(); ++i) {
     Variable& variable = variables_[i];
-    variable.start =
-        std::clamp(start[static_cast<Eigen::Index>(i)], variable.lower, variable.upper);
+    variable.start = std::clamp(start[i], variable.lower, variable.upper);
   }
   variables_.push_back(
       {"violation", largest, 0.0, infinity, std::max(least_violation_magnitude, largest)});
@@ -61,7 +60,7 @@ Evaluation ElasticProblem::evaluate(const Eigen::VectorXd& xz, Request request) 
   const Eigen::Index last = xz.size() - 1;
   Evaluation evaluation;
   evaluation.objective = xz[last];
-  evaluation.constraints.resize(static_cast<Eigen::Index>(sides_.size()));
+  evaluation.constraints.resize(sides_.size());
   const bool with_gradients = request == Request::values_and_gradients;
   if (with_gradients) {
     evaluation.objective_gradient = Eigen::VectorXd::Unit(xz.size(), last);
@@ -77,7 +76,7 @@ Evaluation ElasticProblem::evaluate(const Eigen::VectorXd& xz, Request request) 
     if (!with_gradients) continue;
     const double slope = damped_violation_slope(violation) * side.sign / side.magnitude;
     evaluation.constraint_jacobian.row(row).head(last) =
-        slope * inner.constraint_jacobian.row(static_cast<Eigen::Index>(side.constraint));
+        slope * inner.constraint_jacobian.row(side.constraint);
     if (is_elastic_[k]) evaluation.constraint_jacobian(row, last) = -1.0;
   }
   return evaluation;

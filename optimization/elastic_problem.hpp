@@ -24,7 +24,7 @@ struct LimitSide {
   double magnitude = 1.0;  ///< C
 
   double violation(const Eigen::VectorXd& constraints) const {
-    return sign * (constraints[static_cast<Eigen::Index>(constraint)] - limit) / magnitude;
+    return sign * (constraints[constraint] - limit) / magnitude;
   }
 };
 

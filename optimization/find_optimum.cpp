@@ -49,9 +49,9 @@ struct Way {
 };
 
 Eigen::VectorXd starts_of(const Problem& problem) {
-  Eigen::VectorXd start(static_cast<Eigen::Index>(problem.variables().size()));
+  Eigen::VectorXd start(problem.variables().size());
   for (Eigen::Index i = 0; i < start.size(); ++i) {
-    start[i] = problem.variables()[static_cast<std::size_t>(i)].start;
+    start[i] = problem.variables()[i].start;
   }
   return start;
 }
@@ -206,7 +206,7 @@ class Search {
   Eigen::VectorXd middle() const {
     Eigen::VectorXd middle = start_;
     for (Eigen::Index i = 0; i < middle.size(); ++i) {
-      const Variable& variable = problem_.variables()[static_cast<std::size_t>(i)];
+      const Variable& variable = problem_.variables()[i];
       const double centre = 0.5 * (variable.lower + variable.upper);
       if (std::isfinite(centre)) middle[i] = centre;
     }
@@ -393,7 +393,7 @@ class StartedProblem : public Problem {
   StartedProblem(Problem& problem, const Eigen::VectorXd& start)
       : problem_(problem), variables_(problem.variables()) {
     for (std::size_t i = 0; i < variables_.size(); ++i) {
-      variables_[i].start = start[static_cast<Eigen::Index>(i)];
+      variables_[i].start = start[i];
     }
   }
 

@@ -87,7 +87,7 @@ class MultiplierSystem {
     Eigen::VectorXd right = Eigen::VectorXd::Zero(variables + count);
     right.head(variables) = weights.cwiseProduct(right_);
     for (Eigen::Index k = 0; k < count; ++k) {
-      const Limit& limit = limits_[static_cast<std::size_t>(k)];
+      const Limit& limit = limits_[k];
       const Eigen::VectorXd weighted = weights.cwiseProduct(limit.gradient);
       const double length = limit.gradient.norm();
       matrix.col(k).head(variables) = weighted;
@@ -108,7 +108,7 @@ class MultiplierSystem {
     Eigen::MatrixXd of_constraints = Eigen::MatrixXd::Zero(s.size(), constraints);
     for (std::size_t k = 0; k < limits_.size(); ++k) {
       const Limit& limit = limits_[k];
-      const double price = lambda[static_cast<Eigen::Index>(k)];
+      const double price = lambda[k];
       const Eigen::VectorXd force = price * limit.gradient;
       const double multiplier = limit.sign * price / limit.magnitude;
       if (k < constraints_) {

@@ -116,10 +116,9 @@ class Elasticity {
     std::vector<double> weights(limits_.size(), 0.0);
     double sum = 0.0;
     for (std::size_t row = 0; row < problem.sides().size(); ++row) {
-      const double multiplier =
-          result.constraint_multipliers.size() > 0
-              ? std::max(0.0, result.constraint_multipliers[static_cast<Eigen::Index>(row)])
-              : 0.0;
+      const double multiplier = result.constraint_multipliers.size() > 0
+                                    ? std::max(0.0, result.constraint_multipliers[row])
+                                    : 0.0;
       weights[rows_.constraint_of_row[problem.sides()[row].constraint]] += multiplier;
       sum += multiplier;
     }
@@ -148,7 +147,7 @@ class Elasticity {
   }
 
   ExceededLimit broken(std::size_t constraint) const {
-    const double value = folded(*at_least_)[static_cast<Eigen::Index>(constraint)];
+    const double value = folded(*at_least_)[constraint];
     const Constraint& limits = limits_[constraint];
     ExceededLimit one;
     one.constraint = constraint;
@@ -159,14 +158,14 @@ class Elasticity {
   }
 
   bool is_broken(std::size_t constraint) const {
-    const double value = folded(*at_least_)[static_cast<Eigen::Index>(constraint)];
+    const double value = folded(*at_least_)[constraint];
     return excess(limits_[constraint], value) > Tolerances().violation * magnitude_of(constraint);
   }
 
   double magnitude_of(std::size_t constraint) const {
     for (std::size_t row = 0; row < rows_.constraint_of_row.size(); ++row) {
       if (rows_.constraint_of_row[row] == constraint) {
-        return magnitudes_[static_cast<Eigen::Index>(row)];
+        return magnitudes_[row];
       }
     }
     return 1.0;
@@ -185,7 +184,7 @@ class Elasticity {
     const Attempt there =
         attempt_evaluation(*rows_.problem, problem.design_of(result.x), Request::values);
     if (!there.evaluation) return std::nullopt;
-    return folded(*there.evaluation)[static_cast<Eigen::Index>(constraint)];
+    return folded(*there.evaluation)[constraint];
   }
 
   Eigen::VectorXd folded(const Evaluation& evaluation) const {
@@ -226,12 +225,12 @@ std::string joined(const std::vector<std::string>& texts, const std::string& las
 
 Eigen::VectorXd LimitRows::fold(const Eigen::VectorXd& rows,
                                 const std::vector<Constraint>& limits) const {
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(limits.size()));
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(limits.size());
   std::vector<bool> is_set(limits.size(), false);
   for (std::size_t row = 0; row < constraint_of_row.size(); ++row) {
     const std::size_t i = constraint_of_row[row];
-    const double value = rows[static_cast<Eigen::Index>(row)];
-    double& worst = values[static_cast<Eigen::Index>(i)];
+    const double value = rows[row];
+    double& worst = values[i];
     if (!is_set[i] || excess(limits[i], value) > excess(limits[i], worst)) worst = value;
     is_set[i] = true;
   }

@@ -12,8 +12,7 @@ std::unique_ptr<Problem> with_margins(
   Eigen::VectorXd margins = Eigen::VectorXd::Zero(Eigen::Index(constraint_of_row.size()));
   for (std::size_t row = 0; row < constraint_of_row.size(); ++row) {
     if (!constraint_of_row[row]) continue;
-    margins(static_cast<Eigen::Index>(row)) =
-        design.file().constraints[*constraint_of_row[row]].deviations;
+    margins(row) = design.file().constraints[*constraint_of_row[row]].deviations;
   }
   if (margins.isZero(0.0)) return nullptr;
   if (is_difference(design.file().sensitivity.method)) {

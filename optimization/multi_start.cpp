@@ -115,7 +115,7 @@ std::string sentence_of(const MultiStart& all) {
 Eigen::VectorXd scales_of(const ProblemFile& file, const Eigen::VectorXd& x) {
   Eigen::VectorXd scales(x.size());
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const DesignVariable& variable = file.variables[static_cast<std::size_t>(i)];
+    const DesignVariable& variable = file.variables[i];
     const double range = variable.upper - variable.lower;
     scales(i) = std::clamp(std::abs(x(i)), 0.1 * range, std::max(range, 1e-300));
   }
@@ -191,7 +191,7 @@ class Searches : public Tasks {
  private:
   enum class Told : char { record, notice };
 
-  const Eigen::VectorXd& start(int task) const { return starts_[static_cast<std::size_t>(task)]; }
+  const Eigen::VectorXd& start(int task) const { return starts_[task]; }
 
   /// What comes from here on is of this search.
   void announce(int task) {

@@ -32,7 +32,7 @@ Eigen::VectorXd lengths(const Problem& problem, const Eigen::VectorXd& x) {
 
 Eigen::VectorXd clamped(const Problem& problem, Eigen::VectorXd x) {
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const Variable& variable = problem.variables()[static_cast<std::size_t>(i)];
+    const Variable& variable = problem.variables()[i];
     x[i] = std::clamp(x[i], variable.lower, variable.upper);
   }
   return x;
@@ -50,14 +50,14 @@ Holding holding_limits(const Problem& problem, const EvaluatedDesign& design, co
   Holding holding;
   for (Eigen::Index i = 0; i < s.size(); ++i) {
     const bool has_price = std::abs(audit.bound_multipliers[i]) * s[i] > threshold;
-    const bool is_fixed = problem.variables()[static_cast<std::size_t>(i)].is_fixed();
+    const bool is_fixed = problem.variables()[i].is_fixed();
     holding.variables.push_back(has_price || is_fixed);
   }
   for (Eigen::Index j = 0; j < design.evaluation.constraints.size(); ++j) {
     const double slope =
         design.evaluation.constraint_jacobian.row(j).transpose().cwiseProduct(s).norm();
     const bool has_price = std::abs(audit.constraint_multipliers[j]) * slope > threshold;
-    const bool is_equality = problem.constraints()[static_cast<std::size_t>(j)].is_equality();
+    const bool is_equality = problem.constraints()[j].is_equality();
     holding.constraints.push_back(has_price || is_equality);
   }
   return holding;
@@ -71,10 +71,10 @@ class Rows {
        const std::vector<bool>& chosen)
       : lengths_(0) {
     for (Eigen::Index j = 0; j < jacobian.rows(); ++j) {
-      if (!chosen[static_cast<std::size_t>(j)]) continue;
+      if (!chosen[j]) continue;
       Eigen::VectorXd row = jacobian.row(j).transpose().cwiseProduct(s);
       for (Eigen::Index i = 0; i < s.size(); ++i) {
-        if (holding.variables[static_cast<std::size_t>(i)]) row[i] = 0.0;
+        if (holding.variables[i]) row[i] = 0.0;
       }
       const double length = row.norm();
       if (length == 0.0) continue;
@@ -105,12 +105,12 @@ class Rows {
 Eigen::MatrixXd tangent_basis(const Eigen::MatrixXd& rows, const Holding& holding) {
   std::vector<Eigen::Index> free;
   for (std::size_t i = 0; i < holding.variables.size(); ++i) {
-    if (!holding.variables[i]) free.push_back(static_cast<Eigen::Index>(i));
+    if (!holding.variables[i]) free.push_back(i);
   }
   const auto variables = static_cast<Eigen::Index>(holding.variables.size());
   const auto count = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(variables, count);
-  for (Eigen::Index k = 0; k < count; ++k) basis(free[static_cast<std::size_t>(k)], k) = 1.0;
+  for (Eigen::Index k = 0; k < count; ++k) basis(free[k], k) = 1.0;
   if (rows.rows() == 0 || count == 0) return basis;
   const Eigen::MatrixXd columns = (rows * basis).transpose();
   return basis * PivotedQr(columns, 1e-6).normal_space();
@@ -190,8 +190,8 @@ class Exploration {
   Eigen::VectorXd moved_off_bounds() const {
     Eigen::VectorXd x = design_.x;
     for (Eigen::Index i = 0; i < x.size(); ++i) {
-      if (holding_.variables[static_cast<std::size_t>(i)]) continue;
-      const Variable& variable = cache_.problem().variables()[static_cast<std::size_t>(i)];
+      if (holding_.variables[i]) continue;
+      const Variable& variable = cache_.problem().variables()[i];
       const double room = distance * s_[i];
       x[i] = std::clamp(x[i], variable.lower + room, variable.upper - room);
     }
@@ -255,8 +255,8 @@ class Exploration {
   Eigen::VectorXd excess_of(const Eigen::VectorXd& constraints) const {
     Eigen::VectorXd excess = constraints - design_.evaluation.constraints;
     for (Eigen::Index j = 0; j < excess.size(); ++j) {
-      if (holding_.constraints[static_cast<std::size_t>(j)]) continue;
-      const Constraint& limits = cache_.problem().constraints()[static_cast<std::size_t>(j)];
+      if (holding_.constraints[j]) continue;
+      const Constraint& limits = cache_.problem().constraints()[j];
       excess[j] = std::max(0.0, constraints[j] - limits.upper) -
                   std::max(0.0, limits.lower - constraints[j]);
     }
@@ -266,7 +266,7 @@ class Exploration {
   std::vector<bool> exceeded(const Eigen::VectorXd& excess) const {
     std::vector<bool> chosen = holding_.constraints;
     for (Eigen::Index j = 0; j < excess.size(); ++j) {
-      if (excess[j] != 0.0) chosen[static_cast<std::size_t>(j)] = true;
+      if (excess[j] != 0.0) chosen[j] = true;
     }
     return chosen;
   }

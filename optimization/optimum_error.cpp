@@ -56,7 +56,7 @@ void for_each_share(const DesignProblem& design, const Result& result, const Add
   add(*design.response_of({}), 1.0);
   for (std::size_t i = 0; i < design.constraints().size(); ++i) {
     const auto response = design.response_of({i, std::nullopt});
-    const double multiplier = result.constraint_multipliers(static_cast<Eigen::Index>(i));
+    const double multiplier = result.constraint_multipliers(i);
     if (response && multiplier != 0.0) add(*response, design.objective_sign() * multiplier);
   }
 }
@@ -100,7 +100,7 @@ double optimum_change(const DesignProblem& design, const Result& result,
                       const Eigen::VectorXd& changes) {
   double change = 0.0;
   for_each_share(design, result, [&](std::size_t response, double factor) {
-    change += factor * changes(static_cast<Eigen::Index>(response));
+    change += factor * changes(response);
   });
   return change;
 }
@@ -118,7 +118,7 @@ std::string inaccuracy(const DesignProblem& design, const Result& result, const 
     const ConstraintSettings& limit = file.constraints[i];
     const auto response = design.response_of({i, std::nullopt});
     if (!response || !errors[*response]) continue;
-    const double value = result.evaluation.constraints(static_cast<Eigen::Index>(i));
+    const double value = result.evaluation.constraints(i);
     if (!may_break(limit, value, errors[*response]->bound())) continue;
     const std::string text =
         complaint(file, fmt::format("\"{}\", which is limited,", limit.response),

@@ -22,7 +22,7 @@ constexpr double least_dependence = 1e-2;
 constexpr int most_rows = 192, least_windows = 2;
 
 Eigen::VectorXd starts_of(const DesignProblem& problem) {
-  Eigen::VectorXd start(static_cast<Eigen::Index>(problem.variables().size()));
+  Eigen::VectorXd start(problem.variables().size());
   for (Eigen::Index i = 0; i < start.size(); ++i) start(i) = problem.variables()[i].start;
   return start;
 }
@@ -39,8 +39,7 @@ PeakProblem::PeakProblem(DesignProblem& problem, int windows, const Eigen::Vecto
   windows_ = std::min(windows_, samples);
   for (std::size_t i = 0; i < variables_.size(); ++i) {
     Variable& variable = variables_[i];
-    variable.start =
-        std::clamp(start(static_cast<Eigen::Index>(i)), variable.lower, variable.upper);
+    variable.start = std::clamp(start(i), variable.lower, variable.upper);
   }
   for (std::size_t i = 0; i < file.constraints.size(); ++i) {
     const Constraint& constraint = problem.constraints()[i];
@@ -83,7 +82,7 @@ void PeakProblem::bound_objective() {
   if (!has_peaks(response) || is_minimum != is_maximized) return;
   bound_ = split(std::nullopt);
   add_rows(*bound_, {response.name, -infinity, 0.0});
-  Eigen::VectorXd start(static_cast<Eigen::Index>(variables_.size()));
+  Eigen::VectorXd start(variables_.size());
   for (Eigen::Index i = 0; i < start.size(); ++i) start(i) = variables_[i].start;
   const Evaluation at_start = problem_.evaluate(start, Request::values_and_gradients);
   const double change =
@@ -143,7 +142,7 @@ std::vector<ConstraintRow> PeakProblem::rows_of(const Analysis& analysis) {
 }
 
 Eigen::VectorXd PeakProblem::design_of(const Eigen::VectorXd& x) const {
-  return x.head(static_cast<Eigen::Index>(problem_.variables().size()));
+  return x.head(problem_.variables().size());
 }
 
 double PeakProblem::fold_objective(double objective, const Eigen::VectorXd& rows) const {
@@ -152,13 +151,13 @@ double PeakProblem::fold_objective(double objective, const Eigen::VectorXd& rows
 
 Eigen::VectorXd PeakProblem::fold_values(const Eigen::VectorXd& rows) const {
   const auto& constraints = problem_.constraints();
-  Eigen::VectorXd values(static_cast<Eigen::Index>(constraints.size()));
+  Eigen::VectorXd values(constraints.size());
   std::vector<bool> is_set(constraints.size(), false);
   for (std::size_t row = 0; row < rows_.size(); ++row) {
     if (!constraint_of_row_[row]) continue;
     const std::size_t i = *constraint_of_row_[row];
-    const double value = rows(static_cast<Eigen::Index>(row));
-    double& worst = values(static_cast<Eigen::Index>(i));
+    const double value = rows(row);
+    double& worst = values(i);
     if (!is_set[i] || excess(constraints[i], value) > excess(constraints[i], worst)) worst = value;
     is_set[i] = true;
   }
@@ -166,12 +165,10 @@ Eigen::VectorXd PeakProblem::fold_values(const Eigen::VectorXd& rows) const {
 }
 
 Eigen::VectorXd PeakProblem::fold_multipliers(const Eigen::VectorXd& rows) const {
-  Eigen::VectorXd sums =
-      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem_.constraints().size()));
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(problem_.constraints().size());
   for (std::size_t row = 0; row < rows_.size(); ++row) {
     if (!constraint_of_row_[row]) continue;
-    sums(static_cast<Eigen::Index>(*constraint_of_row_[row])) +=
-        rows(static_cast<Eigen::Index>(row));
+    sums(*constraint_of_row_[row]) += rows(row);
   }
   return sums;
 }

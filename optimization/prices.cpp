@@ -13,7 +13,7 @@ Eigen::VectorXd prices_of(const Problem& problem, const Eigen::VectorXd& constra
                           const Eigen::VectorXd& multipliers, const Eigen::VectorXd& scales) {
   Eigen::VectorXd prices = multipliers;
   for (Eigen::Index j = 0; j < prices.size(); ++j) {
-    const Constraint& limits = problem.constraints()[static_cast<std::size_t>(j)];
+    const Constraint& limits = problem.constraints()[j];
     const double room =
         prices[j] > 0.0 ? limits.upper - constraints[j] : constraints[j] - limits.lower;
     if (room > slack * scales[j]) prices[j] = 0.0;

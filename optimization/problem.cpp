@@ -58,7 +58,7 @@ Eigen::VectorXd checked_start(const Problem& problem) {
   for (const Constraint& constraint : problem.constraints()) {
     check_order("constraint " + constraint.name, constraint.lower, constraint.upper);
   }
-  Eigen::VectorXd start(static_cast<Eigen::Index>(variables.size()));
+  Eigen::VectorXd start(variables.size());
   for (Eigen::Index i = 0; i < start.size(); ++i) start[i] = checked_start(variables[i]);
   return start;
 }

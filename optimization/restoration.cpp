@@ -76,9 +76,7 @@ class Coordinates {
   }
 
  private:
-  const Variable& variable(Eigen::Index i) const {
-    return problem_.variables()[static_cast<std::size_t>(i)];
-  }
+  const Variable& variable(Eigen::Index i) const { return problem_.variables()[i]; }
   bool is_logarithmic(Eigen::Index i) const { return variable(i).lower > 0.0; }
 
   const Problem& problem_;
@@ -179,13 +177,12 @@ class Restoration {
     Linearized model{Eigen::VectorXd(count), Eigen::MatrixXd(count, design_.x.size())};
     const Eigen::VectorXd slopes = coordinates_.slopes(design_.x);
     for (Eigen::Index k = 0; k < count; ++k) {
-      const LimitSide& side = sides_[static_cast<std::size_t>(k)];
+      const LimitSide& side = sides_[k];
       const double violation = side.violation(design_.evaluation.constraints);
       model.residuals[k] = residual(side, design_.evaluation);
-      model.slopes.row(k) =
-          damped_violation_slope(violation) * side.sign / side.magnitude *
-          design_.evaluation.constraint_jacobian.row(static_cast<Eigen::Index>(side.constraint))
-              .cwiseProduct(slopes.transpose());
+      model.slopes.row(k) = damped_violation_slope(violation) * side.sign / side.magnitude *
+                            design_.evaluation.constraint_jacobian.row(side.constraint)
+                                .cwiseProduct(slopes.transpose());
     }
     return model;
   }

@@ -24,9 +24,8 @@ RobustProblem::RobustProblem(Problem& problem, Eigen::VectorXd deviations, Eigen
   assert(margins_.size() == static_cast<Eigen::Index>(constraints().size()));
   for (std::size_t j = 0; j < constraints().size(); ++j) {
     const bool has_upper = constraints()[j].upper < infinity;
-    assert(margins_(static_cast<Eigen::Index>(j)) == 0.0 ||
-           has_upper != (constraints()[j].lower > -infinity));
-    if (!has_upper) margins_(static_cast<Eigen::Index>(j)) *= -1.0;
+    assert(margins_(j) == 0.0 || has_upper != (constraints()[j].lower > -infinity));
+    if (!has_upper) margins_(j) *= -1.0;
   }
 }
 
@@ -61,8 +60,7 @@ Eigen::MatrixXd RobustProblem::neighbour_jacobian(const Eigen::VectorXd& x, Eige
     return problem_.evaluate(x, Request::values_and_gradients).constraint_jacobian;
   } catch (const SimulationError& error) {
     throw EvaluationFailure(fmt::format("with {} = {:.9g}, for the gradient of a margin: {}",
-                                        variables()[static_cast<std::size_t>(changed)].name,
-                                        x(changed), error.what()));
+                                        variables()[changed].name, x(changed), error.what()));
   }
 }
 

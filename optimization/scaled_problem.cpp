@@ -128,7 +128,7 @@ Eigen::VectorXd ScaledProblem::to_scaled(const Eigen::VectorXd& x) const {
 
 Eigen::VectorXd ScaledProblem::values(const std::vector<Row>& rows,
                                       const Evaluation& evaluation) const {
-  Eigen::VectorXd result(static_cast<Eigen::Index>(rows.size()));
+  Eigen::VectorXd result(rows.size());
   for (Eigen::Index k = 0; k < result.size(); ++k) {
     const auto& [j, sign, limit] = rows[k];
     result[k] = sign * (evaluation.constraints[j] - limit) / constraint_scales_[j];

@@ -39,8 +39,7 @@ std::vector<int> shuffled(int count, std::mt19937& engine) {
   std::vector<int> order(static_cast<std::size_t>(count));
   std::iota(order.begin(), order.end(), 0);
   for (int i = count - 1; i > 0; --i) {
-    std::swap(order[static_cast<std::size_t>(i)],
-              order[static_cast<std::size_t>(uniform(engine) * (i + 1))]);
+    std::swap(order[i], order[static_cast<std::size_t>(uniform(engine) * (i + 1))]);
   }
   return order;
 }
@@ -53,7 +52,7 @@ std::vector<Eigen::VectorXd> latin_hypercube(const std::vector<Variable>& variab
   const auto n = static_cast<Eigen::Index>(variables.size());
   std::vector<Eigen::VectorXd> designs(static_cast<std::size_t>(count), Eigen::VectorXd(n));
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Variable& variable = variables[static_cast<std::size_t>(i)];
+    const Variable& variable = variables[i];
     const auto [lower, upper] = range_of(variable);
     const std::vector<int> parts = shuffled(count, engine);
     for (std::size_t k = 0; k < designs.size(); ++k) {

@@ -27,7 +27,7 @@ Eigen::VectorXd probe_curvatures(EvaluationCache& cache, const EvaluatedDesign& 
   Eigen::VectorXd moved = design.x;
   for (Eigen::Index i = 0; i < s.size(); ++i) {
     if (!(residuals[i] > allowed)) continue;
-    const Variable& variable = cache.problem().variables()[static_cast<std::size_t>(i)];
+    const Variable& variable = cache.problem().variables()[i];
     const double way = std::copysign(probe * s[i], -audit.stationarity[i]);
     moved[i] = std::clamp(moved[i] + way, variable.lower, variable.upper);
   }
@@ -120,7 +120,7 @@ void judge_neighbourhood(Verdict& verdict, EvaluationCache& cache, const Evaluat
 std::string to_string(Status status) {
   constexpr std::array<const char*, 6> names = {"verified",   "unresolved", "stalled",
                                                 "infeasible", "failed",     "interrupted"};
-  return names[static_cast<std::size_t>(status)];
+  return names[status];
 }
 
 Verdict judge(EvaluationCache& cache, const EvaluatedDesign& design, const Evaluation& start,

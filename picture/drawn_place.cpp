@@ -22,7 +22,7 @@ DrawnPlace drawn_place(const Scene& scene, const std::string& body, const Point&
   place.body = index_of(scene, body);
   place.point = resolve_point(at, design);
   if (place.body < 0) return place;
-  const Body& holder = scene.bodies[static_cast<std::size_t>(place.body)];
+  const Body& holder = scene.bodies[place.body];
   if (const auto* beam = std::get_if<BeamBody>(&holder.shape)) {
     // A rigid beam holds points anywhere in space: those beside its axis are drawn from its frame.
     const double share = share_along(*beam, at, start);
@@ -46,7 +46,7 @@ DrawnPlace drawn_place(const Scene& scene, const std::string& body, const Point&
 Eigen::Vector3d position_at_start(const Scene& scene, const DrawnPlace& place,
                                   const Design<double>& design) {
   if (place.body < 0) return place.point;
-  const Body& holder = scene.bodies[static_cast<std::size_t>(place.body)];
+  const Body& holder = scene.bodies[place.body];
   if (const auto* beam = std::get_if<BeamBody>(&holder.shape); beam && place.share >= 0.0) {
     const Eigen::Vector3d from = resolve_point(beam->from, design),
                           to = resolve_point(beam->to, design);

@@ -94,10 +94,9 @@ class BodySampler {
       motion_.parts = {0};
       add_position(place_settings(body.name, 0.0, 0), model);
     }
-    motion_.positions.resize(static_cast<Eigen::Index>(positions_.size()), instants);
+    motion_.positions.resize(positions_.size(), instants);
     motion_.rotations.resize(4 * static_cast<Eigen::Index>(parts_.size()), instants);
-    motion_.stress.resize(static_cast<Eigen::Index>(stresses_.size()),
-                          stresses_.empty() ? 0 : instants);
+    motion_.stress.resize(stresses_.size(), stresses_.empty() ? 0 : instants);
   }
 
   void see(const State& state, Eigen::Index instant) {
@@ -155,7 +154,7 @@ class BodySampler {
       motion_.stations.push_back(places.positions(0, place));
       motion_.parts.push_back(0);
       ResponseSettings settings = place_settings(motion_.body, 0.0, 0);
-      settings.place = places.names[static_cast<std::size_t>(place)];
+      settings.place = places.names[place];
       add_position(settings, model);
     }
   }
@@ -185,7 +184,7 @@ Motion sample_motion(const Scene& scene, const Analysis& analysis, const std::ve
   motion.time.resize(instants);
   State state;
   for (Eigen::Index i = 0; i < instants; ++i) {
-    const int step = steps[static_cast<std::size_t>(i)];
+    const int step = steps[i];
     motion.time(i) = analysis.trajectory.time(step);
     analysis.trajectory.states->load(step, state);
     for (BodySampler& sampler : samplers) sampler.see(state, i);

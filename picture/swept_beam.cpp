@@ -36,7 +36,7 @@ class Axis {
     const Eigen::Vector3d x =
         position(std::min(share + difference, 1.0)) - position(std::max(share - difference, 0.0));
     const auto [k, part] = place(share);
-    const auto frame = motion_.parts[static_cast<std::size_t>(part < 0.5 ? k : k + 1)];
+    const auto frame = motion_.parts[part < 0.5 ? k : k + 1];
     const Eigen::Quaterniond turn(
         Eigen::Vector4d(motion_.rotations.block<4, 1>(4 * frame, instant_)));
     Eigen::Matrix<double, 3, 2> axes;
@@ -101,7 +101,7 @@ class Sweep {
     const auto count = static_cast<Eigen::Index>(points_.size());
     surface_.points.resize(3, count);
     for (Eigen::Index i = 0; i < count; ++i) {
-      surface_.points.col(i) = points_[static_cast<std::size_t>(i)];
+      surface_.points.col(i) = points_[i];
     }
     surface_.stress = Eigen::Map<const Eigen::VectorXd>(stress_.data(),
                                                         static_cast<Eigen::Index>(stress_.size()));

@@ -135,7 +135,7 @@ std::string bytes_of(const Eigen::VectorXd& values) {
 }
 
 Eigen::VectorXd vector_of(const std::string& bytes) {
-  Eigen::VectorXd values(static_cast<Eigen::Index>(bytes.size() / sizeof(double)));
+  Eigen::VectorXd values(bytes.size() / sizeof(double));
   if (values.size() > 0) {
     std::memcpy(values.data(), bytes.data(),
                 static_cast<std::size_t>(values.size()) * sizeof(double));

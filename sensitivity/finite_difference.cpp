@@ -17,7 +17,7 @@ Eigen::VectorXd values_at(const ProblemFile& problem, Eigen::VectorXd x, Eigen::
 }
 
 const DesignVariable& variable(const ProblemFile& problem, Eigen::Index j) {
-  return problem.variables[static_cast<std::size_t>(j)];
+  return problem.variables[j];
 }
 
 /// One column a variable. @param column  called in several threads
@@ -25,9 +25,9 @@ Eigen::MatrixXd collect(Eigen::Index variables, int threads,
                         const std::function<Eigen::VectorXd(Eigen::Index)>& column) {
   std::vector<Eigen::VectorXd> columns(static_cast<std::size_t>(variables));
   for_each_in_parallel(static_cast<int>(variables), threads,
-                       [&](int j) { columns[static_cast<std::size_t>(j)] = column(j); });
+                       [&](int j) { columns[j] = column(j); });
   Eigen::MatrixXd result(columns.empty() ? 0 : columns.front().size(), variables);
-  for (Eigen::Index j = 0; j < variables; ++j) result.col(j) = columns[static_cast<std::size_t>(j)];
+  for (Eigen::Index j = 0; j < variables; ++j) result.col(j) = columns[j];
   return result;
 }
 

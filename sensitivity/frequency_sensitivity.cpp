@@ -49,7 +49,7 @@ class FrequencySensitivity {
         vectors_.left.adjoint() * (2.0 * s * frozen_.M + frozen_.G) * vectors_.right;
     const Eigen::PartialPivLU<Eigen::MatrixXcd> solver(slope);
     std::vector<Eigen::MatrixXcd> changes = changes_by_design();
-    Eigen::VectorXd result(static_cast<Eigen::Index>(changes.size()));
+    Eigen::VectorXd result(changes.size());
     for (std::size_t j = 0; j < changes.size(); ++j) {
       const auto column = static_cast<Eigen::Index>(j);
       changes[j] += change_along({sensitivity.q.col(column), sensitivity.v.col(column),
@@ -164,9 +164,9 @@ class FrequencySensitivity {
             vectors_.left_multipliers.col(i).adjoint() * whole.bottomRows(m_) +
             0.5 * s *
                 (left.adjoint() * damping.topRows(n_) -
-                 right.transpose() * damping_of_left[static_cast<std::size_t>(i)].topRows(n_));
+                 right.transpose() * damping_of_left[i].topRows(n_));
         for (std::size_t k = 0; k < changes.size(); ++k) {
-          changes[k](i, j) += row(static_cast<Eigen::Index>(k));
+          changes[k](i, j) += row(k);
         }
       }
     }

@@ -44,7 +44,7 @@ std::vector<Kink> kinks_of(const Analysis& analysis, const Eigen::MatrixXd& own,
 std::vector<Eigen::Index> tied_responses(const Analysis& analysis) {
   std::vector<Eigen::Index> tied;
   for (std::size_t i = 0; i < analysis.reductions.size(); ++i) {
-    if (!analysis.reductions[i].ties.empty()) tied.push_back(static_cast<Eigen::Index>(i));
+    if (!analysis.reductions[i].ties.empty()) tied.push_back(i);
   }
   return tied;
 }
@@ -63,8 +63,7 @@ std::vector<Kink> find_kinks(Analysis& analysis) {
   values.insert(values.end(), others.begin(), others.end());
   const Eigen::MatrixXd gradients =
       sampled_gradients(analysis, values, choose_method(analysis, values).method);
-  return kinks_of(analysis, gradients.topRows(own),
-                  gradients.bottomRows(static_cast<Eigen::Index>(others.size())));
+  return kinks_of(analysis, gradients.topRows(own), gradients.bottomRows(others.size()));
 }
 
 GradientsAndKinks gradients_and_kinks(Analysis& analysis, ExactMethod method) {
@@ -75,7 +74,7 @@ GradientsAndKinks gradients_and_kinks(Analysis& analysis, ExactMethod method) {
   const Eigen::MatrixXd all = sampled_gradients(analysis, values, method);
   const Eigen::MatrixXd gradients = all.topRows(responses);
   return {gradients, kinks_of(analysis, gradients(tied_responses(analysis), Eigen::all),
-                              all.bottomRows(static_cast<Eigen::Index>(others.size())))};
+                              all.bottomRows(others.size()))};
 }
 
 }  // namespace pleuel

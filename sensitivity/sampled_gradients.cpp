@@ -78,7 +78,7 @@ class SampledGradients {
     const std::vector<Eigen::Index> order = latest_first();
     std::vector<Eigen::Index> column(static_cast<std::size_t>(gradients_.rows()), -1);
     for (std::size_t i = 0; i < order.size(); ++i) {
-      column[static_cast<std::size_t>(order[i])] = static_cast<Eigen::Index>(i);
+      column[order[i]] = static_cast<Eigen::Index>(i);
     }
     Eigen::Index active = 0;
     const auto functions = static_cast<int>(order.size());
@@ -86,7 +86,7 @@ class SampledGradients {
         adjoint_gradients(mechanism_, analysis_.trajectory, functions,
                           [&](int step, const State& state, StateAdjoint& adjoint) {
                             for_each_use(step, state, [&](const Use& use) {
-                              const Eigen::Index j = column[static_cast<std::size_t>(use.value)];
+                              const Eigen::Index j = column[use.value];
                               active = std::max(active, j + 1);
                               adjoint.q.col(j) += part_.q;
                               adjoint.v.col(j) += part_.v;
@@ -97,7 +97,7 @@ class SampledGradients {
                             return static_cast<int>(active);
                           });
     for (std::size_t i = 0; i < order.size(); ++i) {
-      gradients_.row(order[i]) += found.col(static_cast<Eigen::Index>(i)).transpose();
+      gradients_.row(order[i]) += found.col(i).transpose();
     }
     return gradients_;
   }
@@ -186,7 +186,7 @@ RigidValues rigid_values(const Analysis& analysis, const std::vector<SampledValu
       const ResponseHistory* history = analysis.responses[part.response].history();
       if (!history || !history->rigid_response) continue;
       rigid.values.push_back({*history->rigid_response, *part.samples});
-      rigid.rows.push_back(static_cast<Eigen::Index>(i));
+      rigid.rows.push_back(i);
       rigid.weights.push_back(part.weight);
     }
   }
@@ -203,7 +203,7 @@ Eigen::MatrixXd sampled_gradients(Analysis& analysis, const std::vector<SampledV
   if (rigid.values.empty()) return gradients;
   const Gradients found = sampled_gradients(*analysis.rigid, rigid.values, method);
   for (std::size_t i = 0; i < rigid.rows.size(); ++i) {
-    gradients.row(rigid.rows[i]) -= rigid.weights[i] * found.row(static_cast<Eigen::Index>(i));
+    gradients.row(rigid.rows[i]) -= rigid.weights[i] * found.row(i);
   }
   return gradients;
 }

@@ -244,7 +244,7 @@ double AccuracyStudy::counted_error(const Eigen::VectorXd& errors) const {
   double largest = 0.0;
   if (errors.size() == 0) return largest;
   for (const std::size_t i : counted) {
-    largest = std::max(largest, errors(static_cast<Eigen::Index>(i)));
+    largest = std::max(largest, errors(i));
   }
   return largest;
 }

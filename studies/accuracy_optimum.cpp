@@ -25,7 +25,7 @@ bool has_design(const Result& result) {
 /// Bounds are kept exactly: an optimum may miss them by rounding.
 Eigen::VectorXd within_bounds(const ProblemFile& problem, Eigen::VectorXd x) {
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    double& value = x(static_cast<Eigen::Index>(i));
+    double& value = x(i);
     value = std::clamp(value, problem.variables[i].lower, problem.variables[i].upper);
   }
   return x;

@@ -28,7 +28,7 @@ void keep_values(const Analysis& analysis, AccuracyRun& run) {
   run.values = values_of(analysis);
   run.magnitudes = run.values.cwiseAbs();
   for (Eigen::Index i = 0; i < run.magnitudes.size(); ++i) {
-    const Eigen::MatrixXd& history = analysis.histories[static_cast<std::size_t>(i)];
+    const Eigen::MatrixXd& history = analysis.histories[i];
     if (history.size() > 0) run.magnitudes(i) = history.cwiseAbs().maxCoeff();
   }
   run.steps = analysis.trajectory.steps();

@@ -101,12 +101,12 @@ class Check {
   }
 
   JudgedDerivative judge(Eigen::Index i, Eigen::Index j) const {
-    const double size = step_scale(problem_.variables[static_cast<std::size_t>(j)], x_(j));
+    const double size = step_scale(problem_.variables[j], x_(j));
     std::vector<CentralDifference> curve;
     for (const Step& step : steps_) curve.push_back({step.step, step.differences(i, j)});
-    return judge_derivative({direct_(i, j), size, magnitudes_(i), noise_.scatter(i),
-                             noise_.remainder(i), has_kink_[static_cast<std::size_t>(i)]},
-                            std::move(curve));
+    return judge_derivative(
+        {direct_(i, j), size, magnitudes_(i), noise_.scatter(i), noise_.remainder(i), has_kink_[i]},
+        std::move(curve));
   }
 
   ProblemFile problem_;  ///< with the steps of the analysis

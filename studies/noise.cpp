@@ -46,7 +46,7 @@ Eigen::VectorXd generic_direction(const ProblemFile& problem, const Eigen::Vecto
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const double size = 0.5 + 0.5 * static_cast<double>(engine()) / std::mt19937::max();
     const double sign = engine() % 2 == 0 ? 1.0 : -1.0;
-    direction(i) = sign * size * step_scale(problem.variables[static_cast<std::size_t>(i)], x(i));
+    direction(i) = sign * size * step_scale(problem.variables[i], x(i));
   }
   return direction;
 }

@@ -36,12 +36,12 @@ class Answering {
         evaluation.constraints + change + evaluation.constraint_jacobian * step;
     const std::vector<Constraint>& constraints = problem().constraints();
     for (Eigen::Index i = 0; i < values.size(); ++i) {
-      const Constraint& limits = constraints[static_cast<std::size_t>(i)];
+      const Constraint& limits = constraints[i];
       const double excess = std::max(values(i) - limits.upper, limits.lower - values(i));
       if (!decides(i) && excess > at_limit * prices_.scales()(i)) return name_of_row(i);
     }
     for (Eigen::Index i = 0; i < step.size(); ++i) {
-      const Variable& variable = problem().variables()[static_cast<std::size_t>(i)];
+      const Variable& variable = problem().variables()[i];
       const double value = rows().x()(i) + step(i);
       const double room = at_limit * std::abs(value);
       if (!is_at_bound(i) && !variable.is_fixed() &&
@@ -62,9 +62,9 @@ class Answering {
 
   /// A row of a constraint that decides already is another of its peaks.
   std::string name_of_row(Eigen::Index row) const {
-    const std::string& name = problem().constraints()[static_cast<std::size_t>(row)].name;
+    const std::string& name = problem().constraints()[row].name;
     for (Eigen::Index i = 0; i < prices_.multipliers().size(); ++i) {
-      const bool is_same = problem().constraints()[static_cast<std::size_t>(i)].name == name;
+      const bool is_same = problem().constraints()[i].name == name;
       if (is_same && decides(i)) return "another peak of " + name;
     }
     return name;
@@ -76,7 +76,7 @@ class Answering {
     const Eigen::VectorXd s = local_scales(problem(), rows().x());
     std::vector<Eigen::Index> free, deciding;
     for (Eigen::Index i = 0; i < s.size(); ++i) {
-      const bool is_fixed = problem().variables()[static_cast<std::size_t>(i)].is_fixed();
+      const bool is_fixed = problem().variables()[i].is_fixed();
       if (!is_at_bound(i) && !is_fixed) free.push_back(i);
     }
     for (Eigen::Index i = 0; i < change.size(); ++i) {
@@ -90,7 +90,7 @@ class Answering {
     const Eigen::VectorXd right = -magnitudes.cwiseProduct(change(deciding));
     const Eigen::VectorXd found = least_norm_solution(matrix, right);
     for (std::size_t k = 0; k < free.size(); ++k) {
-      step(free[k]) = s(free[k]) * found(static_cast<Eigen::Index>(k));
+      step(free[k]) = s(free[k]) * found(k);
     }
     return step;
   }
@@ -142,7 +142,7 @@ void add_limits(const ProblemFile& problem, const RowPrices& optimum, PriceList&
   const Eigen::VectorXd multipliers =
       optimum.rows().peaks().fold_multipliers(optimum.multipliers());
   for (std::size_t i = 0; i < problem.constraints.size(); ++i) {
-    const double multiplier = multipliers(static_cast<Eigen::Index>(i));
+    const double multiplier = multipliers(i);
     if (multiplier == 0.0) continue;
     const ConstraintSettings& constraint = problem.constraints[i];
     const bool is_upper = multiplier > 0.0;

@@ -39,8 +39,7 @@ void set_limit(ConstraintSettings& constraint, double limit) {
 /// Bounds are kept exactly: an optimum may miss them by rounding.
 void start_from(const Eigen::VectorXd& x, std::vector<DesignVariable>& variables) {
   for (std::size_t i = 0; i < variables.size(); ++i) {
-    variables[i].start =
-        std::clamp(x(static_cast<Eigen::Index>(i)), variables[i].lower, variables[i].upper);
+    variables[i].start = std::clamp(x(i), variables[i].lower, variables[i].upper);
   }
 }
 
@@ -92,9 +91,7 @@ class Front : public Tasks {
 
   int count() const override { return static_cast<int>(order_.points.size()); }
 
-  std::optional<int> needed_by(int task) const override {
-    return order_.from[static_cast<std::size_t>(task)];
-  }
+  std::optional<int> needed_by(int task) const override { return order_.from[task]; }
 
   std::string run(int task, const std::string& needed, TaskCaller& caller) override {
     RemoteStore store(caller);
@@ -102,7 +99,7 @@ class Front : public Tasks {
     found.start =
         needed.empty() ? start_design(problem_) : unpacked<FoundPoint>(needed).next_start();
     ProblemFile varied = problem_;
-    set_limit(varied.constraints[static_cast<std::size_t>(row_)], limit(task));
+    set_limit(varied.constraints[row_], limit(task));
     start_from(found.start, varied.variables);
     DesignProblem design(varied, available_threads(), execution_.store ? &store : nullptr);
     found.point.limit = limit(task);
@@ -140,9 +137,7 @@ class Front : public Tasks {
   }
 
  private:
-  std::size_t number(int task) const {
-    return static_cast<std::size_t>(order_.points[static_cast<std::size_t>(task)]);
-  }
+  std::size_t number(int task) const { return static_cast<std::size_t>(order_.points[task]); }
 
   double limit(int task) const {
     const ParetoSettings& settings = *problem_.pareto;

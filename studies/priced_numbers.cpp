@@ -48,7 +48,7 @@ class Points {
       const auto component = component_of(number);
       if (!component) continue;
       auto& coordinates = coordinates_[component->point];
-      coordinates[static_cast<std::size_t>(component->index)] = number.value;
+      coordinates[component->index] = number.value;
     }
   }
 

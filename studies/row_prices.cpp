@@ -22,7 +22,7 @@ constexpr double nearly_optimal = 1e-2;
 /// broken: with other steps a peak may cross the border of its window.
 double nearby_value(const std::vector<Constraint>& rows, const Eigen::VectorXd& values,
                     Eigen::Index row, double multiplier) {
-  const auto name = [&](Eigen::Index i) { return rows[static_cast<std::size_t>(i)].name; };
+  const auto name = [&](Eigen::Index i) { return rows[i].name; };
   double value = values(row);
   for (const Eigen::Index other : {row - 1, row + 1}) {
     if (other < 0 || other >= values.size() || name(other) != name(row)) continue;

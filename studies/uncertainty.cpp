@@ -25,23 +25,23 @@ Eigen::MatrixXd columns_of(const Eigen::MatrixXd& gradients,
                            const std::vector<UncertainParameter>& parameters) {
   Eigen::MatrixXd columns(gradients.rows(), static_cast<Eigen::Index>(parameters.size()));
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    columns.col(static_cast<Eigen::Index>(i)) = gradients.col(parameters[i].variable);
+    columns.col(i) = gradients.col(parameters[i].variable);
   }
   return columns;
 }
 
 Eigen::VectorXd deviations_of(const std::vector<UncertainParameter>& parameters) {
-  Eigen::VectorXd deviations(static_cast<Eigen::Index>(parameters.size()));
+  Eigen::VectorXd deviations(parameters.size());
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    deviations(static_cast<Eigen::Index>(i)) = parameters[i].standard_deviation();
+    deviations(i) = parameters[i].standard_deviation();
   }
   return deviations;
 }
 
 Eigen::VectorXd half_widths_of(const std::vector<UncertainParameter>& parameters) {
-  Eigen::VectorXd widths(static_cast<Eigen::Index>(parameters.size()));
+  Eigen::VectorXd widths(parameters.size());
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    widths(static_cast<Eigen::Index>(i)) = parameters[i].half_width();
+    widths(i) = parameters[i].half_width();
   }
   return widths;
 }
@@ -94,7 +94,7 @@ class Study {
     for (Eigen::Index i = 0; i < gradients.rows(); ++i) {
       const Eigen::VectorXd parts = gradients.row(i).transpose().cwiseProduct(deviations_);
       UncertainResponse response;
-      response.value = analysis_->reductions[static_cast<std::size_t>(i)].value;
+      response.value = analysis_->reductions[i].value;
       response.deviation = parts.norm();
       response.bound = gradients.row(i).cwiseAbs() * widths;
       response.shares = parts.cwiseAbs2();
@@ -147,7 +147,7 @@ class Study {
 
     std::string run(int task, const std::string& /*needed*/, TaskCaller& caller) override {
       for (int i = task * task_size; i < end_of(task); ++i) {
-        caller.tell(packed(study_.simulate(designs_[static_cast<std::size_t>(i)])));
+        caller.tell(packed(study_.simulate(designs_[i])));
       }
       return "";
     }
@@ -258,7 +258,7 @@ class Study {
   void store(const Moments& responses, const Moments& histories) {
     if (responses.count() < 2) return;
     for (std::size_t i = 0; i < study_.responses.size(); ++i) {
-      study_.responses[i].sampled = responses.of(static_cast<Eigen::Index>(i));
+      study_.responses[i].sampled = responses.of(i);
     }
     doubt_first_order(responses.count());
     if (histories.count() < 2) return;

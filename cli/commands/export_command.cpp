@@ -44,8 +44,7 @@ class EvaluationsCsv {
     has_values ? csv_.add(evaluation.objective) : csv_.add(std::string());
     const bool has_constraints = has_values && one.key.rows == "constraints";
     for (std::size_t i = 0; i < names_.constraints.size(); ++i) {
-      has_constraints ? csv_.add(evaluation.constraints(static_cast<Eigen::Index>(i)))
-                      : csv_.add(std::string());
+      has_constraints ? csv_.add(evaluation.constraints(i)) : csv_.add(std::string());
     }
     for (const double value : one.key.x) csv_.add(value);
     csv_.add(one.stored.failure);
@@ -78,7 +77,7 @@ class GradientsCsv {
     add_row(one.number, "objective", evaluation.objective_gradient);
     if (one.key.rows != "constraints") return;
     for (Eigen::Index i = 0; i < evaluation.constraint_jacobian.rows(); ++i) {
-      add_row(one.number, "constraint:" + names_.constraints.at(static_cast<std::size_t>(i)),
+      add_row(one.number, "constraint:" + names_.constraints.at(i),
               evaluation.constraint_jacobian.row(i));
     }
   }
@@ -86,7 +85,7 @@ class GradientsCsv {
  private:
   void add_row(int number, const std::string& of, const Eigen::VectorXd& derivatives) {
     for (Eigen::Index j = 0; j < derivatives.size(); ++j) {
-      csv_.add(number).add(of).add(names_.variables.at(static_cast<std::size_t>(j)));
+      csv_.add(number).add(of).add(names_.variables.at(j));
       csv_.add(derivatives(j));
       csv_.end_row();
     }

@@ -124,7 +124,7 @@ Json comparison_document(const ProblemFile& problem, const std::vector<ComparedM
   for (const ComparedMethod& one : compared) {
     Json errors = Json::object();
     for (std::size_t i = 0; i < problem.responses.size(); ++i) {
-      errors[problem.responses[i].name] = one.errors(static_cast<Eigen::Index>(i));
+      errors[problem.responses[i].name] = one.errors(i);
     }
     document.push_back({{"method", to_string(one.method)},
                         {"step", one.step > 0.0 ? Json(one.step) : Json(nullptr)},
@@ -152,8 +152,7 @@ std::string comparison_text(const ProblemFile& problem,
     Eigen::Index worst = 0;
     const double error = one->errors.maxCoeff(&worst);
     table.add_row({to_string(method), one->step > 0.0 ? magnitude(one->step) : "–",
-                   duration(one->seconds), magnitude(error),
-                   problem.responses[static_cast<std::size_t>(worst)].name});
+                   duration(one->seconds), magnitude(error), problem.responses[worst].name});
   }
   return "\nEffort and accuracy of the methods, with the step that is best for differences; errors "
          "relative,\ndirect and adjoint against each other\n" +
@@ -201,9 +200,9 @@ std::vector<Table::Column> method_columns(const std::vector<MethodResult>& resul
 
 /// Of the entries of one row, relative to the largest.
 double spread(const std::vector<MethodResult>& results, Eigen::Index i, Eigen::Index j) {
-  Eigen::VectorXd entries(static_cast<Eigen::Index>(results.size()));
+  Eigen::VectorXd entries(results.size());
   for (Eigen::Index k = 0; k < entries.size(); ++k) {
-    entries(k) = results[static_cast<std::size_t>(k)].gradients(i, j);
+    entries(k) = results[k].gradients(i, j);
   }
   const double largest = entries.cwiseAbs().maxCoeff();
   return largest > 0.0 ? (entries.maxCoeff() - entries.minCoeff()) / largest : 0.0;

@@ -54,7 +54,7 @@ class ParetoCsv {
       is_known ? csv_.add(goals[i]) : csv_.add(std::string());
     }
     for (std::size_t i = 0; i < variables_; ++i) {
-      csv_.add(point.result.x(static_cast<Eigen::Index>(i)));
+      csv_.add(point.result.x(i));
     }
     csv_.add(point.result.kkt_residual).add(point.result.evaluations).add(point.result.seconds);
     csv_.end_row();
@@ -98,7 +98,7 @@ Json point_document(const ProblemFile& problem, const ParetoPoint& point) {
     if (has_prices(point.result)) document["multiplier"] = sign * point.multiplier;
   }
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    document["variables"][problem.variables[i].name] = point.result.x(static_cast<Eigen::Index>(i));
+    document["variables"][problem.variables[i].name] = point.result.x(i);
   }
   document["kkt_residual"] = point.result.kkt_residual;
   document["evaluations"] = point.result.evaluations;
@@ -159,7 +159,7 @@ std::string points_text(const ProblemFile& problem, const std::vector<ParetoPoin
         cells[4] = significant(goal.shown(sign * point.multiplier) * limited.factor, 3);
     }
     for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-      cells.push_back(significant(units[i].shown(point.result.x(static_cast<Eigen::Index>(i)))));
+      cells.push_back(significant(units[i].shown(point.result.x(i))));
     }
     cells.push_back(to_string(point.result.status) + (point.is_dominated ? ", dominated" : ""));
     table.add_row(std::move(cells));

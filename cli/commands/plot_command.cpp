@@ -129,11 +129,11 @@ HistoryChart chart_of(const std::vector<RunHistories>& histories,
     const int column = one.table.find(name);
     if (column < 0) continue;
     HistoryCurve curve{one.design, one.table.columns.front() / second,
-                       one.table.columns[static_cast<std::size_t>(column)] / unit.factor};
+                       one.table.columns[column] / unit.factor};
     for (const auto& [suffix, factor] : {std::pair{":error", 1.0}, std::pair{":deviation", 2.0}}) {
       const int band = one.table.find(name + suffix);
       if (band < 0) continue;
-      curve.band = factor * one.table.columns[static_cast<std::size_t>(band)] / unit.factor;
+      curve.band = factor * one.table.columns[band] / unit.factor;
     }
     chart.curves.push_back(std::move(curve));
   }

@@ -93,8 +93,7 @@ Json make_document(const ProblemFile& problem, const PricedDesign& design, const
     document["prices"][price.name] = price_document(price);
   }
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    document["variables"][problem.variables[i].name]["value"] =
-        design.x(static_cast<Eigen::Index>(i));
+    document["variables"][problem.variables[i].name]["value"] = design.x(i);
   }
   return document;
 }

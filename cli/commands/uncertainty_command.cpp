@@ -22,7 +22,7 @@ namespace pleuel {
 namespace {
 
 const std::string& name_of(const ProblemFile& problem, const UncertainParameter& parameter) {
-  return problem.variables[static_cast<std::size_t>(parameter.variable)].name;
+  return problem.variables[parameter.variable].name;
 }
 
 Json sampled_document(const Sampled& sampled) {
@@ -43,8 +43,7 @@ Json response_document(const ProblemFile& problem, const UncertaintyStudy& study
                    {"shares", Json::object()}};
   const auto& parameters = problem.uncertainty->parameters;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    document["shares"][name_of(problem, parameters[i])] =
-        response.shares(static_cast<Eigen::Index>(i));
+    document["shares"][name_of(problem, parameters[i])] = response.shares(i);
   }
   if (!study.errors.empty()) document["error"] = error_document(error_of(study.errors, index));
   if (response.sampled) document["sampled"] = sampled_document(*response.sampled);
@@ -61,7 +60,7 @@ Json make_document(const ProblemFile& problem, const UncertaintyStudy& study) {
       {"warnings", texts_of(study.doubts)},
       {"seconds", {{"gradients", study.gradient_seconds}, {"samples", study.sampling_seconds}}}};
   for (const UncertainParameter& parameter : problem.uncertainty->parameters) {
-    const auto& variable = problem.variables[static_cast<std::size_t>(parameter.variable)];
+    const auto& variable = problem.variables[parameter.variable];
     document["parameters"][variable.name] = {{"value", variable.start},
                                              {"deviation", parameter.standard_deviation()},
                                              {"interval", parameter.half_width()}};
@@ -118,7 +117,7 @@ std::string largest_shares(const ProblemFile& problem, const UncertainResponse& 
   const auto& parameters = problem.uncertainty->parameters;
   std::vector<std::size_t> order(parameters.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  const auto share = [&](std::size_t i) { return response.shares(static_cast<Eigen::Index>(i)); };
+  const auto share = [&](std::size_t i) { return response.shares(i); };
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return share(a) > share(b); });
   std::string text;

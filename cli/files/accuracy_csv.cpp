@@ -45,7 +45,7 @@ void AccuracyCsv::add(const Eigen::VectorXd& errors) {
     if (errors.size() == 0) {
       csv_.add(std::string());
     } else {
-      csv_.add(errors(static_cast<Eigen::Index>(i)));
+      csv_.add(errors(i));
     }
   }
 }

@@ -39,7 +39,7 @@ void HistoryCsv::add(const EvaluationRecord& record) {
   csv_.add(record.step);
   add_value(objective_sign_ * record.objective);
   for (std::size_t i = 0; i < constraints_; ++i) {
-    add_value(has_failed ? 0.0 : record.constraints(static_cast<Eigen::Index>(i)));
+    add_value(has_failed ? 0.0 : record.constraints(i));
   }
   for (const double value : record.x) csv_.add(value);
   csv_.add(record.time_step).add(record.elements).add(record.failure);

@@ -30,7 +30,7 @@ std::optional<Eigen::VectorXd> design_in(const Json& document, const ProblemFile
     const Json variable = document["variables"].value(problem.variables[i].name, Json());
     const Json value = key.empty() ? variable : variable.value(key, Json());
     if (!value.is_number()) return std::nullopt;
-    x(static_cast<Eigen::Index>(i)) = value.get<double>();
+    x(i) = value.get<double>();
   }
   return x;
 }

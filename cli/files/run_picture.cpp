@@ -86,7 +86,7 @@ Json slopes_document(const ProblemFile& problem, const ShownDesign& design,
   Json document = Json::object();
   for (std::size_t k = 0; k < std::min(most_slopes, sizes.size()); ++k) {
     const Eigen::Index j = sizes[k].second;
-    document[problem.variables[static_cast<std::size_t>(j)].name] = curve_document(
+    document[problem.variables[j].name] = curve_document(
         design.analysis->trajectory.time, history.gradients.col(j), {}, {}, most_slope_points);
   }
   return document;

@@ -48,7 +48,7 @@ RunStore::RunStore(RunRecord& record, const Arguments& arguments, const ProblemI
   for (std::size_t i = 0; i < input.problem.variables.size(); ++i) {
     const std::string& name = input.problem.variables[i].name;
     variables.push_back(name);
-    design[name] = input.design(static_cast<Eigen::Index>(i));
+    design[name] = input.design(i);
   }
   for (const auto& constraint : input.problem.constraints) constraints.push_back(constraint.name);
   description_ = {{"command", arguments.command},

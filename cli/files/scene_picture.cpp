@@ -233,9 +233,8 @@ class GeometryWriter {
   Json place(const std::string& body, const Point& at) const {
     const DrawnPlace drawn = drawn_place(scene_, body, at, start_, design_);
     Json document = {{"body", drawn.body}, {"at", vector_document(resolve_point(at, design_))}};
-    const bool is_on_axis =
-        drawn.body >= 0 && drawn.share >= 0.0 &&
-        std::holds_alternative<BeamBody>(scene_.bodies[static_cast<std::size_t>(drawn.body)].shape);
+    const bool is_on_axis = drawn.body >= 0 && drawn.share >= 0.0 &&
+                            std::holds_alternative<BeamBody>(scene_.bodies[drawn.body].shape);
     if (is_on_axis) {
       document["share"] = drawn.share;
     } else {

@@ -56,7 +56,7 @@ TrajectoryBands read_bands(const std::filesystem::path& file, const Analysis& an
     if (table.find(name) < 0) return fault(fmt::format("the column \"{}\" is missing", name));
     const int band = table.find(name + ":error");
     if (band < 0) continue;
-    found.bands[i] = table.columns[static_cast<std::size_t>(band)];
+    found.bands[i] = table.columns[band];
     has_bands = true;
   }
   if (!has_bands) found.bands.clear();

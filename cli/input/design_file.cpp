@@ -67,11 +67,11 @@ Eigen::VectorXd read_design(const std::filesystem::path& path, const ProblemFile
   const JsonNode variables = variables_of(root, problem);
   check_names(variables, problem);
   const UnitSystem units;
-  Eigen::VectorXd x(static_cast<Eigen::Index>(problem.variables.size()));
+  Eigen::VectorXd x(problem.variables.size());
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     const DesignVariable& variable = problem.variables[i];
-    x(static_cast<Eigen::Index>(i)) = read_value(variables.at(variable.name), variable, units,
-                                                 variable_quantity(problem, static_cast<int>(i)));
+    x(i) = read_value(variables.at(variable.name), variable, units,
+                      variable_quantity(problem, static_cast<int>(i)));
   }
   return x;
 }

@@ -38,7 +38,7 @@ void apply_named_values(const Arguments& arguments, const ProblemFile& problem,
     if (name.starts_with("/")) continue;
     for (std::size_t i = 0; i < problem.variables.size(); ++i) {
       if (problem.variables[i].name != name) continue;
-      x(static_cast<Eigen::Index>(i)) = problem.variables[i].start;
+      x(i) = problem.variables[i].start;
     }
   }
 }

@@ -16,7 +16,7 @@ namespace {
 Json of_responses(const ProblemFile& problem, const Eigen::VectorXd& numbers) {
   Json document = Json::object();
   for (Eigen::Index i = 0; i < numbers.size(); ++i) {
-    document[problem.responses[static_cast<std::size_t>(i)].name] = numbers(i);
+    document[problem.responses[i].name] = numbers(i);
   }
   return document;
 }
@@ -160,7 +160,7 @@ Json optimum_document(const ProblemInput& input, const OptimumStudy& optima,
   document["relative_error"] = optima.relative_error(run);
   document["variables"] = Json::object();
   for (std::size_t i = 0; i < input.problem.variables.size(); ++i) {
-    document["variables"][input.problem.variables[i].name] = run.x(static_cast<Eigen::Index>(i));
+    document["variables"][input.problem.variables[i].name] = run.x(i);
   }
   return document;
 }

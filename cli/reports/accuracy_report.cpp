@@ -40,7 +40,7 @@ std::string worst(const ProblemFile& problem, const Eigen::VectorXd& errors,
   const double largest = errors.maxCoeff(&index);
   const bool is_bound = largest > 0.0 && largest <= of_reference(index);
   return fmt::format("{}{} {}", is_bound ? "≤ " : "", magnitude(largest),
-                     problem.responses[static_cast<std::size_t>(index)].name);
+                     problem.responses[index].name);
 }
 
 std::string first_sentence(const std::string& text) {
@@ -141,7 +141,7 @@ std::string worst_change(const ProblemFile& problem, const AccuracyStudy& study,
 double objective_size(const ProblemFile& problem, const AccuracyStudy& study) {
   for (std::size_t i = 0; i < problem.responses.size(); ++i) {
     if (problem.responses[i].name != problem.objective->response) continue;
-    return std::abs(study.reference.values(static_cast<Eigen::Index>(i)));
+    return std::abs(study.reference.values(i));
   }
   return 0.0;
 }

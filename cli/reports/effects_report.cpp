@@ -34,7 +34,7 @@ void add_influence(const ProblemFile& problem, const EffectInfluence& influence,
   }
   entry["influence"] = Json::object();
   for (std::size_t i = 0; i < problem.responses.size(); ++i) {
-    const double change = influence.changes(static_cast<Eigen::Index>(i));
+    const double change = influence.changes(i);
     entry["influence"][problem.responses[i].name] = change;
   }
   entry["seconds"] = influence.seconds;
@@ -64,7 +64,7 @@ std::string largest_change_text(const ProblemFile& problem, const Eigen::VectorX
     largest = i;
   }
   if (largest < 0) return "nothing";
-  const ResponseSettings& response = problem.responses[static_cast<std::size_t>(largest)];
+  const ResponseSettings& response = problem.responses[largest];
   const ShownUnit unit = unit_of(response);
   const double change = influence.changes(largest);
   return fmt::format("{} {} {} ({} %)", response.name, signed_text(unit.shown(change)), unit.name,

@@ -23,7 +23,7 @@ double value_of(const ConstraintSettings& constraint, const ProblemFile& problem
   for (const auto& [variable, coefficient] : constraint.linear) value += coefficient * x(variable);
   if (!constraint.linear.empty()) return value;
   const ResponseSettings& response = find_response(problem, constraint.response);
-  return analysis.reductions[static_cast<std::size_t>(&response - problem.responses.data())].value;
+  return analysis.reductions[&response - problem.responses.data()].value;
 }
 
 /// As exactly as a verified optimum keeps its limits.

@@ -30,9 +30,8 @@ struct Optimum {
 
   /// Where the search began: that of the file, unless another design was given.
   double start(std::size_t variable) const {
-    return result.history.empty()
-               ? problem.variables[variable].start
-               : first_design(result.history).x(static_cast<Eigen::Index>(variable));
+    return result.history.empty() ? problem.variables[variable].start
+                                  : first_design(result.history).x(variable);
   }
 };
 

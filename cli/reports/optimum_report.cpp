@@ -67,7 +67,7 @@ std::string variables_text(const Optimum& optimum) {
   for (std::size_t i = 0; i < optimum.problem.variables.size(); ++i) {
     const DesignVariable& variable = optimum.problem.variables[i];
     const ShownUnit& unit = units[i];
-    const double value = optimum.result.x(static_cast<Eigen::Index>(i));
+    const double value = optimum.result.x(i);
     table.add_row({variable.name, significant(unit.shown(optimum.start(i))),
                    significant(unit.shown(value)), significant(unit.shown(variable.lower)),
                    significant(unit.shown(variable.upper)), unit.name,

@@ -112,7 +112,7 @@ std::string assembly_text(const Analysis& analysis) {
       shift.cwiseQuotient(mechanism.scale).maxCoeff(&largest) <= visible_shift) {
     return "";
   }
-  const std::string& name = mechanism.equation_names.at(static_cast<std::size_t>(largest));
+  const std::string& name = mechanism.equation_names.at(largest);
   return fmt::format(
       "Joints and drives move the mechanism from where the file places it before the start, "
       "most {}, by {} m or rad.\n",
@@ -137,7 +137,7 @@ Json variables_document(const ProblemFile& problem, const Eigen::VectorXd& x) {
   Json document = Json::object();
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     const DesignVariable& variable = problem.variables[i];
-    document[variable.name] = {{"value", x(static_cast<Eigen::Index>(i))},
+    document[variable.name] = {{"value", x(i)},
                                {"unit", units[i].si},
                                {"lower", variable.lower},
                                {"upper", variable.upper},

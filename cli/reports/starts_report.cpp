@@ -19,7 +19,7 @@ std::string indices_text(const std::vector<std::size_t>& starts) {
 Json design_document(const ProblemFile& problem, const Eigen::VectorXd& x) {
   Json document = Json::object();
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    document[problem.variables[i].name] = x(static_cast<Eigen::Index>(i));
+    document[problem.variables[i].name] = x(i);
   }
   return document;
 }
@@ -42,7 +42,7 @@ std::string starts_text(const ProblemFile& problem, const MultiStart& all) {
         significant(unit.shown(problem.objective->sign() * one.objective)),
         fmt::format("{}", one.starts.size())};
     for (std::size_t i = 0; i < units.size(); ++i) {
-      cells.push_back(significant(units[i].shown(one.x(static_cast<Eigen::Index>(i)))));
+      cells.push_back(significant(units[i].shown(one.x(i))));
     }
     cells.push_back(indices_text(one.starts));
     table.add_row(std::move(cells));

@@ -162,13 +162,13 @@ class Dots {
   void set(int x, int y) {
     if (x < 0 || y < 0 || x >= width() || y >= height()) return;
     static constexpr unsigned char bits[4][2] = {{1, 8}, {2, 16}, {4, 32}, {64, 128}};
-    letters_[static_cast<std::size_t>(y / 4 * columns_ + x / 2)] |= bits[y % 4][x % 2];
+    letters_[y / 4 * columns_ + x / 2] |= bits[y % 4][x % 2];
   }
 
   std::string row(int row) const {
     std::string text;
     for (int i = 0; i < columns_; ++i) {
-      const unsigned letter = letters_[static_cast<std::size_t>(row * columns_ + i)];
+      const unsigned letter = letters_[row * columns_ + i];
       text += static_cast<char>(0xE2);
       text += static_cast<char>(0xA0 + (letter >> 6U));
       text += static_cast<char>(0x80 + (letter & 63U));

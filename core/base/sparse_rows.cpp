@@ -124,7 +124,7 @@ class SparseFactors {
     order_.assign(order.indices().begin(), order.indices().end());
     place_.resize(order_.size());
     for (std::size_t k = 0; k < order_.size(); ++k) {
-      place_[static_cast<std::size_t>(order_[k])] = static_cast<int>(k);
+      place_[order_[k]] = static_cast<int>(k);
     }
   }
 
@@ -140,7 +140,7 @@ class SparseFactors {
       pattern.clear();
       seen[k] = k;
       for (Eigen::SparseMatrix<double>::InnerIterator entry(products, order_[k]); entry; ++entry) {
-        auto i = static_cast<std::size_t>(place_[static_cast<std::size_t>(entry.row())]);
+        auto i = static_cast<std::size_t>(place_[entry.row()]);
         if (i > k) continue;
         y[i] += entry.value();
         path.clear();
@@ -234,7 +234,7 @@ class Sets {
   }
 
  private:
-  int& parent(int i) { return parent_[static_cast<std::size_t>(i)]; }
+  int& parent(int i) { return parent_[i]; }
   std::vector<int> parent_;
 };
 
@@ -267,7 +267,7 @@ std::vector<RowBlock> connected_blocks(const SparseRows& matrix) {
   std::vector<int> row_of_column(static_cast<std::size_t>(matrix.cols()), -1);
   for (int row = 0; row < static_cast<int>(matrix.rows()); ++row) {
     for (SparseRows::InnerIterator entry(matrix, row); entry; ++entry) {
-      int& first = row_of_column[static_cast<std::size_t>(entry.col())];
+      int& first = row_of_column[entry.col()];
       if (first < 0) first = row;
       sets.join(first, row);
     }
@@ -277,15 +277,15 @@ std::vector<RowBlock> connected_blocks(const SparseRows& matrix) {
   for (int row = 0; row < static_cast<int>(matrix.rows()); ++row) {
     const int name = sets.find(row);
     if (name == row) {
-      place[static_cast<std::size_t>(row)] = blocks.size();
+      place[row] = blocks.size();
       blocks.emplace_back();
     }
-    blocks[place[static_cast<std::size_t>(name)]].rows.push_back(row);
+    blocks[place[name]].rows.push_back(row);
   }
   for (std::size_t column = 0; column < row_of_column.size(); ++column) {
     if (row_of_column[column] < 0) continue;
     const int name = sets.find(row_of_column[column]);
-    blocks[place[static_cast<std::size_t>(name)]].columns.push_back(static_cast<int>(column));
+    blocks[place[name]].columns.push_back(static_cast<int>(column));
   }
   return blocks;
 }
@@ -326,8 +326,7 @@ RankedRows rank_rows(SparseRows rows, double negligible) {
   for (const RowBlock& block : connected_blocks(rows)) {
     const BlockRank of_block = rank_block(select_block(rows, block), negligible);
     for (std::size_t i = 0; i < block.rows.size(); ++i) {
-      ranked.emplace_back(of_block.pivots(static_cast<Index>(i)),
-                          block.rows[static_cast<std::size_t>(of_block.order[i])]);
+      ranked.emplace_back(of_block.pivots(static_cast<Index>(i)), block.rows[of_block.order[i]]);
     }
   }
   std::stable_sort(ranked.begin(), ranked.end(),
@@ -359,7 +358,7 @@ MatrixXd null_space_of_rows(SparseRows rows, double threshold) {
   std::vector<std::vector<int>> columns;
   std::vector<bool> is_free(static_cast<std::size_t>(rows.cols()), true);
   for (const RowBlock& block : connected_blocks(rows)) {
-    for (const int column : block.columns) is_free[static_cast<std::size_t>(column)] = false;
+    for (const int column : block.columns) is_free[column] = false;
     if (block.columns.empty()) continue;
     const SparseRows part = select_block(rows, block);
     spaces.push_back(is_small(part)

@@ -140,7 +140,7 @@ class TaskRun {
       if (states_[i].phase == Phase::threw) return std::nullopt;
       if (states_[i].phase != Phase::waiting) continue;
       const auto needed = tasks_.needed_by(static_cast<int>(i));
-      if (!needed || has_ended(states_[static_cast<std::size_t>(*needed)])) return i;
+      if (!needed || has_ended(states_[*needed])) return i;
     }
     return std::nullopt;
   }
@@ -158,7 +158,7 @@ class TaskRun {
     std::string needed;
     if (const auto index = tasks_.needed_by(static_cast<int>(task))) {
       assert(static_cast<std::size_t>(*index) < task);
-      const State& before = states_[static_cast<std::size_t>(*index)];
+      const State& before = states_[*index];
       if (before.phase == Phase::answered) needed = before.result;
     }
     state.phase = Phase::running;

@@ -28,7 +28,7 @@ struct Beam {
   /// Local x of a node [m].
   Scalar node_position(int node) const {
     Scalar x(0);
-    for (int i = 0; i < node; ++i) x += elements[static_cast<std::size_t>(i)].length;
+    for (int i = 0; i < node; ++i) x += elements[i].length;
     return x;
   }
 };

@@ -51,7 +51,7 @@ struct InvariantSum {
            const ElementShape<Scalar>& shape) {
     sum.second_moment += mass * base * base.transpose();
     for (int j = 0; j < 12; ++j) {
-      const int column = indices[static_cast<std::size_t>(j)];
+      const int column = indices[j];
       if (column < 0) continue;
       for (int k = 0; k < 3; ++k) {
         for (int l = 0; l < 3; ++l) sum.mixed(3 * k + l, column) += mass * base(k) * shape(l, j);
@@ -62,7 +62,7 @@ struct InvariantSum {
 
   void add_moments(const Scalar& mass, const ElementShape<Scalar>& shape, int j, int column) {
     for (int i = 0; i < 12; ++i) {
-      const int row = indices[static_cast<std::size_t>(i)];
+      const int row = indices[i];
       if (row < 0) continue;
       const int position = sum.pattern.find(row, column);
       for (std::size_t p = 0; p < sum.pairs.size(); ++p) {
@@ -88,7 +88,7 @@ void add_element_inertia(const BeamElement<Scalar>& element, const Scalar& start
     sum.mass += mass;
     sum.first_moment(0) += mass * x;
     for (int j = 0; j < 12; ++j) {
-      const int column = indices[static_cast<std::size_t>(j)];
+      const int column = indices[j];
       if (column >= 0) sum.shape.col(column) += mass * shape.col(j);
     }
     integral.add(mass, Vector3(x, zero, zero), shape);
@@ -121,7 +121,7 @@ inline std::vector<std::pair<int, int>> coupled_pairs(const ElasticCoordinates& 
   std::vector<std::pair<int, int>> pairs;
   for (int k = 0; k < 3; ++k) {
     for (int l = 0; l < 3; ++l) {
-      if (moves[static_cast<std::size_t>(k)] && moves[static_cast<std::size_t>(l)]) {
+      if (moves[k] && moves[l]) {
         pairs.emplace_back(k, l);
       }
     }
@@ -159,14 +159,14 @@ Invariants<Scalar> beam_invariants(const Beam<Scalar>& beam, const ElasticCoordi
 
   Scalar start(0);
   for (int e = 0; e < static_cast<int>(beam.elements.size()); ++e) {
-    const BeamElement<Scalar>& element = beam.elements[static_cast<std::size_t>(e)];
+    const BeamElement<Scalar>& element = beam.elements[e];
     const auto indices = coordinates.element_indices(e);
     beam_detail::add_element_inertia(element, start, rotary, indices, sum);
     const auto stiffness = element_stiffness(element);
     for (int i = 0; i < 12; ++i) {
       for (int j = 0; j < 12; ++j) {
-        const int row = indices[static_cast<std::size_t>(i)];
-        const int col = indices[static_cast<std::size_t>(j)];
+        const int row = indices[i];
+        const int col = indices[j];
         if (row >= 0 && col >= 0) sum.stiffness(sum.pattern.find(row, col)) += stiffness(i, j);
       }
     }

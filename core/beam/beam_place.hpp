@@ -23,7 +23,7 @@ inline BeamPlace find_place(const Beam<double>& beam, double at) {
   const double x = at * beam.node_position(elements);
   for (int e = 0; e < elements; ++e) {
     const double start = beam.node_position(e);
-    const double length = beam.elements[static_cast<std::size_t>(e)].length;
+    const double length = beam.elements[e].length;
     if (x > start + length && e + 1 < elements) continue;
     const double xi = (x - start) / length;
     if (std::abs(xi) < 1e-9) return {e, 0.0};
@@ -36,8 +36,7 @@ inline BeamPlace find_place(const Beam<double>& beam, double at) {
 /// Local x of a place [m].
 template <class Scalar>
 Scalar position_of(const Beam<Scalar>& beam, const BeamPlace& place) {
-  return beam.node_position(place.element) +
-         place.xi * beam.elements[static_cast<std::size_t>(place.element)].length;
+  return beam.node_position(place.element) + place.xi * beam.elements[place.element].length;
 }
 
 /// u v w θx θy θz of a place, one row each, from the twelve coordinates of its element.

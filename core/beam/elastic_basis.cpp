@@ -79,7 +79,7 @@ BasisWithDerivatives craig_bampton_basis(const NodalMatrices& matrices,
   const MatrixXd constraint = -factors.solve(MatrixXd(matrices.stiffness(i, b)));
   BasisWithDerivatives result;
   result.basis.setZero(matrices.mass.rows(), size);
-  for (Eigen::Index k = 0; k < boundary; ++k) result.basis(b[static_cast<std::size_t>(k)], k) = 1.0;
+  for (Eigen::Index k = 0; k < boundary; ++k) result.basis(b[k], k) = 1.0;
   result.basis(i, Eigen::seqN(0, boundary)) = constraint;
   for (const NodalMatrices& d : derivatives) {
     MatrixXd change = MatrixXd::Zero(result.basis.rows(), result.basis.cols());
@@ -135,9 +135,9 @@ BasisWithDerivatives mean_axis_basis(const NodalMatrices& matrices,
 MatrixXd dense_matrix(const ElasticPattern& pattern, const VectorXd& entries) {
   MatrixXd matrix = MatrixXd::Zero(pattern.size, pattern.size);
   for (int row = 0; row < pattern.size; ++row) {
-    for (int i = pattern.row_start[static_cast<std::size_t>(row)];
-         i < pattern.row_start[static_cast<std::size_t>(row) + 1]; ++i) {
-      matrix(row, pattern.column[static_cast<std::size_t>(i)]) = entries(i);
+    for (int i = pattern.row_start[row]; i < pattern.row_start[static_cast<std::size_t>(row) + 1];
+         ++i) {
+      matrix(row, pattern.column[i]) = entries(i);
     }
   }
   return matrix;
@@ -244,7 +244,7 @@ MatrixXd rigid_displacements(const ElasticCoordinates& coordinates, const std::v
       if (row >= 0) rigid(row, motion) = value;
     };
     for (int i = 0; i < 6; ++i) set(i, i, translation);
-    const double place = x[static_cast<std::size_t>(node)];
+    const double place = x[node];
     set(1, 5, place);   // about z: v = x
     set(2, 4, -place);  // about y: w = −x
   }

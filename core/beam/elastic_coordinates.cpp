@@ -11,7 +11,7 @@ ElasticCoordinates::ElasticCoordinates(int node_count, const NodalFlags& active)
 }
 
 void ElasticCoordinates::clamp(int node, int displacement) {
-  index_[static_cast<std::size_t>(node)][static_cast<std::size_t>(displacement)] = -1;
+  index_[node][displacement] = -1;
   number();
 }
 
@@ -27,7 +27,7 @@ void ElasticCoordinates::number() {
 std::array<int, 12> ElasticCoordinates::element_indices(int element) const {
   std::array<int, 12> indices{};
   for (int i = 0; i < 12; ++i) {
-    indices[static_cast<std::size_t>(i)] = index(element + i / 6, i % 6);
+    indices[i] = index(element + i / 6, i % 6);
   }
   return indices;
 }

@@ -22,9 +22,7 @@ class ElasticCoordinates {
   int node_count() const { return static_cast<int>(index_.size()); }
 
   /// Index in q_f of a nodal displacement, or −1 where it is zero.
-  int index(int node, int displacement) const {
-    return index_[static_cast<std::size_t>(node)][static_cast<std::size_t>(displacement)];
-  }
+  int index(int node, int displacement) const { return index_[node][displacement]; }
 
   /// Indices in q_f of the twelve coordinates of an element (nodes `element`, `element` + 1).
   std::array<int, 12> element_indices(int element) const;

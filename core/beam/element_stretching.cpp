@@ -11,10 +11,10 @@ std::vector<int> active_displacements(const ElasticCoordinates& coordinates, int
 }
 
 Eigen::VectorXd elongation_of(const std::vector<int>& active) {
-  Eigen::VectorXd elongation = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(active.size()));
+  Eigen::VectorXd elongation = Eigen::VectorXd::Zero(active.size());
   for (std::size_t i = 0; i < active.size(); ++i) {
     if (active[i] % 6 != 0) continue;
-    elongation(static_cast<Eigen::Index>(i)) = active[i] == 0 ? -1.0 : 1.0;
+    elongation(i) = active[i] == 0 ? -1.0 : 1.0;
   }
   return elongation;
 }

@@ -46,8 +46,8 @@ std::vector<bool> find_used(const Invariants<double>& invariants) {
     for (int entry = invariants.pattern.row_start[row];
          entry < invariants.pattern.row_start[row + 1]; ++entry) {
       if (is_zero(invariants, entry)) continue;
-      const int col = invariants.pattern.column[static_cast<std::size_t>(entry)];
-      used[row] = used[static_cast<std::size_t>(col)] = true;
+      const int col = invariants.pattern.column[entry];
+      used[row] = used[col] = true;
     }
   }
   return used;
@@ -78,9 +78,9 @@ PartialInvariants without_zeros(const Invariants<double>& invariants) {
     const auto index = static_cast<std::size_t>(row);
     for (int entry = invariants.pattern.row_start[index];
          entry < invariants.pattern.row_start[index + 1]; ++entry) {
-      const int col = invariants.pattern.column[static_cast<std::size_t>(entry)];
-      if (place[static_cast<std::size_t>(col)] < 0) continue;
-      data.pattern.column.push_back(place[static_cast<std::size_t>(col)]);
+      const int col = invariants.pattern.column[entry];
+      if (place[col] < 0) continue;
+      data.pattern.column.push_back(place[col]);
       entries.push_back(entry);
     }
     data.pattern.row_start.push_back(data.pattern.nonzeros());

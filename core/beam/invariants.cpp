@@ -6,7 +6,7 @@
 namespace pleuel {
 
 int ElasticPattern::find(int row, int col) const {
-  const auto begin = column.begin() + row_start[static_cast<std::size_t>(row)];
+  const auto begin = column.begin() + row_start[row];
   const auto end = column.begin() + row_start[static_cast<std::size_t>(row) + 1];
   const auto found = std::lower_bound(begin, end, col);
   return found != end && *found == col ? static_cast<int>(found - column.begin()) : -1;
@@ -18,7 +18,7 @@ ElasticPattern pattern_of_groups(int size, const std::vector<std::vector<int>>& 
     for (int row : group) {
       if (row < 0) continue;
       for (int col : group) {
-        if (col >= 0) rows[static_cast<std::size_t>(row)].insert(col);
+        if (col >= 0) rows[row].insert(col);
       }
     }
   }

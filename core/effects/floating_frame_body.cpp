@@ -71,8 +71,7 @@ FloatingFrameBody::FloatingFrameBody(
   flat_derivatives_.resize(layout_.size(), static_cast<Eigen::Index>(derivatives.size()));
   derivatives_.reserve(derivatives.size());
   for (const auto& [variable, data] : derivatives) {
-    flat_derivatives_.col(static_cast<Eigen::Index>(variables_.size())) =
-        layout_.flatten(data).sparseView();
+    flat_derivatives_.col(variables_.size()) = layout_.flatten(data).sparseView();
     variables_.push_back(variable);
     Derivative& derivative = derivatives_.emplace_back();
     derivative.variable = variable;
@@ -92,9 +91,9 @@ void FloatingFrameBody::declare_entries(EntryList& entries) const {
   }
   const ElasticPattern& pattern = invariants_.pattern;
   for (int row = 0; row < n; ++row) {
-    for (int i = pattern.row_start[static_cast<std::size_t>(row)];
-         i < pattern.row_start[static_cast<std::size_t>(row) + 1]; ++i) {
-      entries.emplace_back(elastic + row, elastic + pattern.column[static_cast<std::size_t>(i)]);
+    for (int i = pattern.row_start[row]; i < pattern.row_start[static_cast<std::size_t>(row) + 1];
+         ++i) {
+      entries.emplace_back(elastic + row, elastic + pattern.column[i]);
     }
   }
 }
@@ -164,7 +163,7 @@ void FloatingFrameBody::add_design_gradients(const ConstColumns& sums,
   if (!is_designed()) return;
   const Eigen::MatrixXd found = flat_derivatives_.transpose() * sums;
   for (std::size_t i = 0; i < variables_.size(); ++i) {
-    gradients.row(variables_[i]) += found.row(static_cast<Eigen::Index>(i));
+    gradients.row(variables_[i]) += found.row(i);
   }
 }
 
@@ -206,7 +205,7 @@ void FloatingFrameBody::set_frame_columns(const Weights& weights) {
   }
   for (int j = k; j < m; ++j) {
     const Vector3d turn = motion_.G.col(j - k);
-    const Matrix3d d_A = weights.q * motion_.A_p[static_cast<std::size_t>(j - k)];
+    const Matrix3d d_A = weights.q * motion_.A_p[j - k];
     const Vector3d d_a0 = d_A.transpose() * (motion_.r_ddot - gravity_);
     const Matrix3d d_w = weights.v * skew<double>(turn);
     const Matrix3d d_X = weights.a * skew<double>(turn) + d_w * omega + omega * d_w;

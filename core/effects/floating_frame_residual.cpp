@@ -42,9 +42,9 @@ ElasticSums multiply_elastic(const Invariants<double>& body, BodyProducts& out) 
   for (int row = 0; row < n; ++row) {
     Column of_q = Column::Zero(pairs), of_v = of_q, of_a = of_q;
     double force = 0.0;
-    for (int i = body.pattern.row_start[static_cast<std::size_t>(row)];
+    for (int i = body.pattern.row_start[row];
          i < body.pattern.row_start[static_cast<std::size_t>(row) + 1]; ++i) {
-      const int col = body.pattern.column[static_cast<std::size_t>(i)];
+      const int col = body.pattern.column[i];
       const Eigen::Map<const Column> moment(body.moments.data() + i * pairs, pairs);
       const double q = out.q(col), v = out.v(col), a = out.a(col);
       of_q += q * moment;
@@ -59,7 +59,7 @@ ElasticSums multiply_elastic(const Invariants<double>& body, BodyProducts& out) 
     column.head<3>() = shape;
     column.segment<9>(CouplingRows::weighted) = mixed;
     for (Eigen::Index p = 0; p < of_q.size(); ++p) {
-      column(CouplingRows::weighted + transposed[static_cast<std::size_t>(p)]) += of_q(p);
+      column(CouplingRows::weighted + transposed[p]) += of_q(p);
     }
     column.segment<Pairs>(CouplingRows::rate, pairs) = of_v;
     column.segment<Pairs>(rows.acceleration, pairs) = of_a;
@@ -78,7 +78,7 @@ ElasticSums multiply_elastic(const Invariants<double>& body, BodyProducts& out) 
   sums.weighted_v = sums.mixed_v;
   sums.weighted_a = sums.mixed_a;
   for (Eigen::Index p = 0; p < q_of_q.size(); ++p) {
-    const int place = transposed[static_cast<std::size_t>(p)];
+    const int place = transposed[p];
     sums.weighted_q(place) += q_of_q(p);
     sums.weighted_v(place) += v_of_q(p);
     sums.weighted_a(place) += a_of_q(p);

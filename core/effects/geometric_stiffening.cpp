@@ -75,7 +75,7 @@ GeometricStiffening::GeometricStiffening(
       is_designed_(!derivatives.empty()) {
   for (const auto& [variable, changes] : derivatives) {
     for (const StiffeningDerivative& change : changes) {
-      changes_[static_cast<std::size_t>(change.element)].push_back(
+      changes_[change.element].push_back(
           {variable, change,
            change.damping != 0.0 || !change.elongation.isZero(0.0) || !change.slopes.isZero(0.0)});
     }
@@ -115,8 +115,8 @@ void GeometricStiffening::evaluate(const PaddedElement& element, const State& st
   slope_q.setZero();
   slope_v.setZero();
   for (Eigen::Index i = 0; i < element.size(); ++i) {
-    q(i) = state.q(element.coordinates[static_cast<std::size_t>(i)]);
-    v(i) = state.v(element.coordinates[static_cast<std::size_t>(i)]);
+    q(i) = state.q(element.coordinates[i]);
+    v(i) = state.v(element.coordinates[i]);
     const auto slopes = column<Size>(element.padded_slopes, i);
     slope_q += q(i) * slopes;
     slope_v += v(i) * slopes;
@@ -142,8 +142,7 @@ void GeometricStiffening::set_unit_forces(const StiffeningElement& element) {
 void GeometricStiffening::add_forces(const StiffeningElement& element, Eigen::VectorXd& residual) {
   set_unit_forces(element);
   for (std::size_t i = 0; i < element.coordinates.size(); ++i) {
-    residual(element.coordinates[i]) +=
-        element.axial_stiffness * unit_forces_(static_cast<Eigen::Index>(i));
+    residual(element.coordinates[i]) += element.axial_stiffness * unit_forces_(i);
   }
 }
 
@@ -212,7 +211,7 @@ void GeometricStiffening::add_design_derivative(const State& state, ConstraintLe
       forces_.head(size) = change.derivative.axial_stiffness * unit_forces_.head(size);
       if (change.is_of_shape) add_unit_change(element, change, element.axial_stiffness);
       for (std::size_t i = 0; i < element.coordinates.size(); ++i) {
-        columns(element.coordinates[i], change.variable) += forces_(static_cast<Eigen::Index>(i));
+        columns(element.coordinates[i], change.variable) += forces_(i);
       }
     }
   }
@@ -260,7 +259,7 @@ void GeometricStiffening::add_parameter_adjoints(const State& state, ConstraintL
     auto local = row_.head(size), weighted = bent_.head(size);
     for (Eigen::Index i = 0; i < mu.cols(); ++i) {
       for (Eigen::Index k = 0; k < size; ++k) {
-        local(k) = mu(element.coordinates[static_cast<std::size_t>(k)], i);
+        local(k) = mu(element.coordinates[k], i);
       }
       const double m = local.dot(strain_.gradient.head(size)), b = local.dot(element.elongation);
       auto of_element = sums.col(i).segment(first, sum_count(element));

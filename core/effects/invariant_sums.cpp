@@ -42,14 +42,14 @@ void add_sums(const Invariants<double>& body, const InvariantLayout& layout, con
         q * of.M.transpose() + v * of.B.transpose() + a * of.N.transpose() + e * p.X;
     Eigen::Map<Matrix3d>(of_mixed + 9 * i) += of_W + q * of.M;
     for (Eigen::Index pair = 0; pair < pairs; ++pair) {
-      const auto [k, l] = body.pairs[static_cast<std::size_t>(pair)];
+      const auto [k, l] = body.pairs[pair];
       of_moment_q(pair) = of_W(k, l);
       of_moment_v(pair) = e * p.Y(k, l);
     }
     const auto row = static_cast<std::size_t>(i);
     for (int entry = body.pattern.row_start[row]; entry < body.pattern.row_start[row + 1];
          ++entry) {
-      const int j = body.pattern.column[static_cast<std::size_t>(entry)];
+      const int j = body.pattern.column[entry];
       Eigen::Map<Row>(layout.moments(sums, entry), pairs) +=
           p.q(j) * of_moment_q + p.v(j) * of_moment_v;
       of_mass_matrix[entry] += e * p.a(j);

@@ -60,8 +60,7 @@ class ForceTerm : public Term {
 
   void declare_entries(EntryList& entries) const override {
     for (const auto& [row, slot] : pattern_) {
-      entries.emplace_back(coordinates_[row].index,
-                           coordinates_[columns_[static_cast<std::size_t>(slot)]].index);
+      entries.emplace_back(coordinates_[row].index, coordinates_[columns_[slot]].index);
     }
   }
 
@@ -103,15 +102,14 @@ class ForceTerm : public Term {
     for (std::size_t k = 0; k < derivatives_.size(); ++k) {
       const Local<Dual> forces = evaluate(derivatives_[k].data, state.time, q, v);
       for (std::size_t i = 0; i < coordinates_.size(); ++i) {
-        sums.row(static_cast<Eigen::Index>(k)) -=
-            derivative_of(forces[i]) * mu.row(coordinates_[i].index);
+        sums.row(k) -= derivative_of(forces[i]) * mu.row(coordinates_[i].index);
       }
     }
   }
 
   void add_design_gradients(const ConstColumns& sums, Eigen::MatrixXd& gradients) const override {
     for (std::size_t k = 0; k < derivatives_.size(); ++k) {
-      gradients.row(derivatives_[k].variable) += sums.row(static_cast<Eigen::Index>(k));
+      gradients.row(derivatives_[k].variable) += sums.row(k);
     }
   }
 
@@ -152,7 +150,7 @@ class ForceTerm : public Term {
     load<Wide>(state, q, v);
     const int count = std::min(width, static_cast<int>(columns_.size()) - first);
     for (int i = 0; i < count; ++i) {
-      const std::size_t column = columns_[static_cast<std::size_t>(first + i)];
+      const std::size_t column = columns_[first + i];
       q[column].derivatives()[i] = weights.q;
       v[column].derivatives()[i] = weights.v;
     }

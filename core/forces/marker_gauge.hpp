@@ -84,13 +84,12 @@ class MarkerGauge final : public Gauge {
     const auto count = static_cast<int>(coordinates_.size());
     const int end = std::min(first + width, 2 * count);
     for (int i = first; i < end; ++i) {
-      Wide& seeded = i < count ? local_q[static_cast<std::size_t>(i)]
-                               : local_v[static_cast<std::size_t>(i - count)];
+      Wide& seeded = i < count ? local_q[i] : local_v[i - count];
       seeded.derivatives()[i - first] = 1.0;
     }
     const Wide value = evaluate<Wide>(wide_data_, state.time, local_q, local_v, reading);
     for (int i = first; i < end; ++i) {
-      const int index = coordinates_[static_cast<std::size_t>(i < count ? i : i - count)];
+      const int index = coordinates_[i < count ? i : i - count];
       (i < count ? q : v)(index) += weight * derivative_of(value, i - first);
     }
   }

@@ -129,7 +129,7 @@ void set_spatial_motion(const Vector3<Scalar>& psi, const Vector3<Scalar>& omega
   motion.A_dot = times_skew<Scalar>(motion.A, omega);
   motion.A_ddot = times_skew<Scalar>(motion.A, alpha) + times_skew<Scalar>(motion.A_dot, omega);
   for (int i = 0; i < 3; ++i) {  // A ẽᵢ
-    Matrix3<Scalar>& by_turn = motion.A_p[static_cast<std::size_t>(i)];
+    Matrix3<Scalar>& by_turn = motion.A_p[i];
     by_turn.col(i).setConstant(Scalar(0));
     by_turn.col((i + 1) % 3) = motion.A.col((i + 2) % 3);
     by_turn.col((i + 2) % 3) = -motion.A.col((i + 1) % 3);

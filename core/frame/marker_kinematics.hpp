@@ -197,7 +197,7 @@ class MarkerKinematics {
       }
       const Scalar* next = rates[order] + size;
       for (int i = 0; i < 6; ++i) {
-        const bool is_active = marker.elastic[static_cast<std::size_t>(i)] >= 0;
+        const bool is_active = marker.elastic[i] >= 0;
         (i < 3 ? state.u : state.psi)[order](i % 3) = is_active ? *next++ : Scalar(0);
       }
     }
@@ -216,13 +216,13 @@ class MarkerKinematics {
             Vector(frame.A_ddot * s[0] + 2.0 * (frame.A_dot * s[1]) + frame.A * s[2])};
   }
 
-  Scalar& force(int i) { return forces_[static_cast<std::size_t>(i)]; }
+  Scalar& force(int i) { return forces_[i]; }
 
   /// g · ∂A/∂(rotation coordinate) s
   void add_lever(std::size_t m, const Vector& g, const Vector& s) {
     const BodyFrame& frame = markers_[m].frame;
     for (int i = 0; i < frame.rotations(); ++i) {
-      const Vector moved = states_[m].frame.A_p[static_cast<std::size_t>(i)] * s;
+      const Vector moved = states_[m].frame.A_p[i] * s;
       force(start_[m] + frame.translations() + i) += moved.dot(g);
     }
   }
@@ -230,7 +230,7 @@ class MarkerKinematics {
   void add_elastic(std::size_t m, CoordinatePart part, const Vector& local) {
     int position = start_[m] + markers_[m].frame.size();
     for (int i = 0; i < 6; ++i) {
-      if (markers_[m].elastic[static_cast<std::size_t>(i)] < 0) continue;
+      if (markers_[m].elastic[i] < 0) continue;
       if ((i < 3) == (part == CoordinatePart::displacement)) force(position) += local(i % 3);
       ++position;
     }

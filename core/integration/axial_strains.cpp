@@ -31,13 +31,12 @@ Eigen::VectorXd AxialStrains::at(const Eigen::VectorXd& q) const {
 
 Eigen::VectorXd AxialStrains::predicted(const Eigen::VectorXd& q,
                                         const Eigen::VectorXd& change) const {
-  Eigen::VectorXd all(static_cast<Eigen::Index>(strains_.size()));
+  Eigen::VectorXd all(strains_.size());
   for (std::size_t i = 0; i < strains_.size(); ++i) {
     const QuadraticStrain& strain = strains_[i];
     const Eigen::VectorXd local = q(strain.coordinates), step = change(strain.coordinates);
     const Eigen::VectorXd bent = strain.quadratic * local;
-    all(static_cast<Eigen::Index>(i)) =
-        strain.linear.dot(local + step) + 0.5 * local.dot(bent) + bent.dot(step);
+    all(i) = strain.linear.dot(local + step) + 0.5 * local.dot(bent) + bent.dot(step);
   }
   return all;
 }
@@ -46,8 +45,7 @@ void AxialStrains::add_stress_stiffness(const Eigen::VectorXd& c,
                                         std::vector<Eigen::Triplet<double>>& entries) const {
   for (std::size_t i = 0; i < strains_.size(); ++i) {
     const QuadraticStrain& strain = strains_[i];
-    add_matrix(strain.coordinates,
-               strain.stiffness * c(static_cast<Eigen::Index>(i)) * strain.quadratic, entries);
+    add_matrix(strain.coordinates, strain.stiffness * c(i) * strain.quadratic, entries);
   }
 }
 

@@ -10,12 +10,12 @@ constexpr int full_width = 8, half_width = 4;
 
 void resize_factor(ColumnFactor& factor, int columns, int entries) {
   factor.starts.resize(static_cast<std::size_t>(columns) + 1);
-  factor.rows.resize(static_cast<std::size_t>(entries));
-  factor.values.resize(static_cast<std::size_t>(entries));
+  factor.rows.resize(entries);
+  factor.values.resize(entries);
 }
 
 int at(const std::vector<int>& list, int i) {
-  return list[static_cast<std::size_t>(i)];
+  return list[i];
 }
 
 /// Rows of right-hand sides, `Width` numbers each.
@@ -40,9 +40,7 @@ class Rows {
     for (int i = begin; i < end; ++i) (*this)(at(factor.rows, i)) -= value(factor, i) * row;
   }
 
-  static double value(const ColumnFactor& factor, int i) {
-    return factor.values[static_cast<std::size_t>(i)];
-  }
+  static double value(const ColumnFactor& factor, int i) { return factor.values[i]; }
 
   /// Row k from row order(k) of x, with zeros in what x lacks.
   template <class Columns>
@@ -82,8 +80,8 @@ void BlockFactors::resize(int size, int lower_entries, int upper_entries, int en
   resize_factor(lower, size, lower_entries);
   resize_factor(upper, size, upper_entries);
   resize_factor(above, size, entries_above);
-  row_order.resize(static_cast<std::size_t>(size));
-  column_order.resize(static_cast<std::size_t>(size));
+  row_order.resize(size);
+  column_order.resize(size);
   blocks.resize(static_cast<std::size_t>(block_count) + 1);
   rows_.resize(static_cast<std::size_t>(size) * full_width);
 }

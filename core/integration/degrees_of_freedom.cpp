@@ -16,10 +16,10 @@ constexpr double independent = 1e-8;
 
 std::vector<int> rigid_coordinates(const Mechanism& mechanism) {
   std::vector<bool> is_elastic(static_cast<std::size_t>(mechanism.system->coordinates()), false);
-  for (const int i : mechanism.elastic) is_elastic[static_cast<std::size_t>(i)] = true;
+  for (const int i : mechanism.elastic) is_elastic[i] = true;
   std::vector<int> rigid;
   for (int i = 0; i < mechanism.system->coordinates(); ++i) {
-    if (!is_elastic[static_cast<std::size_t>(i)]) rigid.push_back(i);
+    if (!is_elastic[i]) rigid.push_back(i);
   }
   return rigid;
 }
@@ -31,12 +31,12 @@ SparseRows rigid_jacobian(const Mechanism& mechanism, const State& state,
   System::Matrix matrix = system.make_matrix();
   projection_matrix(mechanism, state, matrix);
   std::vector<bool> is_left_out(static_cast<std::size_t>(system.multipliers()), false);
-  for (const int row : system.left_out()) is_left_out[static_cast<std::size_t>(row)] = true;
+  for (const int row : system.left_out()) is_left_out[row] = true;
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t j = 0; j < rigid.size(); ++j) {
     for (System::Matrix::InnerIterator entry(matrix, rigid[j]); entry; ++entry) {
       const auto row = static_cast<int>(entry.row()) - system.coordinates();
-      if (row < 0 || is_left_out[static_cast<std::size_t>(row)]) continue;
+      if (row < 0 || is_left_out[row]) continue;
       entries.emplace_back(row, j, mechanism.scale(rigid[j]) * entry.value());
     }
   }
@@ -59,7 +59,7 @@ bool close(const Mechanism& mechanism, const std::vector<int>& rigid, State& sta
     const Eigen::VectorXd step = least_norm_solution(rigid_jacobian(mechanism, state, rigid), open);
     Eigen::VectorXd change = Eigen::VectorXd::Zero(state.q.size());
     for (std::size_t j = 0; j < rigid.size(); ++j) {
-      change(rigid[j]) = -mechanism.scale(rigid[j]) * step(static_cast<Eigen::Index>(j));
+      change(rigid[j]) = -mechanism.scale(rigid[j]) * step(j);
     }
     const Eigen::VectorXd before = state.q;
     advance(mechanism.rotations, before, change, state.q);
@@ -89,7 +89,7 @@ Eigen::MatrixXd free_motions(const Mechanism& mechanism, const State& state) {
   }
   Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(state.q.size(), basis.cols());
   for (Eigen::Index j = 0; j < size; ++j) {
-    motions.row(rigid[static_cast<std::size_t>(j)]) = basis.row(j);
+    motions.row(rigid[j]) = basis.row(j);
   }
   return motions;
 }

@@ -79,10 +79,10 @@ Eigen::MatrixXd free_deformations(Mechanism& mechanism, const State& state) {
     if (phi.row(i).norm() > 0.0) phi.row(i).normalize();
   }
   std::vector<bool> is_elastic(static_cast<std::size_t>(n), false);
-  for (int i : mechanism.elastic) is_elastic[static_cast<std::size_t>(i)] = true;
+  for (int i : mechanism.elastic) is_elastic[i] = true;
   std::vector<Eigen::Index> rigid;
   for (Eigen::Index i = 0; i < n; ++i) {
-    if (!is_elastic[static_cast<std::size_t>(i)]) rigid.push_back(i);
+    if (!is_elastic[i]) rigid.push_back(i);
   }
   const Eigen::MatrixXd motions =
       null_space(phi(Eigen::all, rigid), static_cast<Eigen::Index>(rigid.size()));

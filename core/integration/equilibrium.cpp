@@ -64,10 +64,10 @@ std::vector<bool> closed_by_deformation(Mechanism& mechanism) {
   const Eigen::MatrixXd phi =
       Eigen::MatrixXd(matrix).bottomLeftCorner(m, n) * mechanism.scale.asDiagonal();
   std::vector<bool> is_left_out(static_cast<std::size_t>(m), false);
-  for (int i : system.left_out()) is_left_out[static_cast<std::size_t>(i)] = true;
+  for (int i : system.left_out()) is_left_out[i] = true;
   std::vector<int> rows;
   for (int i = 0; i < m; ++i) {
-    if (!is_left_out[static_cast<std::size_t>(i)]) rows.push_back(i);
+    if (!is_left_out[i]) rows.push_back(i);
   }
   Eigen::MatrixXd of_frames = phi(rows, Eigen::all);
   const Eigen::VectorXd elastic = of_frames(Eigen::all, mechanism.elastic).rowwise().norm();
@@ -77,8 +77,8 @@ std::vector<bool> closed_by_deformation(Mechanism& mechanism) {
   const PivotedQr choice(qr.normal_space().transpose() * elastic.asDiagonal());
   const std::vector<int> order = choice.order();
   for (Eigen::Index i = 0; i < choice.rank(); ++i) {
-    const auto row = static_cast<std::size_t>(order[static_cast<std::size_t>(i)]);
-    is_closed[static_cast<std::size_t>(rows[row])] = true;
+    const auto row = static_cast<std::size_t>(order[i]);
+    is_closed[rows[row]] = true;
   }
   return is_closed;
 }
@@ -111,7 +111,7 @@ Equilibrium::Equilibrium(Mechanism& mechanism)
 
 Eigen::VectorXd Equilibrium::of_frames(Eigen::VectorXd multipliers) const {
   for (int i = 0; i < m_; ++i) {
-    if (is_closed_by_deformation_[static_cast<std::size_t>(i)]) multipliers(i) = 0.0;
+    if (is_closed_by_deformation_[i]) multipliers(i) = 0.0;
   }
   return multipliers;
 }
@@ -196,31 +196,30 @@ Eigen::SparseMatrix<double> Equilibrium::jacobian(const InitialState& at) const 
   for (int i : mechanism_.rotations) {
     const Eigen::Matrix3d pull = inverse_tangent_operator(d.segment<3>(i));
     for (int row = 0; row < 3; ++row) {
-      is_plain[static_cast<std::size_t>(i + row)] = false;
+      is_plain[i + row] = false;
       for (int col = 0; col < 3; ++col) {
         entries.emplace_back(position + i + row, i + col, weight(i + row) * pull(row, col));
       }
     }
   }
   for (int i = 0; i < n; ++i) {
-    if (is_plain[static_cast<std::size_t>(i)]) entries.emplace_back(position + i, i, weight(i));
+    if (is_plain[i]) entries.emplace_back(position + i, i, weight(i));
   }
 
   // Φ_qᵀ μ: in the rows of frames that of the constraints which frames meet, in those of elastic
   // coordinates, which say a_e + Φ_qᵀ μ = 0 instead, that of the others.
   std::vector<bool> is_elastic(static_cast<std::size_t>(n), false);
-  for (int i : mechanism_.elastic) is_elastic[static_cast<std::size_t>(i)] = true;
+  for (int i : mechanism_.elastic) is_elastic[i] = true;
   const auto drop_rows = [&](bool elastic, Triplets& from) {
     std::erase_if(from, [&](const auto& entry) {
       const int row = entry.row() - position;
-      return row >= 0 && row < n && is_elastic[static_cast<std::size_t>(row)] == elastic;
+      return row >= 0 && row < n && is_elastic[row] == elastic;
     });
   };
   const auto drop_columns = [&](bool of_deformation, Triplets& from) {
     std::erase_if(from, [&](const auto& entry) {
       const int column = entry.col() - mu;
-      return column >= 0 && column < m &&
-             is_closed_by_deformation_[static_cast<std::size_t>(column)] == of_deformation;
+      return column >= 0 && column < m && is_closed_by_deformation_[column] == of_deformation;
     });
   };
   Triplets of_rigid, of_elastic;

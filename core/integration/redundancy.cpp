@@ -129,14 +129,13 @@ std::vector<int> rows_that_make(const SparseRows& jacobian, int row,
   if (factors.size() == 0) return found;
   const double largest = factors.lpNorm<Eigen::Infinity>();
   for (std::size_t i = 0; i < others.size(); ++i) {
-    if (std::abs(factors(static_cast<Eigen::Index>(i))) > counts * largest)
-      found.push_back(others[i]);
+    if (std::abs(factors(i)) > counts * largest) found.push_back(others[i]);
   }
   return found;
 }
 
 int row_of(const RowBlock& block, int local) {
-  return block.rows[static_cast<std::size_t>(local)];
+  return block.rows[local];
 }
 
 std::vector<int> rows_of(const RowBlock& block, const std::vector<int>& local) {
@@ -230,7 +229,7 @@ std::vector<NearRedundancy> nearly_redundant_constraints(const Mechanism& mechan
     const SparseRows rows = select_rows(jacobian, block.rows);
     const RankedRows ranked = rank_rows(rows, largest);
     for (std::size_t i = 1; i < ranked.order.size(); ++i) {
-      if (ranked.pivots(static_cast<Eigen::Index>(i)) > largest) continue;
+      if (ranked.pivots(i) > largest) continue;
       const int local = ranked.order[i];
       const double length = rows.row(local).norm();
       if (length == 0.0) continue;

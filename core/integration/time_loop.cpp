@@ -52,7 +52,7 @@ void TimeLoop::start(Eigen::Index capacity) {
 
 void TimeLoop::advance(int unit) {
   check_stop();
-  const double end = grid_[static_cast<std::size_t>(unit)];
+  const double end = grid_[unit];
   const bool is_repeated = !options_.instants.empty();
   step_ = is_repeated ? static_cast<int>(std::ceil(end / regular_step() * (1 - 1e-12))) : unit;
   if (options_.local_error > 0.0 && !is_repeated) {

@@ -49,14 +49,14 @@ void JointLinearization::set_marker(std::size_t m, const double* q) {
     case RotationCoordinates::rotation_vector:
       state.A = rotation_of(Vector3d(rotation));
       for (int i = 0; i < 3; ++i) {
-        state.A_p[static_cast<std::size_t>(i)] = state.A * skew<double>(Vector3d::Unit(i));
+        state.A_p[i] = state.A * skew<double>(Vector3d::Unit(i));
       }
       break;
   }
   state.u = data_.points[m];
   state.psi.setZero();
   for (int i = 0; i < 6; ++i) {
-    if (marker.elastic[static_cast<std::size_t>(i)] < 0) continue;
+    if (marker.elastic[i] < 0) continue;
     (i < 3 ? state.u : state.psi)(i % 3) += q[next++];
   }
   if (marker.has_elastic_rotation()) {
@@ -71,8 +71,7 @@ void JointLinearization::add_rotations(Attached& attached) const {
   const MarkerState& state = markers_[attached.marker];
   const BodyFrame& frame = topology_.markers[attached.marker].frame;
   for (int i = 0; i < frame.rotations(); ++i) {
-    attached.jacobian.col(frame.translations() + i) =
-        state.A_p[static_cast<std::size_t>(i)] * attached.s;
+    attached.jacobian.col(frame.translations() + i) = state.A_p[i] * attached.s;
   }
   for (int i = state.frame; i < state.size; ++i) {
     attached.jacobian.col(i) = state.A * attached.elastic.col(i - state.frame);
@@ -90,7 +89,7 @@ JointLinearization::Attached JointLinearization::point(std::size_t m) const {
                     Jacobian::Zero(3, state.size - state.frame)};
   int next = 0;
   for (int i = 0; i < 6; ++i) {
-    if (marker.elastic[static_cast<std::size_t>(i)] < 0) continue;
+    if (marker.elastic[i] < 0) continue;
     if (i < 3) attached.elastic(i, next) = 1.0;
     ++next;
   }
@@ -114,7 +113,7 @@ JointLinearization::Attached JointLinearization::direction(std::size_t m,
                     Jacobian::Zero(3, state.size - state.frame)};
   int next = 0;
   for (int i = 0; i < 6; ++i) {
-    if (marker.elastic[static_cast<std::size_t>(i)] < 0) continue;
+    if (marker.elastic[i] < 0) continue;
     if (i >= 3) attached.elastic.col(next) = state.turn_tangent.col(i - 3).cross(s);
     ++next;
   }
@@ -136,7 +135,7 @@ void JointLinearization::add_curvature(const Attached& a, const Vector3d& g) {
   if (a.kind == AttachedKind::direction) add_elastic_curvature(a, state.A.transpose() * g);
   const int first = state.start + frame.translations();
   for (int i = 0; i < frame.rotations(); ++i) {
-    const Vector3d turned = state.A_p[static_cast<std::size_t>(i)].transpose() * g;
+    const Vector3d turned = state.A_p[i].transpose() * g;
     for (int j = state.frame; j < state.size; ++j) {
       const double entry = turned.dot(a.elastic.col(j - state.frame));
       hessian_(first + i, state.start + j) += entry;
@@ -192,7 +191,7 @@ void JointLinearization::evaluate(const JointEquation& equation) {
   gradient_.setZero();
   gradient_rate_.setZero();
   hessian_.setZero();
-  const auto local = [&](int index) { return data_.directions[static_cast<std::size_t>(index)]; };
+  const auto local = [&](int index) { return data_.directions[index]; };
   switch (equation.kind) {
     case EquationKind::coincident:
       evaluate_coincident(equation.fixed);
@@ -230,7 +229,7 @@ void JointLinearization::evaluate_coincident(const Vector3d& e) {
 }
 
 void JointLinearization::evaluate_on_plane(const JointEquation& equation) {
-  const Attached d = direction(0, data_.directions[static_cast<std::size_t>(equation.first)]);
+  const Attached d = direction(0, data_.directions[equation.first]);
   const Attached first = point(0), second = point(1);
   const Vector3d difference = second.y - first.y;
   value_ = d.y.dot(difference);
@@ -274,12 +273,12 @@ void JointLinearization::evaluate_directions(const Attached& first, const Attach
 Vector3d JointLinearization::driven_direction(const JointEquation& equation,
                                               double quarter_turns) const {
   const double angle = drive_.value + quarter_turns * std::acos(0.0);
-  return std::cos(angle) * data_.directions[static_cast<std::size_t>(equation.third)] -
-         std::sin(angle) * data_.directions[static_cast<std::size_t>(equation.first)];
+  return std::cos(angle) * data_.directions[equation.third] -
+         std::sin(angle) * data_.directions[equation.first];
 }
 
 void JointLinearization::evaluate_drive(const JointEquation& equation) {
-  const Attached second = direction(1, data_.directions[static_cast<std::size_t>(equation.second)]);
+  const Attached second = direction(1, data_.directions[equation.second]);
   evaluate_directions(direction(0, driven_direction(equation, 0.0)), second);
   const Attached rate = direction(0, drive_.rate * driven_direction(equation, 1.0));
   add_to(gradient_rate_, rate, second.y);
@@ -298,7 +297,7 @@ void JointLinearization::evaluate_planar_angle(const JointEquation& equation) {
     gradient_(state.start + marker.frame.translations()) = sign;
     int next = state.start + state.frame;
     for (int i = 0; i < 6; ++i) {
-      if (marker.elastic[static_cast<std::size_t>(i)] < 0) continue;
+      if (marker.elastic[i] < 0) continue;
       if (i >= 3) gradient_(next) = sign * state.normal(i - 3);
       ++next;
     }

@@ -49,7 +49,7 @@ class JointEvaluation {
 
   Motion<Scalar> fixed_direction(int index) const {
     const Vector3<Scalar> zero = Vector3<Scalar>::Constant(Scalar(0));
-    return {data_.directions[static_cast<std::size_t>(index)], zero, zero};
+    return {data_.directions[index], zero, zero};
   }
 
   /// cos f d_b − sin f d_a, turning with the drive in the first marker.
@@ -57,8 +57,8 @@ class JointEvaluation {
     using std::cos;
     using std::sin;
     const Scalar c = cos(drive_.value), s = sin(drive_.value);
-    const Vector3<Scalar> a = data_.directions[static_cast<std::size_t>(equation.first)];
-    const Vector3<Scalar> b = data_.directions[static_cast<std::size_t>(equation.third)];
+    const Vector3<Scalar> a = data_.directions[equation.first];
+    const Vector3<Scalar> b = data_.directions[equation.third];
     const Vector3<Scalar> normal = c * b - s * a, tangent = -(s * b) - c * a;
     const Scalar rate2 = drive_.rate * drive_.rate;
     return {normal, Vector3<Scalar>(drive_.rate * tangent),

@@ -93,7 +93,7 @@ class JointTerm : public Term {
     const Local<Dual> local = load<Dual>(state);
     for (std::size_t k = 0; k < derivatives_.size(); ++k) {
       const Result<Dual> result = evaluate(derivatives_[k].data, local, state.time, level);
-      auto sum = sums.row(static_cast<Eigen::Index>(k));
+      auto sum = sums.row(k);
       for (int i = 0; i < local_size(); ++i) {
         sum += derivative_of(result.forces[index(i)]) * mu.row(coordinate(i));
       }
@@ -105,7 +105,7 @@ class JointTerm : public Term {
 
   void add_design_gradients(const ConstColumns& sums, Eigen::MatrixXd& gradients) const override {
     for (std::size_t k = 0; k < derivatives_.size(); ++k) {
-      gradients.row(derivatives_[k].variable) += sums.row(static_cast<Eigen::Index>(k));
+      gradients.row(derivatives_[k].variable) += sums.row(k);
     }
   }
 

@@ -68,7 +68,7 @@ Marker Attachment::marker() const {
   for (int i = 0; i < 6; ++i) {
     for (std::size_t k = 0; k < rows_.coordinates.size(); ++k) {
       if (rows_.values(i, static_cast<Eigen::Index>(k)) == 0.0) continue;
-      marker.elastic[static_cast<std::size_t>(i)] = rows_.coordinates[k];
+      marker.elastic[i] = rows_.coordinates[k];
     }
   }
   return marker;
@@ -110,7 +110,7 @@ class LocalNumbering {
     marker.frame.offset = first;
     const Attachment::Rows& rows = attachment.displacement_rows();
     for (int i = 0; i < 6; ++i) {
-      int& local = marker.elastic[static_cast<std::size_t>(i)];
+      int& local = marker.elastic[i];
       local = -1;
       if (is_zero(rows, i)) continue;
       local = size_++;

@@ -24,7 +24,7 @@ NodalFlags active_displacements(const BodyFrame& frame) {
   const Eigen::Vector3d normal = frame.reference.transpose() * frame.axis;
   for (int i = 0; i < 3; ++i) {
     const bool is_normal = std::abs(normal(i)) > 0.5;
-    active[static_cast<std::size_t>(i)] = !is_normal;
+    active[i] = !is_normal;
     active[static_cast<std::size_t>(i) + 3] = is_normal;
   }
   return active;
@@ -68,7 +68,7 @@ class BasisBuilder {
         model_(model),
         clamped_(clamped_coordinates(beam.frame, model.beam.node_count(), active)) {
     for (int i = 0; i < 6; ++i) {
-      if (active[static_cast<std::size_t>(i)]) motions_.push_back(i);
+      if (active[i]) motions_.push_back(i);
     }
   }
 
@@ -200,7 +200,7 @@ class BasisBuilder {
         const int index = clamped_.index(node, i);
         const bool is_kept = is_attached || (i == 0 && model_.has_stiffening);
         if (index < 0) continue;
-        ModeFamily& family = kept.families[family_of[static_cast<std::size_t>(i)]];
+        ModeFamily& family = kept.families[family_of[i]];
         (is_kept ? kept.boundary : family.coordinates).push_back(index);
       }
     }

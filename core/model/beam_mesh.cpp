@@ -66,7 +66,7 @@ BeamMesh make_mesh(const Body& body, const Scene& scene, const Design<double>& s
     });
     if (is_attached) mesh.attached_nodes.push_back(node);
     if (node < static_cast<int>(mesh.elements.size())) {
-      node_share += mesh.elements[static_cast<std::size_t>(node)].share;
+      node_share += mesh.elements[node].share;
     }
   }
   return mesh;

@@ -54,7 +54,7 @@ class ShapeBuilder {
                         const SparseMatrix& displacements) const {
     Stretching result{number(beam.stiffness_damping), displacements, {}};
     for (int e = 0; e < static_cast<int>(beam.elements.size()); ++e) {
-      const BeamElement<Scalar>& element = beam.elements[static_cast<std::size_t>(e)];
+      const BeamElement<Scalar>& element = beam.elements[e];
       const std::vector<int> active = active_displacements(model_.coordinates, e);
       std::vector<int> indices;
       for (int i : active) indices.push_back(model_.coordinates.index(e + i / 6, i % 6));

@@ -46,9 +46,9 @@ class ElasticForms {
     const auto pairs = static_cast<Eigen::Index>(body.pairs.size());
     Column qq = Column::Zero(pairs), qv = qq;
     for (int row = 0; row < body.size(); ++row) {
-      for (int i = body.pattern.row_start[static_cast<std::size_t>(row)];
+      for (int i = body.pattern.row_start[row];
            i < body.pattern.row_start[static_cast<std::size_t>(row) + 1]; ++i) {
-        const int col = body.pattern.column[static_cast<std::size_t>(i)];
+        const int col = body.pattern.column[i];
         const double q_q = q(row) * q(col), q_v = q(row) * v(col), v_v = v(row) * v(col);
         const Eigen::Map<const Column> moments(body.moments.data() + i * pairs, pairs);
         qq += q_q * moments;
@@ -60,8 +60,8 @@ class ElasticForms {
     }
     for (std::size_t p = 0; p < body.pairs.size(); ++p) {
       const auto [k, l] = body.pairs[p];
-      second(k, l) = qq(static_cast<Eigen::Index>(p));
-      second_rate(k, l) = qv(static_cast<Eigen::Index>(p));
+      second(k, l) = qq(p);
+      second_rate(k, l) = qv(p);
     }
   }
 };
@@ -139,10 +139,10 @@ class ElasticGradient {
       }
     }
     for (int row = 0; row < body_.size(); ++row) {
-      const auto begin = body_.pattern.row_start[static_cast<std::size_t>(row)];
+      const auto begin = body_.pattern.row_start[row];
       const auto end = body_.pattern.row_start[static_cast<std::size_t>(row) + 1];
       for (int i = begin; i < end; ++i) {
-        const int col = body_.pattern.column[static_cast<std::size_t>(i)];
+        const int col = body_.pattern.column[i];
         const auto [qq, qv, vv] = forms(i);
         by_q(row) += qq * q(col) + qv * v(col);
         by_q(col) += qq * q(row);
@@ -191,7 +191,7 @@ void add_frame_gradient(const BodyModel& body, const FrameMotion<double>& frame,
       weights.kinetic * frame.G.transpose() *
       (first.cross(velocity) + second.trace() * omega - second * omega + spin);
   for (int i = 0; i < body.frame.rotations(); ++i) {
-    const Matrix3d& turn = frame.A_p[static_cast<std::size_t>(i)];
+    const Matrix3d& turn = frame.A_p[i];
     by_q(k + i) += weights.kinetic * frame.r_dot.dot(turn * relative) -
                    weights.weight * gravity.dot(turn * first);
   }

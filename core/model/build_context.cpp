@@ -5,7 +5,7 @@ namespace pleuel {
 Design<Dual> BuildContext::seeded(int variable) const {
   Design<Dual> dual;
   for (double value : design) dual.emplace_back(value);
-  dual[static_cast<std::size_t>(variable)].derivatives()[0] = 1.0;
+  dual[variable].derivatives()[0] = 1.0;
   return dual;
 }
 

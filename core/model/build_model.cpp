@@ -318,7 +318,7 @@ class ModelBuilder {
         continue;
       }
       for (int i = 0; i < joint.equations(); ++i) {
-        if (!is_moment(joint.topology.equations[static_cast<std::size_t>(i)].kind)) continue;
+        if (!is_moment(joint.topology.equations[i].kind)) continue;
         weight(joint.first_multiplier + i) = 1.0 / (length * length);
       }
     }

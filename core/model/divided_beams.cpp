@@ -55,9 +55,7 @@ std::vector<int> cut_nodes(const std::vector<double>& shares, int frames) {
     const int first = nodes.back() + 1, end = last - (frames - k);
     int best = first;
     for (int node = first; node <= end; ++node) {
-      const auto distance = [&](int i) {
-        return std::abs(shares[static_cast<std::size_t>(i)] - wanted);
-      };
+      const auto distance = [&](int i) { return std::abs(shares[i] - wanted); };
       if (distance(node) < distance(best)) best = node;
     }
     nodes.push_back(best);
@@ -117,7 +115,7 @@ class Division {
     const std::vector<int> nodes = cut_nodes(shares, beam->frames);
     std::vector<Body>& parts = parts_[body.name];
     for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
-      const auto share = [&](int node) { return shares[static_cast<std::size_t>(node)]; };
+      const auto share = [&](int node) { return shares[node]; };
       Body part = body;
       part.name = unique_name(fmt::format("{} (frame {})", body.name, k + 1));
       part.shape = cut(*beam, segments, nodes[k], nodes[k + 1],

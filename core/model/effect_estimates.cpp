@@ -80,7 +80,7 @@ class QuasiStaticBeam {
 
   void note_axial_force(const Nodal& d) {
     for (int e = 0; e + 1 < d.cols(); ++e) {
-      const auto& element = body_.beam.elements[static_cast<std::size_t>(e)];
+      const auto& element = body_.beam.elements[e];
       const double force =
           element.young * element.section.area / element.length * (d(0, e + 1) - d(0, e));
       largest_.axial_force = std::max(largest_.axial_force, std::abs(force));
@@ -102,7 +102,7 @@ double euler_load(const BodyModel& body, const BeamBody& beam) {
     NodalFlags flags{};
     for (int node = 0; node < body.coordinates.node_count(); ++node) {
       for (int i = 0; i < 6; ++i) {
-        if (body.coordinates.index(node, i) >= 0) flags[static_cast<std::size_t>(i)] = true;
+        if (body.coordinates.index(node, i) >= 0) flags[i] = true;
       }
     }
     return flags;

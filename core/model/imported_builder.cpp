@@ -99,8 +99,7 @@ Invariants<double> invariants_of(const BodyConstants& constants, const Arrangeme
   invariants.damping = entries_of(constants.damping, pattern);
   invariants.moments.resize(pattern.nonzeros(), static_cast<int>(arrangement.pairs.size()));
   for (std::size_t p = 0; p < arrangement.pairs.size(); ++p) {
-    invariants.moments.col(static_cast<Eigen::Index>(p)) =
-        moment_entries(constants, arrangement.pairs[p], pattern);
+    invariants.moments.col(p) = moment_entries(constants, arrangement.pairs[p], pattern);
   }
   return invariants;
 }
@@ -111,7 +110,7 @@ BodyPlaces places_of(const BodyConstants& constants, bool is_elastic) {
   places.positions.resize(3, count);
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index i = 0; i < count; ++i) {
-    const BodyPlace& place = constants.places[static_cast<std::size_t>(i)];
+    const BodyPlace& place = constants.places[i];
     places.names.push_back(place.name);
     places.positions.col(i) = place.position;
     for (Eigen::Index k = 0; is_elastic && k < 3; ++k) {

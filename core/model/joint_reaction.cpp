@@ -30,8 +30,7 @@ Local<Scalar> load(const JointReaction& reaction, const State& state) {
     local.q[i] = Scalar(state.q(coordinates[i]));
   }
   for (int i = 0; i < reaction.joint().equations(); ++i) {
-    local.lambda[static_cast<std::size_t>(i)] =
-        Scalar(state.lambda(reaction.multiplier(state) + i));
+    local.lambda[i] = Scalar(state.lambda(reaction.multiplier(state) + i));
   }
   return local;
 }
@@ -79,10 +78,10 @@ JointReaction::Derivatives JointReaction::derivatives(const State& state) const 
   const auto coordinates = static_cast<int>(coordinates_.size());
   Local<WideDual> local = load<WideDual>(*this, state);
   for (int i = 0; i < coordinates; ++i) {
-    local.q[static_cast<std::size_t>(i)].derivatives()[i] = 1.0;
+    local.q[i].derivatives()[i] = 1.0;
   }
   for (int i = 0; i < joint_.equations(); ++i) {
-    local.lambda[static_cast<std::size_t>(i)].derivatives()[max_coordinates + i] = 1.0;
+    local.lambda[i].derivatives()[max_coordinates + i] = 1.0;
   }
   const auto wrench = evaluate(joint_.topology, numbers_->constants, local, state.time);
   Derivatives result;

@@ -20,7 +20,7 @@ bool are_normal(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 /// A design variable may not move a point out of the plane.
 bool is_bound_along(const Point& point, const Eigen::Vector3d& normal) {
   for (int i = 0; i < 3; ++i) {
-    if (point[static_cast<std::size_t>(i)].is_bound() && std::abs(normal(i)) > tolerance) {
+    if (point[i].is_bound() && std::abs(normal(i)) > tolerance) {
       return true;
     }
   }
@@ -176,7 +176,7 @@ class PlaneCheck {
             "the velocity of body " + body.name);
     bool is_in_plane = spin.isZero() || are_parallel(spin, normal_);
     for (int i = 0; i < 3; ++i) {
-      const bool is_bound = body.angular_velocity[static_cast<std::size_t>(i)].is_bound();
+      const bool is_bound = body.angular_velocity[i].is_bound();
       if (is_bound && std::abs(std::abs(normal_(i)) - 1.0) > tolerance) is_in_plane = false;
     }
     require(is_in_plane, "the angular velocity of body " + body.name);

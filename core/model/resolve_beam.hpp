@@ -23,8 +23,7 @@ Beam<Scalar> resolve_beam(const BeamBody& body, const BeamMesh& mesh, const Scen
   for (const MeshElement& part : mesh.elements) {
     if (part.segment != segment) {
       segment = part.segment;
-      element.section =
-          resolve_section(body.segments[static_cast<std::size_t>(segment)].section, design);
+      element.section = resolve_section(body.segments[segment].section, design);
     }
     element.length = length * part.share;
     beam.elements.push_back(element);

@@ -177,9 +177,9 @@ void reduce_responses(Analysis& analysis) {
 }  // namespace
 
 Eigen::VectorXd start_design(const ProblemFile& problem) {
-  Eigen::VectorXd x(static_cast<Eigen::Index>(problem.variables.size()));
+  Eigen::VectorXd x(problem.variables.size());
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    x(static_cast<Eigen::Index>(i)) = problem.variables[i].start;
+    x(i) = problem.variables[i].start;
   }
   return x;
 }
@@ -191,9 +191,9 @@ ProblemFile with_steps_of(const Trajectory& trajectory, ProblemFile problem) {
 }
 
 Eigen::VectorXd values_of(const Analysis& analysis) {
-  Eigen::VectorXd values(static_cast<Eigen::Index>(analysis.reductions.size()));
+  Eigen::VectorXd values(analysis.reductions.size());
   for (std::size_t i = 0; i < analysis.reductions.size(); ++i) {
-    values(static_cast<Eigen::Index>(i)) = analysis.reductions[i].value;
+    values(i) = analysis.reductions[i].value;
   }
   return values;
 }

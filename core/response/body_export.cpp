@@ -22,10 +22,10 @@ template <class Entries>
 SparseMatrix sparse(const ElasticPattern& pattern, const Entries& entries) {
   std::vector<Eigen::Triplet<double>> triplets;
   for (int row = 0; row < pattern.size; ++row) {
-    for (int i = pattern.row_start[static_cast<std::size_t>(row)];
-         i < pattern.row_start[static_cast<std::size_t>(row) + 1]; ++i) {
+    for (int i = pattern.row_start[row]; i < pattern.row_start[static_cast<std::size_t>(row) + 1];
+         ++i) {
       if (entries(i) == 0.0) continue;
-      triplets.emplace_back(row, pattern.column[static_cast<std::size_t>(i)], entries(i));
+      triplets.emplace_back(row, pattern.column[i], entries(i));
     }
   }
   SparseMatrix matrix(pattern.size, pattern.size);
@@ -104,8 +104,7 @@ std::vector<std::string> coordinate_names(const BodyModel& body) {
     for (int i = 0; i < 6; ++i) {
       const int index = body.coordinates.index(node, i);
       if (index < 0) continue;
-      names[static_cast<std::size_t>(index)] =
-          fmt::format("{} of node {}", displacements[static_cast<std::size_t>(i)], node);
+      names[index] = fmt::format("{} of node {}", displacements[i], node);
     }
   }
   return names;

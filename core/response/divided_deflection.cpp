@@ -30,13 +30,12 @@ class DividedDeflection final : public Signal {
 
   void add_gradient(const State& state, int, double weight, SignalGradient& gradient) override {
     Numbers<Wide> seeded = numbers<Wide>(state);
-    for (int i = 0; i < size; ++i) seeded[static_cast<std::size_t>(i)].derivatives()[i] = 1.0;
+    for (int i = 0; i < size; ++i) seeded[i].derivatives()[i] = 1.0;
     const Wide deflection = evaluate<Wide>(seeded);
     for (int i = 0; i < size; ++i) {
       const double slope = deflection.derivatives()[i];
       if (slope == 0.0) continue;
-      signals_[static_cast<std::size_t>(i / 3)]->add_gradient(state, i % 3, weight * slope,
-                                                              gradient);
+      signals_[i / 3]->add_gradient(state, i % 3, weight * slope, gradient);
     }
   }
 
@@ -53,7 +52,7 @@ class DividedDeflection final : public Signal {
     for (std::size_t k = 0; k < signals_.size(); ++k) {
       signals_[k]->observe(state, vector);
       for (std::size_t i = 0; i < 3; ++i) {
-        all[3 * k + i] = Scalar(vector(static_cast<Eigen::Index>(i)));
+        all[3 * k + i] = Scalar(vector(i));
       }
     }
     return all;

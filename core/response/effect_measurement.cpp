@@ -161,7 +161,7 @@ void decide_effects(ProblemFile& problem) {
 
 ProblemFile starting_at(ProblemFile problem, const Eigen::VectorXd& x) {
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    problem.variables[i].start = x(static_cast<Eigen::Index>(i));
+    problem.variables[i].start = x(i);
   }
   return problem;
 }

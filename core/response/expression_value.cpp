@@ -31,9 +31,8 @@ ExpressionValue evaluate_at(const std::vector<Reduction>& reductions, const Eige
                             const Expression& expression) {
   std::vector<double> arguments;
   for (const ExpressionArgument& argument : expression.arguments) {
-    arguments.push_back(argument.kind == ArgumentKind::variable
-                            ? x(static_cast<Eigen::Index>(argument.index))
-                            : reductions[argument.index].value);
+    arguments.push_back(argument.kind == ArgumentKind::variable ? x(argument.index)
+                                                                : reductions[argument.index].value);
   }
   return evaluate(expression, arguments);
 }

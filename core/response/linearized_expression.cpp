@@ -28,7 +28,7 @@ class Linearization {
       if (argument.kind == ExpressionArgument::Kind::response) {
         add(argument.index, share);
       } else {
-        design_(static_cast<Eigen::Index>(argument.index)) += share;
+        design_(argument.index) += share;
       }
     }
   }

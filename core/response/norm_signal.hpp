@@ -24,7 +24,7 @@ class NormSignal final : public Signal {
   void add_gradient(const State& state, int, double weight, SignalGradient& gradient) override {
     const Eigen::RowVector3d slope = component_slope(observed(state), magnitude);
     for (Eigen::Index i = 0; i < 2; ++i) {
-      parts_[static_cast<std::size_t>(i)]->add_gradient(state, 0, weight * slope(i), gradient);
+      parts_[i]->add_gradient(state, 0, weight * slope(i), gradient);
     }
   }
 
@@ -32,7 +32,7 @@ class NormSignal final : public Signal {
   Eigen::Vector3d observed(const State& state) {
     Eigen::Vector3d values = Eigen::Vector3d::Zero();
     for (Eigen::Index i = 0; i < 2; ++i) {
-      parts_[static_cast<std::size_t>(i)]->observe(state, values.segment(i, 1));
+      parts_[i]->observe(state, values.segment(i, 1));
     }
     return values;
   }

@@ -42,9 +42,7 @@ class StressPoints final : public Stations {
 
   int channels() const override { return static_cast<int>(stress_.points.size()); }
   int station(int channel) const override { return channel; }
-  std::string describe(int channel) const override {
-    return stress_.points[static_cast<std::size_t>(channel)];
-  }
+  std::string describe(int channel) const override { return stress_.points[channel]; }
 
   double value(int, const double* numbers) const override {
     const Eigen::Map<const Stress> stress(numbers);

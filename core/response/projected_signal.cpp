@@ -16,7 +16,7 @@ void ProjectedSignal::observe(const State& state, Eigen::Ref<Eigen::VectorXd> va
 void ProjectedSignal::scatter(const Eigen::VectorXd& local, Eigen::VectorXd& all) const {
   const Eigen::VectorXd columns = map_.rows.transpose() * local;
   for (int i = 0; i < map_.columns(); ++i) {
-    all(map_.coordinates[static_cast<std::size_t>(i)]) += columns(i);
+    all(map_.coordinates[i]) += columns(i);
   }
 }
 
@@ -29,7 +29,7 @@ void ProjectedSignal::add_gradient(const State& state, int channel, double weigh
   scatter(local_.v, gradient.v);
   scatter(local_.a, gradient.a);
   for (std::size_t i = 0; i < map_.multipliers.size(); ++i) {
-    gradient.lambda(map_.multipliers[i]) += local_.lambda(static_cast<Eigen::Index>(i));
+    gradient.lambda(map_.multipliers[i]) += local_.lambda(i);
   }
   gradient.design += local_.design;
   for (const auto& [variable, rows] : map_.derivatives) {

@@ -29,7 +29,7 @@ class ReactionSignal final : public Signal {
         weight * component_slope(part_of(reaction_.wrench(state)), part_.direction);
     const Eigen::RowVectorXd q = slope * part_of(derivatives.q);
     for (Eigen::Index i = 0; i < q.size(); ++i) {
-      gradient.q(reaction_.coordinates()[static_cast<std::size_t>(i)]) += q(i);
+      gradient.q(reaction_.coordinates()[i]) += q(i);
     }
     const Eigen::RowVectorXd lambda = slope * part_of(derivatives.lambda);
     gradient.lambda.segment(reaction_.multiplier(state), lambda.size()) += lambda.transpose();

@@ -36,8 +36,7 @@ class StretchingForces {
     const double value = square(element, state);
     const auto moved = moved_.head(element.elongation.size());
     for (Eigen::Index i = 0; i < moved.size(); ++i) {
-      writer.add_coordinate(slope * element.axial_stiffness * bent_(i),
-                            element.displacements[static_cast<std::size_t>(i)]);
+      writer.add_coordinate(slope * element.axial_stiffness * bent_(i), element.displacements[i]);
     }
     for (const auto& [variable, all] : members_.derivatives) {
       const StretchedElement& change = member_of(all, member);
@@ -51,7 +50,7 @@ class StretchingForces {
  private:
   static const StretchedElement& member_of(const std::vector<StretchedElement>& members,
                                            int member) {
-    return members[static_cast<std::size_t>(member)];
+    return members[member];
   }
   /// q_fᵀ Ĝ q_f; leaves q_f of the member and Ĝ q_f.
   double square(const StretchedElement& element, const BodyState& state) {
@@ -59,7 +58,7 @@ class StretchingForces {
     auto moved = moved_.head(element.elongation.size());
     auto bent = bent_.head(element.elongation.size());
     for (Eigen::Index i = 0; i < moved.size(); ++i) {
-      moved(i) = q(element.displacements[static_cast<std::size_t>(i)]);
+      moved(i) = q(element.displacements[i]);
     }
     bent = element.slopes.lazyProduct(moved);
     return moved.dot(bent);
@@ -121,7 +120,7 @@ class RecoveredSignal final : public Signal {
     const BodyState of_body(body_, state);
     BodyGradient writer(body_, of_body, gradient);
     const int station = stations_->station(channel);
-    const Near& near = near_[static_cast<std::size_t>(station)];
+    const Near& near = near_[station];
     set_near(near, of_body);
     const Eigen::Index first = stations_->numbers() * station;
     const Stations::Numbers numbers = recovered(recovery_, first, of_body);
@@ -224,7 +223,7 @@ class RecoveredSignal final : public Signal {
 
   void prepare_derivatives() {
     if (!near_.empty()) return;
-    near_.resize(static_cast<std::size_t>(recovery_.of_coordinates.rows() / stations_->numbers()));
+    near_.resize(recovery_.of_coordinates.rows() / stations_->numbers());
     record_near(recovery_);
     for (std::size_t k = 0; k < body_.places_x.size(); ++k) {
       changes_.push_back(stations_->recovery_derivative(k));
@@ -235,7 +234,7 @@ class RecoveredSignal final : public Signal {
   void record_near(const Recovery& recovery) {
     const auto note = [&](const SparseMatrix& rows, Eigen::Index divisor, auto part) {
       for (Eigen::Index row = 0; row < rows.rows(); ++row) {
-        Near& near = near_[static_cast<std::size_t>(row / stations_->numbers())];
+        Near& near = near_[row / stations_->numbers()];
         for (SparseMatrix::InnerIterator entry(rows, row); entry; ++entry) {
           (near.*part).insert(static_cast<int>(entry.col() / divisor));
         }

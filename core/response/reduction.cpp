@@ -86,7 +86,7 @@ void add_peaks(const Search& search, double sign, double threshold, std::vector<
 std::vector<Sample> samples_of(const Peak& peak) {
   std::vector<Sample> samples;
   for (int i = 0; i < 3; ++i) {
-    const double weight = peak.sign * peak.weights[static_cast<std::size_t>(i)];
+    const double weight = peak.sign * peak.weights[i];
     if (weight != 0.0) samples.push_back({peak.step + i - 1, peak.channel, weight});
   }
   return samples;
@@ -260,7 +260,7 @@ BrokenInstants instants_at(const std::vector<double>& breaks, const Eigen::Vecto
   BrokenInstants broken(static_cast<std::size_t>(time.size()), false);
   for (const double at : breaks) {
     const auto found = std::find(time.begin(), time.end(), at);
-    if (found != time.end()) broken[static_cast<std::size_t>(found - time.begin())] = true;
+    if (found != time.end()) broken[found - time.begin()] = true;
   }
   return broken;
 }

@@ -93,8 +93,7 @@ NodalRows nodal_rows(const Beam<Scalar>& beam, const std::vector<Station>& stati
   for (const Station& station : stations) {
     const double share = 1.0 / static_cast<double>(station.elements.size());
     for (int e : station.elements) {
-      const ElementForces<Scalar> forces(beam.elements[static_cast<std::size_t>(e)],
-                                         station.place - e);
+      const ElementForces<Scalar> forces(beam.elements[e], station.place - e);
       const auto scaled = [&](const Scalar& entry) { return share * number(entry); };
       displacements.add(row, 6 * e, forces.of_coordinates.unaryExpr(scaled).eval());
       accelerations.add(row, 3 * e, forces.of_accelerations.unaryExpr(scaled).eval());

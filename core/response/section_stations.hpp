@@ -67,9 +67,9 @@ class SectionStations final : public Stations {
   int station(int channel) const override { return at(channel).station; }
   std::string describe(int channel) const override {
     const auto& [station, index] = at(channel);
-    const std::string place = pleuel::describe(stations_[static_cast<std::size_t>(station)], body_);
+    const std::string place = pleuel::describe(stations_[station], body_);
     if (index < 0) return place + quantity_.name(index);
-    const auto& point = section_of(body_.beam, station).points[static_cast<std::size_t>(index)];
+    const auto& point = section_of(body_.beam, station).points[index];
     return fmt::format("{}, y = {:.4g} m, z = {:.4g} m", place, point.y, point.z);
   }
 
@@ -81,7 +81,7 @@ class SectionStations final : public Stations {
     if (!cast_) cast_ = std::make_unique<const Beam<ForcesDual>>(cast_beam<ForcesDual>(body_.beam));
     std::array<ForcesDual, section_force_count> seeded;
     for (int i = 0; i < section_force_count; ++i) {
-      seeded[static_cast<std::size_t>(i)] = {numbers[i], ForcesDual::Derivatives::Unit(i)};
+      seeded[i] = {numbers[i], ForcesDual::Derivatives::Unit(i)};
     }
     return evaluate(*cast_, channel, section_forces(seeded.data())).derivatives();
   }
@@ -100,12 +100,12 @@ class SectionStations final : public Stations {
     int point;  ///< as Quantity names it
   };
 
-  const Channel& at(int channel) const { return channels_[static_cast<std::size_t>(channel)]; }
+  const Channel& at(int channel) const { return channels_[channel]; }
 
   template <class Scalar>
   const SectionProperties<Scalar>& section_of(const Beam<Scalar>& beam, int station) const {
-    const int element = stations_[static_cast<std::size_t>(station)].elements.front();
-    return beam.elements[static_cast<std::size_t>(element)].section;
+    const int element = stations_[station].elements.front();
+    return beam.elements[element].section;
   }
 
   template <class Scalar>

@@ -41,7 +41,7 @@ class StationFinder {
 
  private:
   int elements() const { return static_cast<int>(body_.beam.elements.size()); }
-  int segment_of(int e) const { return body_.mesh.elements[static_cast<std::size_t>(e)].segment; }
+  int segment_of(int e) const { return body_.mesh.elements[e].segment; }
   /// Whether an element continues the segment of the one before, and nothing acts between them.
   bool continues(int e) const {
     const std::vector<int>& attached = body_.mesh.attached_nodes;

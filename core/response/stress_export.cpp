@@ -27,7 +27,7 @@ StressExport::StressExport(const BodyModel& body, const std::vector<NamedPlace>&
 void StressExport::find_stress_places() {
   const bool is_planar = body_.frame.rotation == RotationCoordinates::angle;
   for (int s = 0; s < static_cast<int>(stations_.size()); ++s) {
-    const std::string node = fmt::format("node {}", stations_[static_cast<std::size_t>(s)].place);
+    const std::string node = fmt::format("node {}", stations_[s].place);
     const SectionProperties<double>& section = section_of(body_.beam, s);
     if (section.is_round() && !is_planar) {
       for (int i = 0; i < outline_points; ++i) {
@@ -38,7 +38,7 @@ void StressExport::find_stress_places() {
       continue;
     }
     for (int point : distinct_stress_points(body_, section)) {
-      const auto& at = section.points[static_cast<std::size_t>(point)];
+      const auto& at = section.points[point];
       stress_places_.push_back(
           {fmt::format("{}, y = {:.4g} m, z = {:.4g} m", node, at.y, at.z), s, point});
     }
@@ -48,7 +48,7 @@ void StressExport::find_stress_places() {
 template <class Scalar>
 StressPoint<Scalar> StressExport::point_of(const SectionProperties<Scalar>& section,
                                            const StressPlace& place) {
-  if (place.point >= 0) return section.points[static_cast<std::size_t>(place.point)];
+  if (place.point >= 0) return section.points[place.point];
   using std::sqrt;
   const double c = std::cos(place.angle), s = std::sin(place.angle);
   const Scalar &shear_y = section.points[0].shear, &shear_z = section.points[2].shear;

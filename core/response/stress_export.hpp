@@ -29,8 +29,8 @@ class StressExport {
 
   template <class Scalar>
   const SectionProperties<Scalar>& section_of(const Beam<Scalar>& beam, int station) const {
-    const int element = stations_[static_cast<std::size_t>(station)].elements.front();
-    return beam.elements[static_cast<std::size_t>(element)].section;
+    const int element = stations_[station].elements.front();
+    return beam.elements[element].section;
   }
   void find_stress_places();
   template <class Scalar>

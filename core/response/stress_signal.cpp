@@ -16,8 +16,7 @@ std::vector<int> points_of_distinct_shear(const SectionProperties<double>& secti
   std::vector<int> distinct;
   for (int i = 0; i < static_cast<int>(section.points.size()); ++i) {
     const auto is_same = [&](int other) {
-      return section.points[static_cast<std::size_t>(other)].shear ==
-             section.points[static_cast<std::size_t>(i)].shear;
+      return section.points[other].shear == section.points[i].shear;
     };
     if (std::none_of(distinct.begin(), distinct.end(), is_same)) distinct.push_back(i);
   }
@@ -29,7 +28,7 @@ Scalar bending_stress(const SectionProperties<Scalar>& section, const SectionFor
                       int point) {
   using std::sqrt;
   if (point >= 0) {
-    const StressPoint<Scalar>& at = section.points[static_cast<std::size_t>(point)];
+    const StressPoint<Scalar>& at = section.points[point];
     return forces.moment_y * at.z / section.inertia_y - forces.moment_z * at.y / section.inertia_z;
   }
   // The largest b_y cos θ + b_z sin θ of a round outline.
@@ -44,7 +43,7 @@ template <class Scalar>
 Scalar von_mises(const SectionProperties<Scalar>& section, const SectionForces<Scalar>& forces,
                  int point) {
   return von_mises_stress(section, forces,
-                          point >= 0 ? section.points[static_cast<std::size_t>(point)]
+                          point >= 0 ? section.points[point]
                                      : most_stressed_point(section, forces, point == tension_side));
 }
 
@@ -71,7 +70,7 @@ class StressQuantity {
       case StressPart::bending:
         return bending_stress(section, forces, point);
       case StressPart::shear:
-        return forces.torque * section.points[static_cast<std::size_t>(point)].shear;
+        return forces.torque * section.points[point].shear;
       case StressPart::utilization:  // a beam has one material
         return von_mises(section, forces, point) / beam.elements.front().strength;
       default:
@@ -96,7 +95,7 @@ std::vector<int> distinct_stress_points(const BodyModel& body,
   const bool bends_along_y = std::abs(normal.z()) > 0.5;
   const int points = static_cast<int>(section.points.size());
   const auto lever = [&](int k) {
-    const StressPoint<double>& point = section.points[static_cast<std::size_t>(k)];
+    const StressPoint<double>& point = section.points[k];
     return bends_along_y ? point.y : point.z;
   };
   bool has_upper = false, has_lower = false;

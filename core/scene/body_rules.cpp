@@ -92,9 +92,7 @@ class Corners {
   }
 
  private:
-  const DesignVariable& variable(int index) const {
-    return problem_.variables[static_cast<std::size_t>(index)];
-  }
+  const DesignVariable& variable(int index) const { return problem_.variables[index]; }
 
   /// The rule is linear (or taken to be, of an expression): it is broken most where each variable is
   /// at one certain bound.
@@ -140,7 +138,7 @@ class Corners {
 
   Design<double> at(const Corner& corner) const {
     Design<double> design = start_;
-    for (const auto& [index, value] : corner) design[static_cast<std::size_t>(index)] = value;
+    for (const auto& [index, value] : corner) design[index] = value;
     return design;
   }
 

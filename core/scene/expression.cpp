@@ -79,11 +79,9 @@ Partials compute(const ExpressionStep& step, const std::vector<Partials>& result
                  const std::vector<double>& arguments) {
   if (step.operation == Operation::constant) return {step.constant};
   if (step.operation == Operation::argument) {
-    return {arguments[static_cast<std::size_t>(step.first)]};
+    return {arguments[step.first]};
   }
-  const auto result = [&](int of) {
-    return of < 0 ? 0.0 : results[static_cast<std::size_t>(of)].value;
-  };
+  const auto result = [&](int of) { return of < 0 ? 0.0 : results[of].value; };
   return apply(step.operation, result(step.first), result(step.second));
 }
 
@@ -108,7 +106,7 @@ ExpressionValue evaluate(const Expression& expression, const std::vector<double>
     }
     slopes[first] += slopes[i] * results[i].by_first;
     if (steps[i].second >= 0) {
-      slopes[static_cast<std::size_t>(steps[i].second)] += slopes[i] * results[i].by_second;
+      slopes[steps[i].second] += slopes[i] * results[i].by_second;
     }
   }
   return found;

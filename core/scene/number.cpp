@@ -21,7 +21,7 @@ bool Number::depends_on(int design_variable) const {
 
 double derivative_by(int variable, const Number& number, const Design<double>& design) {
   Design<Dual> seeded(design.begin(), design.end());
-  seeded[static_cast<std::size_t>(variable)].derivatives()[0] = 1.0;
+  seeded[variable].derivatives()[0] = 1.0;
   return derivative_of(resolve(number, seeded));
 }
 

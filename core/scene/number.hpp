@@ -70,7 +70,7 @@ template <class Scalar>
 Scalar resolve(const Number& number, const Design<Scalar>& design) {
   Scalar value(number.constant);
   if (number.variable >= 0) {
-    value += number.factor * design[static_cast<std::size_t>(number.variable)];
+    value += number.factor * design[number.variable];
   }
   if (number.expression) value += number.factor * resolve(*number.expression, design);
   return value;

@@ -50,7 +50,7 @@ ShownUnit unit_of(const ResponseSettings& response) {
 
 ShownUnit unit_of(const ProblemFile& problem, const ConstraintSettings& constraint) {
   if (constraint.linear.empty()) return unit_of(find_response(problem, constraint.response));
-  return variable_units(problem)[static_cast<std::size_t>(constraint.linear.front().first)];
+  return variable_units(problem)[constraint.linear.front().first];
 }
 
 const ResponseSettings& find_response(const ProblemFile& problem, const std::string& name) {

@@ -33,8 +33,7 @@ Quantity variable_quantity(const ProblemFile& problem, int variable) {
       if (const auto quantity = find_quantity(problem.scene, other)) return *quantity;
     }
   }
-  return problem.variables[static_cast<std::size_t>(variable)].quantity.value_or(
-      quantities::pure_number);
+  return problem.variables[variable].quantity.value_or(quantities::pure_number);
 }
 
 }  // namespace pleuel

@@ -14,7 +14,7 @@ void LocalState::set(const CoordinateMap& map, const State& state) {
   map.gather(state.v, v, local.v);
   map.gather(state.a, a, local.a);
   for (std::size_t i = 0; i < map.multipliers.size(); ++i) {
-    local.lambda(static_cast<Eigen::Index>(i)) = state.lambda(map.multipliers[i]);
+    local.lambda(i) = state.lambda(map.multipliers[i]);
   }
 }
 

@@ -26,7 +26,7 @@ struct CoordinateMap {
   template <class Vector>
   void gather(const Vector& all, Eigen::VectorXd& columns, Eigen::VectorXd& local) const {
     for (int i = 0; i < this->columns(); ++i) {
-      columns(i) = all(coordinates[static_cast<std::size_t>(i)]);
+      columns(i) = all(coordinates[i]);
     }
     local.noalias() = rows * columns;
   }

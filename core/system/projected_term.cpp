@@ -31,7 +31,7 @@ void ProjectedTerm::declare_entries(EntryList& entries) const {
 void ProjectedTerm::scatter(Eigen::VectorXd& residual) {
   projected_.noalias() = map_.rows.transpose() * residual_.head(locals());
   for (int i = 0; i < map_.columns(); ++i) {
-    residual(map_.coordinates[static_cast<std::size_t>(i)]) += projected_(i);
+    residual(map_.coordinates[i]) += projected_(i);
   }
   for (int i = 0; i < multipliers(); ++i) residual(row_of_multiplier(i)) += residual_(locals() + i);
 }
@@ -91,7 +91,7 @@ void ProjectedTerm::add_design_derivative(const State& state, ConstraintLevel le
   if (!map_.derivatives.empty()) add_moving_map(level, columns);
   const Eigen::MatrixXd projected = map_.rows.transpose() * inner_columns_.topRows(locals());
   for (int i = 0; i < map_.columns(); ++i) {
-    columns.row(map_.coordinates[static_cast<std::size_t>(i)]) += projected.row(i);
+    columns.row(map_.coordinates[i]) += projected.row(i);
   }
   for (int i = 0; i < multipliers(); ++i) {
     columns.row(row_of_multiplier(i)) += inner_columns_.row(locals() + i);
@@ -117,7 +117,7 @@ void ProjectedTerm::add_moving_map(ConstraintLevel level, Eigen::MatrixXd& colum
     }
     const Eigen::VectorXd turned = rows.transpose() * residual_.head(locals());
     for (int i = 0; i < map_.columns(); ++i) {
-      columns(map_.coordinates[static_cast<std::size_t>(i)], variable) += turned(i);
+      columns(map_.coordinates[i], variable) += turned(i);
     }
   }
 }

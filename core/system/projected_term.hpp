@@ -34,9 +34,7 @@ class ProjectedTerm final : public Term {
  private:
   int locals() const { return map_.size(); }
   int multipliers() const { return static_cast<int>(map_.multipliers.size()); }
-  int row_of_multiplier(int i) const {
-    return coordinates_ + map_.multipliers[static_cast<std::size_t>(i)];
-  }
+  int row_of_multiplier(int i) const { return coordinates_ + map_.multipliers[i]; }
   void scatter(Eigen::VectorXd& residual);
   void set_tangent(std::size_t block);
   void write_projected(double* entries);

@@ -36,16 +36,16 @@ void System::build_pattern() {
   pattern_.makeCompressed();
   entry_count_ = entries.size();
   const auto none = static_cast<int>(entries.size());
-  first_of_value_.assign(static_cast<std::size_t>(pattern_.nonZeros()), none);
+  first_of_value_.assign(pattern_.nonZeros(), none);
   more_of_values_.clear();
   for (int entry = 0; entry < none; ++entry) {
-    const auto [row, col] = entries[static_cast<std::size_t>(entry)];
+    const auto [row, col] = entries[entry];
     const int* begin = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[col];
     const int* end = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[col + 1];
     const int* found = std::lower_bound(begin, end, row);
     assert(found != end && *found == row);
     const auto value = static_cast<int>(found - pattern_.innerIndexPtr());
-    int& first = first_of_value_[static_cast<std::size_t>(value)];
+    int& first = first_of_value_[value];
     if (first == none) {
       first = entry;
     } else {

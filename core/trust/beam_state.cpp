@@ -15,7 +15,7 @@ double elongation_of(const BodyModel& body, const Eigen::MatrixXd& nodal, int el
   const auto from = nodal.col(element), to = nodal.col(element + 1);
   const double linear = to(0) - from(0);
   if (!body.has_stiffening) return linear;
-  const double length = body.beam.elements[static_cast<std::size_t>(element)].length;
+  const double length = body.beam.elements[element].length;
   return linear + 0.5 * (slope_integral<double>(to(1) - from(1), from(5), to(5), length) +
                          slope_integral<double>(to(2) - from(2), -from(4), -to(4), length));
 }
@@ -35,7 +35,7 @@ void record_beam(const BodyModel& body, const State& state, int step, LargestDef
   keep_larger(nodal.row(3).cwiseAbs().maxCoeff(), step, largest.twist, largest.twist_step);
   if (nodal.row(0).isZero(0.0)) return;
   for (int e = 0; e + 1 < nodal.cols(); ++e) {
-    const double length = body.beam.elements[static_cast<std::size_t>(e)].length;
+    const double length = body.beam.elements[e].length;
     keep_larger(std::abs(elongation_of(body, nodal, e)) / length, step, largest.strain,
                 largest.strain_step);
   }

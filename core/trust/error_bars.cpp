@@ -42,7 +42,7 @@ ErrorPart unresolved(double bound) {
 /// @returns nothing without a run, NaN of one that failed
 std::optional<double> value_of(const NestedRun* run, std::size_t response) {
   if (run == nullptr) return std::nullopt;
-  return run->has_failed() ? unknown : run->values(static_cast<Eigen::Index>(response));
+  return run->has_failed() ? unknown : run->values(response);
 }
 
 std::optional<double> difference(const Comparison& comparison, std::size_t response) {

@@ -19,8 +19,7 @@ std::string moved_variables(const ImportedBody& imported, const ProblemFile& pro
   for (const ImportedVariable& of : imported.variables) {
     const ConstantsDerivative& derivative = imported.file->design[of.in_design];
     if (derivative.derivative && is_zero(*derivative.derivative)) continue;
-    const DesignVariable& variable =
-        problem.variables[static_cast<std::size_t>(of.number.variable)];
+    const DesignVariable& variable = problem.variables[of.number.variable];
     const double size =
         derivative.value != 0.0 ? std::abs(derivative.value) : variable.upper - variable.lower;
     const double value = resolve(of.number, design);

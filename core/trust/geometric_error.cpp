@@ -77,7 +77,7 @@ class ExactBeam {
   }
 
   void add_element(int e) {
-    const auto& element = body_.beam.elements[static_cast<std::size_t>(e)];
+    const auto& element = body_.beam.elements[e];
     Eigen::Matrix<double, 12, 1> q;
     q << nodal_.col(e), nodal_.col(e + 1);
     const auto& section = element.section;
@@ -219,7 +219,7 @@ class ExactBeam {
       turned_error =
           std::max(turned_error,
                    rotation_vector(rotation_of(rotation).transpose() * exact.rotation[i]).norm());
-      if (node < last) x += body_.beam.elements[static_cast<std::size_t>(node)].length;
+      if (node < last) x += body_.beam.elements[node].length;
     }
     if (sideways > shape_round_off * length()) error.deflection = sideways_error / sideways;
     if (turned > shape_round_off) error.rotation = turned_error / turned;
@@ -260,7 +260,7 @@ class ExactBeam {
       nodal.col(node).segment<2>(1) -= x * slope;
       nodal.col(node)(4) += slope(1);
       nodal.col(node)(5) -= slope(0);
-      if (node < last) x += body_.beam.elements[static_cast<std::size_t>(node)].length;
+      if (node < last) x += body_.beam.elements[node].length;
     }
   }
 

@@ -126,7 +126,7 @@ class Judgement {
   double magnitude(const NestedRun& run, std::size_t i) const {
     const Eigen::MatrixXd& history = run.histories[i];
     if (history.size() > 0) return history.cwiseAbs().maxCoeff();
-    const double value = std::abs(run.values(static_cast<Eigen::Index>(i)));
+    const double value = std::abs(run.values(i));
     return run_.analysis.responses[i].expression() ? std::max(value, magnitude_of(run_.analysis, i))
                                                    : value;
   }
@@ -198,7 +198,7 @@ class Judgement {
     return std::all_of(judged_.begin(), judged_.end(), [&](std::size_t i) {
       if (!counts(problem_, i)) return true;
       const ErrorPart step = with_known(i, error_bar(run_.analysis, i, runs, order())).step;
-      const double value = found_.values(static_cast<Eigen::Index>(i));
+      const double value = found_.values(i);
       const double size = problem_.objective
                               ? asked_size(problem_, problem_.responses[i].name, value)
                               : magnitude(found_, i);

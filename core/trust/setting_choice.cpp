@@ -242,7 +242,7 @@ class Search {
     for (const std::size_t i : asked_) {
       const Evidence evidence =
           evidence_of(analysis, i, judging, scheme_order(problem_.simulation));
-      trial.magnitudes(static_cast<Eigen::Index>(i)) = evidence.magnitude;
+      trial.magnitudes(i) = evidence.magnitude;
       trial.bars[i] = error_bar(evidence);
       Evidence without_modes = evidence;
       without_modes.modes.reset();

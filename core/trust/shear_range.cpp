@@ -115,8 +115,7 @@ class BendingReader {
       bending.length = element.length;
       bending.stiffness =
           element.young * (plane == 0 ? element.section.inertia_z : element.section.inertia_y);
-      bending.shear_stiffness =
-          kappa[static_cast<std::size_t>(plane)] * element.shear * element.section.area;
+      bending.shear_stiffness = kappa[plane] * element.shear * element.section.area;
       for (std::size_t end = 0; end < 2; ++end) {
         const double xi = static_cast<double>(end);
         const auto row = plane == 0 ? deflection_y_row(xi, element.length, 2)
@@ -208,7 +207,7 @@ ShearShare shear_share(const ProblemFile& problem, const Eigen::VectorXd& x, con
   for (const BodyModel* part : parts) {
     const Eigen::MatrixXd nodal = nodal_displacements(*part, state);
     for (int plane = 0; plane < 2; ++plane) {
-      BeamBending& elements = planes[static_cast<std::size_t>(plane)];
+      BeamBending& elements = planes[plane];
       const BeamBending more = reader.read(*part, nodal, plane);
       elements.insert(elements.end(), more.begin(), more.end());
     }
@@ -271,10 +270,10 @@ class ShearDoubts {
     const int n = system.coordinates(), m = system.multipliers();
     if (m == 0) return std::nullopt;
     std::vector<bool> is_left_out(static_cast<std::size_t>(m), false);
-    for (const int row : system.left_out()) is_left_out[static_cast<std::size_t>(row)] = true;
+    for (const int row : system.left_out()) is_left_out[row] = true;
     std::vector<int> rows;
     for (int row = 0; row < m; ++row) {
-      if (!is_left_out[static_cast<std::size_t>(row)]) rows.push_back(row);
+      if (!is_left_out[row]) rows.push_back(row);
     }
     System::Matrix matrix = system.make_matrix();
     system.tangent(state, {.q = 1.0}, ConstraintLevel::position, matrix);

@@ -160,7 +160,7 @@ class BeamHistory {
     const Eigen::MatrixXd nodal = nodal_displacements(part, state);
     const bool is_xy = plane_ == BendingPlane::xy;
     for (int e = 0; e + 1 < beam.node_count(); ++e) {
-      const BeamElement<double>& element = beam.elements[static_cast<std::size_t>(e)];
+      const BeamElement<double>& element = beam.elements[e];
       const auto end = [&](int node) {  // deflection and slope in the plane
         return is_xy ? std::array{nodal(1, node), nodal(5, node)}
                      : std::array{nodal(2, node), -nodal(4, node)};

@@ -129,7 +129,7 @@ TEST_F(Interrupted, OptimizationKeepsItsBestDesignNotItsLast) {
   const CsvRows rows = read_csv(folder_.path() / "run/history.csv");
   const auto cell = [&](std::size_t row, const std::string& title) {
     const auto found = std::find(rows[0].begin(), rows[0].end(), title);
-    return std::stod(rows[row].at(static_cast<std::size_t>(found - rows[0].begin())));
+    return std::stod(rows[row].at(found - rows[0].begin()));
   };
   std::size_t best = 1;
   for (std::size_t row = 2; row < rows.size(); ++row) {
@@ -162,7 +162,7 @@ TEST_F(Interrupted, OptimizationInStagesKeepsTheBestOfItsLastSetting) {
   const CsvRows rows = read_csv(folder_.path() / "run/history.csv");
   const auto cell = [&](const std::vector<std::string>& row, const std::string& title) {
     const auto found = std::find(rows[0].begin(), rows[0].end(), title);
-    return std::stod(row.at(static_cast<std::size_t>(found - rows[0].begin())));
+    return std::stod(row.at(found - rows[0].begin()));
   };
   const double step = cell(rows.back(), "time_step");
   ASSERT_NE(cell(rows[1], "time_step"), step);

@@ -94,7 +94,7 @@ TEST_F(OlderRuns, AreExportedAsTables) {
   EXPECT_EQ(run.document().at("files").size(), 2u);
   const auto cell = [](const CsvRows& rows, std::size_t row, const std::string& title) {
     const auto found = std::find(rows[0].begin(), rows[0].end(), title);
-    return rows.at(row).at(static_cast<std::size_t>(found - rows[0].begin()));
+    return rows.at(row).at(found - rows[0].begin());
   };
   for (const char* title : {"objective", "variable:rod_diameter", "constraint:rod_strength"}) {
     ASSERT_NE(std::find(history[0].begin(), history[0].end(), title), history[0].end()) << title;

@@ -139,10 +139,10 @@ TEST_P(HardCorner, HasTheGradientOfDifferencesInwards) {
   const Corner& corner = GetParam();
   ProblemFile problem = sample_problem("hard/" + corner.problem, corner.overrides);
   problem.simulation.newton_tolerance = 1e-13;
-  Eigen::VectorXd x(static_cast<Eigen::Index>(corner.is_upper.size()));
+  Eigen::VectorXd x(corner.is_upper.size());
   for (std::size_t i = 0; i < corner.is_upper.size(); ++i) {
     const DesignVariable& variable = problem.variables[i];
-    x(static_cast<Eigen::Index>(i)) = corner.is_upper[i] ? variable.upper : variable.lower;
+    x(i) = corner.is_upper[i] ? variable.upper : variable.lower;
   }
   const auto analysis = analyze(problem, x);
   const Eigen::MatrixXd direct = direct_gradients(*analysis);
@@ -152,7 +152,7 @@ TEST_P(HardCorner, HasTheGradientOfDifferencesInwards) {
       moved(j) += change;
       return values_of(*analyze(problem, moved));
     };
-    const bool is_upper = corner.is_upper[static_cast<std::size_t>(j)];
+    const bool is_upper = corner.is_upper[j];
     Eigen::VectorXd best = Eigen::VectorXd::Constant(direct.rows(), infinity);
     for (const double relative : {2e-1, 3e-2, 3e-3, 3e-4, 3e-5}) {
       const double width = relative * x(j);
@@ -164,10 +164,9 @@ TEST_P(HardCorner, HasTheGradientOfDifferencesInwards) {
       // Against a thousandth of the value where it hardly depends on the design.
       const double size =
           std::max(direct.row(i).cwiseProduct(x.transpose()).lpNorm<Eigen::Infinity>(),
-                   1e-3 * std::abs(analysis->reductions[static_cast<std::size_t>(i)].value));
+                   1e-3 * std::abs(analysis->reductions[i].value));
       EXPECT_LE(best(i) * x(j) / size, corner.tolerance)
-          << problem.responses[static_cast<std::size_t>(i)].name << ", "
-          << problem.variables[static_cast<std::size_t>(j)].name;
+          << problem.responses[i].name << ", " << problem.variables[j].name;
     }
   }
 }

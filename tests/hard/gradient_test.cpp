@@ -34,7 +34,7 @@ TEST_P(HardGradient, IsThatOfCentralDifferencesAtTheBestStep) {
   Eigen::VectorXd best = Eigen::VectorXd::Ones(direct.size());
   const auto compare = [&](const Eigen::VectorXd& differences) {
     for (Eigen::Index i = 0; i < direct.size(); ++i) {
-      const double value = std::abs(analysis->reductions[static_cast<std::size_t>(i)].value);
+      const double value = std::abs(analysis->reductions[i].value);
       const double size = std::max(std::abs(direct(i)), 1e-3 * value);
       best(i) = std::min(best(i), std::abs(differences(i) - direct(i)) / size);
     }
@@ -46,7 +46,7 @@ TEST_P(HardGradient, IsThatOfCentralDifferencesAtTheBestStep) {
     compare((4 * narrow - wide) / 3);
   }
   for (Eigen::Index i = 0; i < direct.size(); ++i) {
-    const std::string& name = problem.responses[static_cast<std::size_t>(i)].name;
+    const std::string& name = problem.responses[i].name;
     EXPECT_LE(best(i), hard.tolerance) << name;
   }
 }
@@ -62,9 +62,9 @@ TEST_P(HardGradient, IsThatOfTheAdjoint) {
   const Eigen::VectorXd direct = sampled_gradients(*analysis, values, ExactMethod::direct) * x;
   const Eigen::VectorXd adjoint = sampled_gradients(*analysis, values, ExactMethod::adjoint) * x;
   for (Eigen::Index i = 0; i < direct.size(); ++i) {
-    const double value = std::abs(analysis->reductions[static_cast<std::size_t>(i)].value);
+    const double value = std::abs(analysis->reductions[i].value);
     EXPECT_LE(std::abs(adjoint(i) - direct(i)), 1e-8 * std::max(std::abs(direct(i)), 1e-3 * value))
-        << problem.responses[static_cast<std::size_t>(i)].name;
+        << problem.responses[i].name;
   }
 }
 

@@ -208,15 +208,13 @@ TEST_P(RigidHardCase, HoldsTheStiffSleeveOfTheGovernor) {
     const Eigen::RowVectorXd y = history_of(*analysis, "s_end");
     Eigen::VectorXd found(5);
     for (std::size_t i = 0; i < 5; ++i) {
-      found(static_cast<Eigen::Index>(i)) =
-          1.0 + y(static_cast<Eigen::Index>(std::lround(expected[i].first / h)));
+      found(i) = 1.0 + y(std::lround(expected[i].first / h));
     }
     return found;
   };
   const Eigen::VectorXd found = extrapolated(heights, 4e-3);
   for (std::size_t i = 0; i < 5; ++i) {
-    EXPECT_NEAR(found(static_cast<Eigen::Index>(i)), expected[i].second, 1.5e-6)
-        << expected[i].first;
+    EXPECT_NEAR(found(i), expected[i].second, 1.5e-6) << expected[i].first;
   }
 }
 

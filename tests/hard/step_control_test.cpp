@@ -113,8 +113,7 @@ TEST_F(StepControl, HasTheGradientOfTheStepsThatRan) {
                         narrow = central_differences(repeated, x, 1e-3);
   const Eigen::MatrixXd differences = (4 * narrow - wide) / 3;
   for (Eigen::Index i = 0; i < direct.rows(); ++i) {
-    EXPECT_NEAR(differences(i, 0) / direct(i, 0), 1.0, 1e-6)
-        << problem.responses[static_cast<std::size_t>(i)].name;
+    EXPECT_NEAR(differences(i, 0) / direct(i, 0), 1.0, 1e-6) << problem.responses[i].name;
   }
 }
 

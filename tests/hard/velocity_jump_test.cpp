@@ -107,7 +107,7 @@ TEST(Index3, SwingsInItsVelocitiesAfterAJumpAsItsSchemeSays) {
   const auto analysis = analyze(problem, start_design(problem));
   const std::vector<double> rates = rates_after_jump(0.8, 0.7, 40);
   for (int n : {1, 2, 3}) {
-    const double swing = rates[static_cast<std::size_t>(n - 1)] - 1.0;
+    const double swing = rates[n - 1] - 1.0;
     const double expected = -0.5 * swing * rod.radius * rod.speed;
     // The rod turns by half a degree a step.
     EXPECT_NEAR(error_of_speed(*analysis, n) / expected, 1.0, 0.01) << n;

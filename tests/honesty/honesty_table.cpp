@@ -86,7 +86,7 @@ double Honesty::covered_share() const {
 double Honesty::ratio_at(double share) const {
   if (ratios.empty()) return 0.0;
   const auto last = static_cast<double>(ratios.size() - 1);
-  return ratios[static_cast<std::size_t>(std::lround(share * last))];
+  return ratios[std::lround(share * last)];
 }
 
 Honesty honesty_of(const std::vector<JudgedValue>& values) {

@@ -38,8 +38,7 @@ std::vector<JudgedScene> shipped_scenes() {
 template <class Make>
 std::vector<JudgedValue> judge_all(int count, const Make& make) {
   std::vector<std::vector<JudgedValue>> each(static_cast<std::size_t>(count));
-  for_each_in_parallel(count, available_threads(),
-                       [&](int i) { each[static_cast<std::size_t>(i)] = make(i); });
+  for_each_in_parallel(count, available_threads(), [&](int i) { each[i] = make(i); });
   std::vector<JudgedValue> all;
   for (const std::vector<JudgedValue>& one : each) all.insert(all.end(), one.begin(), one.end());
   return all;
@@ -76,9 +75,8 @@ void expect_honesty(const std::vector<JudgedValue>& values) {
 
 TEST(ErrorBars, AreHonestOnShippedProblems) {
   const std::vector<JudgedScene> scenes = shipped_scenes();
-  const std::vector<JudgedValue> values = judge_all(static_cast<int>(scenes.size()), [&](int i) {
-    return judged_values(scenes[static_cast<std::size_t>(i)]);
-  });
+  const std::vector<JudgedValue> values =
+      judge_all(static_cast<int>(scenes.size()), [&](int i) { return judged_values(scenes[i]); });
   print_table("problem", values, [](const JudgedValue& value) { return value.scene; });
   print_tables(values);
   expect_honesty(values);

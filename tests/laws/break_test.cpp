@@ -24,7 +24,7 @@ bool holds(const std::vector<double>& instants, double time) {
 TEST(Instants, AreEqualWithoutBreaks) {
   const std::vector<double> instants = regular_instants(options_with({}));
   ASSERT_EQ(instants.size(), 101U);
-  for (int i = 0; i <= 100; ++i) EXPECT_EQ(instants[static_cast<std::size_t>(i)], 1.0 * i / 100);
+  for (int i = 0; i <= 100; ++i) EXPECT_EQ(instants[i], 1.0 * i / 100);
 }
 
 /// A stretch of n + 0.x steps is made in n + 1 equal ones: n ≥ 8 here.

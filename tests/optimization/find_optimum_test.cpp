@@ -22,7 +22,7 @@ using testing::HasSubstr;
 FunctionProblem started_at(const KnownProblem& known, const Eigen::VectorXd& start) {
   std::vector<Variable> variables = known.problem.variables();
   for (std::size_t i = 0; i < variables.size(); ++i) {
-    variables[i].start = start[static_cast<Eigen::Index>(i)];
+    variables[i].start = start[i];
   }
   return {variables, known.problem.constraints(),
           [problem = known.problem](const Eigen::VectorXd& x, Request request) mutable {
@@ -119,12 +119,12 @@ TEST_P(FindOptimum, FindsTheKnownOptimaFromAnywhere) {
   for (const KnownProblem& known : all_known_problems()) {
     if (known.name == "HS071") continue;  // has further local optima
     std::vector<Variable> variables = known.problem.variables();
-    Eigen::VectorXd start(static_cast<Eigen::Index>(variables.size()));
+    Eigen::VectorXd start(variables.size());
     for (std::size_t i = 0; i < variables.size(); ++i) {
       const double lower = std::isfinite(variables[i].lower) ? variables[i].lower : -4.0;
       const double upper = std::isfinite(variables[i].upper) ? variables[i].upper : 4.0;
       const double share = static_cast<double>(engine()) / std::mt19937::max();
-      start[static_cast<Eigen::Index>(i)] = std::lerp(lower, upper, share);
+      start[i] = std::lerp(lower, upper, share);
     }
     FunctionProblem problem = started_at(known, start);
     const Result result = find_optimum(problem, options_);

@@ -64,7 +64,7 @@ ProblemFile problem_of(const Json& document) {
 }
 
 double value_of(const ProblemFile& problem, const Analysis& analysis, const char* name) {
-  return analysis.reductions[static_cast<std::size_t>(response_index(problem, name))].value;
+  return analysis.reductions[response_index(problem, name)].value;
 }
 
 TEST(ExpressionOfResponses, IsTheStrokeOfASliderCrank) {
@@ -128,9 +128,7 @@ TEST(ExpressionOfResponses, HasAnErrorBarFromItsParts) {
   const auto analysis = analyze(problem, x);
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
   const Trust trust = judge_run({problem, x, *analysis, monitors});
-  const auto bar = [&](const char* name) {
-    return *trust.errors[static_cast<std::size_t>(response_index(problem, name))];
-  };
+  const auto bar = [&](const char* name) { return *trust.errors[response_index(problem, name)]; };
   EXPECT_TRUE(bar("sum").is_resolved());
   EXPECT_GT(bar("sum").bound(), 0.0);
   EXPECT_LE(bar("sum").bound(), 3 * bar("effort").bound() + 2 * bar("right").bound() + 1e-12);

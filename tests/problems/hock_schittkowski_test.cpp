@@ -78,8 +78,7 @@ TEST_P(HockSchittkowski, HasItsOptimumInTheLanguageOfProblemFiles) {
   EXPECT_NEAR(design.objective_sign() * result.evaluation.objective, problem.optimum,
               1e-5 * std::abs(problem.optimum));
   for (std::size_t i = 0; i < problem.design.size(); ++i) {
-    EXPECT_NEAR(result.x(static_cast<Eigen::Index>(i)), problem.design[i],
-                1e-3 * (1.0 + std::abs(problem.design[i])))
+    EXPECT_NEAR(result.x(i), problem.design[i], 1e-3 * (1.0 + std::abs(problem.design[i])))
         << "x" << i + 1;
   }
 }

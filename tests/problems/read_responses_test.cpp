@@ -24,7 +24,7 @@ struct Simulated {
         analysis(analyze(problem, start_design(problem))) {}
 
   double value(const char* name) const {
-    return analysis->reductions[static_cast<std::size_t>(response_index(problem, name))].value;
+    return analysis->reductions[response_index(problem, name)].value;
   }
   Eigen::RowVectorXd gradient(const char* name) {
     return direct_gradients(*analysis).row(response_index(problem, name));

@@ -23,9 +23,8 @@ namespace {
 template <class Result, class Make>
 std::vector<Result> for_all_seeds(const Make& make) {
   std::vector<Result> results(end_seed - first_seed);
-  for_each_in_parallel(static_cast<int>(results.size()), available_threads(), [&](int i) {
-    results[static_cast<std::size_t>(i)] = make(first_seed + static_cast<unsigned>(i));
-  });
+  for_each_in_parallel(static_cast<int>(results.size()), available_threads(),
+                       [&](int i) { results[i] = make(first_seed + static_cast<unsigned>(i)); });
   return results;
 }
 

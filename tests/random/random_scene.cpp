@@ -72,7 +72,7 @@ class SceneMaker {
     static const std::array<const char*, 4> kinds = {"four-bar", "slider-crank",
                                                      "spatial slider-crank", "chain"};
     const double share = torque_.empty() ? 0.0 : speed_ / lowest_;
-    return {file_, kinds[static_cast<std::size_t>(kind_)], is_spatial_, share, weight()};
+    return {file_, kinds[kind_], is_spatial_, share, weight()};
   }
 
  private:

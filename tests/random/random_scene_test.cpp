@@ -36,9 +36,7 @@ class RandomScene : public testing::TestWithParam<unsigned> {
     magnitudes_ = magnitudes_of(*analysis_);
   }
 
-  const std::string& name(Eigen::Index i) const {
-    return problem_.responses[static_cast<std::size_t>(i)].name;
-  }
+  const std::string& name(Eigen::Index i) const { return problem_.responses[i].name; }
 
   /// Of the largest value in time. What is nothing but round-off (the bow of a member that nothing
   /// bends) has no size to be compared with.
@@ -100,7 +98,7 @@ class RandomScene : public testing::TestWithParam<unsigned> {
     Eigen::VectorXd values = values_of(analysis);
     for (std::size_t i = 0; i < analysis.histories.size(); ++i) {
       if (analysis.histories[i].size() == 0) continue;
-      double& value = values(static_cast<Eigen::Index>(i)) = 0.0;
+      double& value = values(i) = 0.0;
       for (const Sample& sample : analysis_->reductions[i].samples) {
         value += sample.weight * analysis.histories[i](sample.channel, sample.step);
       }

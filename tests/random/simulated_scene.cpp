@@ -55,7 +55,7 @@ Eigen::VectorXd magnitudes_of(const Analysis& analysis) {
   for (std::size_t i = 0; i < analysis.histories.size(); ++i) {
     const Eigen::MatrixXd& history = analysis.histories[i];
     if (history.size() == 0) continue;
-    magnitudes(static_cast<Eigen::Index>(i)) = history.cwiseAbs().maxCoeff();
+    magnitudes(i) = history.cwiseAbs().maxCoeff();
   }
   return magnitudes;
 }

@@ -139,8 +139,7 @@ std::vector<double> complex_step_gradient(const char* text) {
     std::vector<mup::Value> variables;
     for (int i = 0; i < 3; ++i) variables.emplace_back(mup::cmplx_type(values[i], i == j ? h : 0));
     for (int i = 0; i < 3; ++i) {
-      parser.DefineVar(std::string(1, static_cast<char>('a' + i)),
-                       mup::Variable(&variables[static_cast<std::size_t>(i)]));
+      parser.DefineVar(std::string(1, static_cast<char>('a' + i)), mup::Variable(&variables[i]));
     }
     parser.SetExpr(text);
     gradient.push_back(parser.Eval().GetImag() / h);

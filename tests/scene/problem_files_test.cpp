@@ -145,14 +145,14 @@ TEST(TaperedSliderCrank, HasAVariableAndAStressLimitForEachSegment) {
   EXPECT_EQ(problem.constraints.size(), 10U);
   for (int i = 0; i < 8; ++i) {
     const std::size_t body = i < 4 ? 0 : 1;
-    const Segment& segment = beam_of(problem, body).segments[static_cast<std::size_t>(i % 4)];
+    const Segment& segment = beam_of(problem, body).segments[i % 4];
     EXPECT_EQ(segment.elements, 2);
     EXPECT_EQ(std::get<CircleSection>(segment.section).diameter.variable, i);
-    const ResponseSettings& stress = problem.responses[static_cast<std::size_t>(1 + i)];
+    const ResponseSettings& stress = problem.responses[1 + i];
     EXPECT_EQ(stress.type, ResponseType::stress);
     EXPECT_EQ(stress.bodies[0], body == 0 ? "crank" : "rod");
     EXPECT_EQ(stress.segment, i % 4);
-    EXPECT_EQ(problem.constraints[static_cast<std::size_t>(i)].response, stress.name);
+    EXPECT_EQ(problem.constraints[i].response, stress.name);
   }
 }
 

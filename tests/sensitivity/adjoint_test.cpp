@@ -68,7 +68,7 @@ class Adjoint : public testing::TestWithParam<AdjointCase> {
 
   std::mt19937 generator_{3};
   std::uniform_real_distribution<double> uniform_{-1.0, 1.0};
-  SampleScene sample_ = all_samples()[static_cast<std::size_t>(std::get<0>(GetParam()))];
+  SampleScene sample_ = all_samples()[std::get<0>(GetParam())];
   SimulationOptions options_ = std::get<1>(GetParam()).options;
 };
 
@@ -108,7 +108,7 @@ TEST_P(Adjoint, IsDirectDifferentiationTransposed) {
     for (Eigen::Index j = 0; j < direct.rows(); ++j) {
       EXPECT_LE((adjoint - direct).row(j).lpNorm<Eigen::Infinity>(),
                 1e-7 * parts.row(j).lpNorm<Eigen::Infinity>())
-          << sample_.variables[static_cast<std::size_t>(j)];
+          << sample_.variables[j];
     }
   }
 }
@@ -126,7 +126,7 @@ TEST_P(Adjoint, MayBeginWithLaterFunctions) {
                                const int k = function_at(step);
                                if (k < 0 || k >= count)
                                  return std::min(count, std::max(columns, 1 + (9 - step) / 3));
-                               of.q.col(k) += functions.q[static_cast<std::size_t>(step)].col(k);
+                               of.q.col(k) += functions.q[step].col(k);
                                return std::min(count, std::max(columns, k + 1));
                              });
   };

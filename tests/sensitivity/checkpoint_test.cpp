@@ -48,7 +48,7 @@ class Checkpoints : public testing::TestWithParam<int> {};
 
 /// All samples, with the least memory, in every formulation.
 TEST_P(Checkpoints, LeadToTheSameStatesBitByBit) {
-  const SampleScene sample = all_samples()[static_cast<std::size_t>(GetParam())];
+  const SampleScene sample = all_samples()[GetParam()];
   for (const Formulation& formulation :
        {Formulation{}, Formulation{ConstraintForm::stabilized_index_2},
         Formulation{ConstraintForm::index_1}, Formulation{ConstraintForm::index_1, 0.0, true}}) {

@@ -41,7 +41,7 @@ struct Simulated {
       : problem(problem_with(rod_frame)), analysis(analyze(problem, start_design(problem))) {}
 
   Eigen::VectorXd history(const std::string& response) const {
-    return analysis->histories[static_cast<std::size_t>(response_index(problem, response))].row(0);
+    return analysis->histories[response_index(problem, response)].row(0);
   }
 };
 

@@ -36,7 +36,7 @@ Reference reference_at(double end, double step = 1e-5) {
   for (int variable = 0; variable < variables; ++variable) {
     reference::Rod rod;
     const std::array parameters = {&rod.young, &rod.density, &rod.height};
-    *parameters[static_cast<std::size_t>(variable)] *= reference::Complex(1.0, tiny);
+    *parameters[variable] *= reference::Complex(1.0, tiny);
     reference::Extrapolation motion(rod);
     const long intervals = std::lround(end / interval);
     for (long i = 1; i <= intervals; ++i) {
@@ -44,7 +44,7 @@ Reference reference_at(double end, double step = 1e-5) {
                         static_cast<int>(std::lround(interval / step)));
       const auto now = reference::Mechanism::observed(motion.time(), motion.motion());
       for (int k = 0; k < observed; ++k) {
-        const double derivative = now[static_cast<std::size_t>(k)].imag() / tiny;
+        const double derivative = now[k].imag() / tiny;
         result.at_end(k, variable) = derivative;
         double& largest = result.largest(k, variable);
         largest = std::max(largest, std::abs(derivative));
@@ -128,8 +128,7 @@ Derivatives adjoint(FourModes& rod, const Trajectory& trajectory) {
   const Eigen::MatrixXd gradients = adjoint_gradients(
       rod.mechanism, trajectory, observed, [&](int step, const State&, StateAdjoint& of) {
         if (step == trajectory.steps()) {
-          for (int k = 0; k < observed; ++k)
-            of.q(coordinates[static_cast<std::size_t>(k)], k) += 1.0;
+          for (int k = 0; k < observed; ++k) of.q(coordinates[k], k) += 1.0;
         }
         return observed;
       });
@@ -154,8 +153,7 @@ void expect_near(const Derivatives& found, const Reference& expected,
                  const std::array<double, observed>& tolerance) {
   const Derivatives error = (found - expected.at_end).cwiseAbs().cwiseQuotient(expected.largest);
   for (int k = 0; k < observed; ++k) {
-    EXPECT_LE(error.row(k).maxCoeff(), tolerance[static_cast<std::size_t>(k)])
-        << names[static_cast<std::size_t>(k)] << ": " << error.row(k);
+    EXPECT_LE(error.row(k).maxCoeff(), tolerance[k]) << names[k] << ": " << error.row(k);
   }
 }
 
@@ -181,8 +179,7 @@ TEST(FlexibleSliderCrankGradient, IsTheSameByBothMethods) {
   const Trajectory trajectory = simulated(rod, 0.1, 5e-6);
   const Derivatives expected = direct(rod, trajectory), found = adjoint(rod, trajectory);
   for (int k = 0; k < observed; ++k) {
-    EXPECT_LE(relative_difference(found.row(k), expected.row(k)), 1e-10)
-        << names[static_cast<std::size_t>(k)];
+    EXPECT_LE(relative_difference(found.row(k), expected.row(k)), 1e-10) << names[k];
   }
 }
 

@@ -42,8 +42,7 @@ TEST_P(GradientsOfAProblem, AreThoseOfCentralDifferencesAtTheBestStep) {
   const double round_off = 1e-16 * 0.3 / 2.5e-5;
   const auto compare = [&](const Eigen::MatrixXd& differences) {
     for (Eigen::Index i = 0; i < direct.rows(); ++i) {
-      const bool is_position =
-          problem_.responses[static_cast<std::size_t>(i)].type == ResponseType::position;
+      const bool is_position = problem_.responses[i].type == ResponseType::position;
       const double error = (differences.row(i) - direct.row(i)).lpNorm<Eigen::Infinity>() -
                            (is_position ? round_off : 0.0);
       best(i) = std::min(best(i), std::max(error, 0.0) / direct.row(i).lpNorm<Eigen::Infinity>());
@@ -57,8 +56,8 @@ TEST_P(GradientsOfAProblem, AreThoseOfCentralDifferencesAtTheBestStep) {
     compare((4 * narrow - wide) / 3);
   }
   for (Eigen::Index i = 0; i < direct.rows(); ++i) {
-    const auto& response = problem_.responses[static_cast<std::size_t>(i)];
-    const auto& tie = analysis->reductions[static_cast<std::size_t>(i)].tie;
+    const auto& response = problem_.responses[i];
+    const auto& tie = analysis->reductions[i].tie;
     EXPECT_FALSE(tie.has_value()) << response.name << ": no kink may be here";
     const bool is_smooth =
         response.type == ResponseType::mass || response.over_time == OverTime::rms;

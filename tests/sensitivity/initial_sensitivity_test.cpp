@@ -29,7 +29,7 @@ Eigen::VectorXd stacked(const State& state) {
 
 class StartSensitivity : public testing::TestWithParam<StartCase> {
  protected:
-  SampleScene sample_ = all_samples()[static_cast<std::size_t>(GetParam().sample)];
+  SampleScene sample_ = all_samples()[GetParam().sample];
 
   StartSensitivity() {
     // From speed at once: velocities, centripetal accelerations and forces depend on the lengths.
@@ -109,7 +109,7 @@ TEST_P(StartSensitivity, IsTheDifferenceOfStartsOfNeighbouringDesigns) {
 }
 
 std::string start_case_name(const testing::TestParamInfo<StartCase>& info) {
-  return all_samples()[static_cast<std::size_t>(info.param.sample)].name +
+  return all_samples()[info.param.sample].name +
          (info.param.looseness == 0.0 ? "Consistent" : "Loose");
 }
 std::vector<StartCase> all_cases() {

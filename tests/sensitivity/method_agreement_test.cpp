@@ -24,7 +24,7 @@ TEST_P(MethodsOfAProblem, AgreeToRoundOff) {
   for (Eigen::Index i = 0; i < direct.rows(); ++i) {
     EXPECT_LE((adjoint - direct).row(i).lpNorm<Eigen::Infinity>(),
               1e-10 * direct.row(i).lpNorm<Eigen::Infinity>())
-        << problem.responses[static_cast<std::size_t>(i)].name;
+        << problem.responses[i].name;
   }
 }
 

@@ -54,7 +54,7 @@ class ReducedBodies : public testing::TestWithParam<int> {};
 /// of what a relative change of a variable does, against the largest such effect: 1e-7 as for full
 /// models. The round bars have pairs of equal frequencies in space.
 TEST_P(ReducedBodies, HaveTheGradientsOfModelsThatAreReducedAnew) {
-  const SampleScene sample = all_samples()[static_cast<std::size_t>(GetParam())];
+  const SampleScene sample = all_samples()[GetParam()];
   const ProblemFile problem = problem_of(sample);
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
@@ -69,8 +69,8 @@ TEST_P(ReducedBodies, HaveTheGradientsOfModelsThatAreReducedAnew) {
   for (Eigen::Index i = 0; i < direct.rows(); ++i) {
     const double scale = direct.row(i).lpNorm<Eigen::Infinity>();
     for (Eigen::Index j = 0; j < direct.cols(); ++j) {
-      EXPECT_LE(best(i, j), 1e-7 * scale) << problem.responses[static_cast<std::size_t>(i)].name
-                                          << ", " << sample.variables[static_cast<std::size_t>(j)];
+      EXPECT_LE(best(i, j), 1e-7 * scale)
+          << problem.responses[i].name << ", " << sample.variables[j];
     }
     EXPECT_GT(scale, 0.0);
   }

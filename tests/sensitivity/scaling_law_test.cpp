@@ -46,7 +46,7 @@ ProblemFile cantilever(const NamedBeam& coordinates) {
   problem.simulation.end_time = problem.simulation.step = 1e-3;
   problem.simulation.quasi_static_start = true;
   for (const char* name : {"E", "rho", "L", "h", "b"}) {
-    const double value = design[static_cast<Eigen::Index>(problem.variables.size())];
+    const double value = design[problem.variables.size()];
     problem.variables.push_back({name, value, 0.5 * value, 2.0 * value, ""});
   }
   ResponseSettings response;
@@ -82,12 +82,10 @@ TEST_P(ScalingLaws, AreTheGradientsOfACantilever) {
     const Eigen::MatrixXd gradient =
         gradients(problem, design, *analysis, method) * design.asDiagonal();
     for (Eigen::Index i = 0; i < 3; ++i) {
-      const Eigen::VectorXd powers =
-          gradient.row(i).transpose() / analysis->reductions[static_cast<std::size_t>(i)].value;
+      const Eigen::VectorXd powers = gradient.row(i).transpose() / analysis->reductions[i].value;
       const Eigen::VectorXd& law = i == 0 ? of_tip : of_frequency;
       EXPECT_LE((powers - law).lpNorm<Eigen::Infinity>(), 1e-7)
-          << problem.responses[static_cast<std::size_t>(i)].name << ", " << to_string(method)
-          << ": " << powers.transpose();
+          << problem.responses[i].name << ", " << to_string(method) << ": " << powers.transpose();
     }
   }
 }

@@ -57,7 +57,7 @@ TEST(SplitSteps, AreDifferentiatedAsTheyRan) {
       return found.columns().q.col(found.steps());
     };
     const Eigen::VectorXd expected = (end_at(h) - end_at(-h)) / (2 * h);
-    const Eigen::VectorXd found = s.col(static_cast<Eigen::Index>(j));
+    const Eigen::VectorXd found = s.col(j);
     EXPECT_LE((found - expected).lpNorm<Eigen::Infinity>(),
               1e-5 * found.lpNorm<Eigen::Infinity>() + 1e-9)
         << sample.variables[j];

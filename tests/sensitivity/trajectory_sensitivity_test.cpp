@@ -47,7 +47,7 @@ using DirectCase = std::tuple<int, NamedFormulation>;
 
 class DirectDifferentiation : public testing::TestWithParam<DirectCase> {
  protected:
-  SampleScene sample_ = all_samples()[static_cast<std::size_t>(std::get<0>(GetParam()))];
+  SampleScene sample_ = all_samples()[std::get<0>(GetParam())];
   SimulationOptions options_ = short_run(std::get<1>(GetParam()).formulation);
 };
 

@@ -26,7 +26,7 @@ AccuracyStudy study(double target) {
 double counted_error(const AccuracyStudy& study, const AccuracyRun& run) {
   double largest = 0.0;
   for (const std::size_t i : study.counted) {
-    largest = std::max(largest, run.errors(static_cast<Eigen::Index>(i)));
+    largest = std::max(largest, run.errors(i));
   }
   return largest;
 }

@@ -91,7 +91,7 @@ TEST(DerivativeCheck, FindsDirectAndAdjointAsFarApartAsRoundOffMovesTheMotion) {
   for (Eigen::Index i = 0; i < direct.rows(); ++i) {
     EXPECT_LE((adjoint.row(i) - direct.row(i)).norm(),
               100.0 * round_off(i) + 1e-10 * direct.row(i).norm())
-        << problem.responses[static_cast<std::size_t>(i)].name;
+        << problem.responses[i].name;
     EXPECT_LE(round_off(i), 1e-7 * direct.row(i).norm());  // or the law above says nothing
   }
 }
@@ -148,7 +148,7 @@ TEST(DerivativeCheck, WouldFindTheDerivativesRightWithATightTolerance) {
   const Eigen::MatrixXd differences = extrapolated_differences(problem, x);
   for (Eigen::Index i = 0; i < direct.rows(); ++i) {
     EXPECT_LT(gradient_error(direct.row(i), differences.row(i), x, std::abs(values(i))), 2e-7)
-        << problem.responses[static_cast<std::size_t>(i)].name;
+        << problem.responses[i].name;
   }
 }
 
@@ -219,7 +219,7 @@ TEST(DerivativeCheck, FindsErrorsPutIntoDerivativesOfASimulation) {
     const auto row = static_cast<Eigen::Index>(i);
     for (std::size_t j = 0; j < checks[i].variables.size(); ++j) {
       const JudgedDerivative& right = checks[i].variables[j];
-      const double size = x(static_cast<Eigen::Index>(j)), value = std::abs(values(row));
+      const double size = x(j), value = std::abs(values(row));
       if (std::abs(right.derivative) * size < 0.01 * value) continue;
       ++counted;
       for (const double error : {1e-4, -1e-4, 1e-3, -1e-2}) {

@@ -22,7 +22,7 @@ class MethodComparison : public ::testing::Test {
   static std::vector<double> errors_of(GradientMethod method, std::size_t response) {
     std::vector<double> errors;
     for (const ComparedMethod& one : compared_) {
-      if (one.method == method) errors.push_back(one.errors(static_cast<Eigen::Index>(response)));
+      if (one.method == method) errors.push_back(one.errors(response));
     }
     return errors;
   }

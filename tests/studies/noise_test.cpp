@@ -66,7 +66,7 @@ TEST(Noise, GrowsWithTheToleranceOfNewtonsMethod) {
   const Eigen::VectorXd large = response_noise(loose, x).floor();
   EXPECT_LT(large(0), 1e-15 * 10.0);  // kg, of a mass of about 1.7
   for (Eigen::Index i = 1; i < small.size(); ++i) {
-    EXPECT_GT(large(i), 100.0 * small(i)) << tight.responses[static_cast<std::size_t>(i)].name;
+    EXPECT_GT(large(i), 100.0 * small(i)) << tight.responses[i].name;
   }
 }
 

@@ -163,7 +163,7 @@ TEST(ParetoOrder, HasEachPointOnceAndFewThatWaitForEachOther) {
     std::vector<int> sorted = order.points;
     std::sort(sorted.begin(), sorted.end());
     ASSERT_EQ(sorted.size(), static_cast<std::size_t>(points));
-    for (int i = 0; i < points; ++i) EXPECT_EQ(sorted[static_cast<std::size_t>(i)], i);
+    for (int i = 0; i < points; ++i) EXPECT_EQ(sorted[i], i);
     std::vector<int> depths;
     for (std::size_t i = 0; i < order.points.size(); ++i) {
       const auto from = order.from[i];
@@ -173,7 +173,7 @@ TEST(ParetoOrder, HasEachPointOnceAndFewThatWaitForEachOther) {
         continue;
       }
       ASSERT_TRUE(from && static_cast<std::size_t>(*from) < i);
-      depths.push_back(depths[static_cast<std::size_t>(*from)] + 1);
+      depths.push_back(depths[*from] + 1);
     }
     // log2 of the points: the longest row of points that wait for each other.
     EXPECT_LE(*std::max_element(depths.begin(), depths.end()), 2 + std::log2(points));

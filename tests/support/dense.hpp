@@ -15,9 +15,9 @@ auto dense(const pleuel::ElasticPattern& pattern, const Vector& nonzeros) {
   Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> matrix;
   matrix.setConstant(pattern.size, pattern.size, Scalar(0));
   for (int row = 0; row < pattern.size; ++row) {
-    for (int i = pattern.row_start[static_cast<std::size_t>(row)];
-         i < pattern.row_start[static_cast<std::size_t>(row) + 1]; ++i) {
-      matrix(row, pattern.column[static_cast<std::size_t>(i)]) = nonzeros(i);
+    for (int i = pattern.row_start[row]; i < pattern.row_start[static_cast<std::size_t>(row) + 1];
+         ++i) {
+      matrix(row, pattern.column[i]) = nonzeros(i);
     }
   }
   return matrix;

@@ -30,7 +30,7 @@ inline double energy_of(pleuel::Model& model, const pleuel::State& state) {
     energy += 0.5 * q.dot(dense(invariants.pattern, invariants.stiffness) * q);
     if (!body.has_stiffening) continue;
     for (int e = 0; e < static_cast<int>(body.beam.elements.size()); ++e) {
-      const auto& element = body.beam.elements[static_cast<std::size_t>(e)];
+      const auto& element = body.beam.elements[e];
       Eigen::Matrix<double, 12, 1> n;
       for (int i = 0; i < 12; ++i) {
         const int index = body.coordinate(e + i / 6, i % 6);

@@ -89,8 +89,8 @@ inline Eigen::MatrixXd basis_of(const BodyModel& rod) {
       if (row >= 0) z(row, mode) = value;
     };
     for (int k = 0; k < 2; ++k) {
-      set(1, k, modes.sine[static_cast<std::size_t>(k)]);
-      set(5, k, modes.slope[static_cast<std::size_t>(k)]);
+      set(1, k, modes.sine[k]);
+      set(5, k, modes.slope[k]);
     }
     set(0, 2, modes.middle);
     set(0, 3, modes.end);

@@ -18,7 +18,7 @@ pleuel::Beam<Scalar> uniform_beam(int elements, const Scalar& length,
   element.shear = young / 2.6;  // ν = 0.3
   element.density = density;
   element.section = section;
-  beam.elements.assign(static_cast<std::size_t>(elements), element);
+  beam.elements.assign(elements, element);
   return beam;
 }
 

@@ -8,5 +8,5 @@
 
 /// The name of a test whose parameter is the place of its sample among all_samples().
 inline std::string sample_name(const testing::TestParamInfo<int>& info) {
-  return all_samples()[static_cast<std::size_t>(info.param)].name;
+  return all_samples()[info.param].name;
 }

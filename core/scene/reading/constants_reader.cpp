@@ -25,7 +25,7 @@ double read_number(const JsonNode& node) {
 }
 
 Eigen::VectorXd read_vector(const JsonNode& node, std::size_t size) {
-  Eigen::VectorXd vector(static_cast<Eigen::Index>(size));
+  Eigen::VectorXd vector(size);
   Eigen::Index i = 0;
   for (const JsonNode& item : node.items(size)) vector(i++) = read_number(item);
   return vector;
@@ -125,7 +125,7 @@ void read_changes_of_places(const JsonNode& node, BodyConstants& change) {
   for (const auto& [name, member] : node.members()) {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) fail_unknown_name(node, "place", name, names);
-    read_place(member, change.places[static_cast<std::size_t>(found - names.begin())]);
+    read_place(member, change.places[found - names.begin()]);
   }
 }
 

@@ -143,7 +143,7 @@ class Builder {
   std::string described(int step) const { return describe(fact(step).dimension, units_); }
 
  private:
-  const StepFacts& fact(int step) const { return facts_[static_cast<std::size_t>(step)]; }
+  const StepFacts& fact(int step) const { return facts_[step]; }
 
   int add(const ExpressionStep& step, const StepFacts& facts) {
     expression_.steps.push_back(step);
@@ -158,7 +158,7 @@ class Builder {
     const double value =
         evaluate(whole, std::vector<double>(expression_.arguments.size(), 1.0)).value;
     if (!std::isfinite(value)) fail(position, "the result is no finite number");
-    facts_[static_cast<std::size_t>(step)].constant = value;
+    facts_[step].constant = value;
   }
 
   [[noreturn]] void fail_unknown(std::size_t position, const std::string& name) const {

@@ -61,7 +61,7 @@ void read_derivatives(const JsonNode& root, InvariantsFile& file) {
     }
     BodyConstants derivative = read_derivative(member, file.constants);
     check_derivative(member, derivative);
-    file.design[static_cast<std::size_t>(found - names.begin())].derivative = std::move(derivative);
+    file.design[found - names.begin()].derivative = std::move(derivative);
   }
 }
 

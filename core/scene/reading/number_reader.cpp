@@ -153,7 +153,7 @@ const Symbol* NumberReader::symbol_of(int variable) const {
 }
 
 void NumberReader::check_mention(const VariableMention& mention) const {
-  const std::string& name = variables_[static_cast<std::size_t>(mention.variable)];
+  const std::string& name = variables_[mention.variable];
   const Dimension dimension = symbol_of(mention.variable)->dimension;
   const auto quantity = quantity_of(mention.variable);
   if (!quantity) {
@@ -221,9 +221,8 @@ void NumberReader::add_use(VariableUse use) {
   const VariableUse* first = first_use(use.number.variable);
   if (first != nullptr && !(first->quantity == use.quantity)) {
     use.node.fail(fmt::format("uses the variable \"{}\" as {}, but {} uses it as {}",
-                              variables_[static_cast<std::size_t>(use.number.variable)],
-                              describe(use.quantity), first->node.place(),
-                              describe(first->quantity)));
+                              variables_[use.number.variable], describe(use.quantity),
+                              first->node.place(), describe(first->quantity)));
   }
   uses_.push_back(std::move(use));
 }

@@ -103,8 +103,7 @@ void check_on_imported(const PlacedPoint& place, const ImportedBody& body,
                        const Design<double>& start) {
   const BodyConstants& constants = body.file->constants;
   const Eigen::Vector3d at = local_point(body, position(*place.point, start), start);
-  const BodyPlace& nearest =
-      constants.places[static_cast<std::size_t>(nearest_place(constants, at))];
+  const BodyPlace& nearest = constants.places[nearest_place(constants, at)];
   if ((at - nearest.position).stableNorm() <= placement_tolerance * size_of(constants)) return;
   place.node.fail(fmt::format(
       "must be at a place of the body \"{}\"; in its axes, the nearest one is \"{}\" at "

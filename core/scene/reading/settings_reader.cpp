@@ -329,7 +329,7 @@ void check_range(const JsonNode& node, const UncertainParameter& parameter,
     if (!use.number.depends_on(parameter.variable)) continue;
     for (const double sign : {-1.0, 1.0}) {
       Design<double> design = start;
-      design[static_cast<std::size_t>(parameter.variable)] += sign * sample_extent(parameter);
+      design[parameter.variable] += sign * sample_extent(parameter);
       const double value = resolve(use.number, design);
       if (is_within(use.range, value)) continue;
       node.fail(fmt::format("leads to {:g} for {}, which {}", value, use.node.place(),

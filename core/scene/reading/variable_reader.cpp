@@ -80,7 +80,7 @@ std::vector<DesignVariable> read_variables(const JsonNode& node, const NumberRea
     if (use.number.expression) {
       check_formula(use, samples);
     } else {
-      check_range(use, variables[static_cast<std::size_t>(use.number.variable)]);
+      check_range(use, variables[use.number.variable]);
     }
   }
   return variables;

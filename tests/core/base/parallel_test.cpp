@@ -13,7 +13,7 @@ using namespace pleuel;
 TEST(ParallelWork, IsDoneOnceEach) {
   for (int threads : {1, 2, 7}) {
     std::vector<std::atomic<int>> calls(50);
-    for_each_in_parallel(50, threads, [&](int i) { ++calls[static_cast<std::size_t>(i)]; });
+    for_each_in_parallel(50, threads, [&](int i) { ++calls[i]; });
     for (const auto& count : calls) EXPECT_EQ(count, 1);
   }
 }

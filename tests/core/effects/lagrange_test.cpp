@@ -33,7 +33,7 @@ class Cloud {
     const double weight[] = {w_out, w_in, 128.0 / 225, w_in, w_out};
     const double corner = 1 / std::sqrt(3.0);  // two points: exact to degree three
     for (int e = 0; e < static_cast<int>(beam.elements.size()); ++e) {
-      const auto& element = beam.elements[static_cast<std::size_t>(e)];
+      const auto& element = beam.elements[e];
       for (int i = 0; i < 5; ++i) {
         for (double y : {-corner, corner}) {
           for (double z : {-corner, corner}) {

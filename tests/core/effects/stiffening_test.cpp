@@ -25,7 +25,7 @@ Term& find_term(Model& model, const std::string& name) {
 double stretching_energy(const BodyModel& body, const State& state) {
   double sum = 0.0;
   for (int e = 0; e < static_cast<int>(body.beam.elements.size()); ++e) {
-    const auto& element = body.beam.elements[static_cast<std::size_t>(e)];
+    const auto& element = body.beam.elements[e];
     const double l = element.length;
     double n[12];
     for (int i = 0; i < 12; ++i) {

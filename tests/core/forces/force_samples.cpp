@@ -20,7 +20,7 @@ Marker spatial_marker(int offset) {
   Marker marker;
   marker.frame.offset = offset;
   marker.frame.rotation = RotationCoordinates::rotation_vector;
-  for (int i = 0; i < 6; ++i) marker.elastic[static_cast<std::size_t>(i)] = offset + 6 + i;
+  for (int i = 0; i < 6; ++i) marker.elastic[i] = offset + 6 + i;
   return marker;
 }
 
@@ -65,7 +65,7 @@ struct Place {
       A = rotation_of(q.segment<3>(frame.offset + k));
     }
     for (int i = 0; i < 6; ++i) {
-      const int index = marker.elastic[static_cast<std::size_t>(i)];
+      const int index = marker.elastic[i];
       if (index >= 0) (i < 3 ? u : psi)(i % 3) = q(index);
     }
   }

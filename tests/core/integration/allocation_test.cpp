@@ -56,7 +56,7 @@ class TimeLoop : public testing::TestWithParam<int> {};
 /// The storage of the trajectory is one block whatever its length. KLU may choose pivots anew,
 /// which allocates a handful of blocks, but not in these few steps.
 TEST_P(TimeLoop, AllocatesNothing) {
-  const SampleScene sample = all_samples()[static_cast<std::size_t>(GetParam())];
+  const SampleScene sample = all_samples()[GetParam()];
   for (const Formulation& formulation :
        {Formulation{}, Formulation{ConstraintForm::index_1, 0.0, true}}) {
     EXPECT_EQ(allocations_of(sample, 100, formulation), allocations_of(sample, 50, formulation));

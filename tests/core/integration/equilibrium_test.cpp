@@ -95,7 +95,7 @@ TEST(QuasiStaticStart, OfARedundantMechanismIsThatOfTheSameWithoutRedundancy) {
 
 class EquilibriumOfASample : public testing::TestWithParam<int> {
  protected:
-  SampleScene sample_ = all_samples()[static_cast<std::size_t>(GetParam())];
+  SampleScene sample_ = all_samples()[GetParam()];
   Model build_at(const Design<double>& design) const {
     Model model = sample_.build_at(design);
     model.mechanism.starts_in_equilibrium = true;

@@ -30,7 +30,7 @@ Drift drift_of(System& system, const Trajectory& trajectory) {
 class Formulations : public testing::TestWithParam<int> {
  protected:
   Drift drift_with(const Formulation& formulation, double end_time = 0.1) {
-    const SampleScene sample = all_samples()[static_cast<std::size_t>(GetParam())];
+    const SampleScene sample = all_samples()[GetParam()];
     Model model = sample.build();
     SimulationOptions options{end_time, 2e-4, 0.8};
     options.formulation = formulation;
@@ -64,9 +64,7 @@ TEST_P(Formulations, OfIndexOneDriftUnlessStabilized) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, Formulations, testing::Range(0, sample_count),
-                         [](const auto& test) {
-                           return all_samples()[static_cast<std::size_t>(test.param)].name;
-                         });
+                         [](const auto& test) { return all_samples()[test.param].name; });
 
 }  // namespace
 }  // namespace pleuel::test

@@ -39,7 +39,7 @@ class StartOfAMechanism : public testing::TestWithParam<int> {
     return Eigen::MatrixXd(matrix).bottomLeftCorner(system.multipliers(), system.coordinates());
   }
 
-  Model model_ = all_samples()[static_cast<std::size_t>(GetParam())].build();
+  Model model_ = all_samples()[GetParam()].build();
 };
 
 TEST_P(StartOfAMechanism, ClosesWhatWasGivenLoosely) {

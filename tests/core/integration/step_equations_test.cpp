@@ -13,7 +13,7 @@ namespace {
 
 class EquationsOfAStep : public testing::TestWithParam<int> {
  protected:
-  SampleScene sample_ = all_samples()[static_cast<std::size_t>(GetParam())];
+  SampleScene sample_ = all_samples()[GetParam()];
   Model model_ = sample_.build();
 };
 

@@ -19,10 +19,10 @@ using Wide = DualOf<size>;
 JointTopology topology_with(const JointEquation& equation) {
   JointTopology topology;
   for (int m = 0; m < 2; ++m) {
-    Marker& marker = topology.markers[static_cast<std::size_t>(m)];
+    Marker& marker = topology.markers[m];
     marker.frame.offset = 12 * m;
     marker.frame.rotation = RotationCoordinates::rotation_vector;
-    for (int i = 0; i < 6; ++i) marker.elastic[static_cast<std::size_t>(i)] = 12 * m + 6 + i;
+    for (int i = 0; i < 6; ++i) marker.elastic[i] = 12 * m + 6 + i;
   }
   topology.equations = {equation};
   topology.is_driven = true;
@@ -86,7 +86,7 @@ TEST_P(JointEquations, ByHandAreThoseOfTheTemplate) {
   EXPECT_NEAR(value.value(), joint.value(), 1e-14);
   EXPECT_LE((value.derivatives() - joint.gradient()).lpNorm<Eigen::Infinity>(), 1e-13);
   for (int i = 0; i < size; ++i) {
-    const Wide& force = evaluation.forces()[static_cast<std::size_t>(i)];
+    const Wide& force = evaluation.forces()[i];
     EXPECT_NEAR(force.value(), joint.gradient()(i), 1e-13) << i;
     EXPECT_LE((force.derivatives().transpose() - joint.hessian().row(i)).lpNorm<Eigen::Infinity>(),
               1e-13)

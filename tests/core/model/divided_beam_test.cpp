@@ -28,12 +28,11 @@ struct Simulated {
   explicit Simulated(const BentCantilever& cantilever) : Simulated(cantilever.problem()) {}
 
   double value(const std::string& response) const {
-    return analysis->reductions[static_cast<std::size_t>(response_index(problem, response))].value;
+    return analysis->reductions[response_index(problem, response)].value;
   }
   std::string place(const std::string& response, int channel) const {
-    return analysis->responses[static_cast<std::size_t>(response_index(problem, response))]
-        .history()
-        ->signal->describe(channel);
+    return analysis->responses[response_index(problem, response)].history()->signal->describe(
+        channel);
   }
 };
 
@@ -95,8 +94,7 @@ TEST(DividedBeam, IsTheSameInFramesOfEveryKind) {
       cantilever.frame = frame;
       cantilever.more = more;
       ProblemFile problem = cantilever.problem();
-      ResponseSettings& tip =
-          problem.responses[static_cast<std::size_t>(response_index(problem, "tip"))];
+      ResponseSettings& tip = problem.responses[response_index(problem, "tip")];
       if (frame == "mean-axis") tip.against = DeflectionReference::chord;
       const Simulated run(problem);
       EXPECT_NEAR(run.value("y"), exact.deflection, 3e-3 * exact.deflection) << frame << more;
@@ -114,8 +112,7 @@ TEST(DividedBeam, HasOneFieldOfStress) {
   cantilever.frames = 2;
   const Simulated run(cantilever);
   EXPECT_NEAR(run.value("stress"), run.value("root"), 1e-9 * run.value("root"));
-  const Eigen::MatrixXd& cut =
-      run.analysis->histories[static_cast<std::size_t>(response_index(run.problem, "cut"))];
+  const Eigen::MatrixXd& cut = run.analysis->histories[response_index(run.problem, "cut")];
   ASSERT_EQ(cut.rows() % 2, 0);
   const Eigen::Index half = cut.rows() / 2;
   EXPECT_LE((cut.topRows(half) - cut.bottomRows(half)).lpNorm<Eigen::Infinity>(),
@@ -213,7 +210,7 @@ TEST(DividedBeam, HasExactGradients) {
                           narrow = central_differences(problem, x, 1e-4) * x.asDiagonal();
     const Eigen::MatrixXd differences = (4.0 * narrow - wide) / 3.0;
     for (Eigen::Index i = 0; i < direct.rows(); ++i) {
-      const std::string& name = problem.responses[static_cast<std::size_t>(i)].name;
+      const std::string& name = problem.responses[i].name;
       const double size = direct.row(i).lpNorm<Eigen::Infinity>();
       EXPECT_LE((adjoint.row(i) - direct.row(i)).lpNorm<Eigen::Infinity>(), 1e-8 * size) << name;
       // Round-off of differences over a step of 1e-4, and their truncation.

@@ -113,7 +113,7 @@ class Mechanisms : public testing::TestWithParam<int> {};
 /// differs; of positions [m] against the half metre of the samples, of displacements against the
 /// largest of the mechanism.
 TEST_P(Mechanisms, MoveAlikeWhereverTheyStandInSpace) {
-  const SampleScene sample = all_samples()[static_cast<std::size_t>(GetParam())];
+  const SampleScene sample = all_samples()[GetParam()];
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(1.1, Eigen::Vector3d(0.48, -0.6, 0.64)).toRotationMatrix();
   const Eigen::Vector3d shift(0.3, -0.2, 0.45);

@@ -98,7 +98,7 @@ double error_of(const SampleScene& sample, const std::string& body,
   double worst = 0.0;
   for (std::size_t i = 0; i < found.size(); ++i) {
     EXPECT_EQ(found[i].variable, built.invariants_x[i].variable);
-    const double x = sample.design[static_cast<std::size_t>(found[i].variable)];
+    const double x = sample.design[found[i].variable];
     worst =
         std::max(worst, error_of(found[i].data, built.invariants_x[i].data, built.invariants, x));
   }

@@ -21,8 +21,7 @@ TEST(Mesh, OfSixElementsHasThePeaksOfTwentyFour) {
   const Eigen::VectorXd coarse = values_with("6"), fine = values_with("24");
   const ProblemFile problem = sample_problem("slider_crank");
   for (Eigen::Index i = 0; i < coarse.size(); ++i) {
-    EXPECT_NEAR(coarse(i) / fine(i), 1.0, 0.01)
-        << problem.responses[static_cast<std::size_t>(i)].name;
+    EXPECT_NEAR(coarse(i) / fine(i), 1.0, 0.01) << problem.responses[i].name;
   }
 }
 

@@ -48,8 +48,7 @@ TEST_P(MotionPlane, GivesWhatSpaceGives) {
   const Eigen::MatrixXd expected = linearised(planar, x);
   const Eigen::MatrixXd found = linearised(shortened(GetParam(), "on", 1e-4), x);
   for (Eigen::Index i = 0; i < expected.rows(); ++i) {
-    EXPECT_LE(relative_difference(found.row(i), expected.row(i)), 1e-9)
-        << planar.responses[static_cast<std::size_t>(i)].name;
+    EXPECT_LE(relative_difference(found.row(i), expected.row(i)), 1e-9) << planar.responses[i].name;
   }
 }
 
@@ -301,7 +300,7 @@ TEST(Frame, StressDeflectionAndTorqueDoNotDependOnWhereTheSceneStands) {
     moved.scene = moved_scene(problem.scene, angle, {0.3, -0.2, 0.15});
     const Eigen::VectorXd found = values_of(*analyze(moved, x));
     for (Eigen::Index i = 0; i < found.size(); ++i) {
-      const auto& response = problem.responses[static_cast<std::size_t>(i)];
+      const auto& response = problem.responses[i];
       if (response.type == ResponseType::position) continue;  // does depend on it
       EXPECT_NEAR(found(i), expected(i), 1e-8 * std::abs(expected(i)))
           << response.name << " at " << angle;

@@ -276,7 +276,7 @@ void expect_near(const Eigen::VectorXd& found, const std::array<double, 9>& limi
   constexpr std::array names = {"phi2", "x3",    "q1",      "q2",     "q3",
                                 "q4",   "phi2'", "lambda1", "lambda3"};
   for (std::size_t i = 0; i < 9; ++i) {
-    const double value = found(static_cast<Eigen::Index>(i));
+    const double value = found(i);
     EXPECT_NEAR(value / test_set_reference[i], 1.0, limits[i]) << names[i];
   }
 }
@@ -320,8 +320,7 @@ TEST(FlexibleSliderCrank, WithElementsComesCloseToTheTestSet) {
   for (int node = 1; node < elements; ++node) {
     const Modes modes = modes_at(rod.beam.node_position(node));
     const double v = state.q(rod.coordinate(node, 1));
-    for (int k = 0; k < 2; ++k)
-      sines(k) += 2.0 / elements * v * modes.sine[static_cast<std::size_t>(k)];
+    for (int k = 0; k < 2; ++k) sines(k) += 2.0 / elements * v * modes.sine[k];
   }
   Eigen::VectorXd found(9);
   found << state.q(rod.frame.offset + 2), state.q(slider.frame.offset), sines,

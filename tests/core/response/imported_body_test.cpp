@@ -144,7 +144,7 @@ class Exchange : public testing::Test {
       for (Eigen::Index i = 0; i < expected.rows(); ++i) {
         const double size = expected.row(i).cwiseAbs().maxCoeff();
         const double error = (found.row(i) - expected.row(i)).cwiseAbs().maxCoeff() / size;
-        EXPECT_LE(error, 1e-6) << original.responses[static_cast<std::size_t>(i)].name;
+        EXPECT_LE(error, 1e-6) << original.responses[i].name;
         largest = std::max(largest, error);
       }
       return largest;
@@ -204,7 +204,7 @@ TEST_F(Exchange, WithoutDerivativesKeepsTheGradientsOfOtherBodies) {
   for (Eigen::Index i = 0; i < expected.rows(); ++i) {
     const double size = std::max(expected.row(i).cwiseAbs().maxCoeff(), 1e-12);
     EXPECT_LE((found.row(i) - expected.row(i)).cwiseAbs().maxCoeff() / size, 1e-9)
-        << original.responses[static_cast<std::size_t>(i)].name;
+        << original.responses[i].name;
   }
 }
 
@@ -242,7 +242,7 @@ TEST_F(Exchange, ContinuedLinearlyAgreesWithDifferences) {
   for (Eigen::Index i = 0; i < direct.rows(); ++i) {
     EXPECT_LE((central - direct).row(i).cwiseAbs().maxCoeff(),
               1e-5 * direct.row(i).cwiseAbs().maxCoeff())
-        << problem.responses[static_cast<std::size_t>(i)].name;
+        << problem.responses[i].name;
   }
 }
 
@@ -380,7 +380,7 @@ TEST_F(Exchange, TakesTheRodOfAnotherProgram) {
   const Eigen::MatrixXd expected = gradients(original, x, *a, GradientMethod::direct);
   const Eigen::MatrixXd found = gradients(imported, x, *b, GradientMethod::direct);
   for (Eigen::Index i = 0; i < expected.rows(); ++i) {
-    const std::string& name = original.responses[static_cast<std::size_t>(i)].name;
+    const std::string& name = original.responses[i].name;
     const bool is_stress = name == "rod_stress";
     EXPECT_NEAR(values_of(*b)(i) / values_of(*a)(i), 1.0, is_stress ? 0.04 : 1e-9) << name;
     EXPECT_LE((found - expected).row(i).cwiseAbs().maxCoeff(),

@@ -167,7 +167,7 @@ Eigen::MatrixXd low_derivatives(const Model& model) {
 
 /// Against differences of neighbouring models, of fourth order with relative steps of 1e-3: 1e-9.
 TEST_P(BodyFrequencies, HaveTheDerivativesOfDifferences) {
-  const SampleScene sample = all_samples()[static_cast<std::size_t>(GetParam())];
+  const SampleScene sample = all_samples()[GetParam()];
   const Model model = sample.build();
   const Eigen::VectorXd at = low_frequencies(model);
   const Eigen::MatrixXd derivatives = low_derivatives(model);
@@ -179,7 +179,7 @@ TEST_P(BodyFrequencies, HaveTheDerivativesOfDifferences) {
       return low_frequencies(sample.build_at(x));
     };
     const Eigen::VectorXd found = derivative_at_zero(moved, 2e-3);
-    const Eigen::VectorXd expected = size * derivatives.col(static_cast<Eigen::Index>(k));
+    const Eigen::VectorXd expected = size * derivatives.col(k);
     EXPECT_LE((found - expected).cwiseQuotient(at).lpNorm<Eigen::Infinity>(), 1e-7)
         << sample.variables[k];
   }

@@ -18,7 +18,7 @@ class EveryReaction : public testing::TestWithParam<int> {};
 /// translations −e · F, rotations −n · (M + (P₂ − r) × F), n = columns of A G. The equations of
 /// joints with a map are in local numbers, and rows of frames are copies.
 TEST_P(EveryReaction, IsWhatTheTermDoesToTheFrameOfTheSecondBody) {
-  const SampleScene sample = all_samples()[static_cast<std::size_t>(GetParam())];
+  const SampleScene sample = all_samples()[GetParam()];
   const Model model = sample.build();
   const State all = random_state(model, 11);
   for (const JointModel& joint : model.joints) {
@@ -41,7 +41,7 @@ TEST_P(EveryReaction, IsWhatTheTermDoesToTheFrameOfTheSecondBody) {
         state.v.segment(frame.offset, frame.size()), state.a.segment(frame.offset, frame.size()));
     Eigen::Vector3d p = joint.data.points[1];
     for (std::size_t i = 0; i < 3; ++i) {
-      if (marker.elastic[i] >= 0) p(static_cast<Eigen::Index>(i)) += state.q(marker.elastic[i]);
+      if (marker.elastic[i] >= 0) p(i) += state.q(marker.elastic[i]);
     }
     const Eigen::Vector3d about_origin = moment + (motion.A * p).cross(force);
     const int translations = frame.translations();

@@ -64,8 +64,8 @@ TEST_P(GradientsOfResponses, AreThoseOfDifferencesOfSimulations) {
     best = best.cwiseMin(error.cwiseAbs().rowwise().maxCoeff());
   }
   for (Eigen::Index i = 0; i < direct.rows(); ++i) {
-    const ResponseSettings& response = problem_.responses[static_cast<std::size_t>(i)];
-    const double value = std::abs(analysis->reductions[static_cast<std::size_t>(i)].value);
+    const ResponseSettings& response = problem_.responses[i];
+    const double value = std::abs(analysis->reductions[i].value);
     // The magnitude of what vanishes has a kink.
     if (response.direction == magnitude_of && value < 1e-6) continue;
     const double scale = direct.row(i).lpNorm<Eigen::Infinity>() + value;

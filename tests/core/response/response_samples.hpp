@@ -23,7 +23,7 @@ inline EffectSettings in_motion(EffectChoice spatial) {
 
 /// A sample whose material has a strength that depends on the design: a hundredth of E.
 inline SampleScene sample_with_strength(int index) {
-  SampleScene sample = all_samples()[static_cast<std::size_t>(index)];
+  SampleScene sample = all_samples()[index];
   for (Material& material : sample.scene.materials) {
     Number strength = material.young;
     strength.factor *= 0.01;

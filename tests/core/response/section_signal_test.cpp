@@ -169,7 +169,7 @@ TEST(Buckling, OfATaperedMemberIsThatOfItsWeakestSection) {
       const int index = body.coordinate(node, 0);
       if (index >= 0) state.q(index) = shift;
       if (node + 1 == body.beam.node_count()) break;
-      const auto& element = body.beam.elements[static_cast<std::size_t>(node)];
+      const auto& element = body.beam.elements[node];
       shift -= press * element.length / (element.young * element.section.area);
     }
     EXPECT_NEAR(buckling(model, state) * euler / press, 1.0, 1e-9) << is_turned;

@@ -50,9 +50,7 @@ SaintVenant::SaintVenant(std::vector<double> y, std::vector<double> z,
     : y_(std::move(y)), z_(std::move(z)) {
   const auto rows = static_cast<Eigen::Index>(y_.size());
   const auto columns = static_cast<Eigen::Index>(z_.size());
-  const auto at = [](const std::vector<double>& lines, Eigen::Index i) {
-    return lines[static_cast<std::size_t>(i)];
-  };
+  const auto at = [](const std::vector<double>& lines, Eigen::Index i) { return lines[i]; };
   const auto fill_of_cell = [&](Eigen::Index i, Eigen::Index j) {
     return fill((at(y_, i) + at(y_, i + 1)) / 2, (at(z_, j) + at(z_, j + 1)) / 2);
   };

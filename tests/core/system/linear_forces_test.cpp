@@ -17,7 +17,7 @@ constexpr auto on_acceleration_level = ConstraintLevel::acceleration;
 
 class LinearForcesOf : public testing::TestWithParam<int> {
  protected:
-  SampleScene sample_ = all_samples()[static_cast<std::size_t>(GetParam())];
+  SampleScene sample_ = all_samples()[GetParam()];
   Model model_ = sample_.build();
   System& system_ = *model_.mechanism.system;
   State state_ = random_state(model_, 7);
@@ -87,10 +87,10 @@ TEST_P(LinearForcesOf, HaveTheDesignDerivativeOfTheirResidual) {
   forces.set(state_, state_.a, state_.lambda);
   const Eigen::VectorXd here = forces.residual().head(n_);
   for (int j = 0; j < system_.variables(); ++j) {
-    const double x = sample_.design[static_cast<std::size_t>(j)];
+    const double x = sample_.design[j];
     const auto residual_at = [&](double s) {
       auto design = sample_.design;
-      design[static_cast<std::size_t>(j)] += s;
+      design[j] += s;
       const Model moved = sample_.build_at(design);
       const Eigen::MatrixXd basis = change_of_basis(model_, moved, j, s);
       State place = state_;
@@ -104,7 +104,7 @@ TEST_P(LinearForcesOf, HaveTheDesignDerivativeOfTheirResidual) {
     const double scale =
         std::max(here.lpNorm<Eigen::Infinity>(), std::abs(x) * expected.lpNorm<Eigen::Infinity>());
     EXPECT_LE(std::abs(x) * (found - expected).lpNorm<Eigen::Infinity>(), 1e-8 * scale)
-        << sample_.variables[static_cast<std::size_t>(j)];
+        << sample_.variables[j];
   }
 }
 
@@ -118,7 +118,7 @@ TEST_P(LinearForcesOf, SumWhatMultipliesTheirDesignDerivatives) {
   const Eigen::MatrixXd expected = forces.design_derivative().transpose() * mu;
   const double residual = forces.residual().lpNorm<Eigen::Infinity>();
   for (Eigen::Index j = 0; j < found.rows(); ++j) {
-    const double x = std::abs(sample_.design[static_cast<std::size_t>(j)]);
+    const double x = std::abs(sample_.design[j]);
     const double scale = std::max(residual, x * expected.row(j).lpNorm<Eigen::Infinity>());
     EXPECT_LE(x * (found - expected).row(j).lpNorm<Eigen::Infinity>(), 1e-10 * scale) << j;
   }

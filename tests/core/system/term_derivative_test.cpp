@@ -21,7 +21,7 @@ struct Case {
 
 class EveryTerm : public testing::TestWithParam<Case> {
  protected:
-  SampleScene sample_ = all_samples()[static_cast<std::size_t>(GetParam().sample)];
+  SampleScene sample_ = all_samples()[GetParam().sample];
   Model model_ = sample_.build();
   State state_ = random_state(model_, 7);
 
@@ -147,7 +147,7 @@ TEST_P(EveryTerm, HasTheDesignDerivativeOfItsResidual) {
       state.a = basis * state_.a;
       Eigen::MatrixXd residuals(system.size(), static_cast<Eigen::Index>(terms));
       for (std::size_t i = 0; i < terms; ++i) {
-        residuals.col(static_cast<Eigen::Index>(i)) =
+        residuals.col(i) =
             residual_of(*moved.mechanism.system->terms()[i], state, GetParam().level);
       }
       residuals.topRows(basis.rows()) =
@@ -161,8 +161,7 @@ TEST_P(EveryTerm, HasTheDesignDerivativeOfItsResidual) {
       const double scale = std::max(
           residual_of(*system.terms()[i], state_, GetParam().level).lpNorm<Eigen::Infinity>(),
           std::abs(x) * columns.col(j).lpNorm<Eigen::Infinity>());
-      const double difference =
-          (found.col(static_cast<Eigen::Index>(i)) - columns.col(j)).lpNorm<Eigen::Infinity>();
+      const double difference = (found.col(i) - columns.col(j)).lpNorm<Eigen::Infinity>();
       EXPECT_LE(difference * std::abs(x), 1e-8 * scale)
           << system.terms()[i]->name() << ", variable " << sample_.variables[index];
     }
@@ -188,7 +187,7 @@ TEST_P(EveryTerm, SumsWhatMultipliesItsDesignDerivatives) {
     term->add_design_gradients(sums, found);
     const double residual = residual_of(*term, state_, GetParam().level).lpNorm<Eigen::Infinity>();
     for (Eigen::Index j = 0; j < found.rows(); ++j) {
-      const double x = std::abs(sample_.design[static_cast<std::size_t>(j)]);
+      const double x = std::abs(sample_.design[j]);
       const double scale = std::max(residual, x * expected.row(j).lpNorm<Eigen::Infinity>());
       EXPECT_LE(x * (found - expected).row(j).lpNorm<Eigen::Infinity>(), 1e-10 * scale)
           << term->name() << ", variable " << j;
@@ -198,7 +197,7 @@ TEST_P(EveryTerm, SumsWhatMultipliesItsDesignDerivatives) {
 
 class EverySample : public testing::TestWithParam<int> {
  protected:
-  SampleScene sample_ = all_samples()[static_cast<std::size_t>(GetParam())];
+  SampleScene sample_ = all_samples()[GetParam()];
   Model model_ = sample_.build();
   State state_ = random_state(model_, 7);
 };
@@ -263,8 +262,7 @@ std::vector<Case> all_cases() {
 
 std::string case_name(const testing::TestParamInfo<Case>& info) {
   const char* levels[] = {"Position", "Velocity", "Acceleration"};
-  return all_samples()[static_cast<std::size_t>(info.param.sample)].name +
-         levels[static_cast<int>(info.param.level)];
+  return all_samples()[info.param.sample].name + levels[static_cast<int>(info.param.level)];
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, EveryTerm, testing::ValuesIn(all_cases()), case_name);

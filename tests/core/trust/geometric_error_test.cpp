@@ -26,7 +26,7 @@ struct BentBeam {
   explicit BentBeam(const BentCantilever& cantilever) : BentBeam(cantilever.problem()) {}
 
   double value(const std::string& response) const {
-    return analysis->reductions[static_cast<std::size_t>(response_index(problem, response))].value;
+    return analysis->reductions[response_index(problem, response)].value;
   }
   GeometricError error() const {
     State state;

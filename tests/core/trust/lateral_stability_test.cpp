@@ -102,7 +102,7 @@ TEST(LateralStability, OfColumnsIsTheEulerLoadOfTheirEnds) {
 TEST(LateralStability, OfASteppedColumnIsTheRootOfItsEquation) {
   Beam<double> beam = thin_beam();
   for (int i = 0; i < 6; ++i) {  // 450 mm of 1200 mm
-    beam.elements[static_cast<std::size_t>(i)].section = rectangle_section<double>(0.0008, 0.05);
+    beam.elements[i].section = rectangle_section<double>(0.0008, 0.05);
   }
   const double below = 6 * length / count, above = length - below;
   const double thick = young * beam.elements.front().section.inertia_y,

@@ -59,8 +59,7 @@ double true_error(const SettingChoice& choice) {
   const auto exact = analyze(refined(choice.problem, {0.125, 4.0}), x);
   double error = 0.0;
   for (const std::size_t i : asked_responses(choice.problem)) {
-    error = std::max(
-        error, value_error(values(static_cast<Eigen::Index>(i)), exact->reductions[i].value, 0.0));
+    error = std::max(error, value_error(values(i), exact->reductions[i].value, 0.0));
   }
   return error;
 }
