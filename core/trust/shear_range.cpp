@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "core/base/dense_solvers.hpp"
 #include "core/base/find_named.hpp"
+#include "core/base/sparse_rows.hpp"
 #include "core/beam/beam_shape.hpp"
 #include "core/beam/elastic_basis.hpp"
 #include "core/beam/natural_modes.hpp"
@@ -269,23 +269,34 @@ class ShearDoubts {
     System& system = *mechanism.system;
     const int n = system.coordinates(), m = system.multipliers();
     if (m == 0) return std::nullopt;
-    std::vector<bool> is_left_out(static_cast<std::size_t>(m), false);
-    for (const int row : system.left_out()) is_left_out[row] = true;
-    std::vector<int> rows;
+    std::vector<int> place(static_cast<std::size_t>(m), 0), rows;
+    for (const int row : system.left_out()) place[static_cast<std::size_t>(row)] = -1;
     for (int row = 0; row < m; ++row) {
-      if (!is_left_out[row]) rows.push_back(row);
+      int& of_row = place[static_cast<std::size_t>(row)];
+      if (of_row < 0) continue;
+      of_row = static_cast<int>(rows.size());
+      rows.push_back(row);
     }
+    std::vector<bool> is_elastic(static_cast<std::size_t>(n), false);
+    for (const int i : mechanism.elastic) is_elastic[static_cast<std::size_t>(i)] = true;
     System::Matrix matrix = system.make_matrix();
     system.tangent(state, {.q = 1.0}, ConstraintLevel::position, matrix);
-    const Eigen::MatrixXd all =
-        Eigen::MatrixXd(matrix).bottomLeftCorner(m, n) * mechanism.scale.asDiagonal();
-    Eigen::MatrixXd of_frames = all(rows, Eigen::all);
-    of_frames(Eigen::all, mechanism.elastic).setZero();
-    const PivotedQr qr(of_frames, 1e-9);
-    if (qr.rank() == of_frames.rows()) return std::nullopt;
+    std::vector<Eigen::Triplet<double>> entries;  // a row for each coordinate of a frame
+    for (int i = 0; i < n; ++i) {
+      if (is_elastic[static_cast<std::size_t>(i)]) continue;
+      for (System::Matrix::InnerIterator entry(matrix, i); entry; ++entry) {
+        if (entry.row() < n || place[static_cast<std::size_t>(entry.row() - n)] < 0) continue;
+        entries.emplace_back(i, place[static_cast<std::size_t>(entry.row() - n)],
+                             mechanism.scale(i) * entry.value());
+      }
+    }
+    SparseRows of_frames(n, static_cast<Eigen::Index>(rows.size()));
+    of_frames.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::MatrixXd beyond = null_space_of_rows(of_frames, 1e-9);
+    if (beyond.cols() == 0) return std::nullopt;
     const Eigen::VectorXd lambda = state.lambda(rows);
     if (lambda.isZero(0.0)) return 0.0;
-    return (qr.normal_space().transpose() * lambda).norm() / lambda.norm();
+    return (beyond.transpose() * lambda).norm() / lambda.norm();
   }
 
   void add_doubt(const std::string& body, const ShearShare& share,
