@@ -16,7 +16,7 @@ struct DegreesOfFreedom {
 };
 
 /// At a state: in a singular position, such as a dead centre, fewer constraints are independent.
-/// By a rank-revealing QR decomposition of Φ_q: for descriptions, not for loops.
+/// By a rank-revealing decomposition of Φ_q (core/base/sparse_rows.hpp): for descriptions, not for loops.
 DegreesOfFreedom rigid_degrees_of_freedom(const Mechanism& mechanism, const State& state);
 
 /// The rigid motions that constraints and drives leave free, as velocities: n × free(), columns

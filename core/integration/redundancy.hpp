@@ -13,8 +13,8 @@ namespace pleuel {
 inline constexpr double alignment_tolerance = 1e-6;
 
 /// Constraints that follow from the others wherever the mechanism can go, as in a planar loop of
-/// spatial revolutes. Candidates are the rows of Φ_q that a rank-revealing QR factorisation with
-/// column pivoting leaves over at the guess (pivots up to the alignment tolerance); they are
+/// spatial revolutes. Candidates are the rows of Φ_q that a rank-revealing factorisation leaves over at
+/// the guess (core/base/sparse_rows.hpp; pivots up to the alignment tolerance); they are
 /// redundant if they still hold, up to the tolerance, after a small motion in which only the others
 /// are kept. So a position in which the mechanism is merely singular is told from redundancy. What
 /// drives hold altogether is moved without them, too: a drive that starts from rest moves nothing,
