@@ -1,3 +1,8 @@
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "cli/commands/commands.hpp"

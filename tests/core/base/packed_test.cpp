@@ -1,5 +1,6 @@
 #include "core/base/packed.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
