@@ -4,8 +4,8 @@
 #include <string>
 
 #include "core/base/time_law.hpp"
-#include "core/forces/gauge.hpp"
 #include "core/frame/marker.hpp"
+#include "core/system/gauge.hpp"
 #include "core/system/term.hpp"
 
 namespace pleuel {

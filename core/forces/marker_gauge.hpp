@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/forces/gauge.hpp"
 #include "core/frame/marker_kinematics.hpp"
 #include "core/frame/number_data.hpp"
+#include "core/system/gauge.hpp"
 
 namespace pleuel {
 

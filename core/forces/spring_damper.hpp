@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
-#include "core/forces/gauge.hpp"
 #include "core/frame/marker.hpp"
+#include "core/system/gauge.hpp"
 #include "core/system/term.hpp"
 
 namespace pleuel {

@@ -66,7 +66,7 @@ struct BodyModel : ElasticBody {
   }
 };
 
-class Gauge;  // core/forces/gauge.hpp
+class Gauge;  // core/system/gauge.hpp
 
 /// What can be read of a joint or a load. Its coordinates are local where `map` is set.
 struct GaugeModel {

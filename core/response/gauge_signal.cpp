@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "core/forces/gauge.hpp"
 #include "core/response/projected_signal.hpp"
 #include "core/response/response.hpp"
+#include "core/system/gauge.hpp"
 
 namespace pleuel {
 

@@ -8,7 +8,7 @@
 namespace pleuel {
 
 /// Position and velocity of a joint, length and pull of a spring, power of a motor: what a gauge of
-/// the model reads (core/forces/gauge.hpp).
+/// the model reads (core/system/gauge.hpp).
 /// @throws InputError where the model has no such gauge
 std::unique_ptr<Signal> make_gauge_signal(const ResponseSettings& settings, const Model& model);
 
