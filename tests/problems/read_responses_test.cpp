@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/error.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "sensitivity/gradients.hpp"
@@ -169,6 +170,41 @@ TEST(Stress, OfSeveralBodiesIsTheLargestOfThem) {
   EXPECT_EQ(bars.value("both"), bars.value("bar"));
   EXPECT_LT((bars.gradient("both") - bars.gradient("bar")).norm(),
             1e-12 * bars.gradient("bar").norm());
+}
+
+/// What the reader says of the cantilever with another response.
+std::string complaint(const char* response) {
+  Json document = Json::parse(cantilever);
+  document["responses"] = {{"asked", Json::parse(response)}};
+  try {
+    read_problem_text(document.dump(), "test.json");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ReadResponse, OfAnythingElseIsRefusedWithItsPlace) {
+  const auto expect = [](const char* response, const std::string& place, const char* says) {
+    const std::string said = complaint(response);
+    EXPECT_EQ(said.find("test.json: /responses/asked/" + place), 0U) << said;
+    EXPECT_NE(said.find(says), std::string::npos) << said;
+  };
+  expect(R"({"type": "motor-power", "load": "pull", "over_time": "max"})", "load",
+         "\"pull\" has none");
+  expect(R"({"type": "spring-force", "load": "pull", "over_time": "max"})", "load", "\"spring\"");
+  expect(R"({"type": "spring-length", "load": "pul", "over_time": "max"})", "load",
+         "did you mean \"pull\"?");
+  expect(R"({"type": "joint-position", "joint": "wall", "over_time": "max"})", "joint",
+         "\"fixed\"");
+  expect(
+      R"({"type": "section-force", "body": "bar", "at": 0.5, "part": "bend", "over_time": "max"})",
+      "part", "\"moment-z\"");
+  expect(R"({"type": "stress", "bodies": ["bar", "bar"], "over_time": "max"})", "bodies/1",
+         "a second time");
+  expect(R"({"type": "deflection", "body": "bar", "at": 1, "against": "chord", "direction": "x",
+             "over_time": "max"})",
+         "direction", "\"resultant\"");
 }
 
 }  // namespace
