@@ -252,9 +252,10 @@ void add_gauges(const Joint& joint, const std::vector<BodyModel>& bodies,
   const auto gauge = [&](DrivenCoordinate coordinate) {
     return LoadBuilder(nothing, bodies, context, 0).gauge_of(joint, coordinate);
   };
-  const bool turns = std::all_of(
-      joint.bodies.begin(), joint.bodies.end(),
-      [&](const std::string& body) { return Attachment(body, joint.at, bodies, context).has_orientation(); });
+  const bool turns =
+      std::all_of(joint.bodies.begin(), joint.bodies.end(), [&](const std::string& body) {
+        return Attachment(body, joint.at, bodies, context).has_orientation();
+      });
   if (has_angle(joint.type) && turns) model.angle = gauge(DrivenCoordinate::angle);
   if (has_displacement(joint.type)) model.displacement = gauge(DrivenCoordinate::displacement);
 }

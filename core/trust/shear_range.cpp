@@ -270,24 +270,23 @@ class ShearDoubts {
     const int n = system.coordinates(), m = system.multipliers();
     if (m == 0) return std::nullopt;
     std::vector<int> place(static_cast<std::size_t>(m), 0), rows;
-    for (const int row : system.left_out()) place[static_cast<std::size_t>(row)] = -1;
+    for (const int row : system.left_out()) place[row] = -1;
     for (int row = 0; row < m; ++row) {
-      int& of_row = place[static_cast<std::size_t>(row)];
+      int& of_row = place[row];
       if (of_row < 0) continue;
       of_row = static_cast<int>(rows.size());
       rows.push_back(row);
     }
     std::vector<bool> is_elastic(static_cast<std::size_t>(n), false);
-    for (const int i : mechanism.elastic) is_elastic[static_cast<std::size_t>(i)] = true;
+    for (const int i : mechanism.elastic) is_elastic[i] = true;
     System::Matrix matrix = system.make_matrix();
     system.tangent(state, {.q = 1.0}, ConstraintLevel::position, matrix);
     std::vector<Eigen::Triplet<double>> entries;  // a row for each coordinate of a frame
     for (int i = 0; i < n; ++i) {
-      if (is_elastic[static_cast<std::size_t>(i)]) continue;
+      if (is_elastic[i]) continue;
       for (System::Matrix::InnerIterator entry(matrix, i); entry; ++entry) {
-        if (entry.row() < n || place[static_cast<std::size_t>(entry.row() - n)] < 0) continue;
-        entries.emplace_back(i, place[static_cast<std::size_t>(entry.row() - n)],
-                             mechanism.scale(i) * entry.value());
+        if (entry.row() < n || place[entry.row() - n] < 0) continue;
+        entries.emplace_back(i, place[entry.row() - n], mechanism.scale(i) * entry.value());
       }
     }
     SparseRows of_frames(n, static_cast<Eigen::Index>(rows.size()));
