@@ -79,7 +79,7 @@ double magnitude_of(const Analysis& analysis, std::size_t response) {
 bool depends_on_motion(const Analysis& analysis, std::size_t response) {
   const std::vector<WeightedResponse> parts = linearized(analysis, response).parts;
   return std::any_of(parts.begin(), parts.end(), [&](const WeightedResponse& part) {
-    return analysis.responses[part.response].history() != nullptr;
+    return analysis.histories[part.response].size() > 0;
   });
 }
 

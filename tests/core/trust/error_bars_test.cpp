@@ -93,6 +93,7 @@ TEST(Extrapolation, DoesNotTrustPeaksThatAgreeByAccident) {
 class ErrorBarOfAValue : public testing::Test {
  protected:
   ErrorBarOfAValue() {
+    analysis_.responses.emplace_back().name = "value";
     analysis_.reductions.emplace_back().value = 10.0;
     analysis_.histories.push_back(Eigen::MatrixXd::Constant(1, 1, 10.0));
   }
