@@ -12,6 +12,7 @@
 #include "core/trust/doubts.hpp"
 #include "core/trust/nested_runs.hpp"
 #include "optimization/broken_limits.hpp"
+#include "optimization/designs_to_try.hpp"
 #include "optimization/find_optimum.hpp"
 #include "optimization/kkt_audit.hpp"
 #include "optimization/margin_problem.hpp"
@@ -222,13 +223,9 @@ class SearchedDesign : public SearchedProblem {
   }
 
   LimitRows limit_rows() override {
-    Eigen::VectorXd start(design_.variables().size());
-    for (Eigen::Index i = 0; i < start.size(); ++i) {
-      start(i) = design_.variables()[i].start;
-    }
     robust_peaks_.reset();
-    peaks_ =
-        std::make_unique<PeakProblem>(design_, windows_of_limits, start, PeakProblem::Of::limits);
+    peaks_ = std::make_unique<PeakProblem>(design_, windows_of_limits, start_of(design_),
+                                           PeakProblem::Of::limits);
     robust_peaks_ = with_margins(*peaks_, design_, peaks_->constraint_of_row());
     LimitRows rows;
     rows.problem = robust_peaks_ ? robust_peaks_.get() : peaks_.get();

@@ -1,7 +1,6 @@
 #include "optimization/find_optimum.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -13,11 +12,11 @@
 #include "core/base/number_text.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/broken_limits.hpp"
+#include "optimization/designs_to_try.hpp"
 #include "optimization/kkt_audit.hpp"
 #include "optimization/recorded_problem.hpp"
-#include "optimization/restoration.hpp"
 #include "optimization/scaling.hpp"
-#include "optimization/starts.hpp"
+#include "optimization/smooth_problem.hpp"
 
 namespace pleuel {
 
@@ -31,30 +30,13 @@ constexpr double short_first_step = 0.1;
 constexpr double same_to_rounding = 1e-9;
 /// How often the limits are restored before they are taken for contradictory.
 constexpr int most_restorations = 2;
-/// Designs between the bounds that are tried where all else leads outside the limits, and how many
-/// of the best of them a restoration begins at.
-constexpr int samples = 8;
-constexpr std::size_t best_samples = 2;
-constexpr RestorationBudget sample_budget{12, 30};
-constexpr unsigned seed = 20;
 /// Iterations of each optimization that looks for the least violation.
 constexpr int least_violation_iterations = 60;
-/// Where a start cannot be evaluated: shares of the way to the middle of the bounds.
-constexpr std::array<double, 4> ways_to_the_middle = {0.25, 0.5, 0.75, 1.0};
-
 /// A backend, and the size of its first steps.
 struct Way {
   std::string backend;
   double first_step = 1.0;
 };
-
-Eigen::VectorXd starts_of(const Problem& problem) {
-  Eigen::VectorXd start(problem.variables().size());
-  for (Eigen::Index i = 0; i < start.size(); ++i) {
-    start[i] = problem.variables()[i].start;
-  }
-  return start;
-}
 
 bool takes_equalities(const std::string& backend) {
   return make_optimizer(backend, {})->takes_equalities();
@@ -69,7 +51,7 @@ class Search {
         options_(options),
         observer_(observer),
         notice_(notice),
-        start_(starts_of(problem_)) {
+        start_(start_of(problem_)) {
     const auto& limits = problem_.constraints();
     const bool has_equalities =
         std::any_of(limits.begin(), limits.end(), std::mem_fn(&Constraint::is_equality));
@@ -145,20 +127,11 @@ class Search {
       const bool is_first = !has_design();
       Result before = std::move(total_);
       continue_from(before, next);
-      total_ = is_first || is_better(next, before) ? std::move(next)
-                                                   : with_effort_of(next, std::move(before));
+      total_ = is_first || is_better(next, before)
+                   ? std::move(next)
+                   : with_effort_of(std::move(next), std::move(before));
     }
     total_.parts = std::move(parts);
-  }
-
-  static Result with_effort_of(Result& all, Result answer) {
-    answer.history = std::move(all.history);
-    answer.evaluations = all.evaluations;
-    answer.gradient_evaluations = all.gradient_evaluations;
-    answer.iterations = all.iterations;
-    answer.restarts = all.restarts;
-    answer.seconds = all.seconds;
-    return answer;
   }
 
   bool is_better(const Result& one, const Result& other) const {
@@ -189,30 +162,6 @@ class Search {
     begun_elsewhere_ = true;
   }
 
-  std::optional<Eigen::VectorXd> evaluable_design(Problem& rows) const {
-    std::vector<Eigen::VectorXd> designs;
-    for (const double share : ways_to_the_middle) {
-      designs.push_back(start_ + share * (middle() - start_));
-    }
-    for (Eigen::VectorXd& x : latin_hypercube(problem_.variables(), samples, seed)) {
-      designs.push_back(std::move(x));
-    }
-    for (const Eigen::VectorXd& x : designs) {
-      if (attempt_evaluation(rows, x, Request::values_and_gradients).evaluation) return x;
-    }
-    return std::nullopt;
-  }
-
-  Eigen::VectorXd middle() const {
-    Eigen::VectorXd middle = start_;
-    for (Eigen::Index i = 0; i < middle.size(); ++i) {
-      const Variable& variable = problem_.variables()[i];
-      const double centre = 0.5 * (variable.lower + variable.upper);
-      if (std::isfinite(centre)) middle[i] = centre;
-    }
-    return middle;
-  }
-
   /// Does something with the rows of the limits, its evaluations as a part of the search.
   template <class Outcome>
   std::pair<Outcome, SearchPart> recorded(
@@ -232,7 +181,7 @@ class Search {
     if (!effort.history.empty()) {
       continue_from(total_, effort);
       --effort.restarts;
-      total_ = with_effort_of(effort, std::move(total_));
+      total_ = with_effort_of(std::move(effort), std::move(total_));
     }
     return std::pair(std::move(outcome), std::move(part));
   }
@@ -257,8 +206,9 @@ class Search {
     find_magnitudes();
     tell("no design within the limits so far: the search goes on with the limits alone");
     const Eigen::VectorXd best = best_seen();
-    auto [inside, part] = recorded<std::optional<Eigen::VectorXd>>(
-        [&](const LimitRows& rows) { return design_inside(rows, best); });
+    auto [inside, part] = recorded<std::optional<Eigen::VectorXd>>([&](const LimitRows& rows) {
+      return design_within_limits(rows, problem_, magnitudes_, best);
+    });
     part.status = inside ? Status::verified : Status::infeasible;
     total_.parts.push_back(part);
     return inside;
@@ -266,41 +216,6 @@ class Search {
 
   Eigen::VectorXd best_seen() const {
     return best_record(total_.history, options_.verdict.violation).x;
-  }
-
-  std::optional<Eigen::VectorXd> design_inside(const LimitRows& rows,
-                                               const Eigen::VectorXd& best) const {
-    if (const auto inside = inside_from(*rows.problem, best)) return inside;
-    for (const Eigen::VectorXd& x : promising_designs(rows)) {
-      if (const auto inside = inside_from(*rows.problem, x, sample_budget)) return inside;
-    }
-    return std::nullopt;
-  }
-
-  static std::optional<Eigen::VectorXd> inside_from(Problem& rows, const Eigen::VectorXd& x,
-                                                    const RestorationBudget& budget = {}) {
-    const std::optional<Restored> restored = restore_limits(rows, x, budget);
-    if (!restored || !restored->keeps_limits) return std::nullopt;
-    return restored->design.x;
-  }
-
-  /// Those between the bounds that break the limits least.
-  std::vector<Eigen::VectorXd> promising_designs(const LimitRows& rows) const {
-    std::vector<std::pair<double, Eigen::VectorXd>> rated;
-    for (Eigen::VectorXd& x : latin_hypercube(problem_.variables(), samples, seed)) {
-      const Attempt attempt = attempt_evaluation(*rows.problem, x, Request::values);
-      if (!attempt.evaluation) continue;
-      const Eigen::VectorXd values =
-          rows.fold(attempt.evaluation->constraints, problem_.constraints());
-      rated.emplace_back(max_violation(problem_, values, magnitudes_), std::move(x));
-    }
-    std::stable_sort(rated.begin(), rated.end(),
-                     [](const auto& one, const auto& other) { return one.first < other.first; });
-    std::vector<Eigen::VectorXd> designs;
-    for (std::size_t i = 0; i < std::min(best_samples, rated.size()); ++i) {
-      designs.push_back(std::move(rated[i].second));
-    }
-    return designs;
   }
 
   /// Says what is in conflict, or goes on if after all nothing is.
@@ -385,58 +300,6 @@ class Search {
   bool begun_elsewhere_ = false;
   Eigen::VectorXd magnitudes_;  ///< of the constraints; empty before the first restoration
   Result total_;
-};
-
-/// A problem that begins at another design.
-class StartedProblem : public Problem {
- public:
-  StartedProblem(Problem& problem, const Eigen::VectorXd& start)
-      : problem_(problem), variables_(problem.variables()) {
-    for (std::size_t i = 0; i < variables_.size(); ++i) {
-      variables_[i].start = start[i];
-    }
-  }
-
-  const std::vector<Variable>& variables() const override { return variables_; }
-  const std::vector<Constraint>& constraints() const override { return problem_.constraints(); }
-  std::string objective_name() const override { return problem_.objective_name(); }
-  std::string variable_text(std::size_t variable, double value) const override {
-    return problem_.variable_text(variable, value);
-  }
-  std::string constraint_text(std::size_t constraint, double value) const override {
-    return problem_.constraint_text(constraint, value);
-  }
-  Evaluation evaluate(const Eigen::VectorXd& x, Request request) override {
-    return problem_.evaluate(x, request);
-  }
-
- private:
-  Problem& problem_;
-  std::vector<Variable> variables_;
-};
-
-class SmoothProblem : public SearchedProblem {
- public:
-  explicit SmoothProblem(Problem& problem) : problem_(problem) {}
-
-  Problem& problem() override { return problem_; }
-
-  Result attempt(const Eigen::VectorXd& start, const SolveOptions& options,
-                 const Observer& observer) override {
-    StartedProblem started(problem_, start);
-    return solve(started, options, observer);
-  }
-
-  LimitRows limit_rows() override {
-    LimitRows rows{&problem_, {}};
-    for (std::size_t i = 0; i < problem_.constraints().size(); ++i) {
-      rows.constraint_of_row.push_back(i);
-    }
-    return rows;
-  }
-
- private:
-  Problem& problem_;
 };
 
 }  // namespace

@@ -3,27 +3,12 @@
 #include <functional>
 #include <string>
 
-#include "optimization/least_violation.hpp"
-#include "optimization/solve.hpp"
+#include "optimization/searched_problem.hpp"
 
 namespace pleuel {
 
 /// Hears what the run decides on its way: a sentence.
 using Notice = std::function<void(const std::string&)>;
-
-/// What find_optimum() searches.
-class SearchedProblem {
- public:
-  virtual ~SearchedProblem() = default;
-
-  /// Its variables begin where the search begins.
-  virtual Problem& problem() = 0;
-  /// Optimizes from a design with the backend of the options.
-  virtual Result attempt(const Eigen::VectorXd& start, const SolveOptions& options,
-                         const Observer& observer) = 0;
-  /// The limits as rows that are smooth; valid until the next call of anything here.
-  virtual LimitRows limit_rows() = 0;
-};
 
 /// The search for an optimum from any start: a sequence of attempts, each from where the ones before
 /// have led, until an optimum is verified, nothing is left to try, or the iterations are used up.

@@ -76,13 +76,8 @@ std::vector<LocalOptimum> distinct_optima(const std::vector<StagedSolution>& sol
 Result effort_of(const std::vector<StagedSolution>& solutions) {
   Result all;
   for (const StagedSolution& solution : solutions) {
-    Result next;
-    next.history = solution.result.history;
-    next.evaluations = solution.result.evaluations;
-    next.gradient_evaluations = solution.result.gradient_evaluations;
-    next.iterations = solution.result.iterations;
-    next.restarts = solution.result.restarts - 1;
-    next.seconds = solution.result.seconds;
+    Result next = with_effort_of(solution.result, {});
+    --next.restarts;  // continue_from() counts this run as one
     continue_from(all, next);
     all = std::move(next);
   }
@@ -272,12 +267,7 @@ MultiStart combined(const std::vector<Eigen::VectorXd>& starts,
   Result effort = effort_of(solutions);
   all.best = std::move(solutions[best]);
   Result& result = all.best.result;
-  result.history = std::move(effort.history);
-  result.evaluations = effort.evaluations;
-  result.gradient_evaluations = effort.gradient_evaluations;
-  result.iterations = effort.iterations;
-  result.restarts = effort.restarts;
-  result.seconds = effort.seconds;
+  result = with_effort_of(std::move(effort), std::move(result));
   if (all.runs.size() > 1) result.message += sentence_of(all);
   return all;
 }

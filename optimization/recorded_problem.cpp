@@ -7,7 +7,7 @@ namespace pleuel {
 Evaluation RecordedProblem::evaluate(const Eigen::VectorXd& x, Request request) {
   gradients_ += request == Request::values_and_gradients ? 1 : 0;
   try {
-    Evaluation evaluation = problem_.evaluate(x, request);
+    Evaluation evaluation = problem().evaluate(x, request);
     record(x, request, &evaluation, "");
     return evaluation;
   } catch (const SimulationError& error) {

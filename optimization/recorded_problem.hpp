@@ -3,33 +3,24 @@
 #include <chrono>
 #include <functional>
 
+#include "optimization/forwarding_problem.hpp"
 #include "optimization/history.hpp"
-#include "optimization/problem.hpp"
 
 namespace pleuel {
 
 /// A problem all of whose evaluations are recorded as those of a restoration, whoever asks for
 /// them. Violations are not known here: `completed` fills them in.
-class RecordedProblem : public Problem {
+class RecordedProblem : public ForwardingProblem {
  public:
   using Completed = std::function<EvaluationRecord(EvaluationRecord)>;
 
   /// @param problem  must outlive this, and so must the observer
   RecordedProblem(Problem& problem, Completed completed, const Observer& observer)
-      : problem_(problem),
+      : ForwardingProblem(problem),
         completed_(std::move(completed)),
         observer_(observer),
         begin_(std::chrono::steady_clock::now()) {}
 
-  const std::vector<Variable>& variables() const override { return problem_.variables(); }
-  const std::vector<Constraint>& constraints() const override { return problem_.constraints(); }
-  std::string objective_name() const override { return problem_.objective_name(); }
-  std::string variable_text(std::size_t variable, double value) const override {
-    return problem_.variable_text(variable, value);
-  }
-  std::string constraint_text(std::size_t constraint, double value) const override {
-    return problem_.constraint_text(constraint, value);
-  }
   Evaluation evaluate(const Eigen::VectorXd& x, Request request) override;
 
   const History& history() const { return history_; }
@@ -40,7 +31,6 @@ class RecordedProblem : public Problem {
   void record(const Eigen::VectorXd& x, Request request, const Evaluation* evaluation,
               const std::string& failure);
 
-  Problem& problem_;
   Completed completed_;
   const Observer& observer_;
   std::chrono::steady_clock::time_point begin_;

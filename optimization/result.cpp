@@ -14,6 +14,16 @@ void continue_from(const Result& before, Result& result) {
   result.seconds += before.seconds;
 }
 
+Result with_effort_of(Result effort, Result answer) {
+  answer.history = std::move(effort.history);
+  answer.evaluations = effort.evaluations;
+  answer.gradient_evaluations = effort.gradient_evaluations;
+  answer.iterations = effort.iterations;
+  answer.restarts = effort.restarts;
+  answer.seconds = effort.seconds;
+  return answer;
+}
+
 EvaluationRecord following(EvaluationRecord record, const Result& before) {
   record.evaluation += before.evaluations;
   record.iteration += before.iterations;

@@ -56,6 +56,9 @@ struct Result {
 /// Puts what an earlier run of the same optimization did before a result: counts, time, history.
 void continue_from(const Result& before, Result& result);
 
+/// An answer with the counts, time and history of another result in place of its own.
+Result with_effort_of(Result effort, Result answer);
+
 /// A record as one that follows on a run.
 EvaluationRecord following(EvaluationRecord record, const Result& before);
 

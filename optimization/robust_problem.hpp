@@ -1,6 +1,6 @@
 #pragma once
 
-#include "optimization/problem.hpp"
+#include "optimization/forwarding_problem.hpp"
 
 namespace pleuel {
 
@@ -14,22 +14,13 @@ namespace pleuel {
 /// Values cost a gradient, gradients 1 + 2 · (number of uncertain variables) of them.
 /// The sensitivities of c that make σ_c are those of this design only: see `uncertainty` with
 /// samples for how far first order holds.
-class RobustProblem : public Problem {
+class RobustProblem : public ForwardingProblem {
  public:
   /// @param deviations  σ, one a variable; 0: certain
   /// @param margins     k ≥ 0, one a constraint; each with k > 0 has one limit
   /// @param problem     must outlive this
   RobustProblem(Problem& problem, Eigen::VectorXd deviations, Eigen::VectorXd margins);
 
-  const std::vector<Variable>& variables() const override { return problem_.variables(); }
-  const std::vector<Constraint>& constraints() const override { return problem_.constraints(); }
-  std::string objective_name() const override { return problem_.objective_name(); }
-  std::string variable_text(std::size_t variable, double value) const override {
-    return problem_.variable_text(variable, value);
-  }
-  std::string constraint_text(std::size_t constraint, double value) const override {
-    return problem_.constraint_text(constraint, value);
-  }
   Evaluation evaluate(const Eigen::VectorXd& x, Request request) override;
 
  private:
@@ -39,7 +30,6 @@ class RobustProblem : public Problem {
 
   Eigen::MatrixXd neighbour_jacobian(const Eigen::VectorXd& x, Eigen::Index changed);
 
-  Problem& problem_;
   Eigen::VectorXd deviations_;
   Eigen::VectorXd margins_;  ///< of a lower limit with the sign −
   Eigen::VectorXd x_;        ///< of at_x_; empty before

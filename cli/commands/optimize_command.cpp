@@ -55,10 +55,11 @@ Examined examine_designs(RunRecord& record, Optimum& optimum) {
   record.begin_phase("influence");
   optimum.influence = design_influence(optimum.problem, *end);
   record.show_picture([&] {
-    return run_picture(optimum.problem,
-                       {{"start", first_design(optimum.result.history).x, start.get()},
-                        {"optimum", optimum.result.x, end.get(), optimum.result.response_bands,
-                         optimum.influence ? &*optimum.influence : nullptr}});
+    return run_picture(
+        optimum.problem,
+        {{"start", first_design(optimum.result.history).x, start.get()},
+         {name_of_end(to_string(optimum.result.status)), optimum.result.x, end.get(),
+          optimum.result.response_bands, optimum.influence ? &*optimum.influence : nullptr}});
   });
   record.begin_phase("trajectories");
   optimum.monitors = monitor(end->model, end->trajectory);

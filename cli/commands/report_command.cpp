@@ -13,6 +13,7 @@
 #include "cli/files/run_picture.hpp"
 #include "cli/files/trajectory_csv.hpp"
 #include "cli/input/design_file.hpp"
+#include "cli/reports/optimum_report.hpp"
 #include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
@@ -64,11 +65,12 @@ Json picture_of(const ProblemFile& problem, const std::vector<Redone>& designs, 
 Json optimum_picture(const ProblemFile& problem, const Json& result, const fs::path& folder,
                      Notes& notes) {
   std::vector<Redone> designs;
-  for (const auto& [name, key] : {std::pair{"start", "start"}, std::pair{"optimum", "value"}}) {
+  const auto add = [&](const std::string& name, const char* key, const char* trajectory) {
     const auto x = design_in(result, problem, key);
-    const fs::path trajectory = folder / fmt::format("trajectory-{}.csv", name);
-    if (x) designs.push_back({name, *x, analyze(problem, *x), trajectory});
-  }
+    if (x) designs.push_back({name, *x, analyze(problem, *x), folder / trajectory});
+  };
+  add("start", "start", "trajectory-start.csv");
+  add(name_of_end(result.at("status")), "value", "trajectory-optimum.csv");
   if (!designs.empty()) {
     designs.back().influence = design_influence(problem, *designs.back().analysis);
   }

@@ -59,7 +59,7 @@ std::string variables_text(const Optimum& optimum) {
   const std::vector<ShownUnit> units = variable_units(optimum.problem);
   Table table({{"variable", Table::Align::left},
                {"start"},
-               {optimum.result.status == Status::verified ? "optimum" : "end"},
+               {name_of_end(to_string(optimum.result.status))},
                {"lower"},
                {"upper"},
                {"unit", Table::Align::left},
@@ -84,10 +84,8 @@ std::string worth(const Optimum& optimum, double multiplier, double limit) {
   return (gain < 0 ? "−" : "+") + fmt::format("{:.2f} %", 100 * std::abs(gain / objective));
 }
 
-std::string price_text(const std::optional<double>& multiplier, const ShownUnit& objective,
-                       const ShownUnit& limit) {
-  if (!multiplier) return "–";
-  return *multiplier == 0.0 ? "0" : significant(objective.shown(*multiplier) * limit.factor, 3);
+std::string price_text(double multiplier, const ShownUnit& objective, const ShownUnit& limit) {
+  return multiplier == 0.0 ? "0" : significant(objective.shown(multiplier) * limit.factor, 3);
 }
 
 std::vector<std::string> constraint_row(const Optimum& optimum, std::size_t i) {
@@ -106,25 +104,30 @@ std::vector<std::string> constraint_row(const Optimum& optimum, std::size_t i) {
       constraint.deviations > 0.0
           ? fmt::format(" {}{:g} σ", constraint.upper ? "+" : "−", constraint.deviations)
           : "";
-  return {constraint.name + margin,
-          significant(unit.shown(value)),
-          (used.is_upper ? "≤ " : "≥ ") + significant(unit.shown(used.limit)),
-          unit.name,
-          used.utilisation ? percent(*used.utilisation) : "–",
-          price_text(multiplier, objective_unit, unit),
-          multiplier ? worth(optimum, *multiplier, used.limit) : "–"};
+  std::vector<std::string> row = {
+      constraint.name + margin, significant(unit.shown(value)),
+      (used.is_upper ? "≤ " : "≥ ") + significant(unit.shown(used.limit)), unit.name,
+      used.utilisation ? percent(*used.utilisation) : "–"};
+  if (multiplier) {
+    row.push_back(price_text(*multiplier, objective_unit, unit));
+    row.push_back(worth(optimum, *multiplier, used.limit));
+  }
+  return row;
 }
 
 std::string constraints_text(const Optimum& optimum) {
-  const ShownUnit objective_unit =
-      unit_of(find_response(optimum.problem, optimum.problem.objective->response));
-  Table table({{"constraint", Table::Align::left},
-               {"value"},
-               {"limit"},
-               {"unit", Table::Align::left},
-               {"used"},
-               {fmt::format("multiplier [{}/unit]", objective_unit.name)},
-               {"objective at +1 % limit"}});
+  std::vector<Table::Column> columns = {{"constraint", Table::Align::left},
+                                        {"value"},
+                                        {"limit"},
+                                        {"unit", Table::Align::left},
+                                        {"used"}};
+  if (has_prices(optimum.result)) {
+    const ShownUnit objective_unit =
+        unit_of(find_response(optimum.problem, optimum.problem.objective->response));
+    columns.push_back({fmt::format("multiplier [{}/unit]", objective_unit.name)});
+    columns.push_back({"objective at +1 % limit"});
+  }
+  Table table(std::move(columns));
   for (std::size_t i = 0; i < optimum.problem.constraints.size(); ++i) {
     table.add_row(constraint_row(optimum, i));
   }
@@ -152,6 +155,10 @@ std::string effort_text(const Optimum& optimum) {
 }
 
 }  // namespace
+
+std::string name_of_end(const std::string& status) {
+  return status == to_string(Status::verified) ? "optimum" : "end";
+}
 
 std::string optimum_report(const Optimum& optimum) {
   const std::string status = "\n" + wrapped(status_text(optimum.result)) + "\n";

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/named_quantities.hpp"
+
 namespace pleuel {
 
 bool has_dimension(const Quantity& quantity, const Dimension& dimension, const UnitSystem& units) {
@@ -9,29 +11,7 @@ bool has_dimension(const Quantity& quantity, const Dimension& dimension, const U
 }
 
 std::optional<Quantity> find_quantity(const Dimension& dimension, const UnitSystem& units) {
-  using namespace quantities;
-  for (const Quantity& quantity : {pure_number,
-                                   length,
-                                   mass,
-                                   inertia,
-                                   density,
-                                   stress,
-                                   torque,
-                                   time,
-                                   rate,
-                                   angle,
-                                   angular_speed,
-                                   speed,
-                                   acceleration,
-                                   force,
-                                   power,
-                                   area,
-                                   second_moment_of_area,
-                                   torsional_shear,
-                                   spring_stiffness,
-                                   damping_constant,
-                                   torsional_stiffness,
-                                   torsional_damping}) {
+  for (const Quantity& quantity : named_quantities) {
     if (has_dimension(quantity, dimension, units)) return quantity;
   }
   return std::nullopt;

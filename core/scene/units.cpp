@@ -13,6 +13,7 @@
 
 #include "core/scene/common_units.hpp"
 #include "core/scene/dimension.hpp"
+#include "core/scene/named_quantities.hpp"
 
 namespace pleuel {
 namespace {
@@ -316,27 +317,7 @@ Quantity times_time(const Quantity& quantity) {
 }
 
 std::optional<Quantity> find_quantity(const std::string& unit) {
-  using namespace quantities;
-  for (const Quantity& quantity : {pure_number,
-                                   length,
-                                   mass,
-                                   inertia,
-                                   density,
-                                   stress,
-                                   torque,
-                                   time,
-                                   rate,
-                                   angle,
-                                   angular_speed,
-                                   speed,
-                                   acceleration,
-                                   force,
-                                   area,
-                                   second_moment_of_area,
-                                   spring_stiffness,
-                                   damping_constant,
-                                   torsional_stiffness,
-                                   torsional_damping}) {
+  for (const Quantity& quantity : named_quantities) {
     if (quantity.unit == unit) return quantity;
   }
   return std::nullopt;

@@ -202,6 +202,7 @@ test("limits in conflict say what would do", async () => {
   assert.match(await tab.locator("h1").innerText(), /No design keeps all limits/);
   const rows = tab.locator("section", { hasText: "Limits in conflict" }).locator("tbody tr");
   assert.equal(await rows.count(), Object.keys(least_violation.limits).length);
+  assert.doesNotMatch(await tab.locator("body").innerText(), /\boptimum\b/);
   await tab.close();
 });
 

@@ -8,20 +8,13 @@
 #include <fmt/format.h>
 #include <mpParser.h>
 
+#include "core/scene/reading/expression_builder.hpp"
 #include "core/scene/reading/suggestion.hpp"
 #include "core/scene/reading/unit_scanner.hpp"
 
 namespace pleuel {
 
 namespace {
-
-/// What is known of the result of a step while the text is read.
-struct StepFacts {
-  Dimension dimension;
-  std::optional<double> constant;  ///< its value, if it depends on nothing
-  /// A plain 0, which is as well no length, no mass, …
-  bool is_zero() const { return constant && *constant == 0.0 && dimension.is_number(); }
-};
 
 struct Function {
   const char* name;
@@ -36,223 +29,6 @@ constexpr Function functions[] = {
     {"min", Operation::smaller, -1},     {"max", Operation::larger, -1},
     {"abs", Operation::magnitude, 1}};
 
-/// "m ^ 2" → "m^2"
-std::string without_blanks_at_powers(const std::string& unit) {
-  std::string text;
-  for (const char c : unit) {
-    if (c == '^') text.erase(text.find_last_not_of(' ') + 1);
-    if (c != ' ' || !text.ends_with('^')) text += c;
-  }
-  return text;
-}
-
-/// Puts steps together and checks that units fit. Operands are indices of steps.
-class Builder {
- public:
-  Builder(std::string_view text, const std::vector<Symbol>& symbols, const UnitSystem& units)
-      : text_(text), symbols_(symbols), units_(units) {}
-
-  [[noreturn]] void fail(std::size_t position, const std::string& why) const {
-    std::size_t column = 1;
-    for (std::size_t i = 0; i < std::min(position, text_.size()); ++i) {
-      if ((static_cast<unsigned char>(text_[i]) & 0xC0U) != 0x80U) ++column;
-    }
-    throw ExpressionError(column, why);
-  }
-
-  int add_constant(double value, const Dimension& dimension) {
-    return add({Operation::constant, value}, {dimension, value});
-  }
-
-  int add_symbol(const Symbol& symbol) {
-    if (symbol.constant) return add_constant(*symbol.constant, symbol.dimension);
-    std::vector<ExpressionArgument>& all = expression_.arguments;
-    const auto known = std::find_if(all.begin(), all.end(), [&](const ExpressionArgument& one) {
-      return one.kind == symbol.argument->kind && one.index == symbol.argument->index;
-    });
-    const auto index = static_cast<int>(known - all.begin());
-    if (known == all.end()) all.push_back(*symbol.argument);
-    return add({Operation::argument, 0.0, index}, {symbol.dimension, std::nullopt});
-  }
-
-  /// Of one operand, or of two.
-  int apply(std::size_t position, Operation operation, int first, int second = -1) {
-    StepFacts facts;
-    facts.dimension = dimension_of(position, operation, first, second);
-    const bool is_constant = fact(first).constant && (second < 0 || fact(second).constant);
-    const int step = add({operation, 0.0, first, second}, facts);
-    if (is_constant) fold(position, step);
-    return step;
-  }
-
-  const Symbol* find(const std::string& name) const {
-    for (const Symbol& symbol : symbols_) {
-      if (symbol.name == name) return &symbol;
-    }
-    return nullptr;
-  }
-
-  /// @throws ExpressionError for a name that means nothing, or two things
-  int add_name(std::size_t position, const std::string& name) {
-    const Symbol* symbol = find(name);
-    if (symbol == nullptr) fail_unknown(position, name);
-    const bool is_of_two =
-        name == "pi" || std::count_if(symbols_.begin(), symbols_.end(),
-                                      [&](const Symbol& one) { return one.name == name; }) > 1;
-    if (is_of_two) {
-      fail(position,
-           fmt::format("the name \"{}\" stands for two things; rename one of them", name));
-    }
-    return add_symbol(*symbol);
-  }
-
-  /// @param value  the number before the unit
-  int add_quantity(std::size_t position, double value, const std::string& unit) {
-    MeasuredUnit measured;
-    try {
-      if (!unit.empty()) measured = units_.measure(without_blanks_at_powers(unit));
-    } catch (const UnitError& error) {
-      const bool is_product = find(unit) != nullptr || unit == "pi";
-      fail(position, is_product ? std::string("a product needs its *") : error.what());
-    }
-    const double si = value * measured.scale;
-    if (!std::isfinite(si)) fail(position, "the number is out of range");
-    return add_constant(si, measured.dimension);
-  }
-
-  bool is_unit(const std::string& name) const {
-    try {
-      units_.measure(name);
-      return true;
-    } catch (const UnitError&) {
-      return false;
-    }
-  }
-
-  ReadExpression take(int last) {
-    expression_.steps.resize(static_cast<std::size_t>(last) + 1);
-    facts_.resize(static_cast<std::size_t>(last) + 1);
-    expression_.text = std::string(text_);
-    const auto quantity = find_quantity(facts_.back().dimension, units_);
-    expression_.quantity = quantity ? quantity->name : "a quantity";
-    expression_.unit = quantity ? std::string(quantity->unit) : base_units(facts_.back().dimension);
-    return {std::make_shared<const Expression>(std::move(expression_)), facts_.back().dimension,
-            facts_.back().constant};
-  }
-
-  std::string described(int step) const { return describe(fact(step).dimension, units_); }
-
- private:
-  const StepFacts& fact(int step) const { return facts_[step]; }
-
-  int add(const ExpressionStep& step, const StepFacts& facts) {
-    expression_.steps.push_back(step);
-    facts_.push_back(facts);
-    return static_cast<int>(facts_.size()) - 1;
-  }
-
-  void fold(std::size_t position, int step) {
-    Expression whole;
-    whole.steps = expression_.steps;
-    // Steps before it may depend on arguments; what counts does not.
-    const double value =
-        evaluate(whole, std::vector<double>(expression_.arguments.size(), 1.0)).value;
-    if (!std::isfinite(value)) fail(position, "the result is no finite number");
-    facts_[step].constant = value;
-  }
-
-  [[noreturn]] void fail_unknown(std::size_t position, const std::string& name) const {
-    for (const char* sign : {"·", "²", "³"}) {  // of units only
-      if (name.find(sign) != std::string::npos) {
-        fail(position, fmt::format("\"{}\": a product is written \"*\", a power \"^\"", name));
-      }
-    }
-    std::vector<std::string> known;
-    for (const Symbol& symbol : symbols_) known.push_back(symbol.name);
-    std::string more = hint(name, known);
-    if (is_unit(name)) {
-      more += fmt::format(
-          ". If the unit is meant: it stands right behind its number, as in \"1 {}\"", name);
-    }
-    fail(position, fmt::format("unknown name \"{}\"{}", name, more));
-  }
-
-  Dimension dimension_of(std::size_t position, Operation operation, int first, int second) const {
-    switch (operation) {
-      case Operation::plus:
-        return common(position, first, second, "+");
-      case Operation::minus:
-        return common(position, first, second, "-");
-      case Operation::smaller:
-      case Operation::larger:
-        return common(position, first, second, "compared with");
-      case Operation::arc_tangent_2:
-        common(position, first, second, "over");
-        return Dimension::angle();
-      case Operation::times:
-        return fact(first).dimension * fact(second).dimension;
-      case Operation::over:
-        return fact(first).dimension / fact(second).dimension;
-      case Operation::power:
-        return power(position, first, second);
-      case Operation::square_root:
-        return fact(first).dimension.to_the(0.5);
-      case Operation::sine:
-      case Operation::cosine:
-      case Operation::tangent:
-        if (!fact(first).dimension.is_angle() && !fact(first).is_zero()) {
-          fail(position, fmt::format("needs an angle, got {}; give a number its unit, as in "
-                                     "\"30 deg\" or \"pi rad\"",
-                                     described(first)));
-        }
-        return {};
-      case Operation::arc_sine:
-      case Operation::arc_cosine:
-      case Operation::arc_tangent:
-        if (!fact(first).dimension.is_number()) {
-          fail(position, fmt::format("needs a number without unit, got {}", described(first)));
-        }
-        return Dimension::angle();
-      default:
-        return fact(first).dimension;
-    }
-  }
-
-  Dimension common(std::size_t position, int first, int second, const char* what) const {
-    if (fact(first).dimension == fact(second).dimension) return fact(first).dimension;
-    if (fact(first).is_zero()) return fact(second).dimension;
-    if (fact(second).is_zero()) return fact(first).dimension;
-    const bool is_plain = fact(first).dimension.is_number() || fact(second).dimension.is_number();
-    const Dimension ratio = fact(first).dimension / fact(second).dimension;
-    const bool differs_by_angle = ratio.is_angle() || (Dimension{} / ratio).is_angle();
-    std::string more;
-    if (differs_by_angle) {
-      more = "; angles never come or go silently: multiply or divide by 1 rad (a cycle is 1 rev)";
-    } else if (is_plain) {
-      more = "; here a number needs its unit, as in \"5 mm\"";
-    }
-    fail(position,
-         fmt::format("units differ: {} {} {}{}", described(first), what, described(second), more));
-  }
-
-  Dimension power(std::size_t position, int base, int exponent) const {
-    if (!fact(exponent).dimension.is_number()) {
-      fail(position, fmt::format("an exponent has no unit, got {}", described(exponent)));
-    }
-    if (fact(base).dimension.is_number()) return {};
-    if (!fact(exponent).constant) {
-      fail(position, fmt::format("the exponent of {} must be a fixed number", described(base)));
-    }
-    return fact(base).dimension.to_the(*fact(exponent).constant);
-  }
-
-  std::string_view text_;
-  const std::vector<Symbol>& symbols_;
-  const UnitSystem& units_;
-  Expression expression_;
-  std::vector<StepFacts> facts_;  ///< one a step
-};
-
 // The parser calls these while it goes through the text; its values are indices of steps.
 
 int index_of(const mup::ptr_val_type& value) {
@@ -264,7 +40,7 @@ mup::int_type value_of_step(int step) {
 
 class BinaryOperator : public mup::IOprtBin {
  public:
-  BinaryOperator(Builder& builder, const char* name, Operation operation, int precedence,
+  BinaryOperator(ExpressionBuilder& builder, const char* name, Operation operation, int precedence,
                  mup::EOprtAsct associativity)
       : IOprtBin(name, precedence, associativity), builder_(&builder), operation_(operation) {}
 
@@ -276,13 +52,13 @@ class BinaryOperator : public mup::IOprtBin {
   mup::IToken* Clone() const override { return new BinaryOperator(*this); }
 
  private:
-  Builder* builder_;
+  ExpressionBuilder* builder_;
   Operation operation_;
 };
 
 class SignOperator : public mup::IOprtInfix {
  public:
-  SignOperator(Builder& builder, const char* name)
+  SignOperator(ExpressionBuilder& builder, const char* name)
       : IOprtInfix(name, mup::prINFIX), builder_(&builder), is_minus_(name[0] == '-') {}
 
   void Eval(mup::ptr_val_type& result, const mup::ptr_val_type* operands, int) override {
@@ -294,13 +70,13 @@ class SignOperator : public mup::IOprtInfix {
   mup::IToken* Clone() const override { return new SignOperator(*this); }
 
  private:
-  Builder* builder_;
+  ExpressionBuilder* builder_;
   bool is_minus_;
 };
 
 class FunctionCall : public mup::ICallback {
  public:
-  FunctionCall(Builder& builder, const Function& function)
+  FunctionCall(ExpressionBuilder& builder, const Function& function)
       : ICallback(mup::cmFUNC, function.name, function.arguments),
         builder_(&builder),
         function_(&function) {}
@@ -323,14 +99,14 @@ class FunctionCall : public mup::ICallback {
   mup::IToken* Clone() const override { return new FunctionCall(*this); }
 
  private:
-  Builder* builder_;
+  ExpressionBuilder* builder_;
   const Function* function_;
 };
 
 /// Numbers with units, and names.
 class OperandReader : public mup::IValueReader {
  public:
-  OperandReader(Builder& builder) : builder_(&builder) {}
+  OperandReader(ExpressionBuilder& builder) : builder_(&builder) {}
 
   bool IsValue(const mup::char_type* whole, int& position, mup::Value& value) override {
     const std::string_view text(whole);
@@ -418,11 +194,11 @@ class OperandReader : public mup::IValueReader {
     builder_->fail(at, fmt::format("unknown function \"{}\"{}", name, hint(name, known)));
   }
 
-  Builder* builder_;
+  ExpressionBuilder* builder_;
 };
 
 /// The parser without anything it would know by itself.
-mup::ParserX make_parser(Builder& builder) {
+mup::ParserX make_parser(ExpressionBuilder& builder) {
   mup::ParserX parser(0U);
   const auto define = [&](const char* name, Operation operation, int precedence,
                           mup::EOprtAsct associativity) {
@@ -441,7 +217,7 @@ mup::ParserX make_parser(Builder& builder) {
 }
 
 /// Characters that mean something to the parser, or to other people, but nothing here.
-void check_characters(const Builder& builder, std::string_view text) {
+void check_characters(const ExpressionBuilder& builder, std::string_view text) {
   bool is_quoted = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '\'') is_quoted = !is_quoted;
@@ -490,7 +266,7 @@ ReadExpression read_expression(const std::string& text, const std::vector<Symbol
   std::string formula = text;
   const std::size_t first = formula.find_first_not_of(' ');
   if (first != std::string::npos && formula[first] == '=') formula[first] = ' ';
-  Builder builder(formula, symbols, units);
+  ExpressionBuilder builder(formula, symbols, units);
   if (formula.find_first_not_of(' ') == std::string::npos) builder.fail(0, "there is no formula");
   check_characters(builder, formula);
   try {

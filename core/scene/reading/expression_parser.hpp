@@ -1,42 +1,12 @@
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "core/scene/dimension_quantity.hpp"
-#include "core/scene/expression.hpp"
+#include "core/scene/reading/read_expression.hpp"
 
 /// Reads formulas such as "2*width + 1 mm".
 namespace pleuel {
-
-/// A name that an expression may use, and what it stands for.
-struct Symbol {
-  std::string name;
-  Dimension dimension;
-  std::optional<double> constant = {};              ///< [SI]
-  std::optional<ExpressionArgument> argument = {};  ///< if it is no constant
-};
-
-/// Why an expression cannot be read, and where. The text is the end of a sentence.
-class ExpressionError : public std::runtime_error {
- public:
-  ExpressionError(std::size_t column, const std::string& why)
-      : std::runtime_error(why), column_(column) {}
-  std::size_t column() const { return column_; }  ///< from 1, in characters of the whole text
-
- private:
-  std::size_t column_;
-};
-
-struct ReadExpression {
-  std::shared_ptr<const Expression> expression;
-  Dimension dimension;
-  /// Its value [SI] where it depends on no variable and no response.
-  std::optional<double> constant;
-};
 
 /// The text has numbers, which their unit may follow ("80 mm"), names (in single quotes where they
 /// are no words: 'tip deflection'), pi, + − * / ^, brackets, and functions. A word behind a number is

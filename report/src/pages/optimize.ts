@@ -7,7 +7,7 @@ import { influenceSection } from "./influence";
 import { type Inspector, makeInspector } from "./inspector";
 import { addMarks, type Mark } from "../mechanism/marks";
 import { makePlayer, type Pick as Picked, type Player } from "../mechanism/player";
-import { change, effectsSection, fact, filesSection, monitorsText, responsesTable, sentenceCase, verdict, warnings } from "./parts";
+import { change, effectsSection, endName, fact, filesSection, monitorsText, responsesTable, sentenceCase, verdict, warnings } from "./parts";
 import { conflictSection, partsNote, startsSection } from "./search";
 
 export interface Viewing {
@@ -172,7 +172,7 @@ function savingsSection(data: ReportData): HTMLElement | null {
   const largest = Math.max(...all.map((one) => Math.min(Math.abs(one.after / one.before - 1), 2)), 0.01);
   return section(
     "What else changed",
-    "Nobody asked for it: the largest values over time, start → optimum.",
+    `Nobody asked for it: the largest values over time, start → ${endName(data.result)}.`,
     h(
       "ul.bars",
       {},
@@ -365,7 +365,7 @@ function variablesSection(data: ReportData): HTMLElement | null {
   if (!names.length) return null;
   return section(
     "Variables between their bounds",
-    "The open mark is the start, the full one the optimum.",
+    `The open mark is the start, the full one the ${endName(data.result)}.`,
     h(
       "ul.variables",
       {},

@@ -15,6 +15,11 @@ export function verdict(status: string): HTMLElement {
   return h(`span.badge.${known.tone}`, {}, known.tone === "good" ? "✓ " : "! ", known.text);
 }
 
+/** What the last design of an optimization is called. */
+export function endName(result: Document): string {
+  return result.status === "verified" ? "optimum" : "end";
+}
+
 export function sentenceCase(text: string): string {
   return text ? text[0].toUpperCase() + text.slice(1) : text;
 }
@@ -70,7 +75,7 @@ export function responsesTable(data: ReportData): HTMLElement | null {
     [
       { title: "response", left: true },
       ...(hasStart ? [{ title: "start" }] : []),
-      { title: hasStart ? "optimum" : "value" },
+      { title: hasStart ? endName(data.result) : "value" },
       ...(hasStart ? [{ title: "change" }] : []),
       { title: "unit", left: true },
       ...(hasErrors ? [{ title: "known to" }, { title: "" }] : []),

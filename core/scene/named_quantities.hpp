@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+
+#include "core/scene/units.hpp"
+
+namespace pleuel {
+
+/// What a measured number is called, one quantity a dimension: what is found for a unit or a
+/// dimension is the first that has it.
+inline constexpr std::array named_quantities = {quantities::pure_number,
+                                                quantities::length,
+                                                quantities::mass,
+                                                quantities::inertia,
+                                                quantities::density,
+                                                quantities::stress,
+                                                quantities::torque,
+                                                quantities::time,
+                                                quantities::rate,
+                                                quantities::angle,
+                                                quantities::angular_speed,
+                                                quantities::speed,
+                                                quantities::acceleration,
+                                                quantities::force,
+                                                quantities::power,
+                                                quantities::area,
+                                                quantities::second_moment_of_area,
+                                                quantities::torsional_shear,
+                                                quantities::spring_stiffness,
+                                                quantities::damping_constant,
+                                                quantities::torsional_stiffness,
+                                                quantities::torsional_damping};
+
+}  // namespace pleuel

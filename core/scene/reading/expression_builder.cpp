@@ -1,0 +1,213 @@
+#include "core/scene/reading/expression_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/scene/reading/suggestion.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// "m ^ 2" → "m^2"
+std::string without_blanks_at_powers(const std::string& unit) {
+  std::string text;
+  for (const char c : unit) {
+    if (c == '^') text.erase(text.find_last_not_of(' ') + 1);
+    if (c != ' ' || !text.ends_with('^')) text += c;
+  }
+  return text;
+}
+
+}  // namespace
+
+void ExpressionBuilder::fail(std::size_t position, const std::string& why) const {
+  std::size_t column = 1;
+  for (std::size_t i = 0; i < std::min(position, text_.size()); ++i) {
+    if ((static_cast<unsigned char>(text_[i]) & 0xC0U) != 0x80U) ++column;
+  }
+  throw ExpressionError(column, why);
+}
+
+int ExpressionBuilder::add_quantity(std::size_t position, double value, const std::string& unit) {
+  MeasuredUnit measured;
+  try {
+    if (!unit.empty()) measured = units_.measure(without_blanks_at_powers(unit));
+  } catch (const UnitError& error) {
+    const bool is_product = find(unit) != nullptr || unit == "pi";
+    fail(position, is_product ? std::string("a product needs its *") : error.what());
+  }
+  const double si = value * measured.scale;
+  if (!std::isfinite(si)) fail(position, "the number is out of range");
+  return add_constant(si, measured.dimension);
+}
+
+int ExpressionBuilder::add_name(std::size_t position, const std::string& name) {
+  const Symbol* symbol = find(name);
+  if (symbol == nullptr) fail_unknown(position, name);
+  const bool is_of_two =
+      name == "pi" || std::count_if(symbols_.begin(), symbols_.end(),
+                                    [&](const Symbol& one) { return one.name == name; }) > 1;
+  if (is_of_two) {
+    fail(position, fmt::format("the name \"{}\" stands for two things; rename one of them", name));
+  }
+  return add_symbol(*symbol);
+}
+
+int ExpressionBuilder::apply(std::size_t position, Operation operation, int first, int second) {
+  StepFacts facts;
+  facts.dimension = dimension_of(position, operation, first, second);
+  const bool is_constant = fact(first).constant && (second < 0 || fact(second).constant);
+  const int step = add({operation, 0.0, first, second}, facts);
+  if (is_constant) fold(position, step);
+  return step;
+}
+
+const Symbol* ExpressionBuilder::find(const std::string& name) const {
+  for (const Symbol& symbol : symbols_) {
+    if (symbol.name == name) return &symbol;
+  }
+  return nullptr;
+}
+
+bool ExpressionBuilder::is_unit(const std::string& name) const {
+  try {
+    units_.measure(name);
+    return true;
+  } catch (const UnitError&) {
+    return false;
+  }
+}
+
+ReadExpression ExpressionBuilder::take(int last) {
+  expression_.steps.resize(static_cast<std::size_t>(last) + 1);
+  facts_.resize(static_cast<std::size_t>(last) + 1);
+  expression_.text = std::string(text_);
+  const auto quantity = find_quantity(facts_.back().dimension, units_);
+  expression_.quantity = quantity ? quantity->name : "a quantity";
+  expression_.unit = quantity ? std::string(quantity->unit) : base_units(facts_.back().dimension);
+  return {std::make_shared<const Expression>(std::move(expression_)), facts_.back().dimension,
+          facts_.back().constant};
+}
+
+int ExpressionBuilder::add(const ExpressionStep& step, const StepFacts& facts) {
+  expression_.steps.push_back(step);
+  facts_.push_back(facts);
+  return static_cast<int>(facts_.size()) - 1;
+}
+
+int ExpressionBuilder::add_constant(double value, const Dimension& dimension) {
+  return add({Operation::constant, value}, {dimension, value});
+}
+
+int ExpressionBuilder::add_symbol(const Symbol& symbol) {
+  if (symbol.constant) return add_constant(*symbol.constant, symbol.dimension);
+  std::vector<ExpressionArgument>& all = expression_.arguments;
+  const auto known = std::find_if(all.begin(), all.end(), [&](const ExpressionArgument& one) {
+    return one.kind == symbol.argument->kind && one.index == symbol.argument->index;
+  });
+  const auto index = static_cast<int>(known - all.begin());
+  if (known == all.end()) all.push_back(*symbol.argument);
+  return add({Operation::argument, 0.0, index}, {symbol.dimension, std::nullopt});
+}
+
+void ExpressionBuilder::fold(std::size_t position, int step) {
+  Expression whole;
+  whole.steps = expression_.steps;
+  // Steps before it may depend on arguments; what counts does not.
+  const double value =
+      evaluate(whole, std::vector<double>(expression_.arguments.size(), 1.0)).value;
+  if (!std::isfinite(value)) fail(position, "the result is no finite number");
+  facts_[step].constant = value;
+}
+
+Dimension ExpressionBuilder::dimension_of(std::size_t position, Operation operation, int first,
+                                          int second) const {
+  switch (operation) {
+    case Operation::plus:
+      return common(position, first, second, "+");
+    case Operation::minus:
+      return common(position, first, second, "-");
+    case Operation::smaller:
+    case Operation::larger:
+      return common(position, first, second, "compared with");
+    case Operation::arc_tangent_2:
+      common(position, first, second, "over");
+      return Dimension::angle();
+    case Operation::times:
+      return fact(first).dimension * fact(second).dimension;
+    case Operation::over:
+      return fact(first).dimension / fact(second).dimension;
+    case Operation::power:
+      return power(position, first, second);
+    case Operation::square_root:
+      return fact(first).dimension.to_the(0.5);
+    case Operation::sine:
+    case Operation::cosine:
+    case Operation::tangent:
+      if (!fact(first).dimension.is_angle() && !fact(first).is_zero()) {
+        fail(position, fmt::format("needs an angle, got {}; give a number its unit, as in "
+                                   "\"30 deg\" or \"pi rad\"",
+                                   described(first)));
+      }
+      return {};
+    case Operation::arc_sine:
+    case Operation::arc_cosine:
+    case Operation::arc_tangent:
+      if (!fact(first).dimension.is_number()) {
+        fail(position, fmt::format("needs a number without unit, got {}", described(first)));
+      }
+      return Dimension::angle();
+    default:
+      return fact(first).dimension;
+  }
+}
+
+Dimension ExpressionBuilder::common(std::size_t position, int first, int second,
+                                    const char* what) const {
+  if (fact(first).dimension == fact(second).dimension) return fact(first).dimension;
+  if (fact(first).is_zero()) return fact(second).dimension;
+  if (fact(second).is_zero()) return fact(first).dimension;
+  const bool is_plain = fact(first).dimension.is_number() || fact(second).dimension.is_number();
+  const Dimension ratio = fact(first).dimension / fact(second).dimension;
+  const bool differs_by_angle = ratio.is_angle() || (Dimension{} / ratio).is_angle();
+  std::string more;
+  if (differs_by_angle) {
+    more = "; angles never come or go silently: multiply or divide by 1 rad (a cycle is 1 rev)";
+  } else if (is_plain) {
+    more = "; here a number needs its unit, as in \"5 mm\"";
+  }
+  fail(position,
+       fmt::format("units differ: {} {} {}{}", described(first), what, described(second), more));
+}
+
+Dimension ExpressionBuilder::power(std::size_t position, int base, int exponent) const {
+  if (!fact(exponent).dimension.is_number()) {
+    fail(position, fmt::format("an exponent has no unit, got {}", described(exponent)));
+  }
+  if (fact(base).dimension.is_number()) return {};
+  if (!fact(exponent).constant) {
+    fail(position, fmt::format("the exponent of {} must be a fixed number", described(base)));
+  }
+  return fact(base).dimension.to_the(*fact(exponent).constant);
+}
+
+void ExpressionBuilder::fail_unknown(std::size_t position, const std::string& name) const {
+  for (const char* sign : {"·", "²", "³"}) {  // of units only
+    if (name.find(sign) != std::string::npos) {
+      fail(position, fmt::format("\"{}\": a product is written \"*\", a power \"^\"", name));
+    }
+  }
+  std::vector<std::string> known;
+  for (const Symbol& symbol : symbols_) known.push_back(symbol.name);
+  std::string more = hint(name, known);
+  if (is_unit(name)) {
+    more += fmt::format(". If the unit is meant: it stands right behind its number, as in \"1 {}\"",
+                        name);
+  }
+  fail(position, fmt::format("unknown name \"{}\"{}", name, more));
+}
+
+}  // namespace pleuel

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/scene/reading/read_expression.hpp"
+
+namespace pleuel {
+
+/// Puts the steps of an expression together while its text is read, and checks that units fit.
+/// Operands are indices of steps; positions are those of bytes in the text.
+class ExpressionBuilder {
+ public:
+  /// All must outlive this.
+  ExpressionBuilder(std::string_view text, const std::vector<Symbol>& symbols,
+                    const UnitSystem& units)
+      : text_(text), symbols_(symbols), units_(units) {}
+
+  /// @throws ExpressionError at the column of the position, always
+  [[noreturn]] void fail(std::size_t position, const std::string& why) const;
+
+  /// @param value  the number before the unit
+  int add_quantity(std::size_t position, double value, const std::string& unit);
+
+  /// @throws ExpressionError for a name that means nothing, or two things
+  int add_name(std::size_t position, const std::string& name);
+
+  /// Of one operand, or of two.
+  /// @throws ExpressionError where units do not fit, or the result is no finite number
+  int apply(std::size_t position, Operation operation, int first, int second = -1);
+
+  const Symbol* find(const std::string& name) const;
+  bool is_unit(const std::string& name) const;
+
+  /// The expression whose result is that of the step. Ends the building.
+  ReadExpression take(int last);
+
+ private:
+  /// What is known of the result of a step while the text is read.
+  struct StepFacts {
+    Dimension dimension;
+    std::optional<double> constant;  ///< its value, if it depends on nothing
+    /// A plain 0, which is as well no length, no mass, …
+    bool is_zero() const { return constant && *constant == 0.0 && dimension.is_number(); }
+  };
+
+  const StepFacts& fact(int step) const { return facts_[step]; }
+  std::string described(int step) const { return describe(fact(step).dimension, units_); }
+
+  int add(const ExpressionStep& step, const StepFacts& facts);
+  int add_constant(double value, const Dimension& dimension);
+  int add_symbol(const Symbol& symbol);
+  void fold(std::size_t position, int step);
+
+  Dimension dimension_of(std::size_t position, Operation operation, int first, int second) const;
+  Dimension common(std::size_t position, int first, int second, const char* what) const;
+  Dimension power(std::size_t position, int base, int exponent) const;
+
+  [[noreturn]] void fail_unknown(std::size_t position, const std::string& name) const;
+
+  std::string_view text_;
+  const std::vector<Symbol>& symbols_;
+  const UnitSystem& units_;
+  Expression expression_;
+  std::vector<StepFacts> facts_;  ///< one a step
+};
+
+}  // namespace pleuel
