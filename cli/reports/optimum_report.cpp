@@ -104,15 +104,15 @@ std::vector<std::string> constraint_row(const Optimum& optimum, std::size_t i) {
       constraint.deviations > 0.0
           ? fmt::format(" {}{:g} σ", constraint.upper ? "+" : "−", constraint.deviations)
           : "";
-  std::vector<std::string> row = {
+  std::vector<std::string> cells = {
       constraint.name + margin, significant(unit.shown(value)),
       (used.is_upper ? "≤ " : "≥ ") + significant(unit.shown(used.limit)), unit.name,
       used.utilisation ? percent(*used.utilisation) : "–"};
   if (multiplier) {
-    row.push_back(price_text(*multiplier, objective_unit, unit));
-    row.push_back(worth(optimum, *multiplier, used.limit));
+    cells.push_back(price_text(*multiplier, objective_unit, unit));
+    cells.push_back(worth(optimum, *multiplier, used.limit));
   }
-  return row;
+  return cells;
 }
 
 std::string constraints_text(const Optimum& optimum) {
