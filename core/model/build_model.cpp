@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/diameter.hpp"
 #include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
 #include "core/integration/redundancy.hpp"
@@ -68,10 +69,7 @@ double size_of(const Scene& scene, const Design<double>& start) {
       }
     }
   }
-  double size = 0.0;
-  for (const auto& a : points) {
-    for (const auto& b : points) size = std::max(size, (a - b).norm());
-  }
+  const double size = diameter(points);
   return size > 0.0 ? size : 1.0;
 }
 

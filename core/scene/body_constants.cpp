@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/diameter.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -88,14 +90,9 @@ int nearest_place(const BodyConstants& constants, const Eigen::Vector3d& point) 
 }
 
 double size_of(const BodyConstants& constants) {
-  double largest = 0.0;
-  for (const BodyPlace& a : constants.places) {
-    largest = std::max(largest, a.position.norm());
-    for (const BodyPlace& b : constants.places) {
-      largest = std::max(largest, (a.position - b.position).norm());
-    }
-  }
-  return largest;
+  std::vector<Eigen::Vector3d> points = {Eigen::Vector3d::Zero()};
+  for (const BodyPlace& place : constants.places) points.push_back(place.position);
+  return diameter(points);
 }
 
 }  // namespace pleuel

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "core/base/diameter.hpp"
 #include "core/model/scene_geometry.hpp"
 
 namespace pleuel {
@@ -28,14 +31,6 @@ struct Place {
   std::string pointer;
   Eigen::Vector3d position;
 };
-
-double size_of(const std::vector<Eigen::Vector3d>& points) {
-  double size = 0.0;
-  for (const auto& a : points) {
-    for (const auto& b : points) size = std::max(size, (a - b).norm());
-  }
-  return size;
-}
 
 double distance_to(const Eigen::Vector3d& point, const std::vector<Eigen::Vector3d>& others) {
   double least = std::numeric_limits<double>::infinity();
@@ -104,13 +99,13 @@ class Proportions {
   /// rest may be a small crank.
   void check_distances() {
     std::set<std::size_t> named;
-    for (std::size_t i = 0; i < places_.size(); ++i) {
+    for (const std::size_t i : suspects()) {
       if (named.contains(i)) continue;
       const auto [near, rest] = split(i);
-      if (near.size() > std::max<std::size_t>(2, places_.size() / 3) || rest.empty()) continue;
+      if (near.size() > most_far_away() || rest.empty()) continue;
       std::vector<Eigen::Vector3d> others;
       for (const std::size_t k : rest) others.push_back(places_[k].position);
-      const double size = size_of(others);
+      const double size = diameter(others);
       const double distance = distance_to(places_[i].position, others);
       if (size == 0.0 || distance <= far_away * size) continue;
       named.insert(near.begin(), near.end());
@@ -119,6 +114,39 @@ class Proportions {
                       "within {:.3g} m of each other",
                       places_[i].pointer, distance, size));
     }
+  }
+
+  /// So many points may be far from the rest.
+  std::size_t most_far_away() const { return std::max<std::size_t>(2, places_.size() / 3); }
+
+  /// The points that may be far away from all others. If some are, the others are more than half of
+  /// all, so that the median m of each coordinate lies in their box: they are within √3 of their
+  /// size from m, and the far ones more than 98 times their size.
+  std::vector<std::size_t> suspects() const {
+    std::vector<std::size_t> all(places_.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    if (2 * most_far_away() >= places_.size()) return all;
+    const Eigen::Vector3d middle = median();
+    std::vector<double> distances;
+    for (const Place& place : places_) distances.push_back((place.position - middle).norm());
+    std::vector<double> sorted = distances;
+    const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() - 1) -
+                      static_cast<std::ptrdiff_t>(most_far_away());
+    std::nth_element(sorted.begin(), last, sorted.end());
+    std::erase_if(all, [&](std::size_t i) { return distances[i] < 0.5 * far_away * *last; });
+    return all;
+  }
+
+  Eigen::Vector3d median() const {
+    Eigen::Vector3d middle;
+    std::vector<double> values(places_.size());
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = places_[i].position(axis);
+      const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+      std::nth_element(values.begin(), half, values.end());
+      middle(axis) = *half;
+    }
+    return middle;
   }
 
   /// The points that lie, as seen from all others, where point i is; and the others.
@@ -136,10 +164,12 @@ class Proportions {
     return parts;
   }
 
-  double mechanism_size() const {
+  double mechanism_size() {
+    if (size_) return *size_;
     std::vector<Eigen::Vector3d> points;
     for (const Place& place : places_) points.push_back(place.position);
-    return size_of(points);
+    size_ = diameter(points);
+    return *size_;
   }
 
   // What bodies are.
@@ -211,6 +241,7 @@ class Proportions {
   const Scene& scene_;
   Design<double> design_;
   std::vector<Place> places_;
+  std::optional<double> size_;  ///< of the mechanism, once it is asked for
   std::vector<Doubt> doubts_;
 };
 
