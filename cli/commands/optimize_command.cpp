@@ -198,8 +198,10 @@ Outcome run_optimize(const Arguments& arguments) {
     Json document = optimum_document(optimum);
     document["effects"] = effects;
     if (all.runs.size() > 1) document["starts"] = starts_document(solved, all);
-    if (solution.stages.empty()) return document;  // interrupted
-    document["stages"] = stages_document(solution.stages);
+    // An interrupted run may have ended no stage; its setting is that of the last design all the same.
+    const bool has_stages = !solution.stages.empty();
+    if (!has_stages && !(input.problem.accuracy.target > 0.0)) return document;
+    if (has_stages) document["stages"] = stages_document(solution.stages);
     document["setting"] = {{"step", solved.simulation.step},
                            {"overrides", overrides_document(input.effective, solved)}};
     return document;

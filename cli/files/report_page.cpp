@@ -67,14 +67,19 @@ std::string missing_template_text(const std::string& program, const fs::path& fo
 
 Json report_data(const Json& card, const Json& result, const Json& picture,
                  const fs::path& folder) {
-  Json files = Json::object();
+  Json files = Json::object(), left_out = Json::array();
   for (const char* name : shown_files) {
     std::error_code error;
     const std::uintmax_t size = fs::file_size(folder / name, error);
-    if (!error && size <= largest_file) files[name] = whole_text(folder / name);
+    if (error) continue;
+    if (size <= largest_file) {
+      files[name] = whole_text(folder / name);
+    } else {
+      left_out.push_back(name);
+    }
   }
-  return {
-      {"format", 1}, {"card", card}, {"result", result}, {"picture", picture}, {"files", files}};
+  return {{"format", 1},        {"card", card},   {"result", result},
+          {"picture", picture}, {"files", files}, {"left_out", left_out}};
 }
 
 std::string report_page(const fs::path& page_template, const Json& data) {

@@ -18,8 +18,9 @@ std::optional<std::filesystem::path> find_report_template();
 /// Why there is no report and what to do, as one line.
 std::string missing_template_text(const std::string& program, const std::filesystem::path& folder);
 
-/// The data of a page: {"card", "result", "picture", "files"}; `picture` of run_picture() or null,
-/// `files` the texts of the CSV and SVG files in the folder that pages show.
+/// The data of a page: {"card", "result", "picture", "files", "left_out"}; `picture` of run_picture() or
+/// null, `files` the texts of the CSV and SVG files in the folder that pages show, `left_out` the
+/// names of those that are too large for a page (beyond 3 MB).
 Json report_data(const Json& card, const Json& result, const Json& picture,
                  const std::filesystem::path& folder);
 

@@ -152,6 +152,8 @@ export interface ReportData {
   result: Document;
   picture: Picture | null;
   files: Record<string, string>;
+  /** Files that are too large for a page. */
+  left_out?: string[];
 }
 
 export function readData(): ReportData | null {

@@ -240,6 +240,15 @@ TEST_F(OptimizationReport, OfADamagedTrajectorySaysWhatIsMissing) {
               HasSubstr("instants, the simulation has"));
 }
 
+TEST_F(OptimizationReport, NamesFilesThatAreTooLargeForAPage) {
+  EXPECT_EQ(data_of(folder() / "one/report.html").at("left_out"), json::array());
+  const ProgramRun run = report_with(folder(), "history.csv", std::string(3'100'000, '\n'));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const json data = data_of(folder() / "copy/report.html");
+  EXPECT_EQ(data.at("left_out"), json::array({"history.csv"}));
+  EXPECT_FALSE(data.at("files").contains("history.csv"));
+}
+
 TEST_F(OptimizationReport, IsNotPromisedWhereItCannotBeWritten) {
   fs::remove_all(folder() / "blocked");
   fs::copy(folder() / "one", folder() / "blocked");

@@ -189,6 +189,9 @@ export function filesSection(data: ReportData): HTMLElement {
   return h(
     "div.stack",
     {},
+    data.left_out?.length
+      ? h("p.note", {}, `Too large for this page, and therefore not drawn: ${data.left_out.join(", ")}, in the run folder.`)
+      : null,
     details(
       "Run card",
       h("p.note", {}, h("code", {}, `pleuel ${(card.arguments ?? []).join(" ")}`)),
