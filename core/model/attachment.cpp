@@ -13,12 +13,10 @@ Attachment::Attachment(const std::string& body, Point at, const std::vector<Body
                        const BuildContext& context)
     : context_(context), at_(std::move(at)) {
   if (body == ground_name) return;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (context.scene.bodies[i].name != body) continue;
-    body_ = &context.scene.bodies[i];
-    model_ = &bodies[i];
-  }
-  assert(body_ != nullptr);
+  const auto number = context.body_numbers.find(body);
+  assert(number != context.body_numbers.end());
+  body_ = &context.scene.bodies[number->second];
+  model_ = &bodies[number->second];
   if (const auto* imported = std::get_if<ImportedBody>(&body_->shape)) {
     point_ = point_of(*model_, place_at(*imported, at_, context.start));
   } else if (model_->is_elastic) {

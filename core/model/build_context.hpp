@@ -3,11 +3,21 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <unordered_map>
+#include <vector>
 
 #include "core/model/effect_decisions.hpp"
 #include "core/model/motion_plane.hpp"
 
 namespace pleuel {
+
+/// Which of some things has a name; of several the last.
+template <class Named>
+std::unordered_map<std::string, std::size_t> numbers_by_name(const std::vector<Named>& things) {
+  std::unordered_map<std::string, std::size_t> numbers;
+  for (std::size_t i = 0; i < things.size(); ++i) numbers[things[i].name] = i;
+  return numbers;
+}
 
 /// What all bodies of a model are built with.
 struct BuildContext {
@@ -19,6 +29,7 @@ struct BuildContext {
   Eigen::Vector3d gravity;
   InvariantDifferentiation differentiation = {};
   std::map<std::string, BeamEffects> beam_effects = {};  ///< by body
+  std::unordered_map<std::string, std::size_t> body_numbers = numbers_by_name(scene.bodies);
 
   const BeamEffects& effects_of(const std::string& beam) const { return beam_effects.at(beam); }
   int variables() const { return static_cast<int>(design.size()); }

@@ -21,16 +21,16 @@ namespace pleuel {
 
 const BodyModel& Model::body(const std::string& name) const {
   if (const BodyModel* body = find_named(undivided, name)) return *body;
-  if (const BodyModel* body = find_named(bodies, name)) return *body;
-  throw InputError(fmt::format("there is no body \"{}\"", name));
+  return *parts(name).front();
 }
 
 std::vector<const BodyModel*> Model::parts(const std::string& name) const {
-  std::vector<const BodyModel*> parts;
-  for (const BodyModel& body : bodies) {
-    if (body.name == name) parts.push_back(&body);
+  const auto numbers = bodies_of_name.find(name);
+  if (numbers == bodies_of_name.end()) {
+    throw InputError(fmt::format("there is no body \"{}\"", name));
   }
-  if (parts.empty()) throw InputError(fmt::format("there is no body \"{}\"", name));
+  std::vector<const BodyModel*> parts;
+  for (const std::size_t number : numbers->second) parts.push_back(&bodies[number]);
   return parts;
 }
 
@@ -97,6 +97,7 @@ class ModelBuilder {
     for (const Body& body : context_.scene.bodies) {
       model_.bodies.push_back(make_body_model(body, context_, coordinates_));
       const BodyModel& added = model_.bodies.back();
+      model_.bodies_of_name[added.name].push_back(model_.bodies.size() - 1);
       coordinates_ += added.frame.size() + added.elastic_size();
     }
     add_undivided();

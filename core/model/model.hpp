@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -128,6 +129,7 @@ struct Model {
   Mechanism mechanism;
   ModelTerms terms;
   std::vector<BodyModel> bodies;
+  std::unordered_map<std::string, std::vector<std::size_t>> bodies_of_name;  ///< see parts()
   /// Beams that are divided, as if they were not: for their constants. They have no coordinates in
   /// the system.
   std::vector<BodyModel> undivided;
