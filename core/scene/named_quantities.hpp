@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <string>
 
 #include "core/scene/units.hpp"
 
@@ -30,5 +32,8 @@ inline constexpr std::array named_quantities = {quantities::pure_number,
                                                 quantities::damping_constant,
                                                 quantities::torsional_stiffness,
                                                 quantities::torsional_damping};
+
+/// The quantity of a number of a scene that has this SI unit, if there is one.
+std::optional<Quantity> find_quantity(const std::string& unit);
 
 }  // namespace pleuel

@@ -13,7 +13,6 @@
 
 #include "core/scene/common_units.hpp"
 #include "core/scene/dimension.hpp"
-#include "core/scene/named_quantities.hpp"
 
 namespace pleuel {
 namespace {
@@ -314,13 +313,6 @@ Quantity per_time(const Quantity& quantity) {
 
 Quantity times_time(const Quantity& quantity) {
   return find_derived(time_integrals(), quantity);
-}
-
-std::optional<Quantity> find_quantity(const std::string& unit) {
-  for (const Quantity& quantity : named_quantities) {
-    if (quantity.unit == unit) return quantity;
-  }
-  return std::nullopt;
 }
 
 std::string describe(const Quantity& quantity) {

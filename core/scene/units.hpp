@@ -47,9 +47,6 @@ inline constexpr Quantity torsional_damping{"a torsional damping constant", "N m
 inline constexpr Quantity data{"an amount of memory", "B"};  ///< byte
 }  // namespace quantities
 
-/// The quantity of a number of a scene that has this SI unit, if there is one.
-std::optional<Quantity> find_quantity(const std::string& unit);
-
 /// "a length [m]"; "a number without unit".
 std::string describe(const Quantity& quantity);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/scene/invariants_file.hpp"
+#include "core/scene/named_quantities.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 
 namespace pleuel {
