@@ -41,7 +41,7 @@ Eigen::VectorXd polish(EvaluationCache& cache, const EvaluatedDesign& from, cons
   if (scaled.variables() == 0) return from.x;
   const BackendResult end = make_optimizer(polisher, {tolerance})->minimize(scaled);
   scaled.rethrow();
-  return scaled.to_design(end.y);
+  return end.y.allFinite() ? scaled.to_design(end.y) : from.x;
 }
 
 }  // namespace pleuel

@@ -67,6 +67,8 @@ Eigen::VectorXd ScaledProblem::upper() const {
 
 std::optional<ScaledEvaluation> ScaledProblem::evaluate(const Eigen::VectorXd& y,
                                                         Request request) noexcept {
+  has_left_numbers_ = has_left_numbers_ || !y.allFinite();
+  should_stop_ = should_stop_ || has_left_numbers_;
   if (should_stop_) return std::nullopt;
   try {
     const Evaluation* evaluation = cache_.evaluate(to_design(y), request);

@@ -55,6 +55,8 @@ class ScaledProblem {
 
   /// The budget is used up or something was thrown: no more evaluations are made.
   bool should_stop() const { return should_stop_; }
+  /// The backend asked for a design that is not a number: it has lost its way, and stops.
+  bool has_left_numbers() const { return has_left_numbers_; }
   /// Throws what an evaluation threw, if it did.
   void rethrow() const;
 
@@ -90,6 +92,7 @@ class ScaledProblem {
   Eigen::VectorXd variable_scales_, constraint_scales_;
   double objective_scale_;
   bool should_stop_ = false;
+  bool has_left_numbers_ = false;
   std::exception_ptr exception_;
 };
 

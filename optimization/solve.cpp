@@ -204,8 +204,9 @@ class Run {
     const BackendResult end = make_optimizer(options_.backend, {tolerance})->minimize(scaled);
     scaled.rethrow();
     backend_reason_ = end.reason;
-    is_lost_ = cache_.consecutive_failures() >= options_.max_consecutive_failures;
-    return scaled.to_design(end.y);
+    if (scaled.has_left_numbers()) backend_reason_ = "it asked for a design that is not a number";
+    is_lost_ = scaled.has_left_numbers() || has_failed_too_often();
+    return end.y.allFinite() ? scaled.to_design(end.y) : from.x;
   }
 
   /// nullopt if the design, or its gradients, cannot be evaluated.
@@ -259,6 +260,10 @@ class Run {
   PolishBudget polish_budget() const {
     const int iterations = options_.max_iterations + options_.polish_iterations;
     return {iterations, evaluations_per_iteration * iterations};
+  }
+
+  bool has_failed_too_often() const {
+    return cache_.consecutive_failures() >= options_.max_consecutive_failures;
   }
 
   bool is_exhausted() const {
@@ -331,7 +336,7 @@ class Run {
     if (last == history.rend()) return "";
     return fmt::format("; {} of {} evaluations failed{}, the last with: {} (at {})",
                        count_failures(history), history.size(),
-                       is_lost_ ? " and too many in a row" : "", last->failure,
+                       has_failed_too_often() ? " and too many in a row" : "", last->failure,
                        describe_design(cache_.problem(), last->x));
   }
 

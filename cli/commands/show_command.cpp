@@ -19,8 +19,10 @@
 #include "core/integration/initial_state.hpp"
 #include "core/response/misalignment.hpp"
 #include "core/scene/body_rules.hpp"
+#include "core/trust/blocked_drives.hpp"
 #include "core/trust/doubts.hpp"
 #include "core/trust/idle_freedoms.hpp"
+#include "core/trust/proportions.hpp"
 
 /// The mechanism as the file places it, before anything is simulated.
 namespace pleuel {
@@ -43,8 +45,10 @@ void add_assembly(const ProblemFile& problem, Model& model, Shown& shown,
   }
   model.mechanism.starts_in_equilibrium = false;
   try {
-    const DegreesOfFreedom freedoms =
-        rigid_degrees_of_freedom(model.mechanism, initial_state(model.mechanism).state);
+    const State start = initial_state(model.mechanism).state;
+    const DegreesOfFreedom freedoms = rigid_degrees_of_freedom(model.mechanism, start);
+    const std::string blocked = blocked_drives_text(model, start);
+    if (!blocked.empty()) warnings.push_back(blocked);
     shown.document["rigid_motion"] = freedoms_document(freedoms, model);
     shown.text += "\n" + freedoms_text(freedoms, model);
   } catch (const SimulationError& error) {
@@ -98,7 +102,9 @@ Shown describe(const ProblemFile& problem, const Eigen::VectorXd& x) {
                     {"effects", effects_document(problem, model, {})}};
   add_assembly(problem, model, shown, warnings);
   if (!shown.document.contains("failure")) add_first_steps(problem, x, shown, warnings);
-  for (const std::string& text : texts_of(find_doubts_before(problem))) warnings.push_back(text);
+  for (const auto& doubts : {find_doubts_before(problem), doubt_proportions_before(problem, x)}) {
+    for (const std::string& text : texts_of(doubts)) warnings.push_back(text);
+  }
   shown.document["warnings"] = warnings;
   shown.text += warnings_text(warnings);
   return shown;

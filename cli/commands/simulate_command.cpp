@@ -17,11 +17,13 @@
 #include "cli/reports/warnings.hpp"
 #include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
+#include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/stop.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/scene/reading/override.hpp"
 #include "core/trust/doubts.hpp"
+#include "core/trust/proportions.hpp"
 
 namespace pleuel {
 
@@ -130,6 +132,16 @@ bool tries_a_design(const Arguments& arguments) {
                                          });
 }
 
+/// Numbers out of proportion are a frequent reason why a simulation fails.
+std::unique_ptr<Analysis> analyze_or_doubt(const ProblemInput& input) {
+  try {
+    return analyze(input.problem, input.design);
+  } catch (const SimulationError&) {
+    show(stderr, warnings_text(texts_of(doubt_proportions_before(input.problem, input.design))));
+    throw;
+  }
+}
+
 }  // namespace
 
 Outcome run_simulate(const Arguments& arguments) {
@@ -137,7 +149,7 @@ Outcome run_simulate(const Arguments& arguments) {
   RunRecord record(arguments, input, Json::object());
   record.begin_phase("simulate");
   const Stopwatch stopwatch;
-  const auto analysis = analyze(input.problem, input.design);
+  const auto analysis = analyze_or_doubt(input);
   const double seconds = stopwatch.seconds();
   record.begin_phase("monitor");
   Simulated run{*analysis, monitor(analysis->model, analysis->trajectory), seconds};

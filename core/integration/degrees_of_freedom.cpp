@@ -13,6 +13,10 @@ namespace {
 
 /// Of rows of length one.
 constexpr double independent = 1e-8;
+/// What is less out of line is not meant to block a motion.
+constexpr double clearly_independent = 1e-4;
+/// Of the mechanism's size, or [rad].
+constexpr double meets = 1e-6;
 
 std::vector<int> rigid_coordinates(const Mechanism& mechanism) {
   std::vector<bool> is_elastic(static_cast<std::size_t>(mechanism.system->coordinates()), false);
@@ -43,6 +47,14 @@ SparseRows rigid_jacobian(const Mechanism& mechanism, const State& state,
   SparseRows jacobian(system.multipliers(), static_cast<Eigen::Index>(rigid.size()));
   jacobian.setFromTriplets(entries.begin(), entries.end());
   return jacobian;
+}
+
+bool is_closed(const Mechanism& mechanism, const State& state) {
+  Eigen::VectorXd residual;
+  mechanism.system->residual(state, ConstraintLevel::position, residual);
+  Eigen::VectorXd open = residual.tail(mechanism.system->multipliers());
+  for (const int row : mechanism.system->left_out()) open(row) = 0.0;
+  return open.lpNorm<Eigen::Infinity>() <= meets * mechanism.scale.maxCoeff();
 }
 
 /// Closes the constraints by rigid motion. @returns whether that succeeds
@@ -78,6 +90,19 @@ DegreesOfFreedom rigid_degrees_of_freedom(const Mechanism& mechanism, const Stat
   freedoms.constraints =
       static_cast<int>(rank_of_rows(rigid_jacobian(mechanism, state, rigid), independent));
   return freedoms;
+}
+
+int blocked_drives(const Mechanism& mechanism, const State& state, const std::vector<int>& drives) {
+  if (drives.empty()) return 0;
+  const std::vector<int> rigid = rigid_coordinates(mechanism);
+  const State& placed = is_closed(mechanism, mechanism.guess) ? mechanism.guess : state;
+  SparseRows all = rigid_jacobian(mechanism, placed, rigid);
+  SparseRows joints = all;
+  for (const int row : drives) joints.row(row) *= 0.0;
+  joints.prune(0.0);
+  const Eigen::Index added = rank_of_rows(std::move(all), clearly_independent) -
+                             rank_of_rows(std::move(joints), clearly_independent);
+  return static_cast<int>(drives.size()) - static_cast<int>(added);
 }
 
 Eigen::MatrixXd free_motions(const Mechanism& mechanism, const State& state) {

@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "core/trust/bending_range.hpp"
+#include "core/trust/blocked_drives.hpp"
 #include "core/trust/energy_balance.hpp"
 #include "core/trust/extrapolation.hpp"
+#include "core/trust/far_limits.hpp"
 #include "core/trust/fast_laws.hpp"
 #include "core/trust/frequency_meaning.hpp"
 #include "core/trust/idle_freedoms.hpp"
@@ -43,8 +45,10 @@ Trust judge_run(const TrustedRun& run) {
   };
   for (const auto find : {
            doubt_bending_range,
+           doubt_blocked_drives,
            doubt_energy_balance,
            doubt_extrapolation,
+           doubt_far_limits,
            doubt_fast_laws,
            doubt_frequencies,
            doubt_idle_freedoms,

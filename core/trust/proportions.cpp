@@ -40,8 +40,8 @@ double distance_to(const Eigen::Vector3d& point, const std::vector<Eigen::Vector
 
 class Proportions {
  public:
-  explicit Proportions(const TrustedRun& run)
-      : scene_(run.problem.scene), design_(run.x.begin(), run.x.end()) {}
+  Proportions(const Scene& scene, const Eigen::VectorXd& x)
+      : scene_(scene), design_(x.begin(), x.end()) {}
 
   std::vector<Doubt> find() {
     collect_places();
@@ -248,7 +248,11 @@ class Proportions {
 }  // namespace
 
 std::vector<Doubt> doubt_proportions(const TrustedRun& run) {
-  return Proportions(run).find();
+  return doubt_proportions_before(run.problem, run.x);
+}
+
+std::vector<Doubt> doubt_proportions_before(const ProblemFile& problem, const Eigen::VectorXd& x) {
+  return Proportions(problem.scene, x).find();
 }
 
 }  // namespace pleuel

@@ -11,4 +11,7 @@ namespace pleuel {
 /// body ten times as large as the mechanism, gravity of no planet. Most often a unit is missing.
 std::vector<Doubt> doubt_proportions(const TrustedRun& run);
 
+/// The same of a design that need not be simulated.
+std::vector<Doubt> doubt_proportions_before(const ProblemFile& problem, const Eigen::VectorXd& x);
+
 }  // namespace pleuel

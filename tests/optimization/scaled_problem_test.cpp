@@ -113,6 +113,16 @@ TEST(NumbersThatAreNotFinite, ReachNoBackend) {
   }
 }
 
+/// After failed evaluations SLSQP may do so.
+TEST_F(EveryKind, OfDesignThatIsNoNumberEndsTheSearchWithoutAnEvaluation) {
+  const int before = cache_.evaluations();
+  const Eigen::VectorXd nowhere = scaled_.start() * std::nan("");
+  EXPECT_FALSE(scaled_.evaluate(nowhere, Request::values));
+  EXPECT_TRUE(scaled_.has_left_numbers());
+  EXPECT_TRUE(scaled_.should_stop());
+  EXPECT_EQ(cache_.evaluations(), before);
+}
+
 TEST(Observer, SeesEveryEvaluationAsItHappens) {
   KnownProblem known = cantilever();
   int calls = 0;

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/trust/doubt.hpp"
+#include "core/trust/trusted_run.hpp"
+
+namespace pleuel {
+
+/// Drives that no rigid motion follows, since joints or other drives hold already what they move:
+/// all that moves then does so because bodies bend. That may be meant, of a press fit say; mostly a
+/// joint has a freedom too few, or a drive is too many.
+std::vector<Doubt> doubt_blocked_drives(const TrustedRun& run);
+
+/// The doubt at a state; empty if there is none.
+std::string blocked_drives_text(const Model& model, const State& state);
+
+}  // namespace pleuel

@@ -1,0 +1,56 @@
+#include "core/trust/far_limits.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/base/number_text.hpp"
+#include "core/scene/shown_unit.hpp"
+
+namespace pleuel {
+
+namespace {
+
+constexpr double far = 1e4;
+
+/// The limit that a value exceeds or misses by far.
+std::optional<double> far_limit(const ConstraintSettings& constraint, double value) {
+  const double size = std::abs(value);
+  if (constraint.upper && value > *constraint.upper && size > far * std::abs(*constraint.upper)) {
+    return constraint.upper;
+  }
+  if (constraint.lower && value < *constraint.lower && far * size < std::abs(*constraint.lower)) {
+    return constraint.lower;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Doubt> doubt_far_limits(const TrustedRun& run) {
+  std::vector<Doubt> doubts;
+  const Eigen::VectorXd values = values_of(run.analysis);
+  for (const ConstraintSettings& constraint : run.problem.constraints) {
+    for (std::size_t i = 0; i < run.problem.responses.size(); ++i) {
+      if (run.problem.responses[i].name != constraint.response || !std::isfinite(values(i))) {
+        continue;
+      }
+      const std::optional<double> limit = far_limit(constraint, values(i));
+      // A limit of zero is meant: any value is beyond it by far.
+      if (!limit || *limit == 0.0 || values(i) == 0.0) continue;
+      const std::string unit = unit_of(run.problem, constraint).si;
+      doubts.push_back(
+          {fmt::format(
+               "the limit of \"{}\" is {} {}, and the value {} {}: {:.1g} times as much. Is "
+               "a unit missing, or another one meant?",
+               constraint.name, significant(*limit, 4), unit, significant(values(i), 4), unit,
+               std::abs(values(i) / *limit)),
+           false,
+           {constraint.response}});
+    }
+  }
+  return doubts;
+}
+
+}  // namespace pleuel
