@@ -16,6 +16,7 @@
 #include "core/model/load_builder.hpp"
 #include "core/model/model.hpp"
 #include "core/model/stiffening_builder.hpp"
+#include "core/scene/scene_rules.hpp"
 
 namespace pleuel {
 
@@ -365,6 +366,9 @@ class ModelBuilder {
 
 Model build_model(const Scene& scene, const EffectSettings& effects, const Design<double>& start,
                   const Design<double>& design, const InvariantDifferentiation& differentiation) {
+  if (const auto broken = find_impossible(scene, start, design)) {
+    throw SimulationError("the mechanism is impossible: " + *broken);
+  }
   const DividedScene divided = divide_beams(scene, effects, start);
   return ModelBuilder(scene, divided, effects, start, design, differentiation).build();
 }

@@ -8,6 +8,7 @@
 
 #include "core/scene/body_constants.hpp"
 #include "core/scene/choices.hpp"
+#include "core/scene/number_range.hpp"
 #include "core/scene/time_function.hpp"
 
 /// What the user asked for: plain structs, no mathematics. Order is the order of the file.
@@ -266,6 +267,7 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<Joint> joints;
   std::vector<Load> loads;
+  std::vector<RangedFormula> formulas;  ///< among its numbers; see scene_rules.hpp
 };
 
 }  // namespace pleuel

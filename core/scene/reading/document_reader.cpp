@@ -91,6 +91,7 @@ ProblemFile read_document(const JsonNode& root, NumberReader& numbers) {
   if (const auto variables = root.find("variables")) {
     problem.variables = read_variables(*variables, numbers);
   }
+  problem.scene.formulas = numbers.ranged_formulas();
   read_settings(root, numbers, problem);
   check_margins(root, problem);
   check_scene(root.at("scene"), problem);

@@ -17,25 +17,6 @@ std::string unit_in_brackets(const Quantity& quantity) {
 
 }  // namespace
 
-bool is_within(Range range, double value) {
-  if (!std::isfinite(value)) return false;
-  switch (range) {
-    case Range::any:
-      return true;
-    case Range::positive:
-      return value > 0.0;
-    case Range::not_negative:
-      return value >= 0.0;
-    case Range::poisson:
-      return value > -1.0 && value < 0.5;
-    case Range::fraction:
-      return value >= 0.0 && value <= 1.0;
-    case Range::below_one:
-      return value >= 0.0 && value < 1.0;
-  }
-  return false;
-}
-
 std::string rule_of(Range range, const Quantity& quantity) {
   switch (range) {
     case Range::any:
@@ -225,6 +206,15 @@ void NumberReader::add_use(VariableUse use) {
                               first->node.place(), describe(first->quantity)));
   }
   uses_.push_back(std::move(use));
+}
+
+std::vector<RangedFormula> NumberReader::ranged_formulas() const {
+  std::vector<RangedFormula> formulas;
+  for (const VariableUse& use : uses_) {
+    if (!use.number.expression) continue;
+    formulas.push_back({use.number, use.range, use.node.place(), rule_of(use.range, use.quantity)});
+  }
+  return formulas;
 }
 
 const VariableUse* NumberReader::first_use(int variable) const {

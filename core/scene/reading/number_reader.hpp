@@ -6,24 +6,12 @@
 #include <vector>
 
 #include "core/scene/number.hpp"
+#include "core/scene/number_range.hpp"
 #include "core/scene/reading/expression_parser.hpp"
 #include "core/scene/reading/json_node.hpp"
 #include "core/scene/units.hpp"
 
 namespace pleuel {
-
-/// What a number must be beyond its physical quantity.
-enum class Range {
-  any,
-  positive,
-  not_negative,
-  poisson,
-  fraction,  ///< from 0 to 1
-  below_one  ///< from 0 to less than 1
-};
-
-/// Whether the value is finite and keeps to the range.
-bool is_within(Range range, double value);
 
 /// The rule as a part of a sentence: "must be positive [m]".
 std::string rule_of(Range range, const Quantity& quantity);
@@ -91,6 +79,9 @@ class NumberReader {
   const std::vector<VariableUse>& uses() const { return uses_; }
 
   const std::vector<VariableMention>& mentions() const { return mentions_; }
+
+  /// Those of the uses that are formulas.
+  std::vector<RangedFormula> ranged_formulas() const;
 
   /// Whether a formula takes the variable for another quantity than its uses do: what is wrong with
   /// it. @pre it is used or mentioned

@@ -6,21 +6,11 @@
 
 #include "core/scene/reading/geometry.hpp"
 #include "core/scene/reading/limits.hpp"
+#include "core/scene/reading/placed_points.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 
 namespace pleuel {
 namespace {
-
-/// Points may be off a beam by this share of its length, and off a point mass by this share of the
-/// scene: far more than what rounding of written numbers costs, far less than what is meant.
-constexpr double placement_tolerance = 1e-6;
-
-/// A point that belongs to a body.
-struct PlacedPoint {
-  JsonNode node;
-  const Point* point;
-  const Body* body;  ///< null: the ground, which is everywhere
-};
 
 /// Two points that define a direction.
 struct PointPair {
@@ -29,97 +19,70 @@ struct PointPair {
   std::string rule;
 };
 
-struct Places {
-  std::vector<PlacedPoint> points;
+/// The node of a placed point.
+JsonNode node_of(const JsonNode& scene, const PlacedPoint& place) {
+  JsonNode node = scene.at(place.path[0]).at(place.path[1]).at(place.path[2]);
+  if (place.path.size() > 3) node = node.items().at(std::stoul(place.path[3]));
+  return node;
+}
+
+std::vector<PointPair> pairs_of(const JsonNode& node, const Scene& scene) {
   std::vector<PointPair> pairs;
-};
-
-void add_joint(const JsonNode& node, const Scene& scene, const Joint& joint, Places& places) {
-  const bool is_distance = joint.type == JointType::distance;
-  const JsonNode at = node.at("at"), second = is_distance ? node.at("to") : at;
-  places.points.push_back({at, &joint.at, find_named(scene.bodies, joint.bodies[0])});
-  places.points.push_back(
-      {second, is_distance ? &joint.to : &joint.at, find_named(scene.bodies, joint.bodies[1])});
-  if (is_distance) {
-    places.pairs.push_back({second, &joint.at, &joint.to, "must not be the same point as \"at\""});
-  }
-}
-
-void add_load(const JsonNode& node, const Scene& scene, const Load& load, Places& places) {
-  if (const auto* force = std::get_if<PointForce>(&load.element)) {
-    places.points.push_back({node.at("at"), &force->at, find_named(scene.bodies, force->body)});
-  } else if (const auto* torque = std::get_if<PointTorque>(&load.element)) {
-    places.points.push_back({node.at("at"), &torque->at, find_named(scene.bodies, torque->body)});
-  } else if (const auto* spring = std::get_if<SpringDamper>(&load.element)) {
-    const std::vector<JsonNode> ends = node.at("at").items();
-    for (std::size_t end : {0U, 1U}) {
-      places.points.push_back(
-          {ends[end], &spring->at[end], find_named(scene.bodies, spring->bodies[end])});
-    }
-    places.pairs.push_back(
-        {node.at("at"), &spring->at[0], &spring->at[1], "must be two different points"});
-  }
-}
-
-Places places_of(const JsonNode& node, const Scene& scene) {
-  Places places;
   for (const Joint& joint : scene.joints) {
-    add_joint(node.at("joints").at(joint.name), scene, joint, places);
+    if (joint.type != JointType::distance) continue;
+    pairs.push_back({node.at("joints").at(joint.name).at("to"), &joint.at, &joint.to,
+                     "must not be the same point as \"at\""});
   }
   for (const Load& load : scene.loads) {
-    add_load(node.at("loads").at(load.name), scene, load, places);
+    const auto* spring = std::get_if<SpringDamper>(&load.element);
+    if (spring == nullptr) continue;
+    pairs.push_back({node.at("loads").at(load.name).at("at"), &spring->at[0], &spring->at[1],
+                     "must be two different points"});
   }
-  return places;
+  return pairs;
 }
 
-bool is_on_beam(const BeamBody& beam, double share, const Eigen::Vector3d& at,
-                const Design<double>& design) {
-  const double length = (position(beam.to, design) - position(beam.from, design)).stableNorm();
-  return (at - point_at(beam, share, design)).stableNorm() <= placement_tolerance * length;
-}
-
-void check_on_beam(const PlacedPoint& place, const BeamBody& beam,
+void check_on_beam(const JsonNode& node, const PlacedPoint& place, const BeamBody& beam,
                    const std::vector<Sample>& samples) {
   const Design<double>& start = samples.front().design;
   const Eigen::Vector3d at_start = position(*place.point, start);
   const double share = nearest_share(beam, at_start, start);
   const std::string& name = place.body->name;
   if (!is_on_beam(beam, share, at_start, start)) {
-    place.node.fail(
+    node.fail(
         fmt::format("must be on the axis of the beam \"{}\", the nearest point is {} [m], got {}",
                     name, describe(point_at(beam, share, start)), describe(at_start)));
   }
   for (const Sample& sample : samples) {
     const Eigen::Vector3d at = position(*place.point, sample.design);
     if (is_on_beam(beam, share, at, sample.design)) continue;
-    place.node.fail(fmt::format(
+    node.fail(fmt::format(
         "must stay at the share {:.6g} of the length of the beam \"{}\", which is {} [m], got {}{}",
         share, name, describe(point_at(beam, share, sample.design)), describe(at), sample.where));
   }
 }
 
 /// In the axes of the body frame at the start.
-void check_on_imported(const PlacedPoint& place, const ImportedBody& body,
+void check_on_imported(const JsonNode& node, const PlacedPoint& place, const ImportedBody& body,
                        const Design<double>& start) {
   const BodyConstants& constants = body.file->constants;
   const Eigen::Vector3d at = local_point(body, position(*place.point, start), start);
   const BodyPlace& nearest = constants.places[nearest_place(constants, at)];
   if ((at - nearest.position).stableNorm() <= placement_tolerance * size_of(constants)) return;
-  place.node.fail(fmt::format(
+  node.fail(fmt::format(
       "must be at a place of the body \"{}\"; in its axes, the nearest one is \"{}\" at "
       "{} [m], got {}",
       place.body->name, nearest.name, describe(nearest.position), describe(at)));
 }
 
-void check_on_mass(const PlacedPoint& place, const PointMass& mass, const Scene& scene,
-                   const std::vector<Sample>& samples) {
+void check_on_mass(const JsonNode& node, const PlacedPoint& place, const PointMass& mass,
+                   const Scene& scene, const std::vector<Sample>& samples) {
   for (const Sample& sample : samples) {
     const Eigen::Vector3d at = position(*place.point, sample.design);
+    if (is_on_mass(mass, at, scene, sample.design)) continue;
     const Eigen::Vector3d point = position(mass.at, sample.design);
-    const double tolerance = placement_tolerance * extent(scene, sample.design);
-    if ((at - point).stableNorm() <= tolerance) continue;
-    place.node.fail(fmt::format("must be where the point mass \"{}\" is, {} [m], got {}{}",
-                                place.body->name, describe(point), describe(at), sample.where));
+    node.fail(fmt::format("must be where the point mass \"{}\" is, {} [m], got {}{}",
+                          place.body->name, describe(point), describe(at), sample.where));
   }
 }
 
@@ -136,18 +99,18 @@ void check_pair(const PointPair& pair, const std::vector<Sample>& samples) {
 }  // namespace
 
 void check_placement(const JsonNode& node, const Scene& scene, const std::vector<Sample>& samples) {
-  const Places places = places_of(node, scene);
-  for (const PlacedPoint& place : places.points) {
+  for (const PlacedPoint& place : placed_points(scene)) {
     if (place.body == nullptr) continue;
+    const JsonNode at = node_of(node, place);
     if (const auto* beam = std::get_if<BeamBody>(&place.body->shape)) {
-      if (!beam->is_rigid) check_on_beam(place, *beam, samples);
+      if (!beam->is_rigid) check_on_beam(at, place, *beam, samples);
     } else if (const auto* mass = std::get_if<PointMass>(&place.body->shape)) {
-      check_on_mass(place, *mass, scene, samples);
+      check_on_mass(at, place, *mass, scene, samples);
     } else if (const auto* imported = std::get_if<ImportedBody>(&place.body->shape)) {
-      check_on_imported(place, *imported, samples.front().design);
+      check_on_imported(at, place, *imported, samples.front().design);
     }
   }
-  for (const PointPair& pair : places.pairs) check_pair(pair, samples);
+  for (const PointPair& pair : pairs_of(node, scene)) check_pair(pair, samples);
 }
 
 }  // namespace pleuel

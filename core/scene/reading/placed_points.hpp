@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scene/scene.hpp"
+
+namespace pleuel {
+
+/// A point of a joint or a load that belongs to a body.
+struct PlacedPoint {
+  std::vector<std::string> path;  ///< in the scene: {"loads", "tip", "at"}; of lists the index
+  const Point* point;
+  const Body* body;  ///< null: the ground, which is everywhere
+
+  /// "/scene/loads/tip/at"
+  std::string pointer() const;
+};
+
+/// Of all joints and loads; they refer to the scene.
+std::vector<PlacedPoint> placed_points(const Scene& scene);
+
+/// Whether a place is at the share of the length of a beam, up to the rounding of written numbers.
+bool is_on_beam(const BeamBody& beam, double share, const Eigen::Vector3d& at,
+                const Design<double>& design);
+
+/// Whether a place is that of a point mass, likewise.
+bool is_on_mass(const PointMass& mass, const Eigen::Vector3d& at, const Scene& scene,
+                const Design<double>& design);
+
+}  // namespace pleuel

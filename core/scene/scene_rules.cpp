@@ -1,0 +1,102 @@
+#include "core/scene/scene_rules.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/scene/reading/geometry.hpp"
+#include "core/scene/reading/placed_points.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Of the value at the start: so that differences may step across the limit of a range.
+constexpr double range_tolerance = 1e-6;
+
+bool is_formula(const Point& point) {
+  return std::any_of(point.begin(), point.end(),
+                     [](const Number& number) { return number.expression != nullptr; });
+}
+
+bool has_point_formulas(const Scene& scene) {
+  const auto of_body = [](const Body& body) {
+    if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
+      return is_formula(beam->from) || is_formula(beam->to);
+    }
+    const auto* mass = std::get_if<PointMass>(&body.shape);
+    return mass != nullptr && is_formula(mass->at);
+  };
+  const auto of_joint = [](const Joint& joint) {
+    return is_formula(joint.at) || is_formula(joint.to);
+  };
+  const auto of_load = [](const Load& load) {
+    if (const auto* force = std::get_if<PointForce>(&load.element)) return is_formula(force->at);
+    if (const auto* torque = std::get_if<PointTorque>(&load.element)) return is_formula(torque->at);
+    const auto* spring = std::get_if<SpringDamper>(&load.element);
+    return spring != nullptr && (is_formula(spring->at[0]) || is_formula(spring->at[1]));
+  };
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), of_body) ||
+         std::any_of(scene.joints.begin(), scene.joints.end(), of_joint) ||
+         std::any_of(scene.loads.begin(), scene.loads.end(), of_load);
+}
+
+std::optional<std::string> complaint(const RangedFormula& formula, const Design<double>& start,
+                                     const Design<double>& design) {
+  const double value = resolve(formula.number, design);
+  if (is_within(formula.range, value)) return std::nullopt;
+  const double tolerance = range_tolerance * std::abs(resolve(formula.number, start));
+  const bool is_nearly =
+      is_within(formula.range, value + tolerance) || is_within(formula.range, value - tolerance);
+  if (is_nearly) return std::nullopt;
+  return fmt::format("{} {}, is {:.6g}", formula.place, formula.rule, value);
+}
+
+std::optional<std::string> complaint(const PlacedPoint& placed, const BeamBody& beam,
+                                     const Design<double>& start, const Design<double>& design) {
+  if (beam.is_rigid) return std::nullopt;
+  if (!is_formula(*placed.point) && !is_formula(beam.from) && !is_formula(beam.to)) {
+    return std::nullopt;
+  }
+  const double share = nearest_share(beam, position(*placed.point, start), start);
+  const Eigen::Vector3d at = position(*placed.point, design);
+  if (is_on_beam(beam, share, at, design)) return std::nullopt;
+  return fmt::format(
+      "{} must stay at the share {:.6g} of the length of the beam \"{}\", which is {} "
+      "[m], is {}",
+      placed.pointer(), share, placed.body->name, describe(point_at(beam, share, design)),
+      describe(at));
+}
+
+std::optional<std::string> complaint(const PlacedPoint& placed, const PointMass& mass,
+                                     const Scene& scene, const Design<double>& design) {
+  if (!is_formula(*placed.point) && !is_formula(mass.at)) return std::nullopt;
+  const Eigen::Vector3d at = position(*placed.point, design);
+  if (is_on_mass(mass, at, scene, design)) return std::nullopt;
+  return fmt::format("{} must be where the point mass \"{}\" is, {} [m], is {}", placed.pointer(),
+                     placed.body->name, describe(position(mass.at, design)), describe(at));
+}
+
+}  // namespace
+
+std::optional<std::string> find_impossible(const Scene& scene, const Design<double>& start,
+                                           const Design<double>& design) {
+  for (const RangedFormula& formula : scene.formulas) {
+    if (auto found = complaint(formula, start, design)) return found;
+  }
+  if (!has_point_formulas(scene)) return std::nullopt;
+  for (const PlacedPoint& placed : placed_points(scene)) {
+    if (placed.body == nullptr) continue;
+    std::optional<std::string> found;
+    if (const auto* beam = std::get_if<BeamBody>(&placed.body->shape)) {
+      found = complaint(placed, *beam, start, design);
+    } else if (const auto* mass = std::get_if<PointMass>(&placed.body->shape)) {
+      found = complaint(placed, *mass, scene, design);
+    }
+    if (found) return found;
+  }
+  return std::nullopt;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/scene/scene.hpp"
+
+/// What formulas of a scene must keep at every design.
+namespace pleuel {
+
+/// What makes a scene impossible at a design that its variables' bounds allow: `/scene/bodies/rod/
+/// section/width must be positive [m], is -0.003` of a formula that leaves its range (beyond a
+/// millionth of its value at the start), or `/scene/loads/tip/at must stay at the share 1 of …` of
+/// points that are formulas and leave the body that they belong to.
+/// @param start  decides at which share of a beam a point is
+std::optional<std::string> find_impossible(const Scene& scene, const Design<double>& start,
+                                           const Design<double>& design);
+
+}  // namespace pleuel
