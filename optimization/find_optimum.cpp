@@ -234,8 +234,9 @@ class Search {
       if (!is_outside()) return;
     }
     settle_at(best_seen());
-    if (total_.max_violation < (1.0 - 1e-3) * least.violation) least.is_proven = false;
-    conclude(std::move(least));
+    // Where one that was seen before breaks them less, it was no least violation.
+    const bool is_least = total_.max_violation >= (1.0 - 1e-3) * least.violation;
+    conclude(is_least ? std::move(least) : LeastViolation{});
   }
 
   void conclude(LeastViolation least) {
@@ -255,7 +256,7 @@ class Search {
           "those seen, this one breaks them least ({:.2g} relative): {}",
           total_.max_violation, conflict);
     }
-    total_.least_violation = std::move(least);
+    if (!least.limits.empty()) total_.least_violation = std::move(least);
   }
 
   /// Makes this design the answer, of which nothing is proven.

@@ -6,12 +6,14 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
 #include "core/model/motion_plane.hpp"
 #include "core/response/analysis.hpp"
+#include "core/scene/bound_points.hpp"
 
 namespace pleuel {
 
@@ -40,6 +42,12 @@ std::optional<Component> component_of(const SceneNumber& number) {
   return Component{point, std::stoi(number.pointer.substr(slash + 1))};
 }
 
+/// Equal for points at one place.
+std::string place_text(double x, double y, double z) {
+  const auto rounded = [](double value) { return value == 0.0 ? 0.0 : value; };  // no −0
+  return fmt::format("{:.12g} {:.12g} {:.12g}", rounded(x), rounded(y), rounded(z));
+}
+
 /// Points by the text of their coordinates; one with a coordinate that is not fixed has none.
 class Points {
  public:
@@ -56,8 +64,7 @@ class Points {
   std::string place(const std::string& point) const {
     const auto& [x, y, z] = coordinates_.at(point);
     if (!x || !y || !z) return point;
-    const auto rounded = [](double value) { return value == 0.0 ? 0.0 : value; };  // no −0
-    return fmt::format("{:.12g} {:.12g} {:.12g}", rounded(*x), rounded(*y), rounded(*z));
+    return place_text(*x, *y, *z);
   }
 
  private:
@@ -68,7 +75,9 @@ bool leaves_plane(const Component& component, const std::optional<MotionPlane>& 
   return plane && std::abs(plane->normal(component.index)) > 1e-12;
 }
 
-Groups grouped(const std::vector<SceneNumber>& numbers, const std::optional<MotionPlane>& plane) {
+/// @param taken  places of points that variables move: what is there cannot be moved by itself
+Groups grouped(const std::vector<SceneNumber>& numbers, const std::optional<MotionPlane>& plane,
+               const std::set<std::string>& taken) {
   const Points points(numbers);
   Groups groups;
   std::map<std::string, std::size_t> group_of_place;
@@ -78,8 +87,9 @@ Groups grouped(const std::vector<SceneNumber>& numbers, const std::optional<Moti
       if (number.value != 0.0) groups.push_back({number.pointer, {number.pointer}});
       continue;
     }
-    if (leaves_plane(*component, plane)) continue;
-    const std::string key = fmt::format("{} {}", points.place(component->point), component->index);
+    const std::string place = points.place(component->point);
+    if (leaves_plane(*component, plane) || taken.contains(place)) continue;
+    const std::string key = fmt::format("{} {}", place, component->index);
     const auto [found, is_new] = group_of_place.try_emplace(key, groups.size());
     if (is_new) groups.push_back({number.pointer, {}});
     groups[found->second].pointers.push_back(number.pointer);
@@ -111,9 +121,13 @@ Groups bindable(const ProblemText& text, const Groups& groups) {
 
 Groups priced_numbers(const ProblemText& text, const ProblemFile& problem) {
   const Eigen::VectorXd start = start_design(problem);
-  const PlaneAnalysis plane =
-      find_motion_plane(problem.scene, Design<double>(start.begin(), start.end()));
-  return bindable(text, grouped(scene_numbers(text), plane.plane));
+  const Design<double> design(start.begin(), start.end());
+  std::set<std::string> taken;
+  for (const Eigen::Vector3d& point : bound_points(problem.scene, design)) {
+    taken.insert(place_text(point.x(), point.y(), point.z()));
+  }
+  const PlaneAnalysis plane = find_motion_plane(problem.scene, design);
+  return bindable(text, grouped(scene_numbers(text), plane.plane, taken));
 }
 
 }  // namespace pleuel

@@ -68,6 +68,18 @@ TEST_P(OptimumOfTube, IsABarWithALinearConstraint) {
   EXPECT_NEAR(result.x(wall), 0.004, 1e-3 * 0.004);
 }
 
+/// A wall between two diameters that are variables: no bound of theirs keeps it positive, and less
+/// than nothing would have less mass than nothing.
+TEST_P(OptimumOfTube, HasAWallWhereItIsAFormula) {
+  const ProblemFile problem = tube_problem(
+      {R"(/scene/bodies/rod/section/thickness== (rod_diameter - wall)/2)",
+       R"(/variables/wall={"start": "20 mm", "lower": "10 mm", "upper": "40 mm"})",
+       R"(/variables/rod_diameter={"start": "30 mm", "lower": "21 mm", "upper": "50 mm"})"});
+  const Result result = optimum_of(problem, GetParam());
+  EXPECT_GT(result.x(diameter), result.x(wall)) << to_string(result.status);
+  EXPECT_GT(result.evaluation.objective, 0.0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, OptimumOfTube,
                          testing::Values("nlopt-slsqp", "nlopt-mma", "ipopt"));
 

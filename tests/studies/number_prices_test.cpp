@@ -142,6 +142,15 @@ TEST(PricedNumbers, LeaveOutWhatNoVariableCanStandFor) {
   EXPECT_THAT(names_of(groups), testing::Not(testing::Contains(testing::HasSubstr("gravity"))));
 }
 
+/// The end of the bar cannot be moved without the load, which a formula places.
+TEST(PricedNumbers, LeaveOutPointsThatFormulasMove) {
+  const std::vector<std::string> overrides = {"/scene/loads/press/at/0== 0.4 m + 0*height"};
+  const auto groups =
+      priced_numbers({bar, "bar.json", overrides}, read_problem_text(bar, "bar.json", overrides));
+  EXPECT_THAT(names_of(groups), testing::Not(testing::Contains("/scene/bodies/bar/to/0")));
+  EXPECT_THAT(names_of(groups), testing::Contains("/scene/bodies/bar/from/0"));
+}
+
 /// Binding a number to a variable that is fixed at its value changes no response.
 TEST(PricedNumbers, LeaveTheMechanismAsItIsWhenTheyAreBound) {
   const std::string path = std::string(PLEUEL_SOURCE_DIR) + "/problems/slider_crank.json";

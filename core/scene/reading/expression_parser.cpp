@@ -156,6 +156,12 @@ class OperandReader : public mup::IValueReader {
     });
     end = at + length;
     const std::size_t first = std::min(text.find_first_not_of(' ', at), end);
+    const std::size_t next = text.find_first_not_of(' ', end);
+    if (end > first && next != std::string_view::npos && text[next] == '^') {
+      builder_->fail(next,
+                     "the power of a unit is a whole number, as in \"mm^2\"; to raise a number "
+                     "with its unit put both in brackets, as in \"(2 mm)^0.5\"");
+    }
     return builder_->add_quantity(first, value, std::string(text.substr(first, end - first)));
   }
 

@@ -1,0 +1,102 @@
+#include "core/scene/scene_rules.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/scene/problem_reader.hpp"
+
+/// What formulas must keep at every design: bounds are those of variables, not of what formulas make
+/// of them.
+namespace pleuel::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// A clamped tube with a load and a mass at its end; two variables a and b, each of them harmless at
+/// both its bounds while the other one keeps its start.
+ProblemFile cantilever(const std::vector<std::string>& overrides) {
+  return read_problem_text(R"({
+    "scene": {
+      "bodies": {
+        "tube": {"type": "beam", "from": [0, 0, 0], "to": ["1 m", 0, 0], "material": "steel", "elements": 1,
+                 "section": {"type": "tube", "outer_diameter": "50 mm", "thickness": "4 mm"}},
+        "end": {"type": "point-mass", "at": ["1 m", 0, 0], "mass": "1 kg"}
+      },
+      "joints": {"wall": {"type": "fixed", "bodies": ["ground", "tube"], "at": [0, 0, 0]},
+                 "tip": {"type": "spherical", "bodies": ["tube", "end"], "at": ["1 m", 0, 0]}},
+      "loads": {"push": {"type": "force", "body": "tube", "at": ["1 m", 0, 0], "direction": [0, -1, 0],
+                         "value": "10 N"}}
+    },
+    "simulation": {"end_time": "2 ms", "step": "1 ms"},
+    "variables": {"a": {"start": 1, "lower": 0.6, "upper": 1.5}, "b": {"start": 0.5, "lower": 0.4, "upper": 0.9}},
+    "responses": {"mass": {"type": "mass"}},
+    "objective": {"minimize": "= mass + 0 kg*(a + b)"
+}
+})",
+                           "test.json", overrides);
+}
+
+struct Escape {
+  std::string pointer, formula, rule;
+};
+void PrintTo(const Escape& escape, std::ostream* stream) {
+  *stream << escape.pointer;
+}
+
+class FormulaAtADesign : public testing::TestWithParam<Escape> {};
+
+/// a − b is 0.5 at the start, at least 0.1 where one of them is at a bound, and −0.2 at the worst
+/// corner.
+TEST_P(FormulaAtADesign, IsRefusedWhereItLeavesItsRange) {
+  const auto& [pointer, formula, rule] = GetParam();
+  const ProblemFile problem =
+      cantilever({fmt::format("{}={}", pointer, formula), "/objective={\"minimize\": \"mass\"}",
+                  "/variables/b/upper=0.8"});
+  const Design<double> start = {1.0, 0.5}, worst = {0.6, 0.8};
+  EXPECT_FALSE(find_impossible(problem.scene, start, start));
+  const auto found = find_impossible(problem.scene, start, worst);
+  ASSERT_TRUE(found);
+  EXPECT_THAT(*found, HasSubstr(pointer + " " + rule));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Places, FormulaAtADesign,
+    testing::Values(
+        Escape{"/scene/bodies/end/mass", "= (a - b)*1 kg", "must be positive [kg], is -0.2"},
+        Escape{"/scene/bodies/tube/section/thickness", "= (a - b)*4 mm", "must be positive [m]"},
+        Escape{"/scene/bodies/tube/section",
+               R"({"type": "rectangle", "width": "10 mm", "height": "= (a - b)*9 mm"})", ""},
+        Escape{"/scene/materials/steel/density", "= (a - b)*7850 kg/m^3", "must be positive"}),
+    [](const auto& test) {
+      std::string name = test.param.pointer;
+      std::erase_if(name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; });
+      return name;
+    });
+
+/// Length and load agree where one variable is at a bound, but not where both are.
+TEST(PlaceOfALoad, MustStayOnItsBodyAtEveryDesign) {
+  const ProblemFile problem = cantilever(
+      {"/scene/bodies/tube/to/0== 2*a*b*1 m", "/scene/loads/push/at/0== (a + 2*b - 1)*1 m",
+       "/scene/bodies/end/at/0== 2*a*b*1 m", "/scene/joints/tip/at/0== 2*a*b*1 m"});
+  const Design<double> start = {1.0, 0.5};
+  EXPECT_FALSE(find_impossible(problem.scene, start, start));
+  EXPECT_FALSE(find_impossible(problem.scene, start, {1.5, 0.5}));
+  const auto found = find_impossible(problem.scene, start, {1.5, 0.8});
+  ASSERT_TRUE(found);
+  EXPECT_THAT(*found,
+              HasSubstr("/scene/loads/push/at must stay at the share 1 of the length of the "
+                        "beam \"tube\", which is (2.4, 0, 0) [m], is (2.1, 0, 0)"));
+}
+
+TEST(PlaceOfAMass, MustStayWhereItsJointIs) {
+  const ProblemFile problem = cantilever(
+      {"/scene/bodies/tube/to/0== 2*a*b*1 m", "/scene/loads/push/at/0== 2*a*b*1 m",
+       "/scene/bodies/end/at/0== (a + 2*b - 1)*1 m", "/scene/joints/tip/at/0== 2*a*b*1 m"});
+  const auto found = find_impossible(problem.scene, {1.0, 0.5}, {1.5, 0.8});
+  ASSERT_TRUE(found);
+  EXPECT_THAT(*found, HasSubstr("/scene/joints/tip/at must be where the point mass \"end\" is"));
+}
+
+}  // namespace
+}  // namespace pleuel::test
