@@ -19,6 +19,7 @@
 #include "core/base/number_text.hpp"
 #include "core/base/stop.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/model/drive_rows.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/trust/doubts.hpp"
 #include "sensitivity/gradients.hpp"
@@ -55,7 +56,9 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
   findings.simulation_seconds = simulation.seconds();
   State initial;
   findings.analysis->trajectory.states->load(0, initial);
-  findings.freedoms = rigid_degrees_of_freedom(findings.analysis->model.mechanism, initial);
+  const Model& model = findings.analysis->model;
+  findings.freedoms = rigid_degrees_of_freedom(model.mechanism, initial);
+  findings.freedoms.blocked = blocked_drives(model.mechanism, initial, drive_rows(model));
   findings.ties = find_ties(*findings.analysis);
   warn(texts_of(find_doubts(problem, x, *findings.analysis)));
   ProgressLine progress(arguments, "measuring effects");

@@ -17,6 +17,7 @@
 #include "core/base/error.hpp"
 #include "core/integration/degrees_of_freedom.hpp"
 #include "core/integration/initial_state.hpp"
+#include "core/model/drive_rows.hpp"
 #include "core/response/misalignment.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/trust/blocked_drives.hpp"
@@ -46,7 +47,8 @@ void add_assembly(const ProblemFile& problem, Model& model, Shown& shown,
   model.mechanism.starts_in_equilibrium = false;
   try {
     const State start = initial_state(model.mechanism).state;
-    const DegreesOfFreedom freedoms = rigid_degrees_of_freedom(model.mechanism, start);
+    DegreesOfFreedom freedoms = rigid_degrees_of_freedom(model.mechanism, start);
+    freedoms.blocked = blocked_drives(model.mechanism, start, drive_rows(model));
     const std::string blocked = blocked_drives_text(model, start);
     if (!blocked.empty()) warnings.push_back(blocked);
     shown.document["rigid_motion"] = freedoms_document(freedoms, model);

@@ -80,7 +80,8 @@ Json freedoms_document(const DegreesOfFreedom& freedoms, const Model& model) {
   return {{"coordinates", freedoms.coordinates},
           {"constraints", freedoms.constraints},
           {"drives", drives(model)},
-          {"free", freedoms.free()}};
+          {"free", freedoms.free()},
+          {"blocked_drives", freedoms.blocked}};
 }
 
 std::string freedoms_text(const DegreesOfFreedom& freedoms, const Model& model) {
@@ -92,6 +93,7 @@ std::string freedoms_text(const DegreesOfFreedom& freedoms, const Model& model) 
     return text + fmt::format("{} freedom{} left to the forces\n", freedoms.free(),
                               freedoms.free() == 1 ? " is" : "s are");
   }
+  if (freedoms.blocked > 0) return text + "no rigid motion follows the drives\n";
   return text + (driven > 0 ? "the drives prescribe it\n" : "nothing can move\n");
 }
 

@@ -13,7 +13,7 @@ namespace pleuel {
 Json bodies_document(const Model& model);
 std::string bodies_text(const Model& model);
 
-/// {"coordinates", "constraints", "drives", "free"}: how joints and drives hold the mechanism if
+/// {"coordinates", "constraints", "drives", "free", "blocked_drives"}: how joints and drives hold the mechanism if
 /// its bodies do not deform, at the start of the simulation.
 Json freedoms_document(const DegreesOfFreedom& freedoms, const Model& model);
 std::string freedoms_text(const DegreesOfFreedom& freedoms, const Model& model);

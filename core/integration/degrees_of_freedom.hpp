@@ -13,6 +13,7 @@ namespace pleuel {
 struct DegreesOfFreedom {
   int coordinates = 0;  ///< of rigid motion
   int constraints = 0;  ///< rows of Φ that are independent for rigid motion
+  int blocked = 0;      ///< drives among them that move nothing rigid; see blocked_drives()
 
   int free() const { return coordinates - constraints; }
 };

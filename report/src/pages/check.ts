@@ -83,8 +83,9 @@ export function checkPage(data: ReportData): HTMLElement[] {
   const derivatives = Object.values((result.responses ?? {}) as Record<string, Document>).map((one) => one.derivatives).filter(Boolean);
   const differs = derivatives.filter((one) => one.verdict === "differs").length;
   const free: number = result.rigid_motion?.free ?? 0;
+  const blocked: number = result.rigid_motion?.blocked_drives ?? 0;
   const lead = [
-    result.rigid_motion ? (free > 0 ? `${free} freedom${free > 1 ? "s are" : " is"} left to the forces.` : "The drives prescribe the rigid motion.") : "",
+    blocked > 0 ? "No rigid motion follows the drives." : result.rigid_motion ? (free > 0 ? `${free} freedom${free > 1 ? "s are" : " is"} left to the forces.` : "The drives prescribe the rigid motion.") : "",
     derivatives.length ? (differs ? `The derivatives of ${differs} responses differ.` : "No derivative differs.") : "",
   ].join(" ");
   const times = result.seconds ?? {};

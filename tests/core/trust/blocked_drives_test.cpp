@@ -1,0 +1,79 @@
+#include "core/trust/blocked_drives.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/core/trust/crank_rocker.hpp"
+#include "tests/core/trust/doubts_of.hpp"
+#include "tests/support/problem_runs.hpp"
+
+namespace pleuel::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+/// Elastic, so that it starts at all: nothing moves by more than its members bend.
+std::vector<Doubt> doubts_with(const std::string& joint,
+                               const std::vector<std::string>& more = {}) {
+  std::vector<std::string> overrides = {
+      "/scene/bodies/crank/rigid=false",
+      "/scene/bodies/coupler/rigid=false",
+      "/scene/bodies/rocker/rigid=false",
+      "/simulation/end_time=2e-5",
+      "/simulation/step=1e-5",
+      R"(/scene/joints/A/drive={"type": "ramp-to-speed", "speed": "300 rpm", "ramp": "1 s"})"};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return doubts_of(read_scene(crank_rocker("", joint), overrides), doubt_blocked_drives);
+}
+
+/// Nine rigid coordinates; with revolutes eight equations of joints, and one of the drive.
+TEST(BlockedDrive, IsNamedWhereAJointHasAFreedomTooFew) {
+  EXPECT_THAT(doubts_with(closed), IsEmpty());
+  const std::string welded =
+      R"(, "D": {"type": "fixed", "bodies": ["ground", "rocker"], "at": [0.4, 0, 0]})";
+  const auto doubts = doubts_with(welded);
+  ASSERT_THAT(doubts, SizeIs(1));
+  EXPECT_THAT(doubts[0].text, HasSubstr("the joints leave no motion to the drive of \"A\""));
+}
+
+TEST(BlockedDrive, IsOneOfTwoForOneFreedom) {
+  const std::string driven_too =
+      R"(, "D": {"type": "revolute", "bodies": ["ground", "rocker"], "at": [0.4, 0, 0],
+                 "drive": {"type": "ramp-to-speed", "speed": "300 rpm", "ramp": "1 s"}})";
+  const auto doubts = doubts_with(driven_too);
+  ASSERT_THAT(doubts, SizeIs(1));
+  EXPECT_THAT(doubts[0].text,
+              HasSubstr("there is one drive more than the joints leave motions to (drives: \"A\", "
+                        "\"D\")"));
+}
+
+TEST(BlockedDrive, IsOneWhoseLoopCannotTurnAboutItsAxis) {
+  // In space, with one axis across the others.
+  EXPECT_THAT(doubts_with(closed, {"/scene/joints/B/axis=[1, 0, 0]"}), SizeIs(1));
+}
+
+/// A loop of revolutes in space has three equations more than it needs, and moves all the same.
+TEST(BlockedDrive, IsNoneOfALoopThatMovesInSpace) {
+  EXPECT_THAT(doubts_with(closed, {R"(/effects={"spatial_motion": "on"})"}), IsEmpty());
+}
+
+class ShippedMechanism : public testing::TestWithParam<const char*> {};
+
+TEST_P(ShippedMechanism, HasNoBlockedDrive) {
+  const ProblemFile problem = sample_problem(GetParam(), {"/simulation/end_time=0.5 ms"});
+  EXPECT_THAT(doubts_of(problem, doubt_blocked_drives), IsEmpty());
+}
+INSTANTIATE_TEST_SUITE_P(Problems, ShippedMechanism,
+                         testing::Values("slider_crank", "four_bar", "robot_arm",
+                                         "spatial_slider_crank", "hard/dead_centres",
+                                         "hard/bricard"),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::erase(name, '/');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace pleuel::test
