@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "core/base/number_text.hpp"
 #include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
@@ -40,14 +39,13 @@ std::vector<Doubt> doubt_far_limits(const TrustedRun& run) {
       // A limit of zero is meant: any value is beyond it by far.
       if (!limit || *limit == 0.0 || values(i) == 0.0) continue;
       const std::string unit = unit_of(run.problem, constraint).si;
-      doubts.push_back(
-          {fmt::format(
-               "the limit of \"{}\" is {} {}, and the value {} {}: {:.1g} times as much. Is "
-               "a unit missing, or another one meant?",
-               constraint.name, significant(*limit, 4), unit, significant(values(i), 4), unit,
-               std::abs(values(i) / *limit)),
-           false,
-           {constraint.response}});
+      doubts.push_back({fmt::format("the limit of \"{}\" is {:.4g} {}, and the value {:.4g} {}: "
+                                    "{:.1g} times as much. Is "
+                                    "a unit missing, or another one meant?",
+                                    constraint.name, *limit, unit, values(i), unit,
+                                    std::abs(values(i) / *limit)),
+                        false,
+                        {constraint.response}});
     }
   }
   return doubts;

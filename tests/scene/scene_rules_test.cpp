@@ -16,7 +16,7 @@ using testing::HasSubstr;
 /// A clamped tube with a load and a mass at its end; two variables a and b, each of them harmless at
 /// both its bounds while the other one keeps its start.
 ProblemFile cantilever(const std::vector<std::string>& overrides) {
-  return read_problem_text(R"({
+  return read_problem_text(R"json({
     "scene": {
       "bodies": {
         "tube": {"type": "beam", "from": [0, 0, 0], "to": ["1 m", 0, 0], "material": "steel", "elements": 1,
@@ -33,7 +33,7 @@ ProblemFile cantilever(const std::vector<std::string>& overrides) {
     "responses": {"mass": {"type": "mass"}},
     "objective": {"minimize": "= mass + 0 kg*(a + b)"
 }
-})",
+})json",
                            "test.json", overrides);
 }
 

@@ -62,7 +62,7 @@ TEST(BlockedDrive, IsNoneOfALoopThatMovesInSpace) {
 class ShippedMechanism : public testing::TestWithParam<const char*> {};
 
 TEST_P(ShippedMechanism, HasNoBlockedDrive) {
-  const ProblemFile problem = sample_problem(GetParam(), {"/simulation/end_time=0.5 ms"});
+  const ProblemFile problem = sample_problem(GetParam(), {"/simulation/end_time=20 ms"});
   EXPECT_THAT(doubts_of(problem, doubt_blocked_drives), IsEmpty());
 }
 INSTANTIATE_TEST_SUITE_P(Problems, ShippedMechanism,
