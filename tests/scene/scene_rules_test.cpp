@@ -57,17 +57,23 @@ TEST_P(FormulaAtADesign, IsRefusedWhereItLeavesItsRange) {
   EXPECT_FALSE(find_impossible(problem.scene, start, start));
   const auto found = find_impossible(problem.scene, start, worst);
   ASSERT_TRUE(found);
-  EXPECT_THAT(*found, HasSubstr(pointer + " " + rule));
+  EXPECT_THAT(*found, HasSubstr(rule));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Places, FormulaAtADesign,
     testing::Values(
-        Escape{"/scene/bodies/end/mass", "= (a - b)*1 kg", "must be positive [kg], is -0.2"},
-        Escape{"/scene/bodies/tube/section/thickness", "= (a - b)*4 mm", "must be positive [m]"},
+        Escape{"/scene/bodies/end/mass", "= (a - b)*1 kg",
+               "/scene/bodies/end/mass must be positive [kg], is -0.2"},
+        Escape{"/scene/bodies/tube/section/thickness", "= (a - b)*4 mm",
+               "/scene/bodies/tube/section/thickness must be positive [m], is -0.0008"},
         Escape{"/scene/bodies/tube/section",
-               R"({"type": "rectangle", "width": "10 mm", "height": "= (a - b)*9 mm"})", ""},
-        Escape{"/scene/materials/steel/density", "= (a - b)*7850 kg/m^3", "must be positive"}),
+               R"({"type": "rectangle", "width": "10 mm", "height": "= (a - b)*9 mm"})",
+               "/scene/bodies/tube/section/height must be positive [m], is -0.0018"},
+        Escape{
+            "/scene/materials",
+            R"json({"steel": {"young": "210 GPa", "poisson": 0.3, "density": "= (a - b)*7850 kg/m^3"}})json",
+            "/scene/materials/steel/density must be positive [kg/m^3], is -1570"}),
     [](const auto& test) {
       std::string name = test.param.pointer;
       std::erase_if(name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; });
