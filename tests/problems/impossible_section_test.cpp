@@ -73,7 +73,7 @@ TEST_P(OptimumOfTube, IsABarWithALinearConstraint) {
 TEST_P(OptimumOfTube, HasAWallWhereItIsAFormula) {
   const ProblemFile problem = tube_problem(
       {R"(/scene/bodies/rod/section/thickness== (rod_diameter - wall)/2)",
-       R"(/variables/wall={"start": "20 mm", "lower": "10 mm", "upper": "40 mm"})",
+       R"(/variables/wall={"start": "20 mm", "lower": "10 mm", "upper": "29 mm"})",
        R"(/variables/rod_diameter={"start": "30 mm", "lower": "21 mm", "upper": "50 mm"})"});
   const Result result = optimum_of(problem, GetParam());
   EXPECT_GT(result.x(diameter), result.x(wall)) << to_string(result.status);
