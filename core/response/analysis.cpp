@@ -96,9 +96,22 @@ Reduction reduce_history(const Response& response, const Eigen::VectorXd& time,
   return reduction;
 }
 
+/// Where windows of responses begin and end [s]: there are instants.
+std::vector<double> window_ends(const ProblemFile& problem) {
+  std::vector<double> ends;
+  for (const ResponseSettings& response : problem.responses) {
+    for (const std::optional<double>& end : {response.from, response.to}) {
+      if (end) ends.push_back(*end);
+    }
+  }
+  return ends;
+}
+
 SimulationOptions options_of(const ProblemFile& problem) {
   SimulationOptions options{problem.simulation};
   options.breaks = time_breaks(problem.scene, options.step);
+  const std::vector<double> ends = window_ends(problem);
+  options.breaks.insert(options.breaks.end(), ends.begin(), ends.end());
   options.memory = problem.sensitivity.memory;
   return options;
 }
@@ -185,7 +198,8 @@ Eigen::VectorXd start_design(const ProblemFile& problem) {
 }
 
 ProblemFile with_steps_of(const Trajectory& trajectory, ProblemFile problem) {
-  if (problem.simulation.local_error == 0.0) return problem;
+  const bool is_regular = problem.simulation.local_error == 0.0 && window_ends(problem).empty();
+  if (is_regular) return problem;
   problem.simulation.instants.assign(trajectory.time.begin(), trajectory.time.end());
   return problem;
 }
@@ -225,7 +239,8 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   } catch (const SimulationError& error) {
     explain(error, analysis->model);
   }
-  analysis->breaks = instants_at(options.breaks, analysis->trajectory.time);
+  analysis->breaks =
+      instants_at(time_breaks(problem.scene, options.step), analysis->trajectory.time);
   analysis->histories = recorder.take(analysis->trajectory.steps() + 1);
   set_mechanism_frequencies(*analysis);
   set_rigid_mechanism(problem, x, *analysis);

@@ -99,6 +99,17 @@ TEST(Window, IsOfTheResponse) {
   EXPECT_NEAR(analyze(falling(0.02, 0.07), {})->reductions[0].value, -9.81 * 0.07, 1e-12);
 }
 
+/// Steps end where it does, however long they are.
+TEST(Window, HasAnInstantAtItsEnds) {
+  const auto analysis = analyze(falling(0.02037, 0.06961), {});
+  EXPECT_NEAR(analysis->reductions[0].value, -9.81 * 0.06961, 1e-12);
+  ProblemFile integral = falling(0.02037, 0.06961);
+  integral.responses[0].over_time = OverTime::integral;
+  // Of the trapezoidal rule, exact for a straight line.
+  EXPECT_NEAR(analyze(integral, {})->reductions[0].value,
+              -0.5 * 9.81 * (0.06961 * 0.06961 - 0.02037 * 0.02037), 1e-12);
+}
+
 TEST(Window, WithLessThanTwoStepsIsAnError) {
   try {
     analyze(falling(0.0201, 0.0217), {});
