@@ -112,7 +112,7 @@ TEST(Window, HasAnInstantAtItsEnds) {
 
 TEST(Window, WithLessThanTwoStepsIsAnError) {
   try {
-    analyze(falling(0.0201, 0.0217), {});
+    analyze(falling(0.0201, 0.0202), {});
     FAIL();
   } catch (const InputError& error) {
     EXPECT_STREQ(
