@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands/commands.hpp"
+#include "cli/commands/each_case.hpp"
 #include "cli/interruption.hpp"
 #include "cli/text/console.hpp"
 #include "core/base/error.hpp"
@@ -42,7 +43,8 @@ Outcome run(const Arguments& arguments) {
       {"stability", run_stability},
       {"uncertainty", run_uncertainty},
   };
-  return commands.at(arguments.command)(arguments);
+  const auto command = commands.at(arguments.command);
+  return asks_for_each_case(arguments) ? run_each_case(arguments, command) : command(arguments);
 }
 
 /// Errors of the lower floors begin with the JSON pointer; only we know the file.

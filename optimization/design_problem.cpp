@@ -1,9 +1,12 @@
 #include "optimization/design_problem.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include <fmt/format.h>
 
-#include "core/base/stopwatch.hpp"
-#include "optimization/setting_text.hpp"
+#include "core/base/parallel.hpp"
+#include "core/scene/load_cases.hpp"
 
 namespace pleuel {
 
@@ -17,8 +20,7 @@ std::string text_in(const ShownUnit& unit, double value) {
 }  // namespace
 
 DesignProblem::DesignProblem(ProblemFile file, int threads, EvaluationStore* store)
-    : file_(std::move(file)), threads_(threads), store_(store) {
-  if (store_) setting_ = setting_text(file_);
+    : file_(std::move(file)), threads_(std::max(1, threads)) {
   if (file_.variables.empty())
     throw InputError("/variables is missing: there is nothing to design");
   variable_units_ = variable_units(file_);
@@ -29,6 +31,12 @@ DesignProblem::DesignProblem(ProblemFile file, int threads, EvaluationStore* sto
   for (const ConstraintSettings& constraint : file_.constraints) {
     constraints_.push_back({constraint.name, constraint.lower.value_or(-infinity),
                             constraint.upper.value_or(infinity)});
+  }
+  const auto problems = simulated_problems(std::as_const(file_));
+  const auto count = static_cast<int>(problems.size());
+  const int inner_threads = std::max(1, threads_ / count);
+  for (const ProblemFile* problem : problems) {
+    cases_.push_back(std::make_unique<DesignCase>(*problem, inner_threads, store));
   }
 }
 
@@ -71,141 +79,121 @@ Eigen::VectorXd DesignProblem::variable_deviations() const {
   return deviations;
 }
 
-Analysis& DesignProblem::analysis_at(const Eigen::VectorXd& x) {
-  if (!analysis_ || x != x_) {
-    analysis_.reset();  // a failing simulation leaves nothing stale behind
-    analysis_ = analyze(file_, x);
-    x_ = x;
-  }
-  return *analysis_;
+Analysis& DesignProblem::analysis_of(std::size_t response, const Eigen::VectorXd& x) {
+  return load_case(case_of_response(file_, response).load_case).analysis_at(x);
 }
 
-Evaluation DesignProblem::evaluate(const Eigen::VectorXd& x, Request request) {
-  const RowsOf as_they_are = [this](const Analysis&) {
-    std::vector<ConstraintRow> rows;
-    for (std::size_t i = 0; i < constraints_.size(); ++i) rows.push_back({i, std::nullopt});
-    return rows;
-  };
-  return evaluate_rows(x, request, {"constraints", as_they_are});
-}
-
-std::optional<std::size_t> DesignProblem::response_of(const ConstraintRow& row) const {
-  if (!row.constraint) return response_index(file_.objective->response);
-  const std::string& name = file_.constraints[*row.constraint].response;
+std::optional<std::size_t> DesignProblem::response_of(std::size_t constraint) const {
+  const std::string& name = file_.constraints[constraint].response;
   if (name.empty()) return std::nullopt;
   return response_index(name);
 }
 
-double DesignProblem::row_value(const Analysis& analysis, const ConstraintRow& row) const {
-  if (row.peak) return (row.constraint ? 1.0 : objective_sign()) * row.peak->value;
-  if (const auto response = response_of(row)) return analysis.reductions[*response].value;
+bool DesignProblem::minimizes_worst() const {
+  return case_count() > 1 && file_.objective->over_cases == OverCases::worst;
+}
+
+double DesignProblem::objective_weight(std::size_t load_case) const {
+  switch (file_.objective->over_cases) {
+    case OverCases::weighted:
+      return file_.case_weights[load_case];
+    case OverCases::worst:
+      return 1.0;
+    default:
+      return load_case == 0 ? 1.0 : 0.0;
+  }
+}
+
+Evaluation DesignProblem::evaluate(const Eigen::VectorXd& x, Request request) {
+  // Of a case these are its own, fewer than those of the file.
+  NamedRows rows{file_.has_cases() ? "constraints of the case" : "constraints", {}};
+  std::vector<std::vector<ConstraintRow>> of_cases(case_count());
+  rows.cases.resize(case_count());
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    const OfCase of_case = case_of_constraint(file_, i);
+    of_cases[of_case.load_case].push_back({of_case.index, std::nullopt});
+    rows.cases[of_case.load_case].places.push_back(static_cast<Eigen::Index>(i));
+  }
+  for (std::size_t c = 0; c < case_count(); ++c) {
+    rows.cases[c].of = [&of_cases, c](const Analysis&) { return of_cases[c]; };
+  }
+  return evaluate_rows(x, request, rows);
+}
+
+/// The store belongs to this process and is asked and told in the order of the cases: what it holds
+/// and what comes of it does not depend on how many run at a time.
+std::vector<DesignCase::Answer> DesignProblem::answers_of(const Eigen::VectorXd& x, Request request,
+                                                          const NamedRows& rows) {
+  std::vector<DesignCase::Answer> answers(case_count());
+  std::vector<std::size_t> open;
+  for (std::size_t c = 0; c < case_count(); ++c) {
+    if (auto known = cases_[c]->recall(x, request, rows.name)) {
+      answers[c] = std::move(*known);
+    } else {
+      open.push_back(c);
+    }
+  }
+  for_each_in_parallel(static_cast<int>(open.size()), threads_, [&](int i) {
+    answers[open[i]] = cases_[open[i]]->compute(x, request, rows.cases[open[i]].of);
+  });
+  for (const std::size_t c : open) cases_[c]->keep(request, answers[c]);
+  for (std::size_t c = 0; c < case_count(); ++c) {
+    if (!answers[c].failure) continue;
+    if (!file_.has_cases()) std::rethrow_exception(answers[c].failure);
+    try {
+      std::rethrow_exception(answers[c].failure);
+    } catch (const SimulationError& error) {
+      throw SimulationError(
+          fmt::format("in the case \"{}\": {}", cases_[c]->file().load_case, error.what()));
+    }
+  }
+  return answers;
+}
+
+double DesignProblem::objective_of(const std::vector<DesignCase::Answer>& answers,
+                                   Eigen::VectorXd* gradient) const {
+  if (minimizes_worst()) {
+    const auto worst =
+        std::max_element(answers.begin(), answers.end(),
+                         [](const DesignCase::Answer& one, const DesignCase::Answer& other) {
+                           return one.evaluation.objective < other.evaluation.objective;
+                         });
+    if (gradient) *gradient = worst->evaluation.objective_gradient;
+    return worst->evaluation.objective;
+  }
   double sum = 0.0;
-  for (const auto& [variable, factor] : file_.constraints[*row.constraint].linear) {
-    sum += factor * x_(variable);
+  if (gradient) *gradient = Eigen::VectorXd::Zero(std::ssize(variables_));
+  for (std::size_t c = 0; c < answers.size(); ++c) {
+    const double weight = objective_weight(c);
+    if (weight == 0.0) continue;
+    sum += weight * answers[c].evaluation.objective;
+    if (gradient) *gradient += weight * answers[c].evaluation.objective_gradient;
   }
   return sum;
 }
 
-/// Of the objective, then of the rows that limit a response.
-Eigen::MatrixXd DesignProblem::gradients_of(Analysis& analysis, const RowsOf& rows_of) {
-  const std::size_t objective = response_index(file_.objective->response);
-  std::vector<SampledValue> values{{objective, analysis.reductions[objective].samples}};
-  for (const ConstraintRow& row : rows_of(analysis)) {
-    const auto response = response_of(row);
-    if (!response) continue;
-    values.push_back(
-        {*response, row.peak ? row.peak->samples : analysis.reductions[*response].samples});
-  }
-  if (!choice_) choice_ = choose_gradients(file_.sensitivity.method, analysis, values);
-  if (!is_difference(choice_->method)) {
-    Eigen::MatrixXd gradients = sampled_gradients(analysis, values, exact_method(choice_->method));
-    gradients.row(0) *= objective_sign();
-    Eigen::Index next = 1;
-    for (const ConstraintRow& row : rows_of(analysis)) {
-      if (!response_of(row)) continue;
-      if (!row.constraint) gradients.row(next) *= objective_sign();
-      ++next;
-    }
-    return gradients;
-  }
-  const ValuesOf numbers = [&](const Analysis& at) {
-    std::vector<double> all{objective_sign() * at.reductions[objective].value};
-    for (const ConstraintRow& row : rows_of(at)) {
-      if (response_of(row)) all.push_back(row_value(at, row));
-    }
-    return Eigen::VectorXd(
-        Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size())));
-  };
-  return gradients_by_differences(file_, x_, analysis, choice_->method, numbers,
-                                  {file_.sensitivity.difference_step, threads_});
-}
-
-EvaluationKey DesignProblem::key_of(const Eigen::VectorXd& x, Request request,
-                                    const std::string& rows) const {
-  const GradientMethod method = choice_ ? choice_->method : file_.sensitivity.method;
-  const bool is_open = method == GradientMethod::automatic;
-  const bool has_method = request == Request::values_and_gradients && !is_open;
-  return {setting_, rows, has_method ? to_string(method) : "", request, x};
-}
-
-Evaluation DesignProblem::recalled(const StoredEvaluation& stored) {
-  if (!stored.failure.empty()) throw SimulationError(stored.failure);
-  if (!choice_ && !stored.method.empty()) {
-    choice_ = GradientChoice{gradient_method(stored.method), stored.reason};
-  }
-  return stored.evaluation;
-}
-
 Evaluation DesignProblem::evaluate_rows(const Eigen::VectorXd& x, Request request,
                                         const NamedRows& rows) {
-  if (!store_) return simulated_rows(x, request, rows.of);
-  const EvaluationKey key = key_of(x, request, rows.name);
-  if (const auto known = store_->find(key)) return recalled(*known);
-  const Stopwatch stopwatch;
-  StoredEvaluation stored;
-  try {
-    stored.evaluation = simulated_rows(x, request, rows.of);
-  } catch (const SimulationError& error) {
-    stored.failure = error.what();
-    stored.seconds = stopwatch.seconds();
-    store_->keep(key, stored);
-    throw;
-  }
-  if (request == Request::values_and_gradients) {
-    stored.method = to_string(choice_->method);
-    stored.reason = choice_->reason;
-  }
-  stored.seconds = stopwatch.seconds();
-  store_->keep(key, stored);
-  return std::move(stored.evaluation);
-}
-
-Evaluation DesignProblem::simulated_rows(const Eigen::VectorXd& x, Request request,
-                                         const RowsOf& rows_of) {
-  Analysis& analysis = analysis_at(x);
-  const std::vector<ConstraintRow> rows = rows_of(analysis);
-  const std::size_t objective = response_index(file_.objective->response);
-  const auto count = static_cast<Eigen::Index>(rows.size());
+  const std::vector<DesignCase::Answer> answers = answers_of(x, request, rows);
+  const bool has_gradients = request == Request::values_and_gradients;
+  std::size_t count = 0;
+  for (const CaseRows& one : rows.cases) count += one.places.size();
   Evaluation evaluation;
-  evaluation.objective = objective_sign() * analysis.reductions[objective].value;
-  evaluation.constraints.resize(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    evaluation.constraints(i) = row_value(analysis, rows[i]);
+  evaluation.objective =
+      objective_of(answers, has_gradients ? &evaluation.objective_gradient : nullptr);
+  evaluation.constraints.resize(static_cast<Eigen::Index>(count));
+  if (has_gradients) {
+    evaluation.constraint_jacobian.resize(static_cast<Eigen::Index>(count), x.size());
   }
-  if (request == Request::values) return evaluation;
-
-  const Eigen::MatrixXd gradients = gradients_of(analysis, rows_of);
-  evaluation.objective_gradient = gradients.row(0);
-  evaluation.constraint_jacobian = Eigen::MatrixXd::Zero(count, x.size());
-  Eigen::Index next = 1;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const ConstraintRow& row = rows[i];
-    if (response_of(row)) {
-      evaluation.constraint_jacobian.row(i) = gradients.row(next++);
-      continue;
-    }
-    for (const auto& [variable, factor] : file_.constraints[*row.constraint].linear) {
-      evaluation.constraint_jacobian(i, variable) += factor;
+  for (std::size_t c = 0; c < answers.size(); ++c) {
+    const Evaluation& of_case = answers[c].evaluation;
+    const std::vector<Eigen::Index>& places = rows.cases[c].places;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      evaluation.constraints(places[i]) = of_case.constraints(row);
+      if (has_gradients) {
+        evaluation.constraint_jacobian.row(places[i]) = of_case.constraint_jacobian.row(row);
+      }
     }
   }
   return evaluation;

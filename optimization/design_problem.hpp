@@ -1,43 +1,38 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "core/response/analysis.hpp"
 #include "core/scene/shown_unit.hpp"
-#include "optimization/evaluation_store.hpp"
+#include "optimization/design_case.hpp"
 #include "optimization/problem.hpp"
-#include "sensitivity/gradients.hpp"
 
 namespace pleuel {
 
-/// A constraint of the file, or one peak of the response that it limits; without a constraint the
-/// same of the objective.
-struct ConstraintRow {
-  std::optional<std::size_t> constraint;
-  std::optional<Reduction> peak;
+/// Rows of one load case, and where they stand among those of all cases.
+struct CaseRows {
+  RowsOf of;
+  std::vector<Eigen::Index> places = {};
 };
 
-/// What stands for the constraints at a simulated design: as many rows at each design.
-using RowsOf = std::function<std::vector<ConstraintRow>(const Analysis&)>;
-
-/// The same with a name that tells it from other rows of the same file.
+/// Rows of all cases, with a name that tells them from other rows of the same file.
 struct NamedRows {
   std::string name;
-  RowsOf of;
+  std::vector<CaseRows> cases;  ///< one a case
 };
 
 /// The optimization problem that a problem file describes: responses of the simulated mechanism as
-/// objective (of a response that is maximized its negative) and constraints, gradients by the method of the file; where that leaves it open, by
-/// the exact one that suits its first design.
+/// objective (of a response that is maximized its negative) and constraints. Of a file with load
+/// cases each is simulated by itself (design_case.hpp), several at a time; responses and constraints
+/// are those of all cases.
 class DesignProblem : public Problem {
  public:
   /// @throws InputError if the file has no variables or no objective
-  /// @param threads  simulations at a time, of gradients by differences
+  /// @param threads  simulations at a time, of cases and of gradients by differences
   /// @param store    has evaluations that are known, and keeps those that are made; must outlive
   ///                 this
   explicit DesignProblem(ProblemFile file, int threads = 1, EvaluationStore* store = nullptr);
@@ -58,49 +53,56 @@ class DesignProblem : public Problem {
   /// 1, or −1 where the response is maximized: objective = sign · response.
   double objective_sign() const { return file_.objective->sign(); }
 
-  /// The simulation of the design seen last is kept, so that its gradients cost no second one.
+  /// The simulations of the design seen last are kept, so that its gradients cost no second ones.
   Evaluation evaluate(const Eigen::VectorXd& x, Request request) override;
 
-  /// The same with other rows in place of the constraints; one run of the chosen method for
-  /// all.
+  /// The same with other rows in place of the constraints; in each case one run of the chosen
+  /// method for all. What fails says in which case.
   Evaluation evaluate_rows(const Eigen::VectorXd& x, Request request, const NamedRows& rows);
 
   const ProblemFile& file() const { return file_; }
-  /// How gradients are computed; none before the first one.
-  const std::optional<GradientChoice>& method() const { return choice_; }
-  /// From now on gradients are computed as another problem of this file has chosen.
-  void decide_method(GradientChoice choice) { choice_ = std::move(choice); }
+
+  /// At least one.
+  std::size_t case_count() const { return cases_.size(); }
+  DesignCase& load_case(std::size_t index) { return *cases_[index]; }
+  const DesignCase& load_case(std::size_t index) const { return *cases_[index]; }
+
+  /// How gradients are computed; none before the first one. Of several cases that of the first.
+  const std::optional<GradientChoice>& method() const { return cases_.front()->method(); }
 
   /// Standard deviations of the variables, zero where the file does not say that they scatter.
   Eigen::VectorXd variable_deviations() const;
 
-  /// The simulation of a design; kept until another one is asked for.
+  /// The simulation of the case that a response is of; kept until another design is asked for.
   /// @throws SimulationError
-  Analysis& analysis_at(const Eigen::VectorXd& x);
+  Analysis& analysis_of(std::size_t response, const Eigen::VectorXd& x);
 
-  /// Index of the response of a row; none for a sum of variables.
-  std::optional<std::size_t> response_of(const ConstraintRow& row) const;
+  /// The response that a constraint limits; none of a sum of variables.
+  std::optional<std::size_t> response_of(std::size_t constraint) const;
 
   /// Index of a response of the file. @throws InputError if there is none of this name
   std::size_t response_index(const std::string& name) const;
 
+  /// That of the objective; over cases a number made from several.
+  std::size_t objective_response() const { return response_index(file_.objective->response); }
+
+  /// What of each case's objective counts in a sum; of the worst, the share is 1 for every case.
+  double objective_weight(std::size_t load_case) const;
+  /// Whether the objective is the worst of several cases: it has a kink where two of them tie.
+  bool minimizes_worst() const;
+
  private:
-  Evaluation simulated_rows(const Eigen::VectorXd& x, Request request, const RowsOf& rows_of);
-  EvaluationKey key_of(const Eigen::VectorXd& x, Request request, const std::string& rows) const;
-  Evaluation recalled(const StoredEvaluation& stored);
-  double row_value(const Analysis& analysis, const ConstraintRow& row) const;
-  Eigen::MatrixXd gradients_of(Analysis& analysis, const RowsOf& rows_of);
+  double objective_of(const std::vector<DesignCase::Answer>& answers,
+                      Eigen::VectorXd* gradient) const;
+  std::vector<DesignCase::Answer> answers_of(const Eigen::VectorXd& x, Request request,
+                                             const NamedRows& rows);
 
   ProblemFile file_;
   int threads_;
-  EvaluationStore* store_;
-  std::string setting_;  ///< of its evaluations, for the store
+  std::vector<std::unique_ptr<DesignCase>> cases_;
   std::vector<Variable> variables_;
   std::vector<Constraint> constraints_;
   std::vector<ShownUnit> variable_units_;
-  Eigen::VectorXd x_;
-  std::unique_ptr<Analysis> analysis_;
-  std::optional<GradientChoice> choice_;
 };
 
 }  // namespace pleuel

@@ -9,9 +9,11 @@
 
 #include "core/base/number_text.hpp"
 #include "core/response/describe_tie.hpp"
+#include "core/scene/load_cases.hpp"
 #include "core/trust/doubts.hpp"
 #include "core/trust/nested_runs.hpp"
 #include "optimization/broken_limits.hpp"
+#include "optimization/case_trust.hpp"
 #include "optimization/designs_to_try.hpp"
 #include "optimization/find_optimum.hpp"
 #include "optimization/kkt_audit.hpp"
@@ -42,10 +44,15 @@ constexpr int plain_iterations = 40;
 class Folding {
  public:
   Folding(const PeakProblem& peaks, const DesignProblem& design, const Result& before)
-      : peaks_(peaks), design_(design), last_(before.history.back().x) {
-    const Eigen::VectorXd& first = before.history.front().x;
+      : Folding(peaks, design, before.history.front().x, before.evaluation) {
+    last_ = before.history.back().x;
+  }
+  /// @param evaluation  that scales constraints
+  Folding(const PeakProblem& peaks, const DesignProblem& design, const Eigen::VectorXd& first,
+          const Evaluation& evaluation)
+      : peaks_(peaks), design_(design), last_(first) {
     variable_scales_ = variable_scales(design, first);
-    constraint_scales_ = constraint_scales(design, before.evaluation, variable_scales_);
+    constraint_scales_ = constraint_scales(design, evaluation, variable_scales_);
   }
 
   EvaluationRecord operator()(EvaluationRecord record) {
@@ -79,36 +86,73 @@ void fold_result(const PeakProblem& peaks, const Folding& folding, DesignProblem
   result.evaluation = design.evaluate(result.x, Request::values_and_gradients);
   result.evaluation.constraints = peaks.fold_values(rows);
   result.max_violation = folding.violation(result.evaluation.constraints);
+  result.case_shares = peaks.objective_shares(result.constraint_multipliers);
   result.constraint_multipliers = peaks.fold_multipliers(result.constraint_multipliers);
   result.bound_multipliers = peaks.design_of(result.bound_multipliers);
 }
 
+/// A kink, and the case whose analysis has it.
+struct CaseKink {
+  std::size_t load_case = 0;
+  Kink kink;
+};
+
 /// Of the objective and of what is limited, at a design; none if it cannot be simulated.
-std::vector<Kink> optimized_kinks(DesignProblem& design, const Eigen::VectorXd& x) {
-  const std::vector<std::size_t> optimized = optimized_responses(design);
+std::vector<CaseKink> optimized_kinks(DesignProblem& design, const Eigen::VectorXd& x) {
+  std::vector<CaseKink> kinks;
   try {
-    std::vector<Kink> kinks = find_kinks(design.analysis_at(x));
-    std::erase_if(kinks, [&](const Kink& kink) {
-      return std::find(optimized.begin(), optimized.end(), kink.response) == optimized.end();
-    });
-    return kinks;
+    for (std::size_t c = 0; c < design.case_count(); ++c) {
+      DesignCase& one = design.load_case(c);
+      const std::vector<std::size_t> optimized = optimized_responses(one);
+      for (const Kink& kink : find_kinks(one.analysis_at(x))) {
+        const bool counts =
+            std::find(optimized.begin(), optimized.end(), kink.response) != optimized.end();
+        if (counts) kinks.push_back({c, kink});
+      }
+    }
   } catch (const SimulationError&) {
     return {};
   }
+  return kinks;
 }
 
 /// The peaks that tie: the closest two of each response. Empty if there are none.
-std::string describe(const std::vector<Kink>& kinks, const Analysis& analysis) {
+std::string describe(const std::vector<CaseKink>& kinks, DesignProblem& design,
+                     const Eigen::VectorXd& x) {
   std::vector<std::string> texts;
-  std::optional<std::size_t> last;
-  for (const Kink& kink : kinks) {
-    if (last == kink.response) continue;
-    last = kink.response;
-    const Response& response = analysis.responses[kink.response];
-    texts.push_back(fmt::format("{} ({}; gradients differ by {:.3g} %)", response.name,
+  const CaseKink* last = nullptr;
+  for (const CaseKink& one : kinks) {
+    const Kink& kink = one.kink;
+    const bool is_told =
+        last && last->load_case == one.load_case && last->kink.response == kink.response;
+    last = &one;
+    if (is_told) continue;
+    const Response& response =
+        design.load_case(one.load_case).analysis_at(x).responses[kink.response];
+    const std::size_t joined = joined_response(design.file(), {one.load_case, kink.response});
+    texts.push_back(fmt::format("{} ({}; gradients differ by {:.3g} %)",
+                                design.file().responses[joined].name,
                                 describe_tie(kink.tie, response), 100.0 * kink.difference));
   }
   return texts.empty() ? "" : fmt::format("two peaks tie in {}", fmt::join(texts, " and in "));
+}
+
+/// A run of a backend on peaks, told as one on the file.
+/// @param make_folding  of the records, from the first one on
+template <class MakeFolding>
+Result solve_folded(PeakProblem& peaks, DesignProblem& design, const SolveOptions& options,
+                    const Observer& observer, const MakeFolding& make_folding) {
+  Folding folding = make_folding();
+  Observer observe_folded;
+  if (observer) {
+    observe_folded = [&](const EvaluationRecord& record) { observer(folding(record)); };
+  }
+  const auto robust = with_margins(peaks, design, peaks.constraint_of_row());
+  Result result = solve(robust ? *robust : peaks, options, observe_folded);
+  Folding history_folding = make_folding();
+  for (EvaluationRecord& record : result.history) record = history_folding(std::move(record));
+  fold_result(peaks, folding, design, result);
+  return result;
 }
 
 /// On the peaks of windows, beginning where the run on whole constraints ended (if that is within
@@ -117,20 +161,29 @@ Result solve_peaks(DesignProblem& design, int windows, const SolveOptions& optio
                    const Result& before, const Observer& observer) {
   PeakProblem peaks = before.status == Status::stalled ? PeakProblem(design, windows, before.x)
                                                        : PeakProblem(design, windows);
-  Folding folding(peaks, design, before);
-  Observer observe_folded;
+  Observer following_observer;
   if (observer) {
-    observe_folded = [&](const EvaluationRecord& record) {
-      observer(following(folding(record), before));
+    following_observer = [&](const EvaluationRecord& record) {
+      observer(following(record, before));
     };
   }
-  const auto robust = with_margins(peaks, design, peaks.constraint_of_row());
-  Result result = solve(robust ? *robust : peaks, options, observe_folded);
-  Folding history_folding(peaks, design, before);
-  for (EvaluationRecord& record : result.history) record = history_folding(std::move(record));
-  fold_result(peaks, folding, design, result);
+  Result result = solve_folded(peaks, design, options, following_observer,
+                               [&] { return Folding(peaks, design, before); });
   result.message += fmt::format("; peaks over time were told apart by {} windows", windows);
   return result;
+}
+
+/// On the constraints of the file. The worst of several cases is bounded by a variable, as there is
+/// a kink at nearly every optimum where two of them tie.
+Result solve_plainly(DesignProblem& design, Problem& problem, const SolveOptions& options,
+                     const Observer& observer) {
+  if (!design.minimizes_worst()) return solve(problem, options, observer);
+  const Eigen::VectorXd start = checked_start(design);
+  const Attempt first = attempt_evaluation(design, start, Request::values_and_gradients);
+  if (!first.evaluation) return solve(problem, options, observer);  // tells why it cannot begin
+  PeakProblem bounded(design, 1, start);
+  return solve_folded(bounded, design, options, observer,
+                      [&] { return Folding(bounded, design, start, *first.evaluation); });
 }
 
 /// Whether all peaks keep their margins: a lower one may scatter more than the highest.
@@ -150,11 +203,11 @@ bool keeps_margins(DesignProblem& design, const Eigen::VectorXd& x, double toler
 }
 
 /// Why the run on the file as it is does not do.
-std::string reason_to_go_on(const Result& result, const std::vector<Kink>& kinks,
+std::string reason_to_go_on(const Result& result, const std::vector<CaseKink>& kinks,
                             DesignProblem& design) {
   if (result.status == Status::verified) return "other peaks do not keep their margins";
   if (kinks.empty()) return "no optimum is verified so far";
-  return describe(kinks, design.analysis_at(result.x));
+  return describe(kinks, design, result.x);
 }
 
 /// The limits are so far away that windows of time are no way to them.
@@ -181,7 +234,7 @@ Result attempt_optimum(DesignProblem& design, const SolveOptions& options, const
   plain.polish_iterations =
       std::min(plain_iterations / 2, options.max_iterations - plain.max_iterations);
   plain.max_restarts = std::min(options.max_restarts, 1);
-  Result result = solve(problem, plain, observer);
+  Result result = solve_plainly(design, problem, plain, observer);
   SolveOptions rest = options;
   rest.max_iterations = options.max_iterations - result.iterations;
   rest.earlier = {options.earlier.iterations + result.iterations,
@@ -190,7 +243,7 @@ Result attempt_optimum(DesignProblem& design, const SolveOptions& options, const
                            (!robust || keeps_margins(design, result.x, Tolerances().violation));
   if (is_verified || result.status == Status::failed || ends_far_outside(result)) return result;
   if (rest.max_iterations >= 1) {
-    const std::vector<Kink> kinks = optimized_kinks(design, result.x);
+    const std::vector<CaseKink> kinks = optimized_kinks(design, result.x);
     const int windows = windows_that_part_peaks(design, result.x, peak_windows, most_windows);
     if (notice) {
       notice(fmt::format("{}: from here on the peaks of {} windows of time count one by one",
@@ -201,8 +254,8 @@ Result attempt_optimum(DesignProblem& design, const SolveOptions& options, const
     result = std::move(on_peaks);
   }
   if (result.status == Status::stalled) {
-    const std::vector<Kink> kinks = optimized_kinks(design, result.x);
-    if (!kinks.empty()) result.message += "; " + describe(kinks, design.analysis_at(result.x));
+    const std::vector<CaseKink> kinks = optimized_kinks(design, result.x);
+    if (!kinks.empty()) result.message += "; " + describe(kinks, design, result.x);
   }
   return result;
 }
@@ -287,13 +340,24 @@ void return_to_best(DesignProblem& design, const Tolerances& tolerances, Result&
   }
 }
 
+/// The response of an objective over cases in each of them; empty elsewhere.
+Eigen::VectorXd objectives_in_cases(DesignProblem& design, const Eigen::VectorXd& x) {
+  if (design.file().objective->over_cases == OverCases::same) return {};
+  Eigen::VectorXd values(static_cast<Eigen::Index>(design.case_count()));
+  for (std::size_t c = 0; c < design.case_count(); ++c) {
+    DesignCase& one = design.load_case(c);
+    values(static_cast<Eigen::Index>(c)) =
+        one.analysis_at(x).reductions[*one.response_of({})].value;
+  }
+  return values;
+}
+
 /// Doubts about the numbers of the last design, and their errors: no optimum that rests on numbers
 /// which are not to be trusted, or not known as well as the file asks for, is verified.
 void judge_numbers(DesignProblem& design, Result& result) {
   if (!result.evaluation.has_gradients()) return;
-  const Analysis& analysis = design.analysis_at(result.x);
-  const Monitors monitors = monitor(analysis.model, analysis.trajectory);
-  Trust trust = judge_run(TrustedRun{design.file(), result.x, analysis, monitors, Scrutiny::close});
+  result.case_objectives = objectives_in_cases(design, result.x);
+  Trust trust = judge_cases(design, result.x, Scrutiny::close);
   result.warnings = texts_of(trust.doubts);
   result.error = optimum_error(design, result, trust);
   if (result.status == Status::verified) {
@@ -320,6 +384,10 @@ void judge_numbers(DesignProblem& design, Result& result) {
 EvaluationRecord simulated_with(const ProblemFile& file, EvaluationRecord record) {
   record.time_step = file.simulation.step;
   record.elements = beam_elements(file);
+  for (const ProblemFile& one : file.cases) {
+    record.time_step = std::min(record.time_step, one.simulation.step);
+    record.elements = std::max(record.elements, beam_elements(one));
+  }
   return record;
 }
 

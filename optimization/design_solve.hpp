@@ -16,7 +16,8 @@ namespace pleuel {
 Result solve_design(DesignProblem& problem, const SolveOptions& options,
                     const Observer& observer = {}, const Notice& notice = {});
 
-/// The record with what it was simulated with.
+/// The record with what it was simulated with; of several load cases with the smallest step and the
+/// most elements.
 EvaluationRecord simulated_with(const ProblemFile& file, EvaluationRecord record);
 
 }  // namespace pleuel

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/number_text.hpp"
+#include "core/scene/load_cases.hpp"
 #include "optimization/prices.hpp"
 
 namespace pleuel {
@@ -26,6 +27,7 @@ std::string advice(const ProblemFile& file, const ErrorBar& bar, double excess) 
   }
   const double factor =
       bar.step.is_resolved ? std::clamp(std::sqrt(proposed_share / excess), 1.0 / 16.0, 0.9) : 0.25;
+  if (file.has_cases()) return fmt::format("Try {:.2g} times the /simulation/step", factor);
   return fmt::format("Try a /simulation/step of {:.2g} s", factor * file.simulation.step);
 }
 
@@ -49,13 +51,28 @@ bool may_break(const ConstraintSettings& limit, double value, double error) {
          (limit.lower && value - error < *limit.lower);
 }
 
+/// What the objective is made from: calls add(response, factor).
+template <class Add>
+void for_each_objective(const DesignProblem& design, const Result& result, const Add& add) {
+  const ProblemFile& file = design.file();
+  const std::size_t objective = design.objective_response();
+  if (!is_over_cases(file, objective)) return add(objective, 1.0);
+  const std::size_t of_case = file.case_responses[objective].index;
+  for (std::size_t c = 0; c < design.case_count(); ++c) {
+    const bool has_shares = result.case_shares.size() > 0;
+    const double factor =
+        has_shares ? result.case_shares(static_cast<Eigen::Index>(c)) : design.objective_weight(c);
+    if (factor != 0.0) add(joined_response(file, {c, of_case}), factor);
+  }
+}
+
 /// Calls add(response, factor) for what f + Σ μ c is made of: the objective and what is limited. Of a
 /// response f that is maximized f − Σ μ c, as the multipliers are of −f.
 template <class Add>
 void for_each_share(const DesignProblem& design, const Result& result, const Add& add) {
-  add(*design.response_of({}), 1.0);
+  for_each_objective(design, result, add);
   for (std::size_t i = 0; i < design.constraints().size(); ++i) {
-    const auto response = design.response_of({i, std::nullopt});
+    const auto response = design.response_of(i);
     const double multiplier = result.constraint_multipliers(i);
     if (response && multiplier != 0.0) add(*response, design.objective_sign() * multiplier);
   }
@@ -80,20 +97,32 @@ double nearest_limit(const ConstraintSettings& limit, double value) {
 std::optional<ErrorBar> optimum_error(const DesignProblem& design, const Result& result,
                                       const Trust& trust) {
   if (trust.errors.empty() || !has_prices(result)) return std::nullopt;
-  std::optional<Evidence> sum;
+  // The runs of a case are its own: errors cancel within a case only.
+  std::vector<std::optional<Evidence>> sums(design.case_count());
   ErrorPart effects;
   for_each_share(design, result, [&](std::size_t response, double factor) {
     if (!trust.errors[response]) return;
     effects.add(trust.errors[response]->effects, factor);
+    auto& sum = sums[case_of_response(design.file(), response).load_case];
     if (!sum) {
       sum = nothing_beside(*trust.evidence[response]);
       sum->magnitude = std::abs(result.evaluation.objective);
     }
     sum->add(*trust.evidence[response], factor);
   });
-  ErrorBar bar = sum ? error_bar(*sum) : ErrorBar();
-  bar.effects = effects;
-  return bar;
+  std::optional<ErrorBar> all;
+  for (const auto& sum : sums) {
+    if (!sum) continue;
+    const ErrorBar bar = error_bar(*sum);
+    if (all) {
+      all->add(bar);
+    } else {
+      all = bar;
+    }
+  }
+  if (!all) all.emplace();
+  all->effects = effects;
+  return all;
 }
 
 double optimum_change(const DesignProblem& design, const Result& result,
@@ -116,7 +145,7 @@ std::string inaccuracy(const DesignProblem& design, const Result& result, const 
   if (!of_objective.empty()) return of_objective;
   for (std::size_t i = 0; i < file.constraints.size(); ++i) {
     const ConstraintSettings& limit = file.constraints[i];
-    const auto response = design.response_of({i, std::nullopt});
+    const auto response = design.response_of(i);
     if (!response || !errors[*response]) continue;
     const double value = result.evaluation.constraints(i);
     if (!may_break(limit, value, errors[*response]->bound())) continue;

@@ -54,12 +54,12 @@ template <class Archive>
 void transfer(Archive& archive, Result& result) {
   auto& [status, message, warnings, response_errors, response_bands, error, parts, least_violation,
          gradients_are_disproved, backend, polished_with, x, evaluation, constraint_multipliers,
-         bound_multipliers, kkt_residual, max_violation, evaluations, gradient_evaluations,
-         iterations, restarts, seconds, history] = result;
+         bound_multipliers, case_shares, case_objectives, kkt_residual, max_violation, evaluations,
+         gradient_evaluations, iterations, restarts, seconds, history] = result;
   archive(status, message, warnings, response_errors, response_bands, error, parts, least_violation,
           gradients_are_disproved, backend, polished_with, x, evaluation, constraint_multipliers,
-          bound_multipliers, kkt_residual, max_violation, evaluations, gradient_evaluations,
-          iterations, restarts, seconds, history);
+          bound_multipliers, case_shares, case_objectives, kkt_residual, max_violation, evaluations,
+          gradient_evaluations, iterations, restarts, seconds, history);
 }
 
 }  // namespace pleuel

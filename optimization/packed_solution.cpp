@@ -2,7 +2,9 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "core/scene/load_cases.hpp"
 #include "optimization/packed_result.hpp"
 
 namespace pleuel {
@@ -21,8 +23,8 @@ void transfer(Archive& archive, TriedSetting& tried) {
 
 template <class Archive>
 void transfer(Archive& archive, Stage& stage) {
-  auto& [target, setting, is_met, settings_tried, evaluations, choice_seconds, seconds] = stage;
-  archive(target, setting, is_met, settings_tried, evaluations, choice_seconds, seconds);
+  auto& [target, settings, is_met, settings_tried, evaluations, choice_seconds, seconds] = stage;
+  archive(target, settings, is_met, settings_tried, evaluations, choice_seconds, seconds);
 }
 
 template <class Archive>
@@ -57,19 +59,32 @@ void transfer(Archive& archive, GradientChoice& choice) {
 
 std::string pack_solution(const StagedSolution& solution) {
   const DesignProblem& problem = *solution.problem;
-  return packed(solution.result, solution.stages, problem.file().effects, problem.method());
+  std::vector<EffectSettings> effects;
+  std::vector<std::optional<GradientChoice>> methods;
+  for (std::size_t c = 0; c < problem.case_count(); ++c) {
+    effects.push_back(problem.load_case(c).file().effects);
+    methods.push_back(problem.load_case(c).method());
+  }
+  return packed(solution.result, solution.stages, effects, methods);
 }
 
 StagedSolution unpack_solution(const std::string& bytes, const ProblemFile& file, int threads) {
   StagedSolution solution;
   ProblemFile solved = file;
-  std::optional<GradientChoice> method;
-  unpack(bytes, solution.result, solution.stages, solved.effects, method);
-  if (!solution.stages.empty()) {
-    solved = refined(std::move(solved), solution.stages.back().setting.setting);
+  std::vector<EffectSettings> effects;
+  std::vector<std::optional<GradientChoice>> methods;
+  unpack(bytes, solution.result, solution.stages, effects, methods);
+  const std::vector<ProblemFile*> problems = simulated_problems(solved);
+  for (std::size_t c = 0; c < problems.size(); ++c) {
+    problems[c]->effects = std::move(effects[c]);
+    const bool is_chosen = !solution.stages.empty() && !solution.stages.back().settings.empty();
+    if (!is_chosen) continue;
+    *problems[c] = refined(std::move(*problems[c]), solution.stages.back().settings[c].setting);
   }
   solution.problem = std::make_unique<DesignProblem>(std::move(solved), threads);
-  if (method) solution.problem->decide_method(*method);
+  for (std::size_t c = 0; c < methods.size(); ++c) {
+    if (methods[c]) solution.problem->load_case(c).decide_method(*methods[c]);
+  }
   return solution;
 }
 

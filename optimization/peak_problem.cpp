@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "core/scene/load_cases.hpp"
 #include "optimization/scaling.hpp"
 
 namespace pleuel {
@@ -35,36 +37,49 @@ PeakProblem::PeakProblem(DesignProblem& problem, int windows)
 PeakProblem::PeakProblem(DesignProblem& problem, int windows, const Eigen::VectorXd& start, Of of)
     : problem_(problem), windows_(windows), variables_(problem.variables()) {
   const ProblemFile& file = problem.file();
-  const int samples = step_count(file.simulation) + 1;
+  int samples = 1;
+  for (std::size_t c = 0; c < problem.case_count(); ++c) {
+    samples = std::max(samples, step_count(problem.load_case(c).file().simulation) + 1);
+  }
   windows_ = std::min(windows_, samples);
   for (std::size_t i = 0; i < variables_.size(); ++i) {
     Variable& variable = variables_[i];
     variable.start = std::clamp(start(i), variable.lower, variable.upper);
   }
   for (std::size_t i = 0; i < file.constraints.size(); ++i) {
-    const Constraint& constraint = problem.constraints()[i];
-    const auto response = problem.response_of({i, std::nullopt});
-    splits_.emplace_back();
-    if (response && !constraint.is_equality() && has_peaks(file.responses[*response])) {
-      splits_.back() = split(i);
-      add_rows(*splits_.back(), constraint);
-    } else {
-      rows_.push_back(constraint);
-      constraint_of_row_.emplace_back(i);
-    }
+    const OfCase of_case = case_of_constraint(file, i);
+    splits_.push_back(split(of_case.load_case, i));
+    add_rows(splits_.back(), problem.constraints()[i]);
   }
   if (of == Of::objective_and_limits) bound_objective();
+  find_places();
 }
 
-PeakProblem::Split PeakProblem::split(std::optional<std::size_t> constraint) const {
+PeakProblem::Split PeakProblem::split(std::size_t load_case,
+                                      std::optional<std::size_t> constraint) const {
+  const DesignCase& of_case = problem_.load_case(load_case);
   Split split;
+  split.load_case = load_case;
   split.constraint = constraint;
-  split.response = *problem_.response_of({constraint, std::nullopt});
-  split.places = place_count(problem_.file(), problem_.file().responses[split.response]);
-  const int fewest = std::min(least_windows, windows_);
-  split.windows =
-      split.places == 1 ? windows_ : std::clamp(most_rows / split.places, fewest, windows_);
+  if (constraint) split.in_case = case_of_constraint(problem_.file(), *constraint).index;
+  const std::optional<std::size_t> in_case =
+      constraint ? std::optional(split.in_case) : std::nullopt;
+  const auto response = of_case.response_of({in_case, std::nullopt});
+  if (!response) return split;
+  split.response = *response;
+  const bool is_equality = constraint && problem_.constraints()[*constraint].is_equality();
+  split.is_peak = !is_equality && has_peaks(of_case.file().responses[*response]);
+  if (split.is_peak) divide(split);
   return split;
+}
+
+void PeakProblem::divide(Split& split) const {
+  const ProblemFile& file = problem_.load_case(split.load_case).file();
+  const int windows = std::min(windows_, step_count(file.simulation) + 1);
+  split.places = place_count(file, file.responses[split.response]);
+  const int fewest = std::min(least_windows, windows);
+  split.windows =
+      split.places == 1 ? windows : std::clamp(most_rows / split.places, fewest, windows);
 }
 
 void PeakProblem::add_rows(const Split& split, const Constraint& limits) {
@@ -73,23 +88,84 @@ void PeakProblem::add_rows(const Split& split, const Constraint& limits) {
   constraint_of_row_.insert(constraint_of_row_.end(), count, split.constraint);
 }
 
-void PeakProblem::bound_objective() {
-  const std::size_t objective = *problem_.response_of({});
-  const ResponseSettings& response = problem_.file().responses[objective];
-  // What is pressed down from above: a maximum that is minimized, a minimum that is maximized.
+/// What is pressed down from above: a maximum that is minimized, a minimum that is maximized.
+bool PeakProblem::objective_has_peaks() const {
+  const DesignCase& first = problem_.load_case(0);
+  const ResponseSettings& response = first.file().responses[*first.response_of({})];
   const bool is_minimum = response.over_time == OverTime::min;
   const bool is_maximized = problem_.file().objective->aim == Aim::maximize;
-  if (!has_peaks(response) || is_minimum != is_maximized) return;
-  bound_ = split(std::nullopt);
-  add_rows(*bound_, {response.name, -infinity, 0.0});
-  Eigen::VectorXd start(variables_.size());
-  for (Eigen::Index i = 0; i < start.size(); ++i) start(i) = variables_[i].start;
+  return has_peaks(response) && is_minimum == is_maximized;
+}
+
+void PeakProblem::bound_objective() {
+  const bool has_peaks = objective_has_peaks();
+  if (!has_peaks && !problem_.minimizes_worst()) return;
+  Bound all;
+  for (std::size_t c = 0; c < problem_.case_count(); ++c) {
+    const double weight = problem_.objective_weight(c);
+    if (weight == 0.0) continue;
+    Split of_case = split(c, std::nullopt);
+    if (!has_peaks) {
+      of_case.is_peak = false;
+      of_case.windows = of_case.places = 1;
+    }
+    all.splits.push_back(std::move(of_case));
+    if (problem_.minimizes_worst()) continue;
+    all.weight = weight;
+    add_bound(std::exchange(all, Bound()));
+  }
+  if (!all.splits.empty()) add_bound(std::move(all));
+  start_bounds();
+}
+
+void PeakProblem::add_bound(Bound bound) {
+  bound.first_row = std::ssize(rows_);
+  for (const Split& split : bound.splits) {
+    const DesignCase& of_case = problem_.load_case(split.load_case);
+    add_rows(split, {of_case.file().responses[split.response].name, -infinity, 0.0});
+  }
+  bound.rows = std::ssize(rows_) - bound.first_row;
+  bounds_.push_back(std::move(bound));
+}
+
+/// Each t begins at what it bounds.
+void PeakProblem::start_bounds() {
+  const auto count = static_cast<Eigen::Index>(variables_.size());
+  Eigen::VectorXd start(count);
+  for (Eigen::Index i = 0; i < count; ++i) start(i) = variables_[i].start;
   const Evaluation at_start = problem_.evaluate(start, Request::values_and_gradients);
   const double change =
       scaled_objective_gradient(problem_, at_start, variable_scales(problem_, start)).norm();
   const double magnitude = std::max(change, least_dependence * std::abs(at_start.objective));
-  variables_.push_back({"bound of " + response.name, at_start.objective, -infinity, infinity,
-                        magnitude > 0.0 ? magnitude : 1.0});
+  const std::string name = "bound of " + problem_.file().objective->response;
+  const bool is_one = bounds_.size() == 1 && bounds_.front().weight == 1.0;
+  for (const Bound& bound : bounds_) {
+    const std::size_t c = bound.splits.front().load_case;
+    DesignCase& of_case = problem_.load_case(c);
+    const double value =
+        is_one ? at_start.objective
+               : of_case.objective_sign() *
+                     of_case.analysis_at(start).reductions[bound.splits.front().response].value;
+    variables_.push_back({is_one ? name : name_in_case(name, of_case.file().load_case), value,
+                          -infinity, infinity, magnitude > 0.0 ? magnitude / bound.weight : 1.0});
+  }
+}
+
+std::vector<PeakProblem::Split*> PeakProblem::all_splits() {
+  std::vector<Split*> all;
+  for (Split& split : splits_) all.push_back(&split);
+  for (Bound& bound : bounds_) {
+    for (Split& split : bound.splits) all.push_back(&split);
+  }
+  return all;
+}
+
+void PeakProblem::find_places() {
+  places_.resize(problem_.case_count());
+  Eigen::Index row = 0;
+  for (const Split* split : all_splits()) {
+    for (int i = 0; i < split->rows(); ++i) places_[split->load_case].push_back(row++);
+  }
 }
 
 std::string PeakProblem::variable_text(std::size_t variable, double value) const {
@@ -103,42 +179,72 @@ std::string PeakProblem::constraint_text(std::size_t constraint, double value) c
 }
 
 Evaluation PeakProblem::evaluate(const Eigen::VectorXd& x, Request request) {
-  const NamedRows rows = {
-      fmt::format("peaks of {} windows{}", windows_, bound_ ? " with the objective" : ""),
-      [this](const Analysis& analysis) { return rows_of(analysis); }};
+  NamedRows rows = {
+      fmt::format("peaks of {} windows{}", windows_, bounds_.empty() ? "" : " with the objective"),
+      {}};
+  for (std::size_t c = 0; c < problem_.case_count(); ++c) {
+    rows.cases.push_back(
+        {[this, c](const Analysis& analysis) { return rows_of(c, analysis); }, places_[c]});
+  }
   Evaluation evaluation = problem_.evaluate_rows(design_of(x), request, rows);
-  if (!bound_) return evaluation;
-  evaluation.objective = x(x.size() - 1);
-  evaluation.constraints.tail(bound_->rows()).array() -= evaluation.objective;
-  if (request == Request::values) return evaluation;
-  evaluation.objective_gradient = Eigen::VectorXd::Unit(x.size(), x.size() - 1);
-  evaluation.constraint_jacobian.conservativeResize(Eigen::NoChange, x.size());
-  evaluation.constraint_jacobian.rightCols(1).setZero();
-  evaluation.constraint_jacobian.rightCols(1).bottomRows(bound_->rows()).setConstant(-1.0);
+  if (bounds_.empty()) return evaluation;
+  const auto designed = static_cast<Eigen::Index>(problem_.variables().size());
+  const bool has_gradients = request == Request::values_and_gradients;
+  evaluation.objective = 0.0;
+  if (has_gradients) {
+    evaluation.objective_gradient = Eigen::VectorXd::Zero(x.size());
+    evaluation.constraint_jacobian.conservativeResize(Eigen::NoChange, x.size());
+    evaluation.constraint_jacobian.rightCols(x.size() - designed).setZero();
+  }
+  for (std::size_t b = 0; b < bounds_.size(); ++b) {
+    const Bound& bound = bounds_[b];
+    const Eigen::Index column = designed + static_cast<Eigen::Index>(b);
+    evaluation.objective += bound.weight * x(column);
+    evaluation.constraints.segment(bound.first_row, bound.rows).array() -= x(column);
+    if (!has_gradients) continue;
+    evaluation.objective_gradient(column) = bound.weight;
+    evaluation.constraint_jacobian.col(column)
+        .segment(bound.first_row, bound.rows)
+        .setConstant(-1.0);
+  }
   return evaluation;
 }
 
 void PeakProblem::add_peaks(Split& split, const Analysis& analysis,
                             std::vector<ConstraintRow>& rows) const {
+  const std::optional<std::size_t> constraint =
+      split.constraint ? std::optional(split.in_case) : std::nullopt;
+  if (!split.is_peak) {
+    rows.push_back({constraint, std::nullopt});
+    return;
+  }
   if (split.places > 1 && split.ranges.empty()) {
-    split.ranges = places_of(analysis, problem_.file(), split.response, split.places);
+    const ProblemFile& file = problem_.load_case(split.load_case).file();
+    split.ranges = places_of(analysis, file, split.response, split.places);
   }
   for (Reduction& peak : peaks_of_places(analysis, split.response, split.ranges, split.windows)) {
-    rows.push_back({split.constraint, std::move(peak)});
+    rows.push_back({constraint, std::move(peak)});
   }
 }
 
-std::vector<ConstraintRow> PeakProblem::rows_of(const Analysis& analysis) {
+std::vector<ConstraintRow> PeakProblem::rows_of(std::size_t load_case, const Analysis& analysis) {
   std::vector<ConstraintRow> rows;
-  for (std::size_t i = 0; i < splits_.size(); ++i) {
-    if (splits_[i]) {
-      add_peaks(*splits_[i], analysis, rows);
-    } else {
-      rows.push_back({i, std::nullopt});
-    }
+  for (Split* split : all_splits()) {
+    if (split->load_case == load_case) add_peaks(*split, analysis, rows);
   }
-  if (bound_) add_peaks(*bound_, analysis, rows);
   return rows;
+}
+
+Eigen::VectorXd PeakProblem::objective_shares(const Eigen::VectorXd& multipliers) const {
+  if (!problem_.minimizes_worst() || bounds_.empty()) return {};
+  Eigen::VectorXd shares = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem_.case_count()));
+  Eigen::Index row = bounds_.front().first_row;
+  for (const Split& split : bounds_.front().splits) {
+    shares(static_cast<Eigen::Index>(split.load_case)) +=
+        multipliers.segment(row, split.rows()).sum();
+    row += split.rows();
+  }
+  return shares;
 }
 
 Eigen::VectorXd PeakProblem::design_of(const Eigen::VectorXd& x) const {
@@ -146,7 +252,10 @@ Eigen::VectorXd PeakProblem::design_of(const Eigen::VectorXd& x) const {
 }
 
 double PeakProblem::fold_objective(double objective, const Eigen::VectorXd& rows) const {
-  return bound_ ? objective + rows.tail(bound_->rows()).maxCoeff() : objective;
+  for (const Bound& bound : bounds_) {
+    objective += bound.weight * rows.segment(bound.first_row, bound.rows).maxCoeff();
+  }
+  return objective;
 }
 
 Eigen::VectorXd PeakProblem::fold_values(const Eigen::VectorXd& rows) const {

@@ -15,6 +15,10 @@ namespace pleuel {
 ///     minimize t   subject to   peak of each window ≤ t
 ///
 /// A design of this problem is (x, t) then, and the rows peak − t ≤ 0 follow those of the limits.
+/// Of the worst of several load cases all have one t, whether they are peaks or not: a tie of two
+/// cases is an ordinary point, too. Of a sum over cases each peak has a t of its own, and Σ w t is
+/// minimized.
+///
 /// The same holds for the place where a peak is: the largest stress of a whole beam has a kink
 /// wherever it moves from one segment to another. A limit on it stands once for each window at each
 /// place (place_count()), with fewer windows where there are many places.
@@ -46,6 +50,10 @@ class PeakProblem : public Problem {
     return constraint_of_row_;
   }
 
+  /// How much of the objective is that of each case, by the multipliers of the rows: of the worst
+  /// case shares that add up to 1. Empty where t does not stand for several cases.
+  Eigen::VectorXd objective_shares(const Eigen::VectorXd& multipliers) const;
+
   /// x without t.
   Eigen::VectorXd design_of(const Eigen::VectorXd& x) const;
   /// The objective of the file: with t, its highest window.
@@ -56,31 +64,49 @@ class PeakProblem : public Problem {
   Eigen::VectorXd fold_multipliers(const Eigen::VectorXd& rows) const;
 
  private:
-  /// How one limit, or the objective, is split.
+  /// How one limit, or the objective of a case, is split.
   struct Split {
-    std::optional<std::size_t> constraint;
-    std::size_t response = 0;
+    std::size_t load_case = 0;
+    std::optional<std::size_t> constraint;  ///< of the file; none of the objective
+    std::size_t in_case = 0;                ///< the same in the problem of its case
+    std::size_t response = 0;               ///< in the problem of its case
+    bool is_peak = false;                   ///< else one row, as it is
     int windows = 1, places = 1;
     std::vector<ChannelRange> ranges = {};  ///< of the places; known from the first simulation on
 
     int rows() const { return windows * places; }
   };
 
-  Split split(std::optional<std::size_t> constraint) const;
-  void add_rows(const Split& split, const Constraint& limits);
-  void bound_objective();
-  void add_peaks(Split& split, const Analysis& analysis, std::vector<ConstraintRow>& rows) const;
+  /// t of the objective of some cases, and what it counts in the objective.
+  struct Bound {
+    double weight = 1.0;
+    std::vector<Split> splits;
+    Eigen::Index first_row = 0, rows = 0;
+  };
 
-  /// The constraints, those on peaks window by window.
-  std::vector<ConstraintRow> rows_of(const Analysis& analysis);
+  Split split(std::size_t load_case, std::optional<std::size_t> constraint) const;
+  void divide(Split& split) const;
+  void add_rows(const Split& split, const Constraint& limits);
+  bool objective_has_peaks() const;
+  void bound_objective();
+  void add_bound(Bound bound);
+  void start_bounds();
+  void add_peaks(Split& split, const Analysis& analysis, std::vector<ConstraintRow>& rows) const;
+  void find_places();
+
+  /// The constraints of a case, those on peaks window by window.
+  std::vector<ConstraintRow> rows_of(std::size_t load_case, const Analysis& analysis);
+  /// All that is split, in the order of the rows.
+  std::vector<Split*> all_splits();
 
   DesignProblem& problem_;
   int windows_;
   std::vector<Variable> variables_;
   std::vector<Constraint> rows_;
   std::vector<std::optional<std::size_t>> constraint_of_row_;
-  std::vector<std::optional<Split>> splits_;  ///< constraint by constraint
-  std::optional<Split> bound_;                ///< of the objective, where t is a variable
+  std::vector<Split> splits_;                      ///< constraint by constraint
+  std::vector<Bound> bounds_;                      ///< of the objective, where each t is a variable
+  std::vector<std::vector<Eigen::Index>> places_;  ///< of the rows of each case
 };
 
 }  // namespace pleuel

@@ -33,7 +33,7 @@ void add_ties(const Analysis& analysis, std::size_t response, int windows,
   }
 }
 
-bool have_kinks(const DesignProblem& problem, Analysis& analysis, int windows) {
+bool have_kinks(const DesignCase& problem, Analysis& analysis, int windows) {
   std::vector<SampledValue> values;
   for (const std::size_t response : optimized_responses(problem)) {
     if (has_peaks(problem.file().responses[response])) {
@@ -167,22 +167,25 @@ std::vector<Reduction> peaks_of_windows(const Analysis& analysis, std::size_t re
 int windows_that_part_peaks(DesignProblem& problem, const Eigen::VectorXd& x, int fewest,
                             int most) {
   try {
-    Analysis& analysis = problem.analysis_at(x);
     int windows = fewest;
-    while (windows < most && have_kinks(problem, analysis, windows)) windows *= 2;
+    for (std::size_t c = 0; c < problem.case_count(); ++c) {
+      DesignCase& one = problem.load_case(c);
+      Analysis& analysis = one.analysis_at(x);
+      while (windows < most && have_kinks(one, analysis, windows)) windows *= 2;
+    }
     return windows;
   } catch (const SimulationError&) {
     return fewest;
   }
 }
 
-std::vector<std::size_t> optimized_responses(const DesignProblem& problem) {
+std::vector<std::size_t> optimized_responses(const DesignCase& problem) {
   std::vector<std::size_t> responses;
   const auto add = [&](std::size_t response) {
     for (const std::size_t part : parts_of(problem.file(), response)) responses.push_back(part);
   };
   add(*problem.response_of({}));
-  for (std::size_t i = 0; i < problem.constraints().size(); ++i) {
+  for (std::size_t i = 0; i < problem.file().constraints.size(); ++i) {
     if (const auto response = problem.response_of({i, std::nullopt})) add(*response);
   }
   return responses;

@@ -33,11 +33,12 @@ std::vector<Reduction> peaks_of_places(const Analysis& analysis, std::size_t res
 /// two peaks that tie (within 0.1 %, at different times, with gradients that differ by more than a
 /// hundredth) stand in one: `fewest`, or twice, four times … as many, up to `most`. Only windows
 /// count whose peak is within 1 % of the highest. Costs a gradient for each number that is tried.
+/// Of several load cases the one that needs most of them counts.
 /// @returns `fewest` if the design cannot be simulated
 int windows_that_part_peaks(DesignProblem& problem, const Eigen::VectorXd& x, int fewest, int most);
 
-/// The objective and what constraints limit, in this order; indices of responses. Of an expression
-/// those that it is made from.
-std::vector<std::size_t> optimized_responses(const DesignProblem& problem);
+/// The objective and what constraints limit in a case, in this order; indices of its responses. Of
+/// an expression those that it is made from.
+std::vector<std::size_t> optimized_responses(const DesignCase& problem);
 
 }  // namespace pleuel

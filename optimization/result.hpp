@@ -43,6 +43,11 @@ struct Result {
   /// μ and β of KktAudit: d(optimal objective) / d(active limit) = −μ. That of a limit with slack
   /// is 0; see has_prices() of prices.hpp for the designs at which they are prices.
   Eigen::VectorXd constraint_multipliers, bound_multipliers;
+  /// Where the worst of several load cases is minimized: how much of the optimum is that of each;
+  /// they add up to 1. Empty elsewhere.
+  Eigen::VectorXd case_shares = {};
+  /// Of an objective over load cases: its response in each of them [SI]. Empty elsewhere.
+  Eigen::VectorXd case_objectives = {};
   double kkt_residual = 0.0;   ///< relative
   double max_violation = 0.0;  ///< relative
   int evaluations = 0;

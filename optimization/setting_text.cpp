@@ -45,6 +45,7 @@ std::string setting_text(const ProblemFile& file) {
   text +=
       effects_text(file.effects) + "; gradients " + to_string(file.sensitivity.method) + "; start";
   for (const DesignVariable& variable : file.variables) text += fmt::format(" {}", variable.start);
+  if (!file.load_case.empty()) text += fmt::format("; case {}", file.load_case);
   return text;
 }
 

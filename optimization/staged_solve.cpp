@@ -1,6 +1,7 @@
 #include "optimization/staged_solve.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/response/effect_measurement.hpp"
+#include "core/scene/load_cases.hpp"
 
 namespace pleuel {
 
@@ -30,14 +32,37 @@ bool is_same(const Refinement& one, const Refinement& other) {
   return one.elements == other.elements && std::abs(std::log(one.step / other.step)) < 0.1;
 }
 
-/// (body, effect) of what is left out by measurement.
-std::vector<std::pair<std::string, std::string>> left_out(const ProblemFile& file) {
-  std::vector<std::pair<std::string, std::string>> names;
-  if (!file.effects.decisions) return names;
-  for (const auto& [name, effect] : file.effects.decisions->measured) {
-    if (!effect.is_needed) names.push_back(name);
+/// (case, body, effect) of what is left out by measurement.
+std::vector<std::array<std::string, 3>> left_out(const ProblemFile& file) {
+  std::vector<std::array<std::string, 3>> names;
+  for (const ProblemFile* one : simulated_problems(file)) {
+    if (!one->effects.decisions) continue;
+    for (const auto& [name, effect] : one->effects.decisions->measured) {
+      if (!effect.is_needed) names.push_back({one->load_case, name.first, name.second});
+    }
   }
   return names;
+}
+
+std::vector<Refinement> coarse_settings(const ProblemFile& file) {
+  std::vector<Refinement> settings;
+  for (const ProblemFile* one : simulated_problems(file)) settings.push_back(coarse_setting(*one));
+  return settings;
+}
+
+std::vector<Refinement> settings_of(const Stage& stage) {
+  std::vector<Refinement> settings;
+  for (const TriedSetting& one : stage.settings) settings.push_back(one.setting);
+  return settings;
+}
+
+std::string choice_text(double target, const TriedSetting& chosen, bool is_met,
+                        const ProblemFile& problem) {
+  return fmt::format(
+      "for {:.3g} % a step of {:.3g} ms{}{}{}", 100.0 * target, 1e3 * chosen.step,
+      chosen.elements > 0 ? fmt::format(" and {} elements", chosen.elements) : "",
+      problem.load_case.empty() ? "" : fmt::format(" in the case \"{}\"", problem.load_case),
+      is_met ? "" : ", the finest that were tried, which do not do");
 }
 
 class StagedSolve {
@@ -63,11 +88,11 @@ class StagedSolve {
   void run_for_accuracy(Eigen::VectorXd& x) {
     const double target = file_.accuracy.target;
     const double first_target = std::min(coarse_factor * target, std::max(coarsest_target, target));
-    Refinement from = coarse_setting(file_);
+    std::vector<Refinement> from = coarse_settings(file_);
     choose_stage(x, first_target, from);
     if (!search_from(x)) return;
     for (int round = 0; round < most_rounds; ++round) {
-      from = solution_.stages.back().setting.setting;
+      from = settings_of(solution_.stages.back());
       if (!choose_stage(x, target, from) && round > 0) return;
       solve_stage();
       if (solution_.result.status != Status::unresolved) return;
@@ -97,26 +122,35 @@ class StagedSolve {
 
   /// @returns whether the stage differs from the one before; one that does not is not begun if that
   /// has solved already
-  bool choose_stage(const Eigen::VectorXd& x, double target, const Refinement& from) {
+  bool choose_stage(const Eigen::VectorXd& x, double target, const std::vector<Refinement>& from) {
     const auto begin = Clock::now();
-    // In a short stage leaving effects out saves less than finding them costs.
-    const SettingChoice choice =
-        solution_.problem
-            ? choose_setting_and_effects(file_, x, target, from, JudgedBy::coarser_runs)
-            : choose_setting(file_, x, target, from, JudgedBy::coarser_runs);
-    const double seconds = seconds_since(begin);
-    const bool is_new = !solution_.problem || !is_same(choice.chosen.setting, from) ||
-                        left_out(choice.problem) != left_out(solution_.problem->file());
-    if (!is_new && solution_.result.evaluation.has_gradients()) return false;
-    if (notice_) {
-      notice_(fmt::format(
-          "for {:.3g} % a step of {:.3g} ms{}{}", 100.0 * target, 1e3 * choice.chosen.step,
-          choice.chosen.elements > 0 ? fmt::format(" and {} elements", choice.chosen.elements) : "",
-          choice.is_met ? "" : ", the finest that were tried, which do not do"));
+    Stage stage;
+    stage.target = target;
+    stage.is_met = true;
+    std::vector<std::string> notices;
+    ProblemFile chosen = file_;
+    bool is_new = !solution_.problem;
+    const std::vector<ProblemFile*> problems = simulated_problems(chosen);
+    for (std::size_t c = 0; c < problems.size(); ++c) {
+      // In a short stage leaving effects out saves less than finding them costs.
+      SettingChoice choice =
+          solution_.problem
+              ? choose_setting_and_effects(*problems[c], x, target, from[c], JudgedBy::coarser_runs)
+              : choose_setting(*problems[c], x, target, from[c], JudgedBy::coarser_runs);
+      is_new = is_new || !is_same(choice.chosen.setting, from[c]);
+      stage.settings.push_back(choice.chosen);
+      stage.is_met = stage.is_met && choice.is_met;
+      stage.settings_tried += static_cast<int>(choice.tried.size());
+      *problems[c] = std::move(choice.problem);
+      notices.push_back(choice_text(target, stage.settings.back(), choice.is_met, *problems[c]));
     }
-    begin_stage({target, choice.chosen, choice.is_met, static_cast<int>(choice.tried.size()), 0,
-                 seconds, 0.0},
-                choice.problem, x);
+    is_new = is_new || left_out(chosen) != left_out(solution_.problem->file());
+    if (!is_new && solution_.result.evaluation.has_gradients()) return false;
+    stage.choice_seconds = seconds_since(begin);
+    for (const std::string& text : notices) {
+      if (notice_) notice_(text);
+    }
+    begin_stage(std::move(stage), std::move(chosen), x);
     return is_new;
   }
 

@@ -16,9 +16,9 @@ namespace pleuel {
 
 /// A part of an optimization that ran with one setting.
 struct Stage {
-  double target = 0.0;   ///< relative error that its setting was chosen for; 0: it was not chosen
-  TriedSetting setting;  ///< only if it was
-  bool is_met = false;   ///< whether the setting has the target where it was chosen
+  double target = 0.0;  ///< relative error that its setting was chosen for; 0: it was not chosen
+  std::vector<TriedSetting> settings;  ///< only if it was: one a load case
+  bool is_met = false;  ///< whether the settings have the target where they were chosen
   int settings_tried = 0;
   int evaluations = 0;
   double choice_seconds = 0.0;  ///< that finding the setting took
@@ -37,7 +37,7 @@ struct StagedSolution {
 /// goes on from there to the verdict. Where the error bars do not keep the target at the optimum,
 /// the setting is chosen anew at that design, up to three times. Without a target the file is taken
 /// as it is; effects that were left out by a tolerance but matter at the optimum are taken back,
-/// and the run goes on.
+/// and the run goes on. Each load case has a setting and effects of its own.
 /// @param start      the first design [SI]
 /// @param execution  its jobs are simulations at a time, of gradients by differences
 /// @throws as solve()

@@ -1,5 +1,9 @@
 #include <algorithm>
+#include <functional>
+#include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -12,6 +16,7 @@
 #include "cli/files/run_store.hpp"
 #include "cli/files/trajectory_csv.hpp"
 #include "cli/input/solve_settings.hpp"
+#include "cli/reports/case_report.hpp"
 #include "cli/reports/drives_report.hpp"
 #include "cli/reports/effects_report.hpp"
 #include "cli/reports/iteration_lines.hpp"
@@ -25,6 +30,8 @@
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/stop.hpp"
 #include "core/scene/body_rules.hpp"
+#include "core/scene/load_cases.hpp"
+#include "core/trust/case_doubts.hpp"
 #include "core/trust/doubts.hpp"
 #include "core/trust/nested_runs.hpp"
 #include "optimization/design_problem.hpp"
@@ -44,36 +51,147 @@ struct Examined {
   std::string drives;            ///< what they need at both designs, for people
 };
 
-/// Simulates both for their trajectory files and for what is reported of them.
-Examined examine_designs(RunRecord& record, Optimum& optimum) {
-  const auto start = analyze(optimum.problem, first_design(optimum.result.history).x);
-  write_trajectory(record.result("trajectory-start.csv"), *start);
-  optimum.start_responses = values_of(*start);
-  const auto end = analyze(optimum.problem, optimum.result.x);
-  write_trajectory(record.result("trajectory-optimum.csv"), *end, optimum.result.response_bands);
-  optimum.responses = values_of(*end);
-  record.begin_phase("influence");
-  optimum.influence = design_influence(optimum.problem, *end);
-  record.show_picture([&] {
-    return run_picture(
-        optimum.problem,
-        {{"start", first_design(optimum.result.history).x, start.get()},
-         {name_of_end(to_string(optimum.result.status)), optimum.result.x, end.get(),
-          optimum.result.response_bands, optimum.influence ? &*optimum.influence : nullptr}});
-  });
-  record.begin_phase("trajectories");
-  optimum.monitors = monitor(end->model, end->trajectory);
-  // Of an answer with gradients the doubts are known: they are part of its verdict.
+/// Both designs as one load case simulates them.
+struct CaseDesigns {
+  const ProblemFile* problem;
+  std::unique_ptr<Analysis> start, end;
+  std::vector<Eigen::VectorXd> bands;  ///< of histories at the end
+  std::optional<DesignInfluence> influence;
+};
+
+std::vector<Eigen::VectorXd> bands_of_case(const ProblemFile& joined, const Result& result,
+                                           std::size_t load_case) {
+  if (!joined.has_cases() || result.response_bands.empty()) return result.response_bands;
+  std::vector<Eigen::VectorXd> bands(joined.cases[load_case].responses.size());
+  for (std::size_t i = 0; i < bands.size(); ++i) {
+    bands[i] = result.response_bands[joined_response(joined, {load_case, i})];
+  }
+  return bands;
+}
+
+std::vector<CaseDesigns> simulate_designs(RunRecord& record, const Optimum& optimum) {
+  std::vector<CaseDesigns> all;
+  for (const ProblemFile* problem : simulated_problems(optimum.problem)) {
+    CaseDesigns one{problem, analyze(*problem, first_design(optimum.result.history).x), {}, {}, {}};
+    one.bands = bands_of_case(optimum.problem, optimum.result, all.size());
+    write_trajectory(record.result(name_of_case_file("trajectory-start", *problem)), *one.start);
+    one.end = analyze(*problem, optimum.result.x);
+    write_trajectory(record.result(name_of_case_file("trajectory-optimum", *problem)), *one.end,
+                     one.bands);
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+/// Of all cases, in the order of the joined problem. The objective over cases is the last.
+Eigen::VectorXd joined_values(const ProblemFile& joined, const std::vector<CaseDesigns>& designs,
+                              double objective,
+                              const std::function<Eigen::VectorXd(const CaseDesigns&)>& values_in) {
+  std::vector<Eigen::VectorXd> values;
+  for (const CaseDesigns& one : designs) values.push_back(values_in(one));
+  if (!joined.has_cases()) return values.front();
+  Eigen::VectorXd all(std::ssize(joined.responses));
+  for (std::size_t i = 0; i < joined.responses.size(); ++i) {
+    const auto [load_case, index] = joined.case_responses[i];
+    all(static_cast<Eigen::Index>(i)) = is_over_cases(joined, i)
+                                            ? joined.objective->sign() * objective
+                                            : values[load_case](static_cast<Eigen::Index>(index));
+  }
+  return all;
+}
+
+/// The largest of all cases.
+void add_monitors(Monitors& all, const Monitors& one) {
+  all.position_drift = std::max(all.position_drift, one.position_drift);
+  all.velocity_drift = std::max(all.velocity_drift, one.velocity_drift);
+  all.energy_error = std::max(all.energy_error, one.energy_error);
+  all.elastic_energy_error = std::max(all.elastic_energy_error, one.elastic_energy_error);
+  if (one.elastic_rotation <= all.elastic_rotation) return;
+  all.elastic_rotation = one.elastic_rotation;
+  all.most_bent = one.most_bent;
+}
+
+/// Gradients of the responses of all cases; none if those of a case are not known.
+std::optional<DesignInfluence> joined_influence(const Optimum& optimum,
+                                                const std::vector<CaseDesigns>& designs) {
+  const ProblemFile& joined = optimum.problem;
+  if (!joined.has_cases()) return designs.front().influence;
+  for (const CaseDesigns& one : designs) {
+    if (!one.influence) return std::nullopt;
+  }
+  DesignInfluence all;
+  all.gradients.resize(std::ssize(joined.responses), std::ssize(joined.variables));
+  for (std::size_t i = 0; i < joined.responses.size(); ++i) {
+    const auto [load_case, index] = joined.case_responses[i];
+    const auto row = static_cast<Eigen::Index>(i);
+    if (is_over_cases(joined, i)) {
+      all.gradients.row(row) =
+          joined.objective->sign() * optimum.result.evaluation.objective_gradient.transpose();
+    } else {
+      all.gradients.row(row) =
+          designs[load_case].influence->gradients.row(static_cast<Eigen::Index>(index));
+    }
+  }
+  return all;
+}
+
+/// What each case says of the design; several are told apart by their names.
+Examined examine_cases(Optimum& optimum, std::vector<CaseDesigns>& designs) {
+  Examined examined;
+  std::vector<std::vector<Doubt>> doubts;
+  for (CaseDesigns& one : designs) {
+    one.influence = design_influence(*one.problem, *one.end);
+    const Monitors monitors = monitor(one.end->model, one.end->trajectory);
+    if (&one == &designs.front()) optimum.monitors = monitors;
+    add_monitors(optimum.monitors, monitors);
+    // Of an answer with gradients the doubts are known: they are part of its verdict.
+    if (!optimum.result.evaluation.has_gradients()) {
+      doubts.push_back(find_doubts(TrustedRun{*one.problem, optimum.result.x, *one.end, monitors}));
+    }
+    const std::string& load_case = one.problem->load_case;
+    for (Json& effect : effects_document(*one.problem, one.end->model, optimum.influences)) {
+      if (!load_case.empty()) effect["case"] = load_case;
+      examined.effects.push_back(std::move(effect));
+    }
+    const std::string drives = drives_text(*one.problem, *one.start, *one.end);
+    if (!drives.empty() && !load_case.empty()) {
+      examined.drives += fmt::format("Case \"{}\":\n", load_case);
+    }
+    examined.drives += drives;
+  }
   optimum.warnings = optimum.result.evaluation.has_gradients()
                          ? optimum.result.warnings
-                         : texts_of(find_doubts(TrustedRun{optimum.problem, optimum.result.x, *end,
-                                                           optimum.monitors}));
-  return {effects_document(optimum.problem, end->model, optimum.influences),
-          drives_text(optimum.problem, *start, *end)};
+                         : texts_of(joined_doubts(optimum.problem, doubts));
+  return examined;
+}
+
+/// Simulates both for their trajectory files and for what is reported of them.
+Examined examine_designs(RunRecord& record, Optimum& optimum) {
+  std::vector<CaseDesigns> designs = simulate_designs(record, optimum);
+  const EvaluationRecord& first = first_design(optimum.result.history);
+  optimum.start_responses =
+      joined_values(optimum.problem, designs, first.objective,
+                    [](const CaseDesigns& one) { return values_of(*one.start); });
+  optimum.responses = joined_values(optimum.problem, designs, optimum.result.evaluation.objective,
+                                    [](const CaseDesigns& one) { return values_of(*one.end); });
+  record.begin_phase("influence");
+  Examined examined = examine_cases(optimum, designs);
+  optimum.influence = joined_influence(optimum, designs);
+  const CaseDesigns& shown =
+      designs[optimum.problem.has_cases() ? deciding_case(optimum.problem, optimum.result) : 0];
+  record.show_picture([&] {
+    return run_picture(*shown.problem, {{"start", first.x, shown.start.get()},
+                                        {name_of_end(to_string(optimum.result.status)),
+                                         optimum.result.x, shown.end.get(), shown.bands,
+                                         shown.influence ? &*shown.influence : nullptr}});
+  });
+  record.begin_phase("trajectories");
+  return examined;
 }
 
 /// What each effect brings and costs at an optimum with prices.
 std::vector<EffectInfluence> influences_at(const Optimum& optimum) {
+  if (optimum.problem.has_cases()) return {};  // of one case: `pleuel simulate --effects`
   if (!has_prices(optimum.result) || !optimum.problem.simulation.checks_resolution) return {};
   constexpr double factor = 2.0;  // of the step: effects change little of the errors by it
   std::vector<EffectInfluence> influences;
@@ -168,11 +286,26 @@ MultiStart solve_visibly(const ProblemInput& input, const SolveOptions& options,
   }
 }
 
+/// Steps and elements of the last stage; of several load cases each has its own.
+Json setting_of(const Json& effective, const ProblemFile& solved) {
+  Json all = Json::object();
+  for (const ProblemFile* one : simulated_problems(solved)) {
+    const Json setting = {{"step", one->simulation.step},
+                          {"overrides", overrides_document(effective, *one)}};
+    if (!solved.has_cases()) return setting;
+    all["cases"][one->load_case] = setting;
+  }
+  return all;
+}
+
 std::string files_text(const RunRecord& record, const Optimum& optimum) {
   return wrapped(
       fmt::format("Written to {}: history.csv, result.json, run_card.json, run.sqlite{}\n",
                   record.folder().string(),
-                  optimum.has_design() ? ", trajectory-start.csv, trajectory-optimum.csv" : ""),
+                  !optimum.has_design() ? ""
+                  : optimum.problem.has_cases()
+                      ? ", trajectory-start-*.csv, trajectory-optimum-*.csv"
+                      : ", trajectory-start.csv, trajectory-optimum.csv"),
       "  ");
 }
 
@@ -202,8 +335,7 @@ Outcome run_optimize(const Arguments& arguments) {
     const bool has_stages = !solution.stages.empty();
     if (!has_stages && !(input.problem.accuracy.target > 0.0)) return document;
     if (has_stages) document["stages"] = stages_document(solution.stages);
-    document["setting"] = {{"step", solved.simulation.step},
-                           {"overrides", overrides_document(input.effective, solved)}};
+    document["setting"] = setting_of(input.effective, solved);
     return document;
   };
   show(arguments.progress(),

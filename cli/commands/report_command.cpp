@@ -13,6 +13,7 @@
 #include "cli/files/run_picture.hpp"
 #include "cli/files/trajectory_csv.hpp"
 #include "cli/input/design_file.hpp"
+#include "cli/reports/case_report.hpp"
 #include "cli/reports/optimum_report.hpp"
 #include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
@@ -67,10 +68,12 @@ Json optimum_picture(const ProblemFile& problem, const Json& result, const fs::p
   std::vector<Redone> designs;
   const auto add = [&](const std::string& name, const char* key, const char* trajectory) {
     const auto x = design_in(result, problem, key);
-    if (x) designs.push_back({name, *x, analyze(problem, *x), folder / trajectory});
+    if (!x) return;
+    designs.push_back(
+        {name, *x, analyze(problem, *x), folder / name_of_case_file(trajectory, problem)});
   };
-  add("start", "start", "trajectory-start.csv");
-  add(name_of_end(result.at("status")), "value", "trajectory-optimum.csv");
+  add("start", "start", "trajectory-start");
+  add(name_of_end(result.at("status")), "value", "trajectory-optimum");
   if (!designs.empty()) {
     designs.back().influence = design_influence(problem, *designs.back().analysis);
   }

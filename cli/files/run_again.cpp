@@ -2,21 +2,40 @@
 
 #include <vector>
 
+#include "cli/input/case_document.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/scene/problem_reader.hpp"
 
 namespace pleuel {
 
+namespace {
+
+/// The load case whose mechanism a page shows; empty without cases.
+std::string shown_case(const Json& result) {
+  if (!result.contains("cases") || !result["cases"].is_object()) return "";
+  const Json name = result["cases"].value("shown", Json());
+  return name.is_string() ? name.get<std::string>() : "";
+}
+
+}  // namespace
+
 ProblemFile problem_of(const Json& card, const Json& result) {
+  const std::string file = card.at("input").at("file").get<std::string>();
+  const std::string load_case = shown_case(result);
+  Json document = card.at("problem"), setting = result.value("setting", Json::object());
+  if (!load_case.empty()) {
+    document = document_in_case(document, load_case, file);
+    if (setting.contains("cases")) setting = setting["cases"].value(load_case, Json::object());
+  }
   std::vector<std::string> overrides;
-  if (result.contains("setting") && result["setting"].contains("overrides")) {
-    for (const auto& [pointer, value] : result["setting"]["overrides"].items()) {
+  if (setting.contains("overrides")) {
+    for (const auto& [pointer, value] : setting["overrides"].items()) {
       overrides.push_back(pointer + "=" + value.dump());
     }
   }
-  ProblemFile problem = read_problem_text(
-      card.at("problem").dump(), card.at("input").at("file").get<std::string>(), overrides);
+  ProblemFile problem = read_problem_text(document.dump(), file, overrides);
+  problem.load_case = load_case;
   decide_effects(problem);
   return problem;
 }

@@ -9,6 +9,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include "cli/reports/case_report.hpp"
 #include "cli/text/json.hpp"
 #include "core/base/error.hpp"
 
@@ -44,7 +45,9 @@ constexpr std::array<const char*, 3> record_names = {"run.sqlite", "run.sqlite-w
 fs::path usual_folder(const Arguments& arguments) {
   if (arguments.files.size() > 1) return fs::path("runs") / arguments.command;
   const fs::path& file = arguments.files.empty() ? arguments.file : arguments.files.front();
-  return fs::path("runs") / (file.stem().string() + "-" + arguments.command);
+  const std::string of_case =
+      arguments.load_case ? "-" + plain_file_name(*arguments.load_case) : "";
+  return fs::path("runs") / (file.stem().string() + "-" + arguments.command + of_case);
 }
 
 /// The command that the card of an older run names; empty if there is none that can be read.
@@ -146,6 +149,9 @@ void RunFolder::remove_older_results() const {
   for (const auto& entry : fs::directory_iterator(path_, error)) {  // drawings of `pleuel plot`
     const std::string name = entry.path().filename().string();
     if (name.starts_with("plot") && name.ends_with(".svg")) fs::remove(entry, error);
+    const bool is_of_case =  // the motion in a load case
+        name.starts_with("trajectory-start-") || name.starts_with("trajectory-optimum-");
+    if (is_of_case && name.ends_with(".csv")) fs::remove(entry, error);
   }
   for (const auto& entry : fs::directory_iterator(path_ / "vtk", error)) {
     const fs::path ending = entry.path().extension();

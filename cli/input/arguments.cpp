@@ -51,6 +51,10 @@ CLI::App* add_file_command(CLI::App& app, Arguments& arguments, const std::strin
   CLI::App* command = add_command(app, arguments, name, description);
   command->add_option("FILE", arguments.file, "problem file (JSON)")->required();
   add_overrides(command, arguments);
+  command
+      ->add_option("--case", arguments.load_case,
+                   "of a file with load cases this one alone (/cases of the file)")
+      ->type_name("NAME");
   return command;
 }
 

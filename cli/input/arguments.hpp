@@ -22,6 +22,7 @@ struct Arguments {
   std::filesystem::path file;                   ///< of a command that takes one
   std::vector<std::filesystem::path> files;     ///< of a command that takes several
   std::vector<std::string> overrides;           ///< "/json/pointer=value" or "variable=value"
+  std::optional<std::string> load_case;         ///< the only one that is meant
   std::optional<std::string> kind;              ///< of a new problem, or of a shell
   std::optional<std::filesystem::path> output;  ///< run folder
   std::optional<std::filesystem::path> design;  ///< file with another design than the start

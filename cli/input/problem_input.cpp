@@ -1,14 +1,18 @@
 #include "cli/input/problem_input.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 #include <fmt/format.h>
 
+#include "cli/input/case_document.hpp"
 #include "cli/input/design_file.hpp"
 #include "cli/input/fingerprint.hpp"
 #include "cli/text/console.hpp"
+#include "core/base/error.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/effect_measurement.hpp"
+#include "core/scene/load_cases.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/scene/reading/override.hpp"
 
@@ -19,11 +23,14 @@ namespace {
 /// Index 3 without numerical damping is unstable: the multipliers swing ever more, and nothing in a
 /// short simulation shows it.
 void note_unstable_scheme(const ProblemInput& input) {
-  const SimulationSettings& settings = input.problem.simulation;
-  if (settings.scheme == SchemeType::implicit_euler || settings.spectral_radius < 1.0 ||
-      settings.formulation.constraints != ConstraintForm::index_3) {
-    return;
-  }
+  const std::vector<const ProblemFile*> problems = simulated_problems(input.problem);
+  const bool is_unstable =
+      std::any_of(problems.begin(), problems.end(), [](const ProblemFile* problem) {
+        const SimulationSettings& settings = problem->simulation;
+        return settings.scheme != SchemeType::implicit_euler && settings.spectral_radius >= 1.0 &&
+               settings.formulation.constraints == ConstraintForm::index_3;
+      });
+  if (!is_unstable) return;
   show(stderr,
        fmt::format("{}: note: with the spectral radius 1 the forces in joints are unstable in the "
                    "formulation \"index-3\"; take a radius below 1, or \"stabilized-index-2\"\n",
@@ -43,24 +50,47 @@ void apply_named_values(const Arguments& arguments, const ProblemFile& problem,
   }
 }
 
+void set_method(SensitivitySettings& sensitivity, const Arguments& arguments) {
+  if (!arguments.methods.empty()) sensitivity.method = gradient_method(arguments.methods.front());
+  if (arguments.difference_step) sensitivity.difference_step = *arguments.difference_step;
+}
+
+/// Only an optimization looks at all cases together.
+void require_one_case(const ProblemFile& problem, const std::filesystem::path& file,
+                      const Arguments& arguments) {
+  if (!problem.has_cases() || arguments.command == "optimize") return;
+  throw InputError(fmt::format(
+      "{}: has the load cases {}; `pleuel {}` takes one of them: --case \"{}\"", file.string(),
+      case_list(problem), arguments.command, problem.cases.front().load_case));
+}
+
 ProblemInput read_file(const std::filesystem::path& file, const Arguments& arguments) {
   ProblemInput input;
   input.file = file;
   input.problem = read_problem(file, arguments.overrides);
-  SensitivitySettings& sensitivity = input.problem.sensitivity;
-  if (!arguments.methods.empty()) sensitivity.method = gradient_method(arguments.methods.front());
-  if (arguments.difference_step) sensitivity.difference_step = *arguments.difference_step;
+  if (arguments.load_case) {
+    input.problem = problem_of_case(input.problem, *arguments.load_case);
+  } else {
+    require_one_case(input.problem, file, arguments);
+  }
+  set_method(input.problem.sensitivity, arguments);
+  for (ProblemFile& one : input.problem.cases) set_method(one.sensitivity, arguments);
   input.design = arguments.design ? read_design(*arguments.design, input.problem)
                                   : start_design(input.problem);
   apply_named_values(arguments, input.problem, input.design);
   decide_effects(input.problem);
-  input.text = {whole_text(file), file.string(), arguments.overrides};
+  input.text = {whole_text(file), file.string(), arguments.overrides,
+                arguments.load_case.value_or("")};
   input.effective = parse_json(input.text.text, file.string());
   Fingerprint fingerprint;
   fingerprint.add(input.text.text);
   for (const std::string& assignment : arguments.overrides) {
     apply_override(input.effective, assignment, file.string());
     fingerprint.add(assignment);
+  }
+  if (arguments.load_case) {
+    input.effective = document_in_case(input.effective, *arguments.load_case, file.string());
+    fingerprint.add(*arguments.load_case);
   }
   if (arguments.design) fingerprint.add(whole_text(*arguments.design));
   input.hash = fingerprint.text();

@@ -1,5 +1,6 @@
 #include "cli/reports/optimum_document.hpp"
 
+#include "cli/reports/case_report.hpp"
 #include "cli/reports/error_report.hpp"
 #include "cli/reports/monitors_report.hpp"
 #include "cli/reports/scene_report.hpp"
@@ -36,6 +37,13 @@ Json constraint_document(const Optimum& optimum, std::size_t i) {
   }
   if (used.utilisation) document["utilisation"] = *used.utilisation;
   if (constraint.deviations > 0.0) document["deviations"] = constraint.deviations;
+  const std::string load_case = case_of(optimum.problem, i);
+  if (!load_case.empty()) {
+    document["limit_name"] = limit_of(optimum.problem, i);
+    document["case"] = load_case;
+    document["decides"] =
+        bool(deciding_constraints(optimum.problem, optimum.result.evaluation.constraints)[i]);
+  }
   return document;
 }
 
@@ -111,6 +119,9 @@ Json optimum_document(const Optimum& optimum) {
   document["gradient_evaluations"] = result.gradient_evaluations;
   document["iterations"] = result.iterations;
   document["restarts"] = result.restarts;
+  if (optimum.problem.has_cases()) {
+    document["cases"] = cases_document(optimum.problem, result);
+  }
   if (result.parts.size() > 1) document["parts"] = parts_document(result.parts);
   if (result.least_violation) {
     document["least_violation"] =

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/reports/case_report.hpp"
 #include "cli/reports/error_report.hpp"
 #include "cli/reports/monitors_report.hpp"
 #include "cli/reports/warnings.hpp"
@@ -105,7 +106,7 @@ std::vector<std::string> constraint_row(const Optimum& optimum, std::size_t i) {
           ? fmt::format(" {}{:g} σ", constraint.upper ? "+" : "−", constraint.deviations)
           : "";
   std::vector<std::string> cells = {
-      constraint.name + margin, significant(unit.shown(value)),
+      limit_of(optimum.problem, i) + margin, significant(unit.shown(value)),
       (used.is_upper ? "≤ " : "≥ ") + significant(unit.shown(used.limit)), unit.name,
       used.utilisation ? percent(*used.utilisation) : "–"};
   if (multiplier) {
@@ -115,7 +116,17 @@ std::vector<std::string> constraint_row(const Optimum& optimum, std::size_t i) {
   return cells;
 }
 
+/// Of several cases those that decide a limit or that it has a price in.
+bool is_shown(const Optimum& optimum, std::size_t constraint, const std::vector<bool>& decides) {
+  const bool is_of_case = !case_of(optimum.problem, constraint).empty();
+  const bool has_price =
+      has_prices(optimum.result) &&
+      optimum.result.constraint_multipliers(static_cast<Eigen::Index>(constraint)) != 0.0;
+  return !is_of_case || decides[constraint] || has_price;
+}
+
 std::string constraints_text(const Optimum& optimum) {
+  const bool has_cases = optimum.problem.has_cases();
   std::vector<Table::Column> columns = {{"constraint", Table::Align::left},
                                         {"value"},
                                         {"limit"},
@@ -127,11 +138,25 @@ std::string constraints_text(const Optimum& optimum) {
     columns.push_back({fmt::format("multiplier [{}/unit]", objective_unit.name)});
     columns.push_back({"objective at +1 % limit"});
   }
+  if (has_cases) columns.insert(columns.begin() + 1, {"case", Table::Align::left});
   Table table(std::move(columns));
+  const std::vector<bool> decides =
+      deciding_constraints(optimum.problem, optimum.result.evaluation.constraints);
+  std::size_t shown = 0;
   for (std::size_t i = 0; i < optimum.problem.constraints.size(); ++i) {
-    table.add_row(constraint_row(optimum, i));
+    if (!is_shown(optimum, i, decides)) continue;
+    std::vector<std::string> row = constraint_row(optimum, i);
+    const std::string load_case = case_of(optimum.problem, i);
+    if (has_cases) row.insert(row.begin() + 1, load_case.empty() ? "all" : load_case);
+    table.add_row(std::move(row));
+    ++shown;
   }
-  return table.is_empty() ? "" : "\n" + table.text();
+  if (table.is_empty()) return "";
+  const std::size_t left = optimum.problem.constraints.size() - shown;
+  return "\n" + table.text() +
+         (left > 0 ? wrapped("Each limit in the case that decides it; the others are in "
+                             "result.json.\n")
+                   : "");
 }
 
 /// The sentence of a verified optimum gives its residuals already.
@@ -163,9 +188,10 @@ std::string name_of_end(const std::string& status) {
 std::string optimum_report(const Optimum& optimum) {
   const std::string status = "\n" + wrapped(status_text(optimum.result)) + "\n";
   if (!optimum.has_design()) return status;
-  return status + "\n" + objective_text(optimum) + "\n" + variables_text(optimum) +
-         constraints_text(optimum) + "\n" + warnings_text(optimum.warnings) +
-         residuals_text(optimum.result) + effort_text(optimum);
+  return status + "\n" + objective_text(optimum) +
+         wrapped(objective_in_cases(optimum.problem, optimum.result), "  ") + "\n" +
+         variables_text(optimum) + constraints_text(optimum) + "\n" +
+         warnings_text(optimum.warnings) + residuals_text(optimum.result) + effort_text(optimum);
 }
 
 }  // namespace pleuel

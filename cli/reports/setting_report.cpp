@@ -100,12 +100,24 @@ std::string setting_text(const ProblemFile& problem, const SettingChoice& choice
                   target, choice.tried.size(), setting, left, reason));
 }
 
+namespace {
+
+/// Of several load cases one each, in their order.
+Json settings_document(const std::vector<TriedSetting>& settings) {
+  if (settings.size() == 1) return tried_document(settings.front());
+  Json document = {{"cases", Json::array()}};
+  for (const TriedSetting& one : settings) document["cases"].push_back(tried_document(one));
+  return document;
+}
+
+}  // namespace
+
 Json stages_document(const std::vector<Stage>& stages) {
   Json document = Json::array();
   for (const Stage& stage : stages) {
     Json one = Json::object();
     if (stage.target > 0.0) {
-      one = tried_document(stage.setting);
+      one = settings_document(stage.settings);
       one["target"] = stage.target;
       one["met"] = stage.is_met;
       one["settings_tried"] = stage.settings_tried;
@@ -129,11 +141,15 @@ std::string stages_text(const std::vector<Stage>& stages) {
                {"seconds"}});
   for (const Stage& stage : stages) {
     if (stage.target <= 0.0) continue;
-    table.add_row({target_text(stage.target), step_text(stage.setting.step),
-                   stage.setting.elements > 0 ? std::to_string(stage.setting.elements) : "–",
-                   error_text(stage.setting), stage.setting.response,
-                   duration(stage.choice_seconds), std::to_string(stage.evaluations),
-                   fmt::format("{:.2f}", stage.seconds)});
+    for (const TriedSetting& setting : stage.settings) {
+      const bool is_first = &setting == &stage.settings.front();
+      table.add_row({is_first ? target_text(stage.target) : "", step_text(setting.step),
+                     setting.elements > 0 ? std::to_string(setting.elements) : "–",
+                     error_text(setting), setting.response,
+                     is_first ? duration(stage.choice_seconds) : "",
+                     is_first ? std::to_string(stage.evaluations) : "",
+                     is_first ? fmt::format("{:.2f}", stage.seconds) : ""});
+    }
   }
   return table.is_empty() ? "" : table.text() + "\n";
 }

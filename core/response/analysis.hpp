@@ -38,7 +38,8 @@ Eigen::VectorXd values_of(const Analysis& analysis);
 /// @param problem  where it has a tolerance of effects, with the decisions (effect_measurement.hpp)
 /// @param x        design variables [SI]
 /// @throws SimulationError
-/// @throws std::logic_error where decisions are missing: the model would depend on who came before
+/// @throws std::logic_error where decisions are missing: the model would depend on who came before;
+///         for a problem with load cases, which are simulated one by one
 std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::VectorXd& x);
 
 /// The problem with the steps of a trajectory in place of those that the control of the local error

@@ -155,6 +155,8 @@ ProblemFile with_all_effects(ProblemFile problem) {
 }
 
 void decide_effects(ProblemFile& problem) {
+  for (ProblemFile& one : problem.cases) decide_effects(one);
+  if (problem.has_cases()) return;
   problem.effects.decisions = EffectDecisions{estimate_effects(problem), {}};
   EffectMeasurement(problem).run();
 }
@@ -163,10 +165,13 @@ ProblemFile starting_at(ProblemFile problem, const Eigen::VectorXd& x) {
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     problem.variables[i].start = x(i);
   }
+  for (ProblemFile& one : problem.cases) one = starting_at(std::move(one), x);
   return problem;
 }
 
 void decide_effects(ProblemFile& problem, const Eigen::VectorXd& x) {
+  for (ProblemFile& one : problem.cases) decide_effects(one, x);
+  if (problem.has_cases()) return;
   ProblemFile there = starting_at(problem, x);
   EffectDecisions decisions{estimate_effects(there), {}};
   if (problem.effects.decisions) {

@@ -31,7 +31,7 @@ ProblemFile with_all_effects(ProblemFile problem);
 /// what costs more than it on its own is taken back, or else what costs most. The decisions are
 /// kept in EffectSettings::decisions, so that the model is the same at all designs. Does nothing
 /// without a tolerance, or where estimates leave nothing out. Where the mechanism with all effects
-/// cannot be simulated everything is built.
+/// cannot be simulated everything is built. Of a problem with load cases each decides for itself.
 void decide_effects(ProblemFile& problem);
 
 /// The same at another design. What was decided before to be needed stays.

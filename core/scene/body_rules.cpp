@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "core/scene/load_cases.hpp"
 #include "core/scene/visit_numbers.hpp"
 
 namespace pleuel {
@@ -226,7 +228,15 @@ std::optional<std::string> find_impossible(const Body& body, const Design<double
 }
 
 std::vector<std::string> impossible_corners(const ProblemFile& problem) {
-  return Corners(problem).find();
+  std::vector<std::string> sentences;
+  for (const ProblemFile* one : simulated_problems(problem)) {
+    for (std::string& sentence : Corners(*one).find()) {
+      const bool is_known =
+          std::find(sentences.begin(), sentences.end(), sentence) != sentences.end();
+      if (!is_known) sentences.push_back(std::move(sentence));
+    }
+  }
+  return sentences;
 }
 
 }  // namespace pleuel

@@ -158,9 +158,19 @@ struct ResponseSettings {
 /// Whether the objective is to be small or large.
 enum class Aim { minimize, maximize };
 
+/// How the numbers that a response has in several load cases make one objective.
+enum class OverCases {
+  same,     ///< there is one number only: no cases, or the same in all
+  worst,    ///< the largest of what is minimized, the smallest of what is maximized
+  weighted  ///< a sum with weights
+};
+
 struct Objective {
   std::string response;
   Aim aim = Aim::minimize;
+  OverCases over_cases = OverCases::same;
+  /// Of `weighted`, by case or range of cases; empty: a plain sum.
+  std::vector<std::pair<std::string, double>> weights = {};
 
   /// What is minimized is this times the response: a problem of optimization knows minima only.
   double sign() const { return aim == Aim::maximize ? -1.0 : 1.0; }
@@ -174,6 +184,8 @@ struct ConstraintSettings {
   std::optional<double> lower, upper;
   /// k: standard deviations of its value (see UncertaintySettings) that are kept free of the limit.
   double deviations = 0.0;
+  /// Load cases, or ranges of them, that it holds in; empty: in all.
+  std::vector<std::string> cases = {};
 };
 
 struct OptimizerSettings {
@@ -227,6 +239,16 @@ struct UncertaintySettings {
   unsigned seed = 1;
 };
 
+/// Which number of which load case.
+struct OfCase {
+  std::size_t load_case = 0;  ///< index in ProblemFile::cases
+  std::size_t index = 0;      ///< of the response or the constraint in the problem of that case
+};
+
+/// A file without load cases, or one case of a file as if it had no other. Of a file with cases what
+/// all of them share: the variables, and responses and constraints of all cases, each with its case
+/// in its name (load_cases.hpp); its scene and settings are those of the first case, and only the
+/// problems of the cases can be simulated.
 struct ProblemFile {
   std::string name, description;
   Scene scene;
@@ -241,6 +263,14 @@ struct ProblemFile {
   std::optional<ParetoSettings> pareto;
   AccuracySettings accuracy;
   std::optional<UncertaintySettings> uncertainty;
+
+  std::string load_case = {};   ///< its name, of the problem of a case
+  std::string case_range = {};  ///< that it is one of; empty: it stands for itself
+  std::vector<ProblemFile> cases = {};
+  std::vector<OfCase> case_responses = {}, case_constraints = {};  ///< one a response, a constraint
+  std::vector<double> case_weights = {};  ///< one a case, where the objective is a weighted sum
+
+  bool has_cases() const { return !cases.empty(); }
 };
 
 }  // namespace pleuel

@@ -1,9 +1,52 @@
 #include "core/scene/problem_reader.hpp"
 
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "core/scene/reading/case_reader.hpp"
+#include "core/scene/reading/catalogue.hpp"
 #include "core/scene/reading/document_reader.hpp"
 #include "core/scene/reading/text_file.hpp"
 
 namespace pleuel {
+
+namespace {
+
+ProblemFile read_expanded(Json document, const std::string& file, const UnitSystem& units) {
+  expand_catalogue(document, file, units);
+  const JsonNode root(document, file);
+  NumberReader numbers(units, variable_names(root));
+  return read_document(root, numbers);
+}
+
+std::optional<std::string> failure_of(const Json& document, const std::string& file,
+                                      const UnitSystem& units) {
+  try {
+    read_expanded(document, file, units);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return std::nullopt;
+}
+
+/// What is wrong with a case only is told with its name.
+ProblemFile read_case_problem(const Json& document, const CaseChanges& changes,
+                              const std::string& file, const UnitSystem& units) {
+  Json of_case = document_of_case(document, changes, file);
+  try {
+    return read_expanded(std::move(of_case), file, units);
+  } catch (const InputError& error) {
+    Json without = document;
+    without.erase("cases");
+    if (failure_of(without, file, units) == error.what()) throw;
+    throw InputError(fmt::format("{} (in the case \"{}\")", error.what(), changes.name));
+  }
+}
+
+}  // namespace
 
 ProblemFile read_problem(const std::filesystem::path& path,
                          const std::vector<std::string>& overrides) {
@@ -15,10 +58,19 @@ ProblemFile read_problem(const std::filesystem::path& path,
 ProblemFile read_problem_text(const std::string& text, const std::string& file,
                               const std::vector<std::string>& overrides) {
   const UnitSystem units;
-  const Json document = whole_document({text, file, overrides}, units);
+  const Json document = overridden_document({text, file, overrides});
   const JsonNode root(document, file);
-  NumberReader numbers(units, variable_names(root));
-  return read_document(root, numbers);
+  const std::vector<CaseChanges> changes = cases_of(document, file);
+  if (changes.empty()) {
+    ProblemFile problem = read_expanded(document, file, units);
+    forbid_case_names(root, problem);
+    return problem;
+  }
+  std::vector<ProblemFile> cases;
+  for (const CaseChanges& one : changes) {
+    cases.push_back(read_case_problem(document, one, file, units));
+  }
+  return join_cases(root, changes, std::move(cases));
 }
 
 }  // namespace pleuel

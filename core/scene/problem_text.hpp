@@ -10,6 +10,7 @@ struct ProblemText {
   std::string text;
   std::string file;
   std::vector<std::string> overrides = {};
+  std::string load_case = {};  ///< the one that is meant of a text with several
 };
 
 }  // namespace pleuel

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "core/scene/load_cases.hpp"
 #include "core/trust/bending_range.hpp"
 #include "core/trust/blocked_drives.hpp"
+#include "core/trust/case_doubts.hpp"
 #include "core/trust/energy_balance.hpp"
 #include "core/trust/extrapolation.hpp"
 #include "core/trust/far_limits.hpp"
@@ -23,7 +25,11 @@
 namespace pleuel {
 
 std::vector<Doubt> find_doubts_before(const ProblemFile& problem) {
-  return doubt_fast_laws_before(problem);
+  std::vector<std::vector<Doubt>> doubts;
+  for (const ProblemFile* one : simulated_problems(problem)) {
+    doubts.push_back(doubt_fast_laws_before(*one));
+  }
+  return joined_doubts(problem, doubts);
 }
 
 namespace {

@@ -43,8 +43,9 @@ TEST(StagedSolve, BeginsCoarseAndKeepsItsTargetAtTheOptimum) {
   ASSERT_TRUE(result.error);
   EXPECT_LE(result.error->bound(), 1e-2 * known_optimum);
   ASSERT_GE(solution.stages.size(), 2u);
-  EXPECT_GT(solution.stages.front().setting.step, 4.0 * file.simulation.step);
-  EXPECT_LT(solution.stages.back().setting.step, solution.stages.front().setting.step);
+  EXPECT_GT(solution.stages.front().settings.front().step, 4.0 * file.simulation.step);
+  EXPECT_LT(solution.stages.back().settings.front().step,
+            solution.stages.front().settings.front().step);
 }
 
 TEST(StagedSolve, SaysOfEachEvaluationWhatItWasSimulatedWith) {
@@ -56,8 +57,8 @@ TEST(StagedSolve, SaysOfEachEvaluationWhatItWasSimulatedWith) {
     for (int i = 0; i < stage.evaluations; ++i, ++next) {
       ASSERT_LT(next, history.size());
       EXPECT_EQ(history[next].evaluation, static_cast<int>(next) + 1);
-      EXPECT_EQ(history[next].time_step, stage.setting.step);
-      EXPECT_EQ(history[next].elements, stage.setting.elements);
+      EXPECT_EQ(history[next].time_step, stage.settings.front().step);
+      EXPECT_EQ(history[next].elements, stage.settings.front().elements);
       EXPECT_GE(history[next].seconds, seconds);
       seconds = history[next].seconds;
     }

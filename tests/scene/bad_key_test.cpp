@@ -17,8 +17,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{
             "/scene/bodies/slider/elements", "1",
             R"(/scene/bodies/slider has the unknown key "elements"; known are "type", "at", "mass" and "velocity")"},
-        BadEdit{"/objective/scale", "2",
-                R"(/objective has the unknown key "scale"; known are "minimize" and "maximize")"},
+        BadEdit{
+            "/objective/scale", "2",
+            R"(/objective has the unknown key "scale"; known are "minimize", "maximize" and "over_cases")"},
         BadEdit{"/scene", "remove", R"(the problem is missing the key "scene")"},
         BadEdit{"/simulation", "remove", R"(the problem is missing the key "simulation")"},
         BadEdit{"/scene/bodies", "remove", R"(/scene is missing the key "bodies")"},

@@ -64,6 +64,14 @@ TEST_F(ProblemSchema, AcceptsEveryProblemFile) {
   EXPECT_GE(hard_files, 18) << "as many as docs/stability.md lists";
 }
 
+TEST_F(ProblemSchema, KnowsWhatLoadCasesMayChange) {
+  EXPECT_EQ(complaints_about_edit("/cases", R"({"a": {}, "b": {"/scene/gravity": [0, 0, 0]},
+      "c": {"range": {"/simulation/step": {"from": "1 ms", "to": "2 ms", "count": 3}}}})"),
+            "");
+  EXPECT_NE(complaints_about_edit("/cases", R"({"a": {"/variables/width/start": 1}})"), "");
+  EXPECT_NE(complaints_about_edit("/cases", R"({"a": {"range": {"/scene/x": {"from": 1}}}})"), "");
+}
+
 /// Every object of a document with a remark in it.
 void add_comments(nlohmann::json& value) {
   for (nlohmann::json& member : value) {

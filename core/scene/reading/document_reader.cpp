@@ -1,5 +1,8 @@
 #include "core/scene/reading/document_reader.hpp"
 
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
 #include "core/base/machine_memory.hpp"
 #include "core/scene/reading/catalogue.hpp"
 #include "core/scene/reading/goal_reader.hpp"
@@ -55,11 +58,26 @@ void check_margins(const JsonNode& root, const ProblemFile& problem) {
 
 }  // namespace
 
-Json whole_document(const ProblemText& text, const UnitSystem& units) {
+Json overridden_document(const ProblemText& text) {
   Json document = parse_json(text.text, text.file);
   for (const std::string& assignment : text.overrides) {
     apply_override(document, assignment, text.file);
   }
+  if (text.load_case.empty()) return document;
+  for (const CaseChanges& changes : cases_of(document, text.file)) {
+    if (changes.name == text.load_case) return document_of_case(document, changes, text.file);
+  }
+  throw InputError(fmt::format("{}: /cases has no case \"{}\"", text.file, text.load_case));
+}
+
+std::vector<CaseChanges> cases_of(const Json& document, const std::string& file) {
+  const JsonNode root(document, file);
+  const auto cases = root.find("cases");
+  return cases ? read_cases(*cases) : std::vector<CaseChanges>();
+}
+
+Json whole_document(const ProblemText& text, const UnitSystem& units) {
+  Json document = overridden_document(text);
   expand_catalogue(document, text.file, units);
   return document;
 }

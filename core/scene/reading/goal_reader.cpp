@@ -51,15 +51,26 @@ void read_limits(const JsonNode& node, const Quantity& quantity, const NumberRea
   }
 }
 
+std::vector<std::string> read_case_names(const JsonNode& node) {
+  std::vector<std::string> names;
+  for (const JsonNode& name : node.items()) names.push_back(name.text());
+  if (names.empty()) node.fail("must name at least one case");
+  return names;
+}
+
 ConstraintSettings read_constraint(const std::string& name, const JsonNode& node,
                                    std::vector<ResponseSettings>& responses,
                                    NumberReader& numbers) {
-  node.allow_keys({"response", "linear", "lower", "upper", "deviations"});
+  node.allow_keys({"response", "linear", "lower", "upper", "deviations", "cases"});
   ConstraintSettings constraint;
   constraint.name = name;
+  if (const auto cases = node.find("cases")) constraint.cases = read_case_names(*cases);
   const std::optional<JsonNode> linear = node.find("linear");
   if (linear && node.find("response")) node.fail("has both \"response\" and \"linear\"");
   if (linear) {
+    if (!constraint.cases.empty()) {
+      node.at("cases").fail("is for a limit on a response: variables are the same in all cases");
+    }
     read_limits(node, read_linear(*linear, constraint, numbers), numbers, constraint);
     return constraint;
   }
@@ -68,6 +79,21 @@ ConstraintSettings read_constraint(const std::string& name, const JsonNode& node
   constraint.response = response.name;
   read_limits(node, quantity_of(response), numbers, constraint);
   return constraint;
+}
+
+void read_over_cases(const JsonNode& node, Objective& objective) {
+  if (node.value().is_object()) {
+    objective.over_cases = OverCases::weighted;
+    for (const auto& [name, weight] : node.members()) {
+      if (weight.number() <= 0.0) weight.fail_with_value("must be positive");
+      objective.weights.emplace_back(name, weight.number());
+    }
+    if (objective.weights.empty()) node.fail("must give at least one case a weight");
+    return;
+  }
+  static constexpr Choice<OverCases> choices[] = {{"worst", OverCases::worst},
+                                                  {"sum", OverCases::weighted}};
+  objective.over_cases = read_choice(node, choices);
 }
 
 const ConstraintSettings& read_varied_constraint(const JsonNode& node, const ProblemFile& problem) {
@@ -90,12 +116,14 @@ Quantity quantity_of(const ConstraintSettings& constraint, const ProblemFile& pr
 
 Objective read_objective(const JsonNode& node, std::vector<ResponseSettings>& responses,
                          NumberReader& numbers) {
-  node.allow_keys({"minimize", "maximize"});
+  node.allow_keys({"minimize", "maximize", "over_cases"});
   const auto largest = node.find("maximize");
   if (largest && node.find("minimize")) node.fail("has both \"minimize\" and \"maximize\"");
   const JsonNode name = largest ? *largest : node.at("minimize");
-  return {read_response_or_formula(name, responses, numbers).name,
-          largest ? Aim::maximize : Aim::minimize};
+  Objective objective{read_response_or_formula(name, responses, numbers).name,
+                      largest ? Aim::maximize : Aim::minimize};
+  if (const auto over_cases = node.find("over_cases")) read_over_cases(*over_cases, objective);
+  return objective;
 }
 
 std::vector<ConstraintSettings> read_constraints(const JsonNode& node,

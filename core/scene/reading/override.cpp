@@ -15,7 +15,7 @@ namespace pleuel {
 namespace {
 
 /// Objects that a file may leave out, and an override begin.
-constexpr std::array optional_blocks = {"accuracy",   "constraints", "effects",   "objective",
+constexpr std::array optional_blocks = {"accuracy",   "cases", "constants", "constraints", "effects",   "objective",
                                         "optimizer",  "pareto",      "responses", "sensitivity",
                                         "simulation", "uncertainty", "variables"};
 
@@ -25,20 +25,28 @@ constexpr std::array scene_blocks = {"joints", "loads", "materials"};
 /// One assignment on its way down the document.
 class Override {
  public:
-  Override(const std::string& assignment, const std::string& file)
-      : assignment_(assignment), file_(file) {}
+  /// @param whose  how messages name the assignment
+  Override(const std::string& whose, const std::string& file) : whose_(whose), file_(file) {}
 
-  void apply(Json& document) const {
-    const std::size_t equals = assignment_.find('=');
+  void apply(Json& document, const std::string& assignment) const {
+    const std::size_t equals = assignment.find('=');
     if (equals == std::string::npos) fail("has no \"=\"; write /json/pointer=value");
-    const std::vector<std::string> keys = keys_of(document, assigned_place(assignment_));
+    set(document, keys_of(document, assigned_place(assignment)),
+        read_value(assignment.substr(equals + 1)));
+  }
+
+  void apply_at(Json& document, const std::string& pointer, const Json& value) const {
+    set(document, split(pointer), value);
+  }
+
+ private:
+  void set(Json& document, const std::vector<std::string>& keys, const Json& value) const {
     Json* place = &document;
     std::string pointer;
     for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
       place = &child(*place, pointer, keys[i]);
       pointer = child_pointer(pointer, keys[i]);
     }
-    const Json value = read_value(assignment_.substr(equals + 1));
     if (place->is_object()) {
       (*place)[keys.back()] = value;
     } else {
@@ -46,9 +54,8 @@ class Override {
     }
   }
 
- private:
   [[noreturn]] void fail(const std::string& rule) const {
-    throw InputError(fmt::format("{}: --set {}: {}", file_, assignment_, rule));
+    throw InputError(fmt::format("{}: {}: {}", file_, whose_, rule));
   }
 
   /// Of a pointer, or of the start of the design variable of this name.
@@ -123,14 +130,19 @@ class Override {
     }
   }
 
-  const std::string& assignment_;
+  const std::string whose_;
   const std::string& file_;
 };
 
 }  // namespace
 
 void apply_override(Json& document, const std::string& assignment, const std::string& file) {
-  Override(assignment, file).apply(document);
+  Override("--set " + assignment, file).apply(document, assignment);
+}
+
+void replace_at(Json& document, const std::string& pointer, const Json& value,
+                const std::string& whose, const std::string& file) {
+  Override(whose, file).apply_at(document, pointer, value);
 }
 
 std::string assigned_place(const std::string& assignment) {

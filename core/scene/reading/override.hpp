@@ -12,6 +12,13 @@ namespace pleuel {
 /// @throws InputError
 void apply_override(Json& document, const std::string& assignment, const std::string& file);
 
+/// Sets the value at a pointer, by the same rules.
+/// @param pointer  begins with "/"
+/// @param whose    how messages name what asks for it
+/// @throws InputError
+void replace_at(Json& document, const std::string& pointer, const Json& value,
+                const std::string& whose, const std::string& file);
+
 /// What stands before the "=" of an assignment, without spaces around it: a pointer, or the name of
 /// a variable.
 std::string assigned_place(const std::string& assignment);

@@ -223,7 +223,10 @@ function limitRows(data: ReportData): LimitRow[] {
   const start = picture?.designs[0];
   const rows = Object.keys(constraints).map((name): LimitRow => {
     const one = constraints[name];
-    const limit = picture?.limits[name];
+    // The picture shows one load case: limits of others have no place in it.
+    const isShown = one.case === undefined || one.case === data.result.cases?.shown;
+    const inPicture = picture?.limits[one.limit_name ?? name];
+    const limit = isShown ? inPicture : inPicture && { ...inPicture, response: undefined };
     const unit = limit?.unit ?? { si: one.unit, name: one.unit, factor: 1 };
     const response = limit?.response ? optimum?.responses?.find((r) => r.name === limit.response) : undefined;
     const before = limit?.response ? start?.responses?.find((r) => r.name === limit.response)?.value : undefined;

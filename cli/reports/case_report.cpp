@@ -1,0 +1,148 @@
+#include "cli/reports/case_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/base/number_text.hpp"
+#include "core/scene/load_cases.hpp"
+#include "core/scene/shown_unit.hpp"
+#include "optimization/prices.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Shares below this are round-off of the multipliers.
+constexpr double least_share = 1e-3;
+
+/// How far a value is beyond its limit, relative to the limit; negative within.
+double excess(const ConstraintSettings& constraint, double value) {
+  const auto beyond = [&](double limit, double sign) {
+    const double size = std::max(std::abs(limit), std::numeric_limits<double>::min());
+    return sign * (value - limit) / size;
+  };
+  double most = -std::numeric_limits<double>::infinity();
+  if (constraint.upper) most = std::max(most, beyond(*constraint.upper, 1.0));
+  if (constraint.lower) most = std::max(most, beyond(*constraint.lower, -1.0));
+  return most;
+}
+
+std::size_t worst_case(const ProblemFile& problem, const Eigen::VectorXd& objectives) {
+  std::size_t worst = 0;
+  double highest = -std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < problem.cases.size(); ++c) {
+    const double weight =
+        problem.objective->over_cases == OverCases::weighted ? problem.case_weights[c] : 1.0;
+    const double value =
+        weight * problem.objective->sign() * objectives(static_cast<Eigen::Index>(c));
+    if (value <= highest) continue;
+    highest = value;
+    worst = c;
+  }
+  return worst;
+}
+
+/// What one percent more of the limit would be worth.
+double worth(const ProblemFile& problem, const Result& result, std::size_t constraint) {
+  const ConstraintSettings& limits = problem.constraints[constraint];
+  const double multiplier = result.constraint_multipliers(static_cast<Eigen::Index>(constraint));
+  const std::optional<double>& limit = multiplier > 0.0 ? limits.upper : limits.lower;
+  return std::abs(multiplier * limit.value_or(0.0));
+}
+
+}  // namespace
+
+std::string limit_of(const ProblemFile& problem, std::size_t constraint) {
+  if (!problem.has_cases()) return problem.constraints[constraint].name;
+  const OfCase of_case = problem.case_constraints[constraint];
+  return problem.cases[of_case.load_case].constraints[of_case.index].name;
+}
+
+std::string case_of(const ProblemFile& problem, std::size_t constraint) {
+  const bool is_of_case =
+      problem.has_cases() && limit_of(problem, constraint) != problem.constraints[constraint].name;
+  return is_of_case ? problem.cases[problem.case_constraints[constraint].load_case].load_case : "";
+}
+
+std::vector<bool> deciding_constraints(const ProblemFile& problem, const Eigen::VectorXd& values) {
+  std::map<std::string, std::size_t> deciding;
+  const auto excess_of = [&](std::size_t i) {
+    return excess(problem.constraints[i], values(static_cast<Eigen::Index>(i)));
+  };
+  for (std::size_t i = 0; i < problem.constraints.size(); ++i) {
+    const auto [known, is_new] = deciding.emplace(limit_of(problem, i), i);
+    if (!is_new && excess_of(i) > excess_of(known->second)) known->second = i;
+  }
+  std::vector<bool> is_deciding(problem.constraints.size(), false);
+  for (const auto& [limit, i] : deciding) is_deciding[i] = true;
+  return is_deciding;
+}
+
+std::size_t deciding_case(const ProblemFile& problem, const Result& result) {
+  Eigen::Index most = 0;
+  if (result.case_shares.size() > 0) {
+    result.case_shares.maxCoeff(&most);
+    return static_cast<std::size_t>(most);
+  }
+  if (result.case_objectives.size() > 0) return worst_case(problem, result.case_objectives);
+  std::size_t deciding = 0;
+  double highest = 0.0;
+  if (!has_prices(result)) return deciding;
+  for (std::size_t i = 0; i < problem.constraints.size(); ++i) {
+    const double here = case_of(problem, i).empty() ? 0.0 : worth(problem, result, i);
+    if (here <= highest) continue;
+    highest = here;
+    deciding = problem.case_constraints[i].load_case;
+  }
+  return deciding;
+}
+
+Json cases_document(const ProblemFile& problem, const Result& result) {
+  Json document = {{"names", Json::array()}};
+  for (const ProblemFile& one : problem.cases) document["names"].push_back(one.load_case);
+  document["shown"] = problem.cases[deciding_case(problem, result)].load_case;
+  for (std::size_t c = 0; c < problem.cases.size(); ++c) {
+    const std::string& name = problem.cases[c].load_case;
+    const auto row = static_cast<Eigen::Index>(c);
+    if (result.case_objectives.size() > 0)
+      document["objective"][name] = result.case_objectives(row);
+    if (result.case_shares.size() > 0) document["shares"][name] = result.case_shares(row);
+  }
+  return document;
+}
+
+std::string objective_in_cases(const ProblemFile& problem, const Result& result) {
+  if (!problem.has_cases() || result.case_objectives.size() == 0) return "";
+  const ShownUnit unit = unit_of(find_response(problem, problem.objective->response));
+  std::string text;
+  for (std::size_t c = 0; c < problem.cases.size(); ++c) {
+    const auto row = static_cast<Eigen::Index>(c);
+    const bool has_share = result.case_shares.size() > 0 && result.case_shares(row) > least_share;
+    text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", problem.cases[c].load_case,
+                        significant(unit.shown(result.case_objectives(row))),
+                        has_share ? " (decides)" : "");
+  }
+  return fmt::format("  in the cases [{}]: {}\n", unit.name, text);
+}
+
+std::string plain_file_name(const std::string& text) {
+  std::string name = text;
+  for (char& c : name) {
+    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                          (c >= '0' && c <= '9') || c == '-' || c == '.' || (c & 0x80) != 0;
+    if (!is_plain) c = '_';
+  }
+  return name;
+}
+
+std::string name_of_case_file(const std::string& stem, const ProblemFile& load_case) {
+  const std::string name = load_case.load_case;
+  return fmt::format("{}{}.csv", stem, name.empty() ? "" : "-" + plain_file_name(name));
+}
+
+}  // namespace pleuel

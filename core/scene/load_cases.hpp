@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/scene/problem_file.hpp"
+
+/// Load cases: one design in several scenes or settings.
+namespace pleuel {
+
+/// Whether a list of names means a case: by its own name or that of its range; an empty one all.
+bool is_in_case(const std::vector<std::string>& names, const ProblemFile& load_case);
+
+/// Whether a response is made from masses and variables only.
+bool depends_on_masses_only(const ProblemFile& problem, std::size_t response);
+
+/// "peak [slow]"
+std::string name_in_case(const std::string& name, const std::string& load_case);
+
+/// Joins the problems of cases (ProblemFile::cases). What is the same in all stands once under its
+/// own name; each other response, and limit on it, once for each case that it is for. An objective
+/// over cases is one response more, the last: "peak [worst]".
+/// @param cases    at least one, read from one file; constraints that a case is not meant by are
+///                 taken from its problem
+/// @param is_same  one a response of the file: whether it is the same in all cases
+/// @param weights  one a case, of an objective that is a weighted sum
+ProblemFile joined_cases(std::vector<ProblemFile> cases, const std::vector<bool>& is_same,
+                         std::vector<double> weights);
+
+/// The problem of one case as a problem of its own.
+/// @throws InputError if there is no case of this name
+ProblemFile problem_of_case(const ProblemFile& problem, const std::string& name);
+
+/// Names of the cases, as in a sentence: `"slow", "fast" and "payload"`.
+std::string case_list(const ProblemFile& problem);
+
+/// The problems that are simulated: those of the cases, or the problem itself.
+std::vector<const ProblemFile*> simulated_problems(const ProblemFile& problem);
+
+/// The same, to be changed.
+std::vector<ProblemFile*> simulated_problems(ProblemFile& problem);
+
+/// Where a response of a problem is simulated; itself where there are no cases. One of the
+/// objective over cases says where it is in the first.
+OfCase case_of_response(const ProblemFile& problem, std::size_t response);
+OfCase case_of_constraint(const ProblemFile& problem, std::size_t constraint);
+
+/// Whether a response is that of an objective over cases: a number made from several.
+bool is_over_cases(const ProblemFile& problem, std::size_t response);
+
+/// The response of the joined problem that a response of a case is.
+std::size_t joined_response(const ProblemFile& problem, const OfCase& of_case);
+
+}  // namespace pleuel

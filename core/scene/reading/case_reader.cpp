@@ -1,0 +1,305 @@
+#include "core/scene/reading/case_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/scene/load_cases.hpp"
+#include "core/scene/reading/override.hpp"
+#include "core/scene/response_parts.hpp"
+#include "core/scene/units.hpp"
+
+namespace pleuel {
+namespace {
+
+constexpr int most_cases = 1000;
+
+/// Blocks that a case may change.
+constexpr std::array changeable = {"/scene", "/simulation", "/effects", "/constants"};
+/// Places that masses do not depend on.
+constexpr std::array massless = {"/scene/joints", "/scene/loads", "/scene/gravity", "/simulation",
+                                 "/effects"};
+
+/// Whether a pointer is this place, or leads into it.
+bool leads_into(const std::string& pointer, std::string_view place) {
+  return pointer.starts_with(place) &&
+         (pointer.size() == place.size() || pointer[place.size()] == '/');
+}
+
+template <class Places>
+bool leads_into_any(const std::string& pointer, const Places& places) {
+  return std::any_of(places.begin(), places.end(),
+                     [&](const char* place) { return leads_into(pointer, place); });
+}
+
+void check_pointer(const std::string& pointer, const JsonNode& node) {
+  if (!pointer.starts_with("/")) {
+    node.fail("must be a JSON pointer such as \"/scene/gravity\", or \"range\"");
+  }
+  if (!leads_into_any(pointer, changeable)) {
+    node.fail(
+        "must lead into /scene, /simulation, /effects or /constants: variables, responses, "
+        "objective and limits are the same in all cases");
+  }
+}
+
+WrittenQuantity read_end(const JsonNode& node) {
+  if (node.value().is_number()) return {node.number(), ""};
+  try {
+    return split_quantity(node.text());
+  } catch (const UnitError&) {
+    node.fail_with_value("must be a number, or a number with a unit such as \"300 rpm\"");
+  }
+}
+
+std::string text_of(const WrittenQuantity& quantity) {
+  const std::string unit = quantity.unit.empty() ? "" : " " + quantity.unit;
+  return fmt::format("{:.6g}{}", quantity.value, unit);
+}
+
+Json value_of(const WrittenQuantity& quantity) {
+  if (quantity.unit.empty()) return quantity.value;
+  return fmt::format("{} {}", quantity.value, quantity.unit);
+}
+
+/// The values of one number, at equal distances.
+std::vector<WrittenQuantity> read_range(const JsonNode& node) {
+  node.allow_keys({"from", "to", "count"});
+  const WrittenQuantity from = read_end(node.at("from")), to = read_end(node.at("to"));
+  if (from.unit != to.unit) {
+    node.at("to").fail_with_value(fmt::format("must have the unit of \"from\", \"{}\"", from.unit));
+  }
+  if (from.value == to.value) node.at("to").fail_with_value("must differ from \"from\"");
+  const int count = node.at("count").whole_number(2, most_cases);
+  std::vector<WrittenQuantity> values;
+  for (int i = 0; i < count; ++i) {
+    const double share = double(i) / double(count - 1);
+    values.push_back(
+        {i + 1 == count ? to.value : from.value + share * (to.value - from.value), from.unit});
+  }
+  return values;
+}
+
+/// One case for each value; of several numbers together the first one names them.
+std::vector<CaseChanges> read_ranges(const JsonNode& node, const CaseChanges& common) {
+  std::vector<CaseChanges> cases;
+  for (const auto& [pointer, range] : node.members()) {
+    check_pointer(pointer, range);
+    const std::vector<WrittenQuantity> values = read_range(range);
+    if (cases.empty()) {
+      cases.assign(values.size(), common);
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        cases[i].range = common.name;
+        cases[i].name += " " + text_of(values[i]);
+      }
+    }
+    if (values.size() != cases.size()) {
+      range.at("count").fail_with_value(
+          fmt::format("must be {}, as of the other numbers of this range", cases.size()));
+    }
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      cases[i].values.emplace_back(pointer, value_of(values[i]));
+    }
+  }
+  if (cases.empty()) node.fail("must have at least one number");
+  return cases;
+}
+
+std::vector<CaseChanges> read_case(const std::string& name, const JsonNode& node) {
+  if (name == "worst" || name == "sum" || name == "weighted") {
+    node.fail(fmt::format("must have another name: \"{}\" stands for all cases", name));
+  }
+  CaseChanges changes{name, "", {}};
+  for (const auto& [pointer, value] : node.members()) {
+    if (pointer == "range") continue;
+    check_pointer(pointer, value);
+    changes.values.emplace_back(pointer, value.value());
+  }
+  if (const auto range = node.find("range")) return read_ranges(*range, changes);
+  return {changes};
+}
+
+/// What names of limits and weights may stand for.
+std::vector<std::string> known_names(const std::vector<ProblemFile>& cases) {
+  std::vector<std::string> names;
+  for (const ProblemFile& one : cases) {
+    if (!one.case_range.empty() && (names.empty() || names.back() != one.case_range)) {
+      const bool is_new = std::find(names.begin(), names.end(), one.case_range) == names.end();
+      if (is_new) names.push_back(one.case_range);
+    }
+  }
+  for (const ProblemFile& one : cases) names.push_back(one.load_case);
+  return names;
+}
+
+void check_limit_names(const JsonNode& root, const std::vector<ProblemFile>& cases) {
+  const std::vector<std::string> known = known_names(cases);
+  for (const ConstraintSettings& constraint : cases.front().constraints) {
+    if (constraint.cases.empty()) continue;
+    const JsonNode names = root.at("constraints").at(constraint.name).at("cases");
+    for (const JsonNode& name : names.items()) read_known_name(name, "case", known);
+  }
+}
+
+/// What the objective over cases says of the weights of cases; checks that it says enough.
+std::vector<double> read_weights(const JsonNode& root, const std::vector<ProblemFile>& cases) {
+  const Objective& objective = *cases.front().objective;
+  std::vector<double> weights(cases.size(), objective.weights.empty() ? 1.0 : 0.0);
+  const std::vector<std::string> known = known_names(cases);
+  for (const auto& [name, weight] : objective.weights) {
+    const JsonNode node = root.at("objective").at("over_cases").at(name);
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      fail_unknown_name(node, "case", name, known);
+    }
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      if (is_in_case({name}, cases[i])) weights[i] = weight;
+    }
+  }
+  return weights;
+}
+
+/// Variables whose bounds follow from constants could differ.
+void check_variables(const JsonNode& root, const std::vector<ProblemFile>& cases) {
+  const std::vector<DesignVariable>& first = cases.front().variables;
+  for (const ProblemFile& one : cases) {
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      const DesignVariable& variable = one.variables[i];
+      if (variable.start == first[i].start && variable.lower == first[i].lower &&
+          variable.upper == first[i].upper) {
+        continue;
+      }
+      root.at("variables")
+          .at(variable.name)
+          .fail(fmt::format(
+              "must be the same in all cases, but follows from a constant that the case "
+              "\"{}\" changes",
+              one.load_case));
+    }
+  }
+}
+
+/// Whether a change leaves the masses of these bodies as they are (none: of all bodies).
+bool keeps_masses(const std::string& pointer, const std::vector<std::string>& bodies) {
+  if (leads_into_any(pointer, massless)) return true;
+  if (bodies.empty() || !pointer.starts_with("/scene/bodies/")) return false;
+  return std::none_of(bodies.begin(), bodies.end(), [&](const std::string& body) {
+    return leads_into(pointer, child_pointer("/scene/bodies", body));
+  });
+}
+
+bool change_constants(const std::vector<CaseChanges>& changes) {
+  return std::any_of(changes.begin(), changes.end(), [](const CaseChanges& one) {
+    return std::any_of(one.values.begin(), one.values.end(),
+                       [](const auto& value) { return leads_into(value.first, "/constants"); });
+  });
+}
+
+/// Whether the value of a response is the same in all cases at each design.
+bool is_same_response(const ProblemFile& problem, std::size_t response,
+                      const std::vector<CaseChanges>& changes) {
+  if (!depends_on_masses_only(problem, response)) return false;
+  if (problem.responses[response].type == ResponseType::expression && change_constants(changes)) {
+    return false;
+  }
+  for (const std::size_t part : parts_of(problem, response)) {
+    for (const CaseChanges& one : changes) {
+      for (const auto& [pointer, value] : one.values) {
+        if (!keeps_masses(pointer, problem.responses[part].bodies)) return false;
+      }
+    }
+  }
+  return true;
+}
+
+std::vector<bool> same_responses(const ProblemFile& problem,
+                                 const std::vector<CaseChanges>& changes) {
+  std::vector<bool> is_same;
+  for (std::size_t i = 0; i < problem.responses.size(); ++i) {
+    is_same.push_back(is_same_response(problem, i, changes));
+  }
+  return is_same;
+}
+
+void check_objective(const JsonNode& root, const ProblemFile& problem,
+                     const std::vector<bool>& is_same) {
+  const Objective& objective = *problem.objective;
+  std::size_t index = 0;
+  while (problem.responses[index].name != objective.response) ++index;
+  const JsonNode node = root.at("objective");
+  if (is_same[index] && objective.over_cases != OverCases::same) {
+    node.at("over_cases")
+        .fail(fmt::format(
+            "is for a response that differs from case to case; \"{}\" is the same in all",
+            objective.response));
+  }
+  if (!is_same[index] && objective.over_cases == OverCases::same) {
+    node.fail(
+        fmt::format("needs \"over_cases\", as \"{}\" may differ from case to case: "
+                    "\"worst\", \"sum\", or weights such as {{\"{}\": 1}}",
+                    objective.response, problem.load_case));
+  }
+}
+
+}  // namespace
+
+std::vector<CaseChanges> read_cases(const JsonNode& node) {
+  std::vector<CaseChanges> cases;
+  for (const auto& [name, one] : node.members()) {
+    for (CaseChanges& changes : read_case(name, one)) {
+      const bool is_known = std::any_of(cases.begin(), cases.end(), [&](const CaseChanges& other) {
+        return other.name == changes.name || other.range == changes.name;
+      });
+      if (is_known) one.fail(fmt::format("gives the case \"{}\" a second time", changes.name));
+      cases.push_back(std::move(changes));
+    }
+  }
+  if (cases.empty()) node.fail("must have at least one case");
+  if (cases.size() > most_cases) {
+    node.fail(fmt::format("has {} cases; at most {} are taken", cases.size(), most_cases));
+  }
+  return cases;
+}
+
+Json document_of_case(Json document, const CaseChanges& changes, const std::string& file) {
+  const std::string place =
+      child_pointer("/cases", changes.range.empty() ? changes.name : changes.range);
+  for (const auto& [pointer, value] : changes.values) {
+    replace_at(document, pointer, value, child_pointer(place, pointer), file);
+  }
+  document.erase("cases");
+  return document;
+}
+
+ProblemFile join_cases(const JsonNode& root, const std::vector<CaseChanges>& changes,
+                       std::vector<ProblemFile> cases) {
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    cases[i].load_case = changes[i].name;
+    cases[i].case_range = changes[i].range;
+  }
+  check_variables(root, cases);
+  check_limit_names(root, cases);
+  const ProblemFile& first = cases.front();
+  const std::vector<bool> is_same = same_responses(first, changes);
+  std::vector<double> weights;
+  if (first.objective) {
+    check_objective(root, first, is_same);
+    weights = read_weights(root, cases);
+  }
+  return joined_cases(std::move(cases), is_same, std::move(weights));
+}
+
+void forbid_case_names(const JsonNode& root, const ProblemFile& problem) {
+  constexpr const char* rule = "names cases, and the problem has none (\"cases\")";
+  for (const ConstraintSettings& constraint : problem.constraints) {
+    if (constraint.cases.empty()) continue;
+    root.at("constraints").at(constraint.name).at("cases").fail(rule);
+  }
+  if (problem.objective && problem.objective->over_cases != OverCases::same) {
+    root.at("objective").at("over_cases").fail(rule);
+  }
+}
+
+}  // namespace pleuel

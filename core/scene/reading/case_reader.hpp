@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/scene/problem_file.hpp"
+#include "core/scene/reading/json_node.hpp"
+
+/// Reads the block "cases": what load cases change in the rest of the file.
+namespace pleuel {
+
+/// A load case as the file gives it.
+struct CaseChanges {
+  std::string name;
+  std::string range;                                 ///< that it is one of; empty: none
+  std::vector<std::pair<std::string, Json>> values;  ///< pointer and what stands there instead
+};
+
+/// The load cases of a document, those of ranges one by one. @throws InputError
+std::vector<CaseChanges> read_cases(const JsonNode& node);
+
+/// The document as if it were written for one case only. @throws InputError
+Json document_of_case(Json document, const CaseChanges& changes, const std::string& file);
+
+/// What the cases share, with the responses and constraints of all (ProblemFile::cases).
+/// @param cases    problems of the cases, one each
+/// @param changes  likewise
+/// @throws InputError at places of `root` that name cases
+ProblemFile join_cases(const JsonNode& root, const std::vector<CaseChanges>& changes,
+                       std::vector<ProblemFile> cases);
+
+/// @throws InputError where a file without cases names some
+void forbid_case_names(const JsonNode& root, const ProblemFile& problem);
+
+}  // namespace pleuel

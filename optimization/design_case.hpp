@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/response/analysis.hpp"
+#include "optimization/evaluation_store.hpp"
+#include "optimization/problem.hpp"
+#include "sensitivity/gradients.hpp"
+
+namespace pleuel {
+
+/// A constraint of the file, or one peak of the response that it limits; without a constraint the
+/// same of the objective.
+struct ConstraintRow {
+  std::optional<std::size_t> constraint;
+  std::optional<Reduction> peak;
+};
+
+/// What stands for the constraints at a simulated design: as many rows at each design.
+using RowsOf = std::function<std::vector<ConstraintRow>(const Analysis&)>;
+
+/// The mechanism that a problem file describes, simulated at designs: the part of a design problem
+/// that belongs to one load case. Values and gradients of its objective and of rows, gradients by
+/// the method of the file; where that leaves it open, by the exact one that suits its first design.
+class DesignCase {
+ public:
+  /// @param file     without cases
+  /// @param threads  simulations at a time, of gradients by differences
+  /// @param store    has evaluations that are known, and keeps those that are made; may be null
+  DesignCase(ProblemFile file, int threads, EvaluationStore* store);
+
+  const ProblemFile& file() const { return file_; }
+  double objective_sign() const { return file_.objective->sign(); }
+  /// How gradients are computed; none before the first one.
+  const std::optional<GradientChoice>& method() const { return choice_; }
+  /// From now on gradients are computed as another problem of this file has chosen.
+  void decide_method(GradientChoice choice) { choice_ = std::move(choice); }
+
+  /// The simulation of a design; kept until another one is asked for.
+  /// @throws SimulationError
+  Analysis& analysis_at(const Eigen::VectorXd& x);
+
+  /// Index of the response of a row; none for a sum of variables.
+  std::optional<std::size_t> response_of(const ConstraintRow& row) const;
+
+  /// An evaluation and how it came to be: what failed is no evaluation.
+  struct Answer {
+    Evaluation evaluation;
+    std::exception_ptr failure = nullptr;  ///< a SimulationError
+    bool is_known = false;                 ///< from the store
+    double seconds = 0.0;                  ///< that it took
+  };
+
+  /// What the store knows of an evaluation. Asks this process: not for other threads.
+  std::optional<Answer> recall(const Eigen::VectorXd& x, Request request, const std::string& rows);
+  /// The evaluation itself; may run beside those of other cases.
+  Answer compute(const Eigen::VectorXd& x, Request request, const RowsOf& rows_of);
+  /// Tells the store of what recall() asked it for last.
+  void keep(Request request, const Answer& answer);
+
+ private:
+  Evaluation simulated_rows(const Eigen::VectorXd& x, Request request, const RowsOf& rows_of);
+  EvaluationKey key_of(const Eigen::VectorXd& x, Request request, const std::string& rows) const;
+  double row_value(const Analysis& analysis, const ConstraintRow& row) const;
+  Eigen::MatrixXd gradients_of(Analysis& analysis, const RowsOf& rows_of);
+  std::size_t response_index(const std::string& name) const;
+
+  ProblemFile file_;
+  int threads_;
+  EvaluationStore* store_;
+  std::string setting_;  ///< of its evaluations, for the store
+  /// What the store was asked for last: the choice of gradients may have changed since.
+  std::optional<EvaluationKey> asked_;
+  Eigen::VectorXd x_;
+  std::unique_ptr<Analysis> analysis_;
+  std::optional<GradientChoice> choice_;
+};
+
+}  // namespace pleuel

@@ -1,0 +1,209 @@
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/error.hpp"
+#include "core/scene/load_cases.hpp"
+#include "core/scene/problem_reader.hpp"
+#include "tests/scene/good_problem.hpp"
+
+namespace pleuel::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// A slider on a rail, pushed to and fro, with two variables, two masses and three limits.
+Json rail() {
+  return Json::parse(R"json({
+    "constants": {"reach": "40 mm"},
+    "scene": {
+      "bodies": {
+        "bar": {"type": "beam", "from": [0, 0, 0], "to": ["200 mm", 0, 0], "material": "steel",
+                "section": {"type": "circle", "diameter": {"variable": "thick"}}, "elements": 2},
+        "load": {"type": "point-mass", "at": ["200 mm", 0, 0], "mass": "2 kg"}
+      },
+      "joints": {
+        "hub": {"type": "revolute", "bodies": ["ground", "bar"], "at": [0, 0, 0],
+                "drive": {"type": "constant-speed", "speed": "100 rpm"}},
+        "clamp": {"type": "fixed", "bodies": ["bar", "load"], "at": ["200 mm", 0, 0]}
+      }
+    },
+    "simulation": {"end_time": "0.1 s", "step": "1 ms"},
+    "variables": {"thick": {"start": "10 mm", "lower": "5 mm", "upper": "30 mm"}},
+    "responses": {
+      "weight": {"type": "mass", "bodies": ["bar"]},
+      "all": {"type": "mass"},
+      "stress": {"type": "stress", "body": "bar", "over_time": "max"},
+      "tip": {"type": "deflection", "body": "bar", "at": 1, "over_time": "max-abs"},
+      "double_tip": {"type": "expression", "value": "2*tip"}
+    },
+    "objective": {"minimize": "weight"},
+    "constraints": {
+      "strength": {"response": "stress", "upper": "100 MPa"},
+      "stiffness": {"response": "tip", "upper": "1 mm", "cases": ["fast"]},
+      "size": {"linear": {"thick": 1}, "lower": "6 mm"}
+    },
+    "cases": {
+      "slow": {},
+      "fast": {"/scene/joints/hub/drive/speed": "300 rpm", "/simulation/step": "0.5 ms"},
+      "loaded": {"/scene/bodies/load/mass": "5 kg"}
+    }
+  })json");
+}
+
+Json with(Json document, const std::string& pointer, const std::string& value) {
+  return edited(std::move(document), pointer, value);
+}
+
+std::vector<std::string> names_of(const std::vector<ConstraintSettings>& constraints) {
+  std::vector<std::string> names;
+  for (const ConstraintSettings& one : constraints) names.push_back(one.name);
+  return names;
+}
+
+std::vector<std::string> case_names(const ProblemFile& problem) {
+  std::vector<std::string> names;
+  for (const ProblemFile& one : problem.cases) names.push_back(one.load_case);
+  return names;
+}
+
+TEST(LoadCase, ChangesWhatItsPointersLeadToAndNothingElse) {
+  const ProblemFile problem = read(rail());
+  ASSERT_THAT(case_names(problem), ElementsAre("slow", "fast", "loaded"));
+  EXPECT_DOUBLE_EQ(problem.cases[0].simulation.step, 1e-3);
+  EXPECT_DOUBLE_EQ(problem.cases[1].simulation.step, 5e-4);
+  EXPECT_DOUBLE_EQ(problem.cases[2].simulation.step, 1e-3);
+}
+
+TEST(LoadCase, HasEachLimitOnceForEachCaseThatItIsFor) {
+  const ProblemFile problem = read(rail());
+  EXPECT_THAT(names_of(problem.constraints),
+              ElementsAre("strength [slow]", "strength [fast]", "strength [loaded]",
+                          "stiffness [fast]", "size"));
+  EXPECT_THAT(names_of(problem.cases[0].constraints), ElementsAre("strength", "size"));
+  EXPECT_EQ(problem.constraints[1].response, "stress [fast]");
+}
+
+TEST(LoadCase, LeavesMassesThatNoCaseChangesAsOneNumber) {
+  const ProblemFile problem = read(rail());
+  std::vector<std::string> names;
+  for (const ResponseSettings& one : problem.responses) names.push_back(one.name);
+  EXPECT_THAT(names, ElementsAre("weight", "all [slow]", "all [fast]", "all [loaded]",
+                                 "stress [slow]", "stress [fast]", "stress [loaded]", "tip [slow]",
+                                 "tip [fast]", "tip [loaded]", "double_tip [slow]",
+                                 "double_tip [fast]", "double_tip [loaded]"));
+  EXPECT_EQ(problem.objective->response, "weight");
+}
+
+TEST(LoadCase, ReadsFormulasWithTheResponsesOfItsOwn) {
+  const ProblemFile problem = read(rail());
+  const ResponseSettings& of_fast = problem.responses[11];
+  ASSERT_EQ(of_fast.name, "double_tip [fast]");
+  EXPECT_EQ(problem.responses[of_fast.expression->arguments.front().index].name, "tip [fast]");
+}
+
+TEST(LoadCase, StandsForEachValueOfARange) {
+  const Json named = with(rail(), "/constraints/stiffness/cases", R"(["sweep"])");
+  const ProblemFile problem = read(with(named, "/cases", R"({"sweep": {
+      "/scene/bodies/load/mass": "3 kg",
+      "range": {"/simulation/step": {"from": "1 ms", "to": "4 ms", "count": 4}}}})"));
+  EXPECT_THAT(case_names(problem),
+              ElementsAre("sweep 1 ms", "sweep 2 ms", "sweep 3 ms", "sweep 4 ms"));
+  EXPECT_DOUBLE_EQ(problem.cases[2].simulation.step, 3e-3);
+  EXPECT_EQ(names_of(problem.constraints).size(), 4u + 4u + 1u);
+}
+
+TEST(LoadCase, IsAProblemOfItsOwnByItsName) {
+  const ProblemFile fast = problem_of_case(read(rail()), "fast");
+  EXPECT_FALSE(fast.has_cases());
+  EXPECT_DOUBLE_EQ(fast.simulation.step, 5e-4);
+  EXPECT_THAT(names_of(fast.constraints), ElementsAre("strength", "stiffness", "size"));
+}
+
+TEST(LoadCase, TakesAnObjectiveOverCases) {
+  const ProblemFile worst =
+      read(with(rail(), "/objective", R"({"minimize": "stress", "over_cases": "worst"})"));
+  EXPECT_EQ(worst.objective->response, "stress [worst]");
+  EXPECT_EQ(worst.responses.back().name, "stress [worst]");
+  const ProblemFile weighted = read(with(
+      rail(), "/objective", R"({"minimize": "stress", "over_cases": {"slow": 2, "fast": 1}})"));
+  EXPECT_THAT(weighted.case_weights, ElementsAre(2.0, 1.0, 0.0));
+}
+
+TEST(LoadCase, SaysWhereAPointerLeadsNowhere) {
+  const std::string text =
+      complaint(with(rail(), "/cases/fast", R"({"/scene/joints/hub/drive/sped": "300 rpm"})"));
+  EXPECT_THAT(text, HasSubstr("sped"));
+  EXPECT_THAT(text, HasSubstr("fast"));
+  EXPECT_THAT(complaint(with(rail(), "/cases/fast", R"({"/scene/joints/hubb/drive/speed": 1})")),
+              HasSubstr("/scene/joints has no key \"hubb\"; did you mean \"hub\"?"));
+}
+
+TEST(LoadCase, ChangesNeitherVariablesNorGoals) {
+  for (const std::string pointer : {"/variables/thick/start", "/objective/minimize",
+                                    "/constraints/strength/upper", "/responses/tip/at"}) {
+    const std::string text = complaint(with(rail(), "/cases/fast", "{\"" + pointer + "\": 1}"));
+    EXPECT_THAT(text, HasSubstr("/cases/fast/~1")) << pointer;
+    EXPECT_THAT(text, HasSubstr("must lead into /scene, /simulation, /effects or /constants"));
+  }
+  EXPECT_THAT(complaint(with(rail(), "/cases/fast", R"({"speed": 1})")),
+              HasSubstr("/cases/fast/speed must be a JSON pointer"));
+}
+
+TEST(LoadCase, IsNamedWhereItsValuesAreWrong) {
+  const std::string text =
+      complaint(with(rail(), "/cases/fast", R"({"/scene/joints/hub/drive/speed": "300 kg"})"));
+  EXPECT_THAT(text, HasSubstr("/scene/joints/hub/drive/speed"));
+  EXPECT_THAT(text, HasSubstr("(in the case \"fast\")"));
+}
+
+TEST(LoadCase, IsNotNamedForWhatIsWrongInAllOfThem) {
+  EXPECT_THAT(complaint(with(rail(), "/scene/bodies/bar/material", "\"stel\"")),
+              Not(HasSubstr("in the case")));
+}
+
+TEST(LoadCase, HasToBeThereWhereALimitNamesIt) {
+  EXPECT_THAT(complaint(with(rail(), "/constraints/stiffness/cases", R"(["fats"])")),
+              HasSubstr("/constraints/stiffness/cases/0"));
+  EXPECT_THAT(complaint(with(rail(), "/constraints/stiffness/cases", R"(["fats"])")),
+              HasSubstr("did you mean \"fast\"?"));
+  EXPECT_THAT(complaint(with(rail(), "/constraints/size/cases", R"(["fast"])")),
+              HasSubstr("variables are the same in all cases"));
+  EXPECT_THAT(complaint(with(rail(), "/cases", "remove")),
+              HasSubstr("/constraints/stiffness/cases names cases, and the problem has none"));
+}
+
+TEST(LoadCase, AsksHowAnObjectiveThatDiffersIsMeant) {
+  EXPECT_THAT(complaint(with(rail(), "/objective", R"({"minimize": "stress"})")),
+              HasSubstr("/objective needs \"over_cases\""));
+  EXPECT_THAT(
+      complaint(with(rail(), "/objective", R"({"minimize": "weight", "over_cases": "worst"})")),
+      HasSubstr("\"weight\" is the same in all"));
+  EXPECT_THAT(complaint(with(rail(), "/objective",
+                             R"({"minimize": "stress", "over_cases": {"slowly": 1}})")),
+              HasSubstr("did you mean \"slow\"?"));
+}
+
+TEST(LoadCase, RefusesRangesThatSayTooLittle) {
+  const auto of_range = [](const std::string& range) {
+    return complaint(
+        with(rail(), "/cases/fast", "{\"range\": {\"/simulation/step\": " + range + "}}"));
+  };
+  EXPECT_THAT(of_range(R"({"from": "1 ms", "to": "2 s", "count": 3})"),
+              HasSubstr("unit of \"from\""));
+  EXPECT_THAT(of_range(R"({"from": "1 ms", "to": "1 ms", "count": 3})"), HasSubstr("must differ"));
+  EXPECT_THAT(of_range(R"({"from": "1 ms", "to": "2 ms", "count": 1})"), HasSubstr("count"));
+}
+
+TEST(LoadCase, KeepsVariablesTheSameWhereTheyFollowFromConstants) {
+  Json document = with(rail(), "/variables/thick/upper", "\"= reach\"");
+  EXPECT_EQ(complaint(document), "");
+  EXPECT_THAT(complaint(with(document, "/cases/fast", R"({"/constants/reach": "20 mm"})")),
+              HasSubstr("/variables/thick must be the same in all cases"));
+}
+
+}  // namespace
+}  // namespace pleuel::test
