@@ -3,6 +3,7 @@
 #include <cctype>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <optional>
 
 #include <fmt/format.h>
@@ -35,6 +36,22 @@ struct RunHistories {
   CsvTable table;
 };
 
+/// Of an optimization with load cases: the designs in each of them, {file, "optimum fast"}.
+std::vector<std::pair<std::string, std::string>> files_of_cases(const fs::path& folder) {
+  std::vector<std::pair<std::string, std::string>> files;
+  for (const std::string design : {"start", "optimum"}) {
+    const std::string beginning = "trajectory-" + design + "-";
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      const std::string name = entry.path().filename().string();
+      if (!name.starts_with(beginning) || !name.ends_with(".csv")) continue;
+      const std::string load_case = entry.path().stem().string().substr(beginning.size());
+      files.emplace_back(name, design + " " + load_case);
+    }
+  }
+  std::sort(files.begin(), files.end(), std::greater<>());  // the start first
+  return files;
+}
+
 std::vector<RunHistories> read_histories(const fs::path& folder) {
   static constexpr std::array<std::pair<const char*, const char*>, 4> files = {
       {{"trajectory.csv", ""},
@@ -49,6 +66,9 @@ std::vector<RunHistories> read_histories(const fs::path& folder) {
     if (fs::is_regular_file(folder / name)) {
       histories.push_back({design, read_csv(folder / name)});
     }
+  }
+  for (const auto& [name, design] : files_of_cases(folder)) {
+    histories.push_back({design, read_csv(folder / name)});
   }
   if (histories.empty()) {
     throw InputError(fmt::format(
@@ -71,8 +91,10 @@ std::optional<ProblemFile> problem_of_card(const fs::path& folder) {
   const Json card = Json::parse(stream, nullptr, /*allow_exceptions=*/false);
   if (!card.is_object() || !card.contains("problem")) return std::nullopt;
   try {
-    return read_problem_text(card["problem"].dump(), card.at("input").at("file").get<std::string>(),
-                             {});
+    ProblemFile problem = read_problem_text(card["problem"].dump(),
+                                            card.at("input").at("file").get<std::string>(), {});
+    // Names of histories are those of a case.
+    return problem.has_cases() ? problem.cases.front() : problem;
   } catch (const std::exception&) {
     return std::nullopt;
   }

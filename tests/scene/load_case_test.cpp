@@ -6,6 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/scene/load_cases.hpp"
+#include "core/scene/problem_numbers.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "tests/scene/good_problem.hpp"
 
@@ -121,6 +122,19 @@ TEST(LoadCase, IsAProblemOfItsOwnByItsName) {
   EXPECT_FALSE(fast.has_cases());
   EXPECT_DOUBLE_EQ(fast.simulation.step, 5e-4);
   EXPECT_THAT(names_of(fast.constraints), ElementsAre("strength", "stiffness", "size"));
+}
+
+TEST(LoadCase, IsTheSameProblemWhereverItIsTakenFromTheFile) {
+  const ProblemText text{with(rail(), "/pareto", R"({"constraint": "stiffness", "from": "1 mm",
+                                                     "to": "2 mm"})")
+                             .dump(),
+                         "bad.json",
+                         {},
+                         "loaded"};
+  const ProblemFile bound = bind_numbers(text, {{"length", {"/scene/bodies/bar/to/0"}}});
+  EXPECT_THAT(names_of(bound.constraints), ElementsAre("strength", "size"));
+  EXPECT_FALSE(bound.pareto);
+  EXPECT_FALSE(bound.has_cases());
 }
 
 TEST(LoadCase, TakesAnObjectiveOverCases) {

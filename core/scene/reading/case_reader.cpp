@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -161,6 +162,25 @@ std::vector<double> read_weights(const JsonNode& root, const std::vector<Problem
   return weights;
 }
 
+/// Whether a limit holds in a case: those without names hold in all.
+bool names_case(const Json& constraint, const CaseChanges& changes) {
+  if (!constraint.is_object() || !constraint.contains("cases")) return true;
+  const Json& names = constraint["cases"];
+  return std::any_of(names.begin(), names.end(), [&](const Json& name) {
+    return name == changes.name || (!changes.range.empty() && name == changes.range);
+  });
+}
+
+/// A study of a limit that does not hold in the case is none of its.
+void forget_missing_limit(Json& document) {
+  if (!document.contains("pareto") || !document["pareto"].is_object()) return;
+  const Json& pareto = document["pareto"];
+  if (!pareto.contains("constraint") || !pareto["constraint"].is_string()) return;
+  if (!document["constraints"].contains(pareto["constraint"].get<std::string>())) {
+    document.erase("pareto");
+  }
+}
+
 /// Variables whose bounds follow from constants could differ.
 void check_variables(const JsonNode& root, const std::vector<ProblemFile>& cases) {
   const std::vector<DesignVariable>& first = cases.front().variables;
@@ -270,6 +290,23 @@ Json document_of_case(Json document, const CaseChanges& changes, const std::stri
     replace_at(document, pointer, value, child_pointer(place, pointer), file);
   }
   document.erase("cases");
+  return document;
+}
+
+Json lone_document(Json document, const CaseChanges& changes, const std::string& file) {
+  document = document_of_case(std::move(document), changes, file);
+  if (document.contains("objective") && document["objective"].is_object()) {
+    document["objective"].erase("over_cases");
+  }
+  if (!document.contains("constraints") || !document["constraints"].is_object()) return document;
+  Json constraints = Json::object();
+  for (auto& [name, constraint] : document["constraints"].items()) {
+    if (!names_case(constraint, changes)) continue;
+    constraints[name] = constraint;
+    if (constraint.is_object()) constraints[name].erase("cases");
+  }
+  document["constraints"] = std::move(constraints);
+  forget_missing_limit(document);
   return document;
 }
 

@@ -20,8 +20,13 @@ struct CaseChanges {
 /// The load cases of a document, those of ranges one by one. @throws InputError
 std::vector<CaseChanges> read_cases(const JsonNode& node);
 
-/// The document as if it were written for one case only. @throws InputError
+/// The document with what the case changes. Limits and objective may still name cases.
+/// @throws InputError
 Json document_of_case(Json document, const CaseChanges& changes, const std::string& file);
+
+/// The document as if it were written for one case only: with the limits that hold in it.
+/// @throws InputError
+Json lone_document(Json document, const CaseChanges& changes, const std::string& file);
 
 /// What the cases share, with the responses and constraints of all (ProblemFile::cases).
 /// @param cases    problems of the cases, one each

@@ -65,7 +65,7 @@ Json overridden_document(const ProblemText& text) {
   }
   if (text.load_case.empty()) return document;
   for (const CaseChanges& changes : cases_of(document, text.file)) {
-    if (changes.name == text.load_case) return document_of_case(document, changes, text.file);
+    if (changes.name == text.load_case) return lone_document(document, changes, text.file);
   }
   throw InputError(fmt::format("{}: /cases has no case \"{}\"", text.file, text.load_case));
 }

@@ -15,9 +15,9 @@ namespace pleuel {
 namespace {
 
 /// Objects that a file may leave out, and an override begin.
-constexpr std::array optional_blocks = {"accuracy",   "cases", "constants", "constraints", "effects",   "objective",
-                                        "optimizer",  "pareto",      "responses", "sensitivity",
-                                        "simulation", "uncertainty", "variables"};
+constexpr std::array optional_blocks = {
+    "accuracy", "cases",     "constants",   "constraints", "effects",     "objective", "optimizer",
+    "pareto",   "responses", "sensitivity", "simulation",  "uncertainty", "variables"};
 
 /// The same within the scene.
 constexpr std::array scene_blocks = {"joints", "loads", "materials"};
