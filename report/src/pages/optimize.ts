@@ -61,6 +61,10 @@ export function optimizePage(data: ReportData): HTMLElement[] {
     const main = picture.designs.length - 1;
     shown = viewing(picture, main);
     parts.push(shown.element);
+    if (result.cases) {
+      const names = (result.cases.names as string[]).map(words).join(", ");
+      parts.push(h("p.note", {}, `The design is for the load cases ${names}. The mechanism is shown in ${words(result.cases.shown)}, which decides most.`));
+    }
     markLimits(data, shown);
     shown.pickBody(mostUsedBody(picture, result));
   }
