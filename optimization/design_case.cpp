@@ -31,6 +31,7 @@ Analysis& DesignCase::analysis_at(const Eigen::VectorXd& x) {
 }
 
 std::optional<std::size_t> DesignCase::response_of(const ConstraintRow& row) const {
+  if (row.part) return row.part;
   if (!row.constraint) return response_index(file_.objective->response);
   const std::string& name = file_.constraints[*row.constraint].response;
   if (name.empty()) return std::nullopt;

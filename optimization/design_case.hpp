@@ -19,7 +19,9 @@ namespace pleuel {
 /// same of the objective.
 struct ConstraintRow {
   std::optional<std::size_t> constraint;
-  std::optional<Reduction> peak;
+  std::optional<Reduction> peak = {};
+  /// Of a response that is the largest, or smallest, of others: one of them.
+  std::optional<std::size_t> part = {};
 };
 
 /// What stands for the constraints at a simulated design: as many rows at each design.

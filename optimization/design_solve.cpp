@@ -10,6 +10,7 @@
 #include "core/base/number_text.hpp"
 #include "core/response/describe_tie.hpp"
 #include "core/scene/load_cases.hpp"
+#include "core/scene/response_parts.hpp"
 #include "core/trust/doubts.hpp"
 #include "core/trust/nested_runs.hpp"
 #include "optimization/broken_limits.hpp"
@@ -39,6 +40,9 @@ constexpr int windows_of_limits = 64;
 /// Iterations after which a run on the constraints of the file is taken for one that does not end:
 /// on a smooth optimum all backends need fewer.
 constexpr int plain_iterations = 40;
+/// The same where the objective is the largest of several responses: two of them meet at its optimum,
+/// more often than not.
+constexpr int iterations_of_extreme = 8;
 
 /// Records of a run on windows as records of the file.
 class Folding {
@@ -224,13 +228,24 @@ std::unique_ptr<Problem> robust_problem(DesignProblem& design) {
   return with_margins(design, design, all);
 }
 
+/// Whether the objective is the largest of several responses, or the smallest that is maximized.
+bool has_extreme_objective(const DesignProblem& design) {
+  const bool is_maximized = design.file().objective->aim == Aim::maximize;
+  const DesignCase& first = design.load_case(0);
+  return !extreme_parts(first.file(), *first.response_of({}),
+                        is_maximized ? Extreme::smallest : Extreme::largest)
+              .empty();
+}
+
 /// From the start of the design problem, with one backend.
 Result attempt_optimum(DesignProblem& design, const SolveOptions& options, const Observer& observer,
                        const Notice& notice) {
   const auto robust = robust_problem(design);
   Problem& problem = robust ? *robust : design;
   SolveOptions plain = options;
-  plain.max_iterations = std::min(options.max_iterations, plain_iterations);
+  plain.max_iterations =
+      std::min(options.max_iterations,
+               has_extreme_objective(design) ? iterations_of_extreme : plain_iterations);
   plain.polish_iterations =
       std::min(plain_iterations / 2, options.max_iterations - plain.max_iterations);
   plain.max_restarts = std::min(options.max_restarts, 1);
@@ -391,13 +406,31 @@ EvaluationRecord simulated_with(const ProblemFile& file, EvaluationRecord record
   return record;
 }
 
+namespace {
+
+Observer with_setting_of(const DesignProblem& design, const Observer& observer) {
+  if (!observer) return {};
+  return [&design, &observer](const EvaluationRecord& record) {
+    observer(simulated_with(design.file(), record));
+  };
+}
+
+}  // namespace
+
+Result judge_design(DesignProblem& design, const SolveOptions& options, const Observer& observer) {
+  const auto robust = robust_problem(design);
+  Result result = solve(robust ? *robust : design, options, with_setting_of(design, observer));
+  for (EvaluationRecord& record : result.history) {
+    record = simulated_with(design.file(), std::move(record));
+  }
+  judge_numbers(design, result);
+  return result;
+}
+
 Result solve_design(DesignProblem& design, const SolveOptions& options, const Observer& observer,
                     const Notice& notice) {
   const ProblemFile& file = design.file();
-  Observer with_setting;
-  if (observer) {
-    with_setting = [&](const EvaluationRecord& record) { observer(simulated_with(file, record)); };
-  }
+  const Observer with_setting = with_setting_of(design, observer);
   SearchedDesign searched(design, notice);
   Result result = find_optimum(searched, options, with_setting, notice);
   for (EvaluationRecord& record : result.history) record = simulated_with(file, std::move(record));

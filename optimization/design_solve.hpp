@@ -16,6 +16,10 @@ namespace pleuel {
 Result solve_design(DesignProblem& problem, const SolveOptions& options,
                     const Observer& observer = {}, const Notice& notice = {});
 
+/// The same for a problem in which nothing is free: its start, audited.
+Result judge_design(DesignProblem& problem, const SolveOptions& options,
+                    const Observer& observer = {});
+
 /// The record with what it was simulated with; of several load cases with the smallest step and the
 /// most elements.
 EvaluationRecord simulated_with(const ProblemFile& file, EvaluationRecord record);

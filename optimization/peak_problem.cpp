@@ -23,6 +23,12 @@ constexpr double least_dependence = 1e-2;
 /// Of one limit. Where places alone are more, each has two windows still.
 constexpr int most_rows = 192, least_windows = 2;
 
+/// Whether the response is the largest, or the smallest, of its windows of time: a limit on it is one
+/// on each of them.
+bool is_extreme(const ResponseSettings& response, Extreme extreme) {
+  return (response.over_time == OverTime::min) == (extreme == Extreme::smallest);
+}
+
 Eigen::VectorXd starts_of(const DesignProblem& problem) {
   Eigen::VectorXd start(problem.variables().size());
   for (Eigen::Index i = 0; i < start.size(); ++i) start(i) = problem.variables()[i].start;
@@ -48,29 +54,58 @@ PeakProblem::PeakProblem(DesignProblem& problem, int windows, const Eigen::Vecto
   }
   for (std::size_t i = 0; i < file.constraints.size(); ++i) {
     const OfCase of_case = case_of_constraint(file, i);
-    splits_.push_back(split(of_case.load_case, i));
-    add_rows(splits_.back(), problem.constraints()[i]);
+    for (Split& one : split(of_case.load_case, i)) {
+      add_rows(one, problem.constraints()[i]);
+      splits_.push_back(std::move(one));
+    }
   }
   if (of == Of::objective_and_limits) bound_objective();
   find_places();
 }
 
-PeakProblem::Split PeakProblem::split(std::size_t load_case,
-                                      std::optional<std::size_t> constraint) const {
+/// Which values of a response count: the large ones of an upper limit and of what is minimized. None
+/// where both do, or a single one.
+std::optional<Extreme> PeakProblem::pressed_side(std::optional<std::size_t> constraint) const {
+  if (!constraint) {
+    const bool is_maximized = problem_.file().objective->aim == Aim::maximize;
+    return is_maximized ? Extreme::smallest : Extreme::largest;
+  }
+  const Constraint& limits = problem_.constraints()[*constraint];
+  const bool has_upper = limits.upper < practically_infinite;
+  const bool has_lower = limits.lower > -practically_infinite;
+  if (has_upper == has_lower) return std::nullopt;
+  return has_upper ? Extreme::largest : Extreme::smallest;
+}
+
+std::vector<PeakProblem::Split> PeakProblem::split(std::size_t load_case,
+                                                   std::optional<std::size_t> constraint) const {
   const DesignCase& of_case = problem_.load_case(load_case);
-  Split split;
-  split.load_case = load_case;
-  split.constraint = constraint;
-  if (constraint) split.in_case = case_of_constraint(problem_.file(), *constraint).index;
+  const ProblemFile& file = of_case.file();
+  Split whole;
+  whole.load_case = load_case;
+  whole.constraint = constraint;
+  if (constraint) whole.in_case = case_of_constraint(problem_.file(), *constraint).index;
   const std::optional<std::size_t> in_case =
-      constraint ? std::optional(split.in_case) : std::nullopt;
-  const auto response = of_case.response_of({in_case, std::nullopt});
-  if (!response) return split;
-  split.response = *response;
-  const bool is_equality = constraint && problem_.constraints()[*constraint].is_equality();
-  split.is_peak = !is_equality && has_peaks(of_case.file().responses[*response]);
-  if (split.is_peak) divide(split);
-  return split;
+      constraint ? std::optional(whole.in_case) : std::nullopt;
+  const auto response = of_case.response_of({in_case});
+  if (response) whole.response = *response;
+  const auto side = pressed_side(constraint);
+  if (!response || !side) return {whole};
+  const auto told_apart = [&](Split one) {
+    const ResponseSettings& settings = file.responses[one.response];
+    one.is_peak = has_peaks(settings) && is_extreme(settings, *side);
+    if (one.is_peak) divide(one);
+    return one;
+  };
+  std::vector<Split> all;
+  for (const std::size_t part : extreme_parts(file, *response, *side)) {
+    Split one = whole;
+    one.part = part;
+    one.response = part;
+    all.push_back(told_apart(std::move(one)));
+  }
+  if (all.empty()) all.push_back(told_apart(whole));
+  return all;
 }
 
 void PeakProblem::divide(Split& split) const {
@@ -90,11 +125,8 @@ void PeakProblem::add_rows(const Split& split, const Constraint& limits) {
 
 /// What is pressed down from above: a maximum that is minimized, a minimum that is maximized.
 bool PeakProblem::objective_has_peaks() const {
-  const DesignCase& first = problem_.load_case(0);
-  const ResponseSettings& response = first.file().responses[*first.response_of({})];
-  const bool is_minimum = response.over_time == OverTime::min;
-  const bool is_maximized = problem_.file().objective->aim == Aim::maximize;
-  return has_peaks(response) && is_minimum == is_maximized;
+  const std::vector<Split> first = split(0, std::nullopt);
+  return first.size() > 1 || first.front().is_peak;
 }
 
 void PeakProblem::bound_objective() {
@@ -104,12 +136,7 @@ void PeakProblem::bound_objective() {
   for (std::size_t c = 0; c < problem_.case_count(); ++c) {
     const double weight = problem_.objective_weight(c);
     if (weight == 0.0) continue;
-    Split of_case = split(c, std::nullopt);
-    if (!has_peaks) {
-      of_case.is_peak = false;
-      of_case.windows = of_case.places = 1;
-    }
-    all.splits.push_back(std::move(of_case));
+    for (Split& of_case : split(c, std::nullopt)) all.splits.push_back(std::move(of_case));
     if (problem_.minimizes_worst()) continue;
     all.weight = weight;
     add_bound(std::exchange(all, Bound()));
@@ -145,7 +172,7 @@ void PeakProblem::start_bounds() {
     const double value =
         is_one ? at_start.objective
                : of_case.objective_sign() *
-                     of_case.analysis_at(start).reductions[bound.splits.front().response].value;
+                     of_case.analysis_at(start).reductions[*of_case.response_of({})].value;
     variables_.push_back({is_one ? name : name_in_case(name, of_case.file().load_case), value,
                           -infinity, infinity, magnitude > 0.0 ? magnitude / bound.weight : 1.0});
   }
@@ -215,7 +242,7 @@ void PeakProblem::add_peaks(Split& split, const Analysis& analysis,
   const std::optional<std::size_t> constraint =
       split.constraint ? std::optional(split.in_case) : std::nullopt;
   if (!split.is_peak) {
-    rows.push_back({constraint, std::nullopt});
+    rows.push_back({constraint, std::nullopt, split.part});
     return;
   }
   if (split.places > 1 && split.ranges.empty()) {
@@ -223,7 +250,7 @@ void PeakProblem::add_peaks(Split& split, const Analysis& analysis,
     split.ranges = places_of(analysis, file, split.response, split.places);
   }
   for (Reduction& peak : peaks_of_places(analysis, split.response, split.ranges, split.windows)) {
-    rows.push_back({constraint, std::move(peak)});
+    rows.push_back({constraint, std::move(peak), split.part});
   }
 }
 

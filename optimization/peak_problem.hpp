@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/scene/response_parts.hpp"
 #include "optimization/design_problem.hpp"
 #include "optimization/peak_windows.hpp"
 
@@ -18,6 +19,10 @@ namespace pleuel {
 /// Of the worst of several load cases all have one t, whether they are peaks or not: a tie of two
 /// cases is an ordinary point, too. Of a sum over cases each peak has a t of its own, and Σ w t is
 /// minimized.
+///
+/// So does one that is the largest of several responses, max(a, b, …), be they peaks or not: the rows
+/// of all of them follow. An upper limit on such a response is one on each of them; what is maximized
+/// and lower limits likewise by min(a, b, …).
 ///
 /// The same holds for the place where a peak is: the largest stress of a whole beam has a kink
 /// wherever it moves from one segment to another. A limit on it stands once for each window at each
@@ -70,6 +75,7 @@ class PeakProblem : public Problem {
     std::optional<std::size_t> constraint;  ///< of the file; none of the objective
     std::size_t in_case = 0;                ///< the same in the problem of its case
     std::size_t response = 0;               ///< in the problem of its case
+    std::optional<std::size_t> part = {};   ///< that response, if it is one of several
     bool is_peak = false;                   ///< else one row, as it is
     int windows = 1, places = 1;
     std::vector<ChannelRange> ranges = {};  ///< of the places; known from the first simulation on
@@ -84,7 +90,9 @@ class PeakProblem : public Problem {
     Eigen::Index first_row = 0, rows = 0;
   };
 
-  Split split(std::size_t load_case, std::optional<std::size_t> constraint) const;
+  /// One for each response that is pressed upon.
+  std::vector<Split> split(std::size_t load_case, std::optional<std::size_t> constraint) const;
+  std::optional<Extreme> pressed_side(std::optional<std::size_t> constraint) const;
   void divide(Split& split) const;
   void add_rows(const Split& split, const Constraint& limits);
   bool objective_has_peaks() const;

@@ -1,6 +1,7 @@
 #include "studies/pareto.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -59,6 +60,131 @@ bool dominates(const ParetoPoint& one, const ParetoPoint& other, GoodSide side) 
          (gain > least || limited_gain > least_limited);
 }
 
+/// By how much goals may be missed where the other one is improved, relative to the length of the front.
+constexpr double end_tolerance = 1e-4;
+
+double signed_value(const Objective& goal, double value) {
+  return goal.sign() * value;
+}
+
+/// The file with another objective, and at most this value (of what is maximized at least) of
+/// another response.
+ProblemFile with_goal(ProblemFile file, const Objective& goal,
+                      const std::optional<std::pair<Objective, double>>& limit) {
+  file.objective = goal;
+  if (!limit) return file;
+  ConstraintSettings constraint;
+  constraint.name = limit->first.response;
+  constraint.response = limit->first.response;
+  (limit->first.aim == Aim::minimize ? constraint.upper : constraint.lower) = limit->second;
+  file.constraints.push_back(std::move(constraint));
+  return file;
+}
+
+/// The best design for one of two responses.
+struct End {
+  Result result;
+  std::array<double, 2> values{};  ///< of both responses
+};
+
+template <class Archive>
+void transfer(Archive& archive, End& end) {
+  auto& [result, values] = end;
+  archive(result, values[0], values[1]);
+}
+
+/// Searches that each are a file and a start.
+class EndSearches : public Tasks {
+ public:
+  EndSearches(std::vector<ProblemFile> files, std::vector<Eigen::VectorXd> starts,
+              const SolveOptions& options, const Execution& execution)
+      : files_(std::move(files)),
+        starts_(std::move(starts)),
+        options_(options),
+        execution_(execution),
+        ends_(files_.size()) {}
+
+  int count() const override { return static_cast<int>(files_.size()); }
+
+  std::string run(int task, const std::string& /*needed*/, TaskCaller& caller) override {
+    RemoteStore store(caller);
+    ProblemFile file = files_[task];
+    start_from(starts_[task], file.variables);
+    DesignProblem design(file, available_threads(), execution_.store ? &store : nullptr);
+    End end;
+    end.result = solve_design(design, options_);
+    if (end.result.evaluation.has_gradients()) {
+      const Analysis& analysis = design.load_case(0).analysis_at(end.result.x);  // the only one
+      for (std::size_t i = 0; i < 2; ++i) {
+        const std::size_t response = design.response_index(file.pareto->goals[i].response);
+        end.values[i] = analysis.reductions[response].value;
+      }
+    }
+    return packed(end);
+  }
+
+  std::string reply(int /*task*/, const std::string& question) override {
+    return reply_of(*execution_.store, question);
+  }
+  void take(int task, const std::string& answer) override { ends_[task] = unpacked<End>(answer); }
+  void fail(int task, const std::string& failure) override {
+    ends_[task].result.message = "the search was lost: " + failure;
+    ends_[task].result.x = starts_[task];
+  }
+
+  std::vector<End> take_ends() { return std::move(ends_); }
+
+ private:
+  std::vector<ProblemFile> files_;
+  std::vector<Eigen::VectorXd> starts_;
+  const SolveOptions& options_;
+  const Execution& execution_;
+  std::vector<End> ends_;
+};
+
+bool keeps_limits(const Result& result) {
+  return result.evaluation.has_gradients() && result.max_violation <= Tolerances().violation;
+}
+
+/// An end whose other response is better, if there is one that is as good.
+void refine(End& end, const End& refined, const Objective& other, std::size_t index,
+            double length) {
+  if (!keeps_limits(refined.result)) return;
+  const double gain =
+      signed_value(other, end.values[index]) - signed_value(other, refined.values[index]);
+  if (gain > 10.0 * end_tolerance * length) end = refined;
+}
+
+/// The best designs for both responses.
+/// @param file  that of the user: without the limit that is varied
+std::vector<End> find_ends(const ProblemFile& file, const SolveOptions& options,
+                           const Execution& execution) {
+  const std::vector<Objective>& goals = file.pareto->goals;
+  const Eigen::VectorXd start = start_design(file);
+  EndSearches first(
+      {with_goal(file, goals[0], std::nullopt), with_goal(file, goals[1], std::nullopt)},
+      {start, start}, options, execution);
+  run_tasks(first, execution.tasks);
+  std::vector<End> ends = first.take_ends();
+  if (!keeps_limits(ends[0].result) || !keeps_limits(ends[1].result)) return ends;
+  std::vector<ProblemFile> files;
+  std::array<double, 2> lengths{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    lengths[i] = std::abs(ends[0].values[i] - ends[1].values[i]);
+    const double limit = ends[i].values[i] + goals[i].sign() * end_tolerance * lengths[i];
+    files.push_back(with_goal(file, goals[1 - i], std::pair(goals[i], limit)));
+  }
+  const bool is_point = lengths[0] <= resolution * std::abs(ends[0].values[0]) ||
+                        lengths[1] <= resolution * std::abs(ends[0].values[1]);
+  if (is_point) return ends;
+  EndSearches second(files, {ends[0].result.x, ends[1].result.x}, options, execution);
+  run_tasks(second, execution.tasks);
+  const std::vector<End> refined = second.take_ends();
+  for (std::size_t i = 0; i < 2; ++i)
+    refine(ends[i], refined[i], goals[1 - i], 1 - i, lengths[1 - i]);
+  return ends;
+}
+
 /// A point as an answer of a task, with the design that its search began at.
 struct FoundPoint {
   Eigen::VectorXd start;
@@ -73,15 +199,17 @@ struct FoundPoint {
 template <class Archive>
 void transfer(Archive& archive, FoundPoint& found) {
   auto& [start, point] = found;
-  auto& [limit, limited_value, multiplier, is_dominated, result] = point;
-  archive(start, limit, limited_value, multiplier, is_dominated, result);
+  auto& [limit, limited_value, multiplier, is_dominated, is_end, result] = point;
+  archive(start, limit, limited_value, multiplier, is_dominated, is_end, result);
 }
 
 class Front : public Tasks {
  public:
-  Front(const ProblemFile& problem, const SolveOptions& options, const Execution& execution,
-        const ParetoObserver& observer)
+  /// @param ends  that are known, or none
+  Front(const ProblemFile& problem, std::vector<FoundPoint> ends, const SolveOptions& options,
+        const Execution& execution, const ParetoObserver& observer)
       : problem_(problem),
+        ends_(std::move(ends)),
         options_(options),
         execution_(execution),
         observer_(observer),
@@ -94,6 +222,7 @@ class Front : public Tasks {
   std::optional<int> needed_by(int task) const override { return order_.from[task]; }
 
   std::string run(int task, const std::string& needed, TaskCaller& caller) override {
+    if (static_cast<std::size_t>(task) < ends_.size()) return packed(ends_[task]);
     RemoteStore store(caller);
     FoundPoint found;
     found.start =
@@ -151,6 +280,7 @@ class Front : public Tasks {
   }
 
   const ProblemFile& problem_;
+  std::vector<FoundPoint> ends_;
   const SolveOptions& options_;
   const Execution& execution_;
   const ParetoObserver& observer_;
@@ -194,18 +324,96 @@ void mark_dominated(std::vector<ParetoPoint>& points, GoodSide side) {
   }
 }
 
+ProblemFile trade_off_problem(ProblemFile problem) {
+  if (!problem.pareto || problem.pareto->goals.empty()) return problem;
+  if (problem.has_cases()) {
+    throw InputError(
+        "/pareto/responses: fronts between responses take no load cases; take \"constraint\"");
+  }
+  const std::vector<Objective> goals = problem.pareto->goals;
+  problem =
+      with_goal(std::move(problem), goals[0], std::pair(goals[1], goals[1].sign() * infinity));
+  std::string& name = problem.constraints.back().name;
+  const auto is_taken = [&] {
+    return std::count_if(problem.constraints.begin(), problem.constraints.end(),
+                         [&](const ConstraintSettings& one) { return one.name == name; }) > 1;
+  };
+  while (is_taken()) name += " (traded)";
+  problem.pareto->constraint = name;
+  return problem;
+}
+
+namespace {
+
+/// An end as a point of the front.
+FoundPoint point_of(const End& end, const ProblemFile& problem, const Execution& execution) {
+  FoundPoint found;
+  found.start = end.result.x;
+  ParetoPoint& point = found.point;
+  point.is_end = true;
+  point.result = end.result;
+  point.limit = point.limited_value = end.values[1];
+  if (!point.has_design()) return found;
+  ProblemFile limited = problem;
+  set_limit(limited.constraints[varied_row(problem)], point.limit);
+  DesignProblem design(std::move(limited), available_threads(), execution.store);
+  Result& result = point.result;
+  result.evaluation = design.evaluate(result.x, Request::values_and_gradients);
+  result.constraint_multipliers = Eigen::VectorXd::Zero(result.evaluation.constraints.size());
+  result.error.reset();  // of the response that it is best for
+  return found;
+}
+
+std::vector<ParetoPoint> points_of(Front& front, const Execution& execution) {
+  try {
+    run_tasks(front, execution.tasks);
+    return front.take_points();
+  } catch (const Stopped&) {
+    std::vector<ParetoPoint> points = front.take_points();
+    if (points.empty()) throw;
+    return points;
+  }
+}
+
+/// Between two responses; one point if there is nothing to trade.
+std::vector<ParetoPoint> front_between(ProblemFile problem, const SolveOptions& options,
+                                       const Execution& execution, const ParetoObserver& observer) {
+  ProblemFile file = problem;
+  file.constraints.pop_back();  // the limit that is varied
+  std::vector<FoundPoint> ends;
+  for (const End& end : find_ends(file, options, execution)) {
+    ends.push_back(point_of(end, problem, execution));
+  }
+  ParetoSettings& settings = *problem.pareto;
+  settings.from = ends[0].point.limit;
+  settings.to = ends[1].point.limit;
+  const bool has_ends = ends[0].point.has_design() && ends[1].point.has_design();
+  const double length = std::abs(settings.to - settings.from);
+  if (!has_ends || length <= resolution * std::abs(settings.from)) {
+    if (has_ends) ends.pop_back();
+    std::vector<ParetoPoint> points;
+    for (FoundPoint& end : ends) {
+      if (observer) observer(end.point);
+      points.push_back(std::move(end.point));
+    }
+    return points;
+  }
+  Front front(problem, std::move(ends), options, execution, observer);
+  return points_of(front, execution);
+}
+
+}  // namespace
+
 std::vector<ParetoPoint> pareto_front(const ProblemFile& problem, const SolveOptions& options,
                                       const Execution& execution, const ParetoObserver& observer) {
   if (!problem.pareto) throw InputError("/pareto is missing: it says which limit to vary");
   DesignProblem{problem};  // says what is missing
-  Front front(problem, options, execution, observer);
   std::vector<ParetoPoint> points;
-  try {
-    run_tasks(front, execution.tasks);
-    points = front.take_points();
-  } catch (const Stopped&) {
-    points = front.take_points();
-    if (points.empty()) throw;
+  if (problem.pareto->goals.empty()) {
+    Front front(problem, {}, options, execution, observer);
+    points = points_of(front, execution);
+  } else {
+    points = front_between(problem, options, execution, observer);
   }
   const ConstraintSettings& varied = find_varied(problem);
   mark_dominated(points, varied.upper ? GoodSide::low : GoodSide::high);

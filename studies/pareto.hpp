@@ -6,6 +6,7 @@
 
 #include "core/scene/problem_file.hpp"
 #include "optimization/evaluation_store.hpp"
+#include "optimization/prices.hpp"
 #include "optimization/solve.hpp"
 
 namespace pleuel {
@@ -17,9 +18,11 @@ struct ParetoPoint {
   /// Of that constraint: d(objective)/d(limit) = −multiplier. Only where has_prices(result).
   double multiplier = 0.0;
   bool is_dominated = false;  ///< another point is better in one goal and no worse in the other
+  bool is_end = false;        ///< the best design for one of two responses; it has no multiplier
   Result result;
 
   bool has_design() const { return result.evaluation.has_gradients(); }
+  bool has_multiplier() const { return !is_end && has_prices(result); }
 };
 
 /// Which limited values are good: those below an upper limit, or above a lower one.
@@ -41,12 +44,20 @@ struct ParetoOrder {
 };
 ParetoOrder pareto_order(int points);
 
+/// Of a front between two responses: the problem that minimizes, or maximizes, the first of them,
+/// with a limit on the second that is varied, after those of the file; it bears the name of that
+/// response, or of its place if there is one. Another problem is as it was.
+ProblemFile trade_off_problem(ProblemFile problem);
+
 /// The trade-off between the objective and one limit by the ε-constraint method (Haimes, Lasdon &
 /// Wismer 1971): the limit goes from `from` to `to` in equal steps. The optimizations at both ends
 /// start from the start values, each other one from the optimum of a neighbour (pareto_order()), or
 /// where that broke its limits from where that began. Each is a task of its own
 /// (core/base/tasks.hpp); the points do not depend on the number of jobs. Every point is audited
-/// like any optimum.
+/// like any optimum. Between two responses the ends are found first: the best design for each of
+/// them, and of equally good ones (to 10⁻⁴ of the front) the best for the other; the limit on the second
+/// goes from one to the other. Where both ends are the same there is one point: nothing is to be traded.
+/// @param problem  of two responses: that of trade_off_problem()
 /// @returns the points that were found before a stop, if one was asked for, in the order of limits
 /// @throws Stopped before the first
 /// @throws InputError if the problem has no pareto settings, variables or objective

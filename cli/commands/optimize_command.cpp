@@ -24,6 +24,7 @@
 #include "cli/reports/optimum_document.hpp"
 #include "cli/reports/optimum_report.hpp"
 #include "cli/reports/setting_report.hpp"
+#include "cli/reports/sizes_report.hpp"
 #include "cli/reports/starts_report.hpp"
 #include "cli/reports/warnings.hpp"
 #include "cli/text/console.hpp"
@@ -39,6 +40,7 @@
 #include "optimization/multi_start.hpp"
 #include "optimization/optimum_error.hpp"
 #include "optimization/prices.hpp"
+#include "optimization/size_choice.hpp"
 #include "optimization/staged_solve.hpp"
 
 namespace pleuel {
@@ -220,10 +222,19 @@ History with_last_setting(History seen) {
   return seen;
 }
 
+/// Those whose sizes are chosen, if there are any.
+History chosen_ones(const ProblemFile& problem, const History& seen) {
+  History chosen = seen;
+  std::erase_if(chosen, [&](const EvaluationRecord& record) {
+    return record.has_failed() || !keeps_choices(problem, record.x);
+  });
+  return chosen.empty() ? seen : chosen;
+}
+
 /// The best design so far, by the numbers of the last setting. Nothing is proven of it.
 Result interrupted_result(const DesignProblem& problem, const SolveOptions& options,
                           const History& seen) {
-  const History last = with_last_setting(seen);
+  const History last = chosen_ones(problem.file(), with_last_setting(seen));
   const EvaluationRecord& best =
       best_record(last.front().has_failed() ? seen : last, options.verdict.violation);
   Result result;
@@ -233,6 +244,9 @@ Result interrupted_result(const DesignProblem& problem, const SolveOptions& opti
       "more than {:.1e} (relative)",
       seen.size(), problem.file().objective->response, problem.objective_text(best.objective),
       best.max_violation);
+  if (!keeps_choices(problem.file(), best.x)) {
+    result.message += "; its sizes are not chosen from their lists yet";
+  }
   result.backend = options.backend;
   result.x = best.x;
   result.evaluations = seen.back().evaluation;
@@ -247,8 +261,13 @@ Result interrupted_result(const DesignProblem& problem, const SolveOptions& opti
   return result;
 }
 
-MultiStart solve_visibly(const ProblemInput& input, const SolveOptions& options,
-                         RunRecord& run_record, RunStore& store, const Arguments& arguments) {
+struct Solved {
+  MultiStart all;
+  std::optional<SizeChoiceReport> sizes;  ///< where some are chosen from lists
+};
+
+Solved solve_visibly(const ProblemInput& input, const SolveOptions& options, RunRecord& run_record,
+                     RunStore& store, const Arguments& arguments) {
   const int count = arguments.starts.value_or(input.problem.optimizer.starts);
   auto first = std::make_unique<DesignProblem>(input.problem, arguments.jobs);
   const DesignProblem& problem = *first;
@@ -272,17 +291,24 @@ MultiStart solve_visibly(const ProblemInput& input, const SolveOptions& options,
     }
     seen.push_back(record);
   };
+  const Notice notice = [out](const std::string& text) {
+    show(out, wrapped("  " + text, "  ") + "\n");
+  };
+  const Execution execution = {arguments.tasks(), &store};
   try {
-    return solve_from_starts(
-        input.problem, starts_of(input.problem, input.design, count), options,
-        {arguments.tasks(), &store}, observer,
-        [out](const std::string& notice) { show(out, wrapped("  " + notice, "  ") + "\n"); });
+    Solved solved;
+    solved.all = solve_from_starts(input.problem, starts_of(input.problem, input.design, count),
+                                   options, execution, observer, notice);
+    if (has_choices(input.problem)) {
+      solved.sizes = choose_sizes(solved.all.best, options, execution, observer, notice);
+    }
+    return solved;
   } catch (const Stopped&) {
     if (seen.empty() || seen.front().has_failed()) throw;
-    MultiStart solution;
-    solution.best.result = interrupted_result(problem, options, seen);
-    solution.best.problem = std::move(first);
-    return solution;
+    Solved solved;
+    solved.all.best.result = interrupted_result(problem, options, seen);
+    solved.all.best.problem = std::move(first);
+    return solved;
   }
 }
 
@@ -320,7 +346,8 @@ Outcome run_optimize(const Arguments& arguments) {
   RunStore store(record, arguments, input, std::move(used));
   show_warnings_before(input.problem);
   record.begin_phase("optimize");
-  const MultiStart all = solve_visibly(input, options, record, store, arguments);
+  const Solved answer = solve_visibly(input, options, record, store, arguments);
+  const MultiStart& all = answer.all;
   const StagedSolution& solution = all.best;
   const ProblemFile& solved = solution.problem->file();
   const Result& result = solution.result;
@@ -331,6 +358,7 @@ Outcome run_optimize(const Arguments& arguments) {
     Json document = optimum_document(optimum);
     document["effects"] = effects;
     if (all.runs.size() > 1) document["starts"] = starts_document(solved, all);
+    if (answer.sizes) document["choices"] = sizes_document(solved, *answer.sizes, result);
     // An interrupted run may have ended no stage; its setting is that of the last design all the same.
     const bool has_stages = !solution.stages.empty();
     if (!has_stages && !(input.problem.accuracy.target > 0.0)) return document;
@@ -338,8 +366,9 @@ Outcome run_optimize(const Arguments& arguments) {
     document["setting"] = setting_of(input.effective, solved);
     return document;
   };
-  show(arguments.progress(),
-       optimum_report(optimum) + starts_text(solved, all) + stages_text(solution.stages));
+  show(arguments.progress(), optimum_report(optimum) +
+                                 (answer.sizes ? sizes_text(solved, *answer.sizes, result) : "") +
+                                 starts_text(solved, all) + stages_text(solution.stages));
   record.write("result.json", result_document());
   if (optimum.has_design()) {
     record.begin_phase("effects");

@@ -50,7 +50,7 @@ class ParetoCsv {
     const std::vector<double> goals = {sign_ * point.result.evaluation.objective,
                                        point.limited_value, sign_ * point.multiplier};
     for (std::size_t i = 0; i < goals.size(); ++i) {
-      const bool is_known = i < 2 ? point.has_design() : has_prices(point.result);
+      const bool is_known = i < 2 ? point.has_design() : point.has_multiplier();
       is_known ? csv_.add(goals[i]) : csv_.add(std::string());
     }
     for (std::size_t i = 0; i < variables_; ++i) {
@@ -95,7 +95,7 @@ Json point_document(const ProblemFile& problem, const ParetoPoint& point) {
     document["objectives"] = {
         {problem.objective->response, sign * point.result.evaluation.objective},
         {limited_name(varied_constraint(problem)), point.limited_value}};
-    if (has_prices(point.result)) document["multiplier"] = sign * point.multiplier;
+    if (point.has_multiplier()) document["multiplier"] = sign * point.multiplier;
   }
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     document["variables"][problem.variables[i].name] = point.result.x(i);
@@ -106,9 +106,42 @@ Json point_document(const ProblemFile& problem, const ParetoPoint& point) {
   return document;
 }
 
+/// All points; or the ends, where nothing is to be traded or one of them was not found.
+bool is_whole_front(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
+  if (points.size() == static_cast<std::size_t>(problem.pareto->points)) return true;
+  const bool has_lost_end = std::any_of(points.begin(), points.end(), [](const ParetoPoint& point) {
+    return point.is_end && !point.has_design();
+  });
+  return has_lost_end || (points.size() == 1 && points.front().is_end);
+}
+
+/// "mass against the limit of bow", or "mass against sag" between two responses.
+std::string front_text(const ProblemFile& problem) {
+  return fmt::format("{} against {}{}", problem.objective->response,
+                     problem.pareto->goals.empty() ? "the limit of " : "",
+                     problem.pareto->goals.empty() ? problem.pareto->constraint
+                                                   : problem.pareto->goals[1].response);
+}
+
+std::string single_point_text(const std::vector<ParetoPoint>& points) {
+  if (points.size() != 1 || !points.front().is_end) return "";
+  return "One design is best for both responses: there is nothing to trade.\n";
+}
+
+/// Designs of a front lie between sizes, if there are any.
+void refuse_choices(const ProblemFile& problem) {
+  for (const DesignVariable& variable : problem.variables) {
+    if (!variable.has_choices()) continue;
+    throw InputError(fmt::format(
+        "/variables/{}/choices: pareto takes no sizes from lists; give \"start\", \"lower\" and "
+        "\"upper\" in place of them, or a limit at a time to optimize",
+        variable.name));
+  }
+}
+
 Json make_document(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
   const ConstraintSettings& constraint = varied_constraint(problem);
-  const bool is_whole = points.size() == static_cast<std::size_t>(problem.pareto->points);
+  const bool is_whole = is_whole_front(problem, points);
   Json document = {{"status", study_status(is_whole)},
                    {"constraint", constraint.name},
                    {"units",
@@ -155,7 +188,7 @@ std::string points_text(const ProblemFile& problem, const std::vector<ParetoPoin
       if (const auto& error = point.result.error; error && error->is_resolved()) {
         cells[3] = significant(goal.shown(error->bound()), 2);
       }
-      if (has_prices(point.result))
+      if (point.has_multiplier())
         cells[4] = significant(goal.shown(sign * point.multiplier) * limited.factor, 3);
     }
     for (std::size_t i = 0; i < problem.variables.size(); ++i) {
@@ -219,7 +252,8 @@ void show_progress(std::FILE* out, const ProblemFile& problem, const ParetoPoint
 
 Outcome run_pareto(const Arguments& arguments) {
   const ProblemInput input = read_input_with_accuracy(arguments);
-  const ProblemFile& problem = input.problem;
+  refuse_choices(input.problem);
+  const ProblemFile problem = trade_off_problem(input.problem);
   if (!problem.pareto) throw InputError("/pareto is missing: it says which limit to vary");
   const SolveOptions options = solve_options(problem, arguments);
   const Json used = options_document(options, problem);
@@ -235,18 +269,19 @@ Outcome run_pareto(const Arguments& arguments) {
   };
   const auto points = pareto_front(problem, options, {arguments.tasks(), &store}, observer);
   write_in_order(record, problem, points);
-  const bool is_whole = points.size() == static_cast<std::size_t>(problem.pareto->points);
+  const bool is_whole = is_whole_front(problem, points);
   const bool is_verified = is_whole && verified_points(points) == points.size();
   Outcome outcome{
       is_verified ? ExitCode::done : ExitCode::not_verified, make_document(problem, points),
       fmt::format(
-          "{}{}: {} against the limit of {}; {} of {} points verified\n\n{}{}\n"
+          "{}{}: {}; {} of {} points verified\n\n{}{}{}\n"
           "{}{}Written to {}: pareto.csv, result.json, run_card.json, run.sqlite\n",
           is_whole ? ""
                    : interrupted_text(points.size(),
                                       static_cast<std::size_t>(problem.pareto->points), "points"),
-          problem.name, problem.objective->response, problem.pareto->constraint,
-          verified_points(points), problem.pareto->points, points_text(problem, points),
+          problem.name, front_text(problem), verified_points(points),
+          is_whole ? static_cast<int>(points.size()) : problem.pareto->points,
+          points_text(problem, points), single_point_text(points),
           doubts_text(problem, points) + warnings_of_points(problem, points),
           is_whole ? "" : resume_text(arguments, record.folder(), Status::interrupted),
           store.text(), record.folder().string())};

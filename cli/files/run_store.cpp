@@ -10,6 +10,7 @@
 #include "cli/input/fingerprint.hpp"
 #include "cli/text/console.hpp"
 #include "core/base/error.hpp"
+#include "core/base/stop.hpp"
 
 namespace pleuel {
 
@@ -113,10 +114,20 @@ void RunStore::attempt(const Action& action) {
     if (first_) database_->keep(first_->first, first_->second);
     first_.reset();
     action(*database_);
+    is_begun_ = true;
   } catch (const DatabaseError& error) {
     has_failed_ = true;
     file.failures->note(file.path, error.what());
+    if (is_begun_) stop();
   }
+}
+
+/// What a record has begun with is not to be lost for what comes after it.
+void RunStore::stop() const {
+  show(stderr,
+       "pleuel: what comes from here on could not be kept, and the run stops; what was recorded "
+       "stays, and --resume goes on from there\n");
+  request_stop();
 }
 
 std::optional<StoredEvaluation> RunStore::find(const EvaluationKey& key) {

@@ -15,8 +15,9 @@ namespace pleuel {
 inline constexpr const char* database_name = "run.sqlite";
 
 /// The record of evaluations in the folder of a run: what is known of an older run that this one
-/// goes on with, and what comes. Like other results it begins with the first evaluation, and one
-/// that cannot be written ends no run.
+/// goes on with, and what comes. Like other results it begins with the first evaluation. One that
+/// cannot be begun ends no run; one that cannot go on, as on a disk that fills up, stops it as Ctrl-C
+/// does, so that what was recorded stays and --resume goes on from there.
 class RunStore : public EvaluationStore {
  public:
   /// @param options  of the command, which have to be those of the older run
@@ -42,6 +43,7 @@ class RunStore : public EvaluationStore {
   /// Does this on the record, if there is one that can be written.
   template <class Action>
   void attempt(const Action& action);
+  void stop() const;
 
   RunRecord& record_;
   Json description_;  ///< of this run
@@ -50,6 +52,7 @@ class RunStore : public EvaluationStore {
   std::optional<std::pair<EvaluationKey, StoredEvaluation>> first_;
   bool goes_on_ = false;
   bool is_described_ = false;
+  bool is_begun_ = false;  ///< something was recorded by this process
   bool has_failed_ = false;
   bool has_history_ = false;
   int known_ = 0, made_ = 0;

@@ -41,6 +41,9 @@ double read_number(const std::optional<JsonNode>& unit, const JsonNode& value,
 double read_value(const JsonNode& node, const DesignVariable& variable, const UnitSystem& units,
                   const Quantity& quantity) {
   const JsonNode value = node.value().is_object() ? node.at("value") : node;
+  for (const SizeChoice& choice : variable.choices) {
+    if (value.value().is_string() && value.text() == choice.text) return choice.value;
+  }
   const double x = read_number(node.value().is_object() ? node.find("unit") : std::nullopt, value,
                                units, quantity);
   if (x < variable.lower || x > variable.upper) {

@@ -7,6 +7,7 @@
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/error_report.hpp"
 #include "cli/reports/monitors_report.hpp"
+#include "cli/reports/sizes_report.hpp"
 #include "cli/reports/warnings.hpp"
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
@@ -51,9 +52,16 @@ std::string objective_text(const Optimum& optimum) {
 }
 
 std::string bound_mark(const DesignVariable& variable, double value) {
+  if (const auto choice = size_text(variable, value)) return *choice;
   if (variable.lower == variable.upper) return "fixed";
   if (is_at_lower_bound(variable, value)) return "at its lower bound";
   return is_at_upper_bound(variable, value) ? "at its upper bound" : "";
+}
+
+/// Of a section its name, if it is one of the list.
+std::string value_text(const DesignVariable& variable, const ShownUnit& unit, double value) {
+  const auto name = is_section(variable) ? size_text(variable, value) : std::nullopt;
+  return name.value_or(significant(unit.shown(value)));
 }
 
 std::string variables_text(const Optimum& optimum) {
@@ -69,10 +77,11 @@ std::string variables_text(const Optimum& optimum) {
     const DesignVariable& variable = optimum.problem.variables[i];
     const ShownUnit& unit = units[i];
     const double value = optimum.result.x(i);
-    table.add_row({variable.name, significant(unit.shown(optimum.start(i))),
-                   significant(unit.shown(value)), significant(unit.shown(variable.lower)),
-                   significant(unit.shown(variable.upper)), unit.name,
-                   bound_mark(variable, value)});
+    const auto text = [&](double number) { return value_text(variable, unit, number); };
+    const bool is_name = is_section(variable) && size_text(variable, value);
+    table.add_row({variable.name, text(optimum.start(i)), text(value), text(variable.lower),
+                   text(variable.upper), is_section(variable) ? "" : unit.name,
+                   is_name ? "" : bound_mark(variable, value)});
   }
   return table.text();
 }

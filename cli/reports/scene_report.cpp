@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/reports/sizes_report.hpp"
 #include "cli/text/table.hpp"
 #include "core/base/number_text.hpp"
 #include "core/integration/configuration.hpp"
@@ -144,6 +145,7 @@ Json variables_document(const ProblemFile& problem, const Eigen::VectorXd& x) {
                                {"lower", variable.lower},
                                {"upper", variable.upper},
                                {"start", variable.start}};
+    if (const auto choice = size_text(variable, x(i))) document[variable.name]["choice"] = *choice;
   }
   return document;
 }

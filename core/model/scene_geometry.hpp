@@ -70,7 +70,8 @@ SectionProperties<Scalar> resolve_section(const Section& section, const Design<S
       section.inertia_z = resolve(s.inertia_z, design);
       section.torsion = resolve(s.torsion, design);
       for (const GeneralStressPoint& point : s.points) {
-        section.points.push_back({Scalar(point.y), Scalar(point.z), Scalar(point.shear)});
+        section.points.push_back(
+            {resolve(point.y, design), resolve(point.z, design), resolve(point.shear, design)});
       }
       return section;
     }

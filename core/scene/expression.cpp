@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/scene/value_path.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -70,18 +72,23 @@ Partials apply(Operation operation, double a, double b) {
       return {std::abs(a), sign(a)};
     case Operation::constant:
     case Operation::argument:
+    case Operation::path:
       break;
   }
   return {};
 }
 
-Partials compute(const ExpressionStep& step, const std::vector<Partials>& results,
-                 const std::vector<double>& arguments) {
+Partials compute(const Expression& expression, const ExpressionStep& step,
+                 const std::vector<Partials>& results, const std::vector<double>& arguments) {
   if (step.operation == Operation::constant) return {step.constant};
   if (step.operation == Operation::argument) {
     return {arguments[step.first]};
   }
   const auto result = [&](int of) { return of < 0 ? 0.0 : results[of].value; };
+  if (step.operation == Operation::path) {
+    const PathPoint at = path_point(expression.path, result(step.first));
+    return {at.value, at.slope};
+  }
   return apply(step.operation, result(step.first), result(step.second));
 }
 
@@ -90,7 +97,9 @@ Partials compute(const ExpressionStep& step, const std::vector<Partials>& result
 ExpressionValue evaluate(const Expression& expression, const std::vector<double>& arguments) {
   const std::vector<ExpressionStep>& steps = expression.steps;
   std::vector<Partials> results;
-  for (const ExpressionStep& step : steps) results.push_back(compute(step, results, arguments));
+  for (const ExpressionStep& step : steps) {
+    results.push_back(compute(expression, step, results, arguments));
+  }
 
   ExpressionValue found;
   found.value = results.back().value;

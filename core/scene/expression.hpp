@@ -25,7 +25,8 @@ enum class Operation {
   arc_tangent_2,  ///< atan2(a, b): the angle of the point (b, a)
   smaller,
   larger,
-  magnitude
+  magnitude,
+  path  ///< through the values of Expression::path: the first at 0, the next at 1, …
 };
 
 /// One operation on the results of earlier steps.
@@ -50,6 +51,7 @@ struct Expression {
   std::string unit;      ///< SI unit of it
   std::vector<ExpressionArgument> arguments;
   std::vector<ExpressionStep> steps;
+  std::vector<double> path = {};  ///< what Operation::path goes through (value_path.hpp) [SI]
 };
 
 struct ExpressionValue {

@@ -62,11 +62,22 @@ struct SimulationSettings : TimeIntegration {
   bool checks_resolution = true;
 };
 
+/// A size that there is.
+struct SizeChoice {
+  double value = 0.0;  ///< [SI]; of a section its place in the list, from 0
+  std::string text;    ///< "25 mm", or the name of a section: as the user wrote it
+};
+
 struct DesignVariable {
   std::string name;
   double start = 0.0, lower = 0.0, upper = 0.0;  ///< SI
   std::string unit;                       ///< as the user wrote it, for display; may be empty
   std::optional<Quantity> quantity = {};  ///< what it measures; none: see variable_quantity()
+  /// What it is to be chosen from, in ascending order; empty: any number between the bounds. Sections
+  /// ascend by area.
+  std::vector<SizeChoice> choices = {};
+
+  bool has_choices() const { return !choices.empty(); }
 };
 
 enum class ResponseType {
@@ -201,9 +212,12 @@ struct OptimizerSettings {
 
 /// ε-constraint study: the objective is minimized for a row of values of one limit.
 struct ParetoSettings {
-  std::string constraint;       ///< whose limit is varied
+  std::string constraint;       ///< whose limit is varied; empty between two responses
   double from = 0.0, to = 0.0;  ///< first and last limit, SI
   int points = 7;
+  /// Two of them: the front is that between these responses, from the best of one to the best of
+  /// the other. None: between objective and constraint.
+  std::vector<Objective> goals = {};
 };
 
 /// How accurate answers must be, and the grid of the work–precision study: every step size with

@@ -28,6 +28,36 @@ std::vector<std::size_t> parts_of(const ProblemFile& problem, std::size_t respon
   return {parts.begin(), parts.end()};
 }
 
+namespace {
+
+/// @returns whether the step is an extreme of responses, which are added
+bool add_extreme_parts(const Expression& expression, std::size_t step, Operation extreme,
+                       std::set<std::size_t>& parts) {
+  const ExpressionStep& one = expression.steps[step];
+  if (one.operation == Operation::argument) {
+    const ExpressionArgument& argument = expression.arguments[static_cast<std::size_t>(one.first)];
+    parts.insert(argument.index);
+    return argument.kind == ExpressionArgument::Kind::response;
+  }
+  return one.operation == extreme &&
+         add_extreme_parts(expression, static_cast<std::size_t>(one.first), extreme, parts) &&
+         add_extreme_parts(expression, static_cast<std::size_t>(one.second), extreme, parts);
+}
+
+}  // namespace
+
+std::vector<std::size_t> extreme_parts(const ProblemFile& problem, std::size_t response,
+                                       Extreme extreme) {
+  const auto& expression = problem.responses[response].expression;
+  if (!expression) return {};
+  std::set<std::size_t> parts;
+  const Operation operation = extreme == Extreme::largest ? Operation::larger : Operation::smaller;
+  const bool is_one =
+      add_extreme_parts(*expression, expression->steps.size() - 1, operation, parts);
+  if (!is_one || parts.size() < 2) return {};
+  return {parts.begin(), parts.end()};
+}
+
 bool is_monitor(const ProblemFile& problem, std::size_t response) {
   const std::vector<std::size_t> parts = parts_of(problem, response);
   return std::any_of(parts.begin(), parts.end(), [&](std::size_t part) {

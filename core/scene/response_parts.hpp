@@ -14,4 +14,12 @@ std::vector<std::size_t> parts_of(const ProblemFile& problem, std::size_t respon
 /// Whether it is an error itself, or is made from one: an energy balance, a drift of constraints.
 bool is_monitor(const ProblemFile& problem, std::size_t response);
 
+enum class Extreme { largest, smallest };
+
+/// The responses a, b, … of an expression that is their largest, max(a, b, …), or their smallest, and
+/// nothing else; empty of any other response. What is minimized, or has an upper limit, can be pressed
+/// down by all of them: the expression has a kink where two are equal, they have not.
+std::vector<std::size_t> extreme_parts(const ProblemFile& problem, std::size_t response,
+                                       Extreme extreme);
+
 }  // namespace pleuel

@@ -57,8 +57,8 @@ struct ISection {
 
 /// A place of a general section where stress is evaluated.
 struct GeneralStressPoint {
-  double y = 0.0, z = 0.0;  ///< [m]
-  double shear = 0.0;       ///< torsional shear stress per torque [1/m³]
+  Number y, z;   ///< [m]
+  Number shear;  ///< torsional shear stress per torque [1/m³]
 };
 
 /// Any section, by its properties about the principal axes y and z through the centroid.

@@ -34,6 +34,10 @@ struct SectionNumbers {
     visit(s.inertia_y, quantities::second_moment_of_area);
     visit(s.inertia_z, quantities::second_moment_of_area);
     visit(s.torsion, quantities::second_moment_of_area);
+    for (const GeneralStressPoint& point : s.points) {
+      lengths({&point.y, &point.z});
+      visit(point.shear, quantities::torsional_shear);
+    }
   }
 };
 

@@ -64,6 +64,26 @@ TEST_F(LostResult, OfADiskWithoutAnyRoomIsTheFilesOnly) {
   EXPECT_THAT(run.err, HasSubstr("run/result.json cannot be written: "));
 }
 
+/// 250 kB hold the record of the first evaluations, but not of all.
+TEST_F(LostResult, OfADiskThatFillsUpEndsTheRunAndTheRecordGoesOn) {
+  const ProgramRun whole = run_line(folder_.path(), optimization("whole") + "--no-report");
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  const std::string line = optimization("run") + "--no-report";
+  const ProgramRun run = run_limited("500", line);
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.out, AllOf(HasSubstr("INTERRUPTED: "), HasSubstr("the best design among them")));
+  EXPECT_THAT(run.err, AllOf(HasSubstr("run/run.sqlite cannot be written: "),
+                             HasSubstr("the run stops"), HasSubstr("--resume")));
+  const ProgramRun resumed = run_line(folder_.path(), line + " --resume");
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_THAT(resumed.out, testing::ContainsRegex("[1-9][0-9]* of [0-9]+ evaluations were known"));
+  const auto result = [&](const char* name) {
+    return read_json_if_whole(folder_.path() / name / "result.json");
+  };
+  EXPECT_EQ(result("run").at("objective"), result("whole").at("objective"));
+  EXPECT_EQ(result("run").at("variables"), result("whole").at("variables"));
+}
+
 TEST_F(LostResult, OfClosedStreamsIsWhatTheyWouldHaveShown) {
   EXPECT_EQ(run_line(folder_.path(), optimization("run") + ">&- 2>&- <&-; echo $?").out, "0\n");
   const auto history = read_csv(folder_.path() / "run/history.csv");

@@ -62,10 +62,10 @@ TEST_P(IpeOfTheCatalogue, HasTheTorsionOfItsShape) {
   EXPECT_NEAR(section.torsion.constant / (constant * 1e-12), 1.0, 0.05);
   double largest = 0.0;
   for (const GeneralStressPoint& point : section.points) {
-    EXPECT_DOUBLE_EQ(std::abs(point.y), h / 2 * 1e-3);
-    const double thickness = point.z == 0.0 ? circle : f;  // shear = thickness/J
-    EXPECT_NEAR(point.shear * section.torsion.constant / (thickness * 1e-3), 1.0, 1e-3);
-    largest = std::max(largest, std::abs(point.z));
+    EXPECT_DOUBLE_EQ(std::abs(point.y.constant), h / 2 * 1e-3);
+    const double thickness = point.z.constant == 0.0 ? circle : f;  // shear = thickness/J
+    EXPECT_NEAR(point.shear.constant * section.torsion.constant / (thickness * 1e-3), 1.0, 1e-3);
+    largest = std::max(largest, std::abs(point.z.constant));
   }
   EXPECT_DOUBLE_EQ(largest, b / 2 * 1e-3);
 }
@@ -130,9 +130,9 @@ TEST_P(HollowOfTheCatalogue, HasTheTorsionOfItsMeanLine) {
               3 / (slack * slack));
   ASSERT_EQ(section.points.size(), 4U);
   for (const GeneralStressPoint& point : section.points) {
-    EXPECT_DOUBLE_EQ(std::abs(point.y), h / 2 * 1e-3);
-    EXPECT_DOUBLE_EQ(std::abs(point.z), b / 2 * 1e-3);
-    EXPECT_NEAR(point.shear * 2 * area * t * 1e-9, 1.0, 2 / slack);
+    EXPECT_DOUBLE_EQ(std::abs(point.y.constant), h / 2 * 1e-3);
+    EXPECT_DOUBLE_EQ(std::abs(point.z.constant), b / 2 * 1e-3);
+    EXPECT_NEAR(point.shear.constant * 2 * area * t * 1e-9, 1.0, 2 / slack);
   }
 }
 

@@ -68,9 +68,9 @@ TEST(SectionReading, KnowsTheGeneralSection) {
   EXPECT_EQ(section.inertia_z.constant, 2e-8);
   EXPECT_DOUBLE_EQ(section.torsion.constant, 3e-8);
   ASSERT_EQ(section.points.size(), 2U);
-  EXPECT_EQ(section.points[0].y, 0.02);
-  EXPECT_DOUBLE_EQ(section.points[0].z, -0.005);
-  EXPECT_DOUBLE_EQ(section.points[0].shear, 0.5e6);
+  EXPECT_EQ(section.points[0].y.constant, 0.02);
+  EXPECT_DOUBLE_EQ(section.points[0].z.constant, -0.005);
+  EXPECT_DOUBLE_EQ(section.points[0].shear.constant, 0.5e6);
 }
 
 /// The good problem in the folder of the shipped catalogue.

@@ -6,6 +6,7 @@
 
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/section_check.hpp"
+#include "core/scene/reading/section_choices.hpp"
 #include "core/scene/reading/text_file.hpp"
 
 namespace pleuel {
@@ -44,17 +45,13 @@ Json find_catalogue(const JsonNode& scene, const std::string& file, const UnitSy
   return read_catalogue(path, units);
 }
 
-/// A section of the document that is a name in the catalogue.
-struct Reference {
-  Json* section;
-  std::string pointer;
-};
-
 /// Looks as far as the document is built as it should be: what is not is for the readers to
 /// complain about.
 class ReferenceSearch {
  public:
-  std::vector<Reference> find(Json& scene) {
+  /// Sections that have the key.
+  std::vector<SectionReference> find(Json& scene, const char* key) {
+    key_ = key;
     if (!scene.contains("bodies") || !scene["bodies"].is_object()) return {};
     for (auto& [name, body] : scene["bodies"].items()) {
       const std::string pointer = child_pointer("/scene/bodies", name);
@@ -70,7 +67,7 @@ class ReferenceSearch {
   void look_in(Json& owner, const std::string& pointer) {
     if (!owner.is_object() || !owner.contains("section")) return;
     Json& section = owner["section"];
-    if (!section.is_object() || !section.contains(catalogue_key)) return;
+    if (!section.is_object() || !section.contains(key_)) return;
     found_.push_back({&section, child_pointer(pointer, "section")});
   }
   void look_in_all(Json& segments, const std::string& pointer) {
@@ -79,7 +76,8 @@ class ReferenceSearch {
     }
   }
 
-  std::vector<Reference> found_;
+  const char* key_ = "";
+  std::vector<SectionReference> found_;
 };
 
 }  // namespace
@@ -91,7 +89,7 @@ void expand_catalogue(Json& document, const std::string& file, const UnitSystem&
   const Json catalogue = find_catalogue(JsonNode(scene, file, "/scene"), file, units);
   std::vector<std::string> names;
   for (const auto& [name, section] : catalogue.items()) names.push_back(name);
-  for (const auto& [section, pointer] : ReferenceSearch().find(scene)) {
+  for (const auto& [section, pointer] : ReferenceSearch().find(scene, catalogue_key)) {
     const JsonNode node(*section, file, pointer);
     node.allow_keys({catalogue_key});
     if (!scene.contains(catalogue_key)) {
@@ -99,6 +97,8 @@ void expand_catalogue(Json& document, const std::string& file, const UnitSystem&
     }
     *section = catalogue.at(read_known_name(node.at(catalogue_key), "section", names));
   }
+  expand_section_choices(document, ReferenceSearch().find(scene, "variable"), file, catalogue,
+                         units);
 }
 
 }  // namespace pleuel

@@ -12,7 +12,8 @@ namespace pleuel {
 /// The scene names the file, relative to the folder of the problem file: "catalogue": "my.json".
 ///     {"description": "…", "sections": {"IPE 80": {"type": "general", …}, …}}
 /// Its sections are written as in a problem file, but nothing in them can be bound to a variable.
-/// All of them are checked, used or not.
+/// All of them are checked, used or not. Sections that a variable chooses are written out too
+/// (section_choices.hpp).
 /// @param file  how messages name the document; its folder is that of the problem.
 /// @throws InputError  that names the file and the pointer in which the fault is.
 void expand_catalogue(Json& document, const std::string& file, const UnitSystem& units);

@@ -58,6 +58,121 @@ ResponseSettings make_response(const std::string& name, const JsonNode& value,
   return response;
 }
 
+/// The steps that the extreme of a formula is taken of, from the left to the right.
+void add_leaves(const Expression& whole, int step, Operation extreme, std::vector<int>& leaves) {
+  const ExpressionStep& one = whole.steps[static_cast<std::size_t>(step)];
+  if (one.operation != extreme) {
+    leaves.push_back(step);
+    return;
+  }
+  add_leaves(whole, one.first, extreme, leaves);
+  add_leaves(whole, one.second, extreme, leaves);
+}
+
+/// The part of a formula that ends with this step.
+class Extract {
+ public:
+  Extract(const Expression& whole, std::string text) : whole_(whole) {
+    part_.text = std::move(text);
+    part_.quantity = whole.quantity;
+    part_.unit = whole.unit;
+  }
+
+  Expression ending_with(int step) && {
+    add(step);
+    return std::move(part_);
+  }
+
+ private:
+  int add(int step) {
+    ExpressionStep copy = whole_.steps[static_cast<std::size_t>(step)];
+    if (copy.operation == Operation::argument) {
+      copy.first = argument(whole_.arguments[static_cast<std::size_t>(copy.first)]);
+    } else {
+      if (copy.first >= 0) copy.first = add(copy.first);
+      if (copy.second >= 0) copy.second = add(copy.second);
+    }
+    part_.steps.push_back(copy);
+    return static_cast<int>(part_.steps.size()) - 1;
+  }
+
+  int argument(const ExpressionArgument& asked) {
+    for (std::size_t i = 0; i < part_.arguments.size(); ++i) {
+      const ExpressionArgument& known = part_.arguments[i];
+      if (known.kind == asked.kind && known.index == asked.index) return static_cast<int>(i);
+    }
+    part_.arguments.push_back(asked);
+    return static_cast<int>(part_.arguments.size()) - 1;
+  }
+
+  const Expression& whole_;
+  Expression part_;
+};
+
+/// "a" and "2*b" of "max(a, 2*b)".
+std::vector<std::string> operand_texts(const std::string& formula) {
+  std::vector<std::string> texts(1);
+  int depth = 0;
+  for (const char c : formula) {
+    if (c == ')') --depth;
+    if (c == ',' && depth == 1) {
+      texts.emplace_back();
+    } else if (depth >= 1) {
+      texts.back() += c;
+    }
+    if (c == '(') ++depth;
+  }
+  for (std::string& text : texts) {
+    const std::size_t first = text.find_first_not_of(' '), last = text.find_last_not_of(' ');
+    text = first == std::string::npos ? "" : text.substr(first, last - first + 1);
+  }
+  return texts;
+}
+
+bool is_response(const Expression& expression, int step) {
+  const ExpressionStep& one = expression.steps[static_cast<std::size_t>(step)];
+  return one.operation == Operation::argument &&
+         expression.arguments[static_cast<std::size_t>(one.first)].kind == Kind::response;
+}
+
+/// A formula max(…) or min(…) as that of responses: parts that are formulas themselves become responses
+/// of their own, before it, so that each can be pressed upon by itself (response_parts.hpp).
+void split_extreme(ResponseSettings& whole, std::vector<ResponseSettings>& responses) {
+  const Expression& expression = *whole.expression;
+  const Operation extreme = expression.steps.back().operation;
+  if (extreme != Operation::larger && extreme != Operation::smaller) return;
+  std::vector<int> leaves;
+  add_leaves(expression, static_cast<int>(expression.steps.size()) - 1, extreme, leaves);
+  std::vector<std::string> texts = operand_texts(whole.name);
+  const bool has_texts = texts.size() == leaves.size();
+  std::vector<ResponseSettings> parts;
+  Expression of_parts = expression;
+  of_parts.arguments.clear();
+  of_parts.steps.clear();
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    ExpressionArgument argument{Kind::response, responses.size() + parts.size()};
+    if (is_response(expression, leaves[i])) {
+      const auto& step = expression.steps[static_cast<std::size_t>(leaves[i])];
+      argument = expression.arguments[static_cast<std::size_t>(step.first)];
+    } else {
+      ResponseSettings part;
+      part.name = has_texts ? texts[i] : fmt::format("{} [{}]", whole.name, i + 1);
+      part.type = ResponseType::expression;
+      part.expression =
+          std::make_shared<const Expression>(Extract(expression, part.name).ending_with(leaves[i]));
+      const bool is_known = find_named(responses, part.name) || find_named(parts, part.name);
+      if (part.expression->arguments.empty() || is_known) return;
+      parts.push_back(std::move(part));
+    }
+    of_parts.arguments.push_back(argument);
+    of_parts.steps.push_back({Operation::argument, 0.0, static_cast<int>(i)});
+    const int here = static_cast<int>(of_parts.steps.size()) - 1;
+    if (i > 0) of_parts.steps.push_back({extreme, 0.0, here - 1, here});
+  }
+  whole.expression = std::make_shared<const Expression>(std::move(of_parts));
+  for (ResponseSettings& part : parts) responses.push_back(std::move(part));
+}
+
 /// "= a - b" → "a - b"
 std::string formula_name(const JsonNode& node) {
   const std::string text = node.text();
@@ -99,7 +214,9 @@ const ResponseSettings& read_response_or_formula(const JsonNode& node,
   if (const ResponseSettings* known = find_named(responses, name)) {
     if (known->type == ResponseType::expression) return *known;
   }
-  responses.push_back(make_response(name, node, responses, numbers));
+  ResponseSettings response = make_response(name, node, responses, numbers);
+  split_extreme(response, responses);
+  responses.push_back(std::move(response));
   return responses.back();
 }
 

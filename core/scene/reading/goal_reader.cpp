@@ -136,8 +136,40 @@ std::vector<ConstraintSettings> read_constraints(const JsonNode& node,
   return constraints;
 }
 
+namespace {
+
+/// "mass", {"minimize": "mass"} or {"maximize": "speed"}.
+Objective read_goal(const JsonNode& node, const ProblemFile& problem) {
+  const std::vector<std::string> known = names_of(problem.responses);
+  if (!node.value().is_object()) return {read_known_name(node, "response", known), Aim::minimize};
+  node.allow_keys({"minimize", "maximize"});
+  const auto largest = node.find("maximize");
+  if (largest && node.find("minimize")) node.fail("has both \"minimize\" and \"maximize\"");
+  return {read_known_name(largest ? *largest : node.at("minimize"), "response", known),
+          largest ? Aim::maximize : Aim::minimize};
+}
+
+ParetoSettings read_front_between(const JsonNode& node, const JsonNode& responses,
+                                  const ProblemFile& problem) {
+  node.allow_keys({"responses", "points"});
+  ParetoSettings pareto;
+  for (const JsonNode& goal : responses.items(2)) {
+    pareto.goals.push_back(read_goal(goal, problem));
+  }
+  if (pareto.goals[0].response == pareto.goals[1].response) {
+    responses.fail("must be two different responses");
+  }
+  if (const auto points = node.find("points")) pareto.points = points->whole_number(2, 10000);
+  return pareto;
+}
+
+}  // namespace
+
 ParetoSettings read_pareto(const JsonNode& node, const ProblemFile& problem,
                            const NumberReader& numbers) {
+  if (const auto responses = node.find("responses")) {
+    return read_front_between(node, *responses, problem);
+  }
   node.allow_keys({"constraint", "from", "to", "points"});
   if (!problem.objective) node.fail("needs an objective, and the problem has none");
   const ConstraintSettings& constraint = read_varied_constraint(node.at("constraint"), problem);

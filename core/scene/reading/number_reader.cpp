@@ -151,13 +151,30 @@ void NumberReader::check_mention(const VariableMention& mention) const {
 }
 
 Number NumberReader::binding(const JsonNode& node, const Quantity& quantity, Range range) {
-  node.allow_keys({"variable", "factor"});
+  node.allow_keys({"variable", "factor", "path"});
   const JsonNode name = node.at("variable");
+  if (const auto path = node.find("path")) return path_binding(node, *path, quantity, range);
   const std::optional<JsonNode> factor = node.find("factor");
   if (factor && factor->number() == 0.0) factor->fail_with_value("must not be zero");
   const Number number = Number::bound(variable(name, name.text()), factor ? factor->number() : 1.0);
   add_use({number, quantity, range, node});
   return number;
+}
+
+Number NumberReader::path_binding(const JsonNode& node, const JsonNode& path,
+                                  const Quantity& quantity, Range range) {
+  const int index = variable(node.at("variable"), node.at("variable").text());
+  Expression expression;
+  expression.text = node.at("variable").text();
+  expression.quantity = describe(quantity);
+  expression.unit = std::string(quantity.unit);
+  expression.arguments = {{ExpressionArgument::Kind::variable, static_cast<std::size_t>(index)}};
+  expression.steps = {{Operation::argument, 0.0, 0}, {Operation::path, 0.0, 0}};
+  for (const JsonNode& value : path.items()) {
+    expression.path.push_back(fixed(value, quantity, range));
+  }
+  mentions_.push_back({index, node});
+  return Number::bound(std::make_shared<const Expression>(std::move(expression)));
 }
 
 std::array<Number, 3> NumberReader::triple(const JsonNode& node, const Quantity& quantity) {

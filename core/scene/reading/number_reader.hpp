@@ -104,6 +104,9 @@ class NumberReader {
  private:
   const VariableUse* first_use(int variable) const;
   Number binding(const JsonNode& node, const Quantity& quantity, Range range);
+  /// {"variable": name, "path": [values]}, which section_choices.hpp writes.
+  Number path_binding(const JsonNode& node, const JsonNode& path, const Quantity& quantity,
+                      Range range);
   double constant_formula(const JsonNode& node, const Quantity& quantity) const;
   void check_quantity(const JsonNode& node, const ReadExpression& read,
                       const Quantity& quantity) const;

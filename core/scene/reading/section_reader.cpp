@@ -43,11 +43,20 @@ Section read_i(const JsonNode& node, NumberReader& numbers) {
                   read_size(node, "web_thickness", numbers)};
 }
 
-GeneralStressPoint read_stress_point(const JsonNode& node, const NumberReader& numbers) {
+/// Bound only by sections that are chosen from a list (section_choices.hpp).
+Number read_of_point(const JsonNode& node, const Quantity& quantity, Range range,
+                     NumberReader& numbers) {
+  const bool is_path = node.value().is_object() && node.value().contains("path");
+  if (is_path) return numbers.designable(node, quantity, range);
+  return numbers.fixed(node, quantity, range);
+}
+
+GeneralStressPoint read_stress_point(const JsonNode& node, NumberReader& numbers) {
   node.allow_keys({"y", "z", "shear"});
-  return {numbers.fixed(node.at("y"), quantities::length),
-          numbers.fixed(node.at("z"), quantities::length),
-          numbers.fixed(node.at("shear"), quantities::torsional_shear, Range::not_negative)};
+  return {
+      read_of_point(node.at("y"), quantities::length, Range::any, numbers),
+      read_of_point(node.at("z"), quantities::length, Range::any, numbers),
+      read_of_point(node.at("shear"), quantities::torsional_shear, Range::not_negative, numbers)};
 }
 
 Section read_general(const JsonNode& node, NumberReader& numbers) {

@@ -45,12 +45,19 @@ Symbol read_constant(const std::string& name, const JsonNode& node,
 /// What is wrong with the text of a bound is said where it is read.
 Dimension dimension_of_variable(const JsonNode& node, const std::vector<Symbol>& symbols,
                                 const UnitSystem& units) {
+  if (!node.value().is_object()) return {};
+  std::vector<JsonNode> bounds;
   for (const char* key : {"start", "lower", "upper"}) {
-    if (!node.value().is_object()) break;
-    const auto bound = node.find(key);
-    if (!bound || !bound->value().is_string()) continue;
+    if (const auto bound = node.find(key)) bounds.push_back(*bound);
+  }
+  const auto choices = node.find("choices");
+  if (choices && choices->value().is_array()) {
+    for (const JsonNode& choice : choices->items()) bounds.push_back(choice);
+  }
+  for (const JsonNode& bound : bounds) {
+    if (!bound.value().is_string()) continue;
     try {
-      const Dimension dimension = read_text(*bound, symbols, units).dimension;
+      const Dimension dimension = read_text(bound, symbols, units).dimension;
       if (!dimension.is_number()) return dimension;
     } catch (const UnitError&) {
     }

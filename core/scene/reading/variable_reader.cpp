@@ -1,5 +1,7 @@
 #include "core/scene/reading/variable_reader.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/scene/reading/sample.hpp"
@@ -18,9 +20,67 @@ std::string written_unit(std::initializer_list<JsonNode> nodes) {
   return "";
 }
 
+/// As the user wrote it, if with its unit.
+std::string choice_text(const JsonNode& node, double value) {
+  if (node.value().is_string() && !is_formula(node)) return node.text();
+  return fmt::format("{:g}", value);
+}
+
+/// In ascending order, each once.
+std::vector<SizeChoice> read_sizes(const JsonNode& node, const Quantity& quantity,
+                                   const NumberReader& numbers) {
+  std::vector<SizeChoice> choices;
+  for (const JsonNode& one : node.items()) {
+    const double value = numbers.fixed(one, quantity);
+    choices.push_back({value, choice_text(one, value)});
+  }
+  if (choices.empty()) node.fail("must have at least one choice");
+  std::stable_sort(
+      choices.begin(), choices.end(),
+      [](const SizeChoice& one, const SizeChoice& other) { return one.value < other.value; });
+  const auto is_same = [](const SizeChoice& one, const SizeChoice& other) {
+    return one.value == other.value;
+  };
+  choices.erase(std::unique(choices.begin(), choices.end(), is_same), choices.end());
+  return choices;
+}
+
+/// One number out of a list. Without a start it begins in the middle of the list.
+DesignVariable read_chosen(const std::string& name, const JsonNode& node, const Quantity& quantity,
+                           const NumberReader& numbers) {
+  node.allow_keys({"start", "choices"});
+  const JsonNode list = node.at("choices");
+  DesignVariable variable;
+  variable.name = name;
+  variable.choices = read_sizes(list, quantity, numbers);
+  variable.lower = variable.choices.front().value;
+  variable.upper = variable.choices.back().value;
+  variable.start = variable.choices[(variable.choices.size() - 1) / 2].value;
+  if (const auto start = node.find("start")) {
+    variable.start = numbers.fixed(*start, quantity);
+    if (std::none_of(variable.choices.begin(), variable.choices.end(),
+                     [&](const SizeChoice& one) { return one.value == variable.start; })) {
+      start->fail_with_value("must be one of the choices");
+    }
+  }
+  for (const JsonNode& one : list.items()) {
+    if (variable.unit.empty()) variable.unit = written_unit({one});
+  }
+  variable.quantity = quantity;
+  return variable;
+}
+
+/// The names of sections, which section_choices.hpp wrote.
+void read_entries(const JsonNode& node, DesignVariable& variable) {
+  for (const JsonNode& name : node.items()) {
+    variable.choices.push_back({static_cast<double>(variable.choices.size()), name.text()});
+  }
+}
+
 DesignVariable read_variable(const std::string& name, const JsonNode& node,
                              const Quantity& quantity, const NumberReader& numbers) {
-  node.allow_keys({"start", "lower", "upper"});
+  if (node.find("choices")) return read_chosen(name, node, quantity, numbers);
+  node.allow_keys({"start", "lower", "upper", "entries"});
   const JsonNode start = node.at("start"), lower = node.at("lower"), upper = node.at("upper");
   DesignVariable variable;
   variable.name = name;
@@ -29,6 +89,7 @@ DesignVariable read_variable(const std::string& name, const JsonNode& node,
   variable.upper = numbers.fixed(upper, quantity);
   variable.unit = written_unit({start, lower, upper});
   variable.quantity = quantity;
+  if (const auto entries = node.find("entries")) read_entries(*entries, variable);
   if (variable.lower > variable.upper) lower.fail_with_value("must not be above the upper bound");
   if (variable.start < variable.lower) start.fail_with_value("must not be below the lower bound");
   if (variable.start > variable.upper) start.fail_with_value("must not be above the upper bound");

@@ -382,7 +382,7 @@ function variablesSection(data: ReportData): HTMLElement | null {
         const range = one.upper - one.lower || 1;
         const at = (x: number) => (100 * (x - one.lower)) / range;
         const [from, to] = [at(one.start), at(one.value)];
-        const bound = to < 0.01 ? "at its lower bound" : to > 99.99 ? "at its upper bound" : "";
+        const bound = one.choice ? "" : to < 0.01 ? "at its lower bound" : to > 99.99 ? "at its upper bound" : "";
         return h(
           "li",
           {},
@@ -390,7 +390,7 @@ function variablesSection(data: ReportData): HTMLElement | null {
             "div.limit-head",
             {},
             h("span.bar-name", {}, words(name)),
-            h("span", {}, h("span.soft", {}, `${number(one.start / unit.factor)} → `), h("b", {}, withUnit(one.value, unit))),
+            h("span", {}, h("span.soft", {}, `${number(one.start / unit.factor)} → `), h("b", {}, one.choice ?? withUnit(one.value, unit))),
           ),
           h(
             "div.range",

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cli/text/json.hpp"
+#include "optimization/size_choice.hpp"
+
+namespace pleuel {
+
+/// "25 mm", or the name of the section: what a variable with choices has at this value. None if it has
+/// no choices, or another value.
+std::optional<std::string> size_text(const DesignVariable& variable, double value);
+
+/// Whether the value alone means nothing to people: the place of a section in its list.
+bool is_section(const DesignVariable& variable);
+
+/// What was chosen, beside the optimum between the sizes.
+std::string sizes_text(const ProblemFile& problem, const SizeChoiceReport& sizes,
+                       const Result& result);
+Json sizes_document(const ProblemFile& problem, const SizeChoiceReport& sizes,
+                    const Result& result);
+
+}  // namespace pleuel

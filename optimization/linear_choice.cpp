@@ -1,0 +1,114 @@
+#include "optimization/linear_choice.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace pleuel {
+
+namespace {
+
+class Branching {
+ public:
+  Branching(const LinearChoiceModel& model, std::size_t count, double allowed, long nodes)
+      : model_(model), count_(count), nodes_(nodes), order_(model.options.size()) {
+    lower_ = model.lower - allowed * model.scales;
+    upper_ = model.upper + allowed * model.scales;
+    sort_variables();
+    find_least_additions();
+    sizes_.resize(model.options.size());
+  }
+
+  std::vector<PredictedChoice> run() {
+    branch(0, model_.objective, model_.constraints);
+    return std::move(found_);
+  }
+
+ private:
+  /// Of what a variable can change of the objective.
+  double spread(std::size_t variable) const {
+    const auto [least, most] = std::minmax_element(
+        model_.options[variable].begin(), model_.options[variable].end(),
+        [](const auto& one, const auto& other) { return one.objective < other.objective; });
+    return most->objective - least->objective;
+  }
+
+  /// Those that matter most first.
+  void sort_variables() {
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    std::stable_sort(order_.begin(), order_.end(), [&](std::size_t one, std::size_t other) {
+      return spread(one) > spread(other);
+    });
+    for (const std::size_t variable : order_) {
+      sorted_.push_back(model_.options[variable]);
+      std::stable_sort(
+          sorted_.back().begin(), sorted_.back().end(),
+          [](const auto& one, const auto& other) { return one.objective < other.objective; });
+    }
+  }
+
+  /// What the variables from each depth on add at least, and at most.
+  void find_least_additions() {
+    const std::size_t depth = order_.size();
+    const Eigen::Index rows = model_.constraints.size();
+    least_objective_.assign(depth + 1, 0.0);
+    least_.assign(depth + 1, Eigen::VectorXd::Zero(rows));
+    most_ = least_;
+    for (std::size_t i = depth; i-- > 0;) {
+      least_objective_[i] = least_objective_[i + 1] + sorted_[i].front().objective;
+      Eigen::VectorXd least = sorted_[i].front().constraints, most = least;
+      for (const LinearOption& option : sorted_[i]) {
+        least = least.cwiseMin(option.constraints);
+        most = most.cwiseMax(option.constraints);
+      }
+      least_[i] = least_[i + 1] + least;
+      most_[i] = most_[i + 1] + most;
+    }
+  }
+
+  bool is_hopeless(std::size_t depth, double objective, const Eigen::VectorXd& constraints) const {
+    const bool is_full = found_.size() == count_;
+    if (is_full && objective + least_objective_[depth] >= found_.back().objective) return true;
+    return ((constraints + least_[depth]).array() > upper_.array()).any() ||
+           ((constraints + most_[depth]).array() < lower_.array()).any();
+  }
+
+  void branch(std::size_t depth, double objective, const Eigen::VectorXd& constraints) {
+    if (--nodes_ < 0 || is_hopeless(depth, objective, constraints)) return;
+    if (depth == order_.size()) {
+      add(objective);
+      return;
+    }
+    for (const LinearOption& option : sorted_[depth]) {
+      sizes_[order_[depth]] = option.size;
+      branch(depth + 1, objective + option.objective, constraints + option.constraints);
+    }
+  }
+
+  void add(double objective) {
+    const auto place = std::upper_bound(
+        found_.begin(), found_.end(), objective,
+        [](double value, const PredictedChoice& one) { return value < one.objective; });
+    found_.insert(place, {sizes_, objective});
+    if (found_.size() > count_) found_.pop_back();
+  }
+
+  const LinearChoiceModel& model_;
+  std::size_t count_;
+  long nodes_;
+  Eigen::VectorXd lower_, upper_;
+  std::vector<std::size_t> order_;                 ///< of the variables
+  std::vector<std::vector<LinearOption>> sorted_;  ///< in that order, the lowest objective first
+  std::vector<double> least_objective_;
+  std::vector<Eigen::VectorXd> least_, most_;
+  std::vector<int> sizes_;
+  std::vector<PredictedChoice> found_;
+};
+
+}  // namespace
+
+std::vector<PredictedChoice> best_choices(const LinearChoiceModel& model, std::size_t count,
+                                          double allowed, long nodes) {
+  return Branching(model, count, allowed, nodes).run();
+}
+
+}  // namespace pleuel

@@ -1,0 +1,132 @@
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/scene/problem_reader.hpp"
+#include "core/scene/response_parts.hpp"
+#include "optimization/backends.hpp"
+#include "optimization/design_solve.hpp"
+#include "optimization/peak_problem.hpp"
+
+/// The largest of several responses, as an objective and as a limit.
+namespace pleuel::test {
+namespace {
+
+/// A rigid bar of 1 m, and the formulas f = (p − 0.3 m)² + q², g = (p + 0.2 m)² + q² + 0.1 m².
+ProblemFile bar(const std::string& goals) {
+  return read_problem_text(
+      R"({"scene": {"bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
+    "rigid": true, "material": "steel", "elements": 1,
+    "section": {"type": "circle", "diameter": "10 mm"}}},
+    "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}},
+  "simulation": {"end_time": "2 ms", "step": "1 ms", "resolution_check": false},
+  "variables": {"p": {"start": "0.8 m", "lower": "-1 m", "upper": "1 m"},
+                "q": {"start": "0.5 m", "lower": "-1 m", "upper": "1 m"}},
+  "responses": {"f": {"type": "expression", "value": "(p - 0.3 m)^2 + q^2"},
+                "g": {"type": "expression", "value": "(p + 0.2 m)^2 + q^2 + 0.1 m^2"},
+                "x": {"type": "position", "body": "bar", "at": 1, "direction": "x",
+                      "over_time": "max"}},)" +
+          goals + "}",
+      "bar.json");
+}
+
+/// f = g where −0.6 p + 0.09 = 0.4 p + 0.14: p = −0.05 m; there both are 0.1225 m². The larger one is
+/// convex, and its slopes ∂f/∂p = −0.7, ∂g/∂p = 0.3 differ in sign: that is the minimum.
+constexpr double best_p = -0.05, best_value = 0.1225;
+
+Result optimized(const ProblemFile& file, const std::string& backend = "nlopt-slsqp") {
+  DesignProblem design(file);
+  SolveOptions options;
+  options.backend = backend;
+  return solve_design(design, options);
+}
+
+TEST(MinMax, MeetsTheKinkOfTheLargestResponse) {
+  for (const std::string& backend : optimizer_names()) {
+    const Result result = optimized(bar(R"j("objective": {"minimize": "= max(f, g)"
+  })j"),
+                                    backend);
+    EXPECT_EQ(result.status, Status::verified) << backend << ": " << result.message;
+    EXPECT_NEAR(result.evaluation.objective, best_value, 1e-4 * best_value) << backend;
+    EXPECT_NEAR(result.x(0), best_p, 1e-3) << backend;
+    EXPECT_NEAR(result.x(1), 0.0, 1e-2) << backend;
+  }
+}
+
+TEST(MinMax, MaximizesTheSmallestAlike) {
+  const Result result =
+      optimized(bar(R"j("objective": {"maximize": "= min(1 m^2 - f, 1 m^2 - g)"})j"));
+  EXPECT_EQ(result.status, Status::verified) << result.message;
+  EXPECT_NEAR(-result.evaluation.objective, 1.0 - best_value, 1e-4);
+}
+
+TEST(MinMax, OfFormulasMakesResponsesOfThem) {
+  const ProblemFile file = bar(R"j("objective": {"minimize": "= max(2*f, g + f, f)"})j");
+  std::vector<std::string> names;
+  for (const ResponseSettings& response : file.responses) names.push_back(response.name);
+  EXPECT_THAT(names, testing::ElementsAre("f", "g", "x", "2*f", "g + f", "max(2*f, g + f, f)"));
+  EXPECT_EQ(file.objective->response, "max(2*f, g + f, f)");
+  EXPECT_EQ(extreme_parts(file, 5, Extreme::largest), (std::vector<std::size_t>{0, 3, 4}));
+  EXPECT_TRUE(extreme_parts(file, 5, Extreme::smallest).empty());
+}
+
+TEST(MinMax, OfMoreThanAnExtremeIsNotSplit) {
+  EXPECT_EQ(bar(R"j("objective": {"minimize": "= max(f, g) + f"})j").responses.size(), 4u);
+  // A number among them has no gradient.
+  EXPECT_EQ(bar(R"j("objective": {"minimize": "= max(f, 0.2 m^2)"
+})j")
+                .responses.size(),
+            4u);
+}
+
+TEST(MinMax, LimitsEachOfItsParts) {
+  // The smallest p with f and g at most 0.2 m²: g = 0.2 is p = −0.2 − √0.1, where f is too large;
+  // f = 0.2 is p = 0.3 − √0.2, where g is 0.1 + (0.5 − √0.2)² < 0.2.
+  const ProblemFile file = bar(R"j("objective": {"minimize": "= p"},
+    "constraints": {"both": {"response": "= max(f, g)", "upper": "0.2 m^2"
+}
+})j");
+  DesignProblem design(file);
+  PeakProblem peaks(design, 4);
+  EXPECT_EQ(peaks.constraints().size(), 2u);
+  const Result result = optimized(file);
+  EXPECT_EQ(result.status, Status::verified) << result.message;
+  EXPECT_NEAR(result.x(0), 0.3 - std::sqrt(0.2), 1e-4);
+}
+
+TEST(MinMax, HasTheGradientsOfItsParts) {
+  DesignProblem design(bar(R"j("objective": {"minimize": "= max(f, x*x)"})j"));
+  PeakProblem peaks(design, 2);
+  // x*x is an expression, f another: two rows, and the bound.
+  ASSERT_EQ(peaks.constraints().size(), 2u);
+  const Eigen::VectorXd x = Eigen::Vector3d(0.4, 0.3, 0.0);
+  const Evaluation at = peaks.evaluate(x, Request::values_and_gradients);
+  EXPECT_NEAR(at.constraints(0), 0.01 + 0.09, 1e-12);
+  EXPECT_NEAR(at.constraints(1), 1.0, 1e-9);
+  EXPECT_NEAR(at.constraint_jacobian(0, 0), 2.0 * 0.1, 1e-12);
+  EXPECT_NEAR(at.constraint_jacobian(0, 1), 2.0 * 0.3, 1e-12);
+  EXPECT_EQ(at.constraint_jacobian(0, 2), -1.0);
+}
+
+/// A limit on the smallest value over time from above is none on each window of time.
+TEST(PeakProblem, LeavesAMinimumWithAnUpperLimitWhole) {
+  ProblemFile file = bar(R"j("objective": {"minimize": "f"},
+    "constraints": {"low": {"response": "x", "upper": "2 m"}})j");
+  const auto rows_with = [&](OverTime over_time, bool is_upper) {
+    file.responses[2].over_time = over_time;
+    file.constraints[0].upper = is_upper ? std::optional(2.0) : std::nullopt;
+    file.constraints[0].lower = is_upper ? std::nullopt : std::optional(0.1);
+    DesignProblem design(file);
+    return PeakProblem(design, 2).constraints().size();
+  };
+  EXPECT_EQ(rows_with(OverTime::max, true), 2u);
+  EXPECT_EQ(rows_with(OverTime::min, false), 2u);
+  EXPECT_EQ(rows_with(OverTime::min, true), 1u);
+  EXPECT_EQ(rows_with(OverTime::max, false), 1u);
+  EXPECT_EQ(rows_with(OverTime::max_abs, true), 2u);
+}
+
+}  // namespace
+}  // namespace pleuel::test
