@@ -216,7 +216,7 @@ class GeometryWriter {
   }
   Json operator()(const JointForce& load) const {
     Json document = {{"places", Json::array()}, {"text", spring_text(load, design_)}};
-    if (load.motor) document["value"] = curve(*load.motor);
+    if (load.motor && !depends_on_state(*load.motor)) document["value"] = curve(*load.motor);
     return document;
   }
 
@@ -227,7 +227,15 @@ class GeometryWriter {
 
   template <class PointLoad>
   Json at_place(const PointLoad& load) const {
-    return {{"places", {place(load.body, load.at)}}, {"value", curve(load.value)}};
+    Json document = {{"places", {place(load.body, load.at)}}};
+    if (depends_on_state(load.value)) {
+      const bool turns = load.over->coordinate == DrivenCoordinate::angle;
+      document["text"] =
+          fmt::format("over the {} of {}", turns ? "angle" : "displacement", load.over->joint);
+    } else {
+      document["value"] = curve(load.value);
+    }
+    return document;
   }
 
   Json place(const std::string& body, const Point& at) const {

@@ -51,7 +51,9 @@ Json fingerprints_of_files(const Json& problem, const std::filesystem::path& fil
   if (!scene.is_object()) return fingerprints;
   const std::filesystem::path folder = file.parent_path();
   if (scene.contains("catalogue")) add_file(scene["catalogue"], folder, fingerprints);
-  add_files(scene.value("bodies", Json::object()), folder, fingerprints);
+  for (const char* part : {"bodies", "joints", "loads"}) {
+    add_files(scene.value(part, Json::object()), folder, fingerprints);
+  }
   return fingerprints;
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/base/number_text.hpp"
 #include "core/scene/shown_unit.hpp"
+#include "core/scene/time_breaks.hpp"
 
 namespace pleuel {
 
@@ -26,7 +27,7 @@ LawPoints law_points(const TimeFunction& function, double end_time, const Design
   const TimeLaw<double> law = resolve_time_law(function, design, purpose);
   std::set<double> instants;
   for (int i = 0; i <= points; ++i) instants.insert(end_time * i / points);
-  for (const double knot : law.knots) {
+  for (const double knot : sharp_times(function, end_time)) {
     const double before = std::nextafter(knot, 0.0);
     if (before >= 0.0 && knot <= end_time)
       instants.insert({before, knot, std::nextafter(knot, 1e9)});

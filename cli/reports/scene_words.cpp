@@ -26,6 +26,13 @@ std::string constant_text(const char* name, double value, const char* unit) {
   return value == 0.0 ? "" : fmt::format("{} {} {}", name, significant(value, 4), unit);
 }
 
+std::string resistance_text(const std::optional<TimeFunction>& resistance) {
+  if (!resistance) return "";
+  if (std::holds_alternative<FrictionLaw>(*resistance)) return "friction";
+  if (std::holds_alternative<ClearanceLaw>(*resistance)) return "clearance";
+  return "resistance";
+}
+
 /// A row of the table of what acts.
 class ActionRow {
  public:
@@ -33,22 +40,33 @@ class ActionRow {
       : end_time_(problem.simulation.end_time), design_(design) {}
 
   std::vector<std::string> operator()(const PointForce& load) const {
-    return {"force", load.body, range_text(points(load.value), "N")};
+    return {"force", load.body, value_text(load, "N")};
   }
   std::vector<std::string> operator()(const PointTorque& load) const {
-    return {"torque", load.body, range_text(points(load.value), "N m")};
+    return {"torque", load.body, value_text(load, "N m")};
   }
   std::vector<std::string> operator()(const SpringDamper& load) const {
     return {"spring", both(load.bodies), spring_text(load, design_)};
   }
   std::vector<std::string> operator()(const JointForce& load) const {
     const bool turns = load.coordinate == DrivenCoordinate::angle;
-    const std::string motor =
-        load.motor ? "motor " + range_text(points(*load.motor), turns ? "N m" : "N") : "";
+    std::string motor;
+    if (load.control) motor = "motor that follows a motion";
+    if (load.motor && depends_on_state(*load.motor)) {
+      motor = fmt::format("motor over {}", turns ? "angle or speed" : "displacement or speed");
+    } else if (load.motor) {
+      motor = "motor " + range_text(points(*load.motor), turns ? "N m" : "N");
+    }
     return {"in the joint", load.joint, joined({spring_text(load, design_), motor})};
   }
 
  private:
+  template <class PointLoad>
+  std::string value_text(const PointLoad& load, const char* unit) const {
+    if (!load.over) return range_text(points(load.value), unit);
+    const bool turns = load.over->coordinate == DrivenCoordinate::angle;
+    return fmt::format("over the {} of {}", turns ? "angle" : "displacement", load.over->joint);
+  }
   LawPoints points(const TimeFunction& function) const {
     return law_points(function, end_time_, design_, LawOf::load);
   }
@@ -122,14 +140,16 @@ std::string actions_text(const ProblemFile& problem, const Eigen::VectorXd& x) {
 
 std::string spring_text(const SpringDamper& spring, const Design<double>& design) {
   return joined({constant_text("stiffness", resolve(spring.stiffness, design), "N/m"),
-                 constant_text("damping", resolve(spring.damping, design), "N s/m")});
+                 constant_text("damping", resolve(spring.damping, design), "N s/m"),
+                 resistance_text(spring.resistance)});
 }
 
 std::string spring_text(const JointForce& force, const Design<double>& design) {
   const bool turns = force.coordinate == DrivenCoordinate::angle;
   return joined(
       {constant_text("stiffness", resolve(force.stiffness, design), turns ? "N m/rad" : "N/m"),
-       constant_text("damping", resolve(force.damping, design), turns ? "N m s/rad" : "N s/m")});
+       constant_text("damping", resolve(force.damping, design), turns ? "N m s/rad" : "N s/m"),
+       resistance_text(force.resistance)});
 }
 
 }  // namespace pleuel

@@ -3,26 +3,31 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <memory>
 #include <numbers>
 #include <vector>
 
-#include "core/base/dual.hpp"
+#include "core/base/formula.hpp"
 
 namespace pleuel {
 
-/// A function of time and its derivatives.
-template <class Scalar>
-struct TimeValue {
-  Scalar value, rate, acceleration;
-};
+/// What a law is a function of. A force element has a coordinate s (an angle, a displacement, an
+/// elongation) with its rate ṡ.
+enum class LawArgument { time, coordinate, rate };
 
-/// A prescribed function of time whose parameters may be design variables.
+/// A prescribed function whose parameters may be design variables: of time, or, in force elements,
+/// of the coordinate that they act along or of its rate. What follows says "time" for its argument.
 template <class Scalar>
 struct TimeLaw {
   enum class Kind {
     polynomial,  ///< parameters cᵢ: Σ cᵢ tⁱ
     ramp,        ///< Ω, T: from rest to the rate Ω within T
     harmonic,    ///< amplitude, frequency ω [rad/s], phase, offset
+    half_sine,  ///< amplitude, offset: offset + amplitude sin π(t − t₀)/(t₁ − t₀) between two knots
+    formula,  ///< a value for each argument of `expression`; what is no design variable is not read
+    friction,   ///< F, t₀: F tanh(t/t₀)
+    clearance,  ///< lower end, upper end, stiffness k, rounding δ: clearance_at()
     // Through points; before the first and after the last of them the values there hold.
     step,    ///< values at the knots, each from its knot on
     linear,  ///< values at the knots
@@ -32,8 +37,12 @@ struct TimeLaw {
   Kind kind = Kind::polynomial;
   std::vector<Scalar> parameters;
   std::vector<double> knots;  ///< of what goes through points [s], ascending
+  double period = 0.0;  ///< of what is repeated [s], at least last knot − first knot; 0: it is not
+  LawArgument argument = LawArgument::time;
+  std::shared_ptr<const Expression> expression = {};
 
-  TimeValue<Scalar> at(double time) const {
+  TimeValue<Scalar> at(double original) const {
+    const double time = period > 0.0 ? within_period(original) : original;
     switch (kind) {
       case Kind::polynomial:
         return polynomial_at(time);
@@ -42,10 +51,29 @@ struct TimeLaw {
       case Kind::harmonic:
         return harmonic_at(time);
       case Kind::step:
-        return step_at(time);
+        return step_at(time, original);
+      case Kind::half_sine:
+        return half_sine_at(time);
+      case Kind::formula:
+        return formula_at({Scalar(time), Scalar(1), Scalar(0)}, Scalar(0), Scalar(0));
+      case Kind::friction:
+        return friction_at(time);
+      case Kind::clearance:
+        return clearance_at(time);
       default:
         return between_knots_at(time);
     }
+  }
+
+  /// Its value in a force element, with the exact derivatives that s and ṡ carry.
+  Scalar value_at(double time, const Scalar& s, const Scalar& s_dot) const {
+    if (kind == Kind::formula) {
+      return formula_at({Scalar(time), Scalar(0), Scalar(0)}, s, s_dot).value;
+    }
+    if (argument == LawArgument::time) return at(time).value;
+    const Scalar& of = argument == LawArgument::coordinate ? s : s_dot;
+    const TimeValue<Scalar> now = at(value_of(of));
+    return now.value + now.rate * (of - value_of(of));
   }
 
   /// The same law with other numbers: function(parameter) for each of them.
@@ -54,11 +82,79 @@ struct TimeLaw {
     TimeLaw<To> law;
     law.kind = static_cast<typename TimeLaw<To>::Kind>(kind);
     law.knots = knots;
+    law.period = period;
+    law.argument = argument;
+    law.expression = expression;
     for (const Scalar& parameter : parameters) law.parameters.push_back(function(parameter));
     return law;
   }
 
  private:
+  /// The same place in the first period.
+  double within_period(double time) const {
+    const double whole = std::floor((time - knots.front()) / period);
+    const double place = time - whole * period;
+    return place >= knots.front() && place < knots.front() + period ? place : knots.front();
+  }
+
+  TimeValue<Scalar> formula_at(const TimeValue<Scalar>& t, const Scalar& s,
+                               const Scalar& s_dot) const {
+    const auto value_of_argument = [&](int i) -> TimeValue<Scalar> {
+      using ArgumentKind = ExpressionArgument::Kind;
+      switch (expression->arguments[static_cast<std::size_t>(i)].kind) {
+        case ArgumentKind::time:
+          return t;
+        case ArgumentKind::coordinate:
+          return {s, Scalar(0), Scalar(0)};
+        case ArgumentKind::rate:
+          return {s_dot, Scalar(0), Scalar(0)};
+        default:
+          return {parameters[static_cast<std::size_t>(i)], Scalar(0), Scalar(0)};
+      }
+    };
+    return evaluate_formula<Scalar>(*expression, value_of_argument);
+  }
+
+  /// At the ends, where it has a kink, the rate is that of the side within.
+  TimeValue<Scalar> half_sine_at(double time) const {
+    const Scalar &amplitude = parameters[0], &offset = parameters[1];
+    if (time < knots.front() || time > knots.back()) return {offset, Scalar(0), Scalar(0)};
+    const double frequency = std::numbers::pi / (knots.back() - knots.front());
+    const double phase = frequency * (time - knots.front());
+    const Scalar wave = amplitude * std::sin(phase);
+    return {Scalar(offset + wave), Scalar(amplitude * (frequency * std::cos(phase))),
+            Scalar(-frequency * frequency * wave)};
+  }
+
+  TimeValue<Scalar> friction_at(double speed) const {
+    using std::tanh;
+    const Scalar &force = parameters[0], &scale = parameters[1];
+    const Scalar share = tanh(speed / scale), slope = (1.0 - share * share) / scale;
+    return {Scalar(force * share), Scalar(force * slope),
+            Scalar(-2.0 * force * share * slope / scale)};
+  }
+
+  /// k r(s − upper) − k r(lower − s), where r(x) = 0 for x < 0, x²/2δ up to δ, x − δ/2 beyond: no
+  /// force within the clearance, and a stiffness that rises to k within δ behind its ends.
+  TimeValue<Scalar> clearance_at(double s) const {
+    const Scalar &lower = parameters[0], &upper = parameters[1], &k = parameters[2];
+    if (s > value_of(upper)) {
+      const TimeValue<Scalar> r = ramp_of(Scalar(s - upper));
+      return {Scalar(k * r.value), Scalar(k * r.rate), Scalar(k * r.acceleration)};
+    }
+    if (s < value_of(lower)) {
+      const TimeValue<Scalar> r = ramp_of(Scalar(lower - s));
+      return {Scalar(-k * r.value), Scalar(k * r.rate), Scalar(-k * r.acceleration)};
+    }
+    return {Scalar(0), Scalar(0), Scalar(0)};
+  }
+  TimeValue<Scalar> ramp_of(const Scalar& x) const {
+    const Scalar& rounding = parameters[3];
+    if (value_of(x) >= value_of(rounding))
+      return {Scalar(x - 0.5 * rounding), Scalar(1), Scalar(0)};
+    return {Scalar(x * x / (2.0 * rounding)), Scalar(x / rounding), Scalar(1.0 / rounding)};
+  }
+
   TimeValue<Scalar> polynomial_at(double time) const {
     TimeValue<Scalar> result{Scalar(0), Scalar(0), Scalar(0)};
     for (std::size_t i = parameters.size(); i-- > 0;) {  // Horner's rule with derivatives
@@ -88,20 +184,28 @@ struct TimeLaw {
     using std::cos;
     using std::sin;
     const Scalar &amplitude = parameters[0], &frequency = parameters[1];
-    const Scalar argument = frequency * time + parameters[2];
-    const Scalar oscillation = amplitude * sin(argument);
-    return {Scalar(parameters[3] + oscillation), Scalar(amplitude * frequency * cos(argument)),
+    const Scalar phase = frequency * time + parameters[2];
+    const Scalar oscillation = amplitude * sin(phase);
+    return {Scalar(parameters[3] + oscillation), Scalar(amplitude * frequency * cos(phase)),
             Scalar(-frequency * frequency * oscillation)};
   }
 
   /// At a jump the mean of both sides, so that schemes of second order stay so where an instant
   /// lies on it; at t = 0, from where on there is only one, the side that follows.
-  TimeValue<Scalar> step_at(double time) const {
-    const auto above = std::upper_bound(knots.begin(), knots.end(), time);
+  /// @param original  before it was moved into the first period, which rounds
+  TimeValue<Scalar> step_at(double time, double original) const {
+    const std::size_t last = knots.size() - 1;
+    const double rounding =
+        period > 0.0 ? 4.0 * std::numeric_limits<double>::epsilon() * std::abs(original) : 0.0;
+    const auto above = std::upper_bound(knots.begin(), knots.end(), time + rounding);
     const auto after = static_cast<std::size_t>(std::max<std::ptrdiff_t>(above - knots.begin(), 1));
-    const std::size_t now = after - 1;
+    std::size_t now = after - 1;
+    const bool is_at_knot = std::abs(knots[now] - time) <= rounding;
+    if (period > 0.0 && now == last) now = 0;  // the last knot is the first of the next period
     Scalar value = parameters[now];
-    if (now > 0 && knots[now] == time && time != 0.0) value = 0.5 * (parameters[now - 1] + value);
+    if (!is_at_knot || original == 0.0) return {value, Scalar(0), Scalar(0)};
+    if (now > 0) value = 0.5 * (parameters[now - 1] + value);
+    if (now == 0 && period > 0.0) value = 0.5 * (parameters[last - 1] + value);
     return {value, Scalar(0), Scalar(0)};
   }
 

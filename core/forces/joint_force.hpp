@@ -4,18 +4,12 @@
 #include <string>
 
 #include "core/base/time_law.hpp"
+#include "core/forces/relative_kinematics.hpp"
 #include "core/frame/marker.hpp"
 #include "core/system/gauge.hpp"
 #include "core/system/term.hpp"
 
 namespace pleuel {
-
-/// The relative coordinate s of two markers that a joint force acts on.
-enum class RelativeCoordinate {
-  planar_angle,  ///< ±(φ₂ − φ₁ − offset), with elastic rotations: counts whole turns
-  angle,         ///< by which d' has turned from d_a to d_b, in (−π, π]
-  displacement   ///< d · (P₂ − P₁)
-};
 
 /// The numbers of a joint force, which may depend on the design.
 template <class Scalar>
@@ -31,7 +25,12 @@ struct JointForceData {
   Scalar stiffness = Scalar(0);  ///< k [N m/rad] or [N/m]
   Scalar damping = Scalar(0);    ///< c [N m s/rad] or [N s/m]
   Scalar rest = Scalar(0);       ///< s₀ [rad] or [m]
-  TimeLaw<Scalar> motor;         ///< m [N m] or [N]; none without parameters
+  TimeLaw<Scalar> motor;         ///< m(t, s, ṡ) [N m] or [N]; none without parameters
+  TimeLaw<Scalar> resistance;    ///< r(s − s₀, ṡ, t) [N m] or [N]; none without parameters
+  // Of a motor that follows a motion s*(t):
+  TimeLaw<Scalar> target;           ///< s* [rad] or [m]; none without parameters
+  Scalar proportional = Scalar(0);  ///< [N m/rad] or [N/m]
+  Scalar derivative = Scalar(0);    ///< [N m s/rad] or [N s/m]
 
   template <class Function, class... Data>
   static void visit(Function&& function, Data&... data) {
@@ -42,6 +41,10 @@ struct JointForceData {
     function(data.damping...);
     function(data.rest...);
     function(data.motor...);
+    function(data.resistance...);
+    function(data.target...);
+    function(data.proportional...);
+    function(data.derivative...);
   }
 };
 
@@ -52,15 +55,18 @@ struct JointForceTopology {
   double sense = 1.0;  ///< of planar_angle: −1 if the joint's axis is opposite to the normal
 };
 
-/// Spring, viscous friction and motor in a joint: τ = −k (s − s₀) − c ṡ + m(t) on the second body,
-/// the opposite on the first.
+/// Spring, viscous friction, resistance and motor in a joint:
+///     τ = −k (s − s₀) − c ṡ − r(s − s₀, ṡ, t) + M,
+///     M = m(t, s, ṡ) + proportional (s* − s) + derivative (ṡ* − ṡ)
+/// on the second body, the opposite on the first.
 /// The term throws SimulationError, with name and time, where the angle has no value.
 /// @param derivatives  of the numbers with respect to the variables they depend on
 std::unique_ptr<Term> make_joint_force_term(
     JointForceTopology topology, JointForceData<double> data,
     std::vector<DesignDerivative<JointForceData<double>>> derivatives);
 
-/// Reads s, ṡ, −k (s − s₀) − c ṡ and the power m ṡ of the motor.
+/// Reads s, ṡ, −k (s − s₀) − c ṡ − r, the power M ṡ of the motor, and what the damper and the
+/// resistance to a rate take.
 std::unique_ptr<Gauge> make_joint_gauge(
     JointForceTopology topology, JointForceData<double> data,
     std::vector<DesignDerivative<JointForceData<double>>> derivatives);

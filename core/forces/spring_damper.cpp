@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "core/base/error.hpp"
+#include "core/forces/damper_force.hpp"
 #include "core/forces/force_term.hpp"
 #include "core/forces/marker_gauge.hpp"
 
@@ -11,7 +12,7 @@ namespace pleuel {
 namespace {
 
 /// With D = P₂ − P₁, l = |D|, e = D/l and l̇ = e · Ḋ:
-///     F = k (l − l₀) + c l̇,   δW = −F δl = F e · δP₁ − F e · δP₂
+///     F = k (l − l₀) + c l̇ + r(l − l₀, l̇, t),   δW = −F δl = F e · δP₁ − F e · δP₂
 /// (Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems, 1989, sec. 6.2).
 struct SpringDamperLaw {
   static constexpr std::size_t marker_count = 2;
@@ -24,7 +25,7 @@ struct SpringDamperLaw {
   void add_forces(const Data<Scalar>& data, double time,
                   MarkerKinematics<Scalar, 2>& markers) const {
     const Stretch<Scalar> now = stretch(data, time, markers);
-    const Vector3<Scalar> F = pull(data, now) * now.direction;
+    const Vector3<Scalar> F = pull(data, time, now) * now.direction;
     markers.add_force(0, F, data.points[0]);
     markers.add_force(1, -F, data.points[1]);
   }
@@ -39,7 +40,11 @@ struct SpringDamperLaw {
       case Reading::rate:
         return now.rate;
       case Reading::force:
-        return pull(data, now);
+        return pull(data, time, now);
+      case Reading::damper_power:
+        return damper_force(data.damping, data.resistance, time,
+                            Scalar(now.length - data.free_length), now.rate) *
+               now.rate;
       case Reading::motor_power:
         break;
     }
@@ -73,8 +78,10 @@ struct SpringDamperLaw {
   }
 
   template <class Scalar>
-  static Scalar pull(const Data<Scalar>& data, const Stretch<Scalar>& now) {
-    return data.stiffness * (now.length - data.free_length) + data.damping * now.rate;
+  static Scalar pull(const Data<Scalar>& data, double time, const Stretch<Scalar>& now) {
+    const Scalar elongation = now.length - data.free_length;
+    return data.stiffness * elongation + data.damping * now.rate +
+           data.resistance.value_at(time, elongation, now.rate);
   }
 
   [[noreturn]] void throw_coincident(double time) const {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "core/base/time_law.hpp"
 #include "core/frame/marker.hpp"
 #include "core/system/gauge.hpp"
 #include "core/system/term.hpp"
@@ -18,6 +19,7 @@ struct SpringDamperData {
   Scalar stiffness = Scalar(0);    ///< k [N/m]
   Scalar damping = Scalar(0);      ///< c [N s/m]
   Scalar free_length = Scalar(0);  ///< l₀ [m]
+  TimeLaw<Scalar> resistance;      ///< r(l − l₀, l̇, t) [N]; none without parameters
 
   template <class Function, class... Data>
   static void visit(Function&& function, Data&... data) {
@@ -25,6 +27,7 @@ struct SpringDamperData {
     function(data.stiffness...);
     function(data.damping...);
     function(data.free_length...);
+    function(data.resistance...);
   }
 };
 
@@ -33,14 +36,14 @@ struct SpringDamperTopology {
   std::array<Marker, 2> markers;
 };
 
-/// Pulls its two points together with k (l − l₀) + c l̇.
+/// Pulls its two points together with k (l − l₀) + c l̇ + r.
 /// The term throws SimulationError, with name and time, where the two points coincide.
 /// @param derivatives  of the numbers with respect to the variables they depend on
 std::unique_ptr<Term> make_spring_damper_term(
     SpringDamperTopology topology, SpringDamperData<double> data,
     std::vector<DesignDerivative<SpringDamperData<double>>> derivatives);
 
-/// Reads its length l, l̇ and its pull.
+/// Reads its length l, l̇, its pull and the power that the damper takes.
 std::unique_ptr<Gauge> make_spring_gauge(
     SpringDamperTopology topology, SpringDamperData<double> data,
     std::vector<DesignDerivative<SpringDamperData<double>>> derivatives);

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <span>
 
 #include "core/base/find_named.hpp"
 #include "core/forces/joint_force.hpp"
+#include "core/forces/load_over_joint.hpp"
 #include "core/forces/point_force.hpp"
 #include "core/forces/point_torque.hpp"
 #include "core/forces/spring_damper.hpp"
@@ -30,6 +32,7 @@ class LoadBuilder {
 
   BuiltLoad operator()(const PointForce& force) {
     attach(force.body, force.at);
+    if (force.over) return over_joint(force, LoadKind::force);
     PointForceTopology topology;
     topology.name = load_.name;
     topology.direction = force.follows_body ? LoadDirection::body : LoadDirection::space;
@@ -48,6 +51,7 @@ class LoadBuilder {
 
   BuiltLoad operator()(const PointTorque& torque) {
     attach(torque.body, torque.at);
+    if (torque.over) return over_joint(torque, LoadKind::torque);
     PointTorqueTopology topology;
     topology.name = load_.name;
     topology.direction = torque.follows_body ? LoadDirection::body : LoadDirection::space;
@@ -76,6 +80,7 @@ class LoadBuilder {
                                 : Scalar(Vector3<Scalar>(resolve_point(spring.at[1], design) -
                                                          resolve_point(spring.at[0], design))
                                              .norm());
+      if (spring.resistance) numbers.resistance = resolve_time_law(*spring.resistance, design);
       return numbers;
     };
     const auto parts = parts_of<SpringDamperData>(data);
@@ -90,11 +95,17 @@ class LoadBuilder {
     visit_joint_ = &joint;
     JointForceTopology topology = joint_topology(joint, force.coordinate);
     const auto data = [&](const auto& design) {
-      auto numbers = joint_numbers(joint, topology.coordinate, design);
+      auto numbers = joint_numbers(joint, topology.coordinate, design, sides_from(0));
       numbers.stiffness = resolve(force.stiffness, design);
       numbers.damping = resolve(force.damping, design);
       numbers.rest = resolve(force.rest, design);
       if (force.motor) numbers.motor = resolve_time_law(*force.motor, design);
+      if (force.resistance) numbers.resistance = resolve_time_law(*force.resistance, design);
+      if (force.control) {
+        numbers.target = resolve_time_law(force.control->target, design, LawOf::motion);
+        numbers.proportional = resolve(force.control->proportional, design);
+        numbers.derivative = resolve(force.control->derivative, design);
+      }
       return numbers;
     };
     const auto parts = parts_of<JointForceData>(data);
@@ -108,8 +119,9 @@ class LoadBuilder {
     for (const std::string& body : joint.bodies) attach(body, joint.at);
     visit_joint_ = &joint;
     JointForceTopology topology = joint_topology(joint, coordinate);
-    const auto parts = parts_of<JointForceData>(
-        [&](const auto& design) { return joint_numbers(joint, topology.coordinate, design); });
+    const auto parts = parts_of<JointForceData>([&](const auto& design) {
+      return joint_numbers(joint, topology.coordinate, design, sides_from(0));
+    });
     topology.markers = {parts.markers[0], parts.markers[1]};
     return {make_joint_gauge(topology, parts.numbers, parts.derivatives), parts.map};
   }
@@ -117,6 +129,38 @@ class LoadBuilder {
  private:
   template <class Design>
   using ScalarOf = typename std::remove_cvref_t<Design>::value_type;
+  using Sides = std::span<const Attachment>;
+
+  /// A force or a torque over the coordinate of a joint. @pre its own body is attached
+  template <class PointLoad>
+  BuiltLoad over_joint(const PointLoad& load, LoadKind kind) {
+    const Joint& joint = find_joint(context_.scene, load.over->joint);
+    for (const std::string& body : joint.bodies) attach(body, joint.at);
+    visit_joint_ = &joint;
+    const JointForceTopology along = joint_topology(joint, load.over->coordinate);
+    LoadOverJointTopology topology;
+    topology.name = load_.name;
+    topology.kind = kind;
+    topology.direction = load.follows_body ? LoadDirection::body : LoadDirection::space;
+    topology.coordinate = along.coordinate;
+    topology.sense = along.sense;
+    const auto data = [&](const auto& design) {
+      const auto of_joint = joint_numbers(joint, along.coordinate, design, sides_from(1));
+      LoadOverJointData<ScalarOf<decltype(design)>> numbers;
+      numbers.point = places_[0].local_point(design);
+      numbers.direction = load_direction(load.direction, load.follows_body, design);
+      numbers.value = resolve_time_law(load.value, design);
+      numbers.points = of_joint.points;
+      numbers.directions = of_joint.directions;
+      numbers.offset = of_joint.offset;
+      return numbers;
+    };
+    const auto parts = parts_of<LoadOverJointData>(data);
+    for (std::size_t i = 0; i < 3; ++i) topology.markers[i] = parts.markers[i];
+    return {
+        project(make_load_over_joint_term(topology, parts.numbers, parts.derivatives), parts.map),
+        std::nullopt};
+  }
 
   JointForceTopology joint_topology(const Joint& joint, DrivenCoordinate coordinate) const {
     JointForceTopology topology;
@@ -134,12 +178,15 @@ class LoadBuilder {
   /// Of the joint, without what acts in it.
   template <class Scalar>
   JointForceData<Scalar> joint_numbers(const Joint& joint, RelativeCoordinate coordinate,
-                                       const Design<Scalar>& design) const {
+                                       const Design<Scalar>& design, Sides sides) const {
     JointForceData<Scalar> numbers;
-    for (std::size_t i = 0; i < 2; ++i) numbers.points[i] = places_[i].local_point(design);
-    set_directions(joint, to_vector(joint.axis).normalized(), coordinate, design, numbers);
+    for (std::size_t i = 0; i < 2; ++i) numbers.points[i] = sides[i].local_point(design);
+    set_directions(joint, coordinate, design, sides, numbers);
     return numbers;
   }
+
+  /// The sides of a joint among the places.
+  Sides sides_from(std::size_t first) const { return Sides(places_).subspan(first, 2); }
 
   void attach(const std::string& body, const Point& at) {
     places_.emplace_back(body, at, bodies_, context_);
@@ -154,21 +201,22 @@ class LoadBuilder {
   }
 
   template <class Scalar>
-  void set_directions(const Joint& joint, const Eigen::Vector3d& axis,
-                      RelativeCoordinate coordinate, const Design<Scalar>& design,
+  void set_directions(const Joint& joint, RelativeCoordinate coordinate,
+                      const Design<Scalar>& design, Sides sides,
                       JointForceData<Scalar>& numbers) const {
+    const Eigen::Vector3d axis = to_vector(joint.axis).normalized();
     if (coordinate == RelativeCoordinate::planar_angle) {
-      numbers.offset = places_[1].start_angle(design) - places_[0].start_angle(design);
+      numbers.offset = sides[1].start_angle(design) - sides[0].start_angle(design);
     } else if (coordinate == RelativeCoordinate::displacement) {
-      numbers.directions[0] = places_[0].local_direction(axis, design);
+      numbers.directions[0] = sides[0].local_direction(axis, design);
     } else {
       const Eigen::Vector3d reference = joint.type == JointType::universal
                                             ? to_vector(joint.second_axis).normalized()
-                                            : reference_direction(places_, axis);
-      numbers.directions[0] = places_[0].local_direction(reference, design);
+                                            : reference_direction(sides, axis);
+      numbers.directions[0] = sides[0].local_direction(reference, design);
       numbers.directions[1] =
-          places_[0].local_direction(Eigen::Vector3d(axis.cross(reference)), design);
-      numbers.directions[2] = places_[1].local_direction(reference, design);
+          sides[0].local_direction(Eigen::Vector3d(axis.cross(reference)), design);
+      numbers.directions[2] = sides[1].local_direction(reference, design);
     }
   }
 

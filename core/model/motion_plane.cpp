@@ -150,21 +150,25 @@ class PlaneCheck {
     if (const auto* force = std::get_if<PointForce>(&load.element)) {
       check_point(force->at, what);
       require(are_normal(to_vector(force->direction), normal_), what);
+      if (force->over) check_coordinate(force->over->joint, force->over->coordinate, what);
     } else if (const auto* torque = std::get_if<PointTorque>(&load.element)) {
       check_point(torque->at, what);
       require(are_parallel(to_vector(torque->direction), normal_), what);
+      if (torque->over) check_coordinate(torque->over->joint, torque->over->coordinate, what);
     } else if (const auto* spring = std::get_if<SpringDamper>(&load.element)) {
       for (const Point& point : spring->at) check_point(point, what);
     } else {
-      check_joint_force(std::get<JointForce>(load.element), what);
+      const auto& force = std::get<JointForce>(load.element);
+      check_coordinate(force.joint, force.coordinate, what);
     }
   }
 
-  void check_joint_force(const JointForce& force, const std::string& what) {
+  void check_coordinate(const std::string& name, DrivenCoordinate coordinate,
+                        const std::string& what) {
     for (const Joint& joint : scene_.joints) {
-      if (joint.name != force.joint) continue;
+      if (joint.name != name) continue;
       const Eigen::Vector3d axis = to_vector(joint.axis);
-      const bool turns = force.coordinate == DrivenCoordinate::angle;
+      const bool turns = coordinate == DrivenCoordinate::angle;
       require(turns ? are_parallel(axis, normal_) : are_normal(axis, normal_), what);
     }
   }

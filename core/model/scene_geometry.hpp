@@ -82,23 +82,51 @@ SectionProperties<Scalar> resolve_section(const Section& section, const Design<S
 /// Motions need accelerations, loads do not.
 enum class LawOf { load, motion };
 
+/// Ends of a table: what is repeated has none.
+inline TableEnds table_ends(Repetition repetition, TableEnds otherwise) {
+  return repetition == Repetition::periodic ? TableEnds::periodic : otherwise;
+}
+
 template <class Scalar>
 TimeLaw<Scalar> resolve_table(const TableFunction& table, std::vector<Scalar> values,
                               LawOf purpose) {
   using Kind = typename TimeLaw<Scalar>::Kind;
   const bool is_motion = purpose == LawOf::motion;
+  const TableEnds limited = table_ends(table.repetition, TableEnds::resting);
   switch (table.interpolation) {
     case Interpolation::step:
       return {Kind::step, std::move(values), table.times};
     case Interpolation::linear:
       return {Kind::linear, std::move(values), table.times};
     case Interpolation::monotone:
-      return is_motion ? monotone_quintic(table.times, std::move(values))
-                       : monotone_cubic(table.times, std::move(values));
+      return is_motion ? monotone_quintic(table.times, std::move(values), limited)
+                       : monotone_cubic(table.times, std::move(values), limited);
+    case Interpolation::resting:
+      return resting_quintic(table.times, std::move(values));
     default:
-      return cubic_spline(table.times, std::move(values),
-                          is_motion ? SplineEnds::clamped : SplineEnds::natural);
+      return cubic_spline(
+          table.times, std::move(values),
+          table_ends(table.repetition, is_motion ? TableEnds::resting : TableEnds::free));
   }
+}
+
+/// The rate rises to V = (to − from)/(duration − rounding) by V (3s² − 2s³); quintics between the
+/// knots are that exactly, as they have its values, rates and accelerations (none) there.
+template <class Scalar>
+TimeLaw<Scalar> resolve_ramp(const RampFunction& ramp, const Scalar& from, const Scalar& to) {
+  using Kind = typename TimeLaw<Scalar>::Kind;
+  const double r = ramp.rounding, duration = ramp.end - ramp.begin;
+  if (r == 0.0) return {Kind::linear, {from, to}, {ramp.begin, ramp.end}};
+  const Scalar rate = (to - from) / (duration - r);
+  const Scalar zero(0), up = from + 0.5 * r * rate, down = to - 0.5 * r * rate;
+  if (2.0 * r >= duration) {  // nothing straight between
+    return {Kind::quintic,
+            {from, Scalar(0.5 * (from + to)), to, zero, rate, zero},
+            {ramp.begin, 0.5 * (ramp.begin + ramp.end), ramp.end}};
+  }
+  return {Kind::quintic,
+          {from, up, down, to, zero, rate, rate, zero},
+          {ramp.begin, ramp.begin + r, ramp.end - r, ramp.end}};
 }
 
 template <class Scalar>
@@ -130,7 +158,38 @@ TimeLaw<Scalar> resolve_time_law(const TimeFunction& function, const Design<Scal
     Law operator()(const TableFunction& f) const {
       std::vector<Scalar> values;
       for (const Number& number : f.values) values.push_back(of(number));
-      return resolve_table(f, std::move(values), purpose);
+      Law law = resolve_table(f, std::move(values), purpose);
+      law.argument = f.argument;
+      if (f.repetition == Repetition::periodic) law.period = f.times.back() - f.times.front();
+      return law;
+    }
+    Law operator()(const RampFunction& f) const { return resolve_ramp(f, of(f.from), of(f.to)); }
+    Law operator()(const HalfSineFunction& f) const {
+      Law law{Law::Kind::half_sine, {of(f.amplitude), of(f.offset)}, {}};
+      law.knots = {f.begin, f.begin + f.duration};
+      law.period = f.period;
+      return law;
+    }
+    Law operator()(const ExpressionFunction& f) const {
+      Law law;
+      law.kind = Law::Kind::formula;
+      law.expression = f.expression;
+      for (const ExpressionArgument& argument : f.expression->arguments) {
+        const bool is_variable = argument.kind == ExpressionArgument::Kind::variable;
+        law.parameters.push_back(is_variable ? design[argument.index] : Scalar(0));
+      }
+      return law;
+    }
+    Law operator()(const FrictionLaw& f) const {
+      Law law{Law::Kind::friction, {of(f.value), of(f.speed)}, {}};
+      law.argument = LawArgument::rate;
+      return law;
+    }
+    Law operator()(const ClearanceLaw& f) const {
+      Law law{
+          Law::Kind::clearance, {of(f.lower), of(f.upper), of(f.stiffness), of(f.rounding)}, {}};
+      law.argument = LawArgument::coordinate;
+      return law;
     }
   };
   return std::visit(Visitor{design, purpose}, function);

@@ -109,7 +109,7 @@ std::vector<double> window_ends(const ProblemFile& problem) {
 
 SimulationOptions options_of(const ProblemFile& problem) {
   SimulationOptions options{problem.simulation};
-  options.breaks = time_breaks(problem.scene, options.step);
+  options.breaks = time_breaks(problem.scene, options);
   const std::vector<double> ends = window_ends(problem);
   options.breaks.insert(options.breaks.end(), ends.begin(), ends.end());
   options.memory = problem.sensitivity.memory;
@@ -240,8 +240,7 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   } catch (const SimulationError& error) {
     explain(error, analysis->model);
   }
-  analysis->breaks =
-      instants_at(time_breaks(problem.scene, options.step), analysis->trajectory.time);
+  analysis->breaks = instants_at(time_breaks(problem.scene, options), analysis->trajectory.time);
   analysis->histories = recorder.take(analysis->trajectory.steps() + 1);
   set_mechanism_frequencies(*analysis);
   set_rigid_mechanism(problem, x, *analysis);

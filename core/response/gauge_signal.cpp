@@ -40,6 +40,8 @@ Reading reading_of(ResponseType type) {
       return Reading::force;
     case ResponseType::motor_power:
       return Reading::motor_power;
+    case ResponseType::damper_power:
+      return Reading::damper_power;
     default:
       return Reading::coordinate;
   }

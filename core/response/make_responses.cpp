@@ -99,6 +99,8 @@ class ResponseMaker {
       case ResponseType::constraint_drift:
         if (model_.mechanism.system->multipliers() == 0) fail("the mechanism has no constraints");
         return make_drift_signal(model_, settings_.level);
+      case ResponseType::angle:
+      case ResponseType::angular_acceleration:
       case ResponseType::angular_velocity:
       case ResponseType::section_force:
         return make_signal_of_body(settings_, model_);
@@ -107,6 +109,7 @@ class ResponseMaker {
       case ResponseType::spring_length:
       case ResponseType::spring_force:
       case ResponseType::motor_power:
+      case ResponseType::damper_power:
         return make_reading();
       case ResponseType::mass:
       case ResponseType::frequency:

@@ -1,9 +1,11 @@
 #include "core/response/motion_signals.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "core/base/error.hpp"
 #include "core/response/body_state.hpp"
 #include "core/response/vector_component.hpp"
 
@@ -118,7 +120,8 @@ class AxisSignal final : public Signal {
 
 class SpinSignal final : public Signal {
  public:
-  SpinSignal(const BodyModel& body, int direction) : body_(body), direction_(direction) {}
+  SpinSignal(const BodyModel& body, int direction, TimeDerivative derivative)
+      : body_(body), direction_(direction), derivative_(derivative) {}
 
   int channels() const override { return 1; }
   std::string describe(int) const override {
@@ -136,17 +139,81 @@ class SpinSignal final : public Signal {
  private:
   template <class Scalar>
   Scalar evaluate(const FrameMotion<Scalar>& frame) const {
-    return component_of<Scalar>(Vector3<Scalar>(frame.A * frame.omega), direction_);
+    const Vector3<Scalar>& local = derivative_ == TimeDerivative::first ? frame.omega : frame.alpha;
+    return component_of<Scalar>(Vector3<Scalar>(frame.A * local), direction_);
   }
 
   const BodyModel& body_;
   int direction_;
+  TimeDerivative derivative_;
+};
+
+class AngleSignal final : public Signal {
+ public:
+  AngleSignal(const BodyModel& body, int direction)
+      : body_(body), direction_(direction), local_(direction == 0 && !body.is_beam() ? 1 : 0) {
+    from_ = Eigen::Vector3d::Unit(direction == 0 ? 1 : 0);
+    beside_ = Eigen::Vector3d::Unit(direction).cross(from_);
+    const BodyFrame& frame = body.frame;
+    if (frame.rotation != RotationCoordinates::angle) return;
+    constexpr double parallel = 1.0 - 1e-12;
+    if (std::abs(frame.axis(direction)) < parallel) return;
+    sense_ = frame.axis(direction) > 0.0 ? 1.0 : -1.0;
+    reference_ = angle_of<double>(frame.reference, 0.0);
+  }
+
+  int channels() const override { return 1; }
+  std::string describe(int) const override {
+    return fmt::format("body frame, about {}", component_name(direction_));
+  }
+  void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
+    values(0) = counts_turns() ? reference_ + sense_ * state.q(coordinate())
+                               : angle_of<double>(BodyState(body_, state).frame().A, state.time);
+  }
+  void add_gradient(const State& state, int, double weight, SignalGradient& gradient) override {
+    if (counts_turns()) {
+      gradient.q(coordinate()) += weight * sense_;
+      return;
+    }
+    const BodyState of_body(body_, state);
+    const FrameDual angle = angle_of<FrameDual>(of_body.seeded_frame<FrameDual>().A, state.time);
+    BodyGradient(body_, of_body, gradient).add_frame(weight, angle.derivatives());
+  }
+
+ private:
+  bool counts_turns() const { return sense_ != 0.0; }
+  int coordinate() const { return body_.frame.offset + body_.frame.translations(); }
+
+  template <class Scalar>
+  Scalar angle_of(const Matrix3<Scalar>& A, double time) const {
+    using std::atan2;
+    const Vector3<Scalar> axis = A.col(local_);
+    const Scalar x = axis.dot(from_.cast<Scalar>()), y = axis.dot(beside_.cast<Scalar>());
+    constexpr double tiny = 1e-12;
+    if (std::hypot(value_of(x), value_of(y)) < tiny) {
+      throw SimulationError(
+          fmt::format("the angle of \"{}\" about {} has no value at t = {:g} s: its local {} axis "
+                      "points along that",
+                      body_.name, component_name(direction_), time, local_ == 0 ? "x" : "y"));
+    }
+    return atan2(y, x);
+  }
+
+  const BodyModel& body_;
+  int direction_, local_;
+  Eigen::Vector3d from_, beside_;
+  double sense_ = 0.0, reference_ = 0.0;  ///< of motion in a plane normal to the axis
 };
 
 }  // namespace
 
-std::unique_ptr<Signal> make_spin_signal(const BodyModel& body, int direction) {
-  return std::make_unique<SpinSignal>(body, direction);
+std::unique_ptr<Signal> make_spin_signal(const BodyModel& body, int direction,
+                                         TimeDerivative derivative) {
+  return std::make_unique<SpinSignal>(body, direction, derivative);
+}
+
+std::unique_ptr<Signal> make_angle_signal(const BodyModel& body, int direction) {
+  return std::make_unique<AngleSignal>(body, direction);
 }
 
 std::unique_ptr<Signal> make_deflection_signal(const BodyModel& body, NamedPoint point,

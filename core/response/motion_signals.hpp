@@ -25,9 +25,18 @@ std::unique_ptr<Signal> make_deflection_signal(const BodyModel& body, NamedPoint
 /// @param axis  0 … 2
 std::unique_ptr<Signal> make_axis_signal(const BodyModel& body, int axis);
 
-/// Angular velocity A ω of the body frame, global axes [rad/s].
+/// Angular velocity A ω [rad/s] or acceleration A α [rad/s²] of the body frame, global axes.
 /// @param direction  0 … 2: global x, y, z; −1: magnitude
-std::unique_ptr<Signal> make_spin_signal(const BodyModel& body, int direction);
+/// @param derivative  first: velocity; second: acceleration
+std::unique_ptr<Signal> make_spin_signal(const BodyModel& body, int direction,
+                                         TimeDerivative derivative);
+
+/// The angle [rad] about a global axis from global x (about x: y) to local x of the body frame (of
+/// bodies that are no beams, about x: local y), right-handed. In a plane normal to the axis it
+/// counts whole turns; else it is in (−π, π]. The signal throws SimulationError where the angle has
+/// no value.
+/// @param direction  0 … 2: global x, y, z
+std::unique_ptr<Signal> make_angle_signal(const BodyModel& body, int direction);
 
 /// Motion of a point in global axes. With p the point in the frame, displaced:
 ///     r + A p [m],    ṙ + Ȧ p + A ṗ [m/s],    r̈ + Ä p + 2 Ȧ ṗ + A p̈ [m/s²]

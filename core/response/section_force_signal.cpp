@@ -27,7 +27,7 @@ class SectionForceQuantity {
         return forces.moment_y;
       case SectionForcePart::moment_z:
         return forces.moment_z;
-      case SectionForcePart::torque:
+      default:
         break;
     }
     return forces.torque;
@@ -37,12 +37,43 @@ class SectionForceQuantity {
   SectionForcePart part_;
 };
 
+/// Of every station one number, the shear force itself.
+class ShearStations final : public Stations {
+ public:
+  ShearStations(const BodyModel& body, const StationChoice& choice, int direction)
+      : body_(body), direction_(direction), stations_(find_stations(body, choice)) {}
+
+  int numbers() const override { return 1; }
+  Recovery recovery() const override { return shear_force_recovery(body_, stations_, direction_); }
+  Recovery recovery_derivative(std::size_t k) const override {
+    return shear_force_derivative(body_, stations_, direction_, k);
+  }
+  int channels() const override { return static_cast<int>(stations_.size()); }
+  int station(int channel) const override { return channel; }
+  std::string describe(int channel) const override {
+    return pleuel::describe(stations_[static_cast<std::size_t>(channel)], body_);
+  }
+  double value(int, const double* numbers) const override { return numbers[0]; }
+  Numbers slopes(int, const double*) override { return Numbers::Ones(1); }
+  double design_slope(int, const double*, std::size_t) const override { return 0.0; }
+
+ private:
+  const BodyModel& body_;
+  int direction_;
+  std::vector<Station> stations_;
+};
+
 }  // namespace
 
 std::unique_ptr<Signal> make_section_force_signal(const BodyModel& body,
                                                   const Eigen::Vector3d& gravity,
                                                   SectionForcePart part,
                                                   const StationChoice& stations) {
+  if (part == SectionForcePart::shear_y || part == SectionForcePart::shear_z) {
+    const int direction = part == SectionForcePart::shear_y ? 1 : 2;
+    return make_recovered_signal(body, gravity,
+                                 std::make_unique<ShearStations>(body, stations, direction));
+  }
   return make_section_signal(body, gravity, stations, SectionForceQuantity(part));
 }
 

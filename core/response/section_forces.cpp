@@ -55,6 +55,34 @@ struct ElementForces {
   }
 };
 
+/// The shear force at a place of an element, as rows: the derivatives of those of the moments.
+template <class Scalar>
+struct ElementShear {
+  Eigen::Matrix<Scalar, 1, 12> of_coordinates;
+  Eigen::Matrix<Scalar, 1, 6> of_accelerations;
+
+  ElementShear(const BeamElement<Scalar>& element, double xi, int direction) {
+    const SectionProperties<Scalar>& section = element.section;
+    const Scalar& length = element.length;
+    // v‴ of the cubic with the values and slopes at both nodes: (12, 6ℓ, −12, 6ℓ)/ℓ³; θ_y = −w'.
+    const bool is_y = direction == 1;
+    const Scalar inertia = is_y ? section.inertia_z : section.inertia_y;
+    const Scalar third = -(element.young * inertia) / (length * length * length);
+    const Scalar turned = (is_y ? 6.0 : -6.0) * third * length;
+    const int turn = is_y ? 5 : 4;
+    of_coordinates.setConstant(Scalar(0));
+    of_coordinates(direction) = 12.0 * third;
+    of_coordinates(turn) = turned;
+    of_coordinates(6 + direction) = -12.0 * third;
+    of_coordinates(6 + turn) = turned;
+    const Scalar across = -element.density * section.area * length;
+    const double start = xi - 0.5, change = xi * xi / 2 - 3.0 / 20;
+    of_accelerations.setConstant(Scalar(0));
+    of_accelerations(direction) = across * (change - start);
+    of_accelerations(3 + direction) = across * -change;
+  }
+};
+
 /// Writes dense blocks of neighbouring columns.
 class RowWriter {
  public:
@@ -83,34 +111,61 @@ struct NodalRows {
   SparseMatrix of_displacements, of_accelerations;
 };
 
+/// @param count   rows of a station
+/// @param of      element, place in it → its rows
 /// @param number  Scalar → double: value or derivative
-template <class Scalar, class Number>
-NodalRows nodal_rows(const Beam<Scalar>& beam, const std::vector<Station>& stations,
-                     const Number& number) {
-  const auto rows = section_force_count * static_cast<Eigen::Index>(stations.size());
+template <class Scalar, class OfElement, class Number>
+NodalRows nodal_rows(const Beam<Scalar>& beam, const std::vector<Station>& stations, int count,
+                     const OfElement& of, const Number& number) {
+  const auto rows = count * static_cast<Eigen::Index>(stations.size());
   RowWriter displacements(rows, 6 * beam.node_count()), accelerations(rows, 3 * beam.node_count());
   Eigen::Index row = 0;
   for (const Station& station : stations) {
     const double share = 1.0 / static_cast<double>(station.elements.size());
     for (int e : station.elements) {
-      const ElementForces<Scalar> forces(beam.elements[e], station.place - e);
+      const auto forces = of(beam.elements[e], station.place - e);
       const auto scaled = [&](const Scalar& entry) { return share * number(entry); };
       displacements.add(row, 6 * e, forces.of_coordinates.unaryExpr(scaled).eval());
       accelerations.add(row, 3 * e, forces.of_accelerations.unaryExpr(scaled).eval());
     }
-    row += section_force_count;
+    row += count;
   }
   return {displacements.finish(), accelerations.finish()};
 }
 
-NodalRows values(const BodyModel& body, const std::vector<Station>& stations) {
-  return nodal_rows(body.beam, stations, [](double number) { return number; });
+constexpr auto value = [](double number) { return number; };
+constexpr auto derivative = [](const Dual& number) { return derivative_of(number); };
+
+constexpr auto forces_of = []<class Scalar>(const BeamElement<Scalar>& element, double xi) {
+  return ElementForces<Scalar>(element, xi);
+};
+
+auto shear_of(int direction) {
+  return [direction]<class Scalar>(const BeamElement<Scalar>& element, double xi) {
+    return ElementShear<Scalar>(element, xi, direction);
+  };
+}
+
+/// @param count, of  as of nodal_rows()
+template <class OfElement>
+Recovery derivative_rows(const BodyModel& body, const std::vector<Station>& stations, int count,
+                         const OfElement& of, std::size_t k) {
+  NodalRows change = nodal_rows(body.beam_x[k].second, stations, count, of, derivative);
+  SparseMatrix of_coordinates = change.of_displacements * body.places.shape;
+  const SparseMatrix& shape_x = body.places_x[k].data.shape;
+  if (shape_x.nonZeros() > 0) {
+    const NodalRows rows = nodal_rows(body.beam, stations, count, of, value);
+    of_coordinates += SparseMatrix(rows.of_displacements * shape_x);
+  }
+  SparseMatrix of_stretching(of_coordinates.rows(),
+                             static_cast<Eigen::Index>(body.stretching.elements.size()));
+  return {std::move(of_coordinates), std::move(change.of_accelerations), std::move(of_stretching)};
 }
 
 }  // namespace
 
 Recovery section_force_recovery(const BodyModel& body, const std::vector<Station>& stations) {
-  NodalRows rows = values(body, stations);
+  NodalRows rows = nodal_rows(body.beam, stations, section_force_count, forces_of, value);
   RowWriter stretching(rows.of_displacements.rows(),
                        static_cast<Eigen::Index>(body.stretching.elements.size()));
   for (std::size_t s = 0; body.has_stiffening && s < stations.size(); ++s) {
@@ -126,16 +181,21 @@ Recovery section_force_recovery(const BodyModel& body, const std::vector<Station
 
 Recovery section_force_derivative(const BodyModel& body, const std::vector<Station>& stations,
                                   std::size_t k) {
-  NodalRows change = nodal_rows(body.beam_x[k].second, stations,
-                                [](const Dual& number) { return derivative_of(number); });
-  SparseMatrix of_coordinates = change.of_displacements * body.places.shape;
-  const SparseMatrix& shape_x = body.places_x[k].data.shape;
-  if (shape_x.nonZeros() > 0) {
-    of_coordinates += SparseMatrix(values(body, stations).of_displacements * shape_x);
-  }
-  SparseMatrix of_stretching(of_coordinates.rows(),
+  return derivative_rows(body, stations, section_force_count, forces_of, k);
+}
+
+Recovery shear_force_recovery(const BodyModel& body, const std::vector<Station>& stations,
+                              int direction) {
+  NodalRows rows = nodal_rows(body.beam, stations, 1, shear_of(direction), value);
+  SparseMatrix of_stretching(rows.of_displacements.rows(),
                              static_cast<Eigen::Index>(body.stretching.elements.size()));
-  return {std::move(of_coordinates), std::move(change.of_accelerations), std::move(of_stretching)};
+  return {rows.of_displacements * body.places.shape, std::move(rows.of_accelerations),
+          std::move(of_stretching)};
+}
+
+Recovery shear_force_derivative(const BodyModel& body, const std::vector<Station>& stations,
+                                int direction, std::size_t k) {
+  return derivative_rows(body, stations, 1, shear_of(direction), k);
 }
 
 }  // namespace pleuel

@@ -28,4 +28,16 @@ Recovery section_force_recovery(const BodyModel& body, const std::vector<Station
 Recovery section_force_derivative(const BodyModel& body, const std::vector<Station>& stations,
                                   std::size_t k);
 
+/// Shear forces of the stations of a beam across it, along local y (1) or z (2), one row each, of the
+/// part behind a section on the part before it, normal to the bent axis:
+///     V_y = −dM_z/dx,   V_z = dM_y/dx
+/// of the bending moments above, with what the inertia load does. Where two elements meet, their
+/// shear forces are averaged: at a load between them that is the mean of both sides.
+Recovery shear_force_recovery(const BodyModel& body, const std::vector<Station>& stations,
+                              int direction);
+
+/// Its derivative, as section_force_derivative().
+Recovery shear_force_derivative(const BodyModel& body, const std::vector<Station>& stations,
+                                int direction, std::size_t k);
+
 }  // namespace pleuel

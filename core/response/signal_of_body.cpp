@@ -44,7 +44,11 @@ class BodySignalMaker {
         return make_section_force_signal(body_, model_.gravity, settings_.section_part,
                                          {std::nullopt, settings_.station});
       case ResponseType::angular_velocity:
-        return make_spin_signal(body_, settings_.direction);
+        return make_spin_signal(body_, settings_.direction, TimeDerivative::first);
+      case ResponseType::angular_acceleration:
+        return make_spin_signal(body_, settings_.direction, TimeDerivative::second);
+      case ResponseType::angle:
+        return make_angle_signal(body_, settings_.direction);
       default:
         return make_motion(TimeDerivative::second);
     }
@@ -288,6 +292,18 @@ std::unique_ptr<Signal> make_resultant(ResponseSettings settings, const Model& m
   return std::make_unique<NormSignal>(std::move(along_y), make_signal_of_body(settings, model));
 }
 
+/// The component along a vector, of those along the global axes.
+std::unique_ptr<Signal> make_along(ResponseSettings settings, const Model& model) {
+  const std::array<double, 3> along = *std::exchange(settings.along, std::nullopt);
+  std::vector<SignalSum::Part> parts;
+  for (int i = 0; i < 3; ++i) {
+    settings.direction = i;
+    parts.push_back({along[static_cast<std::size_t>(i)], make_signal_of_body(settings, model)});
+  }
+  return std::make_unique<SignalSum>(std::move(parts), fmt::format("along ({:.3g}, {:.3g}, {:.3g})",
+                                                                   along[0], along[1], along[2]));
+}
+
 /// A signal whose places are named with their body.
 class SignalOfNamedBody final : public Signal {
  public:
@@ -326,6 +342,7 @@ std::unique_ptr<Signal> make_list(ResponseSettings settings, const Model& model)
 
 std::unique_ptr<Signal> make_signal_of_body(const ResponseSettings& settings, const Model& model) {
   if (settings.bodies.size() > 1) return make_list(settings, model);
+  if (settings.along) return make_along(settings, model);
   if (settings.type == ResponseType::deflection && settings.direction == magnitude) {
     return make_resultant(settings, model);
   }

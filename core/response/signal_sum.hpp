@@ -9,7 +9,8 @@
 
 namespace pleuel {
 
-/// Σ factor · signal, of signals with the same channels; described as the first of them.
+/// Σ factor · signal, of signals with the same channels; described as the first of them, or by a
+/// name.
 class SignalSum final : public Signal {
  public:
   struct Part {
@@ -17,16 +18,16 @@ class SignalSum final : public Signal {
     std::unique_ptr<Signal> signal;
   };
 
-  explicit SignalSum(std::vector<Part> parts)
-      : parts_(std::move(parts)), values_(parts_.front().signal->channels()) {}
+  explicit SignalSum(std::vector<Part> parts, std::string name = "")
+      : parts_(std::move(parts)), name_(std::move(name)), own_(parts_.front().signal->channels()) {}
 
-  int channels() const override { return static_cast<int>(values_.size()); }
+  int channels() const override { return static_cast<int>(own_.size()); }
 
   void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
     values.setZero();
     for (Part& part : parts_) {
-      part.signal->observe(state, values_);
-      values += part.factor * values_;
+      part.signal->observe(state, own_);
+      values += part.factor * own_;
     }
   }
 
@@ -38,12 +39,13 @@ class SignalSum final : public Signal {
   }
 
   std::string describe(int channel) const override {
-    return parts_.front().signal->describe(channel);
+    return name_.empty() ? parts_.front().signal->describe(channel) : name_;
   }
 
  private:
   std::vector<Part> parts_;
-  Eigen::VectorXd values_;
+  std::string name_;
+  Eigen::VectorXd own_;  ///< of one part
 };
 
 }  // namespace pleuel

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/dual.hpp"
-#include "core/scene/expression.hpp"
+#include "core/base/expression.hpp"
 
 namespace pleuel {
 

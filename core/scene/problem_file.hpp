@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -105,7 +106,10 @@ enum class ResponseType {
   joint_velocity,
   spring_length,
   spring_force,  ///< positive: it pulls
-  motor_power    ///< of a motor in a joint
+  motor_power,   ///< of a motor in a joint
+  damper_power,  ///< what damper and resistance to a rate take, of a spring or in a joint
+  angle,         ///< of a body frame
+  angular_acceleration
 };
 enum class OverTime { max, min, max_abs, rms, mean, integral, final };
 
@@ -124,8 +128,15 @@ enum class SectionForcePart {
   axial,     ///< N, positive: tension
   moment_y,  ///< bends in the plane of x and z
   moment_z,  ///< bends in the plane of x and y
-  torque     ///< about the axis of the beam
+  torque,    ///< about the axis of the beam
+  shear_y,   ///< across it, along local y
+  shear_z
 };
+
+inline bool is_force(SectionForcePart part) {
+  return part == SectionForcePart::axial || part == SectionForcePart::shear_y ||
+         part == SectionForcePart::shear_z;
+}
 
 /// What a deflection is measured against.
 enum class DeflectionReference {
@@ -154,6 +165,9 @@ struct ResponseSettings {
   /// position, velocity, acceleration, angular velocity, reaction: 0 … 2 global axes, −1 =
   /// magnitude
   int direction = 1;
+  /// position, velocity, acceleration, angular velocity and acceleration: the component along this
+  /// unit vector, global axes; in place of `direction`
+  std::optional<std::array<double, 3>> along = {};
   std::string joint;  ///< drive torque and power, reactions, position and velocity of a joint
   DrivenCoordinate coordinate = DrivenCoordinate::angle;  ///< position and velocity of a joint
   std::string load;                                       ///< spring length and force, motor power

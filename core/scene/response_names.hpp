@@ -32,6 +32,9 @@ inline constexpr Choice<ResponseType> response_types[] = {
     {"spring-length", ResponseType::spring_length},
     {"spring-force", ResponseType::spring_force},
     {"motor-power", ResponseType::motor_power},
+    {"damper-power", ResponseType::damper_power},
+    {"angle", ResponseType::angle},
+    {"angular-acceleration", ResponseType::angular_acceleration},
 };
 
 inline constexpr Choice<OverTime> over_time_kinds[] = {

@@ -31,8 +31,7 @@ Quantity instant_quantity(const ResponseSettings& response) {
     case ResponseType::constraint_drift:
       return quantities::pure_number;
     case ResponseType::section_force:
-      return response.section_part == SectionForcePart::axial ? quantities::force
-                                                              : quantities::torque;
+      return is_force(response.section_part) ? quantities::force : quantities::torque;
     case ResponseType::angular_velocity:
       return quantities::angular_speed;
     case ResponseType::joint_position:
@@ -43,6 +42,11 @@ Quantity instant_quantity(const ResponseSettings& response) {
       return quantities::length;
     case ResponseType::spring_force:
       return quantities::force;
+    case ResponseType::angle:
+      return quantities::angle;
+    case ResponseType::angular_acceleration:
+      return per_time(quantities::angular_speed);
+    case ResponseType::damper_power:
     case ResponseType::motor_power:
       return quantities::power;
     case ResponseType::kinetic_energy:

@@ -215,13 +215,20 @@ struct Joint {
 
 // Loads and force elements.
 
+/// The coordinate of a joint that a load is a function of, with its rate.
+struct JointCoordinate {
+  std::string joint;
+  DrivenCoordinate coordinate = DrivenCoordinate::angle;
+};
+
 /// A force on a point of a body: value(t) · direction.
 struct PointForce {
   std::string body;
-  Point at;                         ///< at t = 0, global axes [m]
-  std::array<double, 3> direction;  ///< unit vector, global axes at t = 0
-  TimeFunction value;               ///< [N]
-  bool follows_body = false;        ///< whether the direction turns with the body
+  Point at;                                  ///< at t = 0, global axes [m]
+  std::array<double, 3> direction;           ///< unit vector, global axes at t = 0
+  TimeFunction value;                        ///< [N]
+  bool follows_body = false;                 ///< whether the direction turns with the body
+  std::optional<JointCoordinate> over = {};  ///< what the value is a function of, besides time
 };
 
 /// A torque on a body: value(t) · direction.
@@ -231,27 +238,39 @@ struct PointTorque {
   std::array<double, 3> direction;
   TimeFunction value;  ///< [N m]
   bool follows_body = false;
+  std::optional<JointCoordinate> over = {};
 };
 
-/// Between two points: force k (l − l₀) + c l̇ along their connection.
+/// Between two points: force k (l − l₀) + c l̇ + r(l − l₀, l̇, t) along their connection.
 struct SpringDamper {
   std::array<std::string, 2> bodies;
-  std::array<Point, 2> at;            ///< at t = 0, global axes [m]
-  Number stiffness;                   ///< [N/m]
-  Number damping;                     ///< [N s/m]
-  std::optional<Number> free_length;  ///< [m]; by default the distance at t = 0
+  std::array<Point, 2> at;                      ///< at t = 0, global axes [m]
+  Number stiffness;                             ///< [N/m]
+  Number damping;                               ///< [N s/m]
+  std::optional<Number> free_length;            ///< [m]; by default the distance at t = 0
+  std::optional<TimeFunction> resistance = {};  ///< r [N]
+};
+
+/// A motor that follows a motion: proportional · (target − s) + derivative · (target's rate − ṡ).
+struct MotorControl {
+  TimeFunction target;  ///< [rad] or [m], as of a drive
+  Number proportional;  ///< [N m/rad] or [N/m]
+  Number derivative;    ///< [N m s/rad] or [N s/m]
 };
 
 /// Spring, damper (viscous friction) and motor in a joint, acting on its free coordinate (the angle
 /// of a revolute, the displacement of a prismatic joint; `coordinate` chooses for a cylindrical):
-///     −k (s − s₀) − c ṡ + motor(t)   on the second body, the opposite on the first
+///     −k (s − s₀) − c ṡ − r(s − s₀, ṡ, t) + motor(t, s, ṡ)
+/// on the second body, the opposite on the first.
 struct JointForce {
   std::string joint;
   DrivenCoordinate coordinate = DrivenCoordinate::angle;
-  Number stiffness;                   ///< [N m/rad] or [N/m]
-  Number damping;                     ///< [N m s/rad] or [N s/m]
-  Number rest;                        ///< s₀ [rad] or [m], against the position at t = 0
-  std::optional<TimeFunction> motor;  ///< [N m] or [N]
+  Number stiffness;                          ///< [N m/rad] or [N/m]
+  Number damping;                            ///< [N m s/rad] or [N s/m]
+  Number rest;                               ///< s₀ [rad] or [m], against the position at t = 0
+  std::optional<TimeFunction> motor;         ///< [N m] or [N]
+  std::optional<MotorControl> control = {};  ///< another motor
+  std::optional<TimeFunction> resistance = {};  ///< r [N m] or [N]
 };
 
 struct Load {

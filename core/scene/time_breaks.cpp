@@ -1,7 +1,11 @@
 #include "core/scene/time_breaks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <optional>
+
+#include "core/scene/expression_kinks.hpp"
 
 namespace pleuel {
 
@@ -9,6 +13,61 @@ namespace {
 
 /// Steps between points of a table that are resolved one by one.
 constexpr double sparse = 4.0;
+/// Points of all periods: more are no events, but an oscillation.
+constexpr double most_points = 1e5;
+/// In which kinks of a formula are looked for.
+constexpr int formula_samples = 4096;
+
+/// The points of a law, of all periods.
+struct LawTimes {
+  std::vector<double> times;  ///< ascending
+  bool jumps = false;
+  bool is_smooth_inside = false;  ///< enough for loads, at all points but the first and the last
+  bool is_repeated = false;
+};
+
+/// @param times  of the first period
+std::vector<double> repeated(const std::vector<double>& times, double period, double end_time) {
+  const double first = times.front(), last = times.back();
+  const auto before = std::ceil(std::max(0.0, first) / period);
+  const double periods = before + std::ceil(std::max(0.0, end_time - first) / period);
+  const bool is_closed = last - first > period * (1.0 - 1e-9);
+  if (periods * static_cast<double>(times.size()) > most_points) return times;
+  std::vector<double> all;
+  for (double k = -before; k <= periods - before; ++k) {
+    for (std::size_t i = 0; i + (is_closed ? 1 : 0) < times.size(); ++i) {
+      all.push_back(times[i] + k * period);
+    }
+  }
+  return all;
+}
+
+LawTimes times_of(const TimeFunction& function, double end_time) {
+  LawTimes law;
+  double period = 0.0;
+  if (const auto* table = std::get_if<TableFunction>(&function)) {
+    if (table->argument != LawArgument::time) return {};
+    law.times = table->times;
+    law.jumps = table->interpolation == Interpolation::step;
+    law.is_smooth_inside = !law.jumps && table->interpolation != Interpolation::linear;
+    if (table->repetition == Repetition::periodic) period = law.times.back() - law.times.front();
+  } else if (const auto* ramp = std::get_if<RampFunction>(&function)) {
+    law.times = {ramp->begin, ramp->end};
+    const double r = ramp->rounding;
+    if (r > 0.0) law.times = {ramp->begin, ramp->begin + r, ramp->end - r, ramp->end};
+    law.is_smooth_inside = true;
+  } else if (const auto* wave = std::get_if<HalfSineFunction>(&function)) {
+    law.times = {wave->begin, wave->begin + wave->duration};
+    period = wave->period;
+  } else if (const auto* formula = std::get_if<ExpressionFunction>(&function)) {
+    law.times = kinks_in_time(*formula->expression, end_time, formula_samples);
+  }
+  if (period > 0.0) {
+    law.is_repeated = true;
+    law.times = repeated(law.times, period, end_time);
+  }
+  return law;
+}
 
 double closest(const std::vector<double>& times, std::size_t i) {
   double distance = std::numeric_limits<double>::infinity();
@@ -17,49 +76,44 @@ double closest(const std::vector<double>& times, std::size_t i) {
   return distance;
 }
 
-/// @param is_smooth  whether an interpolation is smooth enough at inner points
-void add_breaks(const TimeFunction& function, double step, bool (*is_smooth)(Interpolation),
-                std::vector<double>& breaks) {
-  const auto* table = std::get_if<TableFunction>(&function);
-  if (!table) return;
-  const std::vector<double>& times = table->times;
-  const double least =
-      table->interpolation == Interpolation::step ? 0.0 : sparse * step * (1.0 - 1e-9);
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    const bool is_inner = i > 0 && i + 1 < times.size();
-    if (is_inner && is_smooth(table->interpolation)) continue;
-    if (closest(times, i) >= least) breaks.push_back(times[i]);
-  }
-}
+enum class Of { drive, load };
 
-void add_load_breaks(const TimeFunction& function, double step, std::vector<double>& breaks) {
-  add_breaks(
-      function, step,
-      [](Interpolation interpolation) {
-        return interpolation == Interpolation::monotone || interpolation == Interpolation::spline;
-      },
-      breaks);
+void add_breaks(const TimeFunction& function, const TimeIntegration& integration, Of kind,
+                std::vector<double>& breaks) {
+  const LawTimes law = times_of(function, integration.end_time);
+  const double least = law.jumps ? 0.0 : sparse * integration.step * (1.0 - 1e-9);
+  for (std::size_t i = 0; i < law.times.size(); ++i) {
+    const bool is_inside = law.is_repeated || (i > 0 && i + 1 < law.times.size());
+    if (is_inside && kind == Of::load && law.is_smooth_inside) continue;
+    if (closest(law.times, i) >= least) breaks.push_back(law.times[i]);
+  }
 }
 
 }  // namespace
 
-std::vector<double> time_breaks(const Scene& scene, double step) {
+std::vector<double> time_breaks(const Scene& scene, const TimeIntegration& integration) {
   std::vector<double> breaks;
+  const auto add = [&](const TimeFunction& function, Of kind) {
+    add_breaks(function, integration, kind, breaks);
+  };
   for (const Joint& joint : scene.joints) {
-    if (!joint.drive) continue;
-    add_breaks(
-        joint.drive->motion, step, [](Interpolation) { return false; }, breaks);
+    if (joint.drive) add(joint.drive->motion, Of::drive);
   }
   for (const Load& load : scene.loads) {
     if (const auto* force = std::get_if<PointForce>(&load.element)) {
-      add_load_breaks(force->value, step, breaks);
+      add(force->value, Of::load);
     } else if (const auto* torque = std::get_if<PointTorque>(&load.element)) {
-      add_load_breaks(torque->value, step, breaks);
+      add(torque->value, Of::load);
     } else if (const auto* joint = std::get_if<JointForce>(&load.element)) {
-      if (joint->motor) add_load_breaks(*joint->motor, step, breaks);
+      if (joint->motor) add(*joint->motor, Of::load);
+      if (joint->control) add(joint->control->target, Of::drive);
     }
   }
   return breaks;
+}
+
+std::vector<double> sharp_times(const TimeFunction& function, double end_time) {
+  return times_of(function, end_time).times;
 }
 
 }  // namespace pleuel

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <memory>
 #include <variant>
 #include <vector>
 
+#include "core/base/time_law.hpp"
 #include "core/scene/number.hpp"
 
-/// A prescribed quantity as a function of time: motion of a drive, value of a load.
+/// A prescribed quantity as a function of time: motion of a drive, value of a load. Of what acts
+/// along a coordinate it may be a function of that or of its rate, too.
 namespace pleuel {
 
 struct ConstantFunction {
@@ -39,18 +42,65 @@ enum class Interpolation {
   step,      ///< each value holds until the next time; not for drives
   linear,    ///< straight lines
   monotone,  ///< smooth, and never beyond the values on either side
-  spline     ///< cubic spline: smoother, but it overshoots where the values turn
+  spline,    ///< cubic spline: smoother, but it overshoots where the values turn
+  resting    ///< quintics that rest at every point: flanks of a pulse; not of a file
 };
 
-/// Through points; before the first and after the last of them the values there hold. That of a
-/// drive starts and ends at rest, but for straight lines (core/base/table_law.hpp).
+/// Whether what lies between the first and the last point goes on before and after them.
+enum class Repetition {
+  none,     ///< the values at both ends hold
+  periodic  ///< the last point is the first of the next period
+};
+
+/// Through points. That of a drive that is not repeated starts and ends at rest, but for straight
+/// lines (core/base/table_law.hpp). Steps and trapezoids are tables, too.
 struct TableFunction {
-  std::vector<double> times;   ///< [s], ascending, at least two
+  std::vector<double> times;   ///< [s], or of what else it is a function; ascending, at least two
   std::vector<Number> values;  ///< as many
   Interpolation interpolation = Interpolation::monotone;
+  Repetition repetition = Repetition::none;
+  LawArgument argument = LawArgument::time;
+};
+
+/// From one value to another; the rate rises and falls as a cubic within `rounding` behind the
+/// beginning and before the end, and is constant between.
+struct RampFunction {
+  Number from, to;
+  double begin = 0.0, end = 0.0;  ///< [s]
+  double rounding = 0.0;          ///< [s], at most half of the duration
+};
+
+/// offset + amplitude · sin(π (t − begin)/duration) while it lasts, else the offset.
+struct HalfSineFunction {
+  Number amplitude, offset;
+  double begin = 0.0, duration = 0.0;  ///< [s]
+  double period = 0.0;                 ///< [s]; 0: once
+};
+
+/// A formula of t, of design variables, and of the coordinate and the rate that a force element has.
+struct ExpressionFunction {
+  std::shared_ptr<const Expression> expression;
+  std::vector<Number> variables;  ///< each design variable in it as a formula of its own
+};
+
+/// value · tanh(ṡ/speed): dry friction without its jump.
+struct FrictionLaw {
+  Number value;  ///< [N] or [N m]
+  Number speed;  ///< [m/s] or [rad/s], positive
+};
+
+/// A spring that begins to act where a clearance ends (TimeLaw::clearance_at).
+struct ClearanceLaw {
+  Number lower, upper;  ///< ends of the clearance [m] or [rad]
+  Number stiffness;     ///< [N/m] or [N m/rad]
+  Number rounding;      ///< [m] or [rad], positive
 };
 
 using TimeFunction = std::variant<ConstantFunction, ConstantSpeedDrive, RampToSpeedDrive,
-                                  PolynomialFunction, HarmonicFunction, TableFunction>;
+                                  PolynomialFunction, HarmonicFunction, TableFunction, RampFunction,
+                                  HalfSineFunction, ExpressionFunction, FrictionLaw, ClearanceLaw>;
+
+/// Whether it is a function of the coordinate or the rate of a force element.
+bool depends_on_state(const TimeFunction& function);
 
 }  // namespace pleuel

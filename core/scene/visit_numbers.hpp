@@ -43,6 +43,24 @@ struct SectionNumbers {
 
 }  // namespace visiting
 
+/// What numbers of a force element measure that acts along an angle or a displacement.
+struct AlongCoordinate {
+  Quantity coordinate, rate, force, stiffness, damping;
+};
+inline AlongCoordinate along(DrivenCoordinate coordinate) {
+  if (coordinate == DrivenCoordinate::angle) {
+    return {quantities::angle, quantities::angular_speed, quantities::torque,
+            quantities::torsional_stiffness, quantities::torsional_damping};
+  }
+  return {quantities::length, quantities::speed, quantities::force, quantities::spring_stiffness,
+          quantities::damping_constant};
+}
+/// @param force  a torque or a force
+inline AlongCoordinate along(const Quantity& force) {
+  return along(force == quantities::torque ? DrivenCoordinate::angle
+                                           : DrivenCoordinate::displacement);
+}
+
 template <class Visit>
 void visit_numbers(const Section& section, Visit&& visit) {
   std::visit(visiting::SectionNumbers<std::remove_reference_t<Visit>>{visit}, section);
@@ -78,8 +96,26 @@ void visit_numbers(const TimeFunction& function, const Quantity& value, Visit&& 
     visit(harmonic->frequency, quantities::angular_speed);
     visit(harmonic->phase, quantities::angle);
     visit(harmonic->offset, value);
+  } else if (const auto* table = std::get_if<TableFunction>(&function)) {
+    visiting::all(table->values, value, visit);
+  } else if (const auto* flank = std::get_if<RampFunction>(&function)) {
+    visit(flank->from, value);
+    visit(flank->to, value);
+  } else if (const auto* wave = std::get_if<HalfSineFunction>(&function)) {
+    visit(wave->amplitude, value);
+    visit(wave->offset, value);
+  } else if (const auto* formula = std::get_if<ExpressionFunction>(&function)) {
+    // What a variable measures in a formula is not known here (NumberReader::quantity_of).
+    for (const Number& number : formula->variables) visit(number, quantities::pure_number);
+  } else if (const auto* friction = std::get_if<FrictionLaw>(&function)) {
+    visit(friction->value, value);
+    visit(friction->speed, along(value).rate);
   } else {
-    visiting::all(std::get<TableFunction>(function).values, value, visit);
+    const auto& clearance = std::get<ClearanceLaw>(function);
+    visit(clearance.lower, along(value).coordinate);
+    visit(clearance.upper, along(value).coordinate);
+    visit(clearance.stiffness, along(value).stiffness);
+    visit(clearance.rounding, along(value).coordinate);
   }
 }
 
@@ -135,16 +171,20 @@ void visit_numbers(const Load& load, Visit&& visit) {
     visit(spring->stiffness, quantities::spring_stiffness);
     visit(spring->damping, quantities::damping_constant);
     if (spring->free_length) visit(*spring->free_length, quantities::length);
+    if (spring->resistance) visit_numbers(*spring->resistance, quantities::force, visit);
   } else {
     const auto& joint = std::get<JointForce>(load.element);
-    const bool is_angle = joint.coordinate == DrivenCoordinate::angle;
-    visit(joint.stiffness,
-          is_angle ? quantities::torsional_stiffness : quantities::spring_stiffness);
-    visit(joint.damping, is_angle ? quantities::torsional_damping : quantities::damping_constant);
-    visit(joint.rest, driven_quantity(joint.coordinate));
-    if (joint.motor) {
-      visit_numbers(*joint.motor, is_angle ? quantities::torque : quantities::force, visit);
+    const AlongCoordinate measures = along(joint.coordinate);
+    visit(joint.stiffness, measures.stiffness);
+    visit(joint.damping, measures.damping);
+    visit(joint.rest, measures.coordinate);
+    if (joint.motor) visit_numbers(*joint.motor, measures.force, visit);
+    if (joint.control) {
+      visit_numbers(joint.control->target, measures.coordinate, visit);
+      visit(joint.control->proportional, measures.stiffness);
+      visit(joint.control->derivative, measures.damping);
     }
+    if (joint.resistance) visit_numbers(*joint.resistance, measures.force, visit);
   }
 }
 

@@ -6,10 +6,11 @@ namespace pleuel {
 
 /// What can be read of a force element.
 enum class Reading {
-  coordinate,  ///< its length or relative coordinate [m] or [rad]
-  rate,        ///< of that
-  force,       ///< of its spring and damper: a pull, or on the second body [N] or [N m]
-  motor_power  ///< what its motor supplies [W]
+  coordinate,   ///< its length or relative coordinate [m] or [rad]
+  rate,         ///< of that
+  force,        ///< of its spring and damper: a pull, or on the second body [N] or [N m]
+  motor_power,  ///< what its motor supplies [W]
+  damper_power  ///< what its damper takes, and its resistance to a rate [W]
 };
 
 /// Reads a force element in a state, with derivatives. It acts on nothing.

@@ -41,13 +41,6 @@ struct Missed {
   double scale = 0.0;  ///< largest distance from a value
 };
 
-/// The times at which a law may turn sharply.
-const std::vector<double>& knots_of(const TimeFunction& function) {
-  static const std::vector<double> none;
-  const auto* table = std::get_if<TableFunction>(&function);
-  return table ? table->times : none;
-}
-
 /// @param knots  ascending: instants that are looked at, too
 Missed missed_by(const Eigen::VectorXd& time, const Observed& value,
                  const std::vector<double>& knots) {
@@ -102,29 +95,34 @@ void add_missed(const Subject& subject, const Missed& missed, double scale,
 
 void add_load(const std::string& name, const TimeFunction& function, const Design<double>& design,
               const Eigen::VectorXd& time, std::vector<Doubt>& doubts) {
+  if (depends_on_state(function)) return;
   const TimeLaw<double> law = resolve_time_law(function, design);
   const Missed missed = missed_by(
       time,
       [&](double t) -> Values {
         return {law.at(t).value, 0.0};
       },
-      knots_of(function));
+      sharp_times(function, time(time.size() - 1)));
   add_missed({fmt::format("the load \"{}\"", name), "value"}, missed, missed.scale, doubts);
 }
 
-/// The first time within the simulation at which the speed of straight lines jumps.
+/// The first time within the simulation at which the speed of straight lines or of a formula jumps.
 std::optional<double> speed_jump(const TimeFunction& motion, const TimeLaw<double>& law,
                                  double end) {
   const auto* table = std::get_if<TableFunction>(&motion);
-  if (!table || table->interpolation != Interpolation::linear) return std::nullopt;
-  constexpr double small = 1e-9;
+  const bool is_straight = table && table->interpolation == Interpolation::linear;
+  if (!is_straight && !std::holds_alternative<ExpressionFunction>(motion)) return std::nullopt;
+  constexpr double small = 1e-6, close = 1e-9;
+  const std::vector<double> times = sharp_times(motion, end);
   double fastest = 0.0;
-  for (const double time : table->times) fastest = std::max(fastest, std::abs(law.at(time).rate));
-  for (std::size_t i = 0; i < table->times.size(); ++i) {
-    const double time = table->times[i];
+  for (const double time : times) {
+    fastest = std::max(fastest, std::abs(law.at(time + close * end).rate));
+    fastest = std::max(fastest, std::abs(law.at(time - close * end).rate));
+  }
+  for (const double time : times) {
     if (time <= 0.0 || time >= end) continue;
-    const double before = i > 0 ? law.at(table->times[i - 1]).rate : 0.0;
-    if (std::abs(law.at(time).rate - before) > small * fastest) return time;
+    const double before = law.at(time - close * end).rate;
+    if (std::abs(law.at(time + close * end).rate - before) > small * fastest) return time;
   }
   return std::nullopt;
 }
@@ -132,16 +130,19 @@ std::optional<double> speed_jump(const TimeFunction& motion, const TimeLaw<doubl
 void add_drive(const Joint& joint, const TimeLaw<double>& law, const Eigen::VectorXd& time,
                std::vector<Doubt>& doubts) {
   const std::string who = fmt::format("the drive of the joint \"{}\"", joint.name);
+  const bool is_formula = std::holds_alternative<ExpressionFunction>(joint.drive->motion);
   if (const auto jump = speed_jump(joint.drive->motion, law, time(time.size() - 1))) {
     doubts.push_back(
-        {fmt::format("{} follows straight lines: its speed jumps at t = {:.4g} s, where forces "
-                     "would be infinite; what is shown depends on the step. Take the "
-                     "\"interpolation\" \"monotone\" or \"spline\".",
-                     who, *jump),
+        {fmt::format("{} {}: its speed jumps at t = {:.4g} s, where forces "
+                     "would be infinite; what is shown depends on the step. {}.",
+                     who, is_formula ? "has a kink" : "follows straight lines", *jump,
+                     is_formula ? "Leave out min, max and abs, or take a table or a \"ramp\" with "
+                                  "\"rounding\""
+                                : "Take the \"interpolation\" \"monotone\" or \"spline\""),
          true});
     return;
   }
-  const std::vector<double>& knots = knots_of(joint.drive->motion);
+  const std::vector<double> knots = sharp_times(joint.drive->motion, time(time.size() - 1));
   if (joint.drive->coordinate == DrivenCoordinate::angle) {
     const Missed turned = missed_by(
         time,
@@ -195,7 +196,7 @@ std::vector<Doubt> doubt_fast_laws(const TrustedRun& run) {
 std::vector<Doubt> doubt_fast_laws_before(const ProblemFile& problem) {
   if (problem.simulation.local_error > 0.0) return {};
   SimulationOptions options{problem.simulation};
-  options.breaks = time_breaks(problem.scene, options.step);
+  options.breaks = time_breaks(problem.scene, options);
   const std::vector<double> instants = regular_instants(options);
   const Eigen::VectorXd x = start_design(problem);
   return find_fast_laws(problem.scene, Design<double>(x.begin(), x.end()),

@@ -68,6 +68,47 @@ std::optional<double> jump_of(const TrustedRun& run, const Joint& joint) {
   return std::nullopt;
 }
 
+/// Whether a law has another value after a whole turn.
+bool jumps(const TimeFunction& function, const Design<double>& design, double end_time,
+           double rest) {
+  if (!depends_on_state(function)) return false;
+  constexpr double pi = std::numbers::pi;
+  constexpr int samples = 7;
+  const TimeLaw<double> law = resolve_time_law(function, design);
+  double difference = 0.0, size = 0.0;
+  for (int i = 0; i < samples; ++i) {
+    const double time = end_time * i / samples, rate = (i % 2 == 0 ? 1.0 : -1.0) * i;
+    const double after = law.value_at(time, pi - rest, rate),
+                 before = law.value_at(time, -pi - rest, rate);
+    difference = std::max(difference, std::abs(after - before));
+    size = std::max({size, std::abs(after), std::abs(before)});
+  }
+  return difference > 1e-9 * std::max(size, 1.0);
+}
+
+bool jumps(const JointForce& force, const Design<double>& design, double end_time) {
+  const double rest = resolve(force.rest, design);
+  return resolve(force.stiffness, design) != 0.0 || force.control ||
+         (force.motor && jumps(*force.motor, design, end_time, 0.0)) ||
+         (force.resistance && jumps(*force.resistance, design, end_time, rest));
+}
+
+/// The joint that a load counts the angle of, if what the load does jumps after half a turn.
+std::optional<std::string> find_counted_joint(const Load& load, const Design<double>& design,
+                                              double end_time) {
+  const auto of_value = [&](const auto& point) -> std::optional<std::string> {
+    if (!point.over || point.over->coordinate != DrivenCoordinate::angle) return std::nullopt;
+    if (!jumps(point.value, design, end_time, 0.0)) return std::nullopt;
+    return point.over->joint;
+  };
+  if (const auto* force = std::get_if<PointForce>(&load.element)) return of_value(*force);
+  if (const auto* torque = std::get_if<PointTorque>(&load.element)) return of_value(*torque);
+  const auto* force = std::get_if<JointForce>(&load.element);
+  if (!force || force->coordinate != DrivenCoordinate::angle) return std::nullopt;
+  if (!jumps(*force, design, end_time)) return std::nullopt;
+  return force->joint;
+}
+
 bool is_in_space(const Model& model) {
   return std::any_of(model.bodies.begin(), model.bodies.end(), [](const BodyModel& body) {
     return body.frame.rotation == RotationCoordinates::rotation_vector;
@@ -82,17 +123,18 @@ std::vector<Doubt> doubt_joint_turns(const TrustedRun& run) {
   const Scene& scene = run.problem.scene;
   std::vector<Doubt> doubts;
   for (const Load& load : scene.loads) {
-    const auto* force = std::get_if<JointForce>(&load.element);
-    if (!force || force->coordinate != DrivenCoordinate::angle) continue;
-    if (resolve(force->stiffness, design) == 0.0) continue;
-    const Joint* joint = find_named(scene.joints, force->joint);
+    const auto name = find_counted_joint(load, design, run.problem.simulation.end_time);
+    if (!name) continue;
+    const Joint* joint = find_named(scene.joints, *name);
     const std::optional<double> time = jump_of(run, *joint);
     if (!time) continue;
+    const char* kind = std::holds_alternative<JointForce>(load.element) ? "spring" : "load";
     doubts.push_back(
         {fmt::format("the joint \"{}\" turns by more than half a turn, at t = {:.4g} s; in space "
-                     "the spring \"{}\" counts its angle from -180 to 180 deg, and its moment "
+                     "the {} \"{}\" counts its angle from -180 to 180 deg, and {} "
                      "jumps there. Only motion in a plane counts whole turns.",
-                     joint->name, *time, load.name),
+                     joint->name, *time, kind, load.name,
+                     kind == std::string("spring") ? "its moment" : "it"),
          true});
   }
   return doubts;

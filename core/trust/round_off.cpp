@@ -85,8 +85,12 @@ class RoundOff {
         return tiny_way * size_ / step;
       case ResponseType::joint_velocity:
         return tiny_way * (is_angle(response) ? 1.0 : size_) / step;
+      case ResponseType::angle:
+        return tiny_length;
       case ResponseType::angular_velocity:
         return tiny_way / step;
+      case ResponseType::angular_acceleration:
+        return tiny_way / (step * step);
       case ResponseType::acceleration:
         return tiny_way * size_ / (step * step);
       default:
@@ -112,7 +116,9 @@ class RoundOff {
       case ResponseType::velocity:
       case ResponseType::acceleration:
       case ResponseType::angular_velocity:
+      case ResponseType::angular_acceleration:
         whole.direction = -1;
+        whole.along = std::nullopt;
         return {{whole}};
       case ResponseType::reaction_force:
       case ResponseType::reaction_moment:
@@ -126,7 +132,7 @@ class RoundOff {
 
   /// Both bending moments of the same section; an axial force is one by the size of the mechanism.
   std::vector<Measure> section_moments(ResponseSettings whole) const {
-    const bool is_force = whole.section_part == SectionForcePart::axial;
+    const bool is_force = pleuel::is_force(whole.section_part);
     std::vector<Measure> measures;
     for (const SectionForcePart part : {SectionForcePart::moment_y, SectionForcePart::moment_z}) {
       whole.section_part = part;

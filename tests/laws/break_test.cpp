@@ -60,7 +60,7 @@ TEST(Breaks, AreTheTimesOfTablesButForSamplesOfSomethingSmooth) {
         pushed_block(R"({"type": "table", "times": [0, 0.05, 0.07], "values": [0, 1, 0],
                          "interpolation": ")" +
                      interpolation + "\"}");
-    return time_breaks(problem.scene, step).size() / 2;  // two loads
+    return time_breaks(problem.scene, {1.0, step}).size() / 2;  // two loads
   };
   EXPECT_EQ(breaks_of("linear", 1e-3), 3U);
   EXPECT_EQ(breaks_of("linear", 1e-2), 1U);

@@ -26,18 +26,26 @@ TimeLaw<Scalar> straight(Values knots, std::vector<Scalar> values) {
   return {TimeLaw<Scalar>::Kind::linear, std::move(values), std::move(knots)};
 }
 template <class Scalar>
+TimeLaw<Scalar> resting_cubic(Values knots, std::vector<Scalar> values) {
+  return monotone_cubic(std::move(knots), std::move(values));
+}
+template <class Scalar>
+TimeLaw<Scalar> motion_quintic(Values knots, std::vector<Scalar> values) {
+  return monotone_quintic(std::move(knots), std::move(values));
+}
+template <class Scalar>
 TimeLaw<Scalar> natural(Values knots, std::vector<Scalar> values) {
-  return cubic_spline(std::move(knots), std::move(values), SplineEnds::natural);
+  return cubic_spline(std::move(knots), std::move(values), TableEnds::free);
 }
 template <class Scalar>
 TimeLaw<Scalar> clamped(Values knots, std::vector<Scalar> values) {
-  return cubic_spline(std::move(knots), std::move(values), SplineEnds::clamped);
+  return cubic_spline(std::move(knots), std::move(values), TableEnds::resting);
 }
 
 const std::vector<Shape> shapes = {
     {"Linear", straight<double>, straight<Dual>, 0, true},
-    {"MonotoneCubic", monotone_cubic<double>, monotone_cubic<Dual>, 1, true},
-    {"MonotoneQuintic", monotone_quintic<double>, monotone_quintic<Dual>, 2, true},
+    {"MonotoneCubic", resting_cubic<double>, resting_cubic<Dual>, 1, true},
+    {"MonotoneQuintic", motion_quintic<double>, motion_quintic<Dual>, 2, true},
     {"NaturalSpline", natural<double>, natural<Dual>, 2, false},
     {"ClampedSpline", clamped<double>, clamped<Dual>, 2, false}};
 
@@ -203,7 +211,7 @@ TEST(Spline, IsExactForTheCubicThatItsEndsAllow) {
 
 TEST(MotionTable, StartsAndEndsAtRest) {
   const Values times = {0.0, 0.1, 0.2}, values = {0.0, 1.0, 3.0};
-  for (const auto make : {monotone_quintic<double>, clamped<double>}) {
+  for (const auto make : {motion_quintic<double>, clamped<double>}) {
     const TimeLaw<double> law = make(times, values);
     EXPECT_EQ(law.at(0.0).rate, 0.0);
     EXPECT_NEAR(law.at(0.2 * (1 - 1e-12)).rate, 0.0, 1e-8);

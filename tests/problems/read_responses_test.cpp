@@ -51,6 +51,8 @@ TEST(SpringResponse, IsThatOfTheSpringLaw) {
     "responses": {
       "length": {"type": "spring-length", "load": "spring", "over_time": "final"},
       "force": {"type": "spring-force", "load": "spring", "over_time": "final"},
+      "loss": {"type": "damper-power", "load": "spring", "over_time": "mean"},
+      "aslant": {"type": "velocity", "body": "block", "direction": [3, 0, -4], "over_time": "mean"},
       "travel": {"type": "joint-position", "joint": "guide", "over_time": "final"},
       "speed": {"type": "joint-velocity", "joint": "guide", "over_time": "mean"}
     }})");
@@ -58,6 +60,8 @@ TEST(SpringResponse, IsThatOfTheSpringLaw) {
   EXPECT_NEAR(block.value("force"), 300 * 0.1 + 7 * 0.5, 1e-7);  // k (l − l₀) + c v
   EXPECT_NEAR(block.value("travel"), 0.05, 1e-10);
   EXPECT_NEAR(block.value("speed"), 0.5, 1e-9);
+  EXPECT_NEAR(block.value("loss"), 7 * 0.25, 1e-8);  // c v²
+  EXPECT_NEAR(block.value("aslant"), 0.3, 1e-9);     // 3/5 of v
   const Eigen::RowVectorXd by = block.gradient("force");
   EXPECT_NEAR(by(0), 300 * 0.1 + 7, 1e-6);  // k t + c
   EXPECT_NEAR(by(1), 0.1, 1e-9);            // l − l₀
@@ -81,11 +85,19 @@ TEST(MotorResponse, IsTorqueTimesAngularVelocity) {
       "spin": {"type": "angular-velocity", "body": "wheel", "direction": "z", "over_time": "final"},
       "size": {"type": "angular-velocity", "body": "wheel", "direction": "magnitude",
                "over_time": "final"},
+      "turn": {"type": "angle", "body": "wheel", "direction": "z", "over_time": "final"},
+      "growth": {"type": "angular-acceleration", "body": "wheel", "direction": "z",
+                 "over_time": "mean"},
+      "aslant": {"type": "angular-velocity", "body": "wheel", "direction": [0, 3, 4],
+                 "over_time": "final"},
       "power": {"type": "motor-power", "load": "motor", "over_time": "final"}
     }})");
-  EXPECT_NEAR(wheel.value("rate"), 40.0, 1e-8);   // 8 · 2/0.4
-  EXPECT_NEAR(wheel.value("angle"), 40.0, 1e-8);  // 8 · 4/0.8: more than six turns
-  EXPECT_NEAR(wheel.value("spin"), -40.0, 1e-8);  // about the axis −z
+  EXPECT_NEAR(wheel.value("turn"), -40.0, 1e-8);    // counted, about +z
+  EXPECT_NEAR(wheel.value("growth"), -20.0, 1e-8);  // 8/0.4
+  EXPECT_NEAR(wheel.value("aslant"), -32.0, 1e-8);  // 4/5 of the one about z
+  EXPECT_NEAR(wheel.value("rate"), 40.0, 1e-8);     // 8 · 2/0.4
+  EXPECT_NEAR(wheel.value("angle"), 40.0, 1e-8);    // 8 · 4/0.8: more than six turns
+  EXPECT_NEAR(wheel.value("spin"), -40.0, 1e-8);    // about the axis −z
   EXPECT_NEAR(wheel.value("size"), 40.0, 1e-8);
   EXPECT_NEAR(wheel.value("power"), 320.0, 1e-6);
   EXPECT_NEAR(wheel.gradient("power")(0), 80.0, 1e-5);  // 2 m t/I
@@ -126,6 +138,10 @@ constexpr const char* cantilever = R"({
              "over_time": "max-abs"},
       "My": {"type": "section-force", "body": "bar", "at": 0.6, "part": "moment-y",
              "over_time": "max-abs"},
+      "Vy": {"type": "section-force", "body": "bar", "at": 0.3, "part": "shear-y",
+             "over_time": "mean"},
+      "Vz": {"type": "section-force", "body": "bar", "at": 0.3, "part": "shear-z",
+             "over_time": "mean"},
       "T": {"type": "section-force", "body": "bar", "at": 0.6, "part": "torque",
             "over_time": "mean"},
       "y": {"type": "deflection", "body": "bar", "at": 1, "over_time": "max-abs"},
@@ -147,9 +163,40 @@ TEST(SectionForce, IsThatOfStatics) {
   EXPECT_NEAR(bar.value("Mz"), 40.0 * 0.75, 1e-3);
   EXPECT_NEAR(bar.value("My"), 30.0 * 0.4, 1e-3);
   EXPECT_NEAR(bar.value("T"), 0.9, 1e-5);
+  EXPECT_NEAR(bar.value("Vy"), -40.0, 1e-2);  // of the part behind on the part before
+  EXPECT_NEAR(bar.value("Vz"), 30.0, 1e-2);
   const Eigen::RowVectorXd by = bar.gradient("Mz");
   EXPECT_NEAR(by(0), 0.0, 0.1);  // a moment of statics does not depend on the height
   EXPECT_NEAR(by(1), 0.75, 1e-4);
+}
+
+/// Of a cantilever under its weight, ρ A g (L − x) at every place, though each element has one
+/// derivative of its curvature: the rest is what the load does within it.
+TEST(ShearForce, CarriesTheWeightBehindIt) {
+  Simulated bar(R"({
+    "scene": {
+      "gravity": [0, -9.81, 3],
+      "materials": {"steel": {"young": "210 GPa", "poisson": 0.3, "density": "= density"}},
+      "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
+                 "section": {"type": "rectangle", "width": "30 mm", "height": "40 mm"},
+                 "elements": 2}},
+      "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}
+    },
+    "effects": {"geometric_stiffening": "off"},
+    "simulation": {"end_time": "1 ms", "step": "0.1 ms", "initial_state": "quasi-static"},
+    "variables": {"density": {"start": "8000 kg/m^3", "lower": "1 kg/m^3", "upper": "9000 kg/m^3"}},
+    "responses": {
+      "y": {"type": "section-force", "body": "bar", "at": 0.3, "part": "shear-y", "over_time": "mean"},
+      "z": {"type": "section-force", "body": "bar", "at": 0.3, "part": "shear-z", "over_time": "mean"},
+      "node": {"type": "section-force", "body": "bar", "at": 0.5, "part": "shear-y", "over_time": "mean"},
+      "wall": {"type": "section-force", "body": "bar", "at": 0, "part": "shear-y", "over_time": "mean"}
+    }})");
+  const double weight = 8000 * 0.03 * 0.04 * 9.81;
+  EXPECT_NEAR(bar.value("y"), -0.7 * weight, 1e-3);
+  EXPECT_NEAR(bar.value("z"), 0.7 * weight * 3 / 9.81, 1e-3);
+  EXPECT_NEAR(bar.value("node"), -0.5 * weight, 1e-3);
+  EXPECT_NEAR(bar.value("wall"), -weight, 1e-3);
+  EXPECT_NEAR(bar.gradient("y")(0), -0.7 * weight / 8000, 1e-6);
 }
 
 TEST(Deflection, HasAResultantAndAnAxialPart) {
@@ -192,6 +239,9 @@ TEST(ReadResponse, OfAnythingElseIsRefusedWithItsPlace) {
   };
   expect(R"({"type": "motor-power", "load": "pull", "over_time": "max"})", "load",
          "\"pull\" has none");
+  expect(R"({"type": "damper-power", "load": "pull", "over_time": "max"})", "load", "\"damping\"");
+  expect(R"({"type": "angle", "body": "bar", "direction": "magnitude", "over_time": "max"})",
+         "direction", "\"x\", \"y\" or \"z\"");
   expect(R"({"type": "spring-force", "load": "pull", "over_time": "max"})", "load", "\"spring\"");
   expect(R"({"type": "spring-length", "load": "pul", "over_time": "max"})", "load",
          "did you mean \"pull\"?");

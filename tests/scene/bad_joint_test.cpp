@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "/scene/joints/line/drive must be an object {…}, got 3"},
         BadEdit{
             "/scene/joints/line/drive/type", R"("sine")",
-            R"(/scene/joints/line/drive/type must be "constant-speed", "ramp-to-speed", "constant", "polynomial", "harmonic" or "table", got "sine")"},
+            R"(/scene/joints/line/drive/type must be "constant-speed", "ramp-to-speed", "constant", "polynomial", "harmonic", "table", "step", "ramp", "trapezoid" or "expression", got "sine")"},
         BadEdit{"/scene/joints/line/drive/sped", "1",
                 R"(/scene/joints/line/drive has the unknown key "sped"; did you mean "speed"?)"},
         BadEdit{

@@ -45,7 +45,7 @@ INSTANTIATE_TEST_SUITE_P(
                 R"(/scene/loads/push/value is missing the key "type")"},
         BadEdit{
             "/scene/loads/push/value", R"({"type": "constant-speed", "speed": 1})",
-            R"(/scene/loads/push/value/type must be "constant", "polynomial", "harmonic" or "table", got "constant-speed")"},
+            R"(/scene/loads/push/value/type must be "constant", "polynomial", "harmonic", "table", "step", "ramp", "half-sine", "trapezoid" or "expression", got "constant-speed")"},
         BadEdit{
             "/scene/loads/push/value", R"({"type": "constant", "value": 1, "coordinate": "angle"})",
             R"(/scene/loads/push/value has the unknown key "coordinate"; known are "type" and "value")"},
@@ -99,11 +99,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{
             "/scene/loads/hinge/joint", R"("wrist")",
             R"(/scene/loads/hinge/joint needs a joint of the type "revolute", "prismatic", "point-on-line", "cylindrical", "universal" or "planar", but "wrist" is of the type "spherical")"},
-        BadEdit{"/scene/loads/hinge", R"({"type": "joint", "joint": "elbow"})",
-                R"(/scene/loads/hinge does nothing; it needs "stiffness", "damping" or "motor")"},
+        BadEdit{
+            "/scene/loads/hinge", R"({"type": "joint", "joint": "elbow"})",
+            R"(/scene/loads/hinge does nothing; it needs "stiffness", "damping", "resistance" or "motor")"},
         BadEdit{
             "/scene/loads/hinge/rest", "0.1",
-            R"(/scene/loads/hinge/rest is the rest position of a spring, and needs "stiffness")"},
+            R"(/scene/loads/hinge/rest is the rest position of a spring, and needs "stiffness" or "resistance")"},
         BadEdit{
             "/scene/loads/hinge/coordinate", R"("displacement")",
             R"(/scene/loads/hinge/coordinate must be "angle" for a joint of the type "universal", got "displacement")"},

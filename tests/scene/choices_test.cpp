@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.hpp"
+#include "core/base/value_path.hpp"
 #include "core/scene/problem_reader.hpp"
-#include "core/scene/value_path.hpp"
 
 /// Sizes and sections that are chosen from lists.
 namespace pleuel::test {

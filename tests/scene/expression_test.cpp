@@ -1,4 +1,4 @@
-#include "core/scene/expression.hpp"
+#include "core/base/expression.hpp"
 
 #include <cmath>
 #include <complex>

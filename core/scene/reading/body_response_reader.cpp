@@ -16,6 +16,17 @@ std::string read_place_name(const JsonNode& node, const ImportedBody& body) {
   return read_known_name(node, "place", names);
 }
 
+/// A component, the magnitude, or the component along a vector.
+void read_direction_or_vector(const JsonNode& node, const ResponseContext& context,
+                              ResponseSettings& response) {
+  if (!node.value().is_array()) {
+    response.direction = read_direction_or_magnitude(node);
+    return;
+  }
+  response.along = context.numbers.unit_vector(node);
+  response.direction = -1;  // as of the magnitude
+}
+
 double read_place(const JsonNode& node) {
   if (!is_within(Range::fraction, node.number())) {
     node.fail_with_value("must be a place along the beam from 0 to 1");
@@ -123,12 +134,14 @@ void read_section_force(const JsonNode& node, const ResponseContext& context,
       read_choice<SectionForcePart>(node.at("part"), {{"axial", SectionForcePart::axial},
                                                       {"moment-y", SectionForcePart::moment_y},
                                                       {"moment-z", SectionForcePart::moment_z},
-                                                      {"torque", SectionForcePart::torque}});
+                                                      {"torque", SectionForcePart::torque},
+                                                      {"shear-y", SectionForcePart::shear_y},
+                                                      {"shear-z", SectionForcePart::shear_z}});
   read_history(node, context, response);
 }
 
-void read_angular_velocity(const JsonNode& node, const ResponseContext& context,
-                           ResponseSettings& response) {
+void read_turning(const JsonNode& node, const ResponseContext& context,
+                  ResponseSettings& response) {
   allow_history_keys(node, {"body", "direction"});
   const JsonNode name = node.at("body");
   const Body& body = read_body_name(name, context.scene);
@@ -136,7 +149,12 @@ void read_angular_velocity(const JsonNode& node, const ResponseContext& context,
     name.fail(fmt::format("must name a body that can turn, but \"{}\" is a point mass", body.name));
   }
   response.bodies = {body.name};
-  response.direction = read_direction_or_magnitude(node.at("direction"));
+  const JsonNode direction = node.at("direction");
+  if (response.type == ResponseType::angle) {
+    response.direction = read_choice<int>(direction, {{"x", 0}, {"y", 1}, {"z", 2}});
+  } else {
+    read_direction_or_vector(direction, context, response);
+  }
   read_history(node, context, response);
 }
 
@@ -190,9 +208,11 @@ void read_motion(const JsonNode& node, const ResponseContext& context, ResponseS
   if (imported != nullptr) response.place = read_place_name(node.at("at"), *imported);
   if (is_beam) response.at = read_place(node.at("at"));
   const JsonNode direction = node.at("direction");
-  response.direction = response.type == ResponseType::position
-                           ? read_choice<int>(direction, {{"x", 0}, {"y", 1}, {"z", 2}})
-                           : read_direction_or_magnitude(direction);
+  if (response.type == ResponseType::position && !direction.value().is_array()) {
+    response.direction = read_choice<int>(direction, {{"x", 0}, {"y", 1}, {"z", 2}});
+  } else {
+    read_direction_or_vector(direction, context, response);
+  }
   read_history(node, context, response);
 }
 

@@ -12,8 +12,7 @@ void read_stress(const JsonNode& node, const ResponseContext& context, ResponseS
 void read_section_force(const JsonNode& node, const ResponseContext& context,
                         ResponseSettings& response);
 
-void read_angular_velocity(const JsonNode& node, const ResponseContext& context,
-                           ResponseSettings& response);
+void read_turning(const JsonNode& node, const ResponseContext& context, ResponseSettings& response);
 
 void read_deflection(const JsonNode& node, const ResponseContext& context,
                      ResponseSettings& response);

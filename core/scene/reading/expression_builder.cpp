@@ -153,16 +153,24 @@ Dimension ExpressionBuilder::dimension_of(std::size_t position, Operation operat
                                    described(first)));
       }
       return {};
+    case Operation::exponential:
+    case Operation::logarithm:
+    case Operation::hyperbolic_tangent:
+      check_number(position, first);
+      return {};
     case Operation::arc_sine:
     case Operation::arc_cosine:
     case Operation::arc_tangent:
-      if (!fact(first).dimension.is_number()) {
-        fail(position, fmt::format("needs a number without unit, got {}", described(first)));
-      }
+      check_number(position, first);
       return Dimension::angle();
     default:
       return fact(first).dimension;
   }
+}
+
+void ExpressionBuilder::check_number(std::size_t position, int step) const {
+  if (fact(step).dimension.is_number()) return;
+  fail(position, fmt::format("needs a number without unit, got {}", described(step)));
 }
 
 Dimension ExpressionBuilder::common(std::size_t position, int first, int second,

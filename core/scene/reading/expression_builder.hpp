@@ -56,6 +56,7 @@ class ExpressionBuilder {
   void fold(std::size_t position, int step);
 
   Dimension dimension_of(std::size_t position, Operation operation, int first, int second) const;
+  void check_number(std::size_t position, int step) const;
   Dimension common(std::size_t position, int first, int second, const char* what) const;
   Dimension power(std::size_t position, int base, int exponent) const;
 

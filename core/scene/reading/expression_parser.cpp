@@ -21,13 +21,20 @@ struct Function {
   Operation operation;
   int arguments;  ///< -1: two or more
 };
-constexpr Function functions[] = {
-    {"sqrt", Operation::square_root, 1}, {"sin", Operation::sine, 1},
-    {"cos", Operation::cosine, 1},       {"tan", Operation::tangent, 1},
-    {"asin", Operation::arc_sine, 1},    {"acos", Operation::arc_cosine, 1},
-    {"atan", Operation::arc_tangent, 1}, {"atan2", Operation::arc_tangent_2, 2},
-    {"min", Operation::smaller, -1},     {"max", Operation::larger, -1},
-    {"abs", Operation::magnitude, 1}};
+constexpr Function functions[] = {{"sqrt", Operation::square_root, 1},
+                                  {"exp", Operation::exponential, 1},
+                                  {"log", Operation::logarithm, 1},
+                                  {"tanh", Operation::hyperbolic_tangent, 1},
+                                  {"sin", Operation::sine, 1},
+                                  {"cos", Operation::cosine, 1},
+                                  {"tan", Operation::tangent, 1},
+                                  {"asin", Operation::arc_sine, 1},
+                                  {"acos", Operation::arc_cosine, 1},
+                                  {"atan", Operation::arc_tangent, 1},
+                                  {"atan2", Operation::arc_tangent_2, 2},
+                                  {"min", Operation::smaller, -1},
+                                  {"max", Operation::larger, -1},
+                                  {"abs", Operation::magnitude, 1}};
 
 // The parser calls these while it goes through the text; its values are indices of steps.
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -17,6 +18,43 @@ const Body& read_loaded_body(const JsonNode& node, const Scene& scene) {
   return *find_named(scene.bodies, read_known_name(node, "body", names_of(scene.bodies)));
 }
 
+const Joint& read_loaded_joint(const JsonNode& node, const Scene& scene) {
+  const std::string name = read_known_name(node, "joint", names_of(scene.joints));
+  const Joint& joint = *find_named(scene.joints, name);
+  std::vector<JointType> types = drivable_types();
+  types.erase(std::remove(types.begin(), types.end(), JointType::distance), types.end());
+  if (std::find(types.begin(), types.end(), joint.type) == types.end()) {
+    fail_joint_type(node, joint, types);
+  }
+  return joint;
+}
+
+/// What a law along the coordinate of a joint may be a function of.
+StateNames names_along(DrivenCoordinate coordinate) {
+  const AlongCoordinate measures = along(coordinate);
+  if (coordinate == DrivenCoordinate::angle) {
+    return {"angle", "angles", measures.coordinate, measures.rate};
+  }
+  return {"displacement", "displacements", measures.coordinate, measures.rate};
+}
+
+/// A function of time; where it names a joint, of its coordinate, too.
+TimeFunction read_value(const JsonNode& node, const Quantity& quantity, const Scene& scene,
+                        NumberReader& numbers, std::optional<JointCoordinate>& over) {
+  LawSource source{node, quantity};
+  if (!node.value().is_object() || !node.find("joint")) return read_load_function(source, numbers);
+  const Joint& joint = read_loaded_joint(node.at("joint"), scene);
+  over = JointCoordinate{joint.name, read_coordinate(node, joint)};
+  source.state = names_along(over->coordinate);
+  source.other_keys = {"joint", "coordinate"};
+  TimeFunction function = read_load_function(source, numbers);
+  if (!depends_on_state(function)) {
+    node.fail(fmt::format("names a joint, but is no function of its {} or speed",
+                          source.state->coordinate));
+  }
+  return function;
+}
+
 /// What forces and torques have in common.
 template <class PointLoad>
 PointLoad read_point_load(const JsonNode& node, const Quantity& quantity, const Scene& scene,
@@ -26,7 +64,7 @@ PointLoad read_point_load(const JsonNode& node, const Quantity& quantity, const 
   load.body = read_loaded_body(node.at("body"), scene).name;
   load.at = numbers.triple(node.at("at"), quantities::length);
   load.direction = numbers.unit_vector(node.at("direction"));
-  load.value = read_load_function(node.at("value"), quantity, numbers);
+  load.value = read_value(node.at("value"), quantity, scene, numbers, load.over);
   if (const auto follows = node.find("follows")) load.follows_body = follows->truth();
   return load;
 }
@@ -41,7 +79,7 @@ PointTorque read_torque(const JsonNode& node, const Scene& scene, NumberReader& 
 }
 
 SpringDamper read_spring(const JsonNode& node, const Scene& scene, NumberReader& numbers) {
-  node.allow_keys({"type", "bodies", "at", "stiffness", "damping", "free_length"});
+  node.allow_keys({"type", "bodies", "at", "stiffness", "damping", "free_length", "resistance"});
   std::vector<std::string> bodies = names_of(scene.bodies);
   bodies.emplace_back(ground_name);
   SpringDamper spring;
@@ -50,8 +88,16 @@ SpringDamper read_spring(const JsonNode& node, const Scene& scene, NumberReader&
   for (std::size_t end : {0U, 1U}) {
     spring.at[end] = numbers.triple(places[end], quantities::length);
   }
-  spring.stiffness =
-      numbers.designable(node.at("stiffness"), quantities::spring_stiffness, Range::not_negative);
+  const auto resistance = node.find("resistance");
+  if (resistance) {
+    const StateNames names{"elongation", "elongations", quantities::length, quantities::speed};
+    spring.resistance =
+        read_resistance({*resistance, quantities::force, Purpose::load, names}, numbers);
+  }
+  if (!resistance || node.find("stiffness")) {
+    spring.stiffness =
+        numbers.designable(node.at("stiffness"), quantities::spring_stiffness, Range::not_negative);
+  }
   if (const auto damping = node.find("damping")) {
     spring.damping =
         numbers.designable(*damping, quantities::damping_constant, Range::not_negative);
@@ -62,51 +108,64 @@ SpringDamper read_spring(const JsonNode& node, const Scene& scene, NumberReader&
   return spring;
 }
 
-const Joint& read_loaded_joint(const JsonNode& node, const Scene& scene) {
-  const std::string name = read_known_name(node, "joint", names_of(scene.joints));
-  const Joint& joint = *find_named(scene.joints, name);
-  std::vector<JointType> types = drivable_types();
-  types.erase(std::remove(types.begin(), types.end(), JointType::distance), types.end());
-  if (std::find(types.begin(), types.end(), joint.type) == types.end()) {
-    fail_joint_type(node, joint, types);
+/// A motor that follows a motion.
+MotorControl read_control(const JsonNode& node, DrivenCoordinate coordinate,
+                          NumberReader& numbers) {
+  node.allow_keys({"type", "target", "proportional", "derivative"});
+  const AlongCoordinate measures = along(coordinate);
+  MotorControl control;
+  control.target = read_target(node.at("target"), measures.coordinate, numbers);
+  control.proportional =
+      numbers.designable(node.at("proportional"), measures.stiffness, Range::not_negative);
+  if (const auto derivative = node.find("derivative")) {
+    control.derivative = numbers.designable(*derivative, measures.damping, Range::not_negative);
   }
-  return joint;
+  return control;
 }
 
-TimeFunction read_motor(const JsonNode& node, const Joint& joint, DrivenCoordinate coordinate,
-                        NumberReader& numbers) {
-  if (joint.drive && joint.drive->coordinate == coordinate) {
+void read_motor(const JsonNode& node, const Joint& joint, NumberReader& numbers,
+                JointForce& force) {
+  if (joint.drive && joint.drive->coordinate == force.coordinate) {
     node.fail(fmt::format("would have no effect: the joint \"{}\" is driven", joint.name));
   }
-  const bool is_angle = coordinate == DrivenCoordinate::angle;
-  return read_load_function(node, is_angle ? quantities::torque : quantities::force, numbers);
+  const bool has_type = node.value().is_object() && node.find("type");
+  if (has_type && node.at("type").value() == "control") {
+    force.control = read_control(node, force.coordinate, numbers);
+    return;
+  }
+  force.motor = read_load_function(
+      {node, along(force.coordinate).force, Purpose::load, names_along(force.coordinate)}, numbers);
 }
 
 JointForce read_joint_force(const JsonNode& node, const Scene& scene, NumberReader& numbers) {
-  node.allow_keys({"type", "joint", "coordinate", "stiffness", "damping", "rest", "motor"});
+  node.allow_keys(
+      {"type", "joint", "coordinate", "stiffness", "damping", "rest", "resistance", "motor"});
   const auto stiffness = node.find("stiffness"), damping = node.find("damping"),
-             rest = node.find("rest"), motor = node.find("motor");
-  if (!stiffness && !damping && !motor) {
-    node.fail("does nothing; it needs \"stiffness\", \"damping\" or \"motor\"");
+             rest = node.find("rest"), motor = node.find("motor"),
+             resistance = node.find("resistance");
+  if (!stiffness && !damping && !motor && !resistance) {
+    node.fail("does nothing; it needs \"stiffness\", \"damping\", \"resistance\" or \"motor\"");
   }
-  if (rest && !stiffness) rest->fail("is the rest position of a spring, and needs \"stiffness\"");
+  if (rest && !stiffness && !resistance) {
+    rest->fail("is the rest position of a spring, and needs \"stiffness\" or \"resistance\"");
+  }
   const Joint& joint = read_loaded_joint(node.at("joint"), scene);
   JointForce force;
   force.joint = joint.name;
   force.coordinate = read_coordinate(node, joint);
-  const bool is_angle = force.coordinate == DrivenCoordinate::angle;
+  const AlongCoordinate measures = along(force.coordinate);
   if (stiffness) {
-    force.stiffness = numbers.designable(
-        *stiffness, is_angle ? quantities::torsional_stiffness : quantities::spring_stiffness,
-        Range::not_negative);
+    force.stiffness = numbers.designable(*stiffness, measures.stiffness, Range::not_negative);
   }
   if (damping) {
-    force.damping = numbers.designable(
-        *damping, is_angle ? quantities::torsional_damping : quantities::damping_constant,
-        Range::not_negative);
+    force.damping = numbers.designable(*damping, measures.damping, Range::not_negative);
   }
-  if (rest) force.rest = numbers.designable(*rest, driven_quantity(force.coordinate));
-  if (motor) force.motor = read_motor(*motor, joint, force.coordinate, numbers);
+  if (rest) force.rest = numbers.designable(*rest, measures.coordinate);
+  if (resistance) {
+    force.resistance = read_resistance(
+        {*resistance, measures.force, Purpose::load, names_along(force.coordinate)}, numbers);
+  }
+  if (motor) read_motor(*motor, joint, numbers, force);
   return force;
 }
 

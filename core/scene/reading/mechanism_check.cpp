@@ -1,6 +1,7 @@
 #include "core/scene/reading/mechanism_check.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include <Eigen/Geometry>
@@ -43,16 +44,25 @@ void check_that_bodies_can_turn(const JsonNode& node, const Scene& scene, const 
   }
 }
 
+/// The coordinate of a joint that a load acts along, or is a function of.
+std::optional<JointCoordinate> coordinate_of(const Load& load) {
+  if (const auto* force = std::get_if<PointForce>(&load.element)) return force->over;
+  if (const auto* torque = std::get_if<PointTorque>(&load.element)) return torque->over;
+  const auto* force = std::get_if<JointForce>(&load.element);
+  if (force == nullptr) return std::nullopt;
+  return JointCoordinate{force->joint, force->coordinate};
+}
+
 void check_turning(const JsonNode& node, const Scene& scene) {
   for (const Joint& joint : scene.joints) {
     if (!joint.drive || joint.drive->coordinate != DrivenCoordinate::angle) continue;
     check_that_bodies_can_turn(node.at("joints").at(joint.name).at("drive"), scene, joint);
   }
   for (const Load& load : scene.loads) {
-    const auto* force = std::get_if<JointForce>(&load.element);
-    if (force == nullptr || force->coordinate != DrivenCoordinate::angle) continue;
+    const std::optional<JointCoordinate> along = coordinate_of(load);
+    if (!along || along->coordinate != DrivenCoordinate::angle) continue;
     check_that_bodies_can_turn(node.at("loads").at(load.name), scene,
-                               *find_named(scene.joints, force->joint));
+                               *find_named(scene.joints, along->joint));
   }
 }
 

@@ -87,6 +87,13 @@ ReadExpression NumberReader::formula(const JsonNode& node, const std::vector<Sym
   return read;
 }
 
+ReadExpression NumberReader::formula_of(const JsonNode& node, const Quantity& quantity,
+                                        const std::vector<Symbol>& more) {
+  ReadExpression read = formula(node, more);
+  check_quantity(node, read, quantity);
+  return read;
+}
+
 double NumberReader::constant_formula(const JsonNode& node, const Quantity& quantity) const {
   const ReadExpression read = read_formula(node, symbols_, *units_);
   if (!read.constant) {

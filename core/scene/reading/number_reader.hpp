@@ -67,6 +67,10 @@ class NumberReader {
   /// A formula that may name constants, design variables and these symbols, besides.
   ReadExpression formula(const JsonNode& node, const std::vector<Symbol>& more = {});
 
+  /// The same, which must measure this quantity.
+  ReadExpression formula_of(const JsonNode& node, const Quantity& quantity,
+                            const std::vector<Symbol>& more);
+
   /// Index of the variable with this name, which the document has at `node`.
   int variable(const JsonNode& node, const std::string& name) const;
 
@@ -97,6 +101,7 @@ class NumberReader {
   double scale(const std::string& unit, const Quantity& quantity) const {
     return units_->scale(unit, quantity);
   }
+  const UnitSystem& units() const { return *units_; }
   Dimension dimension_of(const Quantity& quantity) const {
     return units_->measure(std::string(quantity.unit)).dimension;
   }

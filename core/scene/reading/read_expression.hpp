@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/base/expression.hpp"
 #include "core/scene/dimension_quantity.hpp"
-#include "core/scene/expression.hpp"
 
 /// What goes into the reading of a formula, and what comes out.
 namespace pleuel {

@@ -84,9 +84,30 @@ void read_motor_power(const JsonNode& node, const ResponseContext& context,
   const JsonNode name = node.at("load");
   const Load& load = read_load_name(name, context.scene);
   const auto* force = std::get_if<JointForce>(&load.element);
-  if (force == nullptr || !force->motor) {
+  if (force == nullptr || (!force->motor && !force->control)) {
     name.fail(
         fmt::format("must name a load with a motor in a joint, but \"{}\" has none", load.name));
+  }
+  response.load = load.name;
+  read_history(node, context, response);
+}
+
+bool resists_rates(const std::optional<TimeFunction>& resistance, const Number& damping) {
+  return resistance.has_value() || damping.is_bound() || damping.constant != 0.0;
+}
+
+void read_damper_power(const JsonNode& node, const ResponseContext& context,
+                       ResponseSettings& response) {
+  allow_history_keys(node, {"load"});
+  const JsonNode name = node.at("load");
+  const Load& load = read_load_name(name, context.scene);
+  const auto* spring = std::get_if<SpringDamper>(&load.element);
+  const auto* force = std::get_if<JointForce>(&load.element);
+  const bool is_damper = (spring && resists_rates(spring->resistance, spring->damping)) ||
+                         (force && resists_rates(force->resistance, force->damping));
+  if (!is_damper) {
+    name.fail(fmt::format(
+        "must name a load with \"damping\" or \"resistance\", but \"{}\" has none", load.name));
   }
   response.load = load.name;
   read_history(node, context, response);
@@ -221,8 +242,10 @@ ResponseSettings read_response(const std::string& name, const JsonNode& node,
     case ResponseType::section_force:
       read_section_force(node, context, response);
       break;
+    case ResponseType::angle:
     case ResponseType::angular_velocity:
-      read_angular_velocity(node, context, response);
+    case ResponseType::angular_acceleration:
+      read_turning(node, context, response);
       break;
     case ResponseType::joint_position:
     case ResponseType::joint_velocity:
@@ -234,6 +257,9 @@ ResponseSettings read_response(const std::string& name, const JsonNode& node,
       break;
     case ResponseType::motor_power:
       read_motor_power(node, context, response);
+      break;
+    case ResponseType::damper_power:
+      read_damper_power(node, context, response);
       break;
     case ResponseType::expression:  // once all others are read
       break;

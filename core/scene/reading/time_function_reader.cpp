@@ -1,50 +1,57 @@
 #include "core/scene/reading/time_function_reader.hpp"
 
+#include <algorithm>
+#include <memory>
+#include <utility>
+
 #include <fmt/format.h>
+
+#include "core/scene/reading/csv_table.hpp"
+#include "core/scene/reading/pulse_reader.hpp"
+#include "core/scene/reading/symbols.hpp"
+#include "core/scene/visit_numbers.hpp"
 
 namespace pleuel {
 namespace {
 
 constexpr std::size_t most_coefficients = 11;  // per_time() knows ten derivatives
 
-enum class FunctionType { constant, constant_speed, ramp_to_speed, polynomial, harmonic, table };
-
-enum class Purpose { drive, load };
-
-/// A function in the document and what it measures.
-struct Source {
-  JsonNode node;
-  Quantity value;
-  Purpose purpose;
-  std::vector<std::string_view> other_keys;  ///< that are not the function's
+enum class FunctionType {
+  constant,
+  constant_speed,
+  ramp_to_speed,
+  polynomial,
+  harmonic,
+  table,
+  step,
+  ramp,
+  half_sine,
+  trapezoid,
+  expression,
+  friction,
+  clearance
 };
 
-void allow_keys(const Source& source, std::vector<std::string_view> keys) {
-  keys.insert(keys.begin(), "type");
-  keys.insert(keys.end(), source.other_keys.begin(), source.other_keys.end());
-  source.node.allow_keys(keys);
-}
-
-ConstantFunction read_constant(const Source& source, NumberReader& numbers) {
-  allow_keys(source, {"value"});
+ConstantFunction read_constant(const LawSource& source, NumberReader& numbers) {
+  source.allow_keys({"value"});
   return {numbers.designable(source.node.at("value"), source.value)};
 }
 
-ConstantSpeedDrive read_constant_speed(const Source& source, NumberReader& numbers) {
-  allow_keys(source, {"speed"});
+ConstantSpeedDrive read_constant_speed(const LawSource& source, NumberReader& numbers) {
+  source.allow_keys({"speed"});
   return {numbers.designable(source.node.at("speed"), per_time(source.value))};
 }
 
-RampToSpeedDrive read_ramp_to_speed(const Source& source, NumberReader& numbers) {
-  allow_keys(source, {"speed", "ramp"});
+RampToSpeedDrive read_ramp_to_speed(const LawSource& source, NumberReader& numbers) {
+  source.allow_keys({"speed", "ramp"});
   RampToSpeedDrive drive;
   drive.speed = numbers.designable(source.node.at("speed"), per_time(source.value));
   drive.ramp = numbers.designable(source.node.at("ramp"), quantities::time, Range::positive);
   return drive;
 }
 
-PolynomialFunction read_polynomial(const Source& source, NumberReader& numbers) {
-  allow_keys(source, {"coefficients"});
+PolynomialFunction read_polynomial(const LawSource& source, NumberReader& numbers) {
+  source.allow_keys({"coefficients"});
   const JsonNode list = source.node.at("coefficients");
   const std::vector<JsonNode> items = list.items();
   if (items.empty() || items.size() > most_coefficients) {
@@ -60,8 +67,8 @@ PolynomialFunction read_polynomial(const Source& source, NumberReader& numbers) 
   return polynomial;
 }
 
-HarmonicFunction read_harmonic(const Source& source, NumberReader& numbers) {
-  allow_keys(source, {"amplitude", "frequency", "phase", "offset"});
+HarmonicFunction read_harmonic(const LawSource& source, NumberReader& numbers) {
+  source.allow_keys({"amplitude", "frequency", "phase", "offset"});
   HarmonicFunction harmonic;
   harmonic.amplitude = numbers.designable(source.node.at("amplitude"), source.value);
   harmonic.frequency = numbers.designable(source.node.at("frequency"),
@@ -75,21 +82,76 @@ HarmonicFunction read_harmonic(const Source& source, NumberReader& numbers) {
   return harmonic;
 }
 
-std::vector<double> read_ascending_times(const JsonNode& node, const NumberReader& numbers) {
-  std::vector<double> times;
-  for (const JsonNode& item : node.items()) {
-    const double time = numbers.fixed(item, quantities::time);
-    if (!times.empty() && time <= times.back()) {
-      item.fail_with_value("must be later than the time before it");
-    }
-    times.push_back(time);
-  }
-  if (times.size() < 2) node.fail_with_value("must have at least two times");
-  return times;
+// Tables.
+
+/// What a table is a function of, and the key of its list.
+struct TableArgument {
+  LawArgument argument = LawArgument::time;
+  std::string_view name, list;
+  Quantity quantity;
+};
+
+std::vector<TableArgument> arguments_of(const LawSource& source) {
+  std::vector<TableArgument> all = {{LawArgument::time, "time", "times", quantities::time}};
+  if (!source.state) return all;
+  const StateNames& state = *source.state;
+  all.push_back(
+      {LawArgument::coordinate, state.coordinate, state.coordinates, state.coordinate_quantity});
+  all.push_back({LawArgument::rate, "speed", "speeds", state.rate_quantity});
+  return all;
 }
 
-Interpolation read_interpolation(const JsonNode& node, Purpose purpose) {
-  if (purpose == Purpose::load) {
+/// By the list that the table has, or, of a file, by the key "over".
+TableArgument find_argument(const LawSource& source, const std::vector<TableArgument>& all) {
+  for (const TableArgument& one : all) {
+    if (source.node.find(std::string(one.list))) return one;
+  }
+  const bool is_given = source.node.find("over").has_value();
+  if (!source.node.find("file") || (all.size() == 1 && !is_given)) return all.front();
+  const JsonNode over = source.node.at("over");
+  std::vector<std::string> words;
+  for (const TableArgument& one : all) {
+    if (over.value() == one.name) return one;
+    words.emplace_back(one.name);
+  }
+  fail_choice(over, words);
+}
+
+std::vector<double> read_ascending(const JsonNode& node, const TableArgument& argument,
+                                   const NumberReader& numbers) {
+  const bool is_time = argument.argument == LawArgument::time;
+  std::vector<double> points;
+  for (const JsonNode& item : node.items()) {
+    const double point = numbers.fixed(item, argument.quantity);
+    if (!points.empty() && point <= points.back()) {
+      item.fail_with_value(is_time ? "must be later than the time before it"
+                                   : "must be larger than what is before it");
+    }
+    points.push_back(point);
+  }
+  if (points.size() < 2) {
+    node.fail_with_value(fmt::format("must have at least two {}", argument.list));
+  }
+  return points;
+}
+
+void read_points(const LawSource& source, const TableArgument& argument, NumberReader& numbers,
+                 TableFunction& table) {
+  if (!source.node.find("file")) {
+    table.times = read_ascending(source.node.at(std::string(argument.list)), argument, numbers);
+    for (const JsonNode& value : source.node.at("values").items(table.times.size())) {
+      table.values.push_back(numbers.designable(value, source.value));
+    }
+    return;
+  }
+  TableColumns columns =
+      read_table_file(source.node, {argument.quantity, source.value}, numbers.units());
+  table.times = std::move(columns.arguments);
+  table.values.assign(columns.values.begin(), columns.values.end());
+}
+
+Interpolation read_interpolation(const JsonNode& node, Purpose purpose, LawArgument argument) {
+  if (purpose == Purpose::load && argument == LawArgument::time) {
     return read_choice<Interpolation>(node, {{"linear", Interpolation::linear},
                                              {"step", Interpolation::step},
                                              {"monotone", Interpolation::monotone},
@@ -97,29 +159,150 @@ Interpolation read_interpolation(const JsonNode& node, Purpose purpose) {
   }
   if (node.value() == "step") {
     node.fail_with_value(
-        "would move a drive in no time; take \"monotone\", \"spline\" or \"linear\"");
+        purpose == Purpose::drive
+            ? "would move a drive in no time; take \"monotone\", \"spline\" or \"linear\""
+            : "is for tables over time: a force that jumps with the motion has no tangent; take "
+              "\"monotone\", \"spline\" or \"linear\"");
   }
   return read_choice<Interpolation>(node, {{"monotone", Interpolation::monotone},
                                            {"spline", Interpolation::spline},
                                            {"linear", Interpolation::linear}});
 }
 
-TableFunction read_table(const Source& source, NumberReader& numbers) {
-  allow_keys(source, {"times", "values", "interpolation"});
-  TableFunction table;
-  table.times = read_ascending_times(source.node.at("times"), numbers);
-  for (const JsonNode& value : source.node.at("values").items(table.times.size())) {
-    table.values.push_back(numbers.designable(value, source.value));
+bool are_same(const Number& one, const Number& other) {
+  return one.constant == other.constant && one.variable == other.variable &&
+         one.factor == other.factor &&
+         (one.expression == other.expression ||
+          (one.expression && other.expression && one.expression->text == other.expression->text));
+}
+
+/// A period that is longer than the table goes back to its first value at the end.
+void read_table_period(const JsonNode& node, const TableArgument& argument,
+                       const NumberReader& numbers, TableFunction& table) {
+  constexpr double rounding = 1e-9;
+  const double period = numbers.fixed(node, argument.quantity, Range::positive);
+  const double span = table.times.back() - table.times.front();
+  if (period < span * (1.0 - rounding)) {
+    node.fail_with_value(fmt::format("must be at least what the table covers, {:g} {}", span,
+                                     argument.quantity.unit));
   }
-  table.interpolation =
-      source.purpose == Purpose::load ? Interpolation::linear : Interpolation::monotone;
+  table.repetition = Repetition::periodic;
+  if (period > span * (1.0 + rounding)) {
+    table.times.push_back(table.times.front() + period);
+    table.values.push_back(table.values.front());
+  } else if (!are_same(table.values.front(), table.values.back())) {
+    node.fail(
+        "needs a last value that is the first, as it is the same point; or leave out the last "
+        "point of the table");
+  }
+}
+
+TableFunction read_table(const LawSource& source, NumberReader& numbers) {
+  const std::vector<TableArgument> arguments = arguments_of(source);
+  const bool has_file = source.node.find("file").has_value();
+  const TableArgument argument = find_argument(source, arguments);
+  std::vector<std::string_view> keys = {"interpolation", "period"};
+  if (has_file) {
+    keys.insert(keys.end(), {"file", "columns", "units", "over"});
+  } else {
+    keys.insert(keys.end(), {argument.list, "values"});
+  }
+  source.allow_keys(keys);
+  TableFunction table;
+  table.argument = argument.argument;
+  read_points(source, argument, numbers, table);
+  const bool is_straight =
+      source.purpose == Purpose::load && argument.argument == LawArgument::time;
+  table.interpolation = is_straight ? Interpolation::linear : Interpolation::monotone;
   if (const auto interpolation = source.node.find("interpolation")) {
-    table.interpolation = read_interpolation(*interpolation, source.purpose);
+    table.interpolation = read_interpolation(*interpolation, source.purpose, argument.argument);
+  }
+  if (const auto period = source.node.find("period")) {
+    read_table_period(*period, argument, numbers, table);
   }
   return table;
 }
 
-TimeFunction read_function(FunctionType type, const Source& source, NumberReader& numbers) {
+// Formulas.
+
+using ArgumentKind = ExpressionArgument::Kind;
+
+/// t, and the state where there is one.
+std::vector<Symbol> law_symbols(const LawSource& source, const NumberReader& numbers) {
+  const auto symbol = [&](std::string_view name, const Quantity& quantity, ArgumentKind kind) {
+    return Symbol{std::string(name), numbers.dimension_of(quantity), std::nullopt,
+                  ExpressionArgument{kind, 0}};
+  };
+  std::vector<Symbol> symbols = {symbol("t", quantities::time, ArgumentKind::time)};
+  if (!source.state) return symbols;
+  const StateNames& state = *source.state;
+  symbols.push_back(symbol(state.coordinate, state.coordinate_quantity, ArgumentKind::coordinate));
+  symbols.push_back(symbol("speed", state.rate_quantity, ArgumentKind::rate));
+  return symbols;
+}
+
+/// A design variable as a formula.
+Number number_of(const ExpressionArgument& variable, const std::string& text) {
+  Expression alone;
+  alone.text = text;
+  alone.arguments = {variable};
+  alone.steps = {{Operation::argument, 0.0, 0}};
+  return Number::bound(std::make_shared<const Expression>(std::move(alone)));
+}
+
+TimeFunction read_expression_law(const JsonNode& node, const LawSource& source,
+                                 NumberReader& numbers) {
+  const ReadExpression read = numbers.formula_of(node, source.value, law_symbols(source, numbers));
+  if (read.constant) return ConstantFunction{*read.constant};
+  ExpressionFunction function{read.expression, {}};
+  bool is_number = true;
+  for (const ExpressionArgument& argument : read.expression->arguments) {
+    if (argument.kind == ArgumentKind::variable) {
+      function.variables.push_back(number_of(argument, read.expression->text));
+    } else {
+      is_number = false;
+    }
+  }
+  if (is_number) return ConstantFunction{numbers.designable(node, source.value)};
+  return function;
+}
+
+TimeFunction read_expression_object(const LawSource& source, NumberReader& numbers) {
+  source.allow_keys({"value"});
+  const JsonNode value = source.node.at("value");
+  if (!is_formula(value)) value.fail_with_value("must be a formula \"= …\"");
+  return read_expression_law(value, source, numbers);
+}
+
+// Laws of springs and dampers.
+
+FrictionLaw read_friction(const LawSource& source, NumberReader& numbers) {
+  source.allow_keys({"value", "speed"});
+  return {
+      numbers.designable(source.node.at("value"), source.value, Range::not_negative),
+      numbers.designable(source.node.at("speed"), source.state->rate_quantity, Range::positive)};
+}
+
+ClearanceLaw read_clearance(const LawSource& source, NumberReader& numbers) {
+  source.allow_keys({"lower", "upper", "stiffness", "rounding"});
+  const Quantity& coordinate = source.state->coordinate_quantity;
+  constexpr double never = 1e30;
+  const auto lower = source.node.find("lower"), upper = source.node.find("upper");
+  if (!lower && !upper) source.node.fail("needs \"lower\" or \"upper\", or both");
+  ClearanceLaw law;
+  law.lower = lower ? numbers.designable(*lower, coordinate) : Number(-never);
+  law.upper = upper ? numbers.designable(*upper, coordinate) : Number(never);
+  if (lower && upper && !law.lower.is_bound() && !law.upper.is_bound() &&
+      law.lower.constant > law.upper.constant) {
+    upper->fail_with_value("must not be less than \"lower\"");
+  }
+  law.stiffness = numbers.designable(source.node.at("stiffness"), along(source.value).stiffness,
+                                     Range::positive);
+  law.rounding = numbers.designable(source.node.at("rounding"), coordinate, Range::positive);
+  return law;
+}
+
+TimeFunction read_function(FunctionType type, const LawSource& source, NumberReader& numbers) {
   switch (type) {
     case FunctionType::constant:
       return read_constant(source, numbers);
@@ -131,38 +314,86 @@ TimeFunction read_function(FunctionType type, const Source& source, NumberReader
       return read_polynomial(source, numbers);
     case FunctionType::harmonic:
       return read_harmonic(source, numbers);
+    case FunctionType::step:
+      return read_step(source, numbers);
+    case FunctionType::ramp:
+      return read_ramp(source, numbers);
+    case FunctionType::half_sine:
+      return read_half_sine(source, numbers);
+    case FunctionType::trapezoid:
+      return read_trapezoid(source, numbers);
+    case FunctionType::expression:
+      return read_expression_object(source, numbers);
+    case FunctionType::friction:
+      return read_friction(source, numbers);
+    case FunctionType::clearance:
+      return read_clearance(source, numbers);
     case FunctionType::table:
       break;
   }
   return read_table(source, numbers);
 }
 
+TimeFunction read_motion(const LawSource& source, NumberReader& numbers) {
+  const auto type = read_choice<FunctionType>(source.node.at("type"),
+                                              {{"constant-speed", FunctionType::constant_speed},
+                                               {"ramp-to-speed", FunctionType::ramp_to_speed},
+                                               {"constant", FunctionType::constant},
+                                               {"polynomial", FunctionType::polynomial},
+                                               {"harmonic", FunctionType::harmonic},
+                                               {"table", FunctionType::table},
+                                               {"step", FunctionType::step},
+                                               {"ramp", FunctionType::ramp},
+                                               {"trapezoid", FunctionType::trapezoid},
+                                               {"expression", FunctionType::expression}});
+  return read_function(type, source, numbers);
+}
+
 }  // namespace
+
+void LawSource::allow_keys(std::vector<std::string_view> keys) const {
+  keys.insert(keys.begin(), "type");
+  keys.insert(keys.end(), other_keys.begin(), other_keys.end());
+  node.allow_keys(keys);
+}
 
 TimeFunction read_drive_function(const JsonNode& node, const Quantity& value,
                                  NumberReader& numbers) {
-  const auto type =
-      read_choice<FunctionType>(node.at("type"), {{"constant-speed", FunctionType::constant_speed},
-                                                  {"ramp-to-speed", FunctionType::ramp_to_speed},
-                                                  {"constant", FunctionType::constant},
-                                                  {"polynomial", FunctionType::polynomial},
-                                                  {"harmonic", FunctionType::harmonic},
-                                                  {"table", FunctionType::table}});
-  return read_function(type, {node, value, Purpose::drive, {"coordinate"}}, numbers);
+  return read_motion({node, value, Purpose::drive, std::nullopt, {"coordinate"}}, numbers);
 }
 
-TimeFunction read_load_function(const JsonNode& node, const Quantity& value,
-                                NumberReader& numbers) {
+TimeFunction read_target(const JsonNode& node, const Quantity& value, NumberReader& numbers) {
+  return read_motion({node, value, Purpose::drive}, numbers);
+}
+
+TimeFunction read_load_function(const LawSource& source, NumberReader& numbers) {
+  const JsonNode& node = source.node;
+  if (is_formula(node)) return read_expression_law(node, source, numbers);
   const bool is_binding = node.value().is_object() && node.find("variable").has_value();
   if (!node.value().is_object() || is_binding) {
-    return ConstantFunction{numbers.designable(node, value)};
+    return ConstantFunction{numbers.designable(node, source.value)};
   }
   const auto type =
       read_choice<FunctionType>(node.at("type"), {{"constant", FunctionType::constant},
                                                   {"polynomial", FunctionType::polynomial},
                                                   {"harmonic", FunctionType::harmonic},
-                                                  {"table", FunctionType::table}});
-  return read_function(type, {node, value, Purpose::load, {}}, numbers);
+                                                  {"table", FunctionType::table},
+                                                  {"step", FunctionType::step},
+                                                  {"ramp", FunctionType::ramp},
+                                                  {"half-sine", FunctionType::half_sine},
+                                                  {"trapezoid", FunctionType::trapezoid},
+                                                  {"expression", FunctionType::expression}});
+  return read_function(type, source, numbers);
+}
+
+TimeFunction read_resistance(const LawSource& source, NumberReader& numbers) {
+  if (is_formula(source.node)) return read_expression_law(source.node, source, numbers);
+  const auto type =
+      read_choice<FunctionType>(source.node.at("type"), {{"table", FunctionType::table},
+                                                         {"expression", FunctionType::expression},
+                                                         {"friction", FunctionType::friction},
+                                                         {"clearance", FunctionType::clearance}});
+  return read_function(type, source, numbers);
 }
 
 }  // namespace pleuel

@@ -281,9 +281,11 @@ export function loadSymbol(motion: Motion, l: number, view: View): Symbol3 | nul
   const r = 0.02 * view.symbolSize;
   const value = geometry.value;
   if (load.type === "spring") return springSymbol(motion, l, r);
-  if ((load.type !== "force" && load.type !== "torque") || !value || !load.direction) return null;
+  if ((load.type !== "force" && load.type !== "torque") || !load.direction) return null;
   let largest = 0;
-  for (let k = 0; k <= 200; k++) largest = Math.max(largest, Math.abs(valueAt(value, (motion.scene.end_time * k) / 200)));
+  if (value) for (let k = 0; k <= 200; k++) largest = Math.max(largest, Math.abs(valueAt(value, (motion.scene.end_time * k) / 200)));
+  // What is a function of the motion is drawn at one size.
+  const shareAt = (time: number) => (!value ? 0.7 : largest > 0 ? valueAt(value, time) / largest : 0);
   const direction = new Vector3(...load.direction);
   const place = geometry.places[0];
   const body = motion.bodies[place.body];
@@ -300,7 +302,7 @@ export function loadSymbol(motion: Motion, l: number, view: View): Symbol3 | nul
     return {
       object: arrow.object,
       update(time, poses) {
-        const share = largest > 0 ? valueAt(value, time) / largest : 0;
+        const share = shareAt(time);
         const tip = motion.place(place, poses);
         const length = 0.16 * view.size * share;
         // An arrow that pushes on the point.
@@ -319,7 +321,7 @@ export function loadSymbol(motion: Motion, l: number, view: View): Symbol3 | nul
   return {
     object,
     update(time, poses) {
-      const share = largest > 0 ? valueAt(value, time) / largest : 0;
+      const share = shareAt(time);
       object.visible = Math.abs(share) > 1e-3;
       object.position.copy(motion.place(place, poses));
       object.quaternion.copy(facing(along(poses).multiplyScalar(Math.sign(share) || 1), view.up));

@@ -60,8 +60,9 @@ inline void add_beam_responses(const BodyModel& body, std::vector<ResponseSettin
   }
   settings.type = ResponseType::section_force;
   settings.station = 0.37;
-  for (SectionForcePart part : {SectionForcePart::axial, SectionForcePart::moment_y,
-                                SectionForcePart::moment_z, SectionForcePart::torque}) {
+  for (SectionForcePart part :
+       {SectionForcePart::axial, SectionForcePart::moment_y, SectionForcePart::moment_z,
+        SectionForcePart::torque, SectionForcePart::shear_y, SectionForcePart::shear_z}) {
     settings.section_part = part;
     settings.name = body.name + " section force " + std::to_string(static_cast<int>(part));
     all.push_back(settings);
@@ -71,12 +72,19 @@ inline void add_beam_responses(const BodyModel& body, std::vector<ResponseSettin
 inline void add_spin_responses(const BodyModel& body, std::vector<ResponseSettings>& all) {
   ResponseSettings settings;
   settings.bodies = {body.name};
-  settings.type = ResponseType::angular_velocity;
-  for (int direction : {0, 1, 2, magnitude_of}) {
-    settings.direction = direction;
-    settings.name = body.name + " angular velocity " + std::to_string(direction);
-    all.push_back(settings);
+  for (ResponseType type : {ResponseType::angular_velocity, ResponseType::angular_acceleration}) {
+    settings.type = type;
+    for (int direction : {0, 1, 2, magnitude_of}) {
+      settings.direction = direction;
+      settings.name = body.name + " turning " + std::to_string(static_cast<int>(type)) + " " +
+                      std::to_string(direction);
+      all.push_back(settings);
+    }
   }
+  settings.type = ResponseType::angle;
+  settings.direction = 2;
+  settings.name = body.name + " angle";
+  all.push_back(settings);
 }
 
 inline void add_joint_motion(const JointModel& joint, std::vector<ResponseSettings>& all) {
@@ -96,8 +104,8 @@ inline void add_joint_motion(const JointModel& joint, std::vector<ResponseSettin
 inline void add_load_responses(const LoadModel& load, std::vector<ResponseSettings>& all) {
   ResponseSettings settings;
   settings.load = load.name;
-  for (ResponseType type :
-       {ResponseType::spring_length, ResponseType::spring_force, ResponseType::motor_power}) {
+  for (ResponseType type : {ResponseType::spring_length, ResponseType::spring_force,
+                            ResponseType::motor_power, ResponseType::damper_power}) {
     settings.type = type;
     settings.name = load.name + " reading " + std::to_string(static_cast<int>(type));
     if (load.gauge) all.push_back(settings);
@@ -117,6 +125,10 @@ inline void add_motion_responses(const BodyModel& body, std::vector<ResponseSett
                       std::to_string(direction);
       all.push_back(settings);
     }
+    settings.along = {{0.48, 0.6, -0.64}};
+    settings.name = body.name + " motion " + std::to_string(static_cast<int>(type)) + " along";
+    all.push_back(settings);
+    settings.along = std::nullopt;
   }
 }
 

@@ -46,5 +46,21 @@ TEST(JointTurns, AreNoneOfADamper) {
   EXPECT_THAT(doubts_of(problem, doubt_joint_turns), IsEmpty());
 }
 
+/// What repeats with each turn does not ask either; what has another value after a turn jumps.
+TEST(JointTurns, AreADoubtOfLawsThatDoNotRepeat) {
+  for (const auto& [law, is_counted] : {std::pair("= 0.1 N m/rad*angle", true),
+                                        {"= 0.1 N m*cos(2*angle) + 0.1 N m*t/(1 s)", false}}) {
+    const ProblemFile problem = read_scene(fmt::format(
+        R"({{"scene": {{"bodies": {{"rotor": {{"type": "rigid", "at": [0, 0, 0], "mass": 1,
+            "inertia": [0.1, 0.1, 0.1, 0, 0, 0], "angular_velocity": [0, 0, 60]}}}},
+            "joints": {{"bearing": {{"type": "revolute", "bodies": ["ground", "rotor"], "at": [0, 0, 0]}}}},
+            "loads": {{"cam": {{"type": "torque", "body": "rotor", "at": [0, 0, 0], "direction": [0, 0, 1],
+              "value": {{"type": "expression", "joint": "bearing", "value": "{}"}}}}}}}},
+            "effects": {{"spatial_motion": "on"}}, "simulation": {{"end_time": 0.1, "step": 0.002}}}})",
+        law));
+    EXPECT_THAT(doubts_of(problem, doubt_joint_turns), SizeIs(is_counted ? 1 : 0)) << law;
+  }
+}
+
 }  // namespace
 }  // namespace pleuel::test

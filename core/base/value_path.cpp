@@ -1,4 +1,4 @@
-#include "core/scene/value_path.hpp"
+#include "core/base/value_path.hpp"
 
 #include <algorithm>
 #include <cmath>

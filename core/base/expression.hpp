@@ -16,6 +16,9 @@ enum class Operation {
   power,
   negated,
   square_root,
+  exponential,
+  logarithm,
+  hyperbolic_tangent,
   sine,
   cosine,
   tangent,
@@ -38,7 +41,13 @@ struct ExpressionStep {
 
 /// What an expression depends on.
 struct ExpressionArgument {
-  enum class Kind { variable, response };
+  enum class Kind {
+    variable,    ///< of the design
+    response,    ///< of the file
+    time,        ///< t, of laws (core/base/time_law.hpp)
+    coordinate,  ///< what a law acts along: an angle, a displacement, an elongation
+    rate         ///< of that
+  };
   Kind kind = Kind::variable;
   std::size_t index = 0;  ///< of the design variable, or of the response in the file
 };

@@ -1,8 +1,8 @@
-#include "core/scene/expression.hpp"
+#include "core/base/expression.hpp"
 
 #include <cmath>
 
-#include "core/scene/value_path.hpp"
+#include "core/base/value_path.hpp"
 
 namespace pleuel {
 
@@ -48,6 +48,12 @@ Partials apply(Operation operation, double a, double b) {
       return {-a, -1.0};
     case Operation::square_root:
       return {std::sqrt(a), 0.5 / std::sqrt(a)};
+    case Operation::exponential:
+      return {std::exp(a), std::exp(a)};
+    case Operation::logarithm:
+      return {std::log(a), 1.0 / a};
+    case Operation::hyperbolic_tangent:
+      return {std::tanh(a), 1.0 - std::tanh(a) * std::tanh(a)};
     case Operation::sine:
       return {std::sin(a), std::cos(a)};
     case Operation::cosine:
