@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scene/reading/time_function_reader.hpp"
+#include "core/scene/reading/law_source.hpp"
 
 /// Reads laws that have a shape: steps, ramps, pulses. All throw InputError.
 namespace pleuel {
