@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/response/monitors.hpp"
+#include "core/scene/load_cases.hpp"
 #include "core/trust/case_doubts.hpp"
 
 namespace pleuel {

@@ -26,7 +26,7 @@ namespace {
 constexpr double most_simulated = 300.0, most_optimized = 16.0;
 /// That a linear model proposes at a time.
 constexpr std::size_t proposals = 8, optimized_proposals = 3;
-constexpr int most_rounds = 25;
+constexpr int most_rounds_of_choice = 25;
 /// Batches of proposals of one model.
 constexpr int most_batches = 6;
 /// Sizes up and down that a linear model looks at.
@@ -305,7 +305,7 @@ class SizeSearch {
   void search() {
     propose(report_.relaxed_x, solution_.result, below(report_.relaxed_x), 0, 1);
     if (!best_) attempt({below(report_.relaxed_x), nearest(report_.relaxed_x)}, report_.relaxed_x);
-    for (int round = 0; best_ && round < most_rounds; ++round) {
+    for (int round = 0; best_ && round < most_rounds_of_choice; ++round) {
       const Sizes from = *best_;
       const Eigen::VectorXd x = tried_.at(from).x;
       const auto around = linearized(from);

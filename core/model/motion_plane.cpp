@@ -158,8 +158,8 @@ class PlaneCheck {
     } else if (const auto* spring = std::get_if<SpringDamper>(&load.element)) {
       for (const Point& point : spring->at) check_point(point, what);
     } else {
-      const auto& force = std::get<JointForce>(load.element);
-      check_coordinate(force.joint, force.coordinate, what);
+      const auto& of_joint = std::get<JointForce>(load.element);
+      check_coordinate(of_joint.joint, of_joint.coordinate, what);
     }
   }
 
