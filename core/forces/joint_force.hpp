@@ -21,12 +21,12 @@ struct JointForceData {
   /// Unit vectors, local axes of the body they belong to. `angle`: d_a and d_b on the first, d' on
   /// the second marker; `displacement`: d on the first marker.
   std::array<Vector3<Scalar>, 3> directions = {zero(), zero(), zero()};
-  Scalar offset = Scalar(0);     ///< of `planar_angle` [rad]
-  Scalar stiffness = Scalar(0);  ///< k [N m/rad] or [N/m]
-  Scalar damping = Scalar(0);    ///< c [N m s/rad] or [N s/m]
-  Scalar rest = Scalar(0);       ///< s₀ [rad] or [m]
-  TimeLaw<Scalar> motor;         ///< m(t, s, ṡ) [N m] or [N]; none without parameters
-  TimeLaw<Scalar> resistance;    ///< r(s − s₀, ṡ, t) [N m] or [N]; none without parameters
+  Scalar offset = Scalar(0);        ///< of `planar_angle` [rad]
+  Scalar stiffness = Scalar(0);     ///< k [N m/rad] or [N/m]
+  Scalar damping = Scalar(0);       ///< c [N m s/rad] or [N s/m]
+  Scalar rest = Scalar(0);          ///< s₀ [rad] or [m]
+  TimeLaw<Scalar> motor;            ///< m(t, s, ṡ) [N m] or [N]; none without parameters
+  TimeLaw<Scalar> resistance = {};  ///< r(s − s₀, ṡ, t) [N m] or [N]; none without parameters
   // Of a motor that follows a motion s*(t):
   TimeLaw<Scalar> target;           ///< s* [rad] or [m]; none without parameters
   Scalar proportional = Scalar(0);  ///< [N m/rad] or [N/m]

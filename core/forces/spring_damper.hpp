@@ -16,10 +16,10 @@ struct SpringDamperData {
   /// Undeformed, local axes of each body [m].
   std::array<Vector3<Scalar>, 2> points = {Vector3<Scalar>::Constant(Scalar(0)),
                                            Vector3<Scalar>::Constant(Scalar(0))};
-  Scalar stiffness = Scalar(0);    ///< k [N/m]
-  Scalar damping = Scalar(0);      ///< c [N s/m]
-  Scalar free_length = Scalar(0);  ///< l₀ [m]
-  TimeLaw<Scalar> resistance;      ///< r(l − l₀, l̇, t) [N]; none without parameters
+  Scalar stiffness = Scalar(0);     ///< k [N/m]
+  Scalar damping = Scalar(0);       ///< c [N s/m]
+  Scalar free_length = Scalar(0);   ///< l₀ [m]
+  TimeLaw<Scalar> resistance = {};  ///< r(l − l₀, l̇, t) [N]; none without parameters
 
   template <class Function, class... Data>
   static void visit(Function&& function, Data&... data) {
