@@ -148,7 +148,7 @@ TEST(RunFolder, OfAnOlderRunOutlivesBadInput) {
   const std::string result = read_file(folder.path() / "one/result.json");
   for (
       const std::string bad :
-      {"/simulation/step=-1", "/responses/crank_stress/from=19.9 ms",
+      {"/simulation/step=-1", "/responses/crank_stress/from=19.99 ms",
        R"(/constraints/crank_strength={"response": "crank_stress", "lower": 1e8, "upper": 1e8})"}) {
     const ProgramRun run = run_program(folder.path(), joined(good, {"--set", bad}));
     EXPECT_EQ(run.exit_code, 2) << bad << run.err;

@@ -42,6 +42,7 @@ double noise_of(ResponseType type) {
     case ResponseType::stress:
       return 1e-2;  // [Pa]
     case ResponseType::acceleration:
+    case ResponseType::angular_acceleration:
     case ResponseType::reaction_force:
       return 1e-5;
     default:
