@@ -359,10 +359,8 @@ Outcome run_optimize(const Arguments& arguments) {
     document["effects"] = effects;
     if (all.runs.size() > 1) document["starts"] = starts_document(solved, all);
     if (answer.sizes) document["choices"] = sizes_document(solved, *answer.sizes, result);
-    // An interrupted run may have ended no stage; its setting is that of the last design all the same.
-    const bool has_stages = !solution.stages.empty();
-    if (!has_stages && !(input.problem.accuracy.target > 0.0)) return document;
-    if (has_stages) document["stages"] = stages_document(solution.stages);
+    if (solution.stages.empty()) return document;  // interrupted
+    document["stages"] = stages_document(solution.stages);
     document["setting"] = setting_of(input.effective, solved);
     return document;
   };

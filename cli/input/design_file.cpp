@@ -47,27 +47,27 @@ double read_value(const JsonNode& node, const DesignVariable& variable, const Un
   const double x = read_number(node.value().is_object() ? node.find("unit") : std::nullopt, value,
                                units, quantity);
   if (x < variable.lower || x > variable.upper) {
-    value.fail_with_value(
-        fmt::format("must lie within the bounds of {:g} to {:g}", variable.lower, variable.upper));
+    value.fail_with_value(fmt::format(
+        "must lie within the bounds of {:g} to {:g}{}", variable.lower, variable.upper,
+        quantity == quantities::pure_number ? "" : fmt::format(" [{}]", quantity.unit)));
   }
   return x;
 }
 
-/// The member "variables", or the whole document where that has a variable's name instead.
-JsonNode variables_of(const JsonNode& root, const ProblemFile& problem) {
-  const bool is_short = !root.find("variables") &&
-                        std::any_of(problem.variables.begin(), problem.variables.end(),
-                                    [&](const DesignVariable& one) { return root.find(one.name); });
-  return is_short ? root : root.at("variables");
+/// The member "variables" of what a command has written, or the whole document.
+JsonNode variables_of(const JsonNode& root) {
+  const bool is_result = root.find("variables") || root.find("status");
+  return is_result ? root.at("variables") : root;
 }
 
 }  // namespace
 
 Eigen::VectorXd read_design(const std::filesystem::path& path, const ProblemFile& problem) {
+  if (std::filesystem::is_directory(path)) return read_design(path / "result.json", problem);
   const std::string file = path.string();
   const Json document = parse_json(read_text_file(path), file);
   const JsonNode root(document, file, "", "the design");
-  const JsonNode variables = variables_of(root, problem);
+  const JsonNode variables = variables_of(root);
   check_names(variables, problem);
   const UnitSystem units;
   Eigen::VectorXd x(problem.variables.size());

@@ -115,7 +115,11 @@ class WrongDesign : public testing::Test {
 };
 
 TEST_F(WrongDesign, IsRefusedWithFileAndPlace) {
-  expect_complaint("{}", "the design is missing the key \"variables\"");
+  expect_complaint("{}", "the design is missing the key \"crank_length\"");
+  expect_complaint(R"({"status": "failed"})", "the design is missing the key \"variables\"");
+  expect_complaint(R"({"crank_lenght": "50 mm", "rod_height": "10 mm"})",
+                   "the design names the unknown design variable \"crank_lenght\"; did you mean "
+                   "\"crank_length\"?");
   expect_complaint(R"({"variables": {"crank_length": {"value": 0.05}}})",
                    "/variables is missing the key \"rod_height\"");
   expect_complaint(
@@ -131,8 +135,8 @@ TEST_F(WrongDesign, IsRefusedWithFileAndPlace) {
                    "/variables/crank_length/unit must be a length [m], got \"s\": \"s\" measures "
                    "something else");
   expect_complaint(R"({"variables": {"crank_length": {"value": 0.2}}})",
-                   "/variables/crank_length/value must lie within the bounds of 0.02 to 0.15, "
-                   "got 0.2");
+                   "/variables/crank_length/value must lie within the bounds of 0.02 to 0.15 "
+                   "[m], got 0.2");
 }
 
 TEST_F(FailedDesign, MayBeWrittenByHandInAnyUnit) {

@@ -175,7 +175,7 @@ TEST_F(Interrupted, OptimizationInStagesKeepsTheBestOfItsLastSetting) {
   }
   EXPECT_TRUE(is_of_last_setting);
   EXPECT_FALSE(result().contains("stages"));
-  EXPECT_NEAR(result().at("setting").at("step"), step, 1e-9 * step);
+  EXPECT_FALSE(result().contains("setting"));
 }
 
 /// Nothing is known of a motion that has not ended; no folder stays.

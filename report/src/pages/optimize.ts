@@ -92,6 +92,8 @@ function headline(data: ReportData): HTMLElement {
   const hasDesign = objective.value !== undefined;
   const gain = hasDesign ? objective.value / objective.start - 1 : NaN;
   const time = result.seconds ?? 0;
+  // A number that is won beyond the limits is no gain.
+  const isBroken = hasDesign && result.status !== "infeasible" && (result.max_violation ?? 0) > 1e-3;
   return h(
     "section.hero",
     {},
@@ -101,6 +103,8 @@ function headline(data: ReportData): HTMLElement {
       h("p.eyebrow", {}, data.picture?.name ?? ""),
       result.status === "infeasible"
         ? h("h1", {}, "No design keeps all limits")
+        : isBroken
+        ? h("h1", {}, "Limits are broken")
         : hasDesign
         ? h("h1", {}, h("span.gain", {}, percent(gain)), h("span.what", {}, ` ${words(objective.name)}`))
         : h("h1", {}, "No design was found"),
@@ -108,6 +112,7 @@ function headline(data: ReportData): HTMLElement {
         ? h(
             "p.numbers",
             {},
+            isBroken ? h("span.soft", {}, `${words(objective.name)}, of a design that does not keep them: `) : null,
             result.status === "infeasible" ? h("span.soft", {}, `${words(objective.name)}, where they are broken least: `) : null,
             h("span.soft", {}, withUnit(objective.start, unit)),
             " → ",
