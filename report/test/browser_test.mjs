@@ -43,6 +43,8 @@ const runs = {
 const quicker = [...quick, "--set", "/simulation/step=0.5 ms"];
 Object.assign(runs, {
   starts: ["optimize", problem("slider_crank_round"), ...quicker, "--starts", "3"],
+  cases: ["optimize", problem("two_loads")],
+  choices: ["optimize", problem("slider_crank_round"), ...quicker, "--set", '/variables/rod_diameter={"choices": ["10 mm", "12 mm", "14 mm", "16 mm", "18 mm", "20 mm", "24 mm"]}', "--set", '/variables/crank_diameter={"choices": ["10 mm", "15 mm", "20 mm", "25 mm", "30 mm"]}'],
   conflict: ["optimize", problem("slider_crank_round"), ...quicker, "--set", "/constraints/rod_stiffness/upper=1e-3 mm", "--set", "/variables/rod_diameter/upper=20 mm", "--set", "/variables/rod_diameter/start=15 mm"],
 });
 const pageOf = (name) => join(folder, name === "show" ? "show.html" : `${name}/report.html`);
@@ -203,6 +205,25 @@ test("limits in conflict say what would do", async () => {
   const rows = tab.locator("section", { hasText: "Limits in conflict" }).locator("tbody tr");
   assert.equal(await rows.count(), Object.keys(least_violation.limits).length);
   assert.doesNotMatch(await tab.locator("body").innerText(), /\boptimum\b/);
+  await tab.close();
+});
+
+test("a design for several load cases says which of them decides", async () => {
+  const { tab } = await open("cases");
+  const { cases, constraints } = result("cases");
+  assert.match(await tab.locator("body").innerText(), new RegExp(`The mechanism is shown in ${cases.shown}`));
+  const text = await tab.locator(".limits").innerText();
+  const deciding = Object.values(constraints).filter((one) => one.decides && one.case);
+  assert.ok(deciding.length > 0);
+  for (const one of deciding) assert.ok(text.includes(one.case), one.case);
+  await tab.close();
+});
+
+test("sizes out of a list are named as the file writes them", async () => {
+  const { tab } = await open("choices");
+  const { variables } = result("choices");
+  const text = await tab.locator(".variables").innerText();
+  for (const one of Object.values(variables)) assert.ok(text.includes(one.choice), one.choice);
   await tab.close();
 });
 
