@@ -90,8 +90,23 @@ export function change(before: number, after: number): HTMLElement | string {
   return h(share < -5e-4 ? "span.less" : share > 5e-4 ? "span.more" : "span.soft", {}, percent(share));
 }
 
+/** Effects that several load cases decide alike, once, with the cases in words. */
+function effectsOfCases(all: Document[]): Document[] {
+  const cases = new Set(all.map((effect) => effect.case as string | undefined).filter(Boolean));
+  const groups = new Map<string, Document[]>();
+  for (const effect of all) {
+    const key = JSON.stringify([effect.name, effect.body, effect.built, effect.reason]);
+    groups.set(key, [...(groups.get(key) ?? []), effect]);
+  }
+  return [...groups.values()].map((group) => ({
+    ...group[0],
+    cases: group.length === cases.size ? "all" : group.map((effect) => words(effect.case ?? "")).join(", "),
+  }));
+}
+
 export function effectsSection(data: ReportData): HTMLElement | null {
-  const effects: Document[] = data.result.effects ?? [];
+  const hasCases = (data.result.effects ?? []).some((effect: Document) => effect.case);
+  const effects: Document[] = hasCases ? effectsOfCases(data.result.effects) : (data.result.effects ?? []);
   if (!effects.length) return null;
   const { picture } = data;
   const objective = picture?.objective;
@@ -125,6 +140,7 @@ export function effectsSection(data: ReportData): HTMLElement | null {
   const rows = effects.map((effect) => [
     effect.name.replace(/[-_]/g, " "),
     effect.body ? words(effect.body) : "all",
+    ...(hasCases ? [effect.cases as string] : []),
     effect.built ? h("span.good-text", {}, "built") : h("span.soft", {}, "left out"),
     ...(hasInfluence ? [effect.influence ? most(effect.influence) : "–"] : []),
     ...(hasWorth
@@ -142,6 +158,7 @@ export function effectsSection(data: ReportData): HTMLElement | null {
       [
         { title: "effect", left: true },
         { title: "of", left: true },
+        ...(hasCases ? [{ title: "in", left: true }] : []),
         { title: "", left: true },
         ...(hasInfluence ? [{ title: "changes most", left: true }] : []),
         ...(hasWorth ? [{ title: "worth" }] : []),
