@@ -13,6 +13,7 @@
 #include "core/response/misalignment.hpp"
 #include "core/response/recorder.hpp"
 #include "core/response/validity.hpp"
+#include "core/response/whole_turns.hpp"
 #include "core/scene/time_breaks.hpp"
 
 namespace pleuel {
@@ -242,6 +243,9 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   }
   analysis->breaks = instants_at(time_breaks(problem.scene, options), analysis->trajectory.time);
   analysis->histories = recorder.take(analysis->trajectory.steps() + 1);
+  for (std::size_t i = 0; i < problem.responses.size(); ++i) {
+    if (is_counted_angle(problem.responses[i])) count_turns(analysis->histories[i]);
+  }
   set_mechanism_frequencies(*analysis);
   set_rigid_mechanism(problem, x, *analysis);
   reduce_responses(*analysis);
