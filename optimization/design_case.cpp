@@ -30,55 +30,68 @@ Analysis& DesignCase::analysis_at(const Eigen::VectorXd& x) {
   return *analysis_;
 }
 
-std::optional<std::size_t> DesignCase::response_of(const ConstraintRow& row) const {
-  if (row.part) return row.part;
-  if (!row.constraint) return response_index(file_.objective->response);
-  const std::string& name = file_.constraints[*row.constraint].response;
+std::optional<std::size_t> DesignCase::response_of(const ConstraintRows& rows) const {
+  if (rows.part) return rows.part;
+  if (!rows.constraint) return response_index(file_.objective->response);
+  const std::string& name = file_.constraints[*rows.constraint].response;
   if (name.empty()) return std::nullopt;
   return response_index(name);
 }
 
-double DesignCase::row_value(const Analysis& analysis, const ConstraintRow& row) const {
-  if (row.peak) return (row.constraint ? 1.0 : objective_sign()) * row.peak->value;
-  if (const auto response = response_of(row)) {
-    return (row.constraint ? 1.0 : objective_sign()) * analysis.reductions[*response].value;
-  }
+double DesignCase::linear_value(std::size_t constraint) const {
   double sum = 0.0;
-  for (const auto& [variable, factor] : file_.constraints[*row.constraint].linear) {
+  for (const auto& [variable, factor] : file_.constraints[constraint].linear) {
     sum += factor * x_(variable);
   }
   return sum;
 }
 
+/// The objective, then the rows one after the other.
+std::vector<DesignCase::Row> DesignCase::rows_at(const Analysis& analysis,
+                                                 const std::vector<ConstraintRows>& rows) const {
+  std::vector<Row> all;
+  const auto add = [&](const ConstraintRows& of, std::size_t response, const Reduction& reduction) {
+    const double sign = of.constraint ? 1.0 : objective_sign();
+    all.push_back({sign * reduction.value, SampledValue{response, reduction.samples}, sign});
+  };
+  const auto add_all = [&](const ConstraintRows& of) {
+    const auto response = response_of(of);
+    if (!response) {
+      all.push_back({linear_value(*of.constraint)});
+    } else if (of.division) {
+      for (const Reduction& peak : divided_peaks(analysis, file_, *response, *of.division)) {
+        add(of, *response, peak);
+      }
+    } else {
+      add(of, *response, analysis.reductions[*response]);
+    }
+  };
+  add_all({});
+  for (const ConstraintRows& of : rows) add_all(of);
+  return all;
+}
+
 /// Of the objective, then of the rows that limit a response.
-Eigen::MatrixXd DesignCase::gradients_of(Analysis& analysis, const RowsOf& rows_of) {
-  const std::size_t objective = response_index(file_.objective->response);
-  std::vector<SampledValue> values{{objective, analysis.reductions[objective].samples}};
-  for (const ConstraintRow& row : rows_of(analysis)) {
-    const auto response = response_of(row);
-    if (!response) continue;
-    values.push_back(
-        {*response, row.peak ? row.peak->samples : analysis.reductions[*response].samples});
+Eigen::MatrixXd DesignCase::gradients_of(Analysis& analysis,
+                                         const std::vector<ConstraintRows>& rows) {
+  std::vector<SampledValue> values;
+  std::vector<double> signs;
+  for (const Row& row : rows_at(analysis, rows)) {
+    if (!row.sampled) continue;
+    values.push_back(*row.sampled);
+    signs.push_back(row.sign);
   }
   if (!choice_) choice_ = choose_gradients(file_.sensitivity.method, analysis, values);
   if (!is_difference(choice_->method)) {
-    Eigen::MatrixXd gradients = sampled_gradients(analysis, values, exact_method(choice_->method));
-    gradients.row(0) *= objective_sign();
-    Eigen::Index next = 1;
-    for (const ConstraintRow& row : rows_of(analysis)) {
-      if (!response_of(row)) continue;
-      if (!row.constraint) gradients.row(next) *= objective_sign();
-      ++next;
-    }
-    return gradients;
+    const Eigen::Map<const Eigen::VectorXd> sign(signs.data(), std::ssize(signs));
+    return sign.asDiagonal() * sampled_gradients(analysis, values, exact_method(choice_->method));
   }
   const ValuesOf numbers = [&](const Analysis& at) {
-    std::vector<double> all{objective_sign() * at.reductions[objective].value};
-    for (const ConstraintRow& row : rows_of(at)) {
-      if (response_of(row)) all.push_back(row_value(at, row));
+    std::vector<double> all;
+    for (const Row& row : rows_at(at, rows)) {
+      if (row.sampled) all.push_back(row.value);
     }
-    return Eigen::VectorXd(
-        Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size())));
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(all.data(), std::ssize(all)));
   };
   return gradients_by_differences(file_, x_, analysis, choice_->method, numbers,
                                   {file_.sensitivity.difference_step, threads_});
@@ -113,11 +126,11 @@ std::optional<DesignCase::Answer> DesignCase::recall(const Eigen::VectorXd& x, R
 }
 
 DesignCase::Answer DesignCase::compute(const Eigen::VectorXd& x, Request request,
-                                       const RowsOf& rows_of) {
+                                       const std::vector<ConstraintRows>& rows) {
   const Stopwatch stopwatch;
   Answer answer;
   try {
-    answer.evaluation = simulated_rows(x, request, rows_of);
+    answer.evaluation = simulated_rows(x, request, rows);
   } catch (const SimulationError&) {
     answer.failure = std::current_exception();
   }
@@ -146,31 +159,29 @@ void DesignCase::keep(Request request, const Answer& answer) {
 }
 
 Evaluation DesignCase::simulated_rows(const Eigen::VectorXd& x, Request request,
-                                      const RowsOf& rows_of) {
+                                      const std::vector<ConstraintRows>& rows) {
   Analysis& analysis = analysis_at(x);
-  const std::vector<ConstraintRow> rows = rows_of(analysis);
-  const std::size_t objective = response_index(file_.objective->response);
-  const auto count = static_cast<Eigen::Index>(rows.size());
+  const std::vector<Row> all = rows_at(analysis, rows);
+  const Eigen::Index count = std::ssize(all) - 1;
   Evaluation evaluation;
-  evaluation.objective = objective_sign() * analysis.reductions[objective].value;
+  evaluation.objective = all.front().value;
   evaluation.constraints.resize(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    evaluation.constraints(i) = row_value(analysis, rows[i]);
-  }
+  for (Eigen::Index i = 0; i < count; ++i) evaluation.constraints(i) = all[i + 1].value;
   if (request == Request::values) return evaluation;
 
-  const Eigen::MatrixXd gradients = gradients_of(analysis, rows_of);
+  const Eigen::MatrixXd gradients = gradients_of(analysis, rows);
   evaluation.objective_gradient = gradients.row(0);
   evaluation.constraint_jacobian = Eigen::MatrixXd::Zero(count, x.size());
-  Eigen::Index next = 1;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const ConstraintRow& row = rows[i];
-    if (response_of(row)) {
-      evaluation.constraint_jacobian.row(i) = gradients.row(next++);
-      continue;
-    }
-    for (const auto& [variable, factor] : file_.constraints[*row.constraint].linear) {
-      evaluation.constraint_jacobian(i, variable) += factor;
+  Eigen::Index row = 0, next = 1;
+  for (const ConstraintRows& of : rows) {
+    for (int i = 0; i < of.count(); ++i, ++row) {
+      if (response_of(of)) {
+        evaluation.constraint_jacobian.row(row) = gradients.row(next++);
+        continue;
+      }
+      for (const auto& [variable, factor] : file_.constraints[*of.constraint].linear) {
+        evaluation.constraint_jacobian(row, variable) += factor;
+      }
     }
   }
   return evaluation;

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <exception>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,22 +9,22 @@
 
 #include "core/response/analysis.hpp"
 #include "optimization/evaluation_store.hpp"
+#include "optimization/peak_rows.hpp"
 #include "optimization/problem.hpp"
 #include "sensitivity/gradients.hpp"
 
 namespace pleuel {
 
-/// A constraint of the file, or one peak of the response that it limits; without a constraint the
-/// same of the objective.
-struct ConstraintRow {
+/// What stands for one constraint of a file at each design, or, without a constraint, for the
+/// objective: one row, or one for each peak that is told apart.
+struct ConstraintRows {
   std::optional<std::size_t> constraint;
-  std::optional<Reduction> peak = {};
   /// Of a response that is the largest, or smallest, of others: one of them.
   std::optional<std::size_t> part = {};
-};
+  std::optional<PeakDivision> division = {};
 
-/// What stands for the constraints at a simulated design: as many rows at each design.
-using RowsOf = std::function<std::vector<ConstraintRow>(const Analysis&)>;
+  int count() const { return division ? division->peaks() : 1; }
+};
 
 /// The mechanism that a problem file describes, simulated at designs: the part of a design problem
 /// that belongs to one load case. Values and gradients of its objective and of rows, gradients by
@@ -48,8 +47,8 @@ class DesignCase {
   /// @throws SimulationError
   Analysis& analysis_at(const Eigen::VectorXd& x);
 
-  /// Index of the response of a row; none for a sum of variables.
-  std::optional<std::size_t> response_of(const ConstraintRow& row) const;
+  /// Index of the response of rows; none for a sum of variables.
+  std::optional<std::size_t> response_of(const ConstraintRows& rows) const;
 
   /// An evaluation and how it came to be: what failed is no evaluation.
   struct Answer {
@@ -62,15 +61,26 @@ class DesignCase {
   /// What the store knows of an evaluation. Asks this process: not for other threads.
   std::optional<Answer> recall(const Eigen::VectorXd& x, Request request, const std::string& rows);
   /// The evaluation itself; may run beside those of other cases.
-  Answer compute(const Eigen::VectorXd& x, Request request, const RowsOf& rows_of);
+  Answer compute(const Eigen::VectorXd& x, Request request,
+                 const std::vector<ConstraintRows>& rows);
   /// Tells the store of what recall() asked it for last.
   void keep(Request request, const Answer& answer);
 
  private:
-  Evaluation simulated_rows(const Eigen::VectorXd& x, Request request, const RowsOf& rows_of);
+  /// One of them at a simulated design: a value, and the instants that it comes from where it is of
+  /// a response.
+  struct Row {
+    double value = 0.0;
+    std::optional<SampledValue> sampled = {};
+    double sign = 1.0;  ///< value = sign · what the samples give
+  };
+
+  Evaluation simulated_rows(const Eigen::VectorXd& x, Request request,
+                            const std::vector<ConstraintRows>& rows);
   EvaluationKey key_of(const Eigen::VectorXd& x, Request request, const std::string& rows) const;
-  double row_value(const Analysis& analysis, const ConstraintRow& row) const;
-  Eigen::MatrixXd gradients_of(Analysis& analysis, const RowsOf& rows_of);
+  double linear_value(std::size_t constraint) const;
+  std::vector<Row> rows_at(const Analysis& analysis, const std::vector<ConstraintRows>& rows) const;
+  Eigen::MatrixXd gradients_of(Analysis& analysis, const std::vector<ConstraintRows>& rows);
   std::size_t response_index(const std::string& name) const;
 
   ProblemFile file_;

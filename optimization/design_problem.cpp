@@ -107,15 +107,11 @@ double DesignProblem::objective_weight(std::size_t load_case) const {
 Evaluation DesignProblem::evaluate(const Eigen::VectorXd& x, Request request) {
   // Of a case these are its own, fewer than those of the file.
   NamedRows rows{file_.has_cases() ? "constraints of the case" : "constraints", {}};
-  std::vector<std::vector<ConstraintRow>> of_cases(case_count());
   rows.cases.resize(case_count());
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const OfCase of_case = case_of_constraint(file_, i);
-    of_cases[of_case.load_case].push_back({of_case.index, std::nullopt});
+    rows.cases[of_case.load_case].of.push_back({of_case.index});
     rows.cases[of_case.load_case].places.push_back(static_cast<Eigen::Index>(i));
-  }
-  for (std::size_t c = 0; c < case_count(); ++c) {
-    rows.cases[c].of = [&of_cases, c](const Analysis&) { return of_cases[c]; };
   }
   return evaluate_rows(x, request, rows);
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,7 +14,7 @@ namespace pleuel {
 
 /// Rows of one load case, and where they stand among those of all cases.
 struct CaseRows {
-  RowsOf of;
+  std::vector<ConstraintRows> of;
   std::vector<Eigen::Index> places = {};
 };
 

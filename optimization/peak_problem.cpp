@@ -60,7 +60,7 @@ PeakProblem::PeakProblem(DesignProblem& problem, int windows, const Eigen::Vecto
     }
   }
   if (of == Of::objective_and_limits) bound_objective();
-  find_places();
+  name_rows();
 }
 
 /// Which values of a response count: the large ones of an upper limit and of what is minimized. None
@@ -93,8 +93,9 @@ std::vector<PeakProblem::Split> PeakProblem::split(std::size_t load_case,
   if (!response || !side) return {whole};
   const auto told_apart = [&](Split one) {
     const ResponseSettings& settings = file.responses[one.response];
-    one.is_peak = has_peaks(settings) && is_extreme(settings, *side);
-    if (one.is_peak) divide(one);
+    if (has_peaks(settings) && is_extreme(settings, *side)) {
+      one.division = division_of(load_case, settings);
+    }
     return one;
   };
   std::vector<Split> all;
@@ -108,13 +109,14 @@ std::vector<PeakProblem::Split> PeakProblem::split(std::size_t load_case,
   return all;
 }
 
-void PeakProblem::divide(Split& split) const {
-  const ProblemFile& file = problem_.load_case(split.load_case).file();
+PeakDivision PeakProblem::division_of(std::size_t load_case,
+                                      const ResponseSettings& response) const {
+  const ProblemFile& file = problem_.load_case(load_case).file();
   const int windows = std::min(windows_, step_count(file.simulation) + 1);
-  split.places = place_count(file, file.responses[split.response]);
+  const int places = place_count(file, response);
+  if (places == 1) return {windows, 1};
   const int fewest = std::min(least_windows, windows);
-  split.windows =
-      split.places == 1 ? windows : std::clamp(most_rows / split.places, fewest, windows);
+  return {std::clamp(most_rows / places, fewest, windows), places};
 }
 
 void PeakProblem::add_rows(const Split& split, const Constraint& limits) {
@@ -126,7 +128,7 @@ void PeakProblem::add_rows(const Split& split, const Constraint& limits) {
 /// What is pressed down from above: a maximum that is minimized, a minimum that is maximized.
 bool PeakProblem::objective_has_peaks() const {
   const std::vector<Split> first = split(0, std::nullopt);
-  return first.size() > 1 || first.front().is_peak;
+  return first.size() > 1 || first.front().division;
 }
 
 void PeakProblem::bound_objective() {
@@ -178,20 +180,21 @@ void PeakProblem::start_bounds() {
   }
 }
 
-std::vector<PeakProblem::Split*> PeakProblem::all_splits() {
-  std::vector<Split*> all;
-  for (Split& split : splits_) all.push_back(&split);
-  for (Bound& bound : bounds_) {
-    for (Split& split : bound.splits) all.push_back(&split);
-  }
-  return all;
-}
-
-void PeakProblem::find_places() {
-  places_.resize(problem_.case_count());
+/// All that is split, in the order of the rows.
+void PeakProblem::name_rows() {
+  named_rows_.name =
+      fmt::format("peaks of {} windows{}", windows_, bounds_.empty() ? "" : " with the objective");
+  named_rows_.cases.resize(problem_.case_count());
   Eigen::Index row = 0;
-  for (const Split* split : all_splits()) {
-    for (int i = 0; i < split->rows(); ++i) places_[split->load_case].push_back(row++);
+  const auto add = [&](const Split& split) {
+    CaseRows& rows = named_rows_.cases[split.load_case];
+    const auto constraint = split.constraint ? std::optional(split.in_case) : std::nullopt;
+    rows.of.push_back({constraint, split.part, split.division});
+    for (int i = 0; i < split.rows(); ++i) rows.places.push_back(row++);
+  };
+  for (const Split& split : splits_) add(split);
+  for (const Bound& bound : bounds_) {
+    for (const Split& split : bound.splits) add(split);
   }
 }
 
@@ -206,14 +209,7 @@ std::string PeakProblem::constraint_text(std::size_t constraint, double value) c
 }
 
 Evaluation PeakProblem::evaluate(const Eigen::VectorXd& x, Request request) {
-  NamedRows rows = {
-      fmt::format("peaks of {} windows{}", windows_, bounds_.empty() ? "" : " with the objective"),
-      {}};
-  for (std::size_t c = 0; c < problem_.case_count(); ++c) {
-    rows.cases.push_back(
-        {[this, c](const Analysis& analysis) { return rows_of(c, analysis); }, places_[c]});
-  }
-  Evaluation evaluation = problem_.evaluate_rows(design_of(x), request, rows);
+  Evaluation evaluation = problem_.evaluate_rows(design_of(x), request, named_rows_);
   if (bounds_.empty()) return evaluation;
   const auto designed = static_cast<Eigen::Index>(problem_.variables().size());
   const bool has_gradients = request == Request::values_and_gradients;
@@ -235,31 +231,6 @@ Evaluation PeakProblem::evaluate(const Eigen::VectorXd& x, Request request) {
         .setConstant(-1.0);
   }
   return evaluation;
-}
-
-void PeakProblem::add_peaks(Split& split, const Analysis& analysis,
-                            std::vector<ConstraintRow>& rows) const {
-  const std::optional<std::size_t> constraint =
-      split.constraint ? std::optional(split.in_case) : std::nullopt;
-  if (!split.is_peak) {
-    rows.push_back({constraint, std::nullopt, split.part});
-    return;
-  }
-  if (split.places > 1 && split.ranges.empty()) {
-    const ProblemFile& file = problem_.load_case(split.load_case).file();
-    split.ranges = places_of(analysis, file, split.response, split.places);
-  }
-  for (Reduction& peak : peaks_of_places(analysis, split.response, split.ranges, split.windows)) {
-    rows.push_back({constraint, std::move(peak), split.part});
-  }
-}
-
-std::vector<ConstraintRow> PeakProblem::rows_of(std::size_t load_case, const Analysis& analysis) {
-  std::vector<ConstraintRow> rows;
-  for (Split* split : all_splits()) {
-    if (split->load_case == load_case) add_peaks(*split, analysis, rows);
-  }
-  return rows;
 }
 
 Eigen::VectorXd PeakProblem::objective_shares(const Eigen::VectorXd& multipliers) const {

@@ -72,15 +72,13 @@ class PeakProblem : public Problem {
   /// How one limit, or the objective of a case, is split.
   struct Split {
     std::size_t load_case = 0;
-    std::optional<std::size_t> constraint;  ///< of the file; none of the objective
-    std::size_t in_case = 0;                ///< the same in the problem of its case
-    std::size_t response = 0;               ///< in the problem of its case
-    std::optional<std::size_t> part = {};   ///< that response, if it is one of several
-    bool is_peak = false;                   ///< else one row, as it is
-    int windows = 1, places = 1;
-    std::vector<ChannelRange> ranges = {};  ///< of the places; known from the first simulation on
+    std::optional<std::size_t> constraint;      ///< of the file; none of the objective
+    std::size_t in_case = 0;                    ///< the same in the problem of its case
+    std::size_t response = 0;                   ///< in the problem of its case
+    std::optional<std::size_t> part = {};       ///< that response, if it is one of several
+    std::optional<PeakDivision> division = {};  ///< none: one row, as it is
 
-    int rows() const { return windows * places; }
+    int rows() const { return division ? division->peaks() : 1; }
   };
 
   /// t of the objective of some cases, and what it counts in the objective.
@@ -93,28 +91,22 @@ class PeakProblem : public Problem {
   /// One for each response that is pressed upon.
   std::vector<Split> split(std::size_t load_case, std::optional<std::size_t> constraint) const;
   std::optional<Extreme> pressed_side(std::optional<std::size_t> constraint) const;
-  void divide(Split& split) const;
+  PeakDivision division_of(std::size_t load_case, const ResponseSettings& response) const;
   void add_rows(const Split& split, const Constraint& limits);
   bool objective_has_peaks() const;
   void bound_objective();
   void add_bound(Bound bound);
   void start_bounds();
-  void add_peaks(Split& split, const Analysis& analysis, std::vector<ConstraintRow>& rows) const;
-  void find_places();
-
-  /// The constraints of a case, those on peaks window by window.
-  std::vector<ConstraintRow> rows_of(std::size_t load_case, const Analysis& analysis);
-  /// All that is split, in the order of the rows.
-  std::vector<Split*> all_splits();
+  void name_rows();
 
   DesignProblem& problem_;
   int windows_;
   std::vector<Variable> variables_;
   std::vector<Constraint> rows_;
   std::vector<std::optional<std::size_t>> constraint_of_row_;
-  std::vector<Split> splits_;                      ///< constraint by constraint
-  std::vector<Bound> bounds_;                      ///< of the objective, where each t is a variable
-  std::vector<std::vector<Eigen::Index>> places_;  ///< of the rows of each case
+  std::vector<Split> splits_;  ///< constraint by constraint
+  std::vector<Bound> bounds_;  ///< of the objective, where each t is a variable
+  NamedRows named_rows_;       ///< all that is split, as it is evaluated
 };
 
 }  // namespace pleuel

@@ -1,0 +1,133 @@
+#include "optimization/peak_rows.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/response/stress_signal.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Of one segment, or of an imported body; and of all segments of a beam.
+constexpr int places_of_a_part = 4, most_places = 256;
+
+/// Channels of a response that belong together: a place.
+struct ChannelRange {
+  Eigen::Index first = 0, count = 0;
+};
+
+const Body& body_of(const ProblemFile& file, const ResponseSettings& response) {
+  return *std::find_if(file.scene.bodies.begin(), file.scene.bodies.end(),
+                       [&](const Body& body) { return body.name == response.bodies.front(); });
+}
+
+/// Ends of the places of equal size.
+std::vector<ChannelRange> equal_places(Eigen::Index channels, int places) {
+  std::vector<ChannelRange> ranges;
+  for (Eigen::Index i = 0; i < places; ++i) {
+    const Eigen::Index first = std::min(channels * i / places, channels - 1);
+    const Eigen::Index end = std::max(first + 1, channels * (i + 1) / places);
+    ranges.push_back({first, end - first});
+  }
+  return ranges;
+}
+
+/// One place a segment; empty where the segments do not add up to the channels of the response.
+std::vector<ChannelRange> places_of_segments(const Analysis& analysis,
+                                             const ResponseSettings& response,
+                                             Eigen::Index channels, int segments) {
+  const std::vector<const BodyModel*> parts = analysis.model.parts(response.bodies.front());
+  if (parts.size() != 1) return {};
+  std::vector<ChannelRange> ranges;
+  Eigen::Index first = 0;
+  for (int segment = 0; segment < segments; ++segment) {
+    const auto signal = make_stress_signal(*parts.front(), analysis.model.gravity, response.part,
+                                           {segment, std::nullopt});
+    ranges.push_back({first, signal->channels()});
+    first += signal->channels();
+  }
+  const bool is_whole =
+      first == channels && std::all_of(ranges.begin(), ranges.end(),
+                                       [](const ChannelRange& range) { return range.count > 0; });
+  return is_whole ? ranges : std::vector<ChannelRange>();
+}
+
+/// Number of segments that a response looks at; 0 if it is not of a beam.
+int segments_of(const ProblemFile& file, const ResponseSettings& response) {
+  const auto* beam = std::get_if<BeamBody>(&body_of(file, response).shape);
+  if (beam == nullptr) return 0;
+  return response.segment ? 1 : static_cast<int>(beam->segments.size());
+}
+
+void shift_channels(std::vector<Sample>& samples, Eigen::Index first) {
+  for (Sample& sample : samples) sample.channel += static_cast<int>(first);
+}
+
+/// As of the whole response, where the place begins at this channel.
+Reduction of_whole(Reduction peak, Eigen::Index first) {
+  shift_channels(peak.samples, first);
+  const auto shift = [&](PeakTie& tie) {
+    tie.channel += static_cast<int>(first);
+    tie.other_channel += static_cast<int>(first);
+    shift_channels(tie.other_samples, first);
+  };
+  if (peak.tie) shift(*peak.tie);
+  for (PeakTie& tie : peak.ties) shift(tie);
+  return peak;
+}
+
+/// So many places, at a simulated design.
+std::vector<ChannelRange> places_of(const Analysis& analysis, const ProblemFile& file,
+                                    std::size_t response, int places) {
+  const Eigen::Index channels = analysis.histories[response].rows();
+  const ResponseSettings& settings = file.responses[response];
+  if (settings.bodies.size() == 1 && places == segments_of(file, settings)) {
+    auto ranges = places_of_segments(analysis, settings, channels, places);
+    if (!ranges.empty()) return ranges;
+  }
+  return equal_places(channels, places);
+}
+
+/// The peak of each window of some channels of a response.
+std::vector<Reduction> peaks_of(const Analysis& analysis, std::size_t response,
+                                const Eigen::MatrixXd& values, int windows) {
+  const Response& observed = analysis.responses[response];
+  const Eigen::VectorXd& time = analysis.trajectory.time;
+  return reduce_windows(observed.history()->over_time, time, values, windows, observed.steps(time),
+                        analysis.breaks);
+}
+
+}  // namespace
+
+bool has_peaks(const ResponseSettings& response) {
+  const bool is_constant = response.type == ResponseType::mass ||
+                           response.type == ResponseType::frequency ||
+                           response.type == ResponseType::expression;
+  return !is_constant && is_peak(response.over_time);
+}
+
+int place_count(const ProblemFile& file, const ResponseSettings& response) {
+  if (response.type != ResponseType::stress || response.station || !has_peaks(response)) return 1;
+  if (response.bodies.size() > 1) {
+    return std::min(places_of_a_part * static_cast<int>(response.bodies.size()), most_places);
+  }
+  const int segments = segments_of(file, response);
+  return segments > 1 ? std::min(segments, most_places) : places_of_a_part;
+}
+
+std::vector<Reduction> divided_peaks(const Analysis& analysis, const ProblemFile& file,
+                                     std::size_t response, const PeakDivision& division) {
+  const Eigen::MatrixXd& history = analysis.histories[response];
+  if (division.places <= 1) return peaks_of(analysis, response, history, division.windows);
+  std::vector<Reduction> peaks;
+  for (const ChannelRange& place : places_of(analysis, file, response, division.places)) {
+    const Eigen::MatrixXd values = history.middleRows(place.first, place.count);
+    for (Reduction& peak : peaks_of(analysis, response, values, division.windows)) {
+      peaks.push_back(of_whole(std::move(peak), place.first));
+    }
+  }
+  return peaks;
+}
+
+}  // namespace pleuel
