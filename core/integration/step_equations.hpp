@@ -1,12 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
-#include "core/base/time_integration.hpp"
-#include "core/integration/mechanism.hpp"
+#include "core/integration/formulated_system.hpp"
+#include "core/integration/position_shift.hpp"
 #include "core/integration/recorded_state.hpp"
 #include "core/integration/scheme.hpp"
-#include "core/system/linear_forces.hpp"
 
 namespace pleuel {
 
@@ -25,9 +25,8 @@ struct StepState : RecordedState {
 /// acceleration level, so that the matrix is well conditioned as h → 0 (Bottasso, Dopico &
 /// Trainelli 2008):
 ///     [ s R_dyn ; c Φ^(k) ] = 0                                                        (n + m)
-/// The stabilized index 2 adds a shift δ of positions along the constraints of the old state, whose
-/// tangent is constant in a step (Gear, Gupta & Leimkuhler 1985; W: weights of the assembly):
-///     q⁺ = q ⊕ (history + z + δ),   [ W δ + Φ_q(q)ᵀ η ; Φ(q⁺) ] = 0                    (n + m)
+/// The stabilized index 2 adds a shift of positions, q⁺ = q ⊕ (history + z + δ), and equations for
+/// it (position_shift.hpp).
 class StepEquations {
  public:
   StepEquations(Mechanism& mechanism, const Scheme& scheme, const Formulation& formulation);
@@ -36,8 +35,8 @@ class StepEquations {
   void set_scheme(const Scheme& scheme);
 
   /// n + m, or twice that.
-  int size() const { return is_stabilized() ? 2 * system_.size() : system_.size(); }
-  System::Matrix make_matrix() const { return pattern_; }
+  int size() const { return shift_ ? 2 * system_.size() : system_.size(); }
+  System::Matrix make_matrix() const { return shift_ ? shift_->pattern() : system_.make_matrix(); }
 
   /// A state of this formulation at a state of the mechanism.
   StepState make_state(const State& start) const;
@@ -69,43 +68,23 @@ class StepEquations {
                                 Columns old_q, Columns sums);
 
  private:
-  /// A level on which constraints stand in the residual, and with which factor.
-  struct Level {
-    ConstraintLevel level;
-    double factor;
-  };
-
-  bool is_stabilized() const {
-    return formulation_.constraints == ConstraintForm::stabilized_index_2;
-  }
-  void build_pattern();
-  void evaluate(const StepState& state, WeightList weights, std::size_t first);
   void combine_tangents();
-  void write_residual(const StepState& state, Eigen::VectorXd& residual);
+  void write_residual(const StepState& state, const Eigen::VectorXd& of_system,
+                      Eigen::VectorXd& residual);
   void write_matrix(const StepState& state, std::size_t q, std::size_t v, System::Matrix& matrix);
-  void differentiate_old_constraints(const StepState& state, const Eigen::MatrixXd& old_q,
-                                     Eigen::MatrixXd& rhs);
-  void differentiate_old_constraints_transposed(const StepState& state, const ConstColumns& y,
-                                                Columns old_q, Columns sums);
 
   Mechanism& mechanism_;
   System& system_;
   Scheme scheme_;
-  Formulation formulation_;
-  Level level_;                      ///< factor one
-  std::vector<Level> other_levels_;  ///< of Baumgarte's terms
+  bool is_projected_;
+  FormulatedSystem formulated_;
+  std::optional<PositionShift> shift_;  ///< of the stabilized index 2
   double dynamic_scale_ = 0.0, constraint_scale_ = 0.0;
   State old_;
   Eigen::ArrayXd scales_;  ///< of the entries in coordinate columns
-  System::Matrix pattern_;
-  System::Matrix old_constraints_;  ///< Φ_q(q)ᵀ of the old state, in the columns of λ
-  /// Where entries of the system's pattern stand in the four blocks of the pattern (−1: nowhere).
-  std::vector<int> slots_11_, slots_12_, slots_21_, slots_22_;
-  std::vector<System::Matrix> matrices_, other_matrices_;
-  System::Matrix turned_;      ///< scratch
-  LinearForces shift_forces_;  ///< Φ_q(q)ᵀ η of the old state
-  Eigen::VectorXd residual_, other_residual_;
-  Eigen::MatrixXd columns_, other_columns_, mu_, other_mu_;
+  std::vector<System::Matrix> matrices_;
+  System::Matrix turned_;  ///< scratch
+  Eigen::MatrixXd mu_;     ///< scratch
 };
 
 }  // namespace pleuel
