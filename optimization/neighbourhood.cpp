@@ -18,6 +18,7 @@ constexpr int most_directions = 6;   ///< whose Hessian product is computed
 constexpr double reach = 0.5;        ///< R
 constexpr double held = 1e-3;        ///< part of the gradient scale that makes a multiplier count
 constexpr double noise = 1e-8;       ///< of the objective
+constexpr double nothing = 1e-12;    ///< of the objective, as slope or curvature
 constexpr double far_enough = 1e-2;  ///< relative gain: a backend finds on from there
 /// Relative distance from its limit that a restored constraint may keep.
 constexpr double restored = 1e-5;
@@ -135,6 +136,7 @@ class Exploration {
     result.directions = lowest.products;
     if (lowest.products == 0) return result;
     result.gain_left = gain_left(lowest) / value_scale;
+    result.is_plateau = is_plateau(lowest, value_scale);
     for (const double sign : {1.0, -1.0}) {
       const Neighbour neighbour = follow(sign * lowest.direction, value_scale);
       if (neighbour.gain <= std::max(result.gain, least_gain) * value_scale) continue;
@@ -162,12 +164,23 @@ class Exploration {
                            evaluation->constraint_jacobian.transpose() * multipliers_);
   }
 
+  /// s ∘ ∇L at the design.
+  Eigen::VectorXd remaining_gradient() const {
+    const Evaluation& here = design_.evaluation;
+    return s_.cwiseProduct(here.objective_gradient +
+                           here.constraint_jacobian.transpose() * multipliers_ +
+                           bound_multipliers_);
+  }
+
+  bool is_plateau(const LowestCurvature& lowest, double value_scale) const {
+    const double bend = symmetric_modes(lowest.form).values.cwiseAbs().maxCoeff();
+    return std::max((basis_.transpose() * remaining_gradient()).norm(), bend) <=
+           nothing * value_scale;
+  }
+
   /// See explore_neighbourhood().
   double gain_left(const LowestCurvature& lowest) const {
-    const Evaluation& here = design_.evaluation;
-    const Eigen::VectorXd gradient =
-        s_.cwiseProduct(here.objective_gradient +
-                        here.constraint_jacobian.transpose() * multipliers_ + bound_multipliers_);
+    const Eigen::VectorXd gradient = remaining_gradient();
     const Eigen::VectorXd open = basis_.transpose() * gradient;
     const SymmetricModes modes = symmetric_modes(lowest.form);
     const Eigen::VectorXd slopes =

@@ -14,6 +14,8 @@ struct Neighbourhood {
   /// A design that keeps the limits and is better by more than was asked for.
   std::optional<Eigen::VectorXd> better;
   double gain = 0.0;  ///< how much lower its objective is, relative
+  /// Whether the Lagrangian has neither slope nor curvature along any direction that was looked at.
+  bool is_plateau = false;
   /// By how much the objective may come down by following what is left of the gradients, relative:
   /// ½ rᵀ H⁻¹ r in the directions that the limits leave open, see explore_neighbourhood().
   double gain_left = 0.0;

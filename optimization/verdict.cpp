@@ -112,6 +112,12 @@ void judge_neighbourhood(Verdict& verdict, EvaluationCache& cache, const Evaluat
         "; no better design nearby, along {} of the {} directions that its limits "
         "leave open",
         around.directions, around.dimension);
+    if (around.is_plateau) {
+      verdict.message += fmt::format(
+          "; but nor does any change {} at all: all designs nearby that keep the limits are as "
+          "good",
+          cache.problem().objective_name());
+    }
   }
 }
 

@@ -106,6 +106,19 @@ TEST_P(StationaryStart, IsLeftForTheMinimum) {
   }
 }
 
+TEST(StationaryDesign, ThatIsAPlateauSaysSo) {
+  const auto message_at_zero = [](auto objective) {
+    KnownProblem known{"flat", {{{"x", 0.0, -1.0, 1.0}}, {}, by_complex_step(objective)}, 2.0};
+    const Result result = solve(known.problem, {});
+    EXPECT_EQ(result.status, Status::verified) << result.message;
+    return result.message;
+  };
+  const auto constant = [](const auto& x) { return column(x, 2.0 + 0.0 * x[0]); };
+  const auto minimum = [](const auto& x) { return column(x, 2.0 + x[0] * x[0]); };
+  EXPECT_THAT(message_at_zero(constant), testing::HasSubstr("nor does any change"));
+  EXPECT_THAT(message_at_zero(minimum), testing::Not(testing::HasSubstr("nor does any change")));
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, StationaryStart, testing::ValuesIn(optimizer_names()),
                          name_of_backend);
 
