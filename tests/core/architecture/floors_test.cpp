@@ -89,8 +89,8 @@ const std::map<std::string, Names>& permitted() {
 bool is_of_design_problem(const std::string& path) {
   for (const char* name :
        {"case_trust.", "design_case.", "design_problem.", "design_solve.", "margin_problem.",
-        "optimum_error.", "staged_solve.", "peak_problem.", "size_choice.", "peak_windows.",
-        "multi_start.", "packed_solution.", "setting_text."}) {
+        "optimum_error.", "staged_solve.", "peak_problem.", "peak_rows.", "size_choice.",
+        "peak_windows.", "multi_start.", "packed_solution.", "setting_text."}) {
     if (path.starts_with(std::string("optimization/") + name)) return true;
   }
   return false;
