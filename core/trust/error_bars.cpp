@@ -55,10 +55,13 @@ bool is_there(const std::optional<double>& value) {
   return value && std::isfinite(*value);
 }
 
+/// Of increasing times the index of the nearest one; between two the first.
 Eigen::Index nearest(const Eigen::VectorXd& times, double time) {
-  Eigen::Index index = 0;
-  (times.array() - time).abs().minCoeff(&index);
-  return index;
+  const double* found = std::lower_bound(times.data(), times.data() + times.size(), time);
+  const Eigen::Index index = found - times.data();
+  if (index == 0) return 0;
+  if (index == times.size()) return index - 1;
+  return time - times(index - 1) <= times(index) - time ? index - 1 : index;
 }
 
 /// Of a response that is no expression:
