@@ -80,6 +80,9 @@ BodyModel make_body_model(const Body& body, const BuildContext& context, int off
   } else {
     set_rigid(body, context, model);
   }
+  if (model.has_stiffening) {
+    model.stretched = std::make_shared<const StretchedMembers>(stretched_members(model));
+  }
   model.mass = model.invariants.mass;
   model.mass_x = Eigen::VectorXd::Zero(context.variables());
   for (const auto& [variable, change] : model.invariants_x) model.mass_x(variable) += change.mass;

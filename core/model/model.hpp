@@ -15,6 +15,7 @@
 #include "core/model/beam_mesh.hpp"
 #include "core/model/elastic_body.hpp"
 #include "core/model/motion_plane.hpp"
+#include "core/model/stretched_members.hpp"
 #include "core/scene/problem_file.hpp"
 #include "core/system/coordinate_map.hpp"
 #include "core/system/term.hpp"
@@ -44,6 +45,7 @@ struct BodyModel : ElasticBody {
   double mass = 0.0;       ///< [kg]
   Eigen::VectorXd mass_x;  ///< derivatives with respect to all design variables
   bool has_stiffening = false;
+  std::shared_ptr<const StretchedMembers> stretched;  ///< with stiffening; else null
   bool is_elastic = false;
 
   // What a beam is made of: for section forces, and for judgements on beams.

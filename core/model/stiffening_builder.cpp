@@ -1,7 +1,6 @@
 #include "core/model/stiffening_builder.hpp"
 
 #include "core/effects/geometric_stiffening.hpp"
-#include "core/model/stretched_members.hpp"
 
 namespace pleuel {
 
@@ -24,7 +23,7 @@ std::vector<StiffeningDerivative> differentiate_stiffening(
 }  // namespace
 
 std::unique_ptr<Term> make_stiffening(const BodyModel& body) {
-  const StretchedMembers members = stretched_members(body);
+  const StretchedMembers& members = *body.stretched;
   std::vector<StiffeningElement> elements;
   for (const StretchedElement& member : members.values) {
     elements.push_back(

@@ -1,10 +1,10 @@
 #include "core/response/recovered_signal.hpp"
 
+#include <memory>
 #include <set>
 #include <utility>
 #include <vector>
 
-#include "core/model/stretched_members.hpp"
 #include "core/response/body_state.hpp"
 #include "core/response/place_kinematics.hpp"
 
@@ -18,8 +18,11 @@ using Eigen::VectorXd;
 /// The axial forces N = κ ½ q_fᵀ Ĝ q_f of the members of geometric stiffening.
 class StretchingForces {
  public:
-  explicit StretchingForces(const BodyModel& body) : members_(stretched_members(body)) {
-    for (const StretchedElement& member : members_.values) {
+  /// @param members  may be null: then there are none to ask for
+  explicit StretchingForces(std::shared_ptr<const StretchedMembers> members)
+      : members_(std::move(members)) {
+    if (!members_) return;
+    for (const StretchedElement& member : members_->values) {
       if (member.elongation.size() <= moved_.size()) continue;
       moved_.resize(member.elongation.size());
       bent_.resize(member.elongation.size());
@@ -27,18 +30,18 @@ class StretchingForces {
   }
 
   double force(int member, const BodyState& state) {
-    const StretchedElement& element = member_of(members_.values, member);
+    const StretchedElement& element = member_of(members_->values, member);
     return 0.5 * element.axial_stiffness * square(element, state);
   }
 
   void add_gradient(int member, double slope, const BodyState& state, BodyGradient& writer) {
-    const StretchedElement& element = member_of(members_.values, member);
+    const StretchedElement& element = member_of(members_->values, member);
     const double value = square(element, state);
     const auto moved = moved_.head(element.elongation.size());
     for (Eigen::Index i = 0; i < moved.size(); ++i) {
       writer.add_coordinate(slope * element.axial_stiffness * bent_(i), element.displacements[i]);
     }
-    for (const auto& [variable, all] : members_.derivatives) {
+    for (const auto& [variable, all] : members_->derivatives) {
       const StretchedElement& change = member_of(all, member);
       writer.add_design(
           variable, 0.5 * slope *
@@ -64,7 +67,7 @@ class StretchingForces {
     return moved.dot(bent);
   }
 
-  StretchedMembers members_;
+  std::shared_ptr<const StretchedMembers> members_;
   VectorXd moved_, bent_;  ///< scratch, as long as the largest member
 };
 
@@ -91,7 +94,10 @@ class RecoveredSignal final : public Signal {
         stations_(std::move(stations)),
         recovery_(stations_->recovery()),
         displacement_(displacement_rows(body.places)),
-        forces_(body) {}
+        forces_(body.stretched),
+        seen_(columns_of(recovery_)) {
+    seen_displacement_ = rows_of(displacement_, seen_.places);
+  }
 
   int channels() const override { return stations_->channels(); }
   std::string describe(int channel) const override { return stations_->describe(channel); }
@@ -105,7 +111,7 @@ class RecoveredSignal final : public Signal {
     }
     if (body_.has_stiffening && recovery_.of_stretching.nonZeros() > 0) {
       stretching_.resize(recovery_.of_stretching.cols());
-      for (int e = 0; e < stretching_.size(); ++e) stretching_(e) = forces_.force(e, of_body);
+      for (int member : seen_.members) stretching_(member) = forces_.force(member, of_body);
       numbers_.noalias() += recovery_.of_stretching * stretching_;
     }
     for (int channel = 0; channel < channels(); ++channel) {
@@ -133,30 +139,65 @@ class RecoveredSignal final : public Signal {
       const double slope = slope_of(recovery_.of_stretching, first, member, slopes);
       forces_.add_gradient(member, slope, of_body, writer);
     }
-    for (std::size_t k = 0; k < changes_.size(); ++k) {
+    for (const auto& [k, change] : changes_) {
+      writer.add_design(body_.places_x[k].variable, slopes.dot(recovered(change, first, of_body)));
+    }
+    for (std::size_t k = 0; k < body_.places_x.size(); ++k) {
       writer.add_design(body_.places_x[k].variable,
-                        slopes.dot(recovered(changes_[k], first, of_body)) +
-                            weight * stations_->design_slope(channel, numbers.data(), k));
+                        weight * stations_->design_slope(channel, numbers.data(), k));
     }
   }
 
  private:
-  /// Places and members that the numbers of a station come from.
+  /// Places and members that the numbers of a station, or of all, come from.
   struct Near {
     std::set<int> places, members;
   };
 
-  /// Of all places against free fall, local axes.
+  Near columns_of(const Recovery& recovery) const {
+    Near all;
+    const auto note = [](const SparseMatrix& rows, Eigen::Index divisor, std::set<int>& columns) {
+      for (Eigen::Index row = 0; row < rows.rows(); ++row) {
+        for (SparseMatrix::InnerIterator entry(rows, row); entry; ++entry) {
+          columns.insert(static_cast<int>(entry.col() / divisor));
+        }
+      }
+    };
+    note(recovery.of_accelerations, 3, all.places);
+    if (body_.has_stiffening) note(recovery.of_stretching, 1, all.members);
+    return all;
+  }
+
+  /// Three rows of each place.
+  static SparseMatrix rows_of(const SparseMatrix& displacement, const std::set<int>& places) {
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::Index row = 0;
+    for (const int place : places) {
+      for (Eigen::Index k = 0; k < 3; ++k, ++row) {
+        for (SparseMatrix::InnerIterator entry(displacement, 3 * place + k); entry; ++entry) {
+          entries.emplace_back(row, entry.col(), entry.value());
+        }
+      }
+    }
+    SparseMatrix rows(row, displacement.cols());
+    rows.setFromTriplets(entries.begin(), entries.end());
+    return rows;
+  }
+
+  /// Of all places that are seen, against free fall, local axes; the others are left as they are.
   void set_accelerations(const BodyState& state) {
     const FrameMotion<double> frame = state.frame();
-    positions_ = body_.places.positions.reshaped();
-    positions_.noalias() += displacement_ * state.q();
-    rates_.noalias() = displacement_ * state.v();
-    accelerations_.noalias() = displacement_ * state.a();
-    for (Eigen::Index i = 0; i < accelerations_.size(); i += 3) {
-      accelerations_.segment<3>(i) = local_acceleration<double>(
+    displacements_.noalias() = seen_displacement_ * state.q();
+    rates_.noalias() = seen_displacement_ * state.v();
+    rates_of_rates_.noalias() = seen_displacement_ * state.a();
+    accelerations_.resize(displacement_.rows());
+    Eigen::Index i = 0;
+    for (const int place : seen_.places) {
+      accelerations_.segment<3>(3 * place) = local_acceleration<double>(
           frame, gravity_,
-          {positions_.segment<3>(i), rates_.segment<3>(i), accelerations_.segment<3>(i)});
+          {body_.places.positions.col(place) + displacements_.segment<3>(i), rates_.segment<3>(i),
+           rates_of_rates_.segment<3>(i)});
+      i += 3;
     }
   }
 
@@ -226,9 +267,19 @@ class RecoveredSignal final : public Signal {
     near_.resize(recovery_.of_coordinates.rows() / stations_->numbers());
     record_near(recovery_);
     for (std::size_t k = 0; k < body_.places_x.size(); ++k) {
-      changes_.push_back(stations_->recovery_derivative(k));
-      record_near(changes_.back());
+      Recovery change = stations_->recovery_derivative(k);
+      if (is_zero(change)) continue;
+      record_near(change);
+      changes_.emplace_back(k, std::move(change));
     }
+  }
+
+  static bool is_zero(const Recovery& recovery) {
+    const auto has_none = [](const SparseMatrix& rows) {
+      return rows.coeffs().size() == 0 || rows.coeffs().isZero(0.0);
+    };
+    return has_none(recovery.of_coordinates) && has_none(recovery.of_accelerations) &&
+           has_none(recovery.of_stretching);
   }
 
   void record_near(const Recovery& recovery) {
@@ -250,9 +301,13 @@ class RecoveredSignal final : public Signal {
   Recovery recovery_;
   SparseMatrix displacement_;  ///< of all places, 3 places × n
   StretchingForces forces_;
-  std::vector<Recovery> changes_;  ///< derivatives of the recovery, once they are needed
-  std::vector<Near> near_;         ///< of each station
-  VectorXd numbers_, positions_, rates_, accelerations_, stretching_;  ///< scratch
+  /// Derivatives of the recovery, once they are needed: those that are not zero, by their index.
+  std::vector<std::pair<std::size_t, Recovery>> changes_;
+  std::vector<Near> near_;  ///< of each station
+  Near seen_;               ///< of all stations
+  SparseMatrix seen_displacement_;
+  VectorXd numbers_, accelerations_, stretching_;    ///< scratch
+  VectorXd displacements_, rates_, rates_of_rates_;  ///< scratch, of the places seen
 };
 
 }  // namespace
