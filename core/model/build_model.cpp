@@ -95,6 +95,7 @@ class ModelBuilder {
       if (!std::holds_alternative<BeamBody>(body.shape)) continue;
       context_.beam_effects[body.name] = pleuel::decide_beam_effects(body, context_.effects);
     }
+    model_.bodies.reserve(context_.scene.bodies.size());  // bodies are large, and would be copied
     for (const Body& body : context_.scene.bodies) {
       model_.bodies.push_back(make_body_model(body, context_, coordinates_));
       const BodyModel& added = model_.bodies.back();
