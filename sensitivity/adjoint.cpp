@@ -8,9 +8,12 @@
 #include "core/base/stop.hpp"
 #include "core/integration/configuration.hpp"
 #include "core/integration/linear_solver.hpp"
+#include "core/integration/period_map.hpp"
+#include "core/integration/periodic_start.hpp"
 #include "core/integration/projection.hpp"
 #include "core/integration/step_equations.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
+#include "sensitivity/periodic_correction.hpp"
 
 namespace pleuel {
 
@@ -41,13 +44,11 @@ class AdjointRun {
   }
 
   Eigen::MatrixXd run(const FunctionDerivatives& derivatives) {
-    trajectory_.states->load_record(trajectory_.steps(), state_);
-    for (int step = trajectory_.steps(); step > 0; --step) {
-      check_stop();
-      active_ = derivatives(step, state_, adjoint_);
-      trajectory_.states->load_record(step - 1, old_);
-      if (active_ > 0) go_back(step);
-      std::swap(static_cast<RecordedState&>(state_), static_cast<RecordedState&>(old_));
+    go_back_from(trajectory_.steps(), derivatives);
+    if (trajectory_.periodic) {
+      derivatives(0, state_, adjoint_);
+      go_back_through_periods();
+      return system_.design_gradients(sums_);
     }
     const StateSensitivity start = initial_sensitivity(mechanism_, initial_state(mechanism_));
     const Eigen::MatrixXd of_steps =
@@ -62,6 +63,51 @@ class AdjointRun {
   static Eigen::MatrixXd along(const StateSensitivity& s, const StateAdjoint& adjoint) {
     return s.q.transpose() * adjoint.q + s.v.transpose() * adjoint.v + s.a.transpose() * adjoint.a +
            s.w.transpose() * adjoint.w + s.lambda.transpose() * adjoint.lambda;
+  }
+
+  /// Down to the start.
+  void go_back_from(int last, const FunctionDerivatives& derivatives) {
+    trajectory_.states->load_record(last, state_);
+    for (int step = last; step > 0; --step) {
+      check_stop();
+      active_ = derivatives(step, state_, adjoint_);
+      trajectory_.states->load_record(step - 1, old_);
+      if (active_ > 0) go_back(step);
+      std::swap(static_cast<RecordedState&>(state_), static_cast<RecordedState&>(old_));
+    }
+  }
+
+  /// A start that is the end of its period depends on x by dy₀/dx = (1 − M)⁻¹ ∂Y/∂x
+  /// (periodic_sensitivity.hpp). With p, the derivatives with respect to it, and (1 − M)ᵀ π = p,
+  ///     pᵀ dy₀/dx = πᵀ ∂Y/∂x
+  /// is what going back from π through the period adds to the sums. As the map is one of a motion
+  /// close by, this is done again with what is left of p, until that is round-off. Multipliers at
+  /// the start are those at the end.
+  void go_back_through_periods() {
+    const PeriodicStart& periodic = *trajectory_.periodic;
+    const Eigen::VectorXd& units = periodic.map->states().units();
+    const int n = system_.coordinates();
+    Eigen::MatrixXd left(4 * n, sums_.cols());
+    const auto stacked = [&]() -> Eigen::MatrixXd {
+      Eigen::MatrixXd columns(4 * n, sums_.cols());
+      columns << adjoint_.q, adjoint_.v, adjoint_.a, adjoint_.w;
+      return units.asDiagonal() * columns;
+    };
+    left = stacked();
+    Eigen::MatrixXd whole = left.cwiseAbs();
+    PeriodicCorrection progress;
+    while (!progress.is_done(left, whole) || !adjoint_.lambda.isZero(0.0)) {
+      const Eigen::MatrixXd end = periodic.map->solve_transposed(left);
+      const Eigen::MatrixXd columns = units.cwiseInverse().asDiagonal() * end;
+      adjoint_.q = columns.topRows(n);
+      adjoint_.v = columns.middleRows(n, n);
+      adjoint_.a = columns.middleRows(2 * n, n);
+      adjoint_.w = columns.bottomRows(n);
+      const auto all = static_cast<int>(sums_.cols());
+      go_back_from(periodic.steps, [all](int, const State&, StateAdjoint&) { return all; });
+      left += stacked() - end;
+      whole = whole.cwiseMax(left.cwiseAbs());
+    }
   }
 
   /// From derivatives with respect to the end of a step to those with respect to its beginning.

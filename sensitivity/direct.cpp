@@ -1,142 +1,25 @@
 #include "sensitivity/direct.hpp"
 
-#include <optional>
-
-#include <fmt/format.h>
-
-#include "core/base/error.hpp"
-#include "core/base/stop.hpp"
-#include "core/integration/configuration.hpp"
-#include "core/integration/linear_solver.hpp"
-#include "core/integration/projection.hpp"
-#include "core/integration/step_equations.hpp"
+#include "core/integration/step_differentiation.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
+#include "sensitivity/periodic_sensitivity.hpp"
 
 namespace pleuel {
 
-namespace {
-
-class DirectDifferentiation {
- public:
-  DirectDifferentiation(Mechanism& mechanism, const Trajectory& trajectory)
-      : mechanism_(mechanism),
-        system_(*mechanism.system),
-        rotations_(mechanism.rotations),
-        trajectory_(trajectory),
-        sensitivity_(initial_sensitivity(mechanism, initial_state(mechanism))),
-        old_(sensitivity_),
-        scheme_(trajectory.scheme),
-        equations_(mechanism, scheme_, trajectory.formulation),
-        state_(equations_.make_state(State(system_.coordinates(), system_.multipliers()))),
-        matrix_(equations_.make_matrix()),
-        solver_(matrix_, mechanism.elastic) {
-    if (trajectory.is_projected()) projection_.emplace(mechanism);
-  }
-
-  void run(const SensitivityObserver& observer) {
-    trajectory_.states->load(0, state_);
-    observer(0, state_, sensitivity_);
-    sensitivity_ = first_step_sensitivity(mechanism_, trajectory_, state_, std::move(sensitivity_));
-    for (int step = 1; step <= trajectory_.steps(); ++step) {
-      check_stop();
-      scheme_ = trajectory_.scheme_of(step);
-      equations_.set_scheme(scheme_);
-      equations_.begin(state_);
-      old_q_ = state_.q;
-      trajectory_.states->load_record(step, state_);
-      swap_projected();
-      state_.increment = difference(rotations_, state_.q, old_q_);
-      predict();
-      solve(step);
-      project();
-      observer(step, state_, sensitivity_);
-    }
-  }
-
- private:
-  /// ŝ = history · s, then shifted along the correction to ŝ_q = 0: the unknown is s_q itself, in
-  /// the rows of rotations T(Δ)⁻¹ s_q.
-  void predict() {
-    std::swap(old_, sensitivity_);
-    old_q_x_ = old_.q;
-    pull_back(rotations_, state_.increment, old_.q);
-    const Eigen::Matrix4d& h = scheme_.history;
-    const auto combine = [&](int row, Eigen::MatrixXd& out) {
-      out = h(row, 0) * old_.q + h(row, 1) * old_.v + h(row, 2) * old_.a + h(row, 3) * old_.w;
-    };
-    combine(0, sensitivity_.q);
-    combine(1, sensitivity_.v);
-    combine(2, sensitivity_.a);
-    combine(3, sensitivity_.w);
-    const Eigen::Vector4d& b = scheme_.correction;
-    sensitivity_.v -= b(1) / b(0) * sensitivity_.q;
-    sensitivity_.a -= b(2) / b(0) * sensitivity_.q;
-    sensitivity_.w -= b(3) / b(0) * sensitivity_.q;
-  }
-
-  void solve(int step) {
-    const int n = system_.coordinates(), m = system_.multipliers();
-    const Eigen::Vector4d& b = scheme_.correction;
-    equations_.linearize_sensitivities(state_, matrix_);
-    equations_.differentiate(state_, sensitivity_.v, sensitivity_.a, old_q_x_, rhs_);
-    if (!solver_.factorize(matrix_)) {
-      throw SimulationError(fmt::format("the sensitivities are singular at t = {:.6g} s (step {})",
-                                        state_.time, step));
-    }
-    solver_.solve(rhs_);
-    if (!rhs_.allFinite()) {
-      throw SimulationError(fmt::format(
-          "the sensitivities are not finite at t = {:.6g} s (step {})", state_.time, step));
-    }
-    if (!solver_.is_accurate()) {
-      throw SimulationError(fmt::format(
-          "the equations of the sensitivities at t = {:.6g} s (step {}) are met to {:.1e} only",
-          state_.time, step, solver_.backward_error()));
-    }
-    sensitivity_.q = rhs_.topRows(n);
-    sensitivity_.lambda = rhs_.middleRows(n, m) / scheme_.dynamic_scale();
-    sensitivity_.v += b(1) / b(0) * sensitivity_.q;
-    sensitivity_.a += b(2) / b(0) * sensitivity_.q;
-    sensitivity_.w += b(3) / b(0) * sensitivity_.q;
-    if (rhs_.rows() > n + m) sensitivity_.q += rhs_.middleRows(n + m, n);
-    push_forward(rotations_, state_.increment, sensitivity_.q);
-  }
-
-  /// From the state after the projection to that before it, and back.
-  void swap_projected() {
-    if (!projection_) return;
-    state_.q.swap(state_.drifted_q);
-    state_.v.swap(state_.drifted_v);
-  }
-
-  void project() {
-    if (!projection_) return;
-    projection_->linearize(state_);
-    projection_->differentiate(sensitivity_.q, sensitivity_.v);
-    swap_projected();
-  }
-
-  Mechanism& mechanism_;
-  System& system_;
-  const Rotations& rotations_;
-  const Trajectory& trajectory_;
-  StateSensitivity sensitivity_, old_;
-  Eigen::MatrixXd old_q_x_;
-  Scheme scheme_;
-  StepEquations equations_;
-  StepState state_;
-  Eigen::VectorXd old_q_;
-  System::Matrix matrix_;
-  LinearSolver solver_;
-  Eigen::MatrixXd rhs_;
-  std::optional<Projection> projection_;
-};
-
-}  // namespace
-
 void differentiate(Mechanism& mechanism, const Trajectory& trajectory,
                    const SensitivityObserver& observer) {
-  DirectDifferentiation(mechanism, trajectory).run(observer);
+  State start;
+  trajectory.states->load(0, start);
+  StateSensitivity initial = trajectory.periodic
+                                 ? periodic_sensitivity(mechanism, trajectory)
+                                 : initial_sensitivity(mechanism, initial_state(mechanism));
+  observer(0, start, initial);
+  if (!trajectory.periodic) {
+    initial = first_step_sensitivity(mechanism, trajectory, start, std::move(initial));
+  }
+  StepDifferentiation motion(mechanism, trajectory, DerivativesOf::design);
+  motion.begin(std::move(initial));
+  while (motion.advance()) observer(motion.step(), motion.state(), motion.sensitivity());
 }
 
 }  // namespace pleuel

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "core/integration/simulate.hpp"
-#include "sensitivity/state_sensitivity.hpp"
+#include "core/integration/state_sensitivity.hpp"
 
 namespace pleuel {
 
@@ -11,12 +11,9 @@ namespace pleuel {
 using SensitivityObserver =
     std::function<void(int step, const State& state, const StateSensitivity& sensitivity)>;
 
-/// Direct differentiation of the discrete scheme: exact for the steps that were taken, not for the
-/// differential equation behind them. With the predicted part ŝ = history · s of the differentiated
-/// scheme, at the converged state of each step
-///     [ s(β'M + γ'C + K)  Φ_qᵀ ; Φ_q  0 ] [s_q; s s_λ]⁺ = −[ s (R_x + M ŝ_a + C ŝ_v); Φ_x ]
-/// One factorisation a step, all design variables as one block. Decoupled from the finite-element
-/// model: R_x comes from the invariants' derivatives (Gufler, Wehrle & Vidoni 2022).
+/// Direct differentiation of the discrete scheme with respect to the design variables, from the
+/// start on (initial_sensitivity.hpp, periodic_sensitivity.hpp), step by step
+/// (core/integration/step_differentiation.hpp).
 /// @param trajectory  of simulate() for the same mechanism
 /// @throws SimulationError if a step matrix is singular
 void differentiate(Mechanism& mechanism, const Trajectory& trajectory,

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "core/integration/state_sensitivity.hpp"
 #include "core/response/mechanism_modes.hpp"
-#include "sensitivity/state_sensitivity.hpp"
 
 namespace pleuel {
 

@@ -2,7 +2,7 @@
 
 #include "core/integration/initial_state.hpp"
 #include "core/integration/simulate.hpp"
-#include "sensitivity/state_sensitivity.hpp"
+#include "core/integration/state_sensitivity.hpp"
 
 namespace pleuel {
 

@@ -21,6 +21,7 @@
 #include "core/base/number_text.hpp"
 #include "core/base/stop.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/integration/periodic_start.hpp"
 #include "core/scene/reading/override.hpp"
 #include "core/trust/doubts.hpp"
 #include "core/trust/proportions.hpp"
@@ -67,24 +68,46 @@ void check_numbers(const ProblemInput& input, Simulated& run) {
   run.check_seconds = check.seconds();
 }
 
+/// How the start of a motion that repeats itself was found; nothing for others.
+void add_periodic_start(const Trajectory& trajectory, Json& document) {
+  if (!trajectory.periodic) return;
+  const PeriodicStart& found = *trajectory.periodic;
+  document["periodic_state"] = {{"period", found.period},
+                                {"simulated_periods", found.simulations},
+                                {"differentiated_periods", found.differentiations},
+                                {"gap", found.gap},
+                                {"growth", found.growth}};
+}
+
+std::string periodic_text(const Trajectory& trajectory) {
+  if (!trajectory.periodic) return {};
+  const PeriodicStart& found = *trajectory.periodic;
+  return wrapped(fmt::format(
+      "Periodic state found by {} simulated periods of {} and {} differentiated; after a period it "
+      "is off by {:.1e} of the scale of a coordinate, and {:.2g} of a disturbance is left.\n",
+      found.simulations, duration(found.period), found.differentiations, found.gap, found.growth));
+}
+
 Json simulation_document(const ProblemFile& problem, const Simulated& run) {
   const Analysis& analysis = run.analysis;
   const Trajectory& trajectory = analysis.trajectory;
   const System& system = *analysis.model.mechanism.system;
-  return {{"status", run.is_checked ? "done" : "interrupted"},
-          {"responses", responses_document(analysis, run.errors)},
-          {"steps", trajectory.steps()},
-          {"split_steps", trajectory.split_steps},
-          {"rejected_steps", trajectory.rejected_steps},
-          {"newton_iterations", trajectory.newton_iterations},
-          {"factorizations", trajectory.factorizations},
-          {"seconds", run.seconds},
-          {"check_seconds", run.check_seconds},
-          {"monitors", monitors_document(run.monitors)},
-          {"warnings", run.warnings},
-          {"effects", effects_document(problem, analysis.model, run.influences)},
-          {"coordinates", system.coordinates()},
-          {"multipliers", system.multipliers()}};
+  Json document = {{"status", run.is_checked ? "done" : "interrupted"},
+                   {"responses", responses_document(analysis, run.errors)},
+                   {"steps", trajectory.steps()},
+                   {"split_steps", trajectory.split_steps},
+                   {"rejected_steps", trajectory.rejected_steps},
+                   {"newton_iterations", trajectory.newton_iterations},
+                   {"factorizations", trajectory.factorizations},
+                   {"seconds", run.seconds},
+                   {"check_seconds", run.check_seconds},
+                   {"monitors", monitors_document(run.monitors)},
+                   {"warnings", run.warnings},
+                   {"effects", effects_document(problem, analysis.model, run.influences)},
+                   {"coordinates", system.coordinates()},
+                   {"multipliers", system.multipliers()}};
+  add_periodic_start(trajectory, document);
+  return document;
 }
 
 double smallest_step(const Trajectory& trajectory) {
@@ -118,6 +141,7 @@ std::string simulation_text(const ProblemFile& problem, const std::string& desig
                         duration(smallest_step(trajectory)), duration(largest_step(trajectory)),
                         trajectory.rejected_steps);
   }
+  text += periodic_text(trajectory);
   return text + fmt::format("{}, {} Newton iterations, {} factorizations; checked in {}\n",
                             duration(run.seconds), trajectory.newton_iterations,
                             trajectory.factorizations, duration(run.check_seconds));

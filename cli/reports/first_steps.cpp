@@ -18,6 +18,7 @@ constexpr double first_count = 16.0;         ///< of steps
 /// Its first part. Intervals of responses may lie behind it.
 ProblemFile beginning(ProblemFile problem, double end_time) {
   problem.simulation.end_time = end_time;
+  problem.simulation.period = 0.0;
   for (ResponseSettings& response : problem.responses) {
     response.from.reset();
     response.to.reset();

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/QR>
 
 namespace pleuel {
@@ -38,6 +39,23 @@ Eigen::MatrixXd PivotedQr::normal_space() const {
 
 Eigen::VectorXd PivotedQr::solve(const Eigen::VectorXd& b) const {
   return qr_->solve(b);
+}
+
+DenseLu::DenseLu(const Eigen::MatrixXd& matrix)
+    : lu_(std::make_unique<Eigen::PartialPivLU<Eigen::MatrixXd>>(matrix)) {}
+
+DenseLu::~DenseLu() = default;
+
+Eigen::MatrixXd DenseLu::solve(const Eigen::MatrixXd& b) const {
+  return lu_->solve(b);
+}
+
+Eigen::MatrixXd DenseLu::solve_transposed(const Eigen::MatrixXd& b) const {
+  return lu_->transpose().solve(b);
+}
+
+double DenseLu::reciprocal_condition() const {
+  return lu_->rcond();
 }
 
 Eigen::VectorXd least_norm_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& b) {

@@ -34,6 +34,23 @@ class PivotedQr {
   std::unique_ptr<Eigen::ColPivHouseholderQR<Eigen::MatrixXd>> qr_;
 };
 
+/// P A = L U of a square matrix with partial pivoting.
+class DenseLu {
+ public:
+  explicit DenseLu(const Eigen::MatrixXd& matrix);
+  ~DenseLu();
+
+  /// A⁻¹ b, columns as one block.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+  /// A⁻ᵀ b.
+  Eigen::MatrixXd solve_transposed(const Eigen::MatrixXd& b) const;
+  /// Estimate of 1/condition in the 1-norm.
+  double reciprocal_condition() const;
+
+ private:
+  std::unique_ptr<Eigen::PartialPivLU<Eigen::MatrixXd>> lu_;
+};
+
 /// Of all z that make ‖A z − b‖ least the shortest one, by a complete orthogonal decomposition.
 Eigen::VectorXd least_norm_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& b);
 

@@ -41,6 +41,9 @@ struct TimeIntegration {
   /// Generalized-α only, and not index 3.
   double local_error = 0.0;
   double smallest_step = 0.0;  ///< of those halves [s]; 0: a 1024th of the step
+  /// After which the motion repeats itself from the start on [s]; 0: it starts as given. The time is
+  /// a whole number of periods.
+  double period = 0.0;
   /// To repeat a sequence of steps: the instants of another simulation, in place of control [s].
   std::vector<double> instants = {};
 };

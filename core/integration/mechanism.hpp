@@ -17,6 +17,8 @@ struct Mechanism {
   /// velocities in body axes, and their changes are right perturbations
   /// (core/base/rotation_vector.hpp).
   std::vector<int> rotations;
+  /// Coordinates that are angles of frames in a plane: whole turns change nothing but their number.
+  std::vector<int> angles;
   /// What each equation of the system belongs to, for messages: "the body \"rod\"", "the joint …";
   /// may be empty.
   std::vector<std::string> equation_names;

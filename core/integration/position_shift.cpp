@@ -95,13 +95,17 @@ void PositionShift::write_matrix(const Tangents& tangents, double dynamic_scale,
 }
 
 void PositionShift::differentiate(const State& state, const Eigen::VectorXd& eta,
-                                  const Eigen::MatrixXd& old_q, Eigen::Ref<Eigen::MatrixXd> rhs) {
+                                  const Eigen::MatrixXd& old_q, DerivativesOf of,
+                                  Eigen::Ref<Eigen::MatrixXd> rhs) {
   const int n = system_.coordinates(), m = system_.multipliers();
   forces_.set(old_, eta);
   forces_.tangent(tangent_);
-  columns_ = forces_.design_derivative();
+  columns_.setZero(n + m, old_q.cols());
+  if (of == DerivativesOf::design) columns_ = forces_.design_derivative();
   columns_.noalias() += tangent_.leftCols(n) * old_q;
   rhs.topRows(n) = -columns_.topRows(n);
+  rhs.bottomRows(m).setZero();
+  if (of == DerivativesOf::old_state) return;
   system_.design_derivative(state, ConstraintLevel::position, columns_);
   rhs.bottomRows(m) = -columns_.bottomRows(m);
 }

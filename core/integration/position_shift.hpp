@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/integration/mechanism.hpp"
+#include "core/integration/state_sensitivity.hpp"
 #include "core/system/linear_forces.hpp"
 
 namespace pleuel {
@@ -38,10 +39,11 @@ class PositionShift {
   void write_matrix(const Tangents& tangents, double dynamic_scale, double constraint_scale,
                     System::Matrix& matrix) const;
 
-  /// −(Φ_q(q)ᵀ η)_q s_q − (Φ_q(q)ᵀ η)_x and −Φ_x(q⁺), (n + m) × variables.
-  /// @param old_q  s_q, n × variables
+  /// −(Φ_q(q)ᵀ η)_q s_q − (Φ_q(q)ᵀ η)_x and −Φ_x(q⁺), (n + m) × columns.
+  /// @param old_q  s_q, n × columns
+  /// @param of     where it is the old state, nothing has derivatives (.)_x
   void differentiate(const State& state, const Eigen::VectorXd& eta, const Eigen::MatrixXd& old_q,
-                     Eigen::Ref<Eigen::MatrixXd> rhs);
+                     DerivativesOf of, Eigen::Ref<Eigen::MatrixXd> rhs);
   /// The transposed: adds what y (n + m rows) makes of the derivatives of s_q and the parameter
   /// adjoints.
   void differentiate_transposed(const State& state, const Eigen::VectorXd& eta,

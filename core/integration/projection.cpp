@@ -130,13 +130,17 @@ void Projection::linearize(const State& drifted) {
 //     Φ_q(q*) T(δ) s_δ    = −Φ_q(q*) T(δ) s⁻ − Φ_x(q*),          s_q* = T(δ) (s⁻ + s_δ)
 //     M s_ε + Φ_q(q*)ᵀ s_ν = −(M ε + Φ_qᵀ ν)_q s_q* − (M ε + Φ_qᵀ ν)_x
 //     Φ_q(q*) s_ε          = −Φ_q(q*) s_v − Φ̇_q s_q* − Φ̇_x,      s_v* = s_v + s_ε
-void Projection::differentiate(Eigen::MatrixXd& q, Eigen::MatrixXd& v) {
+void Projection::differentiate(Eigen::MatrixXd& q, Eigen::MatrixXd& v, DerivativesOf of) {
   const int n = system_.coordinates(), m = system_.multipliers();
   const Rotations& rotations = mechanism_.rotations;
   Eigen::MatrixXd rhs;
-  system_.design_derivative(projected_, ConstraintLevel::position, rhs);
-  rhs.topRows(n) =
-      (position_forces_q_.leftCols(n) * q + position_forces_.design_derivative()).topRows(n);
+  const bool is_of_design = of == DerivativesOf::design;
+  rhs.setZero(n + m, q.cols());
+  if (is_of_design) {
+    system_.design_derivative(projected_, ConstraintLevel::position, rhs);
+    rhs.topRows(n) = position_forces_.design_derivative().topRows(n);
+  }
+  rhs.topRows(n) += (position_forces_q_.leftCols(n) * q).topRows(n);
   pleuel::pull_back(rotations, delta_.move, q);
   rhs.bottomRows(m) += (position_rows_.leftCols(n) * q).bottomRows(m);
   rhs *= -1.0;
@@ -144,9 +148,12 @@ void Projection::differentiate(Eigen::MatrixXd& q, Eigen::MatrixXd& v) {
   q += rhs.topRows(n);
   push_forward(rotations, delta_.move, q);
 
-  system_.design_derivative(projected_, ConstraintLevel::velocity, rhs);
-  rhs.topRows(n) =
-      (velocity_forces_q_.leftCols(n) * q + velocity_forces_.design_derivative()).topRows(n);
+  rhs.setZero();
+  if (is_of_design) {
+    system_.design_derivative(projected_, ConstraintLevel::velocity, rhs);
+    rhs.topRows(n) = velocity_forces_.design_derivative().topRows(n);
+  }
+  rhs.topRows(n) += (velocity_forces_q_.leftCols(n) * q).topRows(n);
   rhs.bottomRows(m) += (velocity_rows_.leftCols(n) * v + rate_rows_.leftCols(n) * q).bottomRows(m);
   rhs *= -1.0;
   velocity_solver_.solve(rhs);

@@ -4,6 +4,7 @@
 
 #include "core/integration/linear_solver.hpp"
 #include "core/integration/mechanism.hpp"
+#include "core/integration/state_sensitivity.hpp"
 #include "core/system/linear_forces.hpp"
 
 namespace pleuel {
@@ -30,8 +31,9 @@ class Projection {
 
   /// @throws SimulationError if the constraints are dependent there
   void linearize(const State& drifted);
-  /// Derivatives before to those after the projection, n × variables.
-  void differentiate(Eigen::MatrixXd& q, Eigen::MatrixXd& v);
+  /// Derivatives before to those after the projection, n × columns.
+  void differentiate(Eigen::MatrixXd& q, Eigen::MatrixXd& v,
+                     DerivativesOf of = DerivativesOf::design);
   /// The transposed of it: derivatives of functions with respect to q* and v* to those with respect
   /// to q and v (n × functions), and the parameter adjoints (System::add_parameter_adjoints).
   void differentiate_transposed(Columns q, Columns v, Columns sums);

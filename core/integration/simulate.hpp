@@ -11,7 +11,8 @@ namespace pleuel {
 /// with the exact tangent of the beginning of the step (renewed where it converges slowly). A step
 /// in which it fails is halved, up to six times. Nothing is allocated in the time loop but by the
 /// observer, and for instants that are more than the regular ones. With a projection each step of
-/// index 1 ends with it (projection.hpp).
+/// index 1 ends with it (projection.hpp). With a period, it starts from the motion that repeats
+/// itself (periodic_simulation.hpp).
 /// @throws InputError if the memory does not even hold enough checkpoints of equal steps
 /// @throws SimulationError saying time, step, iteration, equation and what to try; or that the
 ///         local error is too large with the smallest step

@@ -156,14 +156,16 @@ void StepEquations::combine_tangents() {
 
 void StepEquations::differentiate(const StepState& state, const Eigen::MatrixXd& v,
                                   const Eigen::MatrixXd& a, const Eigen::MatrixXd& old_q,
-                                  Eigen::MatrixXd& rhs) {
+                                  Eigen::MatrixXd& rhs, DerivativesOf of) {
   const int n = system_.coordinates(), m = system_.multipliers();
-  Eigen::MatrixXd& columns = formulated_.design_derivative(state);
+  if (of == DerivativesOf::old_state) columns_.setZero(n + m, v.cols());
+  Eigen::MatrixXd& columns =
+      of == DerivativesOf::design ? formulated_.design_derivative(state) : columns_;
   add_products(matrices_[1], v, matrices_[2], a, columns);
-  rhs.resize(size(), system_.variables());
+  rhs.resize(size(), v.cols());
   rhs.topRows(n) = -dynamic_scale_ * columns.topRows(n);
   rhs.middleRows(n, m) = -constraint_scale_ * columns.bottomRows(m);
-  if (shift_) shift_->differentiate(state, state.eta, old_q, rhs.bottomRows(n + m));
+  if (shift_) shift_->differentiate(state, state.eta, old_q, of, rhs.bottomRows(n + m));
 }
 
 void StepEquations::differentiate_transposed(const StepState& state, const ConstColumns& y,

@@ -7,6 +7,7 @@
 #include "core/integration/position_shift.hpp"
 #include "core/integration/recorded_state.hpp"
 #include "core/integration/scheme.hpp"
+#include "core/integration/state_sensitivity.hpp"
 
 namespace pleuel {
 
@@ -56,11 +57,12 @@ class StepEquations {
 
   /// The matrix, and the tangents from which the other two make their products.
   void linearize_sensitivities(const StepState& state, System::Matrix& matrix);
-  /// rhs, size() × variables.
-  /// @param v, a   predicted parts of the sensitivities of v and a, n × variables
+  /// rhs, size() × columns: one a design variable, or any number.
+  /// @param v, a   predicted parts of the sensitivities of v and a, n × columns
   /// @param old_q  sensitivity of the old state's q
   void differentiate(const StepState& state, const Eigen::MatrixXd& v, const Eigen::MatrixXd& a,
-                     const Eigen::MatrixXd& old_q, Eigen::MatrixXd& rhs);
+                     const Eigen::MatrixXd& old_q, Eigen::MatrixXd& rhs,
+                     DerivativesOf of = DerivativesOf::design);
   /// The transposed of differentiate(): adds what the derivatives y of functions with respect to
   /// rhs (size() × functions) make of those with respect to v, a and old_q (n × functions), and the
   /// parameter adjoints (System::add_parameter_adjoints).
@@ -83,8 +85,8 @@ class StepEquations {
   State old_;
   Eigen::ArrayXd scales_;  ///< of the entries in coordinate columns
   std::vector<System::Matrix> matrices_;
-  System::Matrix turned_;  ///< scratch
-  Eigen::MatrixXd mu_;     ///< scratch
+  System::Matrix turned_;         ///< scratch
+  Eigen::MatrixXd columns_, mu_;  ///< scratch
 };
 
 }  // namespace pleuel

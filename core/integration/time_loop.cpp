@@ -20,7 +20,8 @@ constexpr int curvature_interval = 16;
 
 }  // namespace
 
-TimeLoop::TimeLoop(Mechanism& mechanism, const SimulationOptions& options, InstantObserver observer)
+TimeLoop::TimeLoop(Mechanism& mechanism, const SimulationOptions& options, InstantObserver observer,
+                   const SchemeState* start)
     : mechanism_(mechanism),
       system_(*mechanism.system),
       options_(options),
@@ -29,13 +30,21 @@ TimeLoop::TimeLoop(Mechanism& mechanism, const SimulationOptions& options, Insta
       grid_(options.instants.empty() ? regular_instants(options) : options.instants),
       scheme_(make_scheme(options.scheme, regular_step(), options.spectral_radius)),
       equations_(mechanism, scheme_, options.formulation),
-      state_(equations_.make_state(initial_state(mechanism).state)),
+      state_(make_start(start)),
       old_(state_),
       predictor_(equations_),
       corrector_(mechanism, equations_, options),
       control_(mechanism, options),
+      is_continued_(start != nullptr),
       drift_(system_.size()) {
   if (options.formulation.is_projected) projection_.emplace(mechanism);
+}
+
+StepState TimeLoop::make_start(const SchemeState* start) const {
+  if (!start) return equations_.make_state(initial_state(mechanism_).state);
+  StepState state = equations_.make_state(*start);
+  state.w = start->w;
+  return state;
 }
 
 void TimeLoop::start(Eigen::Index capacity) {
@@ -44,6 +53,7 @@ void TimeLoop::start(Eigen::Index capacity) {
   trajectory_.spectral_radius = options_.spectral_radius;
   trajectory_.formulation = options_.formulation;
   trajectory_.has_constraints = system_.multipliers() > 0;
+  if (is_continued_) trajectory_.step_before = grid_.back() - grid_[grid_.size() - 2];
   trajectory_.time.resize(steps_ + 1);
   window_ = StateWindow(state_, capacity);
   start_ = state_;
@@ -65,6 +75,7 @@ void TimeLoop::advance(int unit) {
 Trajectory TimeLoop::end() {
   observer_ = {};
   trajectory_.time.conservativeResize(stored_);
+  trajectory_.end_w = state_.w;
   trajectory_.newton_iterations = corrector_.iterations();
   trajectory_.factorizations = corrector_.factorizations();
   trajectory_.worst_condition = corrector_.worst_condition();
@@ -151,7 +162,7 @@ void TimeLoop::advance_to(double time, int splits) {
 std::optional<StepFailure> TimeLoop::make_step(double time, NewtonCorrector::Trust trust) {
   use_step(time);
   old_ = state_;
-  if (stored_ == 1) correct_start();
+  if (stored_ == 1 && !is_continued_) correct_start();
   equations_.begin(old_);
   predictor_.predict(old_, time, scheme_, equations_, state_);
   if (step_ <= 2 || step_ % curvature_interval == 1) trust = NewtonCorrector::Trust::none;

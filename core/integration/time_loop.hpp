@@ -9,6 +9,7 @@
 #include "core/integration/pivot_record.hpp"
 #include "core/integration/predictor.hpp"
 #include "core/integration/projection.hpp"
+#include "core/integration/scheme_state.hpp"
 #include "core/integration/simulation_options.hpp"
 #include "core/integration/state_window.hpp"
 #include "core/integration/step_messages.hpp"
@@ -19,7 +20,10 @@ namespace pleuel {
 /// A simulation that can be stopped after each regular step, and taken up again at a checkpoint.
 class TimeLoop {
  public:
-  TimeLoop(Mechanism& mechanism, const SimulationOptions& options, InstantObserver observer);
+  /// @param start  what to set out from instead of consistent initial values, as if a step had led
+  ///               there: the end of a period that repeats itself; null: none
+  TimeLoop(Mechanism& mechanism, const SimulationOptions& options, InstantObserver observer,
+           const SchemeState* start = nullptr);
 
   /// Regular steps, or instants to be repeated: what the loop can be stopped after.
   int units() const { return static_cast<int>(grid_.size()) - 1; }
@@ -72,6 +76,8 @@ class TimeLoop {
   /// So that the first step makes no more of the initial values than it can resolve, and
   /// multipliers have their order from it on.
   void correct_start();
+  /// What the steps set out from.
+  StepState make_start(const SchemeState* start) const;
   /// Takes the step that was made into the trajectory.
   void accept();
   void store();
@@ -100,6 +106,7 @@ class TimeLoop {
   State start_;                              ///< consistent initial values
   std::optional<DampedStart> damped_start_;  ///< for a first step of this size:
   double damped_start_step_ = 0.0;           ///< [s]
+  bool is_continued_;                        ///< starts as if a step had led there
   int step_ = 0;                             ///< regular step at work
   Eigen::Index stored_ = 0;                  ///< instants of the trajectory
   Trajectory trajectory_;                    ///< all but the states

@@ -35,7 +35,8 @@ double Trajectory::step_size(int step) const {
 
 Scheme Trajectory::scheme_of(int step) const {
   const double h = step_size(step);
-  const bool is_as_before = step == 1 || std::abs(h - step_size(step - 1)) <= small_change * h;
+  const double before = step > 1 ? step_size(step - 1) : step_before;
+  const bool is_as_before = before == 0.0 || std::abs(h - before) <= small_change * h;
   return is_as_before ? make_scheme(scheme_type, h, spectral_radius)
                       : make_restarting_scheme(scheme_type, h, spectral_radius);
 }

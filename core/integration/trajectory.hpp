@@ -42,6 +42,8 @@ class RecomputedStates : public StateSource {
   virtual int recomputed_steps() const = 0;
 };
 
+struct PeriodicStart;  // core/integration/periodic_start.hpp
+
 /// All steps of a simulation. Steps are equal, but for breaks, for those that had to be split and
 /// those that were made smaller by the control of the local error.
 struct Trajectory {
@@ -54,6 +56,11 @@ struct Trajectory {
   SchemeType scheme_type = SchemeType::generalized_alpha;
   double spectral_radius = 0.8;
   Formulation formulation = {};
+  /// Size of the step that would lead to the start, of a motion that repeats itself; 0: none [s].
+  double step_before = 0.0;
+  Eigen::VectorXd end_w;  ///< algorithmic acceleration of the scheme at the last instant (n)
+  /// How a motion that repeats itself was found; null: it starts as given.
+  std::shared_ptr<const PeriodicStart> periodic;
   int split_steps = 0;     ///< that Newton's method could not do: halved, which adds an instant
   int rejected_steps = 0;  ///< whose local error was too large: made again by halves
   double worst_condition = 0.0;  ///< of a step matrix, scaled: see LinearSolver

@@ -178,6 +178,8 @@ class ModelBuilder {
       }
       if (body.frame.rotation == RotationCoordinates::rotation_vector) {
         model_.mechanism.rotations.push_back(body.frame.offset + body.frame.translations());
+      } else if (body.frame.rotation == RotationCoordinates::angle) {
+        model_.mechanism.angles.push_back(body.frame.offset + body.frame.translations());
       }
       has_damping = has_damping || !body.invariants.damping.isZero(0.0);
     }

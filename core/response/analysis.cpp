@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/machine_memory.hpp"
+#include "core/integration/initial_state.hpp"
 #include "core/response/expression_value.hpp"
 #include "core/response/make_responses.hpp"
 #include "core/response/mechanism_modes.hpp"
@@ -36,7 +37,8 @@ void set_full_mechanism(const ProblemFile& problem, const Design<double>& start,
   }
 }
 
-/// The whole mechanism's frequencies at the initial state.
+/// The whole mechanism's frequencies at the initial state; where that is one of a motion that
+/// repeats itself, at the state as the file places it.
 void set_mechanism_frequencies(Analysis& analysis) {
   Eigen::VectorXd& frequencies = analysis.mechanism_frequencies;
   for (const Response& response : analysis.responses) {
@@ -44,6 +46,9 @@ void set_mechanism_frequencies(Analysis& analysis) {
     if (frequencies.size() == 0 && analysis.full) {
       frequencies =
           mechanism_frequencies(analysis.full->model.mechanism, analysis.full->initial->state);
+    } else if (frequencies.size() == 0 && analysis.trajectory.periodic) {
+      Mechanism& mechanism = analysis.model.mechanism;
+      frequencies = mechanism_frequencies(mechanism, initial_state(mechanism).state);
     } else if (frequencies.size() == 0) {
       State initial;
       analysis.trajectory.states->load(0, initial);

@@ -67,6 +67,8 @@ class InitialMotion {
 }  // namespace
 
 std::vector<Doubt> doubt_initial_motion(const TrustedRun& run) {
+  // A motion that repeats itself is not told how it begins.
+  if (run.analysis.trajectory.periodic) return {};
   return InitialMotion(run).find();
 }
 

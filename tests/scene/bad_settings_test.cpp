@@ -21,7 +21,21 @@ INSTANTIATE_TEST_SUITE_P(
                 R"(/effects/tolerance must be a number, got "1 %")"},
         BadEdit{
             "/simulation/initial_state", R"("static")",
-            R"(/simulation/initial_state must be "consistent" or "quasi-static", got "static")"}));
+            R"(/simulation/initial_state must be "consistent", "quasi-static" or "periodic", got "static")"},
+        BadEdit{
+            "/simulation/initial_state", R"({"type": "steady"})",
+            R"(/simulation/initial_state/type must be "consistent", "quasi-static" or "periodic", got "steady")"},
+        BadEdit{
+            "/simulation/initial_state", R"({"type": "periodic", "turns": 2})",
+            R"(/simulation/initial_state has the unknown key "turns"; known are "type" and "period")"},
+        BadEdit{"/simulation/initial_state", R"({"type": "quasi-static", "period": "0.1 s"})",
+                R"(/simulation/initial_state/period is for the initial state "periodic" only)"},
+        BadEdit{"/simulation/initial_state", R"({"type": "periodic", "period": "0.04 s"})",
+                "/simulation/initial_state/period must fit into /simulation/end_time a whole "
+                "number of times, and does so 2.5 times, got \"0.04 s\""},
+        BadEdit{
+            "/simulation/initial_state", R"({"type": "periodic", "period": "0.1 kg"})",
+            R"(/simulation/initial_state/period must be a time [s], got "0.1 kg": "kg" measures something else)"}));
 
 }  // namespace
 }  // namespace pleuel::test

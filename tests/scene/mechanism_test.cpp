@@ -242,6 +242,30 @@ TEST_F(Mechanism, HasEffectsAndInitialState) {
   EXPECT_FALSE(read(good_json()).simulation.quasi_static_start);
 }
 
+TEST_F(Mechanism, RepeatsItselfAfterAPeriodOrTheWholeTime) {
+  const auto period_of = [](const char* state) {
+    Json document = good_mechanism();
+    document["simulation"]["initial_state"] = Json::parse(state);
+    return read(document).simulation.period;
+  };
+  EXPECT_EQ(period_of(R"("consistent")"), 0.0);
+  EXPECT_EQ(period_of(R"("periodic")"), 0.1);
+  EXPECT_EQ(period_of(R"({"type": "periodic"})"), 0.1);
+  EXPECT_EQ(period_of(R"({"type": "periodic", "period": "25 ms"})"), 0.025);
+}
+
+TEST_F(Mechanism, RepeatsItselfOnlyWithoutDriftAndWithEqualSteps) {
+  Json document = good_mechanism();
+  Json& simulation = document["simulation"];
+  simulation["initial_state"] = "periodic";
+  simulation["formulation"] = "index-1";
+  EXPECT_THAT(complaint(document), testing::HasSubstr("drift apart"));
+  simulation["projection"] = true;
+  EXPECT_EQ(complaint(document), "");
+  simulation["local_error"] = 1e-3;
+  EXPECT_THAT(complaint(document), testing::HasSubstr("leave out \"local_error\""));
+}
+
 TEST_F(Mechanism, HasEveryBoundNumberVisited) {
   std::set<int> variables;
   visit_numbers(problem_.scene, [&variables](const Number& number, const Quantity&) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/machine_memory.hpp"
+#include "core/scene/reading/initial_state_reader.hpp"
 #include "core/scene/reading/limits.hpp"
 #include "core/scene/reading/sample.hpp"
 #include "core/scene/sample_extent.hpp"
@@ -164,10 +165,7 @@ SimulationSettings read_simulation(const JsonNode& node, const NumberReader& num
   if (const auto most = node.find("max_newton_iterations")) {
     settings.max_newton_iterations = most->whole_number(1, most_iterations);
   }
-  if (const auto state = node.find("initial_state")) {
-    settings.quasi_static_start =
-        read_choice<bool>(*state, {{"consistent", false}, {"quasi-static", true}});
-  }
+  if (const auto state = node.find("initial_state")) read_initial_state(*state, numbers, settings);
   if (const auto check = node.find("resolution_check")) settings.checks_resolution = check->truth();
   return settings;
 }

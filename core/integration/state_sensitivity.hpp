@@ -4,7 +4,10 @@
 
 namespace pleuel {
 
-/// Derivatives of one instant with respect to the design variables (one column each).
+/// With respect to what: the design variables, or anything that acts through the state before only.
+enum class DerivativesOf { design, old_state };
+
+/// Derivatives of one instant (one column for each variable).
 struct StateSensitivity {
   Eigen::MatrixXd q, v, a;  ///< n × variables
   Eigen::MatrixXd w;        ///< of the scheme's algorithmic acceleration, n × variables

@@ -1,0 +1,126 @@
+#include "core/integration/period_map.hpp"
+
+#include <cmath>
+
+#include "core/integration/configuration.hpp"
+#include "core/integration/step_differentiation.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Rows of the history that depend on others up to this.
+constexpr double dependent_rows = 1e-12;
+/// Squarings of the map, for the spectral radius.
+constexpr int squarings = 14;
+
+/// An orthonormal basis of the rows of the history, for states without units.
+Eigen::MatrixXd row_basis(const Scheme& scheme) {
+  const double h = scheme.step;
+  const Eigen::Vector4d power(1.0, h, h * h, h * h);
+  const Eigen::Matrix4d history =
+      power.asDiagonal() * scheme.history * power.cwiseInverse().asDiagonal();
+  const SymmetricModes modes = symmetric_modes(history.transpose() * history);
+  Eigen::Index rank = 0;
+  while (rank < 4 && modes.values(3 - rank) > dependent_rows * modes.values(3)) ++rank;
+  return modes.vectors.rightCols(rank);
+}
+
+Eigen::VectorXd first_increment(const Mechanism& mechanism, const Trajectory& trajectory) {
+  State start, end;
+  trajectory.states->load(0, start);
+  trajectory.states->load(1, end);
+  return difference(mechanism.rotations, end.q, start.q);
+}
+
+Eigen::MatrixXd one_minus(const Eigen::MatrixXd& matrix) {
+  return Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()) - matrix;
+}
+
+}  // namespace
+
+PeriodMap::PeriodMap(Mechanism& mechanism, const Trajectory& trajectory, int steps)
+    : n_(mechanism.system->coordinates()),
+      rotations_(mechanism.rotations),
+      states_(mechanism, trajectory.step_size(1)),
+      increment_(first_increment(mechanism, trajectory)),
+      basis_(row_basis(trajectory.scheme_of(1))),
+      map_(differentiate(mechanism, trajectory, steps)),
+      reduced_(project(map_)),
+      rest_(one_minus(reduced_)) {}
+
+Eigen::MatrixXd PeriodMap::differentiate(Mechanism& mechanism, const Trajectory& trajectory,
+                                         int steps) {
+  const Eigen::Index columns = basis_.cols() * n_;
+  StepDifferentiation motion(mechanism, trajectory, DerivativesOf::old_state);
+  motion.begin(states_.unstack(unproject(Eigen::MatrixXd::Identity(columns, columns))));
+  while (motion.step() < steps) motion.advance();
+  return states_.stack(motion.sensitivity());
+}
+
+Eigen::MatrixXd PeriodMap::project(Eigen::MatrixXd columns) const {
+  Eigen::MatrixXd q = columns.topRows(n_);
+  pull_back(rotations_, increment_, q);
+  columns.topRows(n_) = q;
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(basis_.cols() * n_, columns.cols());
+  for (Eigen::Index k = 0; k < basis_.cols(); ++k) {
+    for (Eigen::Index i = 0; i < 4; ++i) {
+      result.middleRows(k * n_, n_) += basis_(i, k) * columns.middleRows(i * n_, n_);
+    }
+  }
+  return result;
+}
+
+Eigen::MatrixXd PeriodMap::combine(const Eigen::MatrixXd& reduced) const {
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(4 * n_, reduced.cols());
+  for (Eigen::Index k = 0; k < basis_.cols(); ++k) {
+    for (Eigen::Index i = 0; i < 4; ++i) {
+      columns.middleRows(i * n_, n_) += basis_(i, k) * reduced.middleRows(k * n_, n_);
+    }
+  }
+  return columns;
+}
+
+Eigen::MatrixXd PeriodMap::unproject(const Eigen::MatrixXd& reduced) const {
+  Eigen::MatrixXd columns = combine(reduced);
+  push_forward_transposed(rotations_, increment_, columns.topRows(n_));
+  return columns;
+}
+
+Eigen::MatrixXd PeriodMap::solve(const Eigen::MatrixXd& columns) const {
+  return columns + map_ * rest_.solve(project(columns));
+}
+
+Eigen::MatrixXd PeriodMap::solve_transposed(const Eigen::MatrixXd& columns) const {
+  // What project() does, transposed.
+  Eigen::MatrixXd back = combine(rest_.solve_transposed(map_.transpose() * columns));
+  pull_back_transposed(rotations_, increment_, back.topRows(n_));
+  return columns + back;
+}
+
+double PeriodMap::growth() const {
+  Eigen::MatrixXd power = reduced_;
+  double logarithm = 0.0;  // of what the power was divided by
+  for (int i = 0;; ++i) {
+    const double norm = power.norm();
+    if (norm == 0.0) return 0.0;
+    power /= norm;
+    logarithm += std::log(norm);
+    if (i == squarings) return std::exp(std::ldexp(logarithm, -squarings));
+    power = (power * power).eval();
+    logarithm *= 2.0;
+  }
+}
+
+Eigen::Index PeriodMap::freest_coordinate() const {
+  Eigen::MatrixXd z = Eigen::VectorXd::Ones(reduced_.rows());
+  for (int i = 0; i < 3; ++i) {  // inverse iteration
+    z = rest_.solve(z);
+    z /= z.norm();
+  }
+  Eigen::Index freest = 0;
+  (map_ * z).topRows(n_).col(0).cwiseAbs().maxCoeff(&freest);
+  return freest;
+}
+
+}  // namespace pleuel

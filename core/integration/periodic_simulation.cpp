@@ -1,0 +1,230 @@
+#include "core/integration/periodic_simulation.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "core/integration/period_map.hpp"
+#include "core/integration/periodic_start.hpp"
+#include "core/integration/plain_simulation.hpp"
+#include "core/integration/repetition.hpp"
+#include "core/integration/stacked_states.hpp"
+#include "core/integration/step_messages.hpp"
+
+namespace pleuel {
+
+namespace {
+
+constexpr int most_simulations = 60;
+/// The map is made anew where the gap shrinks by less than this.
+constexpr double slow_search = 0.1;
+/// A correction is halved so often at most.
+constexpr int most_halvings = 6;
+/// Gaps below this that no longer shrink are round-off.
+constexpr double gap_of_round_off = 1e-9, no_progress = 0.5;
+/// Below it, 1 − M is singular.
+constexpr double least_condition = 1e-13;
+/// Growth of disturbances in a period that is more than round-off.
+constexpr double unstable = 1.001;
+
+/// One period of the simulation.
+SimulationOptions options_of_period(const SimulationOptions& options) {
+  SimulationOptions one = options;
+  one.end_time = options.period;
+  one.step = options.period / step_count(one);
+  for (double& time : one.breaks) time = std::fmod(time, options.period);  // of any period
+  const double end = options.period * (1.0 + 1e-9);
+  if (options.instants.empty()) {
+    one.instants = regular_instants(one);
+  } else {
+    std::erase_if(one.instants, [end](double time) { return time > end; });
+  }
+  return one;
+}
+
+/// All of it, with the steps of a period again and again.
+SimulationOptions options_of_all(const SimulationOptions& options, const SimulationOptions& one,
+                                 int periods) {
+  SimulationOptions all = options;
+  all.step = one.step;
+  if (!options.instants.empty()) return all;
+  all.instants = {0.0};
+  for (int period = 0; period < periods; ++period) {
+    for (std::size_t i = 1; i < one.instants.size(); ++i) {
+      const bool is_last = i + 1 == one.instants.size();
+      all.instants.push_back(is_last ? options.end_time * (period + 1) / periods
+                                     : period * options.period + one.instants[i]);
+    }
+  }
+  return all;
+}
+
+/// A period from some start.
+struct Attempt {
+  SchemeState start;
+  Trajectory trajectory;
+  Eigen::VectorXd change;  ///< from the start to the end
+  double gap = std::numeric_limits<double>::infinity();
+};
+
+class PeriodicSearch {
+ public:
+  PeriodicSearch(Mechanism& mechanism, const SimulationOptions& one)
+      : mechanism_(mechanism), one_(one), states_(mechanism, one.instants[1] - one.instants[0]) {}
+
+  Attempt run() {
+    Attempt attempt = first_attempt();
+    double rate = 1.0;
+    while (attempt.gap > one_.newton_tolerance) {
+      const bool is_fresh = rate > slow_search, is_small = attempt.gap <= gap_of_round_off;
+      if (is_fresh && !is_small) make_map(attempt.trajectory);
+      Attempt next = corrected(attempt, is_fresh && !is_small ? most_halvings : 0);
+      rate = next.gap / attempt.gap;
+      if (rate < 1.0) attempt = std::move(next);
+      if (rate > no_progress && is_small) break;
+      if ((rate >= 1.0 && is_fresh) || simulations_ > most_simulations) fail(attempt);
+    }
+    if (!map_) make_map(attempt.trajectory);
+    require_repetition(mechanism_, attempt.trajectory, one_.period);
+    return attempt;
+  }
+
+  PeriodicStart found(const Attempt& attempt) const {
+    const double growth = map_->growth();
+    if (growth > unstable) {
+      throw SimulationError(
+          fmt::format("the motion that repeats itself after {:.6g} s is unstable: disturbances "
+                      "grow by a factor of {:.4g} in each period, so that no machine would run so",
+                      one_.period, growth));
+    }
+    return {one_.period,  attempt.trajectory.steps(), map_,
+            simulations_, differentiations_,          attempt.gap,
+            growth};
+  }
+
+ private:
+  /// From where a period leads that begins as the file says: what it damps is gone.
+  Attempt first_attempt() {
+    ++simulations_;
+    const Trajectory transient = simulate_plainly(mechanism_, one_, {});
+    require_repetition(mechanism_, transient, one_.period);
+    return simulated(end_of(transient));
+  }
+
+  /// The state at the end, as one of the beginning.
+  SchemeState end_of(const Trajectory& trajectory) const {
+    State start;
+    SchemeState end;
+    trajectory.states->load(0, start);
+    trajectory.states->load(trajectory.steps(), end);
+    end.q -= whole_turns(mechanism_.angles, start.q, end.q);
+    end.w = trajectory.end_w;
+    end.time = 0.0;
+    return end;
+  }
+
+  Attempt simulated(SchemeState start) {
+    ++simulations_;
+    Attempt attempt{std::move(start), {}, {}};
+    attempt.trajectory = simulate_plainly(mechanism_, one_, {}, &attempt.start);
+    const SchemeState end = end_of(attempt.trajectory);
+    attempt.change = states_.change(attempt.start, end);
+    attempt.gap = attempt.change.lpNorm<Eigen::Infinity>();
+    set_multipliers(end.lambda, attempt);
+    return attempt;
+  }
+
+  /// Those of the start, which no step goes on from.
+  void set_multipliers(const Eigen::VectorXd& lambda, Attempt& attempt) {
+    attempt.start.lambda = lambda;
+    if (attempt.trajectory.recomputed()) return;
+    attempt.trajectory.columns().lambda.col(0) = lambda;
+  }
+
+  /// By Newton's method, with less than its correction where that leads away.
+  Attempt corrected(const Attempt& attempt, int halvings) {
+    if (!map_) make_map(attempt.trajectory);
+    const Eigen::VectorXd correction = map_->solve(attempt.change);
+    Attempt next;
+    for (int i = 0; i <= halvings; ++i) {
+      try {
+        next = simulated(states_.moved(attempt.start, std::ldexp(1.0, -i) * correction));
+      } catch (const SimulationError&) {
+        continue;  // too far away to be simulated
+      }
+      if (next.gap < attempt.gap) break;
+    }
+    return next;
+  }
+
+  void make_map(const Trajectory& trajectory) {
+    ++differentiations_;
+    map_ = std::make_shared<PeriodMap>(mechanism_, trajectory, trajectory.steps());
+    if (map_->reciprocal_condition() >= least_condition) return;
+    throw SimulationError(fmt::format(
+        "no motion that repeats itself after {:.6g} s can be found, as "
+        "/simulation/initial_state asks for: after a period nothing has brought back a motion{} "
+        "that was given a push. Where a motion is free, a spring, a damper or a motor has to hold "
+        "it to what repeats itself; without damping no motion forgets how it began",
+        one_.period, equation_text(map_->freest_coordinate(), mechanism_.equation_names)));
+  }
+
+  [[noreturn]] void fail(const Attempt& attempt) const {
+    Eigen::Index worst = 0;
+    attempt.change.cwiseAbs().maxCoeff(&worst);
+    throw SimulationError(fmt::format(
+        "no motion was found that repeats itself after {:.6g} s, as /simulation/initial_state "
+        "asks for: in {} simulated periods the closest ends off its start by {:.2g} of the scale "
+        "of a coordinate{}. Look whether the mechanism has a motion of this period at all; "
+        "otherwise try more damping, a smaller /simulation/step, or simulate the run-up",
+        one_.period, simulations_, attempt.gap,
+        equation_text(worst % mechanism_.system->coordinates(), mechanism_.equation_names)));
+  }
+
+  Mechanism& mechanism_;
+  const SimulationOptions& one_;
+  StackedStates states_;
+  std::shared_ptr<const PeriodMap> map_;
+  int simulations_ = 0, differentiations_ = 0;
+};
+
+void observe(const Trajectory& trajectory, const InstantObserver& observer) {
+  if (!observer) return;
+  State state;
+  for (int step = 0; step <= trajectory.steps(); ++step) {
+    trajectory.states->load(step, state);
+    observer(step, state);
+  }
+}
+
+/// Steps up to a time.
+int steps_until(const Trajectory& trajectory, double time) {
+  int steps = 0;
+  while (steps < trajectory.steps() && trajectory.time(steps) < time * (1.0 - 1e-9)) ++steps;
+  return steps;
+}
+
+}  // namespace
+
+Trajectory simulate_periodic(Mechanism& mechanism, const SimulationOptions& options,
+                             const InstantObserver& observer) {
+  const SimulationOptions one = options_of_period(options);
+  PeriodicSearch search(mechanism, one);
+  Attempt attempt = search.run();
+  PeriodicStart found = search.found(attempt);
+  const int periods = static_cast<int>(std::lround(options.end_time / options.period));
+  Trajectory& trajectory = attempt.trajectory;
+  if (periods > 1 || trajectory.recomputed()) {
+    trajectory = simulate_plainly(mechanism, options_of_all(options, one, periods), observer,
+                                  &attempt.start);
+  } else {
+    observe(trajectory, observer);
+  }
+  found.steps = steps_until(trajectory, options.period);
+  trajectory.periodic = std::make_shared<PeriodicStart>(std::move(found));
+  return std::move(trajectory);
+}
+
+}  // namespace pleuel

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "core/integration/mechanism.hpp"
+#include "core/integration/trajectory.hpp"
+
+namespace pleuel {
+
+/// Whether all that acts repeats itself with a period: each term is evaluated between the instants
+/// of a motion, and a period later at the same place,
+///     R(q, v, a, λ, t) = R(q + whole turns, v, a, λ, t + T)
+/// @param trajectory  of one period
+/// @throws SimulationError naming the term that does not
+void require_repetition(Mechanism& mechanism, const Trajectory& trajectory, double period);
+
+}  // namespace pleuel

@@ -1,0 +1,43 @@
+#include "sensitivity/periodic_correction.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+
+namespace pleuel {
+
+namespace {
+
+constexpr double left_at_the_end = 1e-13;
+/// What no longer shrinks is round-off below this.
+constexpr double left_of_round_off = 1e-8;
+constexpr int most_corrections = 30;
+
+double largest_share(const Eigen::MatrixXd& left, const Eigen::MatrixXd& whole) {
+  double largest = 0.0;
+  for (Eigen::Index j = 0; j < left.cols(); ++j) {
+    const double size = left.col(j).lpNorm<Eigen::Infinity>();
+    if (size > 0.0) largest = std::max(largest, size / whole.col(j).lpNorm<Eigen::Infinity>());
+  }
+  return largest;
+}
+
+}  // namespace
+
+bool PeriodicCorrection::is_done(const Eigen::MatrixXd& left, const Eigen::MatrixXd& whole) {
+  const double share = largest_share(left, whole);
+  if (share <= left_at_the_end) return true;
+  const bool shrinks = count_++ == 0 || share < 0.5 * before_;
+  before_ = share;
+  if (shrinks && count_ < most_corrections) return false;
+  if (share <= left_of_round_off) return true;
+  throw SimulationError(
+      fmt::format("the derivatives of the motion that repeats itself do not converge: {:.1e} of "
+                  "them is left after {} periods. Try a smaller /simulation/newton_tolerance, or "
+                  "/sensitivity/method \"central-difference\"",
+                  share, count_));
+}
+
+}  // namespace pleuel

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace pleuel {
+
+/// When the repeated solution with 1 − M (periodic_sensitivity.hpp) ends: where what is left is
+/// round-off, relative to the whole, in each column.
+class PeriodicCorrection {
+ public:
+  /// @throws SimulationError if it no longer shrinks, and is more than round-off
+  bool is_done(const Eigen::MatrixXd& left, const Eigen::MatrixXd& whole);
+
+ private:
+  double before_ = 0.0;
+  int count_ = 0;
+};
+
+}  // namespace pleuel

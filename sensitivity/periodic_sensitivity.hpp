@@ -1,0 +1,18 @@
+#pragma once
+
+#include "core/integration/mechanism.hpp"
+#include "core/integration/state_sensitivity.hpp"
+#include "core/integration/trajectory.hpp"
+
+namespace pleuel {
+
+/// Derivatives of the start of a motion that repeats itself, by the implicit function theorem: with
+/// Y(y₀, x) the end of the period that begins with y₀, and M = ∂Y/∂y₀,
+///     Y(y₀(x), x) = y₀(x)   ⇒   dy₀/dx = (1 − M)⁻¹ ∂Y/∂x
+/// The map that found the motion solves with 1 − M, but is one of a motion close by: what is left,
+/// the difference between the end and the start of a differentiated period, is solved for again
+/// until it is round-off.
+/// @throws SimulationError if it does not become so
+StateSensitivity periodic_sensitivity(Mechanism& mechanism, const Trajectory& trajectory);
+
+}  // namespace pleuel

@@ -1,0 +1,299 @@
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <Eigen/LU>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/error.hpp"
+#include "core/integration/periodic_start.hpp"
+#include "core/response/analysis.hpp"
+#include "sensitivity/gradients.hpp"
+#include "tests/support/problem_runs.hpp"
+
+namespace pleuel::test {
+namespace {
+
+/// Runs steadily at 50 rad/s, 500 steps a turn, with much damping in the members.
+ProblemFile slider_crank(std::vector<std::string> overrides = {}) {
+  for (const char* body : {"crank", "rod"}) {
+    overrides.push_back(std::string("/scene/bodies/") + body + "/damping/stiffness=2e-4 s");
+  }
+  overrides.insert(
+      overrides.begin(),
+      {R"(/scene/joints/bearing/drive={"type": "constant-speed", "speed": "50 rad/s"})",
+       "/simulation/end_time=0.12566370614359174", "/simulation/step=2.5132741228718346e-4 s",
+       "/simulation/initial_state=periodic", "/scene/bodies/crank/elements=2",
+       "/scene/bodies/rod/elements=4"});
+  return sample_problem("slider_crank", overrides);
+}
+
+ProblemFile four_bar(std::vector<std::string> overrides = {}) {
+  for (const char* body : {"crank", "coupler", "rocker"}) {
+    overrides.push_back(std::string("/scene/bodies/") + body + "/damping/stiffness=2e-4 s");
+  }
+  overrides.insert(
+      overrides.begin(),
+      {R"(/scene/joints/crank_bearing/drive={"type": "constant-speed", "speed": "50 rad/s"})",
+       "/simulation/end_time=0.12566370614359174", "/simulation/step=2.5132741228718346e-4 s",
+       "/simulation/initial_state=periodic"});
+  return sample_problem("four_bar", overrides);
+}
+
+/// Turned by a motor that is controlled towards 50 rad/s: the crank is free to turn, too.
+ProblemFile motor() {
+  return four_bar(
+      {R"(/scene/joints/crank_bearing={"type": "revolute", "bodies": ["ground", "crank"],
+          "at": [0, 0, 0]})",
+       R"(/scene/loads/motor={"type": "joint", "joint": "crank_bearing", "motor": {
+          "type": "control", "target": {"type": "constant-speed", "speed": "50 rad/s"},
+          "proportional": "100 N m/rad", "derivative": "2 N m s/rad"}})",
+       R"(/responses/torque_peak={"type": "motor-power", "load": "motor", "over_time": "max"})"});
+}
+
+/// In space, at 60 rad/s.
+ProblemFile spatial(std::vector<std::string> overrides = {}) {
+  for (const char* body : {"crank", "rod"}) {
+    overrides.push_back(std::string("/scene/bodies/") + body +
+                        "/damping={\"stiffness\": \"2e-4 s\"}");
+  }
+  overrides.insert(
+      overrides.begin(),
+      {R"(/scene/joints/bearing/drive={"type": "constant-speed", "speed": "60 rad/s"})",
+       "/simulation/end_time=0.10471975511965977", "/simulation/step=3.4906585039886593e-4 s",
+       "/simulation/initial_state=periodic"});
+  return sample_problem("spatial_slider_crank", overrides);
+}
+
+ProblemFile six_bar(const std::vector<std::string>& overrides = {}) {
+  return sample_problem("running_press", overrides);
+}
+
+ProblemFile with_run_up(ProblemFile problem, int turns) {
+  problem.simulation.period = 0.0;
+  problem.simulation.end_time *= turns;
+  return problem;
+}
+
+/// The largest difference of the histories from those of the last turn after a run-up, relative to
+/// the largest value of each.
+double difference_from_run_up(const ProblemFile& problem, int turns) {
+  const auto steady = analyze(problem, start_design(problem));
+  const ProblemFile longer = with_run_up(problem, turns);
+  const auto transient = analyze(longer, start_design(longer));
+  double largest = 0.0;
+  for (std::size_t i = 0; i < steady->responses.size(); ++i) {
+    const Eigen::MatrixXd& history = steady->histories[i];
+    if (history.size() == 0) continue;
+    const Eigen::MatrixXd last = transient->histories[i].rightCols(history.cols());
+    largest =
+        std::max(largest, (history - last).cwiseAbs().maxCoeff() / history.cwiseAbs().maxCoeff());
+  }
+  return largest;
+}
+
+/// By direct differentiation, the adjoint, and central differences of whole searches.
+void expect_equal_gradients(const ProblemFile& file) {
+  const Eigen::VectorXd x = start_design(file);
+  const auto analysis = analyze(file, x);
+  const Eigen::MatrixXd direct = gradients(file, x, *analysis, GradientMethod::direct),
+                        adjoint = gradients(file, x, *analysis, GradientMethod::adjoint),
+                        differences =
+                            gradients(file, x, *analysis, GradientMethod::central_difference,
+                                      {.difference_step = 1e-4});
+  for (Eigen::Index i = 0; i < direct.rows(); ++i) {
+    const double size = direct.row(i).lpNorm<Eigen::Infinity>();
+    EXPECT_LT((direct - adjoint).row(i).lpNorm<Eigen::Infinity>(), 1e-9 * size)
+        << file.responses[static_cast<std::size_t>(i)].name;
+    const double round_off = 1e-9 * std::abs(values_of(*analysis)(i));
+    EXPECT_LT((direct - differences).row(i).lpNorm<Eigen::Infinity>(), 1e-6 * size + round_off)
+        << file.responses[static_cast<std::size_t>(i)].name;
+  }
+}
+
+class SteadyMachine : public testing::TestWithParam<std::string> {
+ protected:
+  static ProblemFile problem(const std::vector<std::string>& overrides = {}) {
+    if (GetParam() == "slider_crank") return slider_crank(overrides);
+    if (GetParam() == "four_bar") return four_bar(overrides);
+    return six_bar(overrides);
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Mechanisms, SteadyMachine,
+                         testing::Values("slider_crank", "four_bar", "six_bar"),
+                         [](const auto& info) { return info.param; });
+
+TEST_P(SteadyMachine, RunsAsAfterFiftyTurns) {
+  EXPECT_LT(difference_from_run_up(problem(), 50), 1e-6);
+}
+
+TEST_P(SteadyMachine, IsFoundWithinLessPeriodsThanARunUpTakes) {
+  const ProblemFile file = problem();
+  const auto analysis = analyze(file, start_design(file));
+  const PeriodicStart& found = *analysis->trajectory.periodic;
+  EXPECT_LE(found.simulations, 8);
+  EXPECT_LE(found.differentiations, 2);
+  EXPECT_LE(found.gap, file.simulation.newton_tolerance);
+  EXPECT_LT(found.growth, 1.0);
+}
+
+TEST_P(SteadyMachine, EndsWhereItBegins) {
+  const ProblemFile file = problem();
+  const auto analysis = analyze(file, start_design(file));
+  for (const Eigen::MatrixXd& history : analysis->histories) {
+    if (history.size() == 0) continue;
+    const double size = history.cwiseAbs().maxCoeff();
+    EXPECT_LT((history.leftCols(1) - history.rightCols(1)).cwiseAbs().maxCoeff(), 1e-8 * size);
+  }
+}
+
+TEST_P(SteadyMachine, HasEqualGradientsByAllMethods) {
+  expect_equal_gradients(problem({"/simulation/newton_tolerance=1e-13"}));
+}
+
+TEST(SteadyMotor, RunsAsAfterFiftyTurns) {
+  const ProblemFile file = motor();
+  EXPECT_LT(difference_from_run_up(file, 50), 1e-6);
+}
+
+TEST(SteadyMotor, HasEqualGradientsByAllMethods) {
+  ProblemFile file = motor();
+  file.simulation.newton_tolerance = 1e-13;
+  expect_equal_gradients(file);
+}
+
+TEST(SteadyMotionInSpace, RunsAsAfterTwentyTurns) {
+  EXPECT_LT(difference_from_run_up(spatial(), 20), 1e-6);
+}
+
+TEST(SteadyMotionInSpace, HasEqualGradientsByAllMethods) {
+  expect_equal_gradients(spatial({"/simulation/newton_tolerance=1e-13"}));
+}
+
+/// What else a simulation may be asked for.
+class SteadySetting : public testing::TestWithParam<std::vector<std::string>> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    Settings, SteadySetting,
+    testing::Values(
+        std::vector<std::string>{"/simulation/formulation=stabilized-index-2"},
+        std::vector<std::string>{"/simulation/formulation=index-1", "/simulation/projection=true"},
+        std::vector<std::string>{"/simulation/formulation=index-1",
+                                 "/simulation/baumgarte=500 1/s"},
+        std::vector<std::string>{"/simulation/scheme=newmark"},
+        std::vector<std::string>{"/simulation/scheme=implicit-euler"},
+        std::vector<std::string>{"/simulation/spectral_radius=0"},
+        std::vector<std::string>{"/effects/spatial_motion=on"},
+        std::vector<std::string>{"/sensitivity/memory=0.1 MB"},
+        std::vector<std::string>{R"(/scene/bodies/rod/reduction={"modes": 2})"},
+        std::vector<std::string>{
+            "/simulation/end_time=0.2513274122871835",
+            R"(/simulation/initial_state={"type": "periodic", "period": 0.12566370614359174})"}));
+
+TEST_P(SteadySetting, RepeatsItselfWithEqualGradients) {
+  std::vector<std::string> overrides = {"/simulation/step=1 ms",
+                                        "/simulation/newton_tolerance=1e-13"};
+  overrides.insert(overrides.end(), GetParam().begin(), GetParam().end());
+  const ProblemFile file = slider_crank(overrides);
+  const Eigen::VectorXd x = start_design(file);
+  const auto analysis = analyze(file, x);
+  for (std::size_t i = 0; i < analysis->histories.size(); ++i) {
+    const Eigen::MatrixXd& history = analysis->histories[i];
+    if (history.size() == 0) continue;
+    EXPECT_LT((history.leftCols(1) - history.rightCols(1)).cwiseAbs().maxCoeff(),
+              1e-7 * history.cwiseAbs().maxCoeff())
+        << file.responses[i].name;
+  }
+  const Eigen::MatrixXd direct = gradients(file, x, *analysis, GradientMethod::direct),
+                        adjoint = gradients(file, x, *analysis, GradientMethod::adjoint);
+  // Round-off of the projection, which is as large from a consistent start (1.1e-8 of the stress).
+  const double tolerance = file.simulation.formulation.is_projected ? 1e-7 : 1e-8;
+  for (Eigen::Index i = 0; i < direct.rows(); ++i) {
+    EXPECT_LT((direct - adjoint).row(i).lpNorm<Eigen::Infinity>(),
+              tolerance * direct.row(i).lpNorm<Eigen::Infinity>())
+        << file.responses[static_cast<std::size_t>(i)].name;
+  }
+}
+
+// A mass on a spring and a damper under a harmonic force, m = 2 kg, c = 8 N s/m, k = 800 N/m, F = 5
+// N at ω = 30 rad/s. The discrete steady motion is Re(q e^{iωt}) with (Z − H) y = c z for the scheme
+// y⁺ = H y + c z, Z = e^{iωh}, and m a + c v + k q = F.
+TEST(SteadyOscillator, IsThatOfTheDiscreteFrequencyResponse) {
+  constexpr double frequency = 30.0, m = 2.0, c = 8.0, k = 800.0, force = 5.0;
+  constexpr int steps = 40;
+  const double period = 2.0 * std::numbers::pi / frequency;
+  const ProblemFile file =
+      read_problem_text(fmt::format(R"({{"name": "oscillator", "scene": {{"gravity": [0, 0, 0],
+        "bodies": {{"mass": {{"type": "point-mass", "at": [0, 0, 0], "mass": {}}}}},
+        "joints": {{"guide": {{"type": "point-on-line", "bodies": ["ground", "mass"],
+                               "at": [0, 0, 0], "axis": [1, 0, 0]}}}},
+        "loads": {{"spring": {{"type": "joint", "joint": "guide", "stiffness": {}, "damping": {}}},
+          "push": {{"type": "force", "body": "mass", "at": [0, 0, 0], "direction": [1, 0, 0],
+            "value": {{"type": "harmonic", "amplitude": {}, "frequency": {}}}}}}}}},
+        "simulation": {{"end_time": {:.17g}, "step": {:.17g}, "initial_state": "periodic",
+                        "newton_tolerance": 1e-14}},
+        "responses": {{"x": {{"type": "position", "body": "mass", "direction": "x",
+                              "over_time": "max"}}}}}})",
+                                    m, k, c, force, frequency, period, period / steps),
+                        "oscillator.json");
+  const auto analysis = analyze(file, {});
+  const double h = period / steps;
+  const std::complex<double> turned = std::exp(std::complex<double>(0.0, frequency * h));
+  const Scheme scheme = generalized_alpha(h, file.simulation.spectral_radius);
+  const Eigen::Matrix4cd shift = turned * Eigen::Matrix4cd::Identity();
+  const Eigen::Vector4cd of_z = (shift - scheme.history.cast<std::complex<double>>()).inverse() *
+                                scheme.correction.cast<std::complex<double>>();
+  const std::complex<double> q = force * of_z(0) / (m * of_z(2) + c * of_z(1) + k * of_z(0));
+  for (int i = 0; i <= steps; ++i) {
+    const double expected = std::imag(q * std::pow(turned, i));  // of the sine
+    EXPECT_NEAR(analysis->histories[0](0, i), expected, 1e-10 * std::abs(q)) << i;
+  }
+}
+
+std::string failure_of(const ProblemFile& file) {
+  try {
+    analyze(file, start_design(file));
+  } catch (const SimulationError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(SteadyMachineErrors, NameADriveThatDoesNotRepeatItself) {
+  const std::string failure =
+      failure_of(four_bar({"/scene/joints/crank_bearing/drive/speed=49 rad/s"}));
+  EXPECT_THAT(failure, testing::HasSubstr("crank_bearing"));
+  EXPECT_THAT(failure, testing::HasSubstr("whole turns"));
+}
+
+TEST(SteadyMachineErrors, NameALoadThatDoesNotRepeatItself) {
+  const std::string failure = failure_of(
+      four_bar({R"(/scene/loads/push={"type": "force", "body": "rocker", "at": ["400 mm", 0, 0],
+          "direction": [1, 0, 0], "value": {"type": "harmonic", "amplitude": 1, "frequency": 60}})"}));
+  EXPECT_THAT(failure, testing::HasSubstr("push"));
+}
+
+TEST(SteadyMachineErrors, NameAMotionThatNothingBringsBack) {
+  const std::string failure = failure_of(read_problem_text(
+      R"({"name": "free", "scene": {"gravity": [0, 0, 0],
+        "bodies": {"cart": {"type": "point-mass", "at": [0, 0, 0], "mass": 1}},
+        "joints": {"guide": {"type": "point-on-line", "bodies": ["ground", "cart"],
+                             "at": [0, 0, 0], "axis": [1, 0, 0]}},
+        "loads": {"push": {"type": "force", "body": "cart", "at": [0, 0, 0],
+          "direction": [1, 0, 0],
+          "value": {"type": "harmonic", "amplitude": 1, "frequency": 62.83185307179586}}}},
+        "simulation": {"end_time": 0.1, "step": 1e-3, "initial_state": "periodic"},
+        "responses": {"x": {"type": "position", "body": "cart", "direction": "x",
+                            "over_time": "max"}}})",
+      "free.json"));
+  EXPECT_THAT(failure, testing::HasSubstr("\"cart\""));
+  EXPECT_THAT(failure, testing::HasSubstr("nothing has brought back"));
+}
+
+}  // namespace
+}  // namespace pleuel::test
