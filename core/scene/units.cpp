@@ -1,5 +1,6 @@
 #include "core/scene/units.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -239,6 +240,24 @@ double UnitSystem::read(const std::string& text, const Quantity& quantity) const
   return value;
 }
 
+namespace {
+
+/// "10,5 mm": written as in half of the world.
+void refuse_decimal_comma(const char* begin, const char* comma, const char* end) {
+  if (comma == end || *comma != ',' || comma + 1 == end || !is_digit(comma[1])) return;
+  const std::string whole(begin, comma), rest(comma + 1, end);
+  const auto behind = std::find_if_not(rest.begin(), rest.end(), is_digit);
+  if (behind - rest.begin() == 3 && whole != "0") {
+    throw UnitError(
+        fmt::format("numbers have a decimal point and nothing between thousands; write "
+                    "{0}.{1} or {0}{1}",
+                    whole, rest));
+  }
+  throw UnitError(fmt::format("numbers have a decimal point, no comma; write {}.{}", whole, rest));
+}
+
+}  // namespace
+
 WrittenQuantity split_quantity(const std::string& text) {
   const std::string trimmed = trim(text);
   const char* begin = trimmed.data();
@@ -252,6 +271,7 @@ WrittenQuantity split_quantity(const std::string& text) {
   if (status != std::errc() || !std::isfinite(written.value)) {
     throw UnitError("it does not begin with a number");
   }
+  refuse_decimal_comma(begin, rest, end);
   written.unit = trim(std::string_view(rest, static_cast<std::size_t>(end - rest)));
   return written;
 }

@@ -203,9 +203,12 @@ TEST_F(BadCatalogue, NameIsATextAndStandsAlone) {
 }
 
 TEST_F(BadCatalogue, FaultIsReportedInTheCatalogue) {
-  EXPECT_EQ(complaint_about("{"),
-            "sizes.json: line 1, column 1: syntax error while parsing object key - unexpected end "
-            "of input; expected string literal");
+  EXPECT_EQ(
+      complaint_about("{"),
+      "sizes.json: line 1, column 2: the text ends here, but the \"{\" of line 1 is not closed: "
+      "\"}\" is missing\n"
+      "  1 | {\n"
+      "    |  ^");
   EXPECT_EQ(complaint_about("[]"), "sizes.json: the catalogue must be an object {…}, got []");
   EXPECT_EQ(complaint_about("{}"), R"(sizes.json: the catalogue is missing the key "sections")");
   EXPECT_EQ(complaint_about(R"({"sections": {}, "units": "mm"})"),

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/scene/reading/syntax_error.hpp"
 
 namespace pleuel {
 namespace {
@@ -15,20 +16,16 @@ namespace {
 /// A remark of the author. Objects may have one, and nobody else sees it.
 constexpr const char* comment_key = "$comment";
 
-std::string line_and_column(const std::string& text, std::size_t position) {
-  const std::size_t end = std::min(position, text.size());
-  const std::size_t start_of_line = end == 0 ? 0 : text.rfind('\n', end - 1) + 1;
-  const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(end), '\n');
-  return fmt::format("line {}, column {}", line, std::max<std::size_t>(end - start_of_line, 1));
-}
-
-/// The library's sentence without its number and its own line and column.
+/// What the library says, in plain words where it is known.
 std::string plain_reason(const std::string& what) {
-  for (const char* start : {"syntax error", "number overflow"}) {
-    const std::size_t position = what.find(start);
-    if (position != std::string::npos) return what.substr(position);
+  if (what.find("UTF-8") != std::string::npos) {
+    return "a byte that is no UTF-8; save the file with that encoding";
   }
-  return what;
+  const std::size_t overflow = what.find("number overflow parsing ");
+  if (overflow != std::string::npos) {
+    return what.substr(overflow + 24) + " is a larger number than there is";
+  }
+  return "this is no JSON";
 }
 
 /// U+2028 … U+202E, U+2066 … U+2069 in UTF-8: separators of lines, and what turns the direction of
@@ -99,8 +96,8 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
 
   bool parse_error(std::size_t position, const std::string&,
                    const nlohmann::json::exception& error) override {
-    throw InputError(fmt::format("{}: {}: {}", file_, line_and_column(text_, position),
-                                 plain_reason(error.what())));
+    throw InputError(fmt::format(
+        "{}: {}", file_, describe_syntax_error(text_, position, plain_reason(error.what()))));
   }
 
  private:
