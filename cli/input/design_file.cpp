@@ -44,12 +44,11 @@ double read_value(const JsonNode& node, const DesignVariable& variable, const Un
   for (const SizeChoice& choice : variable.choices) {
     if (value.value().is_string() && value.text() == choice.text) return choice.value;
   }
-  const double x = read_number(node.value().is_object() ? node.find("unit") : std::nullopt, value,
-                               units, quantity);
+  const auto unit = node.value().is_object() ? node.find("unit") : std::nullopt;
+  const double x = read_number(unit, value, units, quantity);
   if (x < variable.lower || x > variable.upper) {
-    value.fail_with_value(fmt::format(
-        "must lie within the bounds of {:g} to {:g}{}", variable.lower, variable.upper,
-        quantity == quantities::pure_number ? "" : fmt::format(" [{}]", quantity.unit)));
+    value.fail_with_value("must lie within the bounds of " + bounds_text(variable, quantity),
+                          value.value().is_number() && !unit ? " in SI units" : "");
   }
   return x;
 }

@@ -4,6 +4,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 #include "core/base/find_named.hpp"
 #include "core/scene/response_quantity.hpp"
 #include "core/scene/units.hpp"
@@ -24,17 +26,32 @@ ShownUnit engineering_unit(std::string_view si) {
   return {std::string(si), std::string(si), 1.0};
 }
 
+namespace {
+
+ShownUnit unit_of(const DesignVariable& variable, const Quantity& quantity,
+                  const UnitSystem& system) {
+  const std::string& written = variable.unit;
+  return written.empty()
+             ? engineering_unit(quantity.unit)
+             : ShownUnit{std::string(quantity.unit), written, system.scale(written, quantity)};
+}
+
+}  // namespace
+
 std::vector<ShownUnit> variable_units(const ProblemFile& problem) {
   const UnitSystem system;
   std::vector<ShownUnit> units;
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     const Quantity quantity = variable_quantity(problem, static_cast<int>(i));
-    const std::string& written = problem.variables[i].unit;
-    units.push_back(written.empty() ? engineering_unit(quantity.unit)
-                                    : ShownUnit{std::string(quantity.unit), written,
-                                                system.scale(written, quantity)});
+    units.push_back(unit_of(problem.variables[i], quantity, system));
   }
   return units;
+}
+
+std::string bounds_text(const DesignVariable& variable, const Quantity& quantity) {
+  const ShownUnit unit = unit_of(variable, quantity, UnitSystem());
+  return fmt::format("{:g} to {:g}{}", unit.shown(variable.lower), unit.shown(variable.upper),
+                     unit.name == "1" ? "" : " " + unit.name);
 }
 
 ShownUnit unit_of(const ResponseSettings& response) {

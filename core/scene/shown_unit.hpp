@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/scene/problem_file.hpp"
+#include "core/scene/units.hpp"
 
 namespace pleuel {
 
@@ -23,6 +24,9 @@ ShownUnit engineering_unit(std::string_view si);
 /// Of all design variables: the unit that the user wrote, else the engineering unit. Reads the
 /// database of units: ask once, not in a loop.
 std::vector<ShownUnit> variable_units(const ProblemFile& problem);
+
+/// "4 to 60 mm": the bounds of a variable, in the unit that the user wrote.
+std::string bounds_text(const DesignVariable& variable, const Quantity& quantity);
 
 ShownUnit unit_of(const ResponseSettings& response);
 /// Of a response, or of the first variable of a linear constraint.

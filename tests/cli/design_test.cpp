@@ -135,8 +135,8 @@ TEST_F(WrongDesign, IsRefusedWithFileAndPlace) {
                    "/variables/crank_length/unit must be a length [m], got \"s\": \"s\" measures "
                    "something else");
   expect_complaint(R"({"variables": {"crank_length": {"value": 0.2}}})",
-                   "/variables/crank_length/value must lie within the bounds of 0.02 to 0.15 "
-                   "[m], got 0.2");
+                   "/variables/crank_length/value must lie within the bounds of 20 to 150 "
+                   "mm, got 0.2 in SI units");
 }
 
 TEST_F(FailedDesign, MayBeWrittenByHandInAnyUnit) {

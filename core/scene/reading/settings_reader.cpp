@@ -11,6 +11,7 @@
 #include "core/scene/reading/limits.hpp"
 #include "core/scene/reading/sample.hpp"
 #include "core/scene/sample_extent.hpp"
+#include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
 namespace {
@@ -215,10 +216,10 @@ std::vector<double> read_start(const JsonNode& node, const std::vector<DesignVar
   for (const DesignVariable& variable : variables) start.push_back(variable.start);
   for (const auto& [name, value] : node.members()) {
     const auto i = static_cast<std::size_t>(numbers.variable(value, name));
-    start[i] = numbers.fixed(value, *numbers.quantity_of(static_cast<int>(i)));
+    const Quantity quantity = *numbers.quantity_of(static_cast<int>(i));
+    start[i] = numbers.fixed(value, quantity);
     if (start[i] < variables[i].lower || start[i] > variables[i].upper) {
-      value.fail_with_value(fmt::format("must lie within the bounds of {:g} to {:g}",
-                                        variables[i].lower, variables[i].upper));
+      value.fail_with_value("must lie within the bounds of " + bounds_text(variables[i], quantity));
     }
   }
   return start;

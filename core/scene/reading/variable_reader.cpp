@@ -90,9 +90,13 @@ DesignVariable read_variable(const std::string& name, const JsonNode& node,
   variable.unit = written_unit({start, lower, upper});
   variable.quantity = quantity;
   if (const auto entries = node.find("entries")) read_entries(*entries, variable);
-  if (variable.lower > variable.upper) lower.fail_with_value("must not be above the upper bound");
-  if (variable.start < variable.lower) start.fail_with_value("must not be below the lower bound");
-  if (variable.start > variable.upper) start.fail_with_value("must not be above the upper bound");
+  const auto must_not = [](const JsonNode& number, const char* side, const JsonNode& bound) {
+    const std::string text = bound.value().is_string() ? bound.text() : bound.value().dump();
+    number.fail_with_value(fmt::format("must not be {} bound of {}", side, text));
+  };
+  if (variable.lower > variable.upper) must_not(lower, "above the upper", upper);
+  if (variable.start < variable.lower) must_not(start, "below the lower", lower);
+  if (variable.start > variable.upper) must_not(start, "above the upper", upper);
   return variable;
 }
 
