@@ -109,6 +109,12 @@ std::optional<std::string> find_counted_joint(const Load& load, const Design<dou
   return force->joint;
 }
 
+/// What its author calls it.
+const char* kind_of(const JointForce& force) {
+  if (force.motor || force.control) return "motor";
+  return force.resistance ? "resistance" : "spring";
+}
+
 bool is_in_space(const Model& model) {
   return std::any_of(model.bodies.begin(), model.bodies.end(), [](const BodyModel& body) {
     return body.frame.rotation == RotationCoordinates::rotation_vector;
@@ -128,13 +134,13 @@ std::vector<Doubt> doubt_joint_turns(const TrustedRun& run) {
     const Joint* joint = find_named(scene.joints, *name);
     const std::optional<double> time = jump_of(run, *joint);
     if (!time) continue;
-    const char* kind = std::holds_alternative<JointForce>(load.element) ? "spring" : "load";
+    const auto* in_joint = std::get_if<JointForce>(&load.element);
     doubts.push_back(
         {fmt::format("the joint \"{}\" turns by more than half a turn, at t = {:.4g} s; in space "
                      "the {} \"{}\" counts its angle from -180 to 180 deg, and {} "
                      "jumps there. Only motion in a plane counts whole turns.",
-                     joint->name, *time, kind, load.name,
-                     kind == std::string("spring") ? "its moment" : "it"),
+                     joint->name, *time, in_joint ? kind_of(*in_joint) : "load", load.name,
+                     in_joint ? "its moment" : "it"),
          true});
   }
   return doubts;
