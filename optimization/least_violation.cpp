@@ -173,12 +173,19 @@ class Elasticity {
 
   /// The value that a constraint has to have if all others hold.
   std::optional<double> value_alone(std::size_t constraint) {
+    for (const char* backend : proving_backends) {
+      if (const auto value = value_alone(constraint, backend)) return value;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<double> value_alone(std::size_t constraint, const char* backend) {
     std::vector<bool> is_elastic;
     for (const std::size_t of_row : rows_.constraint_of_row) {
       is_elastic.push_back(of_row == constraint);
     }
     ElasticProblem problem = elastic(is_elastic, *at_least_);
-    const Result result = search(problem, options(proving_backends.front()));
+    const Result result = search(problem, options(backend));
     const bool has_design = result.x.size() > 0 && !result.history.front().has_failed();
     if (!has_design || result.max_violation > Tolerances().violation) return std::nullopt;
     const Attempt there =
@@ -244,10 +251,14 @@ LeastViolation find_least_violation(const LimitRows& rows, const std::vector<Con
 
 std::string describe(const LeastViolation& least, const Problem& problem) {
   if (least.limits.empty()) return "";
-  std::vector<std::string> conflict, alone, together;
+  std::vector<std::string> conflict, alone, hopeless, together;
   for (const ExceededLimit& one : least.limits) {
     if (one.is_in_conflict) conflict.push_back(limit_text(problem, one, one.limit));
-    if (one.alone) alone.push_back(changed_text(problem, one, *one.alone));
+    if (one.alone) {
+      alone.push_back(changed_text(problem, one, *one.alone));
+    } else if (one.is_in_conflict) {
+      hopeless.push_back(problem.constraints()[one.constraint].name);
+    }
     together.push_back(changed_text(problem, one, one.together));
   }
   std::string text = joined(conflict, " and ") + " cannot be kept";
@@ -255,6 +266,10 @@ std::string describe(const LeastViolation& least, const Problem& problem) {
   text += fmt::format("; this design breaks its limits least, {}{}",
                       violation_text(least.violation), least.limits.size() > 1 ? " at most" : "");
   if (!alone.empty()) text += ". One change would do: " + joined(alone, ", or ");
+  if (!alone.empty() && alone.size() < conflict.size()) {
+    text +=
+        fmt::format("; for {} alone no value was found that would do", joined(hopeless, " and "));
+  }
   if (!alone.empty() && least.limits.size() == 1) return text;
   text += alone.empty() ? ". What would do together: " : "; or all of these: ";
   return text + joined(together, " and ");

@@ -97,6 +97,19 @@ TEST(LeastViolation, NamesTheLimitsInConflictAndWhatEachWouldHaveToBe) {
   EXPECT_THAT(text, testing::Not(HasSubstr("width")));
 }
 
+// Who reads "one change would do" of one limit shall not think that the other was forgotten.
+TEST(LeastViolation, NamesTheLimitsForWhichNoChangeAloneWasFound) {
+  FunctionProblem problem = contradictory();
+  LeastViolation least = least_violation_of(problem);
+  EXPECT_THAT(describe(least, problem), testing::Not(HasSubstr("no value was found")));
+  for (ExceededLimit& limit : least.limits) {
+    if (limit.constraint != 0) limit.alone.reset();
+  }
+  const std::string text = describe(least, problem);
+  EXPECT_THAT(text, HasSubstr("One change would do: sum ≤ 2"));
+  EXPECT_THAT(text, HasSubstr("for length alone no value was found that would do"));
+}
+
 // At full width everywhere the deflection is Σ aᵢ / 1000 = 0.125.
 TEST(LeastViolation, OfASingleLimitIsWhatIsPossible) {
   KnownProblem known = cantilever(0.1);
