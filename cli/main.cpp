@@ -5,11 +5,13 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/each_case.hpp"
 #include "cli/interruption.hpp"
 #include "cli/text/console.hpp"
+#include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/stop.hpp"
@@ -65,7 +67,8 @@ std::string path_text(const fs::filesystem_error& error) {
 }
 
 int report_error(ExitCode code, const std::string& message, bool wants_json) {
-  show(stderr, fmt::format("pleuel: {}\n", message));
+  const std::string text = fmt::format("pleuel: {}\n", message);
+  show(stderr, ::isatty(STDERR_FILENO) == 1 ? wrapped(text, "  ") : text);  // a line for programs
   const int number = static_cast<int>(code);
   if (wants_json) {
     const Json document = {{"error", {{"exit_code", number}, {"message", message}}}};

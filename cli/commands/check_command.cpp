@@ -11,6 +11,7 @@
 #include "cli/reports/analysis_report.hpp"
 #include "cli/reports/derivative_report.hpp"
 #include "cli/reports/effects_report.hpp"
+#include "cli/reports/influence_report.hpp"
 #include "cli/reports/monitors_report.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "cli/reports/ties.hpp"
@@ -121,6 +122,7 @@ Json check_document(const ProblemFile& problem, const Examination& findings) {
                    {"responses", responses_with_verdicts(problem, findings)},
                    {"warnings", findings.warnings},
                    {"seconds", {{"simulate", findings.simulation_seconds}}}};
+  mark_effects({problem, values_of(analysis), findings.influences}, document["effects"]);
   if (!findings.derivatives.empty()) document["seconds"]["direct"] = findings.gradient_seconds;
   return document;
 }
@@ -137,17 +139,17 @@ std::string time_text(const ProblemFile& problem, const Examination& findings) {
   return wrapped(text, "  ") + "\n";
 }
 
-std::string make_text(const ProblemFile& problem, const Examination& findings) {
+std::string make_text(const ProblemFile& problem, const Examination& findings, bool wants_effects) {
   const Analysis& analysis = *findings.analysis;
   std::string text =
       findings.is_interrupted ? "INTERRUPTED before the derivatives were verified\n\n" : "";
-  text +=
-      fmt::format("{}: a valid problem\n{}\n\n{}\n{}", problem.name, size_text(analysis),
-                  bodies_text(analysis.model) + "\n" +
-                      freedoms_text(findings.freedoms, analysis.model) + assembly_text(analysis),
-                  effects_text(analysis.model));
+  text += fmt::format("{}: a valid problem\n{}\n\n{}\n{}", problem.name, size_text(analysis),
+                      bodies_text(analysis.model),
+                      freedoms_text(findings.freedoms, analysis.model) + assembly_text(analysis));
+  const bool shows_all = wants_effects || findings.influences.empty();
+  text += shows_all ? effects_text(analysis.model) : left_out_text(analysis.model);
   if (!findings.influences.empty()) {
-    text += "\n" + influences_text(problem, values_of(analysis), findings.influences);
+    text += influences_text({problem, values_of(analysis), findings.influences}, wants_effects);
   }
   if (!problem.variables.empty()) text += "\n" + variables_text(problem);
   text += "\n" + (findings.derivatives.empty()
@@ -168,7 +170,8 @@ Outcome run_check(const Arguments& arguments) {
   if (arguments.output) record.emplace(arguments, input, Json::object());
   const Examination findings = examine(problem, input.design, arguments);
   Outcome outcome{findings.is_interrupted ? ExitCode::not_verified : ExitCode::done,
-                  check_document(problem, findings), make_text(problem, findings)};
+                  check_document(problem, findings),
+                  make_text(problem, findings, arguments.wants_effects)};
   if (!record) return outcome;
   record->show_picture([&] {
     return run_picture(problem, {{arguments.design ? "design" : "start",

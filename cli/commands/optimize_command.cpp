@@ -19,6 +19,7 @@
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/drives_report.hpp"
 #include "cli/reports/effects_report.hpp"
+#include "cli/reports/influence_report.hpp"
 #include "cli/reports/iteration_lines.hpp"
 #include "cli/reports/monitors_report.hpp"
 #include "cli/reports/optimum_document.hpp"
@@ -352,6 +353,7 @@ Outcome run_optimize(const Arguments& arguments) {
   const ProblemFile& solved = solution.problem->file();
   const Result& result = solution.result;
   Optimum optimum{solved, result, {}, {}, {}, result.warnings, solution.problem->method()};
+  if (answer.sizes) optimum.sizes = &*answer.sizes;
   // What has been found is told and written first: the rest is made from it at any time.
   Json effects = Json::array();
   const auto result_document = [&] {
@@ -374,11 +376,13 @@ Outcome run_optimize(const Arguments& arguments) {
     record.begin_phase("trajectories");
     Examined examined = examine_designs(record, optimum);
     effects = std::move(examined.effects);
-    const auto price = [&](const Eigen::VectorXd& changes) {
-      return optimum_change(*solution.problem, result, changes);
-    };
+    const MeasuredEffects measured = {solved, optimum.responses, optimum.influences,
+                                      [&](const Eigen::VectorXd& changes) {
+                                        return optimum_change(*solution.problem, result, changes);
+                                      }};
+    mark_effects(measured, effects);
     show(arguments.progress(),
-         examined.drives + influences_text(solved, optimum.responses, optimum.influences, price));
+         examined.drives + influences_text(measured, arguments.wants_effects) + "\n");
   }
   Outcome outcome{exit_code(optimum), result_document(),
                   failed_design_text(record, arguments, input.problem, result.history) +

@@ -10,6 +10,7 @@
 #include "cli/input/problem_input.hpp"
 #include "cli/reports/analysis_report.hpp"
 #include "cli/reports/effects_report.hpp"
+#include "cli/reports/influence_report.hpp"
 #include "cli/reports/limits_report.hpp"
 #include "cli/reports/monitors_report.hpp"
 #include "cli/reports/scene_report.hpp"
@@ -129,7 +130,9 @@ std::string simulation_text(const ProblemFile& problem, const std::string& desig
                   responses_text(problem, analysis, run.errors) + limits_text(problem, x, analysis),
                   monitors_text(run.monitors, analysis.model.mechanism.system->multipliers()) +
                       assembly_text(analysis) + warnings_text(run.warnings));
-  text += influences_text(problem, values_of(analysis), run.influences);
+  if (!run.influences.empty()) {
+    text += influences_text({problem, values_of(analysis), run.influences}, true) + "\n";
+  }
   if (trajectory.split_steps > 0) {
     text += wrapped(
         fmt::format("Newton's method failed in {} steps, which were split; look there with a "
@@ -194,6 +197,7 @@ Outcome run_simulate(const Arguments& arguments) {
                   simulation_text(input.problem, design, input.design, run)};
   outcome.text += fmt::format("Written to {}: trajectory.csv, result.json, run_card.json\n",
                               record.folder().string());
+  mark_effects({input.problem, values_of(*analysis), run.influences}, outcome.document["effects"]);
   if (input.choice) outcome.document["setting"] = setting_document(input, *input.choice);
   outcome.document["variables"] = variables_document(input.problem, input.design);
   outcome.document["constraints"] = limits_document(input.problem, input.design, *analysis);

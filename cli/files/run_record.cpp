@@ -1,8 +1,11 @@
 #include "cli/files/run_record.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "cli/files/report_page.hpp"
+#include "cli/text/wrapped_text.hpp"
 #include "cli/versions.hpp"
 
 namespace pleuel {
@@ -16,6 +19,14 @@ Json input_document(const ProblemInput& input, const Arguments& arguments) {
       {"file", input.file.string()}, {"overrides", arguments.overrides}, {"hash", input.hash}};
   if (arguments.design) document["design"] = arguments.design->string();
   return document;
+}
+
+/// Commands to be typed stay in their lines, however long.
+void wrap_list_of_files(std::string& text) {
+  const std::size_t begin = text.rfind("Written to ");
+  if (begin == std::string::npos || (begin > 0 && text[begin - 1] != '\n')) return;
+  const std::size_t end = std::min(text.find('\n', begin), text.size());
+  text.replace(begin, end - begin, wrapped(text.substr(begin, end - begin), "  "));
 }
 
 double seconds_since(Clock::time_point begin) {
@@ -85,6 +96,7 @@ void RunRecord::finish(Outcome& outcome) {
   end_phase();
   write("result.json", outcome.document);
   write_report(outcome);
+  wrap_list_of_files(outcome.text);
   phases_["total"] = seconds_since(begin_);
   card_["finished"] = true;
   outcome.unwritten = failures_.files();

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/input/help_texts.hpp"
 #include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "cli/versions.hpp"
@@ -31,6 +32,7 @@ written, or a fault of the program.)";
 CLI::App* add_command(CLI::App& app, Arguments& arguments, const std::string& name,
                       const std::string& description) {
   CLI::App* command = app.add_subcommand(name, description);
+  command->footer(help_text(name));
   command->add_flag("--json", arguments.wants_json,
                     "print the result as one JSON document on standard output");
   return command;
@@ -95,11 +97,17 @@ void add_design(CLI::App* command, Arguments& arguments) {
       ->type_name("FILE");
 }
 
+void add_effects(CLI::App* command, Arguments& arguments) {
+  command->add_flag("--effects", arguments.wants_effects,
+                    "list all physical effects, also those that change next to nothing");
+}
+
 void add_accuracy(CLI::App* command, Arguments& arguments) {
   command
-      ->add_option("--accuracy", arguments.accuracy,
-                   "relative error of what is minimized or limited, such as 0.1%: steps, elements "
-                   "and effects are chosen for it")
+      ->add_option(
+          "--accuracy", arguments.accuracy,
+          "relative error of what is minimized or limited, such as 0.1% (or the ratio 0.001): "
+          "steps, elements and effects are chosen for it")
       ->type_name("TARGET");
 }
 
@@ -165,8 +173,9 @@ void add_stability(CLI::App& app, Arguments& arguments) {
 }
 
 void add_gradient(CLI::App& app, Arguments& arguments) {
-  CLI::App* gradient =
-      add_file_command(app, arguments, "gradient", "gradients of all responses at the start");
+  CLI::App* gradient = add_file_command(
+      app, arguments, "gradient",
+      "derivatives of all responses by the variables, at the start or another design");
   add_design(gradient, arguments);
   gradient
       ->add_option("--method", arguments.methods,
@@ -237,11 +246,14 @@ void add_runs(CLI::App& app, Arguments& arguments) {
   CLI::App* runs =
       add_command(app, arguments, "runs", "list runs: command, problem, status, objective, time");
   runs->add_option("DIR", arguments.file, "folder that holds run folders (default: runs)");
+  runs->add_option("--sort", arguments.order, "time (default; the newest is the last) or name")
+      ->type_name("KEY")
+      ->check(CLI::IsMember({"time", "name"}));
 }
 
 void add_compare(CLI::App& app, Arguments& arguments) {
-  CLI::App* compare =
-      add_command(app, arguments, "compare", "what differs between two runs, in input and outcome");
+  CLI::App* compare = add_command(app, arguments, "compare",
+                                  "two runs side by side: what differs in input and outcome");
   compare->add_option("DIR", arguments.files, "the two run folders")->required()->expected(2);
 }
 
@@ -269,8 +281,8 @@ void add_plot(CLI::App& app, Arguments& arguments) {
 }
 
 void add_show(CLI::App& app, Arguments& arguments) {
-  CLI::App* show = add_file_command(app, arguments, "show",
-                                    "draw the mechanism of a file, before anything is simulated");
+  CLI::App* show = add_file_command(
+      app, arguments, "show", "draw the mechanism of a file as a page, before it is simulated");
   show->add_option("-o,--output", arguments.output,
                    "the page to write (default: the first of runs/<file>-show.html, …-2 that is "
                    "not there)")
@@ -308,6 +320,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
       app, arguments, "check",
       "validate, describe the mechanism, verify the derivatives, estimate the time");
   add_design(check, arguments);
+  add_effects(check, arguments);
   add_jobs(check, arguments);
   add_overwrite(check, arguments);
   add_no_report(check, arguments);
@@ -315,8 +328,8 @@ void add_commands(CLI::App& app, Arguments& arguments) {
       ->add_option("-o,--output", arguments.output,
                    "run folder for result.json and report.html (default: nothing is written)")
       ->type_name("DIR");
-  CLI::App* simulate =
-      add_file_command(app, arguments, "simulate", "simulate one design, by default the start");
+  CLI::App* simulate = add_file_command(app, arguments, "simulate",
+                                        "simulate one design and say whether it keeps its limits");
   add_output(simulate, arguments);
   add_accuracy(simulate, arguments);
   simulate->add_flag("--effects", arguments.wants_effects,
@@ -324,12 +337,13 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   add_design(simulate, arguments);
   add_gradient(app, arguments);
   add_invariants(app, arguments);
-  CLI::App* optimize =
-      add_file_command(app, arguments, "optimize", "find the best design and prove it");
+  CLI::App* optimize = add_file_command(app, arguments, "optimize",
+                                        "find the best design within the limits, and verify it");
   add_output(optimize, arguments);
   add_resume(optimize, arguments);
   add_accuracy(optimize, arguments);
   add_design(optimize, arguments);
+  add_effects(optimize, arguments);
   add_backend(optimize, arguments);
   add_starts(optimize, arguments);
   add_method(optimize, arguments);
@@ -384,6 +398,25 @@ void take_jobs_of_environment(Arguments& arguments) {
   }
 }
 
+/// Who writes "--accuracy 0.1" may mean 10 % or 0.1 %: such numbers need their "%".
+void check_accuracy(const std::string& text) {
+  constexpr double ambiguous = 0.02;
+  double ratio = 0.0;
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, ratio);
+  if (error != std::errc() || rest != end || ratio < ambiguous) return;
+  throw InputError(
+      ratio < 1.0
+          ? fmt::format(
+                "--accuracy {0} is a ratio, {1:g} %: write --accuracy {0}% for {0} percent, "
+                "or --accuracy {1:g}% if that is what you mean",
+                text, 100.0 * ratio)
+          : fmt::format(
+                "--accuracy {0} is a ratio and has to be below 1; write --accuracy {0}% for "
+                "{0} percent",
+                text));
+}
+
 }  // namespace
 
 std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
@@ -420,6 +453,7 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
   }
   arguments.command = app.get_subcommands().front()->get_name();
   if (arguments.accuracy) {
+    check_accuracy(*arguments.accuracy);
     arguments.overrides.push_back("/accuracy/target=" + *arguments.accuracy);
   }
   return arguments;

@@ -38,6 +38,7 @@ struct Arguments {
   bool wants_histories = false;           ///< with their derivatives
   bool compares_methods = false;          ///< of gradients: effort and accuracy of all
   std::vector<std::string> names;         ///< of histories that are drawn
+  std::string order = "time";             ///< of runs that are listed: "time" or "name"
   bool wants_effects = false;             ///< what each effect brings and costs
   bool wants_json = false;
   bool wants_vtk = false;          ///< the motion as files for ParaView

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "cli/reports/influence_report.hpp"
 #include "cli/text/table.hpp"
-#include "core/base/number_text.hpp"
-#include "core/scene/shown_unit.hpp"
+#include "cli/text/wrapped_text.hpp"
 
 namespace pleuel {
 
@@ -38,37 +39,6 @@ void add_influence(const ProblemFile& problem, const EffectInfluence& influence,
     entry["influence"][problem.responses[i].name] = change;
   }
   entry["seconds"] = influence.seconds;
-}
-
-std::string signed_text(double value) {
-  if (value == 0.0) return "0";
-  return (value < 0.0 ? "−" : "+") + significant(std::abs(value), 2);
-}
-
-/// Whole percents: times of single runs are not known better.
-std::string percent_text(double share) {
-  const double percents = std::round(100.0 * share);
-  return percents == 0.0 ? "0 %"
-                         : fmt::format("{}{} %", percents < 0.0 ? "−" : "+", std::abs(percents));
-}
-
-/// "rod_bow −0.0012 mm (−0.6 %)": the largest relative change.
-std::string largest_change_text(const ProblemFile& problem, const Eigen::VectorXd& values,
-                                const EffectInfluence& influence) {
-  Eigen::Index largest = -1;
-  double most = 1e-8;  // below: round-off
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    const double relative = std::abs(influence.changes(i)) / std::abs(values(i));
-    if (values(i) == 0.0 || !(relative > most)) continue;
-    most = relative;
-    largest = i;
-  }
-  if (largest < 0) return "nothing";
-  const ResponseSettings& response = problem.responses[largest];
-  const ShownUnit unit = unit_of(response);
-  const double change = influence.changes(largest);
-  return fmt::format("{} {} {} ({} %)", response.name, signed_text(unit.shown(change)), unit.name,
-                     signed_text(100.0 * change / std::abs(values(largest))));
 }
 
 }  // namespace
@@ -110,32 +80,20 @@ std::string effects_text(const Model& model) {
   return table.text();
 }
 
-std::string influences_text(const ProblemFile& problem, const Eigen::VectorXd& values,
-                            const std::vector<EffectInfluence>& influences,
-                            const PriceOfChanges& price) {
-  if (influences.empty()) return "";
-  std::vector<Table::Column> columns = {
-      {"without", Table::Align::left}, {"of", Table::Align::left}, {"time"}};
-  if (price) columns.push_back({"optimum"});
-  columns.push_back({"largest change of a response", Table::Align::left});
-  Table table(columns);
-  for (const EffectInfluence& one : influences) {
-    std::vector<std::string> row = {one.effect, one.body};
-    if (!one.failure.empty()) {
-      row.push_back("–");
-      if (price) row.push_back("–");
-      row.push_back(one.failure);
-    } else {
-      row.push_back(percent_text(-one.share));
-      if (price) {
-        const ShownUnit unit = unit_of(find_response(problem, problem.objective->response));
-        row.push_back(signed_text(unit.shown(price(one.changes))) + " " + unit.name);
-      }
-      row.push_back(largest_change_text(problem, values, one));
-    }
-    table.add_row(std::move(row));
+std::string left_out_text(const Model& model) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> all;  // name: bodies
+  for (const EffectRecord& effect : model.effects) {
+    if (effect.is_built) continue;
+    const auto same = std::find_if(all.begin(), all.end(),
+                                   [&](const auto& one) { return one.first == effect.name; });
+    auto& entry =
+        same == all.end() ? all.emplace_back(effect.name, std::vector<std::string>()) : *same;
+    if (!effect.body.empty()) entry.second.push_back(effect.body);
   }
-  return "\n" + table.text() + "\n";
+  if (all.empty()) return "";
+  std::vector<std::string> names;
+  for (const auto& [name, bodies] : all) names.push_back(effect_of_bodies(name, bodies));
+  return wrapped(fmt::format("Left out: {}.\n", fmt::join(names, ", ")), "  ");
 }
 
 }  // namespace pleuel

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,14 +19,7 @@ Json effects_document(const ProblemFile& problem, const Model& model,
 /// Table: effect, whether it is built, why.
 std::string effects_text(const Model& model);
 
-/// What changes of responses make of the optimal objective [SI].
-using PriceOfChanges = std::function<double(const Eigen::VectorXd& changes)>;
-
-/// Table: effect, the time that it costs, the response that would change most without it; at an
-/// optimum with prices also what the optimum would lose or gain without it. Empty without
-/// influences.
-std::string influences_text(const ProblemFile& problem, const Eigen::VectorXd& values,
-                            const std::vector<EffectInfluence>& influences,
-                            const PriceOfChanges& price = {});
+/// "Left out: spatial_motion, torsional_elasticity (crank, rod)." Empty if nothing is.
+std::string left_out_text(const Model& model);
 
 }  // namespace pleuel

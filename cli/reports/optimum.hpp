@@ -8,6 +8,7 @@
 #include "core/response/effect_influence.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/shown_unit.hpp"
+#include "optimization/size_choice.hpp"
 #include "optimization/solve.hpp"
 #include "sensitivity/gradients.hpp"
 
@@ -25,6 +26,7 @@ struct Optimum {
   /// Of the last design, by runs of twice the step; empty: not measured.
   std::vector<EffectInfluence> influences{};
   std::optional<DesignInfluence> influence{};  ///< of the variables; none: not known
+  const SizeChoiceReport* sizes = nullptr;     ///< where some are chosen from lists
 
   bool has_design() const { return result.evaluation.has_gradients(); }
 

@@ -3,6 +3,7 @@
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/error_report.hpp"
 #include "cli/reports/monitors_report.hpp"
+#include "cli/reports/plain_verdict.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "core/scene/response_quantity.hpp"
 #include "optimization/prices.hpp"
@@ -100,6 +101,8 @@ Json optimum_document(const Optimum& optimum) {
                    {"objective", objective_document(optimum)},
                    {"variables", variables_document(optimum.problem, result.x)},
                    {"constraints", Json::object()}};
+  const std::string plain = plain_verdict(optimum);
+  if (!plain.empty()) document["checked"] = plain;
   for (std::size_t i = 0; i < optimum.problem.variables.size(); ++i) {
     document["variables"][optimum.problem.variables[i].name]["start"] = optimum.start(i);
   }

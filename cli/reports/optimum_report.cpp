@@ -1,5 +1,6 @@
 #include "cli/reports/optimum_report.hpp"
 
+#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/error_report.hpp"
 #include "cli/reports/monitors_report.hpp"
+#include "cli/reports/plain_verdict.hpp"
 #include "cli/reports/sizes_report.hpp"
 #include "cli/reports/warnings.hpp"
 #include "cli/text/table.hpp"
@@ -98,6 +100,11 @@ std::string price_text(double multiplier, const ShownUnit& objective, const Show
   return multiplier == 0.0 ? "0" : significant(objective.shown(multiplier) * limit.factor, 3);
 }
 
+/// What round-off leaves of a limit of zero is zero.
+std::string limited_text(double shown) {
+  return significant(std::abs(shown) < 1e-9 ? 0.0 : shown);
+}
+
 std::vector<std::string> constraint_row(const Optimum& optimum, std::size_t i) {
   const ConstraintSettings& constraint = optimum.problem.constraints[i];
   const auto row = static_cast<Eigen::Index>(i);
@@ -115,7 +122,7 @@ std::vector<std::string> constraint_row(const Optimum& optimum, std::size_t i) {
           ? fmt::format(" {}{:g} σ", constraint.upper ? "+" : "−", constraint.deviations)
           : "";
   std::vector<std::string> cells = {
-      limit_of(optimum.problem, i) + margin, significant(unit.shown(value)),
+      limit_of(optimum.problem, i) + margin, limited_text(unit.shown(value)),
       (used.is_upper ? "≤ " : "≥ ") + significant(unit.shown(used.limit)), unit.name,
       used.utilisation ? percent(*used.utilisation) : "–"};
   if (multiplier) {
@@ -195,7 +202,9 @@ std::string name_of_end(const std::string& status) {
 }
 
 std::string optimum_report(const Optimum& optimum) {
-  const std::string status = "\n" + wrapped(status_text(optimum.result)) + "\n";
+  std::string status = "\n" + wrapped(status_text(optimum.result)) + "\n";
+  const std::string plain = plain_verdict(optimum);
+  if (!plain.empty()) status += wrapped("In plain words: " + plain + ".", "  ") + "\n";
   if (!optimum.has_design()) return status;
   return status + "\n" + objective_text(optimum) +
          wrapped(objective_in_cases(optimum.problem, optimum.result), "  ") + "\n" +

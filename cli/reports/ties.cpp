@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/text/wrapped_text.hpp"
 #include "core/response/describe_tie.hpp"
 #include "sensitivity/kinks.hpp"
 
@@ -63,7 +64,7 @@ std::string ties_text(const Ties& ties, const Analysis& analysis) {
     text += fmt::format("\nHarmless ties (equal peaks that move alike with the design): {}\n",
                         fmt::join(harmless, ", "));
   }
-  return text;
+  return wrapped(text, "    ");
 }
 
 }  // namespace pleuel

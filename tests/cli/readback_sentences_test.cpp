@@ -119,7 +119,7 @@ TEST(ReadBackSentences, OfWhatEffectsBring) {
 
 /// Grams: what changes of all responses make of the optimum by the prices of the limits.
 TEST(ReadBackSentences, OfWhatEffectsBringInGrams) {
-  const Report report = run({"optimize", file});
+  const Report report = run({"optimize", file, "--effects"});
   const json& document = report.document;
   const json limits = json::parse(read_file(file)).at("constraints");
   const TextTable table(report.text, "without");
@@ -141,6 +141,60 @@ TEST(ReadBackSentences, OfWhatEffectsBringInGrams) {
   }
   EXPECT_EQ(row, table.rows());
   EXPECT_EQ(priced, 4u);
+}
+
+/// Without --effects the table has the effects that matter by the numbers of the document: more than
+/// 0.1 % of a response or of the optimum, or a noticeable share of the time. A sentence counts the rest.
+TEST(ReadBackSentences, OfWhichEffectsMatter) {
+  const Report report = run({"optimize", file});
+  const json& document = report.document;
+  const json limits = json::parse(read_file(file)).at("constraints");
+  const std::string text = unwrapped(report.text);
+  std::size_t listed = 0, measured = 0;
+  for (const json& effect : document.at("effects")) {
+    if (!effect.contains("influence") || effect.at("influence").is_null()) {
+      EXPECT_FALSE(effect.contains("matters"));
+      continue;
+    }
+    double most = 0.0;
+    for (const auto& [name, change] : effect.at("influence").items()) {
+      const double value = document.at("responses").at(name).at("value");
+      most = std::max(most, std::abs(change.get<double>() / value));
+    }
+    if (most > 1e-3) {
+      EXPECT_EQ(effect.at("matters"), true);
+    }
+    listed += effect.at("matters").get<bool>() ? 1 : 0;
+    ++measured;
+  }
+  ASSERT_EQ(measured, 4u);  // two of the crank, two of the rod; elasticity cannot be left out
+  EXPECT_THAT(text, testing::HasSubstr("elasticity (crank, rod) cannot be left out"));
+  EXPECT_THAT(text, testing::HasSubstr("--effects shows all."));
+  const bool has_table = text.find(" without of time optimum ") != std::string::npos;
+  EXPECT_EQ(has_table, listed > 0);
+  if (has_table) {
+    EXPECT_EQ(TextTable(report.text, "without").rows(), listed);
+  }
+  if (listed < measured) {
+    EXPECT_THAT(text, testing::ContainsRegex(fmt::format(
+                          "({} further effects? changes? nothing|All effects change nothing)",
+                          measured - listed)));
+  }
+}
+
+/// The verdict in plain words has the error that the document has.
+TEST(ReadBackSentences, OfAVerdictInPlainWords) {
+  const Report report = run({"optimize", file});
+  const std::string checked = report.document.at("checked");
+  EXPECT_THAT(unwrapped(report.text), testing::HasSubstr("In plain words: " + checked + "."));
+  EXPECT_THAT(checked, testing::HasSubstr("every limit holds; no design nearby that keeps them is "
+                                          "lighter; "));
+  const json& objective = report.document.at("objective");
+  const double error = objective.at("error").at("total").get<double>();
+  expect_shown(behind(checked, "change crank_and_rod by "), "1",
+               100.0 * error / objective.at("value").get<double>());
+  EXPECT_FALSE(run({"optimize", file, "--set", "/optimizer/max_iterations=1"}, 4)
+                   .document.contains("checked"));
 }
 
 /// An optimum whose numbers are not known as well as the file asks for is not verified, whatever
@@ -182,12 +236,13 @@ TEST(ReadBackSentences, OfAccuracy) {
   expect_shown(of_reference, "ms", reference.at("step"));
   EXPECT_EQ(number_in(behind(of_reference, "ms and ")), reference.at("elements"));
   double error = 0.0, of_gradients = 0.0;
-  for (const auto& [name, of] : reference.at("errors").items()) {
-    error = std::max(error, of.get<double>());
-    of_gradients = std::max(of_gradients, reference.at("gradient_errors").at(name).get<double>());
+  for (const auto& name : report.document.at("counted")) {
+    error = std::max(error, reference.at("errors").at(name.get<std::string>()).get<double>());
+    of_gradients = std::max(
+        of_gradients, reference.at("gradient_errors").at(name.get<std::string>()).get<double>());
   }
-  expect_shown(behind(text, "whose own error is estimated at "), "1", error);
-  expect_shown(behind(text, ", of gradients "), "1", of_gradients);
+  expect_shown(behind(text, "whose own error is estimated at "), "1", 100.0 * error);
+  expect_shown(behind(text, ", of gradients "), "1", 100.0 * of_gradients);
   const std::string of_best = behind(text, "For 50 % take a step of ");
   expect_shown(of_best, "ms", best.at("step"));
   EXPECT_EQ(number_in(behind(of_best, "ms and ")), best.at("elements"));
@@ -249,7 +304,8 @@ TEST(ReadBackSentences, OfALimitOfVariables) {
 /// Crank and rod of eight elements: rigid coordinates x, y, φ of bodies and x, y of the point mass.
 TEST(ReadBackSentences, OfCheck) {
   const TemporaryFolder folder;
-  const std::vector<std::string> words = joined({"check", file, "--jobs", "1"}, quick());
+  const std::vector<std::string> words =
+      joined({"check", file, "--jobs", "1", "--effects"}, quick());
   const std::string text = run_program(folder.path(), words).out;
   const json document = run_program(folder.path(), joined(words, {"--json"})).document();
   const TextTable bodies(text, "body"), effects(text, "effect");

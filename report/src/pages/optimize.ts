@@ -120,7 +120,8 @@ function headline(data: ReportData): HTMLElement {
             objective.error?.total ? h("span.soft", {}, ` ${errorText(objective.error, unit)}`) : null,
           )
         : null,
-      h("p.verdict", {}, verdict(result.status), h("span", {}, ` ${sentenceCase(result.message ?? "")}.`)),
+      h("p.verdict", {}, verdict(result.status, result.choices), h("span", {}, ` ${sentenceCase(result.message ?? "")}.`)),
+      result.checked ? h("p.verdict", {}, h("b", {}, "In plain words: "), `${result.checked}.`) : null,
       warnings(result),
     ),
     h(

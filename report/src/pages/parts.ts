@@ -1,7 +1,7 @@
 // Parts that several pages have: headline, warnings, evidence, effects, files.
 import type { Document, Picture, ReportData, Unit } from "../data";
 import { details, download, h, section, table } from "../dom";
-import { engineering, errorText, number, percent, seconds, withUnit, words } from "../format";
+import { count, engineering, errorText, number, percent, seconds, withUnit, words } from "../format";
 
 const verdicts: Record<string, { text: string; tone: string }> = {
   verified: { text: "Verified local optimum", tone: "good" },
@@ -10,8 +10,14 @@ const verdicts: Record<string, { text: string; tone: string }> = {
   interrupted: { text: "Interrupted", tone: "warn" },
 };
 
-export function verdict(status: string): HTMLElement {
-  const known = verdicts[status] ?? { text: `Not verified: ${status}`, tone: "warn" };
+/** A choice from lists is no local optimum: it is the best of those that were tried. */
+function choiceText(choices: Document): string {
+  return choices.exhaustive ? `Best of all ${count(choices.combinations)} choices` : `Best of ${count(choices.tried)} tried choices`;
+}
+
+export function verdict(status: string, choices?: Document): HTMLElement {
+  let known = verdicts[status] ?? { text: `Not verified: ${status}`, tone: "warn" };
+  if (status === "verified" && choices) known = { text: choiceText(choices), tone: "good" };
   return h(`span.badge.${known.tone}`, {}, known.tone === "good" ? "✓ " : "! ", known.text);
 }
 
@@ -137,7 +143,7 @@ export function effectsSection(data: ReportData): HTMLElement | null {
     return text;
   };
   const hasWorth = hasInfluence && effects.some((e) => e.influence && worth(e.influence) !== null) && data.card.command === "optimize";
-  const rows = effects.map((effect) => [
+  const rowOf = (effect: Document) => [
     effect.name.replace(/[-_]/g, " "),
     effect.body ? words(effect.body) : "all",
     ...(hasCases ? [effect.cases as string] : []),
@@ -148,12 +154,8 @@ export function effectsSection(data: ReportData): HTMLElement | null {
       : []),
     ...(hasInfluence ? [effect.seconds !== undefined ? signedMs(effect.seconds) : "–"] : []),
     h("span.soft", {}, effect.reason ?? ""),
-  ]);
-  return section(
-    "What is simulated",
-    hasInfluence
-      ? "Each effect that was built, what it changes of the numbers, and the time that it takes in one simulation."
-      : "What was built for this scene, and why.",
+  ];
+  const tableOf = (shown: Document[]) =>
     table(
       [
         { title: "effect", left: true },
@@ -165,9 +167,45 @@ export function effectsSection(data: ReportData): HTMLElement | null {
         ...(hasInfluence ? [{ title: "time" }] : []),
         { title: "because", left: true },
       ],
-      rows,
-    ),
+      shown.map(rowOf),
+    );
+  // Older documents do not say what matters.
+  const isMarked = effects.some((effect) => effect.matters !== undefined);
+  const doesMatter = (effect: Document) => (isMarked ? effect.matters : effect.influence && largestChange(effect.influence, data.result.responses ?? {}) > 1e-3);
+  const important = hasInfluence ? effects.filter(doesMatter) : effects.filter((effect) => effect.decision !== "exact");
+  const rest = restText(effects, important, data.result.responses ?? {});
+  return section(
+    "What is simulated",
+    hasInfluence ? "Effects that matter: what each changes of the numbers, and the time that it takes in one simulation." : "What is built for this scene, and why.",
+    important.length ? tableOf(important) : null,
+    hasInfluence || important.length ? h("p.note", {}, rest) : null,
+    h("details.inner", { open: data.card.command === "show" }, h("summary", {}, `All ${effects.length} effects, and why`), tableOf(effects)),
   );
+}
+
+/** Of a response, relative. */
+function largestChange(influence: Record<string, number>, responses: Record<string, Document>): number {
+  let most = 0;
+  for (const [name, delta] of Object.entries(influence)) {
+    const value = responses[name]?.value;
+    if (value) most = Math.max(most, Math.abs(delta / value));
+  }
+  return most;
+}
+
+/** What a table of effects leaves out, in a sentence. */
+function restText(effects: Document[], important: Document[], responses: Record<string, Document>): string {
+  const others = effects.filter((effect) => !important.includes(effect));
+  const measured = others.filter((effect) => effect.influence);
+  let most = 0;
+  for (const effect of measured) most = Math.max(most, largestChange(effect.influence, responses));
+  const parts: string[] = [];
+  const left = others.filter((effect) => !effect.influence && !effect.built).length;
+  const built = others.length - measured.length - left;
+  if (measured.length) parts.push(`${measured.length} further ${measured.length === 1 ? "effect changes" : "effects change"} nothing by more than ${number(100 * most, 2)} %`);
+  if (built) parts.push(`${built} ${built === 1 ? "is" : "are"} built without question`);
+  if (left) parts.push(`${left} ${left === 1 ? "is" : "are"} left out because ${left === 1 ? "it" : "they"} would change nothing`);
+  return parts.length ? `${sentenceCase(parts.join("; "))}.` : "";
 }
 
 /** Grams say more than thousandths of a kilogram. */
@@ -202,6 +240,11 @@ export function monitorsText(result: Document): string {
 export function filesSection(data: ReportData): HTMLElement {
   const { card } = data;
   const phases = Object.entries(card.seconds ?? {}) as [string, number][];
+  const known: string[][] = [
+    ...Object.entries(card.versions ?? {}).map(([name, version]) => [name, String(version)]),
+    ...(card.input?.hash ? [["input", card.input.hash as string]] : []),
+    ...phases.map(([name, time]) => [`time: ${name}`, seconds(time)]),
+  ];
   const problem = JSON.stringify(card.problem ?? card.problems ?? {}, null, 2);
   return h(
     "div.stack",
@@ -212,14 +255,7 @@ export function filesSection(data: ReportData): HTMLElement {
     details(
       "Run card",
       h("p.note", {}, h("code", {}, `pleuel ${(card.arguments ?? []).join(" ")}`)),
-      table(
-        [{ title: "", left: true }, { title: "", left: true }],
-        [
-          ...Object.entries(card.versions ?? {}).map(([name, version]) => [name, String(version)]),
-          ...(card.input?.hash ? [["input", card.input.hash as string]] : []),
-          ...phases.map(([name, time]) => [`time: ${name}`, seconds(time)]),
-        ],
-      ),
+      known.length ? table([{ title: "", left: true }, { title: "", left: true }], known) : null,
     ),
     details(
       "Problem file",

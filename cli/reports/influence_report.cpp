@@ -1,0 +1,191 @@
+#include "cli/reports/influence_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cli/text/table.hpp"
+#include "cli/text/wrapped_text.hpp"
+#include "core/base/number_text.hpp"
+#include "core/scene/shown_unit.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Relative changes below this are round-off.
+constexpr double round_off = 1e-8;
+/// What counts where the file gives no tolerance of effects.
+constexpr double usual_tolerance = 1e-3;
+/// Of the time of a simulation: on a busy machine single runs differ by nearly as much.
+constexpr double noticeable_share = 0.3;
+
+std::string signed_text(double value) {
+  if (value == 0.0) return "0";
+  return (value < 0.0 ? "−" : "+") + significant(std::abs(value), 2);
+}
+
+/// Whole percents: times of single runs are not known better.
+std::string percent_text(double share) {
+  const double percents = std::round(100.0 * share);
+  return percents == 0.0 ? "0 %"
+                         : fmt::format("{}{} %", percents < 0.0 ? "−" : "+", std::abs(percents));
+}
+
+struct Change {
+  Eigen::Index response = -1;  ///< none: nothing changes
+  double relative = 0.0;
+};
+
+/// The largest relative change of a response.
+Change largest_change(const Eigen::VectorXd& values, const EffectInfluence& influence) {
+  Change largest;
+  for (Eigen::Index i = 0; i < influence.changes.size(); ++i) {
+    const double relative = std::abs(influence.changes(i)) / std::abs(values(i));
+    if (values(i) == 0.0 || !(relative > std::max(largest.relative, round_off))) continue;
+    largest = {i, relative};
+  }
+  return largest;
+}
+
+/// "rod_bow −0.0012 mm (−0.6 %)"
+std::string largest_change_text(const MeasuredEffects& effects, const EffectInfluence& influence) {
+  const Change largest = largest_change(effects.values, influence);
+  if (largest.response < 0) return "nothing";
+  const ResponseSettings& response = effects.problem.responses[largest.response];
+  const ShownUnit unit = unit_of(response);
+  const double change = influence.changes(largest.response);
+  return fmt::format("{} {} {} ({} %)", response.name, signed_text(unit.shown(change)), unit.name,
+                     signed_text(std::copysign(100.0 * largest.relative, change)));
+}
+
+/// Of a response or of the optimum, relative.
+double most_changed(const MeasuredEffects& effects, const EffectInfluence& influence) {
+  const double change = largest_change(effects.values, influence).relative;
+  if (!effects.price) return change;
+  double objective = 0.0;
+  for (std::size_t i = 0; i < effects.problem.responses.size(); ++i) {
+    if (effects.problem.responses[i].name != effects.problem.objective->response) continue;
+    objective = std::abs(effects.values(static_cast<Eigen::Index>(i)));
+  }
+  const double worth = std::abs(effects.price(influence.changes));
+  return objective > 0.0 ? std::max(change, worth / objective) : change;
+}
+
+bool does_matter(const MeasuredEffects& effects, const EffectInfluence& influence) {
+  if (!influence.failure.empty()) return false;
+  const double asked = effects.problem.effects.tolerance;
+  return std::abs(influence.share) > noticeable_share ||
+         most_changed(effects, influence) > (asked > 0.0 ? asked : usual_tolerance);
+}
+
+std::vector<std::string> row_of(const MeasuredEffects& effects, const EffectInfluence& one) {
+  const PriceOfChanges& price = effects.price;
+  std::vector<std::string> row = {one.effect, one.body};
+  if (!one.failure.empty()) {
+    row.push_back("–");
+    if (price) row.push_back("–");
+    row.push_back(one.failure);
+    return row;
+  }
+  row.push_back(percent_text(-one.share));
+  if (price) {
+    const std::string& objective = effects.problem.objective->response;
+    const ShownUnit unit = unit_of(find_response(effects.problem, objective));
+    row.push_back(signed_text(unit.shown(price(one.changes))) + " " + unit.name);
+  }
+  row.push_back(largest_change_text(effects, one));
+  return row;
+}
+
+/// "4 further effects change nothing by more than 0.025 % and cost hardly any time"
+std::string small_text(const MeasuredEffects& effects, const std::vector<bool>& matters) {
+  int count = 0;
+  double most = 0.0;
+  for (std::size_t i = 0; i < matters.size(); ++i) {
+    if (matters[i] || !effects.influences[i].failure.empty()) continue;
+    ++count;
+    most = std::max(most, most_changed(effects, effects.influences[i]));
+  }
+  if (count == 0) return "";
+  const bool is_all = count == static_cast<int>(matters.size());
+  const std::string subject =
+      fmt::format("{}{}effect{} change{}", is_all ? "" : fmt::format("{} ", count),
+                  is_all ? "all " : "further ", count == 1 ? "" : "s", count == 1 ? "s" : "");
+  return subject + (most > 0.0
+                        ? fmt::format(" nothing by more than {} %", significant(100.0 * most, 2))
+                        : " nothing");
+}
+
+/// "elasticity (crank, rod) cannot be left out"
+std::string indispensable_text(const MeasuredEffects& effects) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> all;
+  for (const EffectInfluence& one : effects.influences) {
+    if (one.failure.empty()) continue;
+    const auto same = std::find_if(all.begin(), all.end(),
+                                   [&](const auto& entry) { return entry.first == one.effect; });
+    if (same == all.end()) {
+      all.push_back({one.effect, {one.body}});
+    } else {
+      same->second.push_back(one.body);
+    }
+  }
+  std::vector<std::string> names;
+  for (const auto& [effect, bodies] : all) names.push_back(effect_of_bodies(effect, bodies));
+  return names.empty() ? "" : fmt::format("{} cannot be left out", fmt::join(names, ", "));
+}
+
+/// What the table leaves out.
+std::string rest_text(const MeasuredEffects& effects, const std::vector<bool>& matters) {
+  std::vector<std::string> parts = {small_text(effects, matters), indispensable_text(effects)};
+  std::erase(parts, "");
+  if (parts.empty()) return "";
+  std::string text = fmt::format("{}; --effects shows all.\n", fmt::join(parts, "; "));
+  if (text.front() >= 'a' && text.front() <= 'z') text.front() += 'A' - 'a';
+  return wrapped(text, "  ");
+}
+
+}  // namespace
+
+std::vector<bool> effects_that_matter(const MeasuredEffects& effects) {
+  std::vector<bool> matters;
+  for (const EffectInfluence& one : effects.influences) {
+    matters.push_back(does_matter(effects, one));
+  }
+  return matters;
+}
+
+void mark_effects(const MeasuredEffects& effects, Json& document) {
+  const std::vector<bool> matters = effects_that_matter(effects);
+  for (Json& entry : document) {
+    for (std::size_t i = 0; i < matters.size(); ++i) {
+      const EffectInfluence& one = effects.influences[i];
+      const bool is_it = entry.value("body", "") == one.body && entry.at("name") == one.effect;
+      if (is_it && one.failure.empty()) entry["matters"] = static_cast<bool>(matters[i]);
+    }
+  }
+}
+
+std::string influences_text(const MeasuredEffects& effects, bool shows_all) {
+  if (effects.influences.empty()) return "";
+  std::vector<Table::Column> columns = {
+      {"without", Table::Align::left}, {"of", Table::Align::left}, {"time"}};
+  if (effects.price) columns.push_back({"optimum"});
+  columns.push_back({"largest change of a response", Table::Align::left});
+  Table table(columns);
+  const std::vector<bool> matters = effects_that_matter(effects);
+  for (std::size_t i = 0; i < matters.size(); ++i) {
+    if (shows_all || matters[i]) table.add_row(row_of(effects, effects.influences[i]));
+  }
+  const std::string listed = table.is_empty() ? "" : table.text();
+  const std::string rest = shows_all ? "" : rest_text(effects, matters);
+  return "\n" + listed + (listed.empty() || rest.empty() ? "" : "\n") + rest;
+}
+
+std::string effect_of_bodies(const std::string& effect, const std::vector<std::string>& bodies) {
+  return bodies.empty() ? effect : fmt::format("{} ({})", effect, fmt::join(bodies, ", "));
+}
+
+}  // namespace pleuel
