@@ -169,7 +169,9 @@ Outcome run_accuracy(const Arguments& arguments) {
   if (answer.is_interrupted()) outcome.document["status"] = study_status(false);
   outcome.text += fmt::format("\nWritten to {}: accuracy.csv, {}result.json, run_card.json\n",
                               record.folder().string(), write_charts(problem, answer, record));
-  record.show_picture([&] { return run_picture(input.problem, {{"start", input.design}}); });
+  record.show_picture([&] {
+    return run_picture(input.problem, {{arguments.design ? "design" : "start", input.design}});
+  });
   record.finish(outcome);
   return outcome;
 }

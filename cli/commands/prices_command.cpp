@@ -213,7 +213,9 @@ Outcome run_prices(const Arguments& arguments) {
                               record.folder().string());
   record.write("result.json", outcome.document);
   write_csv(record.result("prices.csv"), list);
-  record.show_picture([&] { return run_picture(input.problem, {{"start", input.design}}); });
+  record.show_picture([&] {
+    return run_picture(input.problem, {{arguments.design ? "design" : "start", input.design}});
+  });
   record.finish(outcome);
   return outcome;
 }

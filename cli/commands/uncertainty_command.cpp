@@ -216,7 +216,9 @@ Outcome run_uncertainty(const Arguments& arguments) {
                               record.folder().string());
   record.write("result.json", outcome.document);
   write_histories(record.result("uncertainty.csv"), problem, study);
-  record.show_picture([&] { return run_picture(input.problem, {{"start", input.design}}); });
+  record.show_picture([&] {
+    return run_picture(input.problem, {{arguments.design ? "design" : "start", input.design}});
+  });
   record.finish(outcome);
   return outcome;
 }

@@ -36,7 +36,9 @@ std::string step_text(const Discretization& settings) {
 }
 
 std::string division_text(const Discretization& settings) {
-  if (settings.elements > 0) return fmt::format("{} elements a segment", settings.elements);
+  if (settings.elements > 0)
+    return fmt::format("{} element{} a segment", settings.elements,
+                       settings.elements == 1 ? "" : "s");
   if (settings.factor == 1.0) return "elements of the file";
   return fmt::format("{:g} times the elements", settings.factor);
 }

@@ -31,15 +31,23 @@ std::string elements_text(const Discretization& settings) {
                                : fmt::format("×{:g}", settings.factor);
 }
 
-/// The largest of some errors and whose it is: "3.1e-04 rod_stress"; with "≤" if it is below that
-/// of the reference, which then stands there.
-std::string worst(const ProblemFile& problem, const Eigen::VectorXd& errors,
-                  const Eigen::VectorXd& of_reference) {
-  if (errors.size() == 0) return "–";
-  Eigen::Index index = 0;
-  const double largest = errors.maxCoeff(&index);
-  const bool is_bound = largest > 0.0 && largest <= of_reference(index);
-  return fmt::format("{}{} {}", is_bound ? "≤ " : "", magnitude(largest),
+/// "0.031 %"
+std::string share_text(double share) {
+  return share == 0.0 ? "0 %" : significant(100.0 * share, 2) + " %";
+}
+
+/// The largest of the errors that count and whose it is: "0.031 % rod_stress"; with "≤" if it is
+/// below that of the reference, which then stands there.
+std::string worst(const ProblemFile& problem, const AccuracyStudy& study, const AccuracyRun& run,
+                  Eigen::VectorXd AccuracyRun::*kind) {
+  const Eigen::VectorXd& errors = run.*kind;
+  if (errors.size() == 0 || study.counted.empty()) return "–";
+  std::size_t index = study.counted.front();
+  for (const std::size_t i : study.counted) {
+    if (errors(i) > errors(index)) index = i;
+  }
+  const bool is_bound = errors(index) > 0.0 && errors(index) <= (study.reference.*kind)(index);
+  return fmt::format("{}{} {}", is_bound ? "≤ " : "", share_text(errors(index)),
                      problem.responses[index].name);
 }
 
@@ -69,12 +77,11 @@ std::string runs_text(const ProblemFile& problem, const AccuracyStudy& study) {
     if (run.has_failed()) {
       cells.insert(cells.end(), {"failed", first_sentence(run.failure)});
     } else {
-      cells.insert(cells.end(),
-                   {worst(problem, run.errors, study.reference.errors),
-                    worst(problem, run.gradient_errors, study.reference.gradient_errors),
-                    fmt::format("{:.1f}", 1e3 * run.simulation_seconds),
-                    fmt::format("{:.1f}", 1e3 * run.gradient_seconds), std::to_string(run.steps),
-                    std::to_string(run.factorizations)});
+      cells.insert(cells.end(), {worst(problem, study, run, &AccuracyRun::errors),
+                                 worst(problem, study, run, &AccuracyRun::gradient_errors),
+                                 fmt::format("{:.1f}", 1e3 * run.simulation_seconds),
+                                 fmt::format("{:.1f}", 1e3 * run.gradient_seconds),
+                                 std::to_string(run.steps), std::to_string(run.factorizations)});
     }
     if (is_recommended(study, i)) cells.push_back("← recommended");
     table.add_row(std::move(cells));
@@ -216,12 +223,11 @@ std::string variations_text(const ProblemFile& problem, const AccuracyStudy& stu
     if (one.run.has_failed()) {
       cells.insert(cells.end(), {"–", "–", "failed"});
     } else {
-      cells.insert(cells.end(),
-                   {fmt::format("{}{:.0f} %", one.time_change < 0.0 ? "−" : "+",
-                                100.0 * std::abs(one.time_change)),
-                    fmt::format("{:.1f}", 1e3 * one.run.simulation_seconds),
-                    worst(problem, one.run.errors, study.reference.errors),
-                    worst(problem, one.run.gradient_errors, study.reference.gradient_errors)});
+      cells.insert(cells.end(), {fmt::format("{}{:.0f} %", one.time_change < 0.0 ? "−" : "+",
+                                             100.0 * std::abs(one.time_change)),
+                                 fmt::format("{:.1f}", 1e3 * one.run.simulation_seconds),
+                                 worst(problem, study, one.run, &AccuracyRun::errors),
+                                 worst(problem, study, one.run, &AccuracyRun::gradient_errors)});
     }
     table.add_row(std::move(cells));
   }
@@ -229,34 +235,35 @@ std::string variations_text(const ProblemFile& problem, const AccuracyStudy& stu
          "\n\n" + table.text() + "\n";
 }
 
-std::string largest_of(const Eigen::VectorXd& errors) {
-  return errors.size() == 0 ? "–" : magnitude(errors.maxCoeff());
+std::string largest_of(const AccuracyStudy& study, const Eigen::VectorXd& errors) {
+  return errors.size() == 0 ? "–" : share_text(study.counted_error(errors));
 }
 
 std::string counted_text(const ProblemFile& problem, const AccuracyStudy& study) {
   if (study.counted.size() == problem.responses.size()) return "all responses";
+  if (study.counted.empty()) return "no response";
   std::vector<std::string> names;
   for (const std::size_t i : study.counted) names.push_back(problem.responses[i].name);
-  return fmt::format("{}", fmt::join(names, ", "));
+  return fmt::format("what is minimized or limited ({})", fmt::join(names, ", "));
 }
 
-std::string check_text(const ReferenceCheck& check) {
+std::string check_text(const AccuracyStudy& study) {
+  const ReferenceCheck& check = study.check;
   if (!check.failure.empty()) {
     return fmt::format(" It could not be compared with {}: {}.", check.formulation,
                        first_sentence(check.failure));
   }
   return fmt::format(" The formulation {} differs from it by {} at most.", check.formulation,
-                     largest_of(check.differences));
+                     largest_of(study, check.differences));
 }
 
 std::string reference_text(const ProblemFile& problem, const AccuracyStudy& study) {
-  return wrapped(
-      fmt::format("Errors are relative to a reference with {} ({}), whose own error is estimated "
-                  "at {}, of gradients {} (≤: below that).{} What is recommended counts {}. Times "
-                  "are processor times.",
-                  setting_text(study.reference.settings), duration(study.reference.seconds()),
-                  largest_of(study.reference.errors), largest_of(study.reference.gradient_errors),
-                  check_text(study.check), counted_text(problem, study)));
+  return wrapped(fmt::format(
+      "Errors are those of {}, relative to a reference with {} ({}), whose own error is "
+      "estimated at {}, of gradients {} (≤: below that).{} Times are processor times.",
+      counted_text(problem, study), setting_text(study.reference.settings),
+      duration(study.reference.seconds()), largest_of(study, study.reference.errors),
+      largest_of(study, study.reference.gradient_errors), check_text(study)));
 }
 
 /// "An optimum to 1 %: 0.05 s with a step of 0.2 ms and 4 elements a segment, +0.24 g off. "
@@ -314,7 +321,7 @@ std::string optima_text(const ProblemFile& problem, const OptimumStudy* optima) 
       const double error = optima->relative_error(run);
       cells.insert(cells.end(),
                    {significant(unit.shown(run.objective), 6), change_text(objective, run.change),
-                    (error <= optima->relative_floor() ? "≤ " : "") + magnitude(error)});
+                    (error <= optima->relative_floor() ? "≤ " : "") + share_text(error)});
     }
     cells.insert(cells.end(), {significant(run.seconds, 2), std::to_string(run.evaluations),
                                to_string(run.status)});
@@ -334,7 +341,9 @@ std::string optima_text(const ProblemFile& problem, const OptimumStudy* optima) 
 
 std::string setting_text(const Discretization& settings) {
   std::string text = fmt::format("a step of {:.4g} ms and ", 1e3 * settings.step);
-  if (settings.elements > 0) return text + fmt::format("{} elements a segment", settings.elements);
+  if (settings.elements > 0)
+    return text + fmt::format("{} element{} a segment", settings.elements,
+                              settings.elements == 1 ? "" : "s");
   return text + (settings.factor == 1.0
                      ? std::string("the elements of the file")
                      : fmt::format("{:g} times the elements of the file", settings.factor));

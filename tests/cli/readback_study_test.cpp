@@ -51,15 +51,19 @@ TEST(ReadBack, OfAccuracy) {
   const json& runs = report.document.at("runs");
   ASSERT_EQ(table.rows(), runs.size());
   int bounds = 0;
+  // The table counts what is minimized or limited, as the recommendation and the page do.
+  const json& counted = report.document.at("counted");
+  EXPECT_LT(counted.size(), report.document.at("reference").at("values").size());
   const auto expect_worst = [&](const std::string& shown, const json& errors, const json& least) {
     double most = 0.0;
     std::string name;
-    for (const auto& [response, error] : errors.items()) {
+    for (const auto& response : counted) {
+      const double error = errors.at(response.get<std::string>());
       if (error > most) name = response;
-      most = std::max(most, error.get<double>());
+      most = std::max(most, error);
     }
-    expect_shown(shown, "1", most);
-    EXPECT_THAT(shown, testing::EndsWith(" " + name));
+    expect_shown(shown, "1", 100.0 * most);
+    EXPECT_THAT(shown, testing::EndsWith(" % " + name));
     // No run is known better than the reference is: then its error stands there, as a bound.
     const bool is_bound = most > 0.0 && most <= least.at(name).get<double>();
     EXPECT_EQ(shown.starts_with("≤ "), is_bound) << shown;

@@ -21,8 +21,15 @@ function largestError(errors: Record<string, number | null> | undefined, counted
   return largest;
 }
 
-const errorCell = (largest: Largest | null) => (largest ? `${number(100 * largest.value, 2)} %` : "–");
+/** @param least  errors of the reference: no run is known better */
+const errorCell = (largest: Largest | null, least: Record<string, number | null> = {}) =>
+  largest ? `${largest.value > 0 && largest.value <= (least[largest.name] ?? 0) ? "≤ " : ""}${number(100 * largest.value, 2)} %` : "–";
 const nameCell = (largest: Largest | null) => h("span.soft", {}, largest ? words(largest.name) : "");
+
+function countedText(result: Document, counted: string[]): string {
+  if (counted.length === Object.keys(result.reference?.values ?? {}).length) return "all responses";
+  return `what is minimized or limited (${counted.map(words).join(", ")})`;
+}
 
 function settingText(values: Document): string {
   return `a step of ${seconds(values.step)}, ${divisionText(values)}`;
@@ -38,7 +45,7 @@ interface Setting {
 }
 
 function divisionText(settings: Document): string {
-  if (settings.elements) return `${settings.elements} elements a segment`;
+  if (settings.elements) return `${settings.elements} element${settings.elements === 1 ? "" : "s"} a segment`;
   return settings.element_factor === 1 || settings.element_factor === undefined ? "elements of the file" : `${number(settings.element_factor, 3)} times the elements`;
 }
 
@@ -51,12 +58,12 @@ function frontOf(settings: Setting[]): Setting[] {
   return front;
 }
 
-function workPrecision(title: string, settings: Setting[], wanted: number): HTMLElement | null {
+/** @param best  what is recommended for the error that is wanted */
+function workPrecision(title: string, settings: Setting[], wanted: number, best: Document | null): HTMLElement | null {
   if (settings.length < 2) return null;
   const divisions = [...new Set(settings.map((one) => one.division))];
   const front = frontOf(settings);
   const curve = (all: Setting[]) => ({ x: all.map((one) => one.error), y: all.map((one) => one.seconds), labels: all.map((one) => `${one.label}: ${number(one.error, 2)} %, ${seconds(one.seconds)}`) });
-  const best = front.find((one) => one.error <= wanted);
   return h(
     "div",
     {},
@@ -73,7 +80,7 @@ function workPrecision(title: string, settings: Setting[], wanted: number): HTML
         ...divisions.map((division, i) => ({ name: division, ...curve(settings.filter((one) => one.division === division)), color: colors[i % colors.length], dots: true, width: 1.2 })),
       ],
     }).element,
-    best ? h("p.note", {}, `For ${number(wanted, 3)} %: ${best.label}, ${best.division}, ${seconds(best.seconds)}.`) : h("p.note", {}, `No setting that was tried keeps ${number(wanted, 3)} %.`),
+    best ? h("p.note", {}, `For ${number(wanted, 3)} %: ${settingText(best)}, ${seconds(best.seconds)}.`) : h("p.note", {}, `No setting that was tried keeps ${number(wanted, 3)} %.`),
   );
 }
 
@@ -87,8 +94,8 @@ function diagrams(result: Document, counted: string[]): HTMLElement | null {
       return [{ division: divisionText(run.settings), label: `a step of ${seconds(run.settings.step)}`, error: 100 * largest.value, seconds: spent }];
     });
   const charts = [
-    workPrecision("a simulation", settings("errors", (run) => run.simulation_seconds), wanted),
-    workPrecision("a simulation with gradients", settings("gradient_errors", (run) => run.seconds), wanted),
+    workPrecision("a simulation", settings("errors", (run) => run.simulation_seconds), wanted, result.recommended),
+    workPrecision("a simulation with gradients", settings("gradient_errors", (run) => run.seconds), wanted, result.recommended_for_gradients),
   ].filter((one): one is HTMLElement => !!one);
   if (!charts.length) return null;
   return section("Work and precision", "Each mark is a setting: its processor time against its largest error that counts. On the broad line nothing else is both faster and more accurate.", h("div.columns", {}, charts));
@@ -124,7 +131,7 @@ function allRuns(result: Document, counted: string[]): HTMLElement {
   const isBest = (settings: Document) => best && settings.step === best.step && settings.elements === best.elements && settings.element_factor === best.element_factor;
   return section(
     "All runs",
-    "Errors against the reference: the largest of those that count, and whose it is.",
+    `Errors of ${countedText(result, counted)}, against the reference: the largest, and whose it is (≤: below the error of the reference).`,
     table(
       [
         { title: "step" },
@@ -144,9 +151,9 @@ function allRuns(result: Document, counted: string[]): HTMLElement {
           run.settings.elements ? count(run.settings.elements) : `× ${number(run.settings.element_factor ?? 1, 2).replace(/\.0$/, "")}`,
           seconds(run.simulation_seconds ?? run.seconds),
           run.gradient_seconds ? seconds(run.gradient_seconds) : "–",
-          errorCell(value),
+          errorCell(value, result.reference?.errors),
           nameCell(value),
-          errorCell(gradient),
+          errorCell(gradient, result.reference?.gradient_errors),
           nameCell(gradient),
         ];
       }),
@@ -173,7 +180,7 @@ function knobs(result: Document, counted: string[]): HTMLElement | null {
           words(knob.knob),
           String(knob.value),
           knob.seconds ? seconds(knob.seconds) : "–",
-          errorCell(largest),
+          errorCell(largest, result.reference?.errors),
           nameCell(largest),
         ];
       }),
@@ -181,18 +188,56 @@ function knobs(result: Document, counted: string[]): HTMLElement | null {
   );
 }
 
-function savedEffects(result: Document): HTMLElement | null {
+/** What leaving an effect out makes of the response that counts and changes most. */
+function effectChange(one: Document, values: Record<string, number>, counted: string[]): string {
+  let text = "no change";
+  let most = 1e-9;
+  for (const [name, change] of Object.entries((one.influence ?? {}) as Record<string, number>)) {
+    const share = change / Math.abs(values[name]);
+    if (!counted.includes(name) || !(Math.abs(share) > most)) continue;
+    most = Math.abs(share);
+    text = `${words(name)} ${percent(share, 2)}`;
+  }
+  return text;
+}
+
+function savedEffects(result: Document, counted: string[]): HTMLElement | null {
   if (!(result.effects ?? []).length) return null;
+  const values: Record<string, number> = result.reference?.values ?? {};
   return section(
     "What leaving an effect out saves",
-    "",
+    "The time of a simulation, and what changes most of the responses that count.",
     table(
-      [{ title: "effect", left: true }, { title: "set to", left: true }, { title: "time" }, { title: "change of time" }],
+      [{ title: "effect", left: true }, { title: "set to", left: true }, { title: "time" }, { title: "change of time" }, { title: "changes most", left: true }],
       result.effects.map((one: Document) => [
         words(one.effect),
         String(one.value),
         one.seconds ? seconds(one.seconds) : "–",
         Number.isFinite(one.time_change) ? percent(one.time_change, 2) : "–",
+        one.failure ? "the simulation fails" : effectChange(one, values, counted),
+      ]),
+    ),
+  );
+}
+
+function wholeOptimizations(data: ReportData): HTMLElement | null {
+  const { result, picture } = data;
+  const runs: Document[] = result.optimum ?? [];
+  if (!runs.length) return null;
+  const unit = (picture?.objective && picture.responses[picture.objective]?.unit) || { si: "", name: "", factor: 1 };
+  const floor = result.optimum_reference?.relative_error ?? 0;
+  return section(
+    "Whole optimizations",
+    `Against the optimum with ${settingText(result.optimum_reference.settings)}${result.optimum_reference.objective === undefined ? "" : `, ${number(result.optimum_reference.objective / unit.factor, 6)} ${unit.name}`}.`,
+    table(
+      [{ title: "setting", left: true }, { title: `objective [${unit.name}]` }, { title: "error" }, { title: "time" }, { title: "simulations" }, { title: "status", left: true }],
+      runs.map((run) => [
+        settingText(run.settings),
+        run.objective === undefined ? "–" : number(run.objective / unit.factor, 6),
+        run.relative_error === undefined ? "–" : `${run.relative_error <= floor ? "≤ " : ""}${number(100 * run.relative_error, 2)} %`,
+        seconds(run.seconds),
+        count(run.evaluations),
+        run.status,
       ]),
     ),
   );
@@ -211,7 +256,8 @@ export function accuracyPage(data: ReportData): HTMLElement[] {
     pricesOfAccuracy(result),
     allRuns(result, counted),
     knobs(result, counted),
-    savedEffects(result),
+    savedEffects(result, counted),
+    wholeOptimizations(data),
     filesSection(data),
   ].filter((part): part is HTMLElement => !!part);
 }
