@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -8,8 +11,11 @@
 #include "cli/files/older_run.hpp"
 #include "cli/text/characters.hpp"
 #include "cli/text/table.hpp"
+#include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
+#include "core/scene/problem_reader.hpp"
+#include "core/scene/shown_unit.hpp"
 
 /// What differs between two runs, in what went in and in what came out.
 namespace pleuel {
@@ -26,10 +32,11 @@ Json at_or_null(const Json& document, const Json::json_pointer& place) {
   return document.contains(place) ? document.at(place) : Json();
 }
 
-/// Single values wherever both have them; what only one has, as a whole.
+/// Single values wherever both have them; what only one has, as a whole. The order of keys is no
+/// difference.
 void add_differences(const Json& first, const Json& second, const std::string& place,
                      std::vector<Difference>& differences) {
-  if (first == second) return;
+  if (nlohmann::json(first) == nlohmann::json(second)) return;
   if (first.is_object() && second.is_object()) {
     Json all = first;
     all.update(second);
@@ -56,10 +63,8 @@ std::vector<Difference> input_differences(const OlderRun& first, const OlderRun&
   return differences;
 }
 
-constexpr std::size_t widest = 32;  ///< characters of an input that are shown
-
 /// The end of what is too long is left out, at the beginning of a character.
-std::string value_text(const Json& value) {
+std::string value_text(const Json& value, std::size_t widest) {
   if (value.is_null()) return "–";
   std::string text = value.is_string() ? value.get<std::string>() : value.dump();
   if (characters(text) <= widest) return text;
@@ -67,24 +72,70 @@ std::string value_text(const Json& value) {
   return text + "…";
 }
 
+/// Both problems have the same keys and values.
+std::string same_inputs_text(const OlderRun& first, const OlderRun& second) {
+  const auto place =
+      first_reordered(first.card.value("problem", Json()), second.card.value("problem", Json()));
+  if (!place) return "The inputs are the same.\n";
+  return fmt::format("The inputs are the same, but the keys of {} stand in another order.\n",
+                     place->empty() ? "the file" : *place);
+}
+
 std::string inputs_text(const std::vector<Difference>& differences) {
-  if (differences.empty()) return "The inputs are the same.\n";
+  constexpr std::size_t narrowest = 20, gaps = 6;
   Table table({{"input", Table::Align::left},
                {"first", Table::Align::left},
                {"second", Table::Align::left}});
+  std::size_t places = 0;
+  for (const Difference& one : differences) places = std::max(places, characters(one.place));
+  const std::size_t room = line_width - std::min(line_width, places + gaps);
+  const std::size_t widest = std::max(narrowest, room / 2);
   for (const Difference& one : differences) {
-    table.add_row({one.place, value_text(one.first), value_text(one.second)});
+    table.add_row({one.place, value_text(one.first, widest), value_text(one.second, widest)});
   }
   return table.text();
 }
 
 /// A number that both results have, or one of them.
 struct Compared {
-  std::string group, name, unit;
+  std::string group, name, unit;  ///< SI
   Json first, second;
 
   bool has_both() const { return first.is_number() && second.is_number(); }
-  double change() const { return second.get<double>() - first.get<double>(); }
+};
+
+/// In which units the first run, or else the second, was asked for its numbers.
+class Units {
+ public:
+  Units(const OlderRun& first, const OlderRun& second) {
+    add(second);
+    add(first);
+  }
+
+  ShownUnit of(const Compared& value) const {
+    const auto known = units_.find({value.group, value.name});
+    const bool fits = known != units_.end() && known->second.si == value.unit;
+    return fits ? known->second : engineering_unit(value.unit);
+  }
+
+ private:
+  /// A file that cannot be read any more, as where its catalogue is gone, has no units.
+  void add(const OlderRun& run) try {
+    const Json input = run.card.value("input", Json::object());
+    const ProblemFile problem =
+        read_problem_text(run.card.at("problem").dump(), input.value("file", ""), {});
+    const std::vector<ShownUnit> units = variable_units(problem);
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      units_[{"variables", problem.variables[i].name}] = units[i];
+    }
+    for (const auto& one : problem.responses) units_[{"responses", one.name}] = unit_of(one);
+    for (const auto& one : problem.constraints) {
+      units_[{"constraints", one.name}] = unit_of(problem, one);
+    }
+  } catch (const std::exception&) {
+  }
+
+  std::map<std::pair<std::string, std::string>, ShownUnit> units_;
 };
 
 /// The values of {NAME: {"value", "unit"}} in both results.
@@ -130,31 +181,56 @@ std::vector<Compared> outcome_values(const OlderRun& first, const OlderRun& seco
   return compared;
 }
 
-std::string change_text(const Compared& value) {
-  if (!value.has_both()) return "";
-  const double before = value.first.get<double>();
-  if (value.change() == 0.0) return "0";
+/// Numbers that say whether something went well, and not how much of it there is.
+bool is_residual(const Compared& value) {
+  return value.name == "kkt_residual" || value.name == "max_violation";
+}
+
+/// What of a limit of zero round-off leaves is zero.
+double shown_value(const Json& value, const ShownUnit& unit) {
+  constexpr double round_off = 1e-9;
+  const double shown = unit.shown(value.get<double>());
+  return std::abs(shown) < round_off ? 0.0 : shown;
+}
+
+std::string number_text(const Compared& compared, const Json& value, const ShownUnit& unit) {
+  if (!value.is_number()) return "–";
+  if (is_residual(compared)) return magnitude(value.get<double>());
+  if (compared.name == "seconds") return duration(value.get<double>());
+  if (value.is_number_integer()) return value.dump();
+  return significant(shown_value(value, unit), 6);
+}
+
+/// "+2.1 %"; nothing of numbers whose ratio says nothing.
+std::string change_text(const Compared& value, const ShownUnit& unit) {
+  constexpr double hardly = 1e-4;  // two searches for the same optimum differ by that
+  if (!value.has_both() || is_residual(value)) return "";
+  const double before = shown_value(value.first, unit), after = shown_value(value.second, unit);
+  if (before == after) return "same";
   if (before == 0.0) return "";
-  return signed_percent(value.change() / std::abs(before));
+  const double share = (after - before) / std::abs(before);
+  if (std::abs(share) < hardly) return "< 0.01 %";
+  return (share < 0.0 ? "−" : "+") + significant(100.0 * std::abs(share), 3) + " %";
 }
 
 std::string outcomes_text(const OlderRun& first, const OlderRun& second,
                           const std::vector<Compared>& values) {
   Table table({{"outcome", Table::Align::left},
-               {"", Table::Align::left},
+               {"name", Table::Align::left},
                {"first"},
                {"second"},
+               {"unit", Table::Align::left},
                {"change"}},
               2);
-  table.add_row({"status", "", first.status(), second.status(), ""});
-  const auto number = [](const Json& value) {
-    if (value.is_number_integer()) return value.dump();
-    return value.is_number() ? significant(value.get<double>(), 6) : "–";
-  };
+  table.add_row({"status", "–", first.status(), second.status(), "–", ""});
+  const Units units(first, second);
   for (const Compared& value : values) {
-    table.add_row({value.group,
-                   value.unit.empty() ? value.name : fmt::format("{} [{}]", value.name, value.unit),
-                   number(value.first), number(value.second), change_text(value)});
+    const bool is_effort = value.group == "effort";
+    const ShownUnit unit = is_effort ? ShownUnit{} : units.of(value);
+    table.add_row({value.group, value.name, number_text(value, value.first, unit),
+                   number_text(value, value.second, unit),
+                   unit.name.empty() || unit.name == "1" ? "–" : unit.name,
+                   change_text(value, unit)});
   }
   return table.text();
 }
@@ -187,7 +263,8 @@ Outcome run_compare(const Arguments& arguments) {
   }
   outcome.text =
       fmt::format("first: {}, second: {}\n\n{}\n{}", first.folder.string(), second.folder.string(),
-                  inputs_text(inputs), outcomes_text(first, second, values));
+                  inputs.empty() ? same_inputs_text(first, second) : inputs_text(inputs),
+                  outcomes_text(first, second, values));
   return outcome;
 }
 

@@ -12,8 +12,10 @@
 #include <unistd.h>
 
 #include "cli/commands/commands.hpp"
+#include "cli/files/older_run.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/files/run_folder.hpp"
+#include "cli/reports/optimum_report.hpp"
 #include "cli/text/csv_table.hpp"
 #include "cli/text/history_chart.hpp"
 #include "cli/text/wrapped_text.hpp"
@@ -32,42 +34,52 @@ namespace fs = std::filesystem;
 
 /// A design whose histories the run folder has.
 struct RunHistories {
-  std::string design;  ///< "start", "optimum"; empty of a run with one
+  std::string design;  ///< "start", "optimum", "end"; empty of a run with one
   CsvTable table;
 };
 
 /// Of an optimization with load cases: the designs in each of them, {file, "optimum fast"}.
-std::vector<std::pair<std::string, std::string>> files_of_cases(const fs::path& folder) {
+/// @param end  what the last design is called
+std::vector<std::pair<std::string, std::string>> files_of_cases(const fs::path& folder,
+                                                                const std::string& end) {
   std::vector<std::pair<std::string, std::string>> files;
   for (const std::string design : {"start", "optimum"}) {
     const std::string beginning = "trajectory-" + design + "-";
+    const std::string shown = design == "start" ? design : end;
     for (const auto& entry : fs::directory_iterator(folder)) {
       const std::string name = entry.path().filename().string();
       if (!name.starts_with(beginning) || !name.ends_with(".csv")) continue;
       const std::string load_case = entry.path().stem().string().substr(beginning.size());
-      files.emplace_back(name, design + " " + load_case);
+      files.emplace_back(name, shown + " " + load_case);
     }
   }
   std::sort(files.begin(), files.end(), std::greater<>());  // the start first
   return files;
 }
 
+/// Only what is verified is called an optimum.
+std::string end_of_run(const fs::path& folder) {
+  const auto run = find_older_run(folder);
+  return name_of_end(run ? run->status() : "");
+}
+
 std::vector<RunHistories> read_histories(const fs::path& folder) {
-  static constexpr std::array<std::pair<const char*, const char*>, 4> files = {
-      {{"trajectory.csv", ""},
-       {"trajectory-start.csv", "start"},
-       {"trajectory-optimum.csv", "optimum"},
-       {"uncertainty.csv", "mean"}}};
   if (!fs::is_directory(folder)) {
     throw InputError(fmt::format("{}: there is no such run folder", folder.string()));
   }
+  const std::string end = end_of_run(folder);
+  const std::array<std::pair<const char*, std::string>, 4> files = {
+      {{"trajectory.csv", ""},
+       {"trajectory-start.csv", "start"},
+       {"trajectory-optimum.csv", end},
+       {"uncertainty.csv", "mean"}}};
   std::vector<RunHistories> histories;
   for (const auto& [name, design] : files) {
     if (fs::is_regular_file(folder / name)) {
       histories.push_back({design, read_csv(folder / name)});
     }
   }
-  for (const auto& [name, design] : files_of_cases(folder)) {
+  for (const auto& [name, design] : files_of_cases(folder, end)) {
     histories.push_back({design, read_csv(folder / name)});
   }
   if (histories.empty()) {

@@ -18,9 +18,6 @@ namespace fs = std::filesystem;
 
 /// The folder itself, or those in it, by their names.
 std::vector<OlderRun> runs_in(const fs::path& folder) {
-  if (!fs::is_directory(folder)) {
-    throw InputError(fmt::format("{}: there is no such folder", folder.string()));
-  }
   if (auto run = find_older_run(folder)) return {std::move(*run)};
   std::vector<fs::path> folders;
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -71,8 +68,22 @@ Json run_document(const OlderRun& run) {
 
 Outcome run_runs(const Arguments& arguments) {
   const fs::path folder = arguments.file.empty() ? fs::path("runs") : arguments.file;
-  const std::vector<OlderRun> runs = runs_in(folder);
   Outcome outcome;
+  if (!fs::is_directory(folder)) {
+    if (!arguments.file.empty()) {
+      throw InputError(fmt::format("{}: there is no such folder", folder.string()));
+    }
+    outcome.document = {{"runs", Json::array()}};
+    outcome.text =
+        "No runs yet: commands such as optimize and simulate make them, in the folder runs.\n";
+    return outcome;
+  }
+  std::vector<OlderRun> runs = runs_in(folder);
+  if (arguments.order == "time") {
+    std::stable_sort(runs.begin(), runs.end(), [](const OlderRun& one, const OlderRun& other) {
+      return one.written() < other.written();
+    });
+  }
   outcome.document = {{"runs", Json::array()}};
   for (const OlderRun& run : runs) outcome.document["runs"].push_back(run_document(run));
   outcome.text = runs.empty() ? fmt::format("{}: no runs\n", folder.string()) : table_text(runs);

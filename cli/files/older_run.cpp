@@ -39,14 +39,15 @@ bool is_at_work(const fs::path& folder) {
 }  // namespace
 
 std::string OlderRun::problem() const {
-  if (card.contains("inputs") && card["inputs"].is_array()) {
+  if (card.contains("inputs") && card["inputs"].is_array() && card["inputs"].size() != 1) {
     return fmt::format("{} files", card["inputs"].size());
   }
   const Json problem = card.value("problem", Json::object());
   if (problem.is_object() && problem.value("name", Json()).is_string()) {
     return problem["name"].get<std::string>();
   }
-  const Json input = card.value("input", Json::object());
+  const bool is_listed = card.contains("inputs") && card["inputs"].is_array();
+  const Json input = is_listed ? card["inputs"][0] : card.value("input", Json::object());
   return fs::path(input.value("file", "")).stem().string();
 }
 
@@ -80,6 +81,12 @@ std::string OlderRun::date() const {
   struct stat status = {};
   if (::stat((folder / card_name).c_str(), &status) == -1) return "";
   return fmt::format("{:%Y-%m-%d %H:%M}", fmt::localtime(status.st_mtime));
+}
+
+fs::file_time_type OlderRun::written() const {
+  std::error_code error;
+  const fs::file_time_type time = fs::last_write_time(folder / card_name, error);
+  return error ? fs::file_time_type::min() : time;
 }
 
 std::optional<OlderRun> find_older_run(const fs::path& folder) {

@@ -26,6 +26,8 @@ struct OlderRun {
   std::optional<double> seconds() const;  ///< wall time of the whole run
   /// Local time at which its card was written last: "2025-03-01 17:04".
   std::string date() const;
+  /// The same instant, to put runs in order by.
+  std::filesystem::file_time_type written() const;
 };
 
 /// @returns nothing if the folder is not that of a run

@@ -9,6 +9,7 @@
 #include "cli/files/command_text.hpp"
 #include "cli/input/fingerprint.hpp"
 #include "cli/text/console.hpp"
+#include "cli/text/json.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stop.hpp"
 
@@ -37,7 +38,8 @@ std::string first_difference(const Json& there, const Json& here) {
     };
     return fmt::format("{} is {} there and {} here", place.to_string(), text(there), text(here));
   }
-  return "they are the same";
+  const std::string place = first_reordered(there, here).value_or("");
+  return fmt::format("the keys of {} stand in another order", place.empty() ? "the file" : place);
 }
 
 }  // namespace
@@ -66,7 +68,7 @@ RunStore::RunStore(RunRecord& record, const Arguments& arguments, const ProblemI
 
 void RunStore::open_older() {
   const std::filesystem::path file = record_.folder() / database_name;
-  if (!std::filesystem::exists(file)) return;  // killed before there was anything, or a new run
+  if (!std::filesystem::exists(file)) return begin_without_record();
   try {
     database_.emplace(file);
     check_same_run();
@@ -74,6 +76,20 @@ void RunStore::open_older() {
   } catch (const DatabaseError& error) {
     throw InputError(fmt::format("--resume: {}: {}", file.string(), error.what()));
   }
+}
+
+/// A script may ask for --resume from the first time on; results that are there are not replaced.
+void RunStore::begin_without_record() const {
+  const std::string folder = record_.folder().string();
+  if (std::filesystem::exists(record_.folder() / "result.json")) {
+    throw InputError(
+        fmt::format("--resume: {} has results and no {}: there is nothing to resume; take another "
+                    "folder, or --overwrite",
+                    folder, database_name));
+  }
+  show(stderr, fmt::format("pleuel: note: --resume: {} has no {}: there is nothing to resume, the "
+                           "run begins anew\n",
+                           folder, database_name));
 }
 
 void RunStore::check_same_run() const {

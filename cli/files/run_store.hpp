@@ -38,6 +38,7 @@ class RunStore : public EvaluationStore {
 
  private:
   void open_older();
+  void begin_without_record() const;
   void check_same_run() const;
   void describe_run();
   /// Does this on the record, if there is one that can be written.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -11,5 +12,9 @@ using Json = nlohmann::ordered_json;
 
 /// An indented document that ends with a newline; numbers read back exactly.
 std::string to_text(const Json& document);
+
+/// Of documents that are equal but for the order of keys: the first object whose keys stand in
+/// another order, as a JSON pointer. None if the order is the same.
+std::optional<std::string> first_reordered(const Json& one, const Json& other);
 
 }  // namespace pleuel

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/cli/program.hpp"
+#include "tests/cli/text_table.hpp"
 
 /// What is told of runs that have ended, and of those that have not.
 namespace pleuel::test {
@@ -44,6 +45,24 @@ TEST_F(OlderRuns, AreListedWithTheirStatusAndObjective) {
   EXPECT_EQ(run_program(folder_.path(), {"runs", "nowhere"}).exit_code, 2);
 }
 
+/// The newest is the last, or they are in the order of their names.
+TEST_F(OlderRuns, AreListedByTimeOrByName) {
+  const ProgramRun none = run_program(folder_.path(), {"runs"});
+  EXPECT_EQ(none.exit_code, 0) << none.err;
+  EXPECT_THAT(none.out, HasSubstr("No runs yet"));
+  for (const char* name : {"b", "a"}) {
+    run_program(folder_.path(), joined({"simulate", problem("slider_crank_round"), "--no-report",
+                                        "-o", std::string("runs/") + name},
+                                       quick()));
+  }
+  const auto first = [&](const std::vector<std::string>& words) {
+    const auto runs = run_program(folder_.path(), joined({"runs", "--json"}, words)).document();
+    return runs.at("runs").at(0).at("folder").get<std::string>();
+  };
+  EXPECT_EQ(first({}), "runs/b");
+  EXPECT_EQ(first({"--sort", "name"}), "runs/a");
+}
+
 TEST_F(OlderRuns, ThatWereKilledAreToldFromThoseAtWork) {
   const ProgramRun run = run_line(
       folder_.path(),
@@ -66,6 +85,24 @@ TEST_F(OlderRuns, AreComparedInInputAndOutcome) {
   EXPECT_THAT(same.out, HasSubstr("The inputs are the same."));
   const ProgramRun text = run_program(folder_.path(), {"compare", "runs/one", "runs/two"});
   EXPECT_THAT(unwrapped(text.out), HasSubstr("/simulation/spectral_radius"));
+  // In the units of the file, to six digits; residuals as they are, without a change of theirs.
+  const TextTable table(text.out, "outcome");
+  const auto row_of = [&](const std::string& name) {
+    std::size_t row = 0;
+    while (row < table.rows() && table.text(row, "name") != name) ++row;
+    return row;
+  };
+  const nlohmann::json first =
+      nlohmann::json::parse(read_file(folder_.path() / "runs/one/result.json"));
+  const std::size_t rod = row_of("rod_diameter"), residual = row_of("kkt_residual");
+  ASSERT_LT(rod, table.rows());
+  ASSERT_LT(residual, table.rows());
+  EXPECT_EQ(table.text(rod, "unit"), "mm");
+  EXPECT_NEAR(table.number(rod, "first"),
+              1e3 * first.at("variables").at("rod_diameter").at("value").get<double>(), 1e-3);
+  EXPECT_EQ(table.text(residual, "change"), "");
+  EXPECT_EQ(text.out.find("+0.0 %"), std::string::npos);
+  EXPECT_EQ(text.out.find("−0.0 %"), std::string::npos);
   const nlohmann::json document =
       run_program(folder_.path(), {"compare", "runs/one", "runs/two", "--json"}).document();
   ASSERT_EQ(document.at("input").size(), 1u);

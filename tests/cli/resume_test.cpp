@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <fstream>
 #include <random>
 
 #include <fmt/format.h>
@@ -192,9 +193,43 @@ TEST_F(Resumed, RecordThatIsNoneIsRefused) {
   EXPECT_THAT(run.err, HasSubstr("--resume: run/run.sqlite: "));
 }
 
-TEST_F(Resumed, NothingBegins) {
+TEST_F(Resumed, ResultsWithoutRecordAreKept) {
+  const std::string words = "optimize " + problem("slider_crank_round") + quick_line() + " -o run";
+  ASSERT_EQ(run_line(folder_.path(), words + "; rm run/run.sqlite*").exit_code, 0);
+  const std::string before = read_file(folder_.path() / "run/result.json");
+  const ProgramRun run = run_line(folder_.path(), words + " --resume");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("there is nothing to resume"));
+  EXPECT_EQ(read_file(folder_.path() / "run/result.json"), before);
+}
+
+/// Problems whose keys stand in another order are told as such.
+TEST_F(Resumed, RunWithKeysInAnotherOrderIsRefusedWithThatReason) {
+  const auto write = [&](bool is_turned) {
+    const auto text = read_file(problem("slider_crank_round"));
+    auto document = nlohmann::ordered_json::parse(text);
+    const auto variables = document.at("variables");
+    document["variables"] = nlohmann::ordered_json::object();
+    std::vector<std::string> names;
+    for (const auto& [name, value] : variables.items()) names.push_back(name);
+    if (is_turned) std::reverse(names.begin(), names.end());
+    for (const std::string& name : names) document["variables"][name] = variables.at(name);
+    std::ofstream(folder_.path() / "problem.json") << document.dump(2);
+  };
+  const std::string words = "optimize problem.json" + quick_line() + " -o run";
+  write(false);
+  ASSERT_EQ(run_line(folder_.path(), words).exit_code, 0);
+  write(true);
+  const ProgramRun run = run_line(folder_.path(), words + " --resume");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("the keys of /variables stand in another order"));
+}
+
+TEST_F(Resumed, NothingBeginsAnew) {
   const std::string words = "optimize " + problem("slider_crank_round") + quick_line();
-  EXPECT_EQ(run_line(folder_.path(), words + " -o run --resume").exit_code, 0);
+  const ProgramRun begun = run_line(folder_.path(), words + " -o run --resume");
+  EXPECT_EQ(begun.exit_code, 0);
+  EXPECT_THAT(begun.err, HasSubstr("run has no run.sqlite: there is nothing to resume"));
   EXPECT_EQ(run_line(folder_.path(), words + " -o run --resume --overwrite").exit_code, 2);
 }
 
