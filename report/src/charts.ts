@@ -99,6 +99,8 @@ function axis(options: ChartOptions, which: "x" | "y") {
 function seriesOption(options: ChartOptions, s: Series, i: number) {
   const paint = color(s.color);
   const isDots = s.line === false;
+  // Names of limits stay clear of the numbers of peaks.
+  const limitSide = options.peaks?.some((peak) => placeAcross(options, peak.x) < 0.45) ? ("insideEndTop" as const) : ("insideStartTop" as const);
   return {
     type: isDots ? ("scatter" as const) : ("line" as const),
     name: s.name,
@@ -123,7 +125,7 @@ function seriesOption(options: ChartOptions, s: Series, i: number) {
               yAxis: limit.value,
               label: {
                 formatter: limit.label,
-                position: "insideStartTop" as const,
+                position: limitSide,
                 color: color("limit"),
                 fontSize: 11,
               },
@@ -145,6 +147,7 @@ function seriesOption(options: ChartOptions, s: Series, i: number) {
                 show: true,
                 formatter: peak.label,
                 position: isLow(options, peak.y) ? ("bottom" as const) : ("top" as const),
+                align: placeAcross(options, peak.x) > 0.92 ? ("right" as const) : placeAcross(options, peak.x) < 0.08 ? ("left" as const) : ("center" as const),
                 distance: 5,
                 color: color("ink"),
                 fontSize: 11,
@@ -180,6 +183,13 @@ function bandOption(s: Series) {
 }
 
 /** Whether a mark is at the lower side of the curves. */
+/** Where a value stands between the first and the last of all curves, 0 … 1. */
+function placeAcross(options: ChartOptions, x: number): number {
+  let [first, last] = [Infinity, -Infinity];
+  for (const s of options.series) for (const one of s.x) [first, last] = [Math.min(first, one), Math.max(last, one)];
+  return last > first ? (x - first) / (last - first) : 0.5;
+}
+
 function isLow(options: ChartOptions, y: number): boolean {
   let [low, high] = [Infinity, -Infinity];
   for (const s of options.series) for (const one of s.y) if (one !== null) [low, high] = [Math.min(low, one), Math.max(high, one)];

@@ -135,6 +135,67 @@ test("an optimization begins with what was won and the verdict", async () => {
   await tab.close();
 });
 
+test("a verdict says in plain words what was checked", async () => {
+  const { tab } = await open("optimize");
+  const { status, checked } = result("optimize");
+  const text = await tab.locator(".hero").innerText();
+  if (status === "verified") assert.ok(text.includes(`In plain words: ${checked}.`));
+  else assert.ok(!text.includes("In plain words"));
+  await tab.close();
+});
+
+test("a choice of sizes is called the best of those that were tried", async () => {
+  const { tab } = await open("choices");
+  const { status, choices } = result("choices");
+  const badge = await tab.locator(".hero .badge").innerText();
+  assert.doesNotMatch(badge, /local optimum/);
+  if (status === "verified") assert.match(badge, choices.exhaustive ? /Best of all \d+ choices/ : /Best of \d+ tried choices/);
+  await tab.close();
+});
+
+test("of the effects those that matter are listed, the others counted", async () => {
+  const { tab } = await open("optimize");
+  const { effects } = result("optimize");
+  const shown = tab.locator("section", { has: tab.getByRole("heading", { name: "What is simulated" }) });
+  const important = effects.filter((effect) => effect.matters).length;
+  assert.equal(await shown.locator("tbody tr:visible").count(), important);
+  const small = effects.filter((effect) => effect.influence && !effect.matters).length;
+  if (small) assert.match(await shown.innerText(), new RegExp(`${small} further effects?`));
+  await shown.getByText(`All ${effects.length} effects`).click();
+  assert.equal(await shown.locator("tbody tr:visible").count(), important + effects.length);
+  await tab.close();
+});
+
+test("accuracy counts what the program recommends by", async () => {
+  const { tab } = await open("accuracy");
+  const { counted, runs, reference } = result("accuracy");
+  assert.ok(counted.length < Object.keys(reference.values).length);
+  const rows = tab.locator("section", { has: tab.getByRole("heading", { name: "All runs" }) }).locator("tbody tr");
+  for (const [i, run] of runs.entries()) {
+    const largest = Math.max(...counted.map((name) => run.errors[name]));
+    const shown = Number((await rows.nth(i).locator("td").nth(4).innerText()).replace(/[≤%\s]/g, "").replace("−", "-"));
+    assert.ok(Math.abs(shown - 100 * largest) <= 0.051 * 100 * largest, `${shown} is not ${100 * largest}`);
+  }
+  await tab.close();
+});
+
+test("wide tables scroll on a narrow page, with the names of rows in sight", async () => {
+  for (const name of ["check", "accuracy", "pareto", "show"]) {
+    const { tab } = await open(name, { width: 390 });
+    const cut = await tab.evaluate(() =>
+      [...document.querySelectorAll(".scroll")].filter((one) => one.checkVisibility() && one.querySelector("tbody tr")).map((one) => {
+        one.scrollLeft = 1e4;
+        const [box, first] = [one.getBoundingClientRect(), one.querySelector("tbody tr > :first-child").getBoundingClientRect()];
+        const last = one.querySelector("tbody tr > :last-child").getBoundingClientRect();
+        return { right: last.right - box.right, left: first.left - box.left };
+      }),
+    );
+    assert.ok(cut.length > 0);
+    for (const { right, left } of cut) assert.ok(right < 2 && Math.abs(left) < 2, `${name}: ${right}, ${left}`);
+    await tab.close();
+  }
+});
+
 test("charts hold the numbers of result.json", async () => {
   const { tab } = await open("optimize");
   const { responses } = result("optimize");
@@ -307,6 +368,17 @@ test("without WebGL everything but the drawing is there", async () => {
   assert.equal(await tab.locator(".no-drawing").count(), 1);
   assert.ok((await tab.locator(".limits li").count()) >= 4);
   assert.ok((await tab.locator(".inspector figure svg").count()) >= 1);
+  // Time still runs: in the clock and the cursors of the charts.
+  await tab.locator(".controls input[type=range]").fill("500");
+  assert.doesNotMatch(await tab.locator(".clock").innerText(), /^0 s/);
+  await tab.close();
+  for (const name of ["simulate", "pareto", "show", "check"]) {
+    const other = await open(name, { from: plain });
+    assert.match(await other.tab.locator(".no-drawing").first().innerText(), /no WebGL/);
+    assert.ok((await other.tab.locator(".card").count()) >= 4, name);
+    assert.deepEqual(other.complaints.filter((text) => !/WebGL/.test(text)), []);
+    await other.tab.close();
+  }
   await plain.close();
 });
 

@@ -68,7 +68,7 @@ export function makePlayer(options: PlayerOptions): Player {
       onPick: (body, joint) => options.onPick({ body, joint }),
     });
   } catch {
-    host.append(h("p.no-drawing", {}, "This browser shows no WebGL: the drawing is left out, all numbers are below."));
+    host.append(h("p.no-drawing", {}, "No drawing: this browser has no WebGL, or it is switched off. Everything else on this page works."));
   }
   let time = 0;
   let isPlaying = false;

@@ -18,7 +18,7 @@ export function uncertaintyPage(data: ReportData): HTMLElement[] {
       one.sampled ? shown(one.sampled.deviation, 3) : "–",
       one.bounds ? `${shown(one.bounds[0])} … ${shown(one.bounds[1])}` : "–",
       unit.name,
-      shares.slice(0, 2).map(({ who, part }) => `${words(who)} ${(100 * part).toFixed(0)} %`).join(", "),
+      shares.filter(({ part }, i) => i === 0 || part >= 0.005).slice(0, 2).map(({ who, part }) => `${words(who)} ${(100 * part).toFixed(0)} %`).join(", "),
     ];
   });
   return [
