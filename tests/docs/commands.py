@@ -4,7 +4,7 @@
     commands.py PROGRAM [PAGE…]         PROGRAM is the built pleuel; by default all pages
     commands.py --slow PROGRAM [PAGE…]  those marked as slow, too
 
-Each page has a fresh folder with links `pleuel` and `problems`; its blocks run from top to bottom:
+Each page has a fresh folder with links `pleuel`, `problems` and `catalogue.json`; its blocks run from top to bottom:
 
     ```sh                    each line is a command, which must end with the exit code 0
     ```sh exit=2             the last line must end with this code
@@ -110,6 +110,7 @@ class Page:
         self.spoiled: dict[Path, str] = {}  # files to be put right
         (folder / "pleuel").symlink_to(program)
         (folder / "problems").symlink_to(ROOT / "problems")
+        (folder / "catalogue.json").symlink_to(ROOT / "problems/catalogue.json")
         self.environment = dict(
             os.environ,
             PATH=f"{folder}:{os.environ['PATH']}",
