@@ -171,10 +171,10 @@ std::string left_out_text(const PriceList& list) {
 std::string report(const ProblemFile& problem, const PricedDesign& design, const PriceList& list) {
   const ShownUnit unit = unit_of(find_response(problem, problem.objective->response));
   std::string text = design.verdict.empty() ? "" : "\n" + wrapped(design.verdict) + "\n\n";
-  text +=
+  text += wrapped(
       fmt::format("{}: what one percent more of each number changes of the optimum, {} = {} {}\n\n",
                   problem.name, problem.objective->response,
-                  significant(unit.shown(list.objective)), unit.name);
+                  significant(unit.shown(list.objective)), unit.name));
   text += prices_text(problem, list) + "\n";
   text += wrapped(next_limits_text(list) + left_out_text(list) +
                   "In brackets: how many numbers of the file move with it, as those of a shared "

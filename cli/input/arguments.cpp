@@ -445,7 +445,9 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
     write_all(stdout, wrapped(text.str(), std::string(help_column, ' ')));
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
-    throw InputError(fmt::format("{}; see {} --help", error.what(), arguments.program));
+    const bool has_command = !arguments.words.empty() && !arguments.words.front().starts_with("-");
+    throw InputError(fmt::format("{}; see {}{} --help", error.what(), arguments.program,
+                                 has_command ? " " + arguments.words.front() : ""));
   }
   const double step = arguments.difference_step.value_or(0.5);
   if (!(step > 0.0 && step < 1.0)) {

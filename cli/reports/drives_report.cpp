@@ -22,6 +22,7 @@ const char* word_of(ResponseType type) {
 std::string change_text(double before, double after) {
   if (before == 0.0) return "";
   const double percents = 100.0 * (after / before - 1.0);
+  if (std::abs(percents) < 0.05) return " (the same)";
   return fmt::format(" ({}{:.1f} %)", percents < 0.0 ? "−" : "+", std::abs(percents));
 }
 

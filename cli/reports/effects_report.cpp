@@ -41,6 +41,36 @@ void add_influence(const ProblemFile& problem, const EffectInfluence& influence,
   entry["seconds"] = influence.seconds;
 }
 
+bool are_alike(const EffectRecord& one, const EffectRecord& other) {
+  return one.name == other.name && one.is_built == other.is_built && one.kind == other.kind &&
+         one.reason == other.reason && one.coordinates_saved == other.coordinates_saved;
+}
+
+/// Effects that are decided alike, and of which bodies.
+struct AlikeEffects {
+  const EffectRecord* effect;
+  std::vector<std::string> bodies;
+};
+
+std::vector<AlikeEffects> alike_effects(const Model& model) {
+  std::vector<AlikeEffects> all;
+  for (const EffectRecord& effect : model.effects) {
+    auto same = std::find_if(all.begin(), all.end(), [&](const AlikeEffects& one) {
+      return are_alike(*one.effect, effect);
+    });
+    if (same == all.end()) same = all.insert(all.end(), {&effect, {}});
+    if (!effect.body.empty()) same->bodies.push_back(effect.body);
+  }
+  return all;
+}
+
+std::string bodies_text(const std::vector<std::string>& bodies) {
+  constexpr std::size_t most = 3;
+  if (bodies.empty()) return "–";
+  if (bodies.size() > most) return fmt::format("{} bodies", bodies.size());
+  return fmt::format("{}", fmt::join(bodies, ", "));
+}
+
 }  // namespace
 
 Json effects_document(const ProblemFile& problem, const Model& model,
@@ -71,11 +101,11 @@ std::string effects_text(const Model& model) {
                {"decision", Table::Align::left},
                {"saves"},
                {"because", Table::Align::left}});
-  for (const EffectRecord& effect : model.effects) {
-    table.add_row({effect.name, effect.body.empty() ? "–" : effect.body,
-                   effect.is_built ? "yes" : "no", kind_of(effect),
-                   effect.coordinates_saved > 0 ? std::to_string(effect.coordinates_saved) : "–",
-                   effect.reason});
+  for (const auto& [effect, bodies] : alike_effects(model)) {
+    table.add_row({effect->name, bodies_text(bodies), effect->is_built ? "yes" : "no",
+                   kind_of(*effect),
+                   effect->coordinates_saved > 0 ? std::to_string(effect->coordinates_saved) : "–",
+                   effect->reason});
   }
   return table.text();
 }

@@ -16,7 +16,8 @@ namespace pleuel {
 Json effects_document(const ProblemFile& problem, const Model& model,
                       const std::vector<EffectInfluence>& influences = {});
 
-/// Table: effect, whether it is built, why.
+/// Table: effect, whether it is built, why; effects of several bodies that are decided alike stand in
+/// one row.
 std::string effects_text(const Model& model);
 
 /// "Left out: spatial_motion, torsional_elasticity (crank, rod)." Empty if nothing is.

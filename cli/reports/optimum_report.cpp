@@ -152,7 +152,7 @@ std::string constraints_text(const Optimum& optimum) {
     const ShownUnit objective_unit =
         unit_of(find_response(optimum.problem, optimum.problem.objective->response));
     columns.push_back({fmt::format("multiplier [{}/unit]", objective_unit.name)});
-    columns.push_back({"objective at +1 % limit"});
+    columns.push_back({"at +1 % limit"});
   }
   if (has_cases) columns.insert(columns.begin() + 1, {"case", Table::Align::left});
   Table table(std::move(columns));

@@ -6,6 +6,7 @@
 
 #include "cli/reports/sizes_report.hpp"
 #include "cli/text/table.hpp"
+#include "cli/text/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
 #include "core/integration/configuration.hpp"
 #include "core/scene/shown_unit.hpp"
@@ -91,8 +92,9 @@ std::string freedoms_text(const DegreesOfFreedom& freedoms, const Model& model) 
       "Rigid motion: {} coordinates, {} independent constraints ({} of drives): ",
       freedoms.coordinates, freedoms.constraints, driven == 0 ? "none" : std::to_string(driven));
   if (freedoms.free() > 0) {
-    return text + fmt::format("{} freedom{} left to the forces\n", freedoms.free(),
-                              freedoms.free() == 1 ? " is" : "s are");
+    return wrapped(text + fmt::format("{} freedom{} left to the forces\n", freedoms.free(),
+                                      freedoms.free() == 1 ? " is" : "s are"),
+                   "  ");
   }
   if (freedoms.blocked > 0) return text + "no rigid motion follows the drives\n";
   return text + (driven > 0 ? "the drives prescribe it\n" : "nothing can move\n");
@@ -116,10 +118,11 @@ std::string assembly_text(const Analysis& analysis) {
     return "";
   }
   const std::string& name = mechanism.equation_names.at(largest);
-  return fmt::format(
-      "Joints and drives move the mechanism from where the file places it before the start, "
-      "most {}, by {} m or rad.\n",
-      name, significant(shift(largest), 3));
+  return wrapped(
+      fmt::format("Joints and drives move the mechanism from where the file places it before the "
+                  "start, most {}, by {} m or rad.\n",
+                  name, significant(shift(largest), 3)),
+      "  ");
 }
 
 Json variables_document(const ProblemFile& problem) {

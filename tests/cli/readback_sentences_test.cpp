@@ -330,14 +330,21 @@ TEST(ReadBackSentences, OfCheck) {
   // 3 + 3 + 2 coordinates; two of each of three pins, one of the guide, one of the drive.
   EXPECT_EQ(motion.at("coordinates"), 8);
   EXPECT_EQ(motion.at("constraints"), 8);
-  ASSERT_EQ(effects.rows(), document.at("effects").size());
-  for (std::size_t row = 0; row < effects.rows(); ++row) {
-    const json& effect = document.at("effects").at(row);
-    EXPECT_EQ(effects.text(row, "effect"), effect.at("name"));
-    EXPECT_EQ(effects.text(row, "of"), effect.value("body", "–"));
-    EXPECT_EQ(effects.text(row, "built"), effect.at("built") ? "yes" : "no");
-    EXPECT_EQ(effects.text(row, "decision"), effect.at("decision"));
+  // Each effect stands in one row, with all bodies of which it is decided alike.
+  for (const json& effect : document.at("effects")) {
+    std::size_t rows = 0;
+    for (std::size_t row = 0; row < effects.rows(); ++row) {
+      const std::string of = ", " + effects.text(row, "of") + ",";
+      const bool is_it = effects.text(row, "effect") == effect.at("name") &&
+                         of.find(", " + effect.value("body", "–") + ",") != std::string::npos;
+      if (!is_it) continue;
+      ++rows;
+      EXPECT_EQ(effects.text(row, "built"), effect.at("built") ? "yes" : "no");
+      EXPECT_EQ(effects.text(row, "decision"), effect.at("decision"));
+    }
+    EXPECT_EQ(rows, 1u) << effect;
   }
+  EXPECT_LT(effects.rows(), document.at("effects").size());
 }
 
 }  // namespace

@@ -148,7 +148,7 @@ TEST_F(ReadBackOptimum, Constraints) {
     EXPECT_GT(multiplier, 0.0);
     expect_shown(table.text(row, "multiplier [kg/unit]"), "kg/" + unit, multiplier);
     // More room makes the best design lighter.
-    expect_shown(table.text(row, "objective at +1 % limit"), "1",
+    expect_shown(table.text(row, "at +1 % limit"), "1",
                  -multiplier * 0.01 * limit / objective * 100);
   }
   EXPECT_GE(active, 1);
@@ -167,7 +167,7 @@ TEST(ReadBack, OfALowerLimit) {
   EXPECT_EQ(constraint.at("side"), "lower");
   // The mass is its own limit: a multiplier of −1, and one percent more costs one percent.
   EXPECT_NEAR(constraint.at("multiplier"), -1.0, 1e-4);
-  EXPECT_EQ(table.text(0, "objective at +1 % limit"), "+1.00 %");
+  EXPECT_EQ(table.text(0, "at +1 % limit"), "+1.00 %");
   const double value = constraint.at("value");
   EXPECT_NEAR(constraint.at("utilisation"), 1.0 / value, 1e-9);
   expect_shown(table.text(0, "used"), "1", 100.0 / value);
