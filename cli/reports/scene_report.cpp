@@ -101,6 +101,7 @@ std::string freedoms_text(const DegreesOfFreedom& freedoms, const Model& model) 
 }
 
 std::string assembly_text(const Analysis& analysis) {
+  if (analysis.trajectory.periodic) return "";  // starts in the midst of its motion
   const Mechanism& mechanism = analysis.model.mechanism;
   State initial;
   analysis.trajectory.states->load(0, initial);

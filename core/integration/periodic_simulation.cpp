@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -75,19 +76,17 @@ class PeriodicSearch {
       : mechanism_(mechanism), one_(one), states_(mechanism, one.instants[1] - one.instants[0]) {}
 
   Attempt run() {
-    Attempt attempt = first_attempt();
-    double rate = 1.0;
-    while (attempt.gap > one_.newton_tolerance) {
-      const bool is_fresh = rate > slow_search, is_small = attempt.gap <= gap_of_round_off;
-      if (is_fresh && !is_small) make_map(attempt.trajectory);
-      Attempt next = corrected(attempt, is_fresh && !is_small ? most_halvings : 0);
-      rate = next.gap / attempt.gap;
-      if (rate < 1.0) attempt = std::move(next);
-      if (rate > no_progress && is_small) break;
-      if ((rate >= 1.0 && is_fresh) || simulations_ > most_simulations) fail(attempt);
+    Attempt attempt;
+    // A motion that starts from rest may make fewer turns in its first period: that alone is no
+    // fault, but the likely cause of what fails later.
+    try {
+      attempt = search();
+    } catch (const SimulationError&) {
+      if (!complaint_.empty()) throw SimulationError(complaint_);
+      throw;
     }
-    if (!map_) make_map(attempt.trajectory);
-    require_repetition(mechanism_, attempt.trajectory, one_.period);
+    complaint_ = complaint_about_repetition(mechanism_, attempt.trajectory, one_.period);
+    if (!complaint_.empty()) throw SimulationError(complaint_);
     return attempt;
   }
 
@@ -105,11 +104,27 @@ class PeriodicSearch {
   }
 
  private:
+  Attempt search() {
+    Attempt attempt = first_attempt();
+    double rate = 1.0;
+    while (attempt.gap > one_.newton_tolerance) {
+      const bool is_fresh = rate > slow_search, is_small = attempt.gap <= gap_of_round_off;
+      if (is_fresh && !is_small) make_map(attempt.trajectory);
+      Attempt next = corrected(attempt, is_fresh && !is_small ? most_halvings : 0);
+      rate = next.gap / attempt.gap;
+      if (rate < 1.0) attempt = std::move(next);
+      if (rate > no_progress && is_small) break;
+      if ((rate >= 1.0 && is_fresh) || simulations_ > most_simulations) fail(attempt);
+    }
+    if (!map_) make_map(attempt.trajectory);
+    return attempt;
+  }
+
   /// From where a period leads that begins as the file says: what it damps is gone.
   Attempt first_attempt() {
     ++simulations_;
     const Trajectory transient = simulate_plainly(mechanism_, one_, {});
-    require_repetition(mechanism_, transient, one_.period);
+    complaint_ = complaint_about_repetition(mechanism_, transient, one_.period);
     return simulated(end_of(transient));
   }
 
@@ -188,6 +203,7 @@ class PeriodicSearch {
   StackedStates states_;
   std::shared_ptr<const PeriodMap> map_;
   int simulations_ = 0, differentiations_ = 0;
+  std::string complaint_;  ///< about what does not repeat itself
 };
 
 void observe(const Trajectory& trajectory, const InstantObserver& observer) {

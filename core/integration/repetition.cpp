@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "core/base/error.hpp"
 #include "core/integration/stacked_states.hpp"
 
 namespace pleuel {
@@ -46,17 +45,18 @@ class RepetitionCheck {
     }
   }
 
-  void judge() const {
+  std::string complaint() const {
     for (std::size_t i = 0; i < changes_.size(); ++i) {
       const bool repeats = changes_[i].forces <= small_deviation * largest_[i].forces &&
                            changes_[i].constraints <= small_deviation;
       if (repeats) continue;
-      throw SimulationError(fmt::format(
+      return fmt::format(
           "the motion cannot repeat itself after {:.6g} s, as /simulation/initial_state asks for: "
           "{} does not. Laws of time must repeat with the period, drives make whole turns in it "
           "(a constant speed of 2 pi over the period), and what counts turns act alike in each",
-          period_, system_.terms()[i]->name()));
+          period_, system_.terms()[i]->name());
     }
+    return "";
   }
 
  private:
@@ -80,7 +80,8 @@ class RepetitionCheck {
 
 }  // namespace
 
-void require_repetition(Mechanism& mechanism, const Trajectory& trajectory, double period) {
+std::string complaint_about_repetition(Mechanism& mechanism, const Trajectory& trajectory,
+                                       double period) {
   RepetitionCheck check(mechanism, period);
   State state, end;
   trajectory.states->load(0, state);
@@ -92,7 +93,7 @@ void require_repetition(Mechanism& mechanism, const Trajectory& trajectory, doub
     state.time -= 0.5 * trajectory.step_size(step);  // laws may jump at instants
     check.see(state, turns);
   }
-  check.judge();
+  return check.complaint();
 }
 
 }  // namespace pleuel

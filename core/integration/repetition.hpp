@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "core/integration/mechanism.hpp"
 #include "core/integration/trajectory.hpp"
 
@@ -9,7 +11,8 @@ namespace pleuel {
 /// of a motion, and a period later at the same place,
 ///     R(q, v, a, λ, t) = R(q + whole turns, v, a, λ, t + T)
 /// @param trajectory  of one period
-/// @throws SimulationError naming the term that does not
-void require_repetition(Mechanism& mechanism, const Trajectory& trajectory, double period);
+/// @returns a sentence naming the term that does not; empty if all do
+std::string complaint_about_repetition(Mechanism& mechanism, const Trajectory& trajectory,
+                                       double period);
 
 }  // namespace pleuel
