@@ -182,7 +182,8 @@ class PeriodicSearch {
         "no motion that repeats itself after {:.6g} s can be found, as "
         "/simulation/initial_state asks for: after a period nothing has brought back a motion{} "
         "that was given a push. Where a motion is free, a spring, a damper or a motor has to hold "
-        "it to what repeats itself; without damping no motion forgets how it began",
+        "it to what repeats itself; without damping no motion forgets how it began, nor does a "
+        "/simulation/spectral_radius of 1 forget round-off",
         one_.period, equation_text(map_->freest_coordinate(), mechanism_.equation_names)));
   }
 
