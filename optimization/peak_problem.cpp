@@ -93,7 +93,8 @@ std::vector<PeakProblem::Split> PeakProblem::split(std::size_t load_case,
   if (!response || !side) return {whole};
   const auto told_apart = [&](Split one) {
     const ResponseSettings& settings = file.responses[one.response];
-    if (has_peaks(settings) && is_extreme(settings, *side)) {
+    const bool can_be_divided = has_peaks(settings) || is_fatigue(settings);
+    if (can_be_divided && is_extreme(settings, *side)) {
       one.division = division_of(load_case, settings);
     }
     return one;
@@ -112,8 +113,9 @@ std::vector<PeakProblem::Split> PeakProblem::split(std::size_t load_case,
 PeakDivision PeakProblem::division_of(std::size_t load_case,
                                       const ResponseSettings& response) const {
   const ProblemFile& file = problem_.load_case(load_case).file();
-  const int windows = std::min(windows_, step_count(file.simulation) + 1);
   const int places = place_count(file, response);
+  if (is_fatigue(response)) return {1, places};
+  const int windows = std::min(windows_, step_count(file.simulation) + 1);
   if (places == 1) return {windows, 1};
   const int fewest = std::min(least_windows, windows);
   return {std::clamp(most_rows / places, fewest, windows), places};

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/response/stress_signal.hpp"
+#include "core/response/fatigue_damage.hpp"
+#include "core/response/signal_of_body.hpp"
 
 namespace pleuel {
 
@@ -23,12 +24,14 @@ const Body& body_of(const ProblemFile& file, const ResponseSettings& response) {
 }
 
 /// Ends of the places of equal size.
-std::vector<ChannelRange> equal_places(Eigen::Index channels, int places) {
+/// @param together  channels of one point, which stay together
+std::vector<ChannelRange> equal_places(Eigen::Index channels, int places, Eigen::Index together) {
   std::vector<ChannelRange> ranges;
+  const Eigen::Index points = channels / together;
   for (Eigen::Index i = 0; i < places; ++i) {
-    const Eigen::Index first = std::min(channels * i / places, channels - 1);
-    const Eigen::Index end = std::max(first + 1, channels * (i + 1) / places);
-    ranges.push_back({first, end - first});
+    const Eigen::Index first = std::min(points * i / places, points - 1);
+    const Eigen::Index end = std::max(first + 1, points * (i + 1) / places);
+    ranges.push_back({together * first, together * (end - first)});
   }
   return ranges;
 }
@@ -37,13 +40,13 @@ std::vector<ChannelRange> equal_places(Eigen::Index channels, int places) {
 std::vector<ChannelRange> places_of_segments(const Analysis& analysis,
                                              const ResponseSettings& response,
                                              Eigen::Index channels, int segments) {
-  const std::vector<const BodyModel*> parts = analysis.model.parts(response.bodies.front());
-  if (parts.size() != 1) return {};
+  if (analysis.model.parts(response.bodies.front()).size() != 1) return {};
   std::vector<ChannelRange> ranges;
   Eigen::Index first = 0;
   for (int segment = 0; segment < segments; ++segment) {
-    const auto signal = make_stress_signal(*parts.front(), analysis.model.gravity, response.part,
-                                           {segment, std::nullopt});
+    ResponseSettings of_segment = response;
+    of_segment.segment = segment;
+    const auto signal = make_signal_of_body(of_segment, analysis.model);
     ranges.push_back({first, signal->channels()});
     first += signal->channels();
   }
@@ -86,7 +89,7 @@ std::vector<ChannelRange> places_of(const Analysis& analysis, const ProblemFile&
     auto ranges = places_of_segments(analysis, settings, channels, places);
     if (!ranges.empty()) return ranges;
   }
-  return equal_places(channels, places);
+  return equal_places(channels, places, is_fatigue(settings) ? 2 : 1);
 }
 
 /// The peak of each window of some channels of a response.
@@ -94,11 +97,19 @@ std::vector<Reduction> peaks_of(const Analysis& analysis, std::size_t response,
                                 const Eigen::MatrixXd& values, int windows) {
   const Response& observed = analysis.responses[response];
   const Eigen::VectorXd& time = analysis.trajectory.time;
+  if (observed.is_fatigue()) {  // of the whole time: no window has the whole cycle
+    return {
+        reduce_fatigue(*observed.history(), time, values, observed.steps(time), analysis.breaks)};
+  }
   return reduce_windows(observed.history()->over_time, time, values, windows, observed.steps(time),
                         analysis.breaks);
 }
 
 }  // namespace
+
+bool is_fatigue(const ResponseSettings& response) {
+  return response.type == ResponseType::fatigue || response.type == ResponseType::fatigue_damage;
+}
 
 bool has_peaks(const ResponseSettings& response) {
   const bool is_constant = response.type == ResponseType::mass ||
@@ -108,7 +119,9 @@ bool has_peaks(const ResponseSettings& response) {
 }
 
 int place_count(const ProblemFile& file, const ResponseSettings& response) {
-  if (response.type != ResponseType::stress || response.station || !has_peaks(response)) return 1;
+  const bool is_divided =
+      is_fatigue(response) || (response.type == ResponseType::stress && has_peaks(response));
+  if (!is_divided || response.station) return 1;
   if (response.bodies.size() > 1) {
     return std::min(places_of_a_part * static_cast<int>(response.bodies.size()), most_places);
   }

@@ -172,6 +172,8 @@ bool needs_elasticity(const ProblemFile& problem) {
                      [](const ResponseSettings& response) {
                        switch (response.type) {
                          case ResponseType::stress:
+                         case ResponseType::fatigue:
+                         case ResponseType::fatigue_damage:
                          case ResponseType::deflection:
                          case ResponseType::frequency:
                          case ResponseType::buckling:

@@ -36,7 +36,7 @@ Json meaning_document(const ResponseSettings& response) {
                    {"bodies", response.bodies},
                    {"unit", unit_document(unit_of(response))}};
   if (!response.joint.empty()) document["joint"] = response.joint;
-  if (response.type == ResponseType::stress && response.station) {
+  if (response.station) {
     document["at"] = *response.station;
   }
   const bool has_place =

@@ -13,7 +13,12 @@ struct BeamElement {
   Scalar young, shear;  ///< E, G [Pa]
   Scalar density;       ///< ρ [kg/m³]
   SectionProperties<Scalar> section;
-  Scalar strength = Scalar(0);  ///< that stress is compared with [Pa]; 0: not given
+  // That stress is compared with [Pa]; 0: not given.
+  Scalar strength = Scalar(0);           ///< of yield
+  Scalar ultimate_strength = Scalar(0);  ///< of fracture
+  Scalar endurance_limit = Scalar(0);    ///< of the amplitude of stress without mean
+  Scalar fatigue_strength = Scalar(0);   ///< of Basquin's line
+  double fatigue_exponent = 0.0;         ///< of that line [–]
 };
 
 /// A straight chain of elements along local x; node i is the start of element i.

@@ -237,24 +237,19 @@ class Estimation {
     constexpr double always = std::numeric_limits<double>::infinity();
     BeamEstimates estimates;
     estimates.elasticity = change(d.displacement, d.acceleration);
-    if (asks_for(
-            problem_, body.name,
-            {ResponseType::stress, ResponseType::deflection, ResponseType::frequency,
-             ResponseType::buckling, ResponseType::elastic_energy, ResponseType::section_force})) {
-      estimates.elasticity = always;
-    }
+    // What is made from section forces needs all strain of the body.
+    const bool asks_for_forces =
+        asks_for(problem_, body.name,
+                 {ResponseType::stress, ResponseType::elastic_energy, ResponseType::section_force,
+                  ResponseType::fatigue, ResponseType::fatigue_damage});
+    const bool asks_for_buckling = asks_for(problem_, body.name, {ResponseType::buckling});
+    const bool asks_for_bending =
+        asks_for(problem_, body.name, {ResponseType::deflection, ResponseType::frequency});
+    if (asks_for_forces || asks_for_buckling || asks_for_bending) estimates.elasticity = always;
     estimates.axial_elasticity = change(d.axial, d.axial_acceleration);
-    if (asks_for(problem_, body.name,
-                 {ResponseType::stress, ResponseType::buckling, ResponseType::elastic_energy,
-                  ResponseType::section_force})) {
-      estimates.axial_elasticity = always;
-    }
+    if (asks_for_forces || asks_for_buckling) estimates.axial_elasticity = always;
     estimates.torsional_elasticity = change(d.twist, d.twist_acceleration);
-    if (asks_for(
-            problem_, body.name,
-            {ResponseType::stress, ResponseType::elastic_energy, ResponseType::section_force})) {
-      estimates.torsional_elasticity = always;
-    }
+    if (asks_for_forces) estimates.torsional_elasticity = always;
     estimates.geometric_stiffening = d.axial_force / euler_load(body, beam);
     estimates.rotary_inertia = rotary_share(body);
     return estimates;

@@ -18,6 +18,16 @@ Beam<Scalar> resolve_beam(const BeamBody& body, const BeamMesh& mesh, const Scen
   element.shear = element.young / (2.0 * (1.0 + resolve(material.poisson, design)));
   element.density = resolve(material.density, design);
   if (material.strength) element.strength = resolve(*material.strength, design);
+  if (material.ultimate_strength) {
+    element.ultimate_strength = resolve(*material.ultimate_strength, design);
+  }
+  if (material.endurance_limit) {
+    element.endurance_limit = resolve(*material.endurance_limit, design);
+  }
+  if (material.fatigue_strength) {
+    element.fatigue_strength = resolve(*material.fatigue_strength, design);
+  }
+  element.fatigue_exponent = material.fatigue_exponent.value_or(0.0);
   Beam<Scalar> beam;
   int segment = -1;
   for (const MeshElement& part : mesh.elements) {

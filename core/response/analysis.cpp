@@ -1,6 +1,7 @@
 #include "core/response/analysis.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "core/base/machine_memory.hpp"
 #include "core/integration/initial_state.hpp"
 #include "core/response/expression_value.hpp"
+#include "core/response/fatigue_damage.hpp"
 #include "core/response/make_responses.hpp"
 #include "core/response/mechanism_modes.hpp"
 #include "core/response/misalignment.hpp"
@@ -94,6 +96,16 @@ void set_rigid_mechanism(const ProblemFile& problem, const Eigen::VectorXd& x, A
 Reduction reduce_history(const Response& response, const Eigen::VectorXd& time,
                          const BrokenInstants& breaks, Eigen::MatrixXd& history) {
   const StepRange range = response.steps(time);
+  if (response.is_fatigue()) {
+    Reduction reduction = reduce_fatigue(*response.history(), time, history, range, breaks);
+    if (!std::isfinite(reduction.value)) {
+      throw SimulationError(
+          fmt::format("the response \"{}\" has no finite value: a mean stress reaches the strength "
+                      "of the material, beyond which it bears no cycle",
+                      response.name));
+    }
+    return reduction;
+  }
   if (!response.is_balance()) {
     return reduce(response.history()->over_time, time, history, range, breaks);
   }

@@ -69,12 +69,24 @@ class ResponseMaker {
     if (settings_.type == ResponseType::energy_balance) {
       history.transform = HistoryTransform::balance;
     }
+    if (settings_.type == ResponseType::fatigue) {
+      history.transform = HistoryTransform::cycle;
+      history.criterion = settings_.criterion;
+    }
+    if (settings_.type == ResponseType::fatigue_damage) {
+      history.transform = HistoryTransform::damage;
+      history.criterion = settings_.criterion;
+      const BodyModel& body = *model_.parts(settings_.bodies.front()).front();
+      history.fatigue_exponent = body.beam.elements.front().fatigue_exponent;
+    }
     return history;
   }
 
   std::unique_ptr<Signal> make_signal() {
     switch (settings_.type) {
       case ResponseType::stress:
+      case ResponseType::fatigue:
+      case ResponseType::fatigue_damage:
       case ResponseType::buckling:
       case ResponseType::deflection:
       case ResponseType::position:

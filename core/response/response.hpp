@@ -30,6 +30,8 @@ struct ResponseExpression {
 enum class HistoryTransform {
   none,
   balance,  ///< of an amount and its rate: see reduce_balance()
+  cycle,    ///< of stress over what it may be: see reduce_cycle()
+  damage    ///< by all cycles of it: see reduce_damage()
 };
 
 /// A signal over time, reduced to a number.
@@ -38,10 +40,16 @@ struct ResponseHistory {
   OverTime over_time = OverTime::max;
   std::optional<double> from = {}, to = {};  ///< window of time that is reduced [s]
   HistoryTransform transform = HistoryTransform::none;
+  FatigueCriterion criterion = FatigueCriterion::goodman;  ///< of cycles
+  double fatigue_exponent = 0.0;                           ///< of damage
   /// Of a deflection against the rigid mechanism: which response of Analysis::rigid is taken off.
   std::optional<std::size_t> rigid_response = {};
 
   bool is_balance() const { return transform == HistoryTransform::balance; }
+  /// Whether its channels are pairs: stress over two strengths.
+  bool is_fatigue() const {
+    return transform == HistoryTransform::cycle || transform == HistoryTransform::damage;
+  }
 };
 
 /// A number that the user asks for.
@@ -58,6 +66,7 @@ struct Response {
     return formula ? formula->expression.get() : nullptr;
   }
   bool is_balance() const { return history() && history()->is_balance(); }
+  bool is_fatigue() const { return history() && history()->is_fatigue(); }
   /// Whether its number is reduced over time in one of these ways.
   bool is_reduced_by(OverTime kind) const { return history() && history()->over_time == kind; }
   bool is_peak_over_time() const { return history() && is_peak(history()->over_time); }

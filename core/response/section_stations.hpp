@@ -23,6 +23,10 @@ Beam<To> cast_beam(const Beam<double>& beam) {
     element.shear = To(from.shear);
     element.density = To(from.density);
     element.strength = To(from.strength);
+    element.ultimate_strength = To(from.ultimate_strength);
+    element.endurance_limit = To(from.endurance_limit);
+    element.fatigue_strength = To(from.fatigue_strength);
+    element.fatigue_exponent = from.fatigue_exponent;
     const SectionProperties<double>& section = from.section;
     element.section.area = To(section.area);
     element.section.inertia_y = To(section.inertia_y);

@@ -7,6 +7,7 @@
 
 #include "core/response/buckling_signal.hpp"
 #include "core/response/divided_deflection.hpp"
+#include "core/response/fatigue_signal.hpp"
 #include "core/response/motion_signals.hpp"
 #include "core/response/norm_signal.hpp"
 #include "core/response/point_stress_signal.hpp"
@@ -30,6 +31,12 @@ class BodySignalMaker {
     switch (settings_.type) {
       case ResponseType::stress:
         return make_stress();
+      case ResponseType::fatigue:
+      case ResponseType::fatigue_damage:
+        check_section_forces();
+        check_fatigue_data();
+        return make_fatigue_signal(body_, model_, fatigue_strengths(),
+                                   {settings_.segment, settings_.station});
       case ResponseType::buckling:
         check_section_forces();
         return make_buckling_signal(body_, model_.gravity);
@@ -87,6 +94,27 @@ class BodySignalMaker {
     if (settings_.part == StressPart::utilization && !has_strength) {
       fail(fmt::format("the material of \"{}\" has no strength", body_.name));
     }
+  }
+
+  FatigueStrengths fatigue_strengths() const {
+    return {settings_.type == ResponseType::fatigue ? AmplitudeStrength::endurance
+                                                    : AmplitudeStrength::basquin,
+            settings_.criterion == FatigueCriterion::soderberg ? MeanStrength::yield
+                                                               : MeanStrength::ultimate};
+  }
+
+  void check_fatigue_data() const {
+    const BeamElement<double>& element = body_.beam.elements.front();
+    const bool is_damage = settings_.type == ResponseType::fatigue_damage;
+    const bool is_yield = settings_.criterion == FatigueCriterion::soderberg;
+    const double of_mean = is_yield ? element.strength : element.ultimate_strength;
+    const bool has_amplitude =
+        is_damage ? element.fatigue_strength > 0.0 && element.fatigue_exponent > 0.0
+                  : element.endurance_limit > 0.0;
+    if (has_amplitude && of_mean > 0.0) return;
+    fail(fmt::format("the material of \"{}\" needs {} and {}", body_.name,
+                     is_damage ? "a fatigue strength with its exponent" : "an endurance limit",
+                     is_yield ? "a strength" : "an ultimate strength"));
   }
 
   bool has_displacement(int direction) const {
@@ -166,6 +194,8 @@ class DividedSignalMaker {
   std::unique_ptr<Signal> make() const {
     switch (settings_.type) {
       case ResponseType::stress:
+      case ResponseType::fatigue:
+      case ResponseType::fatigue_damage:
       case ResponseType::section_force:
         return make_stress();
       case ResponseType::buckling:

@@ -109,7 +109,9 @@ enum class ResponseType {
   motor_power,   ///< of a motor in a joint
   damper_power,  ///< what damper and resistance to a rate take, of a spring or in a joint
   angle,         ///< of a body frame
-  angular_acceleration
+  angular_acceleration,
+  fatigue,        ///< utilization by the cycle of a window of time
+  fatigue_damage  ///< by all cycles of a window of time
 };
 enum class OverTime { max, min, max_abs, rms, mean, integral, final };
 
@@ -138,6 +140,9 @@ inline bool is_force(SectionForcePart part) {
          part == SectionForcePart::shear_z;
 }
 
+/// How much mean stress a cycle bears beside its amplitude (core/response/fatigue.hpp).
+enum class FatigueCriterion { goodman, gerber, soderberg };
+
 /// What a deflection is measured against.
 enum class DeflectionReference {
   frame,           ///< the body frame
@@ -154,9 +159,10 @@ struct ResponseSettings {
   ResponseType type = ResponseType::mass;
   /// Mass: those counted; energies: the one that is counted (empty = all); else the one body.
   std::vector<std::string> bodies;
-  std::optional<int> segment;     ///< stress: only this segment, from 0
-  std::optional<double> station;  ///< stress: only at this place along the beam, 0 … 1
+  std::optional<int> segment;     ///< stress, fatigue: only this segment, from 0
+  std::optional<double> station;  ///< stress, fatigue: only at this place along the beam, 0 … 1
   StressPart part = StressPart::von_mises;
+  FatigueCriterion criterion = FatigueCriterion::goodman;  ///< fatigue, fatigue damage
   SectionForcePart section_part = SectionForcePart::axial;
   double at = 0.0;    ///< deflection, position …: place along the beam, 0 … 1
   std::string place;  ///< the same of an imported body: its name

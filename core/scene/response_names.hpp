@@ -35,6 +35,14 @@ inline constexpr Choice<ResponseType> response_types[] = {
     {"damper-power", ResponseType::damper_power},
     {"angle", ResponseType::angle},
     {"angular-acceleration", ResponseType::angular_acceleration},
+    {"fatigue", ResponseType::fatigue},
+    {"fatigue-damage", ResponseType::fatigue_damage},
+};
+
+inline constexpr Choice<FatigueCriterion> fatigue_criteria[] = {
+    {"goodman", FatigueCriterion::goodman},
+    {"gerber", FatigueCriterion::gerber},
+    {"soderberg", FatigueCriterion::soderberg},
 };
 
 inline constexpr Choice<OverTime> over_time_kinds[] = {

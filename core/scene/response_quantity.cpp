@@ -28,6 +28,8 @@ Quantity instant_quantity(const ResponseSettings& response) {
     case ResponseType::frequency:
       return quantities::angular_frequency;
     case ResponseType::buckling:
+    case ResponseType::fatigue:
+    case ResponseType::fatigue_damage:
     case ResponseType::constraint_drift:
       return quantities::pure_number;
     case ResponseType::section_force:

@@ -16,10 +16,16 @@ namespace pleuel {
 
 struct Material {
   std::string name;
-  Number young;                         ///< E [Pa]
-  Number poisson;                       ///< ν [–]
-  Number density;                       ///< ρ [kg/m³]
-  std::optional<Number> strength = {};  ///< that stress is compared with [Pa]
+  Number young;                                  ///< E [Pa]
+  Number poisson;                                ///< ν [–]
+  Number density;                                ///< ρ [kg/m³]
+  std::optional<Number> strength = {};           ///< that stress is compared with: of yield [Pa]
+  std::optional<Number> ultimate_strength = {};  ///< of fracture [Pa]
+  /// Amplitude that a point bears for ever, of stress without mean [Pa].
+  std::optional<Number> endurance_limit = {};
+  /// σ_f' and k of Basquin's line σ_a = σ_f' (2N)^(−1/k) of stress without mean [Pa], [–].
+  std::optional<Number> fatigue_strength = {};
+  std::optional<double> fatigue_exponent = {};
 };
 
 // Sections. Local x is the beam axis; `width` lies along local z, `height` along local y.

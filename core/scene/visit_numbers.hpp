@@ -71,7 +71,10 @@ void visit_numbers(const Material& material, Visit&& visit) {
   visit(material.young, quantities::stress);
   visit(material.poisson, quantities::pure_number);
   visit(material.density, quantities::density);
-  if (material.strength) visit(*material.strength, quantities::stress);
+  for (auto* strength : {&material.strength, &material.ultimate_strength, &material.endurance_limit,
+                         &material.fatigue_strength}) {
+    if (*strength) visit(**strength, quantities::stress);
+  }
 }
 
 /// @param value  what the function itself measures

@@ -347,6 +347,8 @@ class ShearDoubts {
       case ResponseType::frequency:
         return is_of_body ? mode_share(body, response.mode) : 0.0;
       case ResponseType::stress:
+      case ResponseType::fatigue:
+      case ResponseType::fatigue_damage:
       case ResponseType::section_force:
         return is_held_twice_ && is_of_body ? largest : 0.0;
       case ResponseType::reaction_force:

@@ -10,7 +10,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadEdit{
             "/responses/speed/type", R"("velocty")",
-            R"(/responses/speed/type must be "mass", "stress", "deflection", "position", "velocity", "acceleration", "drive-torque", "drive-force", "drive-power", "reaction-force", "reaction-moment", "frequency", "buckling", "kinetic-energy", "elastic-energy", "energy-balance", "constraint-drift", "expression", "section-force", "angular-velocity", "joint-position", "joint-velocity", "spring-length", "spring-force", "motor-power", "damper-power", "angle" or "angular-acceleration", got "velocty"; did you mean "velocity"?)"},
+            R"(/responses/speed/type must be "mass", "stress", "deflection", "position", "velocity", "acceleration", "drive-torque", "drive-force", "drive-power", "reaction-force", "reaction-moment", "frequency", "buckling", "kinetic-energy", "elastic-energy", "energy-balance", "constraint-drift", "expression", "section-force", "angular-velocity", "joint-position", "joint-velocity", "spring-length", "spring-force", "motor-power", "damper-power", "angle", "angular-acceleration", "fatigue" or "fatigue-damage", got "velocty"; did you mean "velocity"?)"},
         BadEdit{
             "/responses/time", R"({"type": "mass"})",
             R"(/responses/time has a name that files of histories need for their own columns: "time" and "…:error")"},
@@ -70,6 +70,28 @@ INSTANTIATE_TEST_SUITE_P(
                 R"(/responses/drift/level must be "position" or "velocity", got "speed")"},
         BadEdit{"/responses/normal/at", "1.1",
                 "/responses/normal/at must be a place along the beam from 0 to 1, got 1.1"},
+        BadEdit{
+            "/responses/life", R"({"type": "fatigue", "body": "arm", "criterion": "goodmann"})",
+            R"(/responses/life/criterion must be "goodman", "gerber" or "soderberg", got "goodmann"; did you mean "goodman"?)"},
+        BadEdit{
+            "/responses/life", R"({"type": "fatigue", "body": "arm", "criterion": "gerber"})",
+            R"(/responses/life/criterion needs the "endurance_limit" of the material "steel", which has none: give it in /scene/materials)"},
+        BadEdit{
+            "/responses/life",
+            R"({"type": "fatigue", "body": "arm", "criterion": "gerber", "over_time": "max"})",
+            "/responses/life/over_time is not for a fatigue, which looks at the largest and the "
+            "smallest stress of cycles"},
+        BadEdit{"/responses/life", R"({"type": "fatigue", "body": "strut", "criterion": "gerber"})",
+                R"(/responses/life/body must name an elastic beam, but "strut" is rigid)"},
+        BadEdit{
+            "/responses/life",
+            R"({"type": "fatigue-damage", "body": "arm", "criterion": "goodman"})",
+            R"(/responses/life/criterion needs the "fatigue_strength" of the material "steel", which has none: give it in /scene/materials)"},
+        BadEdit{"/scene/materials/steel/endurance_limit", R"("100 N")",
+                "/scene/materials/steel/endurance_limit must be a stress [Pa], got \"100 N\": "
+                "\"N\" measures something else"},
+        BadEdit{"/scene/materials/steel/fatigue_exponent", "-8",
+                "/scene/materials/steel/fatigue_exponent must be positive, got -8"},
         BadEdit{
             "/responses/use/body", R"("rod")",
             R"(/responses/use/part needs the strength of the material "glass", which has none)"},

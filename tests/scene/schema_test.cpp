@@ -137,7 +137,12 @@ TEST_F(ProblemSchema, AcceptsEverySection) {
     EXPECT_EQ(complaints_about_edit("/scene/bodies/crank/section", section), "") << section;
     EXPECT_EQ(complaint(edited("/scene/bodies/crank/section", section)), "") << section;
   }
-  EXPECT_EQ(complaints_about_edit("/scene/materials/steel/strength", R"("355 MPa")"), "");
+  for (const char* strength :
+       {"strength", "ultimate_strength", "endurance_limit", "fatigue_strength"}) {
+    const std::string pointer = std::string("/scene/materials/steel/") + strength;
+    EXPECT_EQ(complaints_about_edit(pointer, R"("355 MPa")"), "") << strength;
+    EXPECT_EQ(complaint(edited(pointer, R"("355 MPa")")), "") << strength;
+  }
 }
 
 TEST_F(ProblemSchema, AcceptsEveryReferenceOfADeflection) {
@@ -148,6 +153,21 @@ TEST_F(ProblemSchema, AcceptsEveryReferenceOfADeflection) {
                             against + "}";
     EXPECT_EQ(complaints_about_edit("/responses/bow", bow), "") << against;
     EXPECT_EQ(complaint(edited("/responses/bow", bow)), "") << against;
+  }
+}
+
+TEST_F(ProblemSchema, AcceptsFatigue) {
+  Json document = edited("/scene/materials/steel/ultimate_strength", R"("470 MPa")");
+  document = edited(std::move(document), "/scene/materials/steel/endurance_limit", R"("180 MPa")");
+  document = edited(std::move(document), "/scene/materials/steel/fatigue_strength", R"("900 MPa")");
+  document = edited(std::move(document), "/scene/materials/steel/fatigue_exponent", "9");
+  for (const char* response :
+       {R"({"type": "fatigue", "body": "crank", "criterion": "goodman", "from": "1 ms"})",
+        R"({"type": "fatigue", "bodies": ["crank"], "criterion": "gerber"})",
+        R"({"type": "fatigue-damage", "body": "crank", "at": 0.5, "criterion": "gerber"})"}) {
+    const Json whole = edited(document, "/responses/more", response);
+    EXPECT_EQ(complaints(nlohmann::json::parse(whole.dump())), "") << response;
+    EXPECT_EQ(complaint(whole), "") << response;
   }
 }
 

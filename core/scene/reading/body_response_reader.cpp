@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/scene/reading/scene_reader.hpp"
+#include "core/scene/response_names.hpp"
 
 namespace pleuel {
 namespace {
@@ -70,15 +71,13 @@ void check_strength(const JsonNode& part, const std::string& name, const Scene& 
   part.fail(fmt::format("needs the strength of the material \"{}\", which has none", name));
 }
 
-/// Of several beams at once.
-void read_stress_of_beams(const JsonNode& node, const JsonNode& list,
-                          const ResponseContext& context, ResponseSettings& response) {
-  allow_history_keys(node, {"bodies", "part"});
-  const auto part = node.find("part");
-  if (part) response.part = read_stress_part(*part);
+/// Several elastic beams; check(node, beam) may refuse one.
+template <class Check>
+void read_beams(const JsonNode& list, const Scene& scene, ResponseSettings& response,
+                const Check& check) {
   std::vector<std::string> bodies;
   for (const JsonNode& item : list.items()) {
-    const Body& body = read_body_name(item, context.scene);
+    const Body& body = read_body_name(item, scene);
     const auto* beam = std::get_if<BeamBody>(&body.shape);
     if (beam == nullptr || beam->is_rigid) {
       item.fail(fmt::format("must name an elastic beam, but \"{}\" is none", body.name));
@@ -86,14 +85,59 @@ void read_stress_of_beams(const JsonNode& node, const JsonNode& list,
     if (std::find(bodies.begin(), bodies.end(), body.name) != bodies.end()) {
       item.fail(fmt::format("names the body \"{}\" a second time", body.name));
     }
-    if (response.part == StressPart::utilization) {
-      check_strength(*part, beam->material, context.scene);
-    }
+    check(item, *beam);
     bodies.push_back(body.name);
   }
   if (bodies.empty()) list.fail("must name at least one body");
   response.bodies = std::move(bodies);
+}
+
+/// Of several beams at once.
+void read_stress_of_beams(const JsonNode& node, const JsonNode& list,
+                          const ResponseContext& context, ResponseSettings& response) {
+  allow_history_keys(node, {"bodies", "part"});
+  const auto part = node.find("part");
+  if (part) response.part = read_stress_part(*part);
+  read_beams(list, context.scene, response, [&](const JsonNode&, const BeamBody& beam) {
+    if (response.part != StressPart::utilization) return;
+    check_strength(*part, beam.material, context.scene);
+  });
   read_history(node, context, response);
+}
+
+/// One segment or one place of a beam, or all of it.
+void read_stretch(const JsonNode& node, const BeamBody& beam, ResponseSettings& response) {
+  const std::optional<JsonNode> segment = node.find("segment"), place = node.find("at");
+  if (segment && place) node.fail("has both \"segment\" and \"at\"");
+  if (segment) {
+    response.segment = segment->whole_number(0, static_cast<int>(beam.segments.size()) - 1);
+  }
+  if (place) response.station = read_place(*place);
+}
+
+/// What a criterion needs of a material, and what the endurance or the damage does.
+void check_fatigue_data(const JsonNode& criterion, const ResponseSettings& response,
+                        const std::string& name, const Scene& scene) {
+  const Material* material = find_named(scene.materials, name);
+  if (material == nullptr) return;
+  const auto require = [&](const auto& number, const char* key) {
+    if (number) return;
+    criterion.fail(
+        fmt::format("needs the \"{}\" of the material \"{}\", which has none: give it in "
+                    "/scene/materials",
+                    key, name));
+  };
+  if (response.type == ResponseType::fatigue) {
+    require(material->endurance_limit, "endurance_limit");
+  } else {
+    require(material->fatigue_strength, "fatigue_strength");
+    require(material->fatigue_exponent, "fatigue_exponent");
+  }
+  if (response.criterion == FatigueCriterion::soderberg) {
+    require(material->strength, "strength");
+  } else {
+    require(material->ultimate_strength, "ultimate_strength");
+  }
 }
 
 }  // namespace
@@ -110,12 +154,7 @@ void read_stress(const JsonNode& node, const ResponseContext& context, ResponseS
   }
   allow_history_keys(node, {"body", "part", "segment", "at"});
   const BeamBody& beam = read_elastic_beam(node, context.scene, response);
-  const std::optional<JsonNode> segment = node.find("segment"), place = node.find("at");
-  if (segment && place) node.fail("has both \"segment\" and \"at\"");
-  if (segment) {
-    response.segment = segment->whole_number(0, static_cast<int>(beam.segments.size()) - 1);
-  }
-  if (place) response.station = read_place(*place);
+  read_stretch(node, beam, response);
   if (const auto part = node.find("part")) {
     response.part = read_stress_part(*part);
     if (response.part == StressPart::utilization) {
@@ -123,6 +162,34 @@ void read_stress(const JsonNode& node, const ResponseContext& context, ResponseS
     }
   }
   read_history(node, context, response);
+}
+
+void read_fatigue(const JsonNode& node, const ResponseContext& context,
+                  ResponseSettings& response) {
+  if (const auto over_time = node.find("over_time")) {
+    over_time->fail(
+        "is not for a fatigue, which looks at the largest and the smallest stress of cycles");
+  }
+  const JsonNode criterion = node.at("criterion");
+  response.criterion = read_choice(criterion, fatigue_criteria);
+  response.over_time = OverTime::final;
+  const auto check = [&](const JsonNode&, const BeamBody& beam) {
+    check_fatigue_data(criterion, response, beam.material, context.scene);
+  };
+  if (const auto list = node.find("bodies")) {
+    if (node.find("body")) node.fail("has both \"body\" and \"bodies\"");
+    node.allow_keys({"type", "bodies", "criterion", "from", "to"});
+    if (response.type == ResponseType::fatigue_damage) {
+      list->fail("is not for a fatigue-damage: give one \"body\"");
+    }
+    read_beams(*list, context.scene, response, check);
+  } else {
+    node.allow_keys({"type", "body", "criterion", "segment", "at", "from", "to"});
+    const BeamBody& beam = read_elastic_beam(node, context.scene, response);
+    read_stretch(node, beam, response);
+    check(node, beam);
+  }
+  read_window(node, context, response);
 }
 
 void read_section_force(const JsonNode& node, const ResponseContext& context,

@@ -8,7 +8,10 @@ namespace pleuel {
 
 void read_stress(const JsonNode& node, const ResponseContext& context, ResponseSettings& response);
 
-/// N, M or T at a place of a beam.
+/// Utilization by a cycle: a criterion and what it needs of the materials, no `over_time`.
+void read_fatigue(const JsonNode& node, const ResponseContext& context, ResponseSettings& response);
+
+/// N, M, T or Q at a place of a beam.
 void read_section_force(const JsonNode& node, const ResponseContext& context,
                         ResponseSettings& response);
 

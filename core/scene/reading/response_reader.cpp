@@ -209,6 +209,10 @@ ResponseSettings read_response(const std::string& name, const JsonNode& node,
     case ResponseType::stress:
       read_stress(node, context, response);
       break;
+    case ResponseType::fatigue:
+    case ResponseType::fatigue_damage:
+      read_fatigue(node, context, response);
+      break;
     case ResponseType::deflection:
       read_deflection(node, context, response);
       break;

@@ -8,15 +8,25 @@ namespace pleuel {
 namespace {
 
 Material read_material(const std::string& name, const JsonNode& node, NumberReader& numbers) {
-  node.allow_keys({"young", "poisson", "density", "strength"});
+  node.allow_keys({"young", "poisson", "density", "strength", "ultimate_strength",
+                   "endurance_limit", "fatigue_strength", "fatigue_exponent"});
   Material material;
   material.name = name;
   material.young = numbers.designable(node.at("young"), quantities::stress, Range::positive);
   material.poisson =
       numbers.designable(node.at("poisson"), quantities::pure_number, Range::poisson);
   material.density = numbers.designable(node.at("density"), quantities::density, Range::positive);
-  if (const auto strength = node.find("strength")) {
-    material.strength = numbers.designable(*strength, quantities::stress, Range::positive);
+  const auto read_strength = [&](const char* key) {
+    const auto strength = node.find(key);
+    if (!strength) return std::optional<Number>();
+    return std::optional(numbers.designable(*strength, quantities::stress, Range::positive));
+  };
+  material.strength = read_strength("strength");
+  material.ultimate_strength = read_strength("ultimate_strength");
+  material.endurance_limit = read_strength("endurance_limit");
+  material.fatigue_strength = read_strength("fatigue_strength");
+  if (const auto exponent = node.find("fatigue_exponent")) {
+    material.fatigue_exponent = numbers.fixed(*exponent, quantities::pure_number, Range::positive);
   }
   return material;
 }

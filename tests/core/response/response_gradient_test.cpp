@@ -22,7 +22,10 @@ class GradientsOfResponses : public testing::TestWithParam<int> {
     for (ResponseSettings& response : problem_.responses) {
       response.over_time = OverTime::final;
       // Along a whole beam the place of the largest stress jumps.
-      if (response.type == ResponseType::stress) response.station = 0.37;
+      const bool is_stress = response.type == ResponseType::stress ||
+                             response.type == ResponseType::fatigue ||
+                             response.type == ResponseType::fatigue_damage;
+      if (is_stress) response.station = 0.37;
     }
     for (int mode = 0; mode < 3; ++mode) {
       ResponseSettings frequency;

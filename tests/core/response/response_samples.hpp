@@ -21,7 +21,7 @@ inline EffectSettings in_motion(EffectChoice spatial) {
   return effects;
 }
 
-/// A sample whose material has a strength that depends on the design: a hundredth of E.
+/// A sample whose material has strengths that depend on the design: a hundredth of E.
 inline SampleScene sample_with_strength(int index) {
   SampleScene sample = all_samples()[index];
   for (Material& material : sample.scene.materials) {
@@ -29,6 +29,10 @@ inline SampleScene sample_with_strength(int index) {
     strength.factor *= 0.01;
     strength.constant *= 0.01;
     material.strength = strength;
+    material.ultimate_strength = strength;
+    material.endurance_limit = strength;
+    material.fatigue_strength = strength;
+    material.fatigue_exponent = 4.0;
   }
   return sample;
 }
@@ -43,6 +47,13 @@ inline void add_beam_responses(const BodyModel& body, std::vector<ResponseSettin
     settings.name = body.name + " stress " + std::to_string(static_cast<int>(part));
     all.push_back(settings);
   }
+  settings.part = StressPart::von_mises;
+  for (ResponseType type : {ResponseType::fatigue, ResponseType::fatigue_damage}) {
+    settings.type = type;
+    settings.name = body.name + " of stress " + std::to_string(static_cast<int>(type));
+    all.push_back(settings);
+  }
+  settings.type = ResponseType::stress;
   settings.part = StressPart::normal;
   settings.station = 0.37;
   settings.name = body.name + " stress at 0.37";

@@ -1,0 +1,199 @@
+#include "core/response/fatigue_damage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/response/fatigue.hpp"
+#include "core/response/rainflow.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Damages within this relative distance of the largest are called tied.
+constexpr double damage_tie_gap = 1e-3;
+/// So many ties are remembered.
+constexpr std::size_t max_damage_ties = 16;
+
+/// A maximum or minimum of a history: Σ weight · sample.
+struct TurningPoint {
+  int step;  ///< of the sample next to it
+  std::vector<std::pair<int, double>> samples;
+
+  double value(const Eigen::MatrixXd& values, int row) const {
+    double sum = 0.0;
+    for (const auto& [at, weight] : samples) sum += weight * values(row, at);
+    return sum;
+  }
+};
+
+/// What a cycle adds to the damage, with its derivatives by both turning points in both rows.
+struct CycleDamage {
+  double value = 0.0;
+  double by_amplitude = 0.0, by_mean = 0.0;
+};
+
+/// 2 σ̂^k, σ̂ = a/(1 − m), of Gerber a/(1 − m²): a = σ_a/σ_f', m = σ_m/S.
+CycleDamage cycle_damage(FatigueCriterion criterion, double exponent, double amplitude,
+                         double mean) {
+  const bool is_gerber = criterion == FatigueCriterion::gerber;
+  const double m = std::max(mean, 0.0), room = is_gerber ? 1.0 - m * m : 1.0 - m;
+  if (room <= 0.0) return {std::numeric_limits<double>::infinity()};
+  if (amplitude <= 0.0) return {};
+  const double full = amplitude / room, value = 2.0 * std::pow(full, exponent);
+  const double slope = exponent * value / full;  // by σ̂
+  return {value, slope / room,
+          mean > 0.0 ? slope * full / room * (is_gerber ? 2.0 * m : 1.0) : 0.0};
+}
+
+class PointDamage {
+ public:
+  PointDamage(FatigueCriterion criterion, double exponent, const Eigen::VectorXd& time,
+              const Eigen::MatrixXd& values, const StepRange& range, const BrokenInstants& breaks)
+      : criterion_(criterion),
+        exponent_(exponent),
+        time_(time),
+        values_(values),
+        range_(range),
+        breaks_(breaks) {}
+
+  /// Of the point whose rows begin at `row`.
+  Reduction of(int row) const {
+    const std::vector<TurningPoint> turning = turning_points(row);
+    std::vector<double> heights;
+    for (const TurningPoint& point : turning) heights.push_back(point.value(values_, row));
+    Reduction damage;
+    for (const CountedCycle& cycle : count_rainflow(heights)) {
+      add(cycle, turning, row, damage);
+    }
+    return damage;
+  }
+
+ private:
+  bool is_broken(int step) const {
+    if (breaks_.empty()) return false;
+    const auto broken = [&](int at) { return breaks_[static_cast<std::size_t>(at)]; };
+    return broken(step) || broken(step - 1) || broken(step + 1);
+  }
+
+  /// First and last sample, and what lies between by the parabola through three samples.
+  std::vector<TurningPoint> turning_points(int row) const {
+    std::vector<TurningPoint> turning = {{range_.first, {{range_.first, 1.0}}}};
+    double way = 0.0;  // of the last step that was none
+    for (int step = range_.first + 1; step <= range_.last; ++step) {
+      const double change = values_(row, step) - values_(row, step - 1);
+      if (change == 0.0) continue;
+      if (change * way < 0.0) turning.push_back(extreme(row, step - 1));
+      way = change;
+    }
+    turning.push_back({range_.last, {{range_.last, 1.0}}});
+    return turning;
+  }
+
+  /// Near a step; where a stretch is level, its last sample.
+  TurningPoint extreme(int row, int step) const {
+    const StepRange around{step - 1, step + 1};
+    const bool is_level = values_(row, step) == values_(row, step - 1);
+    if (is_level || is_broken(step)) return {step, {{step, 1.0}}};
+    const bool is_maximum = values_(row, step) > values_(row, step - 1);
+    const Eigen::MatrixXd three = values_.row(row).segment(around.first, 3);
+    const Reduction vertex =
+        reduce(is_maximum ? OverTime::max : OverTime::min, time_.segment(around.first, 3), three);
+    TurningPoint point{step, {}};
+    for (const Sample& sample : vertex.samples) {
+      point.samples.emplace_back(around.first + sample.step, sample.weight);
+    }
+    return point;
+  }
+
+  void add(const CountedCycle& cycle, const std::vector<TurningPoint>& turning, int row,
+           Reduction& damage) const {
+    const TurningPoint &from = turning[cycle.from], &to = turning[cycle.to];
+    const double change = to.value(values_, row) - from.value(values_, row);
+    const double mean = 0.5 * (to.value(values_, row + 1) + from.value(values_, row + 1));
+    const CycleDamage one = cycle_damage(criterion_, exponent_, 0.5 * std::abs(change), mean);
+    if (one.value == 0.0) return;
+    damage.value += cycle.count * one.value;
+    const double of_change = 0.5 * cycle.count * one.by_amplitude * (change < 0.0 ? -1.0 : 1.0);
+    const double of_mean = 0.5 * cycle.count * one.by_mean;
+    const auto add_samples = [&](const TurningPoint& point, double of_first) {
+      for (const auto& [step, weight] : point.samples) {
+        damage.samples.push_back({step, row, of_first * weight});
+        if (of_mean != 0.0) damage.samples.push_back({step, row + 1, of_mean * weight});
+      }
+    };
+    add_samples(from, -of_change);
+    add_samples(to, of_change);
+  }
+
+  FatigueCriterion criterion_;
+  double exponent_;
+  const Eigen::VectorXd& time_;
+  const Eigen::MatrixXd& values_;
+  StepRange range_;
+  const BrokenInstants& breaks_;
+};
+
+/// One sample a step and channel, those that count most first.
+void gather(std::vector<Sample>& samples) {
+  const auto before = [](const Sample& a, const Sample& b) {
+    return std::pair(a.step, a.channel) < std::pair(b.step, b.channel);
+  };
+  std::sort(samples.begin(), samples.end(), before);
+  std::vector<Sample> sums;
+  for (const Sample& sample : samples) {
+    const bool is_new = sums.empty() || before(sums.back(), sample);
+    if (is_new) {
+      sums.push_back(sample);
+    } else {
+      sums.back().weight += sample.weight;
+    }
+  }
+  // The history that is shown is that of the first sample's channel: the even one of both.
+  const auto even = std::find_if(sums.begin(), sums.end(),
+                                 [](const Sample& sample) { return sample.channel % 2 == 0; });
+  if (even != sums.end()) std::iter_swap(sums.begin(), even);
+  samples = std::move(sums);
+}
+
+}  // namespace
+
+Reduction reduce_damage(FatigueCriterion criterion, double exponent, const Eigen::VectorXd& time,
+                        const Eigen::MatrixXd& values, const StepRange& range,
+                        const BrokenInstants& breaks) {
+  const PointDamage damage(criterion, exponent, time, values, range, breaks);
+  std::vector<Reduction> points;
+  for (int row = 0; row < values.rows(); row += 2) points.push_back(damage.of(row));
+  const auto worst =
+      std::max_element(points.begin(), points.end(),
+                       [](const Reduction& a, const Reduction& b) { return a.value < b.value; });
+  Reduction reduction{worst->value, worst->samples, {}, {}};
+  gather(reduction.samples);
+  for (auto other = points.begin(); other != points.end(); ++other) {
+    const double gap = 1.0 - other->value / worst->value;
+    if (other == worst || !(gap <= damage_tie_gap)) continue;
+    if (reduction.ties.size() == max_damage_ties) break;
+    const double end = time(range.last);
+    gather(other->samples);
+    reduction.ties.push_back({end, end, 2 * static_cast<int>(worst - points.begin()),
+                              2 * static_cast<int>(other - points.begin()), gap, other->samples});
+  }
+  if (!reduction.ties.empty()) {
+    reduction.tie =
+        *std::min_element(reduction.ties.begin(), reduction.ties.end(),
+                          [](const PeakTie& a, const PeakTie& b) { return a.gap < b.gap; });
+  }
+  return reduction;
+}
+
+Reduction reduce_fatigue(const ResponseHistory& history, const Eigen::VectorXd& time,
+                         const Eigen::MatrixXd& values, const StepRange& range,
+                         const BrokenInstants& breaks) {
+  if (history.transform == HistoryTransform::cycle) {
+    return reduce_cycle(history.criterion, time, values, range, breaks);
+  }
+  return reduce_damage(history.criterion, history.fatigue_exponent, time, values, range, breaks);
+}
+
+}  // namespace pleuel

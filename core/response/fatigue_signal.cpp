@@ -1,0 +1,123 @@
+#include "core/response/fatigue_signal.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/response/section_stations.hpp"
+#include "core/response/stress_signal.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Of a round outline.
+constexpr int fatigue_outline_points = 24;
+
+/// Normal stress at points that stay where they are: negative ones are those of an outline.
+class FixedPointStress {
+ public:
+  std::vector<int> points(const BodyModel& body, const SectionProperties<double>& section) const {
+    const bool is_planar = body.frame.rotation == RotationCoordinates::angle;
+    if (is_planar || !section.is_round()) return distinct_stress_points(body, section);
+    std::vector<int> points;
+    for (int i = 1; i <= fatigue_outline_points; ++i) points.push_back(-i);
+    return points;
+  }
+
+  std::string name(int point) const {
+    return fmt::format(", {} degrees from y to z", (-point - 1) * 360 / fatigue_outline_points);
+  }
+
+  template <class Scalar>
+  Scalar evaluate(const Beam<Scalar>&, const SectionProperties<Scalar>& section,
+                  const SectionForces<Scalar>& forces, int point) const {
+    const auto [y, z] = place(section, point);
+    return forces.axial / section.area - forces.moment_z * y / section.inertia_z +
+           forces.moment_y * z / section.inertia_y;
+  }
+
+ private:
+  template <class Scalar>
+  static std::pair<Scalar, Scalar> place(const SectionProperties<Scalar>& section, int point) {
+    if (point >= 0) return {section.points[point].y, section.points[point].z};
+    const double angle = 2.0 * std::numbers::pi * (-point - 1) / fatigue_outline_points;
+    return {section.radius_y * std::cos(angle), section.radius_z * std::sin(angle)};
+  }
+};
+
+/// 1/S of a strength S of the material.
+struct Inverse {
+  double value;
+  Eigen::VectorXd derivatives;  ///< one a design variable
+};
+
+template <class StrengthOf>
+Inverse inverse_of(const BodyModel& body, int variables, const StrengthOf& strength_of) {
+  const double strength = strength_of(body.beam.elements.front());
+  Inverse inverse{1.0 / strength, Eigen::VectorXd::Zero(variables)};
+  for (const auto& [variable, beam] : body.beam_x) {
+    inverse.derivatives(variable) =
+        -derivative_of(strength_of(beam.elements.front())) / (strength * strength);
+  }
+  return inverse;
+}
+
+/// Each channel of a stress twice, over one strength and over another.
+class StressOverStrengths final : public Signal {
+ public:
+  StressOverStrengths(std::unique_ptr<Signal> stress, Inverse first, Inverse second)
+      : stress_(std::move(stress)),
+        inverses_{std::move(first), std::move(second)},
+        values_(stress_->channels()) {}
+
+  int channels() const override { return 2 * stress_->channels(); }
+  std::string describe(int channel) const override {
+    const std::string place = stress_->describe(channel / 2);
+    return channel % 2 == 0 ? place : place + ", as a mean stress";
+  }
+
+  void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
+    stress_->observe(state, values_);
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      values(i) = inverse(i).value * values_(i / 2);
+    }
+  }
+
+  void add_gradient(const State& state, int channel, double weight,
+                    SignalGradient& gradient) override {
+    stress_->observe(state, values_);
+    stress_->add_gradient(state, channel / 2, weight * inverse(channel).value, gradient);
+    gradient.design += weight * values_(channel / 2) * inverse(channel).derivatives;
+  }
+
+ private:
+  const Inverse& inverse(Eigen::Index channel) const {
+    return inverses_[static_cast<std::size_t>(channel % 2)];
+  }
+
+  std::unique_ptr<Signal> stress_;
+  std::array<Inverse, 2> inverses_;
+  Eigen::VectorXd values_;  ///< scratch
+};
+
+}  // namespace
+
+std::unique_ptr<Signal> make_fatigue_signal(const BodyModel& body, const Model& model,
+                                            const FatigueStrengths& strengths,
+                                            const StationChoice& stations) {
+  const int variables = model.mechanism.system->variables();
+  const bool is_endurance = strengths.of_amplitude == AmplitudeStrength::endurance;
+  const bool is_yield = strengths.of_mean == MeanStrength::yield;
+  return std::make_unique<StressOverStrengths>(
+      make_section_signal(body, model.gravity, stations, FixedPointStress()),
+      inverse_of(body, variables,
+                 [is_endurance](const auto& element) {
+                   return is_endurance ? element.endurance_limit : element.fatigue_strength;
+                 }),
+      inverse_of(body, variables, [is_yield](const auto& element) {
+        return is_yield ? element.strength : element.ultimate_strength;
+      }));
+}
+
+}  // namespace pleuel
