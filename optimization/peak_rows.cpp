@@ -119,8 +119,9 @@ bool has_peaks(const ResponseSettings& response) {
 }
 
 int place_count(const ProblemFile& file, const ResponseSettings& response) {
-  const bool is_divided =
-      is_fatigue(response) || (response.type == ResponseType::stress && has_peaks(response));
+  const bool is_stress =
+      response.type == ResponseType::stress || response.type == ResponseType::shear_stress;
+  const bool is_divided = is_fatigue(response) || (is_stress && has_peaks(response));
   if (!is_divided || response.station) return 1;
   if (response.bodies.size() > 1) {
     return std::min(places_of_a_part * static_cast<int>(response.bodies.size()), most_places);

@@ -174,6 +174,7 @@ bool needs_elasticity(const ProblemFile& problem) {
                          case ResponseType::stress:
                          case ResponseType::fatigue:
                          case ResponseType::fatigue_damage:
+                         case ResponseType::shear_stress:
                          case ResponseType::deflection:
                          case ResponseType::frequency:
                          case ResponseType::buckling:

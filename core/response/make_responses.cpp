@@ -87,6 +87,7 @@ class ResponseMaker {
       case ResponseType::stress:
       case ResponseType::fatigue:
       case ResponseType::fatigue_damage:
+      case ResponseType::shear_stress:
       case ResponseType::buckling:
       case ResponseType::deflection:
       case ResponseType::position:

@@ -83,6 +83,22 @@ struct ElementShear {
   }
 };
 
+/// Both shear forces and the torque at a place of an element, as rows.
+template <class Scalar>
+struct ElementShearing {
+  Eigen::Matrix<Scalar, shearing_force_count, 12> of_coordinates;
+  Eigen::Matrix<Scalar, shearing_force_count, 6> of_accelerations;
+
+  ElementShearing(const BeamElement<Scalar>& element, double xi) {
+    const ElementShear<Scalar> along_y(element, xi, 1), along_z(element, xi, 2);
+    const ElementForces<Scalar> forces(element, xi);
+    of_coordinates << along_y.of_coordinates, along_z.of_coordinates,
+        forces.of_coordinates.row(torque);
+    of_accelerations << along_y.of_accelerations, along_z.of_accelerations,
+        forces.of_accelerations.row(torque);
+  }
+};
+
 /// Writes dense blocks of neighbouring columns.
 class RowWriter {
  public:
@@ -140,6 +156,10 @@ constexpr auto forces_of = []<class Scalar>(const BeamElement<Scalar>& element, 
   return ElementForces<Scalar>(element, xi);
 };
 
+constexpr auto shearing_of = []<class Scalar>(const BeamElement<Scalar>& element, double xi) {
+  return ElementShearing<Scalar>(element, xi);
+};
+
 auto shear_of(int direction) {
   return [direction]<class Scalar>(const BeamElement<Scalar>& element, double xi) {
     return ElementShear<Scalar>(element, xi, direction);
@@ -160,6 +180,17 @@ Recovery derivative_rows(const BodyModel& body, const std::vector<Station>& stat
   SparseMatrix of_stretching(of_coordinates.rows(),
                              static_cast<Eigen::Index>(body.stretching.elements.size()));
   return {std::move(of_coordinates), std::move(change.of_accelerations), std::move(of_stretching)};
+}
+
+/// Rows that the stretching of bent members has no part in.
+template <class OfElement>
+Recovery bending_recovery(const BodyModel& body, const std::vector<Station>& stations, int count,
+                          const OfElement& of) {
+  NodalRows rows = nodal_rows(body.beam, stations, count, of, value);
+  SparseMatrix of_stretching(rows.of_displacements.rows(),
+                             static_cast<Eigen::Index>(body.stretching.elements.size()));
+  return {rows.of_displacements * body.places.shape, std::move(rows.of_accelerations),
+          std::move(of_stretching)};
 }
 
 }  // namespace
@@ -186,16 +217,21 @@ Recovery section_force_derivative(const BodyModel& body, const std::vector<Stati
 
 Recovery shear_force_recovery(const BodyModel& body, const std::vector<Station>& stations,
                               int direction) {
-  NodalRows rows = nodal_rows(body.beam, stations, 1, shear_of(direction), value);
-  SparseMatrix of_stretching(rows.of_displacements.rows(),
-                             static_cast<Eigen::Index>(body.stretching.elements.size()));
-  return {rows.of_displacements * body.places.shape, std::move(rows.of_accelerations),
-          std::move(of_stretching)};
+  return bending_recovery(body, stations, 1, shear_of(direction));
 }
 
 Recovery shear_force_derivative(const BodyModel& body, const std::vector<Station>& stations,
                                 int direction, std::size_t k) {
   return derivative_rows(body, stations, 1, shear_of(direction), k);
+}
+
+Recovery shearing_force_recovery(const BodyModel& body, const std::vector<Station>& stations) {
+  return bending_recovery(body, stations, shearing_force_count, shearing_of);
+}
+
+Recovery shearing_force_derivative(const BodyModel& body, const std::vector<Station>& stations,
+                                   std::size_t k) {
+  return derivative_rows(body, stations, shearing_force_count, shearing_of, k);
 }
 
 }  // namespace pleuel

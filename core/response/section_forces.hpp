@@ -40,4 +40,12 @@ Recovery shear_force_recovery(const BodyModel& body, const std::vector<Station>&
 Recovery shear_force_derivative(const BodyModel& body, const std::vector<Station>& stations,
                                 int direction, std::size_t k);
 
+/// What shears a section: V_y, V_z, T. Three rows a station.
+inline constexpr int shearing_force_count = 3;
+Recovery shearing_force_recovery(const BodyModel& body, const std::vector<Station>& stations);
+
+/// Its derivative, as section_force_derivative().
+Recovery shearing_force_derivative(const BodyModel& body, const std::vector<Station>& stations,
+                                   std::size_t k);
+
 }  // namespace pleuel

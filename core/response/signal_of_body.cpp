@@ -14,6 +14,7 @@
 #include "core/response/response.hpp"
 #include "core/response/scaled_signal.hpp"
 #include "core/response/section_force_signal.hpp"
+#include "core/response/shear_stress_signal.hpp"
 #include "core/response/signal_list.hpp"
 #include "core/response/signal_sum.hpp"
 #include "core/response/stress_signal.hpp"
@@ -37,6 +38,8 @@ class BodySignalMaker {
         check_fatigue_data();
         return make_fatigue_signal(body_, model_, fatigue_strengths(),
                                    {settings_.segment, settings_.station});
+      case ResponseType::shear_stress:
+        return make_shear_stress();
       case ResponseType::buckling:
         check_section_forces();
         return make_buckling_signal(body_, model_.gravity);
@@ -84,6 +87,7 @@ class BodySignalMaker {
       fail(fmt::format("\"{}\" has no axial elasticity", body_.name));
     }
     const bool is_twist = settings_.part == StressPart::shear ||
+                          settings_.type == ResponseType::shear_stress ||
                           (is_section_force && settings_.section_part == SectionForcePart::torque);
     const bool needs_twist =
         is_twist && body_.frame.rotation == RotationCoordinates::rotation_vector;
@@ -133,6 +137,18 @@ class BodySignalMaker {
     check_section_forces();
     return make_stress_signal(body_, model_.gravity, settings_.part,
                               {settings_.segment, settings_.station});
+  }
+
+  std::unique_ptr<Signal> make_shear_stress() const {
+    check_section_forces();
+    for (const BeamElement<double>& element : body_.beam.elements) {
+      if (!element.section.shear_points.empty()) continue;
+      fail(
+          fmt::format("\"{}\" has a general section, whose properties do not tell where shear "
+                      "forces act in it",
+                      body_.name));
+    }
+    return make_shear_stress_signal(body_, model_.gravity, {settings_.segment, settings_.station});
   }
 
   /// The point that the response looks at.
@@ -196,6 +212,7 @@ class DividedSignalMaker {
       case ResponseType::stress:
       case ResponseType::fatigue:
       case ResponseType::fatigue_damage:
+      case ResponseType::shear_stress:
       case ResponseType::section_force:
         return make_stress();
       case ResponseType::buckling:

@@ -111,6 +111,7 @@ enum class ResponseType {
   angle,         ///< of a body frame
   angular_acceleration,
   fatigue,        ///< utilization by the cycle of a window of time
+  shear_stress,   ///< of shear forces and torsion
   fatigue_damage  ///< by all cycles of a window of time
 };
 enum class OverTime { max, min, max_abs, rms, mean, integral, final };

@@ -36,6 +36,7 @@ inline constexpr Choice<ResponseType> response_types[] = {
     {"angle", ResponseType::angle},
     {"angular-acceleration", ResponseType::angular_acceleration},
     {"fatigue", ResponseType::fatigue},
+    {"shear-stress", ResponseType::shear_stress},
     {"fatigue-damage", ResponseType::fatigue_damage},
 };
 

@@ -8,6 +8,7 @@ Quantity instant_quantity(const ResponseSettings& response) {
   const bool is_angle = response.coordinate == DrivenCoordinate::angle;
   switch (response.type) {
     case ResponseType::stress:
+    case ResponseType::shear_stress:
       return response.part == StressPart::utilization ? quantities::pure_number
                                                       : quantities::stress;
     case ResponseType::deflection:

@@ -45,6 +45,44 @@ BoxTorsion<Scalar> box_torsion(const Scalar& width, const Scalar& height, const 
   return torsion;
 }
 
+/// Shear flow in the walls of a box that are along a shear force V (`depth` along it, `across` it)
+/// and in those across it, over V: q = V Q/I of half the section. With the distance s of half the
+/// depth from the middle
+///     q(s) = q(0) − t s²/(2 I),   q(0) = (B H² − b h²)/(16 I)
+/// and in the walls across linear from zero in their middle to q at the corner.
+template <class Scalar>
+struct BoxShear {
+  Scalar depth, across, thickness, inertia;
+
+  /// Shear stress in a wall along the force, at a share of half the depth between the walls.
+  Scalar along(double share) const {
+    const Scalar inner = depth - 2.0 * thickness, inner_across = across - 2.0 * thickness;
+    const Scalar s = share * inner / 2.0;
+    const Scalar moment = (across * depth * depth - inner_across * inner * inner) / 16.0;
+    return moment / (thickness * inertia) - s * s / (2.0 * inertia);
+  }
+  /// In a wall across it, at a share of half the width between the walls.
+  Scalar sideways(double share) const {
+    return share * (across - 2.0 * thickness) / 2.0 * (depth - thickness) / (2.0 * inertia);
+  }
+};
+
+/// Places along half a wall: that of the largest shear lies between its middle and the corner where
+/// both shear forces act. What is between two of them is larger by 1 % at most.
+template <class Scalar>
+std::vector<ShearPoint<Scalar>> box_shear_points(const SectionProperties<Scalar>& section,
+                                                 const Scalar& width, const Scalar& height,
+                                                 const Scalar& thickness, const Scalar& torsion) {
+  const BoxShear<Scalar> by_y{height, width, thickness, section.inertia_z};
+  const BoxShear<Scalar> by_z{width, height, thickness, section.inertia_y};
+  std::vector<ShearPoint<Scalar>> points;
+  for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    points.push_back({by_y.along(share), by_z.sideways(share), torsion});
+    points.push_back({by_y.sideways(share), by_z.along(share), torsion});
+  }
+  return points;
+}
+
 /// Rectangular tube, `width` along z, `height` along y, outer [m]. Area and second moments are
 /// exact. Its points are the outer corners with the shear of the walls: in the very corner there is
 /// none, but it is there within a wall thickness, where bending is nearly as large.
@@ -66,6 +104,7 @@ SectionProperties<Scalar> box_section(const Scalar& width, const Scalar& height,
                     {y, -z, torsion.shear},
                     {-y, z, torsion.shear},
                     {-y, -z, torsion.shear}};
+  section.shear_points = box_shear_points(section, width, height, thickness, torsion.shear);
   return section;
 }
 

@@ -64,6 +64,14 @@ SectionProperties<Scalar> i_section(const Scalar& width, const Scalar& height,
                     {y, zero, torsion.junction_shear},  {-y, zero, torsion.junction_shear},
                     {web_y, web_z, torsion.web_shear},  {web_y, -web_z, torsion.web_shear},
                     {-web_y, web_z, torsion.web_shear}, {-web_y, -web_z, torsion.web_shear}};
+  // Web: Q of half the section in its middle. Flange: where it meets the web, from both forces.
+  const Scalar arm = (height - flange_thickness) / 2.0;
+  const Scalar half_web = web_height / 2.0;
+  const Scalar in_web = width * flange_thickness * arm + web_thickness * half_web * half_web / 2.0;
+  const Scalar overhang = (width - web_thickness) / 2.0;
+  section.shear_points = {{in_web / (section.inertia_z * web_thickness), zero, torsion.web_shear},
+                          {overhang * arm / section.inertia_z,
+                           width * width / (8.0 * section.inertia_y), torsion.junction_shear}};
   return section;
 }
 

@@ -65,6 +65,10 @@ SectionProperties<Scalar> rectangle_section(const Scalar& width, const Scalar& h
   section.points = {{y, z, zero},          {y, -z, zero},         {-y, z, zero},
                     {-y, -z, zero},        {y, zero, shear_at_y}, {-y, zero, shear_at_y},
                     {zero, z, shear_at_z}, {zero, -z, shear_at_z}};
+  // 3/2 V/A in the middle, and in the middle of the sides, where that of torsion is largest.
+  const Scalar peak = 1.5 / section.area;
+  section.shear_points = {
+      {peak, peak, zero, false}, {peak, zero, shear_at_z}, {zero, peak, shear_at_y}};
   return section;
 }
 

@@ -22,6 +22,10 @@ SectionProperties<Scalar> round_section(const Scalar& outer_diameter,
   section.radius_y = section.radius_z = radius;
   section.points = {
       {radius, zero, shear}, {-radius, zero, shear}, {zero, radius, shear}, {zero, -radius, shear}};
+  // Q = 2/3 (R³ − r³), b = 2 (R − r): 4/3 (R² + R r + r²)/(R² + r²) V/A, from 4/3 to 2.
+  const Scalar product = outer_diameter * inner_diameter;
+  const Scalar peak = 4.0 / 3.0 / section.area * (outer2 + product + inner2) / (outer2 + inner2);
+  section.shear_points = {{peak, peak, shear, false}};
   return section;
 }
 

@@ -15,6 +15,19 @@ struct StressPoint {
   Scalar shear;  ///< [1/m³]
 };
 
+/// A place where shear stress of shear forces, with that of torsion, can be the largest. Where both
+/// shear forces have directions of their own
+///     τ = √((by_y V_y)² + (by_z V_z)²) + |T| by_torque
+/// and where a wall has one direction
+///     τ = |by_y V_y| + |by_z V_z| + |T| by_torque
+/// of the worse of its symmetric places: where all of them add.
+template <class Scalar>
+struct ShearPoint {
+  Scalar by_y, by_z;  ///< per shear force along y and z [1/m²]
+  Scalar by_torque;   ///< [1/m³]
+  bool is_in_wall = true;
+};
+
 template <class Scalar>
 struct SectionProperties {
   Scalar area;       ///< A [m²]
@@ -26,6 +39,9 @@ struct SectionProperties {
   /// points are the ends of the semi-axes: y, −y, z, −z.
   Scalar radius_y = Scalar(0), radius_z = Scalar(0);
   std::vector<StressPoint<Scalar>> points;
+  /// By Jourawski's formula τ = V Q/(I b) (Gere & Timoshenko, Mechanics of Materials, ch. 5), which
+  /// takes shear to be the same across the width b; none of sections that do not give them.
+  std::vector<ShearPoint<Scalar>> shear_points;
 
   bool is_round() const { return radius_y > 0.0; }
 };

@@ -349,6 +349,7 @@ class ShearDoubts {
       case ResponseType::stress:
       case ResponseType::fatigue:
       case ResponseType::fatigue_damage:
+      case ResponseType::shear_stress:
       case ResponseType::section_force:
         return is_held_twice_ && is_of_body ? largest : 0.0;
       case ResponseType::reaction_force:

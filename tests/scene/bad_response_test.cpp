@@ -10,7 +10,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadEdit{
             "/responses/speed/type", R"("velocty")",
-            R"(/responses/speed/type must be "mass", "stress", "deflection", "position", "velocity", "acceleration", "drive-torque", "drive-force", "drive-power", "reaction-force", "reaction-moment", "frequency", "buckling", "kinetic-energy", "elastic-energy", "energy-balance", "constraint-drift", "expression", "section-force", "angular-velocity", "joint-position", "joint-velocity", "spring-length", "spring-force", "motor-power", "damper-power", "angle", "angular-acceleration", "fatigue" or "fatigue-damage", got "velocty"; did you mean "velocity"?)"},
+            R"(/responses/speed/type must be "mass", "stress", "deflection", "position", "velocity", "acceleration", "drive-torque", "drive-force", "drive-power", "reaction-force", "reaction-moment", "frequency", "buckling", "kinetic-energy", "elastic-energy", "energy-balance", "constraint-drift", "expression", "section-force", "angular-velocity", "joint-position", "joint-velocity", "spring-length", "spring-force", "motor-power", "damper-power", "angle", "angular-acceleration", "fatigue", "shear-stress" or "fatigue-damage", got "velocty"; did you mean "velocity"?)"},
         BadEdit{
             "/responses/time", R"({"type": "mass"})",
             R"(/responses/time has a name that files of histories need for their own columns: "time" and "…:error")"},
@@ -87,6 +87,9 @@ INSTANTIATE_TEST_SUITE_P(
             "/responses/life",
             R"({"type": "fatigue-damage", "body": "arm", "criterion": "goodman"})",
             R"(/responses/life/criterion needs the "fatigue_strength" of the material "steel", which has none: give it in /scene/materials)"},
+        BadEdit{"/responses/tau",
+                R"({"type": "shear-stress", "body": "arm", "at": 2, "over_time": "max"})",
+                "/responses/tau/at must be a place along the beam from 0 to 1, got 2"},
         BadEdit{"/scene/materials/steel/endurance_limit", R"("100 N")",
                 "/scene/materials/steel/endurance_limit must be a stress [Pa], got \"100 N\": "
                 "\"N\" measures something else"},

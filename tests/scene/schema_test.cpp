@@ -156,7 +156,7 @@ TEST_F(ProblemSchema, AcceptsEveryReferenceOfADeflection) {
   }
 }
 
-TEST_F(ProblemSchema, AcceptsFatigue) {
+TEST_F(ProblemSchema, AcceptsFatigueAndShear) {
   Json document = edited("/scene/materials/steel/ultimate_strength", R"("470 MPa")");
   document = edited(std::move(document), "/scene/materials/steel/endurance_limit", R"("180 MPa")");
   document = edited(std::move(document), "/scene/materials/steel/fatigue_strength", R"("900 MPa")");
@@ -164,7 +164,8 @@ TEST_F(ProblemSchema, AcceptsFatigue) {
   for (const char* response :
        {R"({"type": "fatigue", "body": "crank", "criterion": "goodman", "from": "1 ms"})",
         R"({"type": "fatigue", "bodies": ["crank"], "criterion": "gerber"})",
-        R"({"type": "fatigue-damage", "body": "crank", "at": 0.5, "criterion": "gerber"})"}) {
+        R"({"type": "fatigue-damage", "body": "crank", "at": 0.5, "criterion": "gerber"})",
+        R"({"type": "shear-stress", "body": "crank", "segment": 0, "over_time": "max"})"}) {
     const Json whole = edited(document, "/responses/more", response);
     EXPECT_EQ(complaints(nlohmann::json::parse(whole.dump())), "") << response;
     EXPECT_EQ(complaint(whole), "") << response;

@@ -164,6 +164,31 @@ void read_stress(const JsonNode& node, const ResponseContext& context, ResponseS
   read_history(node, context, response);
 }
 
+void read_shear_stress(const JsonNode& node, const ResponseContext& context,
+                       ResponseSettings& response) {
+  const auto check = [&](const JsonNode& name, const BeamBody& beam) {
+    const bool is_general =
+        std::any_of(beam.segments.begin(), beam.segments.end(), [](const Segment& segment) {
+          return std::holds_alternative<GeneralSection>(segment.section);
+        });
+    if (!is_general) return;
+    name.fail(
+        "names a beam with a general section, whose properties do not tell where shear forces act "
+        "in it; \"section-force\" gives the forces");
+  };
+  if (const auto list = node.find("bodies")) {
+    if (node.find("body")) node.fail("has both \"body\" and \"bodies\"");
+    allow_history_keys(node, {"bodies"});
+    read_beams(*list, context.scene, response, check);
+  } else {
+    allow_history_keys(node, {"body", "segment", "at"});
+    const BeamBody& beam = read_elastic_beam(node, context.scene, response);
+    read_stretch(node, beam, response);
+    check(node.at("body"), beam);
+  }
+  read_history(node, context, response);
+}
+
 void read_fatigue(const JsonNode& node, const ResponseContext& context,
                   ResponseSettings& response) {
   if (const auto over_time = node.find("over_time")) {

@@ -11,6 +11,10 @@ void read_stress(const JsonNode& node, const ResponseContext& context, ResponseS
 /// Utilization by a cycle: a criterion and what it needs of the materials, no `over_time`.
 void read_fatigue(const JsonNode& node, const ResponseContext& context, ResponseSettings& response);
 
+/// Of shear forces and torsion, over one beam or several.
+void read_shear_stress(const JsonNode& node, const ResponseContext& context,
+                       ResponseSettings& response);
+
 /// N, M, T or Q at a place of a beam.
 void read_section_force(const JsonNode& node, const ResponseContext& context,
                         ResponseSettings& response);

@@ -209,6 +209,9 @@ ResponseSettings read_response(const std::string& name, const JsonNode& node,
     case ResponseType::stress:
       read_stress(node, context, response);
       break;
+    case ResponseType::shear_stress:
+      read_shear_stress(node, context, response);
+      break;
     case ResponseType::fatigue:
     case ResponseType::fatigue_damage:
       read_fatigue(node, context, response);

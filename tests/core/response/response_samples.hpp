@@ -48,10 +48,12 @@ inline void add_beam_responses(const BodyModel& body, std::vector<ResponseSettin
     all.push_back(settings);
   }
   settings.part = StressPart::von_mises;
-  for (ResponseType type : {ResponseType::fatigue, ResponseType::fatigue_damage}) {
+  for (ResponseType type :
+       {ResponseType::shear_stress, ResponseType::fatigue, ResponseType::fatigue_damage}) {
     settings.type = type;
     settings.name = body.name + " of stress " + std::to_string(static_cast<int>(type));
-    all.push_back(settings);
+    const bool is_general = body.beam.elements.front().section.shear_points.empty();
+    if (type != ResponseType::shear_stress || !is_general) all.push_back(settings);
   }
   settings.type = ResponseType::stress;
   settings.part = StressPart::normal;
