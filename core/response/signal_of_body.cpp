@@ -10,6 +10,7 @@
 #include "core/response/fatigue_signal.hpp"
 #include "core/response/motion_signals.hpp"
 #include "core/response/norm_signal.hpp"
+#include "core/response/place_deflection.hpp"
 #include "core/response/point_stress_signal.hpp"
 #include "core/response/response.hpp"
 #include "core/response/scaled_signal.hpp"
@@ -155,10 +156,7 @@ class BodySignalMaker {
   NamedPoint point() const {
     if (body_.is_beam()) return point_along(settings_.at);
     if (!body_.is_imported()) return {{}, "reference point"};
-    const std::vector<std::string>& names = body_.places.names;
-    const auto found = std::find(names.begin(), names.end(), settings_.place);
-    return {point_of(body_, static_cast<int>(found - names.begin())),
-            fmt::format("at \"{}\"", settings_.place)};
+    return named_point(body_, settings_.place);
   }
 
   NamedPoint point_along(double share) const {
@@ -186,6 +184,11 @@ class BodySignalMaker {
 
   /// Against the straight line through both ends of a beam, whatever its frame.
   std::unique_ptr<Signal> make_chord_deflection() const {
+    if (settings_.chord) {
+      if (!body_.is_elastic) fail(fmt::format("\"{}\" is rigid", body_.name));
+      return make_place_deflection(body_, settings_.place, *settings_.chord,
+                                   model_.mechanism.system->variables(), settings_.direction);
+    }
     const double at = settings_.at;
     std::vector<SignalSum::Part> parts;
     for (const auto& [factor, share] :

@@ -167,6 +167,8 @@ struct ResponseSettings {
   SectionForcePart section_part = SectionForcePart::axial;
   double at = 0.0;    ///< deflection, position …: place along the beam, 0 … 1
   std::string place;  ///< the same of an imported body: its name
+  /// Deflection of an imported body against a chord: the names of the places at its ends.
+  std::optional<std::array<std::string, 2>> chord = {};
   DeflectionReference against = DeflectionReference::frame;
   /// deflection: 0 … 2 = local x, y, z, −1 = √(y² + z²); deflection against the rigid mechanism,
   /// position, velocity, acceleration, angular velocity, reaction: 0 … 2 global axes, −1 =

@@ -90,6 +90,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{"/responses/tau",
                 R"({"type": "shear-stress", "body": "arm", "at": 2, "over_time": "max"})",
                 "/responses/tau/at must be a place along the beam from 0 to 1, got 2"},
+        BadEdit{
+            "/responses/bow",
+            R"({"type": "deflection", "body": "arm", "at": 0.5, "chord": ["a", "b"],
+                "against": "chord", "over_time": "max"})",
+            R"(/responses/bow/chord is for imported bodies with "against": "chord"; that of a beam is through its ends)"},
         BadEdit{"/scene/materials/steel/endurance_limit", R"("100 N")",
                 "/scene/materials/steel/endurance_limit must be a stress [Pa], got \"100 N\": "
                 "\"N\" measures something else"},

@@ -17,6 +17,21 @@ std::string read_place_name(const JsonNode& node, const ImportedBody& body) {
   return read_known_name(node, "place", names);
 }
 
+/// The places at both ends of a chord, apart from each other.
+std::array<std::string, 2> read_chord(const JsonNode& node, const ImportedBody& body) {
+  const std::vector<JsonNode> names = node.items(2);
+  const std::array<std::string, 2> ends = {read_place_name(names[0], body),
+                                           read_place_name(names[1], body)};
+  const auto position = [&](const std::string& name) {
+    const std::vector<BodyPlace>& places = body.file->constants.places;
+    return find_named(places, name)->position;
+  };
+  if ((position(ends[1]) - position(ends[0])).norm() == 0.0) {
+    node.fail("must name two places that are apart from each other");
+  }
+  return ends;
+}
+
 /// A component, the magnitude, or the component along a vector.
 void read_direction_or_vector(const JsonNode& node, const ResponseContext& context,
                               ResponseSettings& response) {
@@ -252,7 +267,7 @@ void read_turning(const JsonNode& node, const ResponseContext& context,
 
 void read_deflection(const JsonNode& node, const ResponseContext& context,
                      ResponseSettings& response) {
-  allow_history_keys(node, {"body", "at", "direction", "against"});
+  allow_history_keys(node, {"body", "at", "direction", "against", "chord"});
   const auto* imported = find_imported(node, context.scene, response);
   if (imported != nullptr) {
     response.place = read_place_name(node.at("at"), *imported);
@@ -265,9 +280,13 @@ void read_deflection(const JsonNode& node, const ResponseContext& context,
         *against, {{"frame", DeflectionReference::frame},
                    {"chord", DeflectionReference::chord},
                    {"rigid-mechanism", DeflectionReference::rigid_mechanism}});
-    if (imported != nullptr && response.against == DeflectionReference::chord) {
-      against->fail("is for beams: an imported body has no chord");
-    }
+  }
+  const bool needs_ends = imported != nullptr && response.against == DeflectionReference::chord;
+  if (needs_ends) {
+    response.chord = read_chord(node.at("chord"), *imported);
+  } else if (const auto chord = node.find("chord")) {
+    chord->fail(
+        "is for imported bodies with \"against\": \"chord\"; that of a beam is through its ends");
   }
   if (response.against == DeflectionReference::rigid_mechanism) {
     response.direction = read_choice<int>(node.at("direction"), {{"x", 0}, {"y", 1}, {"z", 2}});

@@ -31,6 +31,7 @@ constexpr const char* responses = R"({
   "mean_stress": {"type": "stress", "body": "rod", "over_time": "mean"},
   "bow": {"type": "deflection", "body": "rod", "at": 0.5, "over_time": "max-abs"},
   "bow_rms": {"type": "deflection", "body": "rod", "at": 0.4, "over_time": "rms"},
+  "sag": {"type": "deflection", "body": "rod", "at": 0.4, "against": "chord", "over_time": "rms"},
   "lag": {"type": "deflection", "body": "rod", "at": 0.5, "against": "rigid-mechanism",
           "direction": "y", "over_time": "max-abs"},
   "place": {"type": "position", "body": "rod", "at": 0.5, "direction": "y", "over_time": "rms"},
@@ -104,6 +105,14 @@ class Exchange : public testing::Test {
     return with_file(document, file);
   }
 
+  /// The name of a place along the rod.
+  static std::string place_at(const InvariantsFile& file, double share) {
+    for (const BodyPlace& place : file.constants.places) {
+      if (std::abs(place.position.x() - 0.18 * share) < 1e-9) return place.name;
+    }
+    return "";
+  }
+
   /// A beam has the frequencies of both planes whatever the motion has, a file those of its
   /// coordinates: in a plane the rod's second (it is 20 mm wide and 30 mm high) is the file's
   /// first.
@@ -118,9 +127,10 @@ class Exchange : public testing::Test {
     for (auto& [name, response] : document["responses"].items()) {
       if (!response.contains("at") || response["body"] != "rod") continue;
       // Responses at the same place share the name of the first.
-      const double x = 0.18 * response["at"].get<double>();
-      for (const BodyPlace& place : file.constants.places) {
-        if (std::abs(place.position.x() - x) < 1e-9) response["at"] = place.name;
+      const double share = response["at"].get<double>();
+      response["at"] = place_at(file, share);
+      if (response.value("against", "") == "chord") {
+        response["chord"] = {place_at(file, 0.0), place_at(file, 1.0)};
       }
     }
     return document;
@@ -180,6 +190,44 @@ INSTANTIATE_TEST_SUITE_P(
         R"({"effects": {"geometric_stiffening": "off"}})",
         R"({"scene": {"bodies": {"rod": {"frame": "mean-axis", "reduction": {"modes": 3}}}}, )"
         R"("responses": {"rod_frequency": null}})"));
+
+/// A chord between two other places against the straight line by hand: u_P − (1 − s) u_A − s u_B with
+/// s = (0.4 − 0.2)/(0.8 − 0.2) = 1/3.
+TEST_F(Exchange, TakesAnyTwoPlacesForAChord) {
+  Json document = slider_crank();
+  document["responses"] = Json::parse(R"({
+    "a": {"type": "deflection", "body": "rod", "at": 0.2, "over_time": "final"},
+    "b": {"type": "deflection", "body": "rod", "at": 0.8, "over_time": "final"},
+    "p": {"type": "deflection", "body": "rod", "at": 0.4, "over_time": "final"},
+    "mass": {"type": "mass"}})");
+  const ProblemFile original = read("original.json", document);
+  const InvariantsFile file = exported(original, "rod");
+  write(write_invariants(file));
+  document = with_file(document, file);
+  document["responses"]["bow"] = {{"type", "deflection"},
+                                  {"body", "rod"},
+                                  {"at", place_at(file, 0.4)},
+                                  {"against", "chord"},
+                                  {"chord", {place_at(file, 0.2), place_at(file, 0.8)}},
+                                  {"over_time", "final"}};
+  const ProblemFile problem = read("imported.json", document);
+  const Eigen::VectorXd x = start_design(problem);
+  auto analysis = analyze(problem, x);
+  const Eigen::VectorXd values = values_of(*analysis);  // a, b, p, mass, bow
+  EXPECT_NEAR(values(4), values(2) - 2.0 / 3.0 * values(0) - 1.0 / 3.0 * values(1),
+              1e-12 * std::abs(values(2)));
+  const Eigen::MatrixXd slopes = gradients(problem, x, *analysis, GradientMethod::direct);
+  const Eigen::RowVectorXd expected =
+      slopes.row(2) - 2.0 / 3.0 * slopes.row(0) - 1.0 / 3.0 * slopes.row(1);
+  EXPECT_LE((slopes.row(4) - expected).cwiseAbs().maxCoeff(),
+            1e-9 * slopes.row(2).cwiseAbs().maxCoeff());
+  document["responses"]["bow"]["chord"][1] = place_at(file, 0.2);
+  EXPECT_THAT(complaint(document), HasSubstr("/responses/bow/chord must name two places that are "
+                                             "apart from each other"));
+  document["responses"]["bow"]["chord"][1] = "nowhere";
+  EXPECT_THAT(complaint(document),
+              HasSubstr("/responses/bow/chord/1 names the unknown place \"nowhere\""));
+}
 
 TEST_F(Exchange, WithoutDerivativesKeepsTheGradientsOfOtherBodies) {
   Json document = slider_crank();
@@ -324,7 +372,9 @@ TEST_F(Exchange, SaysWhatAFileCannotDo) {
        "/scene/loads/tug/at must be at a place of the body \"rod\""},
       {"/responses/bow/at", "\"bwo\"",
        "/responses/bow/at names the unknown place \"bwo\"; did you mean \"bow\""},
-      {"/responses/bow/against", "\"chord\"", "/responses/bow/against is for beams"},
+      {"/responses/bow/against", "\"chord\"", "/responses/bow is missing the key \"chord\""},
+      {"/responses/bow/chord", R"(["bow", "tug"])",
+       "/responses/bow/chord is for imported bodies with \"against\": \"chord\""},
       {"/responses/rod_pull/part", "\"bending\"", "/responses/rod_pull/part must be"},
       {"/effects/rotary_inertia", "\"off\"", "from which nothing can be left out"},
   };
@@ -366,7 +416,7 @@ void write_rod_of_another_program(const std::filesystem::path& path) {
 TEST_F(Exchange, TakesTheRodOfAnotherProgram) {
   Json document = slider_crank();
   document["scene"]["loads"].erase("tug");
-  for (const char* name : {"bow_rms", "speed", "rod_pull", "rod_use", "mean_stress"}) {
+  for (const char* name : {"bow_rms", "sag", "speed", "rod_pull", "rod_use", "mean_stress"}) {
     document["responses"].erase(name);
   }
   document["variables"].erase("rod_width");
