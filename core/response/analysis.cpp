@@ -107,7 +107,8 @@ Reduction reduce_history(const Response& response, const Eigen::VectorXd& time,
     return reduction;
   }
   if (!response.is_balance()) {
-    return reduce(response.history()->over_time, time, history, range, breaks);
+    return reduce(response.history()->over_time, time, history, range, breaks,
+                  response.history()->among);
   }
   Reduction reduction = reduce_balance(time, history, range);
   history = balance_history(time, history, range);

@@ -69,6 +69,10 @@ class ResponseMaker {
     if (settings_.type == ResponseType::energy_balance) {
       history.transform = HistoryTransform::balance;
     }
+    // Both sides of a load: a force is not larger because it points the other way.
+    if (settings_.type == ResponseType::section_force) {
+      history.among = AmongChannels::largest_magnitude;
+    }
     if (settings_.type == ResponseType::fatigue) {
       history.transform = HistoryTransform::cycle;
       history.criterion = settings_.criterion;

@@ -224,10 +224,17 @@ Eigen::VectorXd quadrature(const Eigen::VectorXd& time, const StepRange& range) 
   return weights;
 }
 
-Reduction reduce_linear(const Eigen::VectorXd& weights, const Eigen::MatrixXd& values) {
+Reduction reduce_linear(const Eigen::VectorXd& weights, const Eigen::MatrixXd& values,
+                        AmongChannels among) {
   Reduction reduction;
   Eigen::Index channel = 0;
-  reduction.value = (values * weights).maxCoeff(&channel);
+  const Eigen::VectorXd sums = values * weights;
+  if (among == AmongChannels::largest) {
+    sums.maxCoeff(&channel);
+  } else {
+    sums.cwiseAbs().maxCoeff(&channel);
+  }
+  reduction.value = sums(channel);
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
     if (weights(i) == 0.0) continue;
     reduction.samples.push_back({static_cast<int>(i), static_cast<int>(channel), weights(i)});
@@ -283,18 +290,18 @@ Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::Matrix
 }
 
 Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
-                 const StepRange& range, const BrokenInstants& breaks) {
+                 const StepRange& range, const BrokenInstants& breaks, AmongChannels among) {
   if (is_peak(kind)) return reduce_stretch(kind, {time, values, range, range, breaks});
   const double duration = time(range.last) - time(range.first);
   switch (kind) {
     case OverTime::rms:
       return reduce_rms(quadrature(time, range) / duration, values);
     case OverTime::mean:
-      return reduce_linear(quadrature(time, range) / duration, values);
+      return reduce_linear(quadrature(time, range) / duration, values, among);
     case OverTime::integral:
-      return reduce_linear(quadrature(time, range), values);
+      return reduce_linear(quadrature(time, range), values, among);
     default:
-      return reduce_linear(Eigen::VectorXd::Unit(time.size(), range.last), values);
+      return reduce_linear(Eigen::VectorXd::Unit(time.size(), range.last), values, among);
   }
 }
 

@@ -54,6 +54,12 @@ StepRange whole_range(const Eigen::VectorXd& time);
 StepRange steps_between(const Eigen::VectorXd& time, std::optional<double> from,
                         std::optional<double> to);
 
+/// Which of several channels final, mean and integral take.
+enum class AmongChannels {
+  largest,           ///< the largest number
+  largest_magnitude  ///< that with the largest magnitude, with its sign
+};
+
 /// Reduces a history over time (and over channels: the smallest for min, the largest for the
 /// others). Peaks between steps are found by the parabola through three samples; at the ends of the
 /// range they are samples. rms, mean and integral use the trapezoidal rule.
@@ -61,7 +67,8 @@ StepRange steps_between(const Eigen::VectorXd& time, std::optional<double> from,
 /// @param values  channels × (steps + 1)
 /// @param range   at least two steps; by default all
 Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
-                 const StepRange& range, const BrokenInstants& breaks = {});
+                 const StepRange& range, const BrokenInstants& breaks = {},
+                 AmongChannels among = AmongChannels::largest);
 Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::MatrixXd& values);
 
 /// What is missing in a balance of an amount and its rate: amount(t₁) − amount(t₀) − ∫ rate dt over

@@ -42,6 +42,7 @@ struct ResponseHistory {
   HistoryTransform transform = HistoryTransform::none;
   FatigueCriterion criterion = FatigueCriterion::goodman;  ///< of cycles
   double fatigue_exponent = 0.0;                           ///< of damage
+  AmongChannels among = AmongChannels::largest;
   /// Of a deflection against the rigid mechanism: which response of Analysis::rigid is taken off.
   std::optional<std::size_t> rigid_response = {};
 

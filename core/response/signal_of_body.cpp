@@ -53,7 +53,7 @@ class BodySignalMaker {
       case ResponseType::section_force:
         check_section_forces();
         return make_section_force_signal(body_, model_.gravity, settings_.section_part,
-                                         {std::nullopt, settings_.station});
+                                         {std::nullopt, settings_.station, settings_.side});
       case ResponseType::angular_velocity:
         return make_spin_signal(body_, settings_.direction, TimeDerivative::first);
       case ResponseType::angular_acceleration:
@@ -268,6 +268,10 @@ class DividedSignalMaker {
       }
       if (settings.segment && !holds_segment(*part, *settings.segment)) continue;
       signals.push_back(make_of(settings, *part));
+    }
+    // Where two parts meet, the place is the end of one and the beginning of the other.
+    if (settings_.side && signals.size() > 1) {
+      return std::move(*settings_.side == SectionSide::before ? signals.front() : signals.back());
     }
     return std::make_unique<SignalList>(std::move(signals));
   }

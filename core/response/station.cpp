@@ -56,7 +56,10 @@ class StationFinder {
 
 std::vector<Station> find_stations(const BodyModel& body, const StationChoice& choice) {
   const StationFinder finder(body);
-  return choice.place ? finder.at(*choice.place) : finder.along(choice.segment);
+  if (!choice.place) return finder.along(choice.segment);
+  std::vector<Station> stations = finder.at(*choice.place);
+  if (!choice.side || stations.size() == 1) return stations;
+  return {*choice.side == SectionSide::before ? stations.front() : stations.back()};
 }
 
 std::string describe(const Station& station, const BodyModel& body) {

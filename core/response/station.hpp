@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/model/model.hpp"
+#include "core/scene/problem_file.hpp"
 
 namespace pleuel {
 
@@ -12,6 +13,8 @@ namespace pleuel {
 struct StationChoice {
   std::optional<int> segment;
   std::optional<double> place;  ///< 0 … 1
+  /// Of the stations of a place where section forces may jump, only this one.
+  std::optional<SectionSide> side = {};
 };
 
 /// A section at which section forces are evaluated: a node, seen from one or two elements, or a

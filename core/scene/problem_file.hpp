@@ -136,6 +136,9 @@ enum class SectionForcePart {
   shear_z
 };
 
+/// From which side a section is looked at where a load or a joint acts.
+enum class SectionSide { before, behind };
+
 inline bool is_force(SectionForcePart part) {
   return part == SectionForcePart::axial || part == SectionForcePart::shear_y ||
          part == SectionForcePart::shear_z;
@@ -169,6 +172,8 @@ struct ResponseSettings {
   std::string place;  ///< the same of an imported body: its name
   /// Deflection of an imported body against a chord: the names of the places at its ends.
   std::optional<std::array<std::string, 2>> chord = {};
+  /// Section force: of the part before the place, or of that behind it.
+  std::optional<SectionSide> side = {};
   DeflectionReference against = DeflectionReference::frame;
   /// deflection: 0 … 2 = local x, y, z, −1 = √(y² + z²); deflection against the rigid mechanism,
   /// position, velocity, acceleration, angular velocity, reaction: 0 … 2 global axes, −1 =

@@ -17,6 +17,11 @@ constexpr double tiny_force = 1e-9;
 /// Forces and torques that hold a motion make up for round-off of its positions, ε/h² of N steps;
 /// beside the energy that is in it: N² times this, within limits.
 constexpr double tiny_inertia = 2e-13, most_inertia = 1e-6;
+/// Of the same section force, or stress, elsewhere in the body: what is smaller at all times vanishes
+/// in truth, as at pins and free ends, and is made of the errors of elements.
+constexpr double vanishing = 1e-3;
+/// Of stress: a strain of round-off, against the size of the mechanism.
+constexpr double tiny_strain = 1e-13;
 /// Of lengths, which are exact to the last digits.
 constexpr double tiny_length = 1e-12;
 /// Of lengths that rates over one step are made from.
@@ -48,7 +53,7 @@ class RoundOff {
     std::vector<bool> is_round_off(responses.size(), false);
     std::size_t next = 0;
     for (std::size_t i = 0; i < responses.size(); ++i) {
-      double scale = length_scale(responses[i]);
+      double scale = std::max(length_scale(responses[i]), strain_scale(responses[i]));
       for (const Measure& one : measures[i]) {
         scale = std::max(scale, one.share * measured[next++]);
       }
@@ -98,6 +103,36 @@ class RoundOff {
     }
   }
 
+  /// What a strain of round-off makes of a response of beams: positions of the size of the mechanism
+  /// carry it.
+  double strain_scale(const ResponseSettings& response) const {
+    double scale = 0.0;
+    for (const std::string& name : response.bodies) {
+      for (const BodyModel* body : model_.parts(name)) {
+        if (!body->is_beam() || !body->is_elastic) continue;
+        for (const BeamElement<double>& element : body->beam.elements) {
+          scale = std::max(scale, tiny_strain * of_unit_strain(response, element));
+        }
+      }
+    }
+    return scale;
+  }
+
+  double of_unit_strain(const ResponseSettings& response,
+                        const BeamElement<double>& element) const {
+    const double force = element.young * element.section.area;
+    switch (response.type) {
+      case ResponseType::section_force:
+        return is_force(response.section_part) ? force : force * size_;
+      case ResponseType::shear_stress:
+        return element.young;
+      case ResponseType::stress:
+        return response.part == StressPart::utilization ? 0.0 : element.young;
+      default:
+        return 0.0;
+    }
+  }
+
   static bool is_angle(const ResponseSettings& response) {
     return response.coordinate == DrivenCoordinate::angle;
   }
@@ -108,11 +143,18 @@ class RoundOff {
     whole.from = whole.to = std::nullopt;
     switch (response.type) {
       case ResponseType::stress:
-        if (response.part == StressPart::utilization) return {};
+        whole.segment = std::nullopt;
+        whole.station = std::nullopt;
+        if (response.part != StressPart::utilization) whole.part = StressPart::von_mises;
+        return {{whole, response.station ? vanishing : tiny_force}};
+      case ResponseType::shear_stress:
+        whole.type = ResponseType::stress;
+        whole.segment = std::nullopt;
+        whole.station = std::nullopt;
         whole.part = StressPart::von_mises;
         return {{whole}};
       case ResponseType::section_force:
-        return section_moments(whole);
+        return section_forces(whole);
       case ResponseType::velocity:
       case ResponseType::acceleration:
       case ResponseType::angular_velocity:
@@ -130,15 +172,31 @@ class RoundOff {
     }
   }
 
-  /// Both bending moments of the same section; an axial force is one by the size of the mechanism.
-  std::vector<Measure> section_moments(ResponseSettings whole) const {
+  /// Bending moments and axial force anywhere in the body: at a pin or a free end that of the section
+  /// itself is nothing but round-off. A force is a moment by the size of the mechanism.
+  std::vector<Measure> section_forces(ResponseSettings whole) const {
     const bool is_force = pleuel::is_force(whole.section_part);
-    std::vector<Measure> measures;
+    whole.station = std::nullopt;
+    whole.side = std::nullopt;
+    std::vector<Measure> measures = {{whole, vanishing}};
     for (const SectionForcePart part : {SectionForcePart::moment_y, SectionForcePart::moment_z}) {
       whole.section_part = part;
       measures.push_back({whole, tiny_force / (is_force ? size_ : 1.0)});
     }
+    if (has_stretch(whole.bodies.front())) {
+      whole.section_part = SectionForcePart::axial;
+      measures.push_back({whole, tiny_force * (is_force ? 1.0 : size_)});
+    }
     return measures;
+  }
+
+  /// Whether the beam has axial displacements, from which an axial force is recovered.
+  bool has_stretch(const std::string& name) const {
+    const ElasticCoordinates& coordinates = model_.parts(name).front()->coordinates;
+    for (int node = 0; node < coordinates.node_count(); ++node) {
+      if (coordinates.index(node, 0) >= 0) return true;
+    }
+    return false;
   }
 
   /// Force and moment in the joint, and the energy of motion; a moment as a force at the size of

@@ -90,6 +90,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{"/responses/tau",
                 R"({"type": "shear-stress", "body": "arm", "at": 2, "over_time": "max"})",
                 "/responses/tau/at must be a place along the beam from 0 to 1, got 2"},
+        BadEdit{"/responses/force",
+                R"({"type": "section-force", "body": "arm", "at": 0.5, "part": "axial",
+                "side": "left", "over_time": "max"})",
+                R"(/responses/force/side must be "before" or "behind", got "left")"},
         BadEdit{
             "/responses/bow",
             R"({"type": "deflection", "body": "arm", "at": 0.5, "chord": ["a", "b"],

@@ -165,7 +165,9 @@ TEST_F(ProblemSchema, AcceptsFatigueAndShear) {
        {R"({"type": "fatigue", "body": "crank", "criterion": "goodman", "from": "1 ms"})",
         R"({"type": "fatigue", "bodies": ["crank"], "criterion": "gerber"})",
         R"({"type": "fatigue-damage", "body": "crank", "at": 0.5, "criterion": "gerber"})",
-        R"({"type": "shear-stress", "body": "crank", "segment": 0, "over_time": "max"})"}) {
+        R"({"type": "shear-stress", "body": "crank", "segment": 0, "over_time": "max"})",
+        R"({"type": "section-force", "body": "crank", "at": 0.5, "part": "shear-y",
+            "side": "before", "over_time": "final"})"}) {
     const Json whole = edited(document, "/responses/more", response);
     EXPECT_EQ(complaints(nlohmann::json::parse(whole.dump())), "") << response;
     EXPECT_EQ(complaint(whole), "") << response;

@@ -234,9 +234,13 @@ void read_fatigue(const JsonNode& node, const ResponseContext& context,
 
 void read_section_force(const JsonNode& node, const ResponseContext& context,
                         ResponseSettings& response) {
-  allow_history_keys(node, {"body", "at", "part"});
+  allow_history_keys(node, {"body", "at", "part", "side"});
   read_elastic_beam(node, context.scene, response);
   response.station = read_place(node.at("at"));
+  if (const auto side = node.find("side")) {
+    response.side = read_choice<SectionSide>(
+        *side, {{"before", SectionSide::before}, {"behind", SectionSide::behind}});
+  }
   response.section_part =
       read_choice<SectionForcePart>(node.at("part"), {{"axial", SectionForcePart::axial},
                                                       {"moment-y", SectionForcePart::moment_y},
