@@ -10,6 +10,8 @@
 #include "cli/commands/commands.hpp"
 #include "cli/commands/each_case.hpp"
 #include "cli/interruption.hpp"
+#include "cli/rank_of_job.hpp"
+#include "cli/ranks.hpp"
 #include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
@@ -91,6 +93,15 @@ int print(const Outcome& outcome, bool wants_json) {
   return outcome.final_code();
 }
 
+/// Of rank 0 of a job: the other ranks, each with so many workers as the arguments say.
+std::vector<RankPlace> places_of(Ranks& ranks, const Arguments& arguments) {
+  std::vector<RankPlace> places = ranks.take_places(arguments.gives_jobs ? arguments.jobs : 0);
+  int workers = arguments.jobs;
+  for (const RankPlace& place : places) workers += place.workers();
+  show(stderr, fmt::format("pleuel: {}, {} workers\n", ranks.text(), workers));
+  return places;
+}
+
 int guarded_main(int argc, const char* const* argv) {
   Arguments arguments;
   arguments.wants_json = std::find(argv, argv + argc, std::string_view("--json")) != argv + argc;
@@ -98,10 +109,23 @@ int guarded_main(int argc, const char* const* argv) {
     return report_error(code, message, arguments.wants_json);
   };
   try {
+    std::optional<Ranks> ranks;
+    if (const std::optional<RankOfJob> place = rank_of_job()) {
+      std::vector<Channel> links = join_job(*place);
+      if (place->rank > 0) {
+        serve_rank_zero(std::move(links.front()));
+        return 0;
+      }
+      ranks.emplace(std::move(links));
+      limit_threads(ranks->processors_here());
+    }
     const std::optional<Arguments> parsed = parse_arguments(argc, argv);
     if (!parsed) return 0;
     arguments = *parsed;
     limit_threads(arguments.jobs);
+    std::vector<RankPlace> others;
+    if (ranks) others = places_of(*ranks, arguments);
+    arguments.ranks = &others;
     const Interruption interruption;
     return print(run(arguments), arguments.wants_json);
   } catch (const InputError& error) {

@@ -8,6 +8,8 @@
 
 #include "core/base/parallel.hpp"
 #include "core/base/tasks.hpp"
+#include "core/scene/packed_problem.hpp"
+#include "optimization/packed_options.hpp"
 #include "optimization/packed_result.hpp"
 #include "optimization/packed_solution.hpp"
 #include "optimization/starts.hpp"
@@ -117,29 +119,48 @@ Eigen::VectorXd scales_of(const ProblemFile& file, const Eigen::VectorXd& x) {
   return scales;
 }
 
+/// What a search tells.
+enum class Told : char { record, notice };
+
 /// A search from each of several designs.
+struct SearchWork : TaskWork {
+  ProblemFile file;
+  std::vector<Eigen::VectorXd> starts;
+  SolveOptions options;
+  bool has_store = false;
+
+  std::string run(int task, const std::string& /*needed*/, TaskCaller& caller) override {
+    RemoteStore store(caller);
+    const Execution here = {{.jobs = available_threads()}, has_store ? &store : nullptr};
+    const Observer observer = [&](const EvaluationRecord& record) {
+      caller.tell(packed(Told::record, record));
+    };
+    const Notice notice = [&](const std::string& text) { caller.tell(packed(Told::notice, text)); };
+    return pack_solution(solve_in_stages(file, starts[task], options, here, observer, notice));
+  }
+};
+
+/// Hears of the searches.
 class Searches : public Tasks {
  public:
   Searches(const ProblemFile& file, const std::vector<Eigen::VectorXd>& starts,
            const SolveOptions& options, const Execution& execution, const Observer& observer,
            const Notice& notice)
-      : file_(file),
-        starts_(starts),
-        options_(options),
-        execution_(execution),
-        observer_(observer),
-        notice_(notice) {}
+      : execution_(execution), observer_(observer), notice_(notice) {
+    work_.file = file;
+    work_.starts = starts;
+    work_.options = options;
+    work_.has_store = execution.store != nullptr;
+  }
 
-  int count() const override { return static_cast<int>(starts_.size()); }
+  int count() const override { return static_cast<int>(work_.starts.size()); }
 
-  std::string run(int task, const std::string& /*needed*/, TaskCaller& caller) override {
-    RemoteStore store(caller);
-    const Execution here = {{.jobs = available_threads()}, execution_.store ? &store : nullptr};
-    const Observer observer = [&](const EvaluationRecord& record) {
-      caller.tell(packed(Told::record, record));
-    };
-    const Notice notice = [&](const std::string& text) { caller.tell(packed(Told::notice, text)); };
-    return pack_solution(solve_in_stages(file_, start(task), options_, here, observer, notice));
+  PackedWork packed_work() const override {
+    return {search_work_name, packed(work_.file, work_.starts, work_.options, work_.has_store)};
+  }
+
+  std::string run(int task, const std::string& needed, TaskCaller& caller) override {
+    return work_.run(task, needed, caller);
   }
 
   std::string reply(int /*task*/, const std::string& question) override {
@@ -165,13 +186,13 @@ class Searches : public Tasks {
 
   void take(int task, const std::string& answer) override {
     announce(task);
-    add(unpack_solution(answer, file_, execution_.tasks.jobs));
+    add(unpack_solution(answer, work_.file, execution_.tasks.jobs));
   }
 
   void fail(int task, const std::string& failure) override {
     announce(task);
     StagedSolution none;
-    none.problem = std::make_unique<DesignProblem>(file_);
+    none.problem = std::make_unique<DesignProblem>(work_.file);
     none.result.status = Status::failed;
     none.result.message = fmt::format("the search from start {} was lost: {}", task + 1, failure);
     none.result.x = start(task);
@@ -184,16 +205,14 @@ class Searches : public Tasks {
   std::vector<StagedSolution> take_solutions() { return std::move(solutions_); }
 
  private:
-  enum class Told : char { record, notice };
-
-  const Eigen::VectorXd& start(int task) const { return starts_[task]; }
+  const Eigen::VectorXd& start(int task) const { return work_.starts[task]; }
 
   /// What comes from here on is of this search.
   void announce(int task) {
     if (task < announced_) return;
     count_unfinished();
     announced_ = task + 1;
-    if (notice_) notice_(fmt::format("start {} of {}", task + 1, starts_.size()));
+    if (notice_) notice_(fmt::format("start {} of {}", task + 1, work_.starts.size()));
   }
 
   /// After a stop, others are heard after a search that did not end.
@@ -213,9 +232,7 @@ class Searches : public Tasks {
     solutions_.push_back(std::move(solution));
   }
 
-  const ProblemFile& file_;
-  const std::vector<Eigen::VectorXd>& starts_;
-  const SolveOptions& options_;
+  SearchWork work_;
   const Execution& execution_;
   const Observer& observer_;
   const Notice& notice_;
@@ -243,6 +260,12 @@ std::vector<Eigen::VectorXd> starts_of(const ProblemFile& file, const Eigen::Vec
     starts.push_back(std::move(x));
   }
   return starts;
+}
+
+std::unique_ptr<TaskWork> make_search_work(const std::string& content) {
+  auto work = std::make_unique<SearchWork>();
+  unpack(content, work->file, work->starts, work->options, work->has_store);
+  return work;
 }
 
 MultiStart combined(const std::vector<Eigen::VectorXd>& starts,

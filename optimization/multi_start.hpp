@@ -1,6 +1,8 @@
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "optimization/staged_solve.hpp"
@@ -52,5 +54,9 @@ MultiStart combined(const std::vector<Eigen::VectorXd>& starts,
 MultiStart solve_from_starts(const ProblemFile& file, const std::vector<Eigen::VectorXd>& starts,
                              SolveOptions options, const Execution& execution,
                              const Observer& observer = {}, const Notice& notice = {});
+
+/// The searches of solve_from_starts(), made again on another rank (PackedWork).
+inline constexpr const char* search_work_name = "searches";
+std::unique_ptr<TaskWork> make_search_work(const std::string& content);
 
 }  // namespace pleuel

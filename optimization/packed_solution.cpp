@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/scene/load_cases.hpp"
+#include "core/scene/packed_problem.hpp"
 #include "optimization/packed_result.hpp"
 
 namespace pleuel {
@@ -25,30 +26,6 @@ template <class Archive>
 void transfer(Archive& archive, Stage& stage) {
   auto& [target, settings, is_met, settings_tried, evaluations, choice_seconds, seconds] = stage;
   archive(target, settings, is_met, settings_tried, evaluations, choice_seconds, seconds);
-}
-
-template <class Archive>
-void transfer(Archive& archive, BeamEstimates& estimates) {
-  auto& [elasticity, axial, torsional, stiffening, rotary] = estimates;
-  archive(elasticity, axial, torsional, stiffening, rotary);
-}
-
-template <class Archive>
-void transfer(Archive& archive, MeasuredEffect& effect) {
-  auto& [is_needed, change, response] = effect;
-  archive(is_needed, change, response);
-}
-
-template <class Archive>
-void transfer(Archive& archive, EffectDecisions& decisions) {
-  auto& [estimates, measured] = decisions;
-  archive(estimates, measured);
-}
-
-template <class Archive>
-void transfer(Archive& archive, EffectSettings& effects) {
-  auto& [spatial, stiffening, rotary, elasticity, axial, torsional, tolerance, decisions] = effects;
-  archive(spatial, stiffening, rotary, elasticity, axial, torsional, tolerance, decisions);
 }
 
 template <class Archive>

@@ -13,8 +13,10 @@
 #include "core/base/parallel.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/base/tasks.hpp"
+#include "core/scene/packed_problem.hpp"
 #include "optimization/broken_limits.hpp"
 #include "optimization/linear_choice.hpp"
+#include "optimization/packed_options.hpp"
 #include "optimization/packed_result.hpp"
 #include "optimization/scaling.hpp"
 
@@ -86,25 +88,88 @@ ProblemFile with_sizes(ProblemFile file, const Eigen::VectorXd& x) {
   return file;
 }
 
+EvaluationRecord failed_record(const Eigen::VectorXd& x, const std::string& failure) {
+  EvaluationRecord record;
+  record.evaluation = 1;
+  record.x = x;
+  record.failure = failure;
+  return record;
+}
+
 /// Choices to be tried, one a task.
+class TrialWork : public TaskWork {
+ public:
+  ProblemFile file;
+  std::vector<Eigen::VectorXd> designs;
+  Eigen::VectorXd scales;
+  SolveOptions options;
+  bool has_store = false;
+
+  std::string run(int task, const std::string& /*needed*/, TaskCaller& caller) override {
+    RemoteStore store(caller);
+    EvaluationStore* known = has_store ? &store : nullptr;
+    const Eigen::VectorXd& x = designs[task];
+    return packed(needs_optimization(file) ? optimized(x, known) : simulated(x, known));
+  }
+
+ private:
+  Trial simulated(const Eigen::VectorXd& x, EvaluationStore* store) const {
+    DesignProblem design(file, available_threads(), store);
+    const Stopwatch stopwatch;
+    const Attempt attempt = attempt_evaluation(design, x, Request::values);
+    Trial trial;
+    trial.x = x;
+    EvaluationRecord record = failed_record(x, attempt.failure);
+    if (attempt.evaluation) {
+      trial.objective = record.objective = attempt.evaluation->objective;
+      trial.constraints = record.constraints = attempt.evaluation->constraints;
+      trial.max_violation = record.max_violation = max_violation(design, trial.constraints, scales);
+    }
+    trial.seconds = record.seconds = stopwatch.seconds();
+    trial.history = {simulated_with(file, std::move(record))};
+    return trial;
+  }
+
+  Trial optimized(const Eigen::VectorXd& x, EvaluationStore* store) const {
+    ProblemFile fixed = with_sizes(file, x);
+    fixed.simulation.checks_resolution = false;  // of the answer alone
+    DesignProblem design(std::move(fixed), available_threads(), store);
+    design.start_from(x);
+    const Result result = solve_design(design, options);
+    Trial trial;
+    trial.x = result.x;
+    trial.history = result.history;
+    trial.seconds = result.seconds;
+    if (!result.evaluation.has_gradients()) return trial;
+    trial.objective = result.evaluation.objective;
+    trial.constraints = result.evaluation.constraints;
+    trial.max_violation = result.max_violation;
+    return trial;
+  }
+};
+
+/// Hears of the trials.
 class Trials : public Tasks {
  public:
   Trials(const ProblemFile& file, const std::vector<Eigen::VectorXd>& designs,
          const Eigen::VectorXd& scales, const SolveOptions& options, const Execution& execution)
-      : file_(file),
-        designs_(designs),
-        scales_(scales),
-        options_(options),
-        execution_(execution),
-        trials_(designs.size()) {}
+      : execution_(execution), trials_(designs.size()) {
+    work_.file = file;
+    work_.designs = designs;
+    work_.scales = scales;
+    work_.options = options;
+    work_.has_store = execution.store != nullptr;
+  }
 
-  int count() const override { return static_cast<int>(designs_.size()); }
+  int count() const override { return static_cast<int>(trials_.size()); }
 
-  std::string run(int task, const std::string& /*needed*/, TaskCaller& caller) override {
-    RemoteStore store(caller);
-    EvaluationStore* known = execution_.store ? &store : nullptr;
-    const Eigen::VectorXd& x = designs_[task];
-    return packed(needs_optimization(file_) ? optimized(x, known) : simulated(x, known));
+  PackedWork packed_work() const override {
+    return {trial_work_name,
+            packed(work_.file, work_.designs, work_.scales, work_.options, work_.has_store)};
+  }
+
+  std::string run(int task, const std::string& needed, TaskCaller& caller) override {
+    return work_.run(task, needed, caller);
   }
 
   std::string reply(int /*task*/, const std::string& question) override {
@@ -116,60 +181,14 @@ class Trials : public Tasks {
   }
 
   void fail(int task, const std::string& failure) override {
-    trials_[task].x = designs_[task];
-    trials_[task].history = {failed_record(designs_[task], failure)};
+    trials_[task].x = work_.designs[task];
+    trials_[task].history = {failed_record(work_.designs[task], failure)};
   }
 
   std::vector<Trial> take_trials() { return std::move(trials_); }
 
  private:
-  static EvaluationRecord failed_record(const Eigen::VectorXd& x, const std::string& failure) {
-    EvaluationRecord record;
-    record.evaluation = 1;
-    record.x = x;
-    record.failure = failure;
-    return record;
-  }
-
-  Trial simulated(const Eigen::VectorXd& x, EvaluationStore* store) const {
-    DesignProblem design(file_, available_threads(), store);
-    const Stopwatch stopwatch;
-    const Attempt attempt = attempt_evaluation(design, x, Request::values);
-    Trial trial;
-    trial.x = x;
-    EvaluationRecord record = failed_record(x, attempt.failure);
-    if (attempt.evaluation) {
-      trial.objective = record.objective = attempt.evaluation->objective;
-      trial.constraints = record.constraints = attempt.evaluation->constraints;
-      trial.max_violation = record.max_violation =
-          max_violation(design, trial.constraints, scales_);
-    }
-    trial.seconds = record.seconds = stopwatch.seconds();
-    trial.history = {simulated_with(file_, std::move(record))};
-    return trial;
-  }
-
-  Trial optimized(const Eigen::VectorXd& x, EvaluationStore* store) const {
-    ProblemFile fixed = with_sizes(file_, x);
-    fixed.simulation.checks_resolution = false;  // of the answer alone
-    DesignProblem design(std::move(fixed), available_threads(), store);
-    design.start_from(x);
-    const Result result = solve_design(design, options_);
-    Trial trial;
-    trial.x = result.x;
-    trial.history = result.history;
-    trial.seconds = result.seconds;
-    if (!result.evaluation.has_gradients()) return trial;
-    trial.objective = result.evaluation.objective;
-    trial.constraints = result.evaluation.constraints;
-    trial.max_violation = result.max_violation;
-    return trial;
-  }
-
-  const ProblemFile& file_;
-  const std::vector<Eigen::VectorXd>& designs_;
-  const Eigen::VectorXd& scales_;
-  const SolveOptions& options_;
+  TrialWork work_;
   const Execution& execution_;
   std::vector<Trial> trials_;
 };
@@ -585,6 +604,12 @@ class SizeSearch {
 };
 
 }  // namespace
+
+std::unique_ptr<TaskWork> make_trial_work(const std::string& content) {
+  auto work = std::make_unique<TrialWork>();
+  unpack(content, work->file, work->designs, work->scales, work->options, work->has_store);
+  return work;
+}
 
 double SizeChoiceReport::penalty(double objective) const {
   if (relaxed_objective == 0.0) return 0.0;

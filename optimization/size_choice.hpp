@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "optimization/staged_solve.hpp"
@@ -47,5 +48,9 @@ bool keeps_choices(const ProblemFile& file, const Eigen::VectorXd& x);
 SizeChoiceReport choose_sizes(StagedSolution& solution, const SolveOptions& options,
                               const Execution& execution, const Observer& observer = {},
                               const Notice& notice = {});
+
+/// The choices that are tried, made again on another rank (PackedWork).
+inline constexpr const char* trial_work_name = "trials";
+std::unique_ptr<TaskWork> make_trial_work(const std::string& content);
 
 }  // namespace pleuel

@@ -182,6 +182,23 @@ std::optional<StoredEvaluation> RunDatabase::find(const EvaluationKey& key) {
   return stored;
 }
 
+std::optional<std::string> RunDatabase::find_part(const std::string& name) const {
+  Statement there(database_, "SELECT 1 FROM sqlite_master WHERE name = 'parts'");
+  if (!there.step()) return std::nullopt;
+  Statement row(database_, "SELECT content FROM parts WHERE name = ?1");
+  row.bind(1, name);
+  return row.step() ? std::optional(row.blob(0)) : std::nullopt;
+}
+
+void RunDatabase::keep_part(const std::string& name, const std::string& content) {
+  // Only studies have it; so records without it are of the same layout.
+  database_.execute(
+      "CREATE TABLE IF NOT EXISTS parts(name TEXT PRIMARY KEY, ended TEXT NOT NULL DEFAULT "
+      "(strftime('%Y-%m-%dT%H:%M:%fZ', 'now')), content BLOB NOT NULL)");
+  Statement row(database_, "INSERT OR REPLACE INTO parts(name, content) VALUES (?1, ?2)");
+  row.bind(1, name).bind_blob(2, content).run();
+}
+
 void RunDatabase::read_evaluations(
     const std::function<void(const NumberedEvaluation&)>& see) const {
   Statement row(database_, fmt::format("SELECT {}, ended, settings.text, rows, request, "

@@ -38,6 +38,9 @@ class RunDatabase : public EvaluationStore {
   std::optional<StoredEvaluation> find(const EvaluationKey& key) override;
   void keep(const EvaluationKey& key, const StoredEvaluation& stored) override;
 
+  std::optional<std::string> find_part(const std::string& name) const;
+  void keep_part(const std::string& name, const std::string& content);
+
   /// Calls see() with all evaluations, in their order.
   void read_evaluations(const std::function<void(const NumberedEvaluation&)>& see) const;
   /// Evaluations that are kept.

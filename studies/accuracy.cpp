@@ -5,12 +5,15 @@
 #include <memory>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "core/base/error.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/base/stop.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/trust/asked_responses.hpp"
+#include "studies/packed_accuracy.hpp"
 
 namespace pleuel {
 
@@ -63,18 +66,26 @@ std::optional<std::size_t> base_of(const AccuracyStudy& study) {
   return best;
 }
 
+std::optional<double> lagrangian_of_reference(const ProblemFile& problem,
+                                              const PricedDesign& design,
+                                              const AccuracyStudy& study, PartStore* parts) {
+  return kept_part(parts, "lagrangian of the reference", [&] {
+    return design.lagrangian(discretized(problem, study.reference.settings));
+  });
+}
+
 class RefinementStudy {
  public:
   RefinementStudy(const ProblemFile& problem, const PricedDesign& design,
-                  const AccuracyObserver& observer)
-      : problem_(problem), design_(design), x_(design.x()), observer_(observer) {}
+                  const AccuracyObserver& observer, PartStore* parts)
+      : problem_(problem), design_(design), x_(design.x()), observer_(observer), parts_(parts) {}
 
   AccuracyStudy run() {
     study_.counted = asked_responses(problem_);
     const std::vector<Discretization> grid = accuracy_grid(problem_);
     find_reference(finer_than(grid));
     try {
-      of_reference_ = design_.lagrangian(discretized(problem_, study_.reference.settings));
+      of_reference_ = lagrangian_of_reference(problem_, design_, study_, parts_);
       for (const Discretization& settings : grid) add_run(settings);
       double target = problem_.accuracy.target;
       for (int i = 0; i < recommended_targets; ++i, target *= 0.1) {
@@ -91,56 +102,70 @@ class RefinementStudy {
   void find_reference(const Discretization& settings) {
     AccuracyRun& reference = study_.reference;
     const ProblemFile finest = discretized(problem_, settings);
-    reference = measure_run(finest, x_, Timing::once);
+    reference =
+        kept_part(parts_, "reference", [&] { return measure_run(finest, x_, Timing::once); });
     reference.settings = settings;
-    AccuracyRun coarser =
-        measure_run(discretized(problem_, slightly_coarser(settings)), x_, Timing::once);
+    AccuracyRun coarser = kept_part(parts_, "coarser than the reference", [&] {
+      return measure_run(discretized(problem_, slightly_coarser(settings)), x_, Timing::once);
+    });
     compare(reference, x_, coarser);
     reference.errors = richardson_share * coarser.errors;
     reference.gradient_errors = richardson_share * coarser.gradient_errors;
-    check_reference(finest);
+    study_.check = kept_part(parts_, "other formulation", [&] { return check_of(finest); });
+    if (study_.check.failure.empty()) {
+      reference.errors = reference.errors.cwiseMax(study_.check.differences);
+    }
     if (observer_.run) observer_.run(reference);
   }
 
-  void check_reference(const ProblemFile& finest) {
+  ReferenceCheck check_of(const ProblemFile& finest) const {
     const Variation other = other_formulation(problem_);
-    study_.check.formulation = other.value;
+    ReferenceCheck check;
+    check.formulation = other.value;
     try {
-      find_differences(values_of(*analyze(other.of(finest), x_)));
-      study_.reference.errors = study_.reference.errors.cwiseMax(study_.check.differences);
+      check.differences = differences_of(values_of(*analyze(other.of(finest), x_)));
     } catch (const SimulationError& error) {
-      study_.check.failure = error.what();
+      check.failure = error.what();
     } catch (const InputError& error) {
-      study_.check.failure = error.what();
+      check.failure = error.what();
     }
+    return check;
   }
 
-  void find_differences(const Eigen::VectorXd& values) {
+  Eigen::VectorXd differences_of(const Eigen::VectorXd& values) const {
     const AccuracyRun& reference = study_.reference;
-    study_.check.differences = Eigen::VectorXd::Zero(values.size());
+    Eigen::VectorXd differences = Eigen::VectorXd::Zero(values.size());
     for (Eigen::Index i = 0; i < values.size(); ++i) {
       // Errors of the integration are not the same in two formulations, however short the steps are.
       if (is_monitor(problem_, static_cast<std::size_t>(i))) continue;
-      study_.check.differences(i) =
-          value_error(values(i), reference.values(i), reference.magnitudes(i));
+      differences(i) = value_error(values(i), reference.values(i), reference.magnitudes(i));
     }
+    return differences;
   }
 
   void add_run(const Discretization& settings) {
+    study_.runs.push_back(kept_part(parts_,
+                                    fmt::format("step {} s, elements {}, factor {}", settings.step,
+                                                settings.elements, settings.factor),
+                                    [&] { return compared_run(settings); }));
+    if (observer_.run) observer_.run(study_.runs.back());
+  }
+
+  AccuracyRun compared_run(const Discretization& settings) const {
     const ProblemFile discrete = discretized(problem_, settings);
     AccuracyRun run = try_to_measure(discrete, x_, Timing::least);
     run.settings = settings;
     compare(study_.reference, x_, run);
     raise_to_errors_of(study_.reference, run);
     if (!run.has_failed()) run.optimum_change = design_.change(of_reference_, discrete);
-    study_.runs.push_back(std::move(run));
-    if (observer_.run) observer_.run(study_.runs.back());
+    return run;
   }
 
   const ProblemFile& problem_;
   const PricedDesign& design_;
   const Eigen::VectorXd& x_;
   const AccuracyObserver& observer_;
+  PartStore* parts_;
   AccuracyStudy study_;
   std::optional<double> of_reference_;  ///< Lagrangian
 };
@@ -149,25 +174,28 @@ class RefinementStudy {
 class Variations {
  public:
   Variations(const ProblemFile& problem, const PricedDesign& design, AccuracyStudy& study,
-             const AccuracyObserver& observer)
+             const AccuracyObserver& observer, PartStore* parts)
       : problem_(problem),
         design_(design),
         x_(design.x()),
         study_(study),
         observer_(observer),
+        parts_(parts),
         base_(study.runs[*study.base]),
         discrete_(discretized(problem, base_.settings)) {}
 
   void add_knobs() {
     const std::optional<double> of_reference =
-        design_.lagrangian(discretized(problem_, study_.reference.settings));
+        lagrangian_of_reference(problem_, design_, study_, parts_);
     for (const Variation& one : numerical_variations(discrete_)) {
       if (is_hopeless(one)) continue;
-      VariedRun knob = varied(one);
-      if (!knob.run.has_failed()) {
-        knob.run.optimum_change = design_.change(of_reference, one.of(discrete_));
-      }
-      add(std::move(knob), study_.knobs);
+      add(one, study_.knobs, [&] {
+        VariedRun knob = varied(one);
+        if (!knob.run.has_failed()) {
+          knob.run.optimum_change = design_.change(of_reference, one.of(discrete_));
+        }
+        return knob;
+      });
     }
   }
 
@@ -175,18 +203,25 @@ class Variations {
     const std::unique_ptr<Analysis> analysis = analyze(problem_, x_);
     const std::optional<double> of_file = design_.lagrangian(problem_);
     for (const Variation& one : effect_variations(problem_, analysis->model)) {
-      VariedRun effect = varied(one);
-      find_influence(one.of(problem_), values_of(*analysis), effect);
-      if (!effect.run.has_failed()) {
-        effect.run.optimum_change = design_.change(of_file, one.of(problem_));
-      }
-      add(std::move(effect), study_.effects);
+      add(one, study_.effects, [&] {
+        VariedRun effect = varied(one);
+        find_influence(one.of(problem_), values_of(*analysis), effect);
+        if (!effect.run.has_failed()) {
+          effect.run.optimum_change = design_.change(of_file, one.of(problem_));
+        }
+        return effect;
+      });
     }
   }
 
  private:
-  void add(VariedRun run, std::vector<VariedRun>& all) const {
-    all.push_back(std::move(run));
+  template <class Make>
+  void add(const Variation& variation, std::vector<VariedRun>& all, const Make& make) const {
+    const std::string name =
+        fmt::format("{} {} at step {} s, elements {}, factor {}", variation.knob, variation.value,
+                    base_.settings.step, base_.settings.elements, base_.settings.factor);
+    all.push_back(kept_part(parts_, name, make));
+    all.back().variation = variation;
     if (observer_.variation) observer_.variation(all.back());
   }
 
@@ -234,6 +269,7 @@ class Variations {
   const Eigen::VectorXd& x_;
   AccuracyStudy& study_;
   const AccuracyObserver& observer_;
+  PartStore* parts_;
   const AccuracyRun& base_;
   ProblemFile discrete_;
 };
@@ -250,16 +286,16 @@ double AccuracyStudy::counted_error(const Eigen::VectorXd& errors) const {
 }
 
 AccuracyStudy accuracy_study(const ProblemFile& problem, const PricedDesign& design,
-                             const AccuracyObserver& observer) {
+                             const AccuracyObserver& observer, PartStore* parts) {
   if (problem.responses.empty()) throw InputError("/responses is missing: nothing can be compared");
-  return RefinementStudy(problem, design, observer).run();
+  return RefinementStudy(problem, design, observer, parts).run();
 }
 
 void vary_settings(const ProblemFile& problem, const PricedDesign& design, AccuracyStudy& study,
-                   const AccuracyObserver& observer) {
+                   const AccuracyObserver& observer, PartStore* parts) {
   if (!study.base) return;
   try {
-    Variations variations(problem, design, study, observer);
+    Variations variations(problem, design, study, observer, parts);
     variations.add_knobs();
     variations.add_effects();
   } catch (const SimulationError&) {  // the setting of the file cannot be simulated

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "core/base/part_store.hpp"
 #include "core/scene/problem_file.hpp"
 #include "studies/accuracy_grid.hpp"
 #include "studies/accuracy_knobs.hpp"
@@ -72,17 +73,18 @@ struct AccuracyObserver {
 /// that by luck, and is not called better.
 /// Where the design is an optimum (and not the start), Δf + Σ μ_j Δc_j says what each setting makes
 /// of it.
+/// @param parts  runs that are known; may be null
 /// @throws InputError if the problem has no responses
 /// @throws SimulationError if the reference fails; a failing run is only marked
 /// @throws Stopped if a stop was asked for before the reference was done
 AccuracyStudy accuracy_study(const ProblemFile& problem, const PricedDesign& design,
-                             const AccuracyObserver& observer = {});
+                             const AccuracyObserver& observer = {}, PartStore* parts = nullptr);
 
 /// At the setting that is recommended, knobs are turned and effects are left out, one by one: adds
 /// them to the study.
 /// @param design  of the study
 void vary_settings(const ProblemFile& problem, const PricedDesign& design, AccuracyStudy& study,
-                   const AccuracyObserver& observer = {});
+                   const AccuracyObserver& observer = {}, PartStore* parts = nullptr);
 
 /// p of errors ~ stepᵖ by least squares, of the most elements of the grid and where the error is
 /// above three times that of the reference; none from less than two runs.

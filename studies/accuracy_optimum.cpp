@@ -5,9 +5,12 @@
 #include <limits>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "core/base/error.hpp"
 #include "core/base/stop.hpp"
 #include "optimization/design_solve.hpp"
+#include "studies/packed_accuracy.hpp"
 #include "studies/row_prices.hpp"
 
 namespace pleuel {
@@ -31,9 +34,10 @@ Eigen::VectorXd within_bounds(const ProblemFile& problem, Eigen::VectorXd x) {
   return x;
 }
 
-Result solve_from(ProblemFile problem, const Eigen::VectorXd* start, const SolveOptions& options) {
+Result solve_from(ProblemFile problem, const Eigen::VectorXd* start, const SolveOptions& options,
+                  EvaluationStore* store = nullptr) {
   problem.simulation.checks_resolution = false;
-  DesignProblem design(std::move(problem));
+  DesignProblem design(std::move(problem), 1, store);
   if (start != nullptr) design.start_from(within_bounds(design.file(), *start));
   return solve_design(design, options);
 }
@@ -126,8 +130,8 @@ double OptimumStudy::relative_error(const OptimumRun& run) const {
   return std::max(size > 0.0 ? std::abs(run.change) / size : 0.0, relative_floor());
 }
 
-Result plain_optimum(ProblemFile problem, const SolveOptions& options) {
-  return solve_from(std::move(problem), nullptr, options);
+Result plain_optimum(ProblemFile problem, const SolveOptions& options, EvaluationStore* store) {
+  return solve_from(std::move(problem), nullptr, options, store);
 }
 
 std::vector<Discretization> efficient_settings(const AccuracyStudy& study) {
@@ -153,16 +157,23 @@ std::vector<Discretization> efficient_settings(const AccuracyStudy& study) {
 
 OptimumStudy optimum_study(const ProblemFile& problem, const Eigen::VectorXd& x,
                            const AccuracyStudy& study, const SolveOptions& options,
-                           const OptimumObserver& observer) {
+                           const OptimumObserver& observer, PartStore* parts) {
   OptimumStudy optima;
-  optima.reference = find_reference(problem, x, study.reference.settings, options);
+  optima.reference = kept_part(parts, "optimum of the reference", [&] {
+    return find_reference(problem, x, study.reference.settings, options);
+  });
   if (observer) observer(optima.reference);
   try {
     if (!optima.reference.has_failed()) {
-      optima.reference_error = error_of(optima.reference, problem, options);
+      optima.reference_error = kept_part(parts, "error of the optimum of the reference", [&] {
+        return error_of(optima.reference, problem, options);
+      });
     }
     for (const Discretization& settings : efficient_settings(study)) {
-      OptimumRun run = optimize_with(problem, settings, options);
+      const std::string name = fmt::format("optimum with step {} s, elements {}, factor {}",
+                                           settings.step, settings.elements, settings.factor);
+      OptimumRun run =
+          kept_part(parts, name, [&] { return optimize_with(problem, settings, options); });
       if (!run.has_failed()) run.change = run.objective - optima.reference.objective;
       optima.runs.push_back(std::move(run));
       if (observer) observer(optima.runs.back());

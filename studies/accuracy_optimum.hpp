@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "optimization/evaluation_store.hpp"
 #include "optimization/solve.hpp"
 #include "studies/accuracy.hpp"
 
@@ -50,13 +51,16 @@ std::vector<Discretization> efficient_settings(const AccuracyStudy& study);
 /// Optimizes with each efficient setting, and with the reference.
 /// @param study   of the problem at its optimum
 /// @param x       that optimum, with the setting of the file
+/// @param parts   runs that are known; may be null
 /// @throws InputError if the problem has no variables or no objective
 /// @throws Stopped if a stop was asked for before the reference was done
 OptimumStudy optimum_study(const ProblemFile& problem, const Eigen::VectorXd& x,
                            const AccuracyStudy& study, const SolveOptions& options,
-                           const OptimumObserver& observer = {});
+                           const OptimumObserver& observer = {}, PartStore* parts = nullptr);
 
 /// The optimum of a problem from its start, without the checks of its resolution.
-Result plain_optimum(ProblemFile problem, const SolveOptions& options);
+/// @param store  evaluations that are known; may be null
+Result plain_optimum(ProblemFile problem, const SolveOptions& options,
+                     EvaluationStore* store = nullptr);
 
 }  // namespace pleuel

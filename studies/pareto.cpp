@@ -12,8 +12,10 @@
 #include "core/base/parallel.hpp"
 #include "core/base/stop.hpp"
 #include "core/base/tasks.hpp"
+#include "core/scene/packed_problem.hpp"
 #include "optimization/design_problem.hpp"
 #include "optimization/design_solve.hpp"
+#include "optimization/packed_options.hpp"
 #include "optimization/packed_result.hpp"
 
 namespace pleuel {
@@ -42,12 +44,6 @@ void start_from(const Eigen::VectorXd& x, std::vector<DesignVariable>& variables
   for (std::size_t i = 0; i < variables.size(); ++i) {
     variables[i].start = std::clamp(x(i), variables[i].lower, variables[i].upper);
   }
-}
-
-bool is_within_limits(const ParetoPoint& point) {
-  if (point.result.max_violation > Tolerances().violation) return false;
-  const Status status = point.result.status;
-  return status == Status::verified || status == Status::unresolved || status == Status::stalled;
 }
 
 bool dominates(const ParetoPoint& one, const ParetoPoint& other, GoodSide side) {
@@ -94,25 +90,19 @@ void transfer(Archive& archive, End& end) {
 }
 
 /// Searches that each are a file and a start.
-class EndSearches : public Tasks {
- public:
-  EndSearches(std::vector<ProblemFile> files, std::vector<Eigen::VectorXd> starts,
-              const SolveOptions& options, const Execution& execution)
-      : files_(std::move(files)),
-        starts_(std::move(starts)),
-        options_(options),
-        execution_(execution),
-        ends_(files_.size()) {}
-
-  int count() const override { return static_cast<int>(files_.size()); }
+struct EndWork : TaskWork {
+  std::vector<ProblemFile> files;
+  std::vector<Eigen::VectorXd> starts;
+  SolveOptions options;
+  bool has_store = false;
 
   std::string run(int task, const std::string& /*needed*/, TaskCaller& caller) override {
     RemoteStore store(caller);
-    ProblemFile file = files_[task];
-    start_from(starts_[task], file.variables);
-    DesignProblem design(file, available_threads(), execution_.store ? &store : nullptr);
+    ProblemFile file = files[task];
+    start_from(starts[task], file.variables);
+    DesignProblem design(file, available_threads(), has_store ? &store : nullptr);
     End end;
-    end.result = solve_design(design, options_);
+    end.result = solve_design(design, options);
     if (end.result.evaluation.has_gradients()) {
       const Analysis& analysis = design.load_case(0).analysis_at(end.result.x);  // the only one
       for (std::size_t i = 0; i < 2; ++i) {
@@ -122,6 +112,28 @@ class EndSearches : public Tasks {
     }
     return packed(end);
   }
+};
+
+class EndSearches : public Tasks {
+ public:
+  EndSearches(std::vector<ProblemFile> files, std::vector<Eigen::VectorXd> starts,
+              const SolveOptions& options, const Execution& execution)
+      : execution_(execution), ends_(files.size()) {
+    work_.files = std::move(files);
+    work_.starts = std::move(starts);
+    work_.options = options;
+    work_.has_store = execution.store != nullptr;
+  }
+
+  int count() const override { return static_cast<int>(ends_.size()); }
+
+  PackedWork packed_work() const override {
+    return {end_work_name, packed(work_.files, work_.starts, work_.options, work_.has_store)};
+  }
+
+  std::string run(int task, const std::string& needed, TaskCaller& caller) override {
+    return work_.run(task, needed, caller);
+  }
 
   std::string reply(int /*task*/, const std::string& question) override {
     return reply_of(*execution_.store, question);
@@ -129,15 +141,13 @@ class EndSearches : public Tasks {
   void take(int task, const std::string& answer) override { ends_[task] = unpacked<End>(answer); }
   void fail(int task, const std::string& failure) override {
     ends_[task].result.message = "the search was lost: " + failure;
-    ends_[task].result.x = starts_[task];
+    ends_[task].result.x = work_.starts[task];
   }
 
   std::vector<End> take_ends() { return std::move(ends_); }
 
  private:
-  std::vector<ProblemFile> files_;
-  std::vector<Eigen::VectorXd> starts_;
-  const SolveOptions& options_;
+  EndWork work_;
   const Execution& execution_;
   std::vector<End> ends_;
 };
@@ -192,7 +202,7 @@ struct FoundPoint {
 
   /// Where the search for a neighbour begins.
   const Eigen::VectorXd& next_start() const {
-    return is_within_limits(point) ? point.result.x : start;
+    return point.keeps_limits() ? point.result.x : start;
   }
 };
 
@@ -203,41 +213,62 @@ void transfer(Archive& archive, FoundPoint& found) {
   archive(start, limit, limited_value, multiplier, is_dominated, is_end, result);
 }
 
+/// A point a task.
+struct PointWork : TaskWork {
+  ProblemFile problem;
+  std::vector<FoundPoint> ends;  ///< that are known, or none
+  std::vector<double> limits;    ///< in the order of tasks
+  SolveOptions options;
+  bool has_store = false;
+
+  std::string run(int task, const std::string& needed, TaskCaller& caller) override {
+    if (static_cast<std::size_t>(task) < ends.size()) return packed(ends[task]);
+    RemoteStore store(caller);
+    const Eigen::Index row = varied_row(problem);
+    FoundPoint found;
+    found.start =
+        needed.empty() ? start_design(problem) : unpacked<FoundPoint>(needed).next_start();
+    ProblemFile varied = problem;
+    set_limit(varied.constraints[row], limits[task]);
+    start_from(found.start, varied.variables);
+    DesignProblem design(varied, available_threads(), has_store ? &store : nullptr);
+    found.point.limit = limits[task];
+    found.point.result = solve_design(design, options);
+    if (found.point.has_design()) {
+      found.point.limited_value = found.point.result.evaluation.constraints(row);
+      found.point.multiplier = found.point.result.constraint_multipliers(row);
+    }
+    return packed(found);
+  }
+};
+
 class Front : public Tasks {
  public:
   /// @param ends  that are known, or none
   Front(const ProblemFile& problem, std::vector<FoundPoint> ends, const SolveOptions& options,
         const Execution& execution, const ParetoObserver& observer)
-      : problem_(problem),
-        ends_(std::move(ends)),
-        options_(options),
-        execution_(execution),
+      : execution_(execution),
         observer_(observer),
-        row_(varied_row(problem)),
         order_(pareto_order(problem.pareto->points)),
-        points_(order_.points.size()) {}
+        points_(order_.points.size()) {
+    work_.problem = problem;
+    work_.ends = std::move(ends);
+    for (int task = 0; task < count(); ++task) work_.limits.push_back(limit(task));
+    work_.options = options;
+    work_.has_store = execution.store != nullptr;
+  }
 
   int count() const override { return static_cast<int>(order_.points.size()); }
 
   std::optional<int> needed_by(int task) const override { return order_.from[task]; }
 
+  PackedWork packed_work() const override {
+    return {point_work_name,
+            packed(work_.problem, work_.ends, work_.limits, work_.options, work_.has_store)};
+  }
+
   std::string run(int task, const std::string& needed, TaskCaller& caller) override {
-    if (static_cast<std::size_t>(task) < ends_.size()) return packed(ends_[task]);
-    RemoteStore store(caller);
-    FoundPoint found;
-    found.start =
-        needed.empty() ? start_design(problem_) : unpacked<FoundPoint>(needed).next_start();
-    ProblemFile varied = problem_;
-    set_limit(varied.constraints[row_], limit(task));
-    start_from(found.start, varied.variables);
-    DesignProblem design(varied, available_threads(), execution_.store ? &store : nullptr);
-    found.point.limit = limit(task);
-    found.point.result = solve_design(design, options_);
-    if (found.point.has_design()) {
-      found.point.limited_value = found.point.result.evaluation.constraints(row_);
-      found.point.multiplier = found.point.result.constraint_multipliers(row_);
-    }
-    return packed(found);
+    return work_.run(task, needed, caller);
   }
 
   std::string reply(int /*task*/, const std::string& question) override {
@@ -252,7 +283,7 @@ class Front : public Tasks {
     ParetoPoint point;
     point.limit = limit(task);
     point.result.message = "the search was lost: " + failure;
-    point.result.x = start_design(problem_);
+    point.result.x = start_design(work_.problem);
     add(task, std::move(point));
   }
 
@@ -269,7 +300,7 @@ class Front : public Tasks {
   std::size_t number(int task) const { return static_cast<std::size_t>(order_.points[task]); }
 
   double limit(int task) const {
-    const ParetoSettings& settings = *problem_.pareto;
+    const ParetoSettings& settings = *work_.problem.pareto;
     return std::lerp(settings.from, settings.to,
                      static_cast<double>(number(task)) / std::max(settings.points - 1, 1));
   }
@@ -279,17 +310,26 @@ class Front : public Tasks {
     points_[number(task)] = std::move(point);
   }
 
-  const ProblemFile& problem_;
-  std::vector<FoundPoint> ends_;
-  const SolveOptions& options_;
+  PointWork work_;
   const Execution& execution_;
   const ParetoObserver& observer_;
-  Eigen::Index row_;
   ParetoOrder order_;
   std::vector<std::optional<ParetoPoint>> points_;  ///< by their number on the front
 };
 
 }  // namespace
+
+std::unique_ptr<TaskWork> make_end_work(const std::string& content) {
+  auto work = std::make_unique<EndWork>();
+  unpack(content, work->files, work->starts, work->options, work->has_store);
+  return work;
+}
+
+std::unique_ptr<TaskWork> make_point_work(const std::string& content) {
+  auto work = std::make_unique<PointWork>();
+  unpack(content, work->problem, work->ends, work->limits, work->options, work->has_store);
+  return work;
+}
 
 ParetoOrder pareto_order(int points) {
   ParetoOrder order;
@@ -315,11 +355,17 @@ ParetoOrder pareto_order(int points) {
   return order;
 }
 
+bool ParetoPoint::keeps_limits() const {
+  if (result.max_violation > Tolerances().violation) return false;
+  return result.status == Status::verified || result.status == Status::unresolved ||
+         result.status == Status::stalled;
+}
+
 void mark_dominated(std::vector<ParetoPoint>& points, GoodSide side) {
   for (ParetoPoint& point : points) {
-    if (!is_within_limits(point)) continue;
+    if (!point.keeps_limits()) continue;
     point.is_dominated = std::any_of(points.begin(), points.end(), [&](const ParetoPoint& other) {
-      return is_within_limits(other) && dominates(other, point, side);
+      return other.keeps_limits() && dominates(other, point, side);
     });
   }
 }

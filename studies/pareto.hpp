@@ -1,7 +1,9 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/scene/problem_file.hpp"
@@ -22,6 +24,8 @@ struct ParetoPoint {
   Result result;
 
   bool has_design() const { return result.evaluation.has_gradients(); }
+  /// Whether its search came to a design within the limits.
+  bool keeps_limits() const;
   bool has_multiplier() const { return !is_end && has_prices(result); }
 };
 
@@ -64,5 +68,10 @@ ProblemFile trade_off_problem(ProblemFile problem);
 std::vector<ParetoPoint> pareto_front(const ProblemFile& problem, const SolveOptions& options,
                                       const Execution& execution = {},
                                       const ParetoObserver& observer = {});
+
+/// The searches for ends and for points, made again on another rank (PackedWork).
+inline constexpr const char *end_work_name = "ends", *point_work_name = "points";
+std::unique_ptr<TaskWork> make_end_work(const std::string& content);
+std::unique_ptr<TaskWork> make_point_work(const std::string& content);
 
 }  // namespace pleuel

@@ -10,8 +10,10 @@
 #include "core/base/stop.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/base/tasks.hpp"
+#include "core/scene/packed_problem.hpp"
 #include "core/scene/sample_extent.hpp"
 #include "core/trust/doubts.hpp"
+#include "optimization/setting_text.hpp"
 #include "sensitivity/history_gradients.hpp"
 #include "sensitivity/method_choice.hpp"
 #include "studies/random_numbers.hpp"
@@ -70,6 +72,150 @@ class Moments {
   Eigen::VectorXd mean_, squares_, lowest_, highest_;
 };
 
+/// Without values if the design could not be simulated, without histories if its steps differ.
+struct Sample {
+  Eigen::VectorXd values, histories;
+};
+
+template <class Archive>
+void transfer(Archive& archive, Sample& sample) {
+  auto& [values, histories] = sample;
+  archive(values, histories);
+}
+
+/// So many samples a task, which take longer than to make a process for them.
+constexpr int task_size = 8;
+
+/// Simulations of samples.
+class SampleWork : public TaskWork {
+ public:
+  ProblemFile problem;  ///< with the steps of the design that they are drawn around
+  std::vector<Eigen::VectorXd> designs;
+  Eigen::Index instants = 0;           ///< of that design
+  std::vector<std::size_t> responses;  ///< whose histories are sampled
+  std::vector<int> places;             ///< of those histories
+  bool has_store = false;
+
+  std::string run(int task, const std::string& /*needed*/, TaskCaller& caller) override {
+    RemoteStore store(caller);
+    for (int i = task * task_size; i < end_of(task); ++i) {
+      caller.tell(packed(has_store ? known(designs[i], store) : simulated(designs[i])));
+    }
+    return "";
+  }
+
+  int size() const { return static_cast<int>(designs.size()); }
+  int end_of(int task) const { return std::min((task + 1) * task_size, size()); }
+
+ private:
+  /// From the store, or for it: values and histories one behind the other.
+  Sample known(const Eigen::VectorXd& design, EvaluationStore& store) const {
+    const EvaluationKey key = {setting_text(problem), "sample", "", Request::values, design};
+    const auto values = static_cast<Eigen::Index>(problem.responses.size());
+    if (const auto stored = store.find(key)) {
+      if (!stored->failure.empty()) return {};
+      const Eigen::VectorXd& numbers = stored->evaluation.constraints;
+      return {numbers.head(values), numbers.tail(numbers.size() - values)};
+    }
+    const Stopwatch stopwatch;
+    const Sample sample = simulated(design);
+    StoredEvaluation stored;
+    stored.seconds = stopwatch.seconds();
+    if (sample.values.size() == 0) stored.failure = "it could not be simulated";
+    stored.evaluation.constraints.resize(sample.values.size() + sample.histories.size());
+    stored.evaluation.constraints << sample.values, sample.histories;
+    store.keep(key, stored);
+    return sample;
+  }
+
+  Sample simulated(const Eigen::VectorXd& design) const {
+    try {
+      const auto analysis = analyze(problem, design);
+      return {values_of(*analysis), histories_of(*analysis)};
+    } catch (const SimulationError&) {
+      return {};
+    }
+  }
+
+  /// None where steps that were split add instants.
+  Eigen::VectorXd histories_of(const Analysis& analysis) const {
+    if (analysis.trajectory.time.size() != instants) return {};
+    Eigen::VectorXd all(instants * static_cast<Eigen::Index>(responses.size()));
+    for (std::size_t k = 0; k < responses.size(); ++k) {
+      all.segment(static_cast<Eigen::Index>(k) * instants, instants) =
+          analysis.histories[responses[k]].row(places[k]).transpose();
+    }
+    return all;
+  }
+};
+
+/// Hears of samples and sums them up, batch by batch.
+class Samples : public Tasks {
+ public:
+  Samples(SampleWork work, EvaluationStore* store, const SampleObserver& observer)
+      : work_(std::move(work)), store_(store), observer_(observer) {
+    work_.has_store = store != nullptr;
+  }
+
+  int count() const override { return (work_.size() + task_size - 1) / task_size; }
+
+  PackedWork packed_work() const override {
+    return {sample_work_name, packed(work_.problem, work_.designs, work_.instants, work_.responses,
+                                     work_.places, work_.has_store)};
+  }
+
+  std::string run(int task, const std::string& needed, TaskCaller& caller) override {
+    return work_.run(task, needed, caller);
+  }
+
+  std::string reply(int /*task*/, const std::string& question) override {
+    return reply_of(*store_, question);
+  }
+
+  void hear(int task, const std::string& message) override {
+    // After a stop, samples are missing before those of later tasks.
+    if (task == heard_ / task_size) add(unpacked<Sample>(message));
+  }
+
+  void take(int /*task*/, const std::string& /*answer*/) override {}
+
+  void fail(int task, const std::string& /*failure*/) override {
+    while (heard_ < work_.end_of(task)) add({});
+  }
+
+  int failures() const { return failures_; }
+  const Moments& responses() const { return responses_; }
+  const Moments& histories() const { return histories_; }
+
+ private:
+  static constexpr int batch_size = 64;
+
+  void add(Sample sample) {
+    batch_.push_back(std::move(sample));
+    ++heard_;
+    if (batch_.size() < batch_size && heard_ < work_.size()) return;
+    for (const Sample& one : batch_) sum_up(one);
+    batch_.clear();
+    if (observer_) observer_(heard_);
+  }
+
+  void sum_up(const Sample& sample) {
+    if (!sample.values.allFinite() || sample.values.size() == 0) {
+      ++failures_;
+      return;
+    }
+    responses_.add(sample.values);
+    if (sample.histories.size() > 0) histories_.add(sample.histories);
+  }
+
+  SampleWork work_;
+  EvaluationStore* store_;
+  const SampleObserver& observer_;
+  std::vector<Sample> batch_;  ///< that is not yet whole
+  int heard_ = 0, failures_ = 0;
+  Moments responses_, histories_;
+};
+
 class Study {
  public:
   Study(const ProblemFile& problem, const UncertaintySettings& settings)
@@ -105,12 +251,12 @@ class Study {
     study_.gradient_seconds = stopwatch.seconds();
   }
 
-  void sample(const TaskOptions& options, const SampleObserver& observer) {
+  void sample(const Execution& execution, const SampleObserver& observer) {
     if (settings_.samples == 0) return;
     const Stopwatch stopwatch;
-    Samples samples(*this, draw(), observer);
+    Samples samples(sample_work(), execution.store, observer);
     try {
-      run_tasks(samples, options);
+      run_tasks(samples, execution.tasks);
     } catch (const Stopped&) {
       study_.is_interrupted = true;  // whole batches only: so the numbers can be made again
     }
@@ -123,92 +269,6 @@ class Study {
   UncertaintyStudy take() { return std::move(study_); }
 
  private:
-  /// Without values if the design could not be simulated, without histories if its steps differ.
-  struct Sample {
-    Eigen::VectorXd values, histories;
-  };
-  template <class Archive>
-  friend void transfer(Archive& archive, Sample& sample) {
-    auto& [values, histories] = sample;
-    archive(values, histories);
-  }
-
-  /// So many samples a task, which take longer than to make a process for them.
-  static constexpr int task_size = 8;
-
-  /// Simulates samples and sums them up, batch by batch.
-  class Samples : public Tasks {
-   public:
-    Samples(const Study& study, std::vector<Eigen::VectorXd> designs,
-            const SampleObserver& observer)
-        : study_(study), designs_(std::move(designs)), observer_(observer) {}
-
-    int count() const override { return (size() + task_size - 1) / task_size; }
-
-    std::string run(int task, const std::string& /*needed*/, TaskCaller& caller) override {
-      for (int i = task * task_size; i < end_of(task); ++i) {
-        caller.tell(packed(study_.simulate(designs_[i])));
-      }
-      return "";
-    }
-
-    void hear(int task, const std::string& message) override {
-      // After a stop, samples are missing before those of later tasks.
-      if (task == heard_ / task_size) add(unpacked<Sample>(message));
-    }
-
-    void take(int /*task*/, const std::string& /*answer*/) override {}
-
-    void fail(int task, const std::string& /*failure*/) override {
-      while (heard_ < end_of(task)) add({});
-    }
-
-    int failures() const { return failures_; }
-    const Moments& responses() const { return responses_; }
-    const Moments& histories() const { return histories_; }
-
-   private:
-    static constexpr int batch_size = 64;
-
-    int size() const { return static_cast<int>(designs_.size()); }
-    int end_of(int task) const { return std::min((task + 1) * task_size, size()); }
-
-    void add(Sample sample) {
-      batch_.push_back(std::move(sample));
-      ++heard_;
-      if (batch_.size() < batch_size && heard_ < size()) return;
-      for (const Sample& one : batch_) sum_up(one);
-      batch_.clear();
-      if (observer_) observer_(heard_);
-    }
-
-    void sum_up(const Sample& sample) {
-      if (!sample.values.allFinite() || sample.values.size() == 0) {
-        ++failures_;
-        return;
-      }
-      responses_.add(sample.values);
-      if (sample.histories.size() > 0) histories_.add(sample.histories);
-    }
-
-    const Study& study_;
-    std::vector<Eigen::VectorXd> designs_;
-    const SampleObserver& observer_;
-    std::vector<Sample> batch_;  ///< that is not yet whole
-    int heard_ = 0, failures_ = 0;
-    Moments responses_, histories_;
-  };
-
-  Sample simulate(const Eigen::VectorXd& design) const {
-    try {
-      const auto analysis = analyze(with_same_steps_, design);
-      return {values_of(*analysis),
-              is_comparable(*analysis) ? histories_of(*analysis) : Eigen::VectorXd()};
-    } catch (const SimulationError&) {
-      return {};
-    }
-  }
-
   /// σ(t) of every history: one value a response and instant.
   void linearize_histories() {
     study_.time = analysis_->trajectory.time;
@@ -239,20 +299,16 @@ class Study {
     return designs;
   }
 
-  /// Steps that were split add instants.
-  bool is_comparable(const Analysis& analysis) const {
-    return analysis.trajectory.time.size() == study_.time.size();
-  }
-
-  Eigen::VectorXd histories_of(const Analysis& analysis) const {
-    const Eigen::Index instants = study_.time.size();
-    Eigen::VectorXd all(instants * static_cast<Eigen::Index>(study_.histories.size()));
-    for (std::size_t k = 0; k < study_.histories.size(); ++k) {
-      const std::size_t response = study_.histories[k].response;
-      all.segment(static_cast<Eigen::Index>(k) * instants, instants) =
-          analysis.histories[response].row(places_[k]).transpose();
+  SampleWork sample_work() const {
+    SampleWork work;
+    work.problem = with_same_steps_;
+    work.designs = draw();
+    work.instants = study_.time.size();
+    for (const UncertainHistory& history : study_.histories) {
+      work.responses.push_back(history.response);
     }
-    return all;
+    work.places = places_;
+    return work;
   }
 
   void store(const Moments& responses, const Moments& histories) {
@@ -301,14 +357,21 @@ class Study {
 
 }  // namespace
 
-UncertaintyStudy uncertainty_study(const ProblemFile& problem, const TaskOptions& options,
+std::unique_ptr<TaskWork> make_sample_work(const std::string& content) {
+  auto work = std::make_unique<SampleWork>();
+  unpack(content, work->problem, work->designs, work->instants, work->responses, work->places,
+         work->has_store);
+  return work;
+}
+
+UncertaintyStudy uncertainty_study(const ProblemFile& problem, const Execution& execution,
                                    const SampleObserver& observer) {
   if (!problem.uncertainty) {
     throw InputError("/uncertainty is missing: it says which parameters are uncertain");
   }
   Study study(problem, *problem.uncertainty);
   study.linearize();
-  study.sample(options, observer);
+  study.sample(execution, observer);
   return study.take();
 }
 

@@ -1,14 +1,16 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
+#include <string>
 
 #include <Eigen/Core>
 
 #include "core/base/error_bar.hpp"
-#include "core/base/tasks.hpp"
 #include "core/scene/problem_file.hpp"
 #include "core/trust/doubt.hpp"
+#include "optimization/evaluation_store.hpp"
 
 namespace pleuel {
 
@@ -55,11 +57,15 @@ using SampleObserver = std::function<void(int done)>;
 /// First-order second-moment analysis about the start design, and Monte Carlo with so many samples
 /// as the settings ask for as the check. Samples are tasks (core/base/tasks.hpp): those of a process
 /// that crashes count as ones that could not be simulated.
-/// @param options  of the samples; the numbers do not depend on them
+/// @param execution  of the samples; the numbers do not depend on it
 /// @throws InputError if the problem has no uncertainty settings
 /// @throws SimulationError if the design itself cannot be simulated
 /// @throws Stopped if a stop was asked for before the first-order results were there
-UncertaintyStudy uncertainty_study(const ProblemFile& problem, const TaskOptions& options,
+UncertaintyStudy uncertainty_study(const ProblemFile& problem, const Execution& execution,
                                    const SampleObserver& observer = {});
+
+/// The samples, made again on another rank (PackedWork).
+inline constexpr const char* sample_work_name = "samples";
+std::unique_ptr<TaskWork> make_sample_work(const std::string& content);
 
 }  // namespace pleuel

@@ -9,6 +9,7 @@
 #include "cli/files/output_file.hpp"
 #include "cli/files/run_picture.hpp"
 #include "cli/files/run_record.hpp"
+#include "cli/files/run_store.hpp"
 #include "cli/input/solve_settings.hpp"
 #include "cli/reports/accuracy_charts.hpp"
 #include "cli/reports/accuracy_document.hpp"
@@ -89,9 +90,11 @@ AccuracyObserver make_observer(const ProblemFile& problem, RunRecord& record,
 }
 
 /// The optimum with the setting of the file: that of --design, or what is found from the start.
-Eigen::VectorXd find_optimal_design(const ProblemInput& input, const Arguments& arguments) {
+Eigen::VectorXd find_optimal_design(const ProblemInput& input, const Arguments& arguments,
+                                    EvaluationStore& store) {
   if (arguments.design) return input.design;
-  const Result result = plain_optimum(input.problem, solve_options(input.problem, arguments));
+  const Result result =
+      plain_optimum(input.problem, solve_options(input.problem, arguments), &store);
   if (result.status == Status::interrupted) throw Stopped{};
   if (result.x.size() == 0 || result.status == Status::failed) {
     throw SimulationError("there is no optimum to look at: " + result.message);
@@ -109,27 +112,30 @@ struct Answer {
   bool is_interrupted() const { return study.is_interrupted || (optima && optima->is_interrupted); }
 };
 
-Answer find_answer(const ProblemInput& input, const Arguments& arguments, RunRecord& record) {
+Answer find_answer(const ProblemInput& input, const Arguments& arguments, RunRecord& record,
+                   RunStore& store) {
   const ProblemFile& problem = input.problem;
   if (arguments.wants_optimum) record.begin_phase("optimize");
   const Eigen::VectorXd x =
-      arguments.wants_optimum ? find_optimal_design(input, arguments) : input.design;
+      arguments.wants_optimum ? find_optimal_design(input, arguments, store) : input.design;
   record.begin_phase("accuracy");
   const PricedDesign design(problem, x);
   std::optional<AccuracyCsv> csv;
   ProgressLine progress(arguments, "the reference");
   GridProgress grid(problem, progress);
   const AccuracyObserver observer = make_observer(problem, record, csv, progress, grid);
-  Answer answer{accuracy_study(problem, design, observer), std::nullopt};
-  vary_settings(problem, design, answer.study, observer);
+  Answer answer{accuracy_study(problem, design, observer, &store), std::nullopt};
+  vary_settings(problem, design, answer.study, observer, &store);
   if (!arguments.wants_optimum || answer.study.is_interrupted) return answer;
   record.begin_phase("optima");
   progress.show_share("optimizations", 0.0);
   answer.optima = optimum_study(
-      problem, x, answer.study, solve_options(problem, arguments), [&](const OptimumRun& run) {
+      problem, x, answer.study, solve_options(problem, arguments),
+      [&](const OptimumRun& run) {
         progress.print(
             run_line("optimum with " + setting_text(run.settings), run.seconds, run.failure));
-      });
+      },
+      &store);
   return answer;
 }
 
@@ -155,20 +161,28 @@ std::string write_charts(const ProblemFile& problem, const Answer& answer, RunRe
 Outcome run_accuracy(const Arguments& arguments) {
   const ProblemInput input = read_input(arguments);
   const ProblemFile& problem = input.problem;
-  RunRecord record(arguments, input,
-                   arguments.wants_optimum
-                       ? options_document(solve_options(problem, arguments), problem)
-                       : Json::object());
+  const Json used = arguments.wants_optimum
+                        ? options_document(solve_options(problem, arguments), problem)
+                        : Json::object();
+  RunRecord record(arguments, input, used);
+  RunStore store(record, arguments, input, used);
   show_warnings_before(problem);
-  const Answer answer = find_answer(input, arguments, record);
+  const Answer answer = find_answer(input, arguments, record, store);
   const OptimumStudy* optima = answer.optima ? &*answer.optima : nullptr;
   Outcome outcome{answer.is_interrupted() ? ExitCode::not_verified : ExitCode::done,
                   accuracy_document(input, answer.study),
                   accuracy_text(problem, answer.study, optima)};
   if (optima != nullptr) add_optima(input, *optima, outcome.document);
   if (answer.is_interrupted()) outcome.document["status"] = study_status(false);
-  outcome.text += fmt::format("\nWritten to {}: accuracy.csv, {}result.json, run_card.json\n",
-                              record.folder().string(), write_charts(problem, answer, record));
+  outcome.text += "\n";
+  if (answer.is_interrupted()) {
+    outcome.text += resume_text(arguments, record.folder(), Status::interrupted);
+  }
+  outcome.text +=
+      store.text() +
+      fmt::format("Written to {}: accuracy.csv, {}result.json, run_card.json, run.sqlite\n",
+                  record.folder().string(), write_charts(problem, answer, record));
+  store.finish(outcome);
   record.show_picture([&] {
     return run_picture(input.problem, {{arguments.design ? "design" : "start", input.design}});
   });

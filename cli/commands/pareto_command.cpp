@@ -19,7 +19,7 @@
 #include "core/base/number_text.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "optimization/prices.hpp"
-#include "studies/pareto.hpp"
+#include "studies/pareto_knee.hpp"
 
 namespace pleuel {
 
@@ -79,6 +79,12 @@ void write_in_order(RunRecord& record, const ProblemFile& problem,
                     const std::vector<ParetoPoint>& points) {
   ParetoCsv csv(record.result("pareto.csv"), problem);
   for (const ParetoPoint& point : points) csv.add(point);
+}
+
+/// The index of the knee, if the front has one.
+std::optional<std::size_t> knee_of(const ProblemFile& problem,
+                                   const std::vector<ParetoPoint>& points) {
+  return find_knee(points, varied_constraint(problem).upper ? GoodSide::low : GoodSide::high);
 }
 
 Json point_document(const ProblemFile& problem, const ParetoPoint& point) {
@@ -149,8 +155,10 @@ Json make_document(const ProblemFile& problem, const std::vector<ParetoPoint>& p
                       unit_of(find_response(problem, problem.objective->response)).si},
                      {limited_name(constraint), unit_of(problem, constraint).si}}},
                    {"points", Json::array()}};
-  for (const ParetoPoint& point : points) {
-    document["points"].push_back(point_document(problem, point));
+  const std::optional<std::size_t> knee = knee_of(problem, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    document["points"].push_back(point_document(problem, points[i]));
+    document["points"].back()["knee"] = knee == i;
   }
   return document;
 }
@@ -179,6 +187,7 @@ std::string points_text(const ProblemFile& problem, const std::vector<ParetoPoin
   const ShownUnit goal = unit_of(find_response(problem, problem.objective->response));
   const std::vector<ShownUnit> units = variable_units(problem);
   const double sign = problem.objective->sign();
+  const std::optional<std::size_t> knee = knee_of(problem, points);
   Table table(design_columns(problem));
   for (const ParetoPoint& point : points) {
     std::vector<std::string> cells = {significant(limited.shown(point.limit)), "–", "–", "–", "–"};
@@ -194,7 +203,9 @@ std::string points_text(const ProblemFile& problem, const std::vector<ParetoPoin
     for (std::size_t i = 0; i < problem.variables.size(); ++i) {
       cells.push_back(significant(units[i].shown(point.result.x(i))));
     }
-    cells.push_back(to_string(point.result.status) + (point.is_dominated ? ", dominated" : ""));
+    const bool is_knee = knee && &point == &points[*knee];
+    cells.push_back(to_string(point.result.status) + (point.is_dominated ? ", dominated" : "") +
+                    (is_knee ? ", knee" : ""));
     table.add_row(std::move(cells));
   }
   return table.text();

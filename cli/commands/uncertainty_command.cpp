@@ -8,6 +8,7 @@
 #include "cli/files/csv_file.hpp"
 #include "cli/files/run_picture.hpp"
 #include "cli/files/run_record.hpp"
+#include "cli/files/run_store.hpp"
 #include "cli/reports/error_report.hpp"
 #include "cli/reports/warnings.hpp"
 #include "cli/text/table.hpp"
@@ -185,10 +186,11 @@ std::string study_text(const ProblemFile& problem, const UncertaintyStudy& study
   return text;
 }
 
-UncertaintyStudy run_study(const ProblemFile& problem, const Arguments& arguments) {
+UncertaintyStudy run_study(const ProblemFile& problem, const Arguments& arguments,
+                           EvaluationStore& store) {
   ProgressLine progress(arguments, "gradients of the responses");
   const int samples = problem.uncertainty->samples;
-  return uncertainty_study(problem, arguments.tasks(), [&](int done) {
+  return uncertainty_study(problem, {arguments.tasks(), &store}, [&](int done) {
     const std::string line = fmt::format("{} of {} samples", done, samples);
     if (progress.is_shown()) {
       progress.show_share(line, double(done) / samples);
@@ -207,13 +209,21 @@ Outcome run_uncertainty(const Arguments& arguments) {
     throw InputError("/uncertainty is missing: it says which parameters are uncertain");
   }
   RunRecord record(arguments, input, {{"jobs", arguments.jobs}});
+  RunStore store(record, arguments, input, Json::object());
   show_warnings_before(problem);
   record.begin_phase("uncertainty");
-  const UncertaintyStudy study = run_study(problem, arguments);
+  const UncertaintyStudy study = run_study(problem, arguments, store);
   Outcome outcome{study.is_interrupted ? ExitCode::not_verified : ExitCode::done,
                   make_document(problem, study), study_text(problem, study)};
-  outcome.text += fmt::format("\nWritten to {}: uncertainty.csv, result.json, run_card.json\n",
-                              record.folder().string());
+  outcome.text += "\n";
+  if (study.is_interrupted) {
+    outcome.text += resume_text(arguments, record.folder(), Status::interrupted);
+  }
+  outcome.text +=
+      store.text() +
+      fmt::format("Written to {}: uncertainty.csv, result.json, run_card.json, run.sqlite\n",
+                  record.folder().string());
+  store.finish(outcome);
   record.write("result.json", outcome.document);
   write_histories(record.result("uncertainty.csv"), problem, study);
   record.show_picture([&] {

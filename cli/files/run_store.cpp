@@ -162,6 +162,28 @@ void RunStore::keep(const EvaluationKey& key, const StoredEvaluation& stored) {
   attempt([&](RunDatabase& database) { database.keep(key, stored); });
 }
 
+std::optional<std::string> RunStore::find_part(const std::string& name) {
+  std::optional<std::string> found;
+  if (!database_) return found;
+  attempt([&](RunDatabase& database) { found = database.find_part(part_name(name)); });
+  known_parts_ += found ? 1 : 0;
+  return found;
+}
+
+void RunStore::keep_part(const std::string& name, const std::string& content) {
+  ++made_parts_;
+  attempt([&](RunDatabase& database) { database.keep_part(part_name(name), content); });
+}
+
+std::string RunStore::part_name(const std::string& name) {
+  if (program_.empty()) {
+    Fingerprint fingerprint;
+    fingerprint.add(whole_text("/proc/self/exe"));
+    program_ = fingerprint.text();
+  }
+  return fmt::format("{} ({})", name, program_);
+}
+
 void RunStore::add(const EvaluationRecord& record) {
   attempt([&](RunDatabase& database) {
     if (!has_history_) database.clear_history();
@@ -179,8 +201,16 @@ void RunStore::finish(const Outcome& outcome) {
 
 std::string RunStore::text() const {
   if (!goes_on_) return "";
-  return fmt::format("{} of {} evaluations were known from {}\n", known_, known_ + made_,
-                     (record_.folder() / database_name).string());
+  const std::string file = (record_.folder() / database_name).string();
+  std::string text;
+  if (known_ + made_ > 0) {
+    text += fmt::format("{} of {} evaluations were known from {}\n", known_, known_ + made_, file);
+  }
+  if (known_parts_ + made_parts_ > 0) {
+    text += fmt::format("{} of {} parts of the study were known from {}\n", known_parts_,
+                        known_parts_ + made_parts_, file);
+  }
+  return text;
 }
 
 std::string resume_text(const Arguments& arguments, const std::filesystem::path& folder,

@@ -7,6 +7,7 @@
 
 #include "cli/files/run_record.hpp"
 #include "cli/input/problem_input.hpp"
+#include "core/base/part_store.hpp"
 #include "optimization/verdict.hpp"
 #include "record/run_database.hpp"
 
@@ -18,7 +19,7 @@ inline constexpr const char* database_name = "run.sqlite";
 /// goes on with, and what comes. Like other results it begins with the first evaluation. One that
 /// cannot be begun ends no run; one that cannot go on, as on a disk that fills up, stops it as Ctrl-C
 /// does, so that what was recorded stays and --resume goes on from there.
-class RunStore : public EvaluationStore {
+class RunStore : public EvaluationStore, public PartStore {
  public:
   /// @param options  of the command, which have to be those of the older run
   /// @throws InputError if the run that shall go on is another one, or cannot be read
@@ -26,6 +27,10 @@ class RunStore : public EvaluationStore {
 
   std::optional<StoredEvaluation> find(const EvaluationKey& key) override;
   void keep(const EvaluationKey& key, const StoredEvaluation& stored) override;
+
+  /// Parts are packed: only the program that kept one knows it again.
+  std::optional<std::string> find_part(const std::string& name) override;
+  void keep_part(const std::string& name, const std::string& content) override;
 
   /// An evaluation on the way of the search.
   void add(const EvaluationRecord& record);
@@ -44,6 +49,7 @@ class RunStore : public EvaluationStore {
   /// Does this on the record, if there is one that can be written.
   template <class Action>
   void attempt(const Action& action);
+  std::string part_name(const std::string& name);
   void stop() const;
 
   RunRecord& record_;
@@ -57,6 +63,8 @@ class RunStore : public EvaluationStore {
   bool has_failed_ = false;
   bool has_history_ = false;
   int known_ = 0, made_ = 0;
+  int known_parts_ = 0, made_parts_ = 0;
+  std::string program_;  ///< fingerprint; empty before the first part
 };
 
 /// How to go on with an interrupted run; empty for others.

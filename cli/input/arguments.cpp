@@ -159,6 +159,7 @@ void add_uncertainty(CLI::App& app, Arguments& arguments) {
       add_file_command(app, arguments, "uncertainty",
                        "deviations and bounds of responses; Monte Carlo as the check");
   add_output(uncertainty, arguments);
+  add_resume(uncertainty, arguments);
   add_accuracy(uncertainty, arguments);
   add_jobs(uncertainty, arguments);
   add_task_limit(uncertainty, arguments, "eight samples");
@@ -229,6 +230,7 @@ void add_accuracy(CLI::App& app, Arguments& arguments) {
       add_file_command(app, arguments, "accuracy",
                        "errors and times for steps x elements; the cheapest that will do");
   add_output(accuracy, arguments);
+  add_resume(accuracy, arguments);
   add_design(accuracy, arguments);
   accuracy->add_flag("--optimum", arguments.wants_optimum,
                      "at the optimum (that of --design, or it is looked for), and with whole "
@@ -396,6 +398,7 @@ void take_jobs_of_environment(Arguments& arguments) {
         "the environment variable PLEUEL_JOBS must be a whole number from 1 to 1024, got \"{}\"",
         text));
   }
+  arguments.gives_jobs = true;
 }
 
 /// Who writes "--accuracy 0.1" may mean 10 % or 0.1 %: such numbers need their "%".
@@ -453,7 +456,10 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
   if (!(step > 0.0 && step < 1.0)) {
     throw InputError(fmt::format("--step must be greater than 0 and less than 1, got {:g}", step));
   }
-  arguments.command = app.get_subcommands().front()->get_name();
+  const CLI::App* command = app.get_subcommands().front();
+  arguments.command = command->get_name();
+  const CLI::Option* jobs = command->get_option_no_throw("--jobs");
+  if (jobs != nullptr && jobs->count() > 0) arguments.gives_jobs = true;
   if (arguments.accuracy) {
     check_accuracy(*arguments.accuracy);
     arguments.overrides.push_back("/accuracy/target=" + *arguments.accuracy);

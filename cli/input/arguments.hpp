@@ -31,15 +31,17 @@ struct Arguments {
   std::optional<int> starts;        ///< designs that an optimization begins at
   std::optional<std::string> body;  ///< whose invariants are written; by default of all
   std::vector<std::string> methods;
-  std::optional<double> difference_step;  ///< relative
-  int jobs = available_threads();         ///< simulations at a time
-  double task_limit = 0.0;                ///< of a start, a point or some samples [s]; 0: any time
-  bool wants_optimum = false;             ///< accuracy of it, and of whole optimizations
-  bool wants_histories = false;           ///< with their derivatives
-  bool compares_methods = false;          ///< of gradients: effort and accuracy of all
-  std::vector<std::string> names;         ///< of histories that are drawn
-  std::string order = "time";             ///< of runs that are listed: "time" or "name"
-  bool wants_effects = false;             ///< what each effect brings and costs
+  std::optional<double> difference_step;    ///< relative
+  int jobs = available_threads();           ///< simulations at a time, of each rank
+  bool gives_jobs = false;                  ///< they are not just what the processors allow
+  std::vector<RankPlace>* ranks = nullptr;  ///< others of an MPI job, if it is one
+  double task_limit = 0.0;         ///< of a start, a point or some samples [s]; 0: any time
+  bool wants_optimum = false;      ///< accuracy of it, and of whole optimizations
+  bool wants_histories = false;    ///< with their derivatives
+  bool compares_methods = false;   ///< of gradients: effort and accuracy of all
+  std::vector<std::string> names;  ///< of histories that are drawn
+  std::string order = "time";      ///< of runs that are listed: "time" or "name"
+  bool wants_effects = false;      ///< what each effect brings and costs
   bool wants_json = false;
   bool wants_vtk = false;          ///< the motion as files for ParaView
   bool leaves_out_report = false;  ///< no report.html
@@ -47,7 +49,7 @@ struct Arguments {
   bool resumes = false;            ///< an older run of the same command in the folder
   std::vector<std::string> words;  ///< the command line as it was
 
-  TaskOptions tasks() const { return {jobs, task_limit}; }
+  TaskOptions tasks() const { return {jobs, task_limit, ranks}; }
 
   /// Where lines appear while the work goes on: standard output belongs to JSON if that is wanted.
   std::FILE* progress() const { return wants_json ? stderr : stdout; }

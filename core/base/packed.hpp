@@ -1,14 +1,17 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <map>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <Eigen/Core>
@@ -66,6 +69,21 @@ class Packer {
     bool is_there = value.has_value();
     archive(is_there);
     if (is_there) archive(*value);
+  }
+  template <class Value>
+  friend void transfer(Packer& archive, std::shared_ptr<const Value>& value) {
+    bool is_there = value != nullptr;
+    archive(is_there);
+    if (is_there) archive(const_cast<Value&>(*value));  // only read
+  }
+  template <class Value, std::size_t count>
+  friend void transfer(Packer& archive, std::array<Value, count>& values) {
+    for (Value& value : values) archive(value);
+  }
+  template <class... Kinds>
+  friend void transfer(Packer& archive, std::variant<Kinds...>& value) {
+    archive.size(value.index());
+    std::visit([&](auto& kind) { archive(kind); }, value);
   }
   template <class Key, class Value>
   friend void transfer(Packer& archive, std::map<Key, Value>& values) {
@@ -133,6 +151,32 @@ class Unpacker {
     archive(is_there);
     value.reset();
     if (is_there) archive(value.emplace());
+  }
+  template <class Value>
+  friend void transfer(Unpacker& archive, std::shared_ptr<const Value>& value) {
+    bool is_there = false;
+    archive(is_there);
+    value.reset();
+    if (!is_there) return;
+    const auto made = std::make_shared<Value>();
+    archive(*made);
+    value = made;
+  }
+  template <class Value, std::size_t count>
+  friend void transfer(Unpacker& archive, std::array<Value, count>& values) {
+    for (Value& value : values) archive(value);
+  }
+  template <class... Kinds>
+  friend void transfer(Unpacker& archive, std::variant<Kinds...>& value) {
+    const std::size_t index = archive.size();
+    std::size_t i = 0;
+    const auto take = [&]<class Kind>(Kind kind) {
+      if (i++ != index) return;
+      archive(kind);
+      value = std::move(kind);
+    };
+    (take(Kinds()), ...);
+    if (index >= sizeof...(Kinds)) throw std::runtime_error("packed values have an unknown kind");
   }
   template <class Key, class Value>
   friend void transfer(Unpacker& archive, std::map<Key, Value>& values) {

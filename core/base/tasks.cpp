@@ -2,21 +2,17 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cerrno>
-#include <exception>
-#include <new>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <poll.h>
 
-#include "core/base/error.hpp"
-#include "core/base/parallel.hpp"
+#include "core/base/forked_tasks.hpp"
+#include "core/base/rank_place.hpp"
 #include "core/base/stop.hpp"
 #include "core/base/stopwatch.hpp"
-#include "core/base/worker.hpp"
+#include "core/base/task_failure.hpp"
 
 namespace pleuel {
 
@@ -25,76 +21,46 @@ namespace {
 constexpr int most_attempts = 2;
 constexpr double patience = 0.2;      ///< [s] after which a request to stop is seen
 constexpr double time_to_end = 10.0;  ///< [s] for workers that are asked to
-enum class Thrown : char { input, simulation, memory, stopped, other };
 
-class Caller : public TaskCaller {
+/// Where tasks can be carried out.
+class Places {
  public:
-  explicit Caller(Channel& channel) : channel_(channel) {}
-
-  void tell(const std::string& message) override { send({Frame::Kind::message, message}); }
-
-  std::string ask(const std::string& question) override {
-    send({Frame::Kind::question, question});
-    Frame reply;
-    if (!channel_.receive(reply)) throw Stopped{};
-    return std::move(reply.content);
+  Places(Tasks& tasks, const TaskOptions& options)
+      : here_(tasks, std::max(1, options.jobs)), work_(tasks.packed_work()), all_{&here_} {
+    if (work_.kind.empty() || options.ranks == nullptr) return;
+    for (RankPlace& rank : *options.ranks) {
+      rank.begin(work_);
+      all_.push_back(&rank);
+    }
   }
 
-  void answer(const std::string& answer) { send({Frame::Kind::answer, answer}); }
+  const std::vector<TaskPlace*>& all() const { return all_; }
 
-  void report(Thrown kind, const std::string& text) {
-    channel_.send({Frame::Kind::error, std::string(1, static_cast<char>(kind)) + text});
+  int workers() const {
+    int sum = 0;
+    for (const TaskPlace* place : all_) sum += place->workers();
+    return sum;
   }
 
  private:
-  void send(const Frame& frame) {
-    if (!channel_.send(frame)) throw Stopped{};  // there is nobody to work for
-  }
-
-  Channel& channel_;
+  ForkedTasks here_;
+  PackedWork work_;
+  std::vector<TaskPlace*> all_;  ///< this process first
 };
-
-/// All that happens in a worker.
-void carry_out(Tasks& tasks, int task, const std::string& needed, Channel& channel) {
-  Caller caller(channel);
-  try {
-    caller.answer(tasks.run(task, needed, caller));
-  } catch (const InputError& error) {
-    caller.report(Thrown::input, error.what());
-  } catch (const SimulationError& error) {
-    caller.report(Thrown::simulation, error.what());
-  } catch (const Stopped&) {
-    caller.report(Thrown::stopped, "");
-  } catch (const std::bad_alloc&) {
-    caller.report(Thrown::memory, "");
-  } catch (const std::exception& error) {
-    caller.report(Thrown::other, error.what());
-  }
-}
-
-[[noreturn]] void throw_again(const std::string& report) {
-  const std::string text = report.substr(1);
-  switch (static_cast<Thrown>(report[0])) {
-    case Thrown::input:
-      throw InputError(text);
-    case Thrown::simulation:
-      throw SimulationError(text);
-    case Thrown::memory:
-      throw std::bad_alloc();
-    case Thrown::stopped:
-    case Thrown::other:
-      break;
-  }
-  throw std::runtime_error(text);
-}
 
 class TaskRun {
  public:
   TaskRun(Tasks& tasks, const TaskOptions& options)
       : tasks_(tasks),
         options_(options),
-        states_(static_cast<std::size_t>(tasks.count())),
-        threads_(std::max(1, options.jobs / std::clamp(tasks.count(), 1, options.jobs))) {}
+        places_(tasks, options),
+        states_(static_cast<std::size_t>(tasks.count())) {}
+
+  ~TaskRun() {
+    for (const Running& one : running_) one.place->kill(static_cast<int>(one.task));
+  }
+  TaskRun(const TaskRun&) = delete;
+  TaskRun& operator=(const TaskRun&) = delete;
 
   void run() {
     while (delivered_ < states_.size()) {
@@ -125,9 +91,8 @@ class TaskRun {
 
   struct Running {
     std::size_t task;
-    Worker worker;
+    TaskPlace* place;
     Stopwatch stopwatch;
-    bool has_ended = false;
   };
 
   static bool has_ended(const State& state) {
@@ -145,77 +110,95 @@ class TaskRun {
     return std::nullopt;
   }
 
+  int free_workers(const TaskPlace* place) const {
+    const auto busy = std::count_if(running_.begin(), running_.end(),
+                                    [&](const Running& one) { return one.place == place; });
+    return place->workers() - static_cast<int>(busy);
+  }
+
+  /// The one with most of its workers free, if any has one.
+  TaskPlace* free_place() const {
+    TaskPlace* best = *std::max_element(places_.all().begin(), places_.all().end(),
+                                        [&](const TaskPlace* one, const TaskPlace* other) {
+                                          return free_workers(one) < free_workers(other);
+                                        });
+    return free_workers(best) > 0 ? best : nullptr;
+  }
+
   void start_workers() {
-    while (running_.size() < static_cast<std::size_t>(std::max(1, options_.jobs))) {
+    while (TaskPlace* place = free_place()) {
       const auto task = next_task();
       if (!task) return;
-      start(*task);
+      start(*task, *place);
     }
   }
 
-  void start(std::size_t task) {
+  /// Of each worker, where there are fewer tasks than workers.
+  int threads() const {
+    const int workers = places_.workers();
+    return workers / std::clamp(tasks_.count(), 1, workers);
+  }
+
+  void start(std::size_t task, TaskPlace& place) {
     State& state = states_[task];
-    std::string needed;
-    if (const auto index = tasks_.needed_by(static_cast<int>(task))) {
+    TaskOrder order = {static_cast<int>(task), std::min(threads(), place.workers()), {}};
+    if (const auto index = tasks_.needed_by(order.task)) {
       assert(static_cast<std::size_t>(*index) < task);
       const State& before = states_[*index];
-      if (before.phase == Phase::answered) needed = before.result;
+      if (before.phase == Phase::answered) order.needed = before.result;
     }
     state.phase = Phase::running;
     state.messages.clear();
     ++state.attempts;
-    running_.push_back({task, Worker([&](Channel& channel) {
-                          limit_threads(threads_);
-                          carry_out(tasks_, static_cast<int>(task), needed, channel);
-                        }),
-                        Stopwatch()});
+    running_.push_back({task, &place, Stopwatch()});
+    place.start(order);
   }
 
   /// Waits for news from the workers.
   void listen(double seconds) {
     std::vector<pollfd> descriptors;
-    for (Running& one : running_) {
-      descriptors.push_back({one.worker.channel().descriptor(), POLLIN, 0});
+    std::vector<std::size_t> begins;
+    for (const TaskPlace* place : places_.all()) {
+      begins.push_back(descriptors.size());
+      place->add_descriptors(descriptors);
     }
     if (::poll(descriptors.data(), descriptors.size(), static_cast<int>(1e3 * seconds)) <= 0) {
       return;
     }
-    for (std::size_t i = 0; i < descriptors.size(); ++i) {
-      if (descriptors[i].revents != 0) read(running_[i]);
+    for (std::size_t i = 0; i < begins.size(); ++i) {
+      TaskPlace& place = *places_.all()[i];
+      for (TaskEvent& event : place.read(descriptors.data() + begins[i])) see(event, place);
     }
-    std::erase_if(running_, [](const Running& one) { return one.has_ended; });
   }
 
-  void read(Running& one) {
-    std::vector<Frame> frames;
-    const bool is_there = one.worker.channel().receive_available(frames);
-    State& state = states_[one.task];
-    for (Frame& frame : frames) {
-      switch (frame.kind) {
-        case Frame::Kind::message:
-          state.messages.push_back(std::move(frame.content));
-          break;
-        case Frame::Kind::question:
-          one.worker.channel().send(
-              {Frame::Kind::answer, tasks_.reply(static_cast<int>(one.task), frame.content)});
-          break;
-        case Frame::Kind::answer:
-          state.phase = Phase::answered;
-          state.result = std::move(frame.content);
-          break;
-        case Frame::Kind::error:
-          if (frame.content[0] == static_cast<char>(Thrown::stopped)) break;  // not asked by us
-          state.phase = Phase::threw;
-          state.result = std::move(frame.content);
-          break;
-      }
+  void see(TaskEvent& event, TaskPlace& place) {
+    State& state = states_[static_cast<std::size_t>(event.task)];
+    if (event.kind == TaskEvent::Kind::ended) {
+      std::erase_if(running_, [&](const Running& one) {
+        return one.task == static_cast<std::size_t>(event.task);
+      });
+      if (state.phase != Phase::running) return;
+      try_again(state, event.how.empty() ? "its process was ended from outside"
+                                         : "its process ended with " + event.how);
+      return;
     }
-    if (is_there) return;
-    const std::string how = one.worker.end();
-    one.has_ended = true;
-    if (state.phase == Phase::running) {
-      try_again(state, how.empty() ? "its process was ended from outside"
-                                   : "its process ended with " + how);
+    Frame& frame = event.frame;
+    switch (frame.kind) {
+      case Frame::Kind::message:
+        state.messages.push_back(std::move(frame.content));
+        break;
+      case Frame::Kind::question:
+        place.answer(event.task, tasks_.reply(event.task, frame.content));
+        break;
+      case Frame::Kind::answer:
+        state.phase = Phase::answered;
+        state.result = std::move(frame.content);
+        break;
+      case Frame::Kind::error:
+        if (is_stop(frame.content)) break;  // not asked by us
+        state.phase = Phase::threw;
+        state.result = std::move(frame.content);
+        break;
     }
   }
 
@@ -228,8 +211,7 @@ class TaskRun {
     if (options_.time_limit <= 0.0) return;
     std::erase_if(running_, [&](Running& one) {
       if (one.stopwatch.seconds() <= options_.time_limit) return false;
-      one.worker.kill();
-      one.worker.end();
+      one.place->kill(static_cast<int>(one.task));
       try_again(states_[one.task], fmt::format("it took longer than the {:g} s that it may take",
                                                options_.time_limit));
       return true;
@@ -265,9 +247,8 @@ class TaskRun {
   /// After a request to stop: in good order if they can.
   void end_workers() {
     const Stopwatch stopwatch;
-    for (Running& one : running_) one.worker.ask_to_end();
+    for (TaskPlace* place : places_.all()) place->ask_to_end();
     while (!running_.empty() && stopwatch.seconds() < time_to_end) listen(patience);
-    running_.clear();
   }
 
   void deliver_rest() {
@@ -282,10 +263,10 @@ class TaskRun {
 
   Tasks& tasks_;
   const TaskOptions& options_;
+  Places places_;
   std::vector<State> states_;
   std::vector<Running> running_;
   std::size_t delivered_ = 0;  ///< so many tasks have ended for those who listen
-  int threads_;                ///< of each worker
 };
 
 }  // namespace

@@ -2,13 +2,18 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace pleuel {
+
+class RankPlace;  // core/base/rank_place.hpp
 
 /// How tasks are carried out. The answers do not depend on it.
 struct TaskOptions {
   int jobs = 1;             ///< processes at a time, at least 1
   double time_limit = 0.0;  ///< that a task may take before it is given up [s]; 0: any time
+  /// Other ranks of an MPI job, which take tasks that can be packed; none: all run here.
+  std::vector<RankPlace>* ranks = nullptr;
 };
 
 /// What a task sees of the process that handed it out.
@@ -23,16 +28,10 @@ class TaskCaller {
   virtual std::string ask(const std::string& question) = 0;
 };
 
-/// Work in parts that do not see each other: run() of each in a process of its own, which is a copy
-/// of this one at that moment; everything else here, in the order of the tasks.
-class Tasks {
+/// What is computed in parts that do not see each other.
+class TaskWork {
  public:
-  virtual ~Tasks() = default;
-
-  virtual int count() const = 0;
-
-  /// The task, an earlier one, without whose answer this one cannot begin.
-  virtual std::optional<int> needed_by(int /*task*/) const { return std::nullopt; }
+  virtual ~TaskWork() = default;
 
   /// In a process of its own. What is thrown here is thrown by run_tasks() if it is an InputError,
   /// a SimulationError, std::bad_alloc or anything else of the standard library (as
@@ -40,6 +39,26 @@ class Tasks {
   /// @param needed  answer of the task that it needs; empty if that failed, or if it needs none
   /// @returns       the answer; the same in each attempt, as what is told on the way
   virtual std::string run(int task, const std::string& needed, TaskCaller& caller) = 0;
+};
+
+/// Work for processes that know nothing of it (core/base/packed.hpp).
+struct PackedWork {
+  std::string kind;  ///< by which it is made again (task_server.hpp); empty: it cannot be
+  std::string content;
+};
+
+/// Work in parts that do not see each other: run() of each in a process of its own, which is a copy
+/// of this one at that moment, or of another rank that has made the work again; everything else
+/// here, in the order of the tasks.
+class Tasks : public TaskWork {
+ public:
+  virtual int count() const = 0;
+
+  /// The task, an earlier one, without whose answer this one cannot begin.
+  virtual std::optional<int> needed_by(int /*task*/) const { return std::nullopt; }
+
+  /// For other ranks. Without it all tasks are carried out by this one.
+  virtual PackedWork packed_work() const { return {}; }
 
   /// Answers a question of a task, whenever it comes.
   virtual std::string reply(int /*task*/, const std::string& /*question*/) { return ""; }
@@ -55,9 +74,9 @@ class Tasks {
   virtual void fail(int task, const std::string& failure) = 0;
 };
 
-/// Carries out tasks in worker processes, so many at a time. A worker that crashes or takes too long
+/// Carries out tasks in worker processes, so many at a time here and on each other rank. A worker that crashes or takes too long
 /// costs its task only, which is tried once more. What is heard, taken and thrown is the same for
-/// any number of jobs, but for times.
+/// any number of jobs and ranks, but for times.
 /// @throws Stopped if the end was asked for: workers have ended by then, and what they knew has been
 ///         heard; answers that were there have been taken, even if earlier tasks have none
 /// @throws what the first task threw that did

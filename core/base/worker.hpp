@@ -57,6 +57,7 @@ class Worker {
   Worker& operator=(Worker&& other) noexcept;
 
   Channel& channel() { return channel_; }
+  const Channel& channel() const { return channel_; }
 
   /// Asks it to end in good order (SIGTERM).
   void ask_to_end() const;

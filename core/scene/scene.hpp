@@ -189,6 +189,7 @@ struct Drive {
   TimeFunction motion;
   DrivenCoordinate coordinate = DrivenCoordinate::angle;
 
+  Drive() = default;
   template <class Function>
   Drive(Function function,  // NOLINT: a function of time drives an angle
         DrivenCoordinate driven = DrivenCoordinate::angle)

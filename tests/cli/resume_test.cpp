@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <sqlite3.h>
 
+#include "tests/cli/compared_runs.hpp"
 #include "tests/cli/program.hpp"
 
 /// Runs that are killed go on as if nothing had happened, and answers do not depend on how many
@@ -18,53 +18,8 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A document without times, which differ from run to run.
-nlohmann::json timeless(nlohmann::json document) {
-  if (document.is_object()) {
-    for (const char* key : {"seconds", "choice_seconds"}) document.erase(key);
-  }
-  if (document.is_structured()) {
-    for (auto& part : document) part = timeless(std::move(part));
-  }
-  return document;
-}
-
-/// The cells of a table, but for the column of times.
-CsvRows timeless(CsvRows rows) {
-  const auto column = std::find(rows.at(0).begin(), rows.at(0).end(), "seconds") - rows[0].begin();
-  for (auto& row : rows) row.erase(row.begin() + column);
-  return rows;
-}
-
-int count_evaluations(const fs::path& folder) {
-  sqlite3* database = nullptr;
-  sqlite3_stmt* statement = nullptr;
-  EXPECT_EQ(sqlite3_open((folder / "run.sqlite").c_str(), &database), SQLITE_OK);
-  EXPECT_EQ(
-      sqlite3_prepare_v2(database, "SELECT count(*) FROM evaluations", -1, &statement, nullptr),
-      SQLITE_OK);
-  EXPECT_EQ(sqlite3_step(statement), SQLITE_ROW);
-  const int count = sqlite3_column_int(statement, 0);
-  sqlite3_finalize(statement);
-  sqlite3_close(database);
-  return count;
-}
-
-std::string quick_line() {
-  std::string line;
-  for (const std::string& word : quick()) line += " '" + word + "'";
-  return line;
-}
-
-class Resumed : public testing::Test {
+class Resumed : public ComparedRuns {
  protected:
-  nlohmann::json result(const std::string& name) const {
-    return timeless(nlohmann::json::parse(read_file(folder_.path() / name / "result.json")));
-  }
-  CsvRows table(const std::string& name, const std::string& file) const {
-    return timeless(read_csv(folder_.path() / name / file));
-  }
-
   /// Kills a command so many times after other times, and lets it end then.
   void kill_and_end(const std::string& words, const std::string& name, int kills,
                     std::mt19937& random) const {
@@ -80,15 +35,6 @@ class Resumed : public testing::Test {
     const ProgramRun run = run_line(folder_.path(), words + " -o " + name + " --resume");
     EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
   }
-
-  void expect_same(const std::string& name, const std::string& other,
-                   const std::string& file) const {
-    EXPECT_EQ(result(name), result(other));
-    EXPECT_EQ(table(name, file), table(other, file));
-    EXPECT_EQ(count_evaluations(folder_.path() / name), count_evaluations(folder_.path() / other));
-  }
-
-  const TemporaryFolder folder_;
 };
 
 TEST_F(Resumed, OptimizationEndsAsIfItHadNotBeenKilled) {
@@ -118,6 +64,49 @@ TEST_F(Resumed, FrontEndsAsIfItHadNotBeenKilled) {
   std::mt19937 random(3);
   kill_and_end(words, "killed", 6, random);
   expect_same("killed", "whole", "pareto.csv");
+}
+
+TEST_F(Resumed, SamplesEndAsIfTheyHadNotBeenKilled) {
+  const std::string words =
+      "uncertainty " + problem("slider_crank_round") + quick_line() +
+      R"( --jobs 2 --set '/uncertainty={"parameters": {"rod_diameter": {"deviation": "0.1 mm"}}, )"
+      R"("samples": 40}')";
+  ASSERT_EQ(run_line(folder_.path(), words + " -o whole").exit_code, 0);
+  std::mt19937 random(4);
+  kill_and_end(words, "killed", 6, random);
+  expect_same("killed", "whole", "uncertainty.csv");
+  EXPECT_EQ(count_evaluations(folder_.path() / "whole"), 40);
+}
+
+/// Times are measured: only those of parts that were kept come back. Values and errors are the same.
+TEST_F(Resumed, AccuracyStudyEndsAsIfItHadNotBeenKilled) {
+  const std::string words =
+      "accuracy " + problem("slider_crank_round") + quick_line() +
+      " --set '/accuracy/steps=[4e-4, 2e-4]' --set '/accuracy/elements=[2, 4]'";
+  ASSERT_EQ(run_line(folder_.path(), words + " -o whole").exit_code, 0);
+  std::mt19937 random(5);
+  kill_and_end(words, "killed", 6, random);
+  const nlohmann::json whole = result("whole"), killed = result("killed");
+  EXPECT_EQ(killed.at("reference").at("values"), whole.at("reference").at("values"));
+  EXPECT_EQ(killed.at("reference").at("errors"), whole.at("reference").at("errors"));
+  ASSERT_EQ(killed.at("runs").size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(killed.at("runs").at(i).at("errors"), whole.at("runs").at(i).at("errors"));
+    EXPECT_EQ(killed.at("runs").at(i).at("gradient_errors"),
+              whole.at("runs").at(i).at("gradient_errors"));
+  }
+}
+
+/// All parts are known then, with their times.
+TEST_F(Resumed, AccuracyStudyThatHadEndedMeasuresNothing) {
+  const std::string words = "accuracy " + problem("slider_crank_round") + quick_line() +
+                            " --set '/accuracy/steps=[4e-4]' --set '/accuracy/elements=[2]' -o run";
+  ASSERT_EQ(run_line(folder_.path(), words).exit_code, 0);
+  const std::string before = read_file(folder_.path() / "run/result.json");
+  const ProgramRun again = run_line(folder_.path(), words + " --resume");
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(read_file(folder_.path() / "run/result.json"), before);
+  EXPECT_THAT(again.out, HasSubstr("parts of the study were known from run/run.sqlite"));
 }
 
 TEST_F(Resumed, RunThatHadEndedEvaluatesNothing) {

@@ -43,7 +43,7 @@ TEST(RobustConstraints, LeaveTheDeviationsThatAreAskedFor) {
   for (Eigen::Index i = 0; i < result.x.size(); ++i) {
     at_optimum.variables[std::size_t(i)].start = result.x(i);
   }
-  const UncertaintyStudy study = uncertainty_study(at_optimum, {.jobs = 2});
+  const UncertaintyStudy study = uncertainty_study(at_optimum, {.tasks = {.jobs = 2}});
   for (std::size_t i = 0; i < at_optimum.constraints.size(); ++i) {
     const ConstraintSettings& constraint = at_optimum.constraints[i];
     const UncertainResponse& response =

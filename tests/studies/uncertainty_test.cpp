@@ -34,7 +34,7 @@ TEST(Uncertainty, OfTheMassIsThatOfTheClosedForm) {
   const ProblemFile problem = uncertain_problem(
       R"({"parameters": {"crank_diameter": {"deviation": "0.2 mm"},
                          "rod_diameter": {"interval": "0.3 mm"}}})");
-  const UncertaintyStudy study = uncertainty_study(problem, {.jobs = 1});
+  const UncertaintyStudy study = uncertainty_study(problem, {.tasks = {.jobs = 1}});
   const UncertainResponse& mass = response_of(problem, study, "crank_and_rod");
   const double crank = 7850 * pi / 2 * 0.030 * 0.120, rod = 7850 * pi / 2 * 0.030 * 0.180;
   const double of_crank = crank * 0.2e-3, of_rod = rod * 0.3e-3 / std::sqrt(3.0);
@@ -64,7 +64,7 @@ TEST(Uncertainty, SaysWhereFirstOrderIsNotEnough) {
       "h.json");
   const auto doubts = [](const ProblemFile& of) {
     std::vector<std::string> texts;
-    for (const Doubt& doubt : uncertainty_study(of, {.jobs = 2}).doubts)
+    for (const Doubt& doubt : uncertainty_study(of, {.tasks = {.jobs = 2}}).doubts)
       texts.push_back(doubt.text);
     return texts;
   };
@@ -92,7 +92,7 @@ TEST(Uncertainty, SaysWhereSamplesScatterLessThanFirstOrder) {
         "uncertainty": {"parameters": {"phase": {"interval": 1.5}}, "samples": 500},
         "responses": {"sag": {"type": "deflection", "body": "b", "at": 1, "over_time": "final"}}})",
       "phase.json");
-  const UncertaintyStudy study = uncertainty_study(problem, {.jobs = 2});
+  const UncertaintyStudy study = uncertainty_study(problem, {.tasks = {.jobs = 2}});
   const UncertainResponse& sag = study.responses[0];
   const double ratio = std::sqrt(0.5 - std::sin(3.0) / 6.0) / (1.5 / std::sqrt(3.0));
   EXPECT_NEAR(sag.sampled->deviation / sag.deviation, ratio, 0.05);  // of 500 samples
@@ -109,7 +109,7 @@ TEST(Uncertainty, IsThatOfMonteCarlo) {
   const ProblemFile problem = uncertain_problem(
       R"({"parameters": {"crank_diameter": {"deviation": "0.06 mm"},
                          "rod_diameter": {"deviation": "0.06 mm"}}, "samples": 400})");
-  const UncertaintyStudy study = uncertainty_study(problem, {.jobs = 2});
+  const UncertaintyStudy study = uncertainty_study(problem, {.tasks = {.jobs = 2}});
   ASSERT_EQ(study.samples, 400);
   EXPECT_EQ(study.failures, 0);
   const double of_deviation = 4.0 / std::sqrt(2.0 * 399), of_mean = 4.0 / std::sqrt(400.0);
@@ -139,7 +139,7 @@ TEST(Uncertainty, OfSamplesIsThatOfTheNumbersDrawn) {
   ASSERT_LT(drawn.cwiseAbs().maxCoeff(), 6.0);  // none is beyond what is sampled
   const double mean = drawn.mean();
   const double deviation = std::sqrt((drawn.array() - mean).square().sum() / (samples - 1));
-  const UncertaintyStudy study = uncertainty_study(problem, {.jobs = 2});
+  const UncertaintyStudy study = uncertainty_study(problem, {.tasks = {.jobs = 2}});
   for (std::size_t i = 0; i < study.responses.size(); ++i) {
     const UncertainResponse& response = study.responses[i];
     // The torque hardly depends on the rod: what is left of its deviation is of second order.
@@ -197,7 +197,7 @@ TEST(Uncertainty, SamplesNormalsUpToSixDeviations) {
     const ProblemFile problem =
         brief_problem(of.seed, static_cast<int>(of.samples), R"("deviation": "0.06 mm")");
     const UncertainResponse mass =
-        response_of(problem, uncertainty_study(problem, {.jobs = 1}), "crank_and_rod");
+        response_of(problem, uncertainty_study(problem, {.tasks = {.jobs = 1}}), "crank_and_rod");
     const auto [least, most] = std::minmax_element(drawn.begin(), drawn.end());
     EXPECT_NEAR(drawn_by(problem, mass.sampled->highest) / 0.06e-3, *most, 1e-9);
     EXPECT_NEAR(drawn_by(problem, mass.sampled->lowest) / 0.06e-3, *least, 1e-9);
@@ -212,7 +212,7 @@ TEST(Uncertainty, SamplesIntervalsEvenly) {
   constexpr double r = 0.02e-3;
   const ProblemFile problem = brief_problem(3, samples, R"("interval": "0.02 mm")");
   const UncertainResponse mass =
-      response_of(problem, uncertainty_study(problem, {.jobs = 2}), "crank_and_rod");
+      response_of(problem, uncertainty_study(problem, {.tasks = {.jobs = 2}}), "crank_and_rod");
   const double slope = 7850 * pi / 2 * 0.030 * 0.180, width = r * slope;
   const double root = std::sqrt(double(samples));
   // d² adds (r/d)²/3 · m/2 to the mean: 1e-7 of m, 2e-4 of the width.
@@ -231,7 +231,7 @@ TEST(Uncertainty, OfHistoriesIsThatOfMonteCarlo) {
   const ProblemFile problem = uncertain_problem(
       R"({"parameters": {"crank_diameter": {"deviation": "0.06 mm"},
                          "rod_diameter": {"deviation": "0.06 mm"}}, "samples": 400})");
-  const UncertaintyStudy study = uncertainty_study(problem, {.jobs = 2});
+  const UncertaintyStudy study = uncertainty_study(problem, {.tasks = {.jobs = 2}});
   ASSERT_GE(study.histories.size(), 5u);
   for (const UncertainHistory& history : study.histories) {
     ASSERT_EQ(history.deviations.size(), study.time.size());
@@ -246,7 +246,7 @@ TEST(Uncertainty, OfAnEnergyBalanceHasNoHistory) {
   const ProblemFile problem =
       quick_problem({R"(/responses/balance={"type": "energy-balance"})",
                      R"(/uncertainty={"parameters": {"rod_diameter": {"deviation": "0.1 mm"}}})"});
-  const UncertaintyStudy study = uncertainty_study(problem, {.jobs = 1});
+  const UncertaintyStudy study = uncertainty_study(problem, {.tasks = {.jobs = 1}});
   for (const UncertainHistory& history : study.histories) {
     EXPECT_NE(problem.responses[history.response].name, "balance");
   }
@@ -256,8 +256,8 @@ TEST(Uncertainty, OfAnEnergyBalanceHasNoHistory) {
 TEST(Uncertainty, DoesNotDependOnTheNumberOfJobs) {
   const ProblemFile problem = uncertain_problem(
       R"({"parameters": {"rod_diameter": {"interval": "0.1 mm"}}, "samples": 6})");
-  const UncertaintyStudy one = uncertainty_study(problem, {.jobs = 1}),
-                         three = uncertainty_study(problem, {.jobs = 3});
+  const UncertaintyStudy one = uncertainty_study(problem, {.tasks = {.jobs = 1}}),
+                         three = uncertainty_study(problem, {.tasks = {.jobs = 3}});
   for (std::size_t i = 0; i < one.responses.size(); ++i) {
     EXPECT_EQ(one.responses[i].sampled->highest, three.responses[i].sampled->highest);
     EXPECT_EQ(one.responses[i].sampled->deviation, three.responses[i].sampled->deviation);
@@ -271,7 +271,7 @@ TEST(Uncertainty, MayBeOfFixedVariables) {
       quick_problem({R"(/scene/materials/steel/density={"variable": "density"})",
                      R"(/variables/density={"start": 7850, "lower": 7850, "upper": 7850})",
                      R"(/uncertainty={"parameters": {"density": {"deviation": 78.5}}})"});
-  const UncertaintyStudy study = uncertainty_study(problem, {.jobs = 1});
+  const UncertaintyStudy study = uncertainty_study(problem, {.tasks = {.jobs = 1}});
   const UncertainResponse& mass = response_of(problem, study, "crank_and_rod");
   EXPECT_NEAR(mass.deviation, 0.01 * mass.value, 1e-12);
 }

@@ -22,7 +22,7 @@ std::vector<Include> read_includes() {
   std::vector<Include> includes;
   const fs::path root = PLEUEL_SOURCE_DIR;
   for (const char* top :
-       {"core", "sensitivity", "optimization", "record", "studies", "picture", "cli"}) {
+       {"core", "sensitivity", "optimization", "record", "studies", "picture", "mpi", "cli"}) {
     if (!fs::exists(root / top)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
       if (entry.path().extension() != ".hpp" && entry.path().extension() != ".cpp") continue;
@@ -42,7 +42,7 @@ std::vector<Include> read_includes() {
 /// The floor that a file or header belongs to: "core/beam", "sensitivity", …; empty if foreign.
 std::string floor_of(const std::string& path) {
   for (const std::string top :
-       {"sensitivity", "optimization", "record", "studies", "picture", "cli"}) {
+       {"sensitivity", "optimization", "record", "studies", "picture", "mpi", "cli"}) {
     if (path.starts_with(top + "/")) return top;
   }
   if (!path.starts_with("core/")) return "";
@@ -73,6 +73,7 @@ const std::map<std::string, Names>& permitted() {
         {"record", {"optimization"}},
         {"studies", {"optimization", "sensitivity", "core/trust"}},
         {"picture", {"core/response"}},
+        {"mpi", {}},
         {"cli", {"studies", "picture", "record"}}};
     for (int i = 0; i < 12; ++i) {  // what lies below what lies below …
       for (auto& [floor, names] : below) {

@@ -1,0 +1,108 @@
+#include "cli/ranks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <sched.h>
+#include <unistd.h>
+
+#include "cli/input/fingerprint.hpp"
+#include "cli/interruption.hpp"
+#include "cli/work_makers.hpp"
+#include "core/base/error.hpp"
+#include "core/base/packed.hpp"
+#include "core/base/task_server.hpp"
+
+namespace pleuel {
+
+template <class Archive>
+void transfer(Archive& archive, RankDescription& rank) {
+  auto& [machine, program, processors] = rank;
+  archive(machine, program, processors);
+}
+
+namespace {
+
+std::string machine_name() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "?";
+}
+
+std::vector<int> usable_processors() {
+  cpu_set_t usable;
+  std::vector<int> processors;
+  if (::sched_getaffinity(0, sizeof usable, &usable) != 0) return processors;
+  for (int i = 0; i < CPU_SETSIZE; ++i) {
+    if (CPU_ISSET(i, &usable)) processors.push_back(i);
+  }
+  return processors;
+}
+
+}  // namespace
+
+RankDescription describe_rank() {
+  Fingerprint fingerprint;
+  fingerprint.add(whole_text("/proc/self/exe"));
+  return {machine_name(), fingerprint.text(), usable_processors()};
+}
+
+std::vector<int> processors_of(const std::vector<RankDescription>& ranks) {
+  std::map<std::pair<std::string, int>, int> users;  // of each processor
+  for (const RankDescription& rank : ranks) {
+    for (const int processor : rank.processors) ++users[{rank.machine, processor}];
+  }
+  std::vector<int> counts;
+  for (const RankDescription& rank : ranks) {
+    double sum = 0.0;
+    for (const int processor : rank.processors) sum += 1.0 / users[{rank.machine, processor}];
+    constexpr double rounding = 1e-6;
+    counts.push_back(std::max(1, static_cast<int>(sum + rounding)));
+  }
+  return counts;
+}
+
+Ranks::Ranks(std::vector<Channel> links) : links_(std::move(links)), ranks_{describe_rank()} {
+  for (Channel& link : links_) {
+    Frame frame;
+    if (!link.receive(frame)) {
+      throw InputError(fmt::format("rank {} of the job was lost at its start", ranks_.size()));
+    }
+    ranks_.push_back(unpacked<RankDescription>(frame.content));
+    if (ranks_.back().program != ranks_.front().program) {
+      throw InputError(
+          fmt::format("rank {} on {} runs another program than rank 0 on {}: all "
+                      "machines must run the same build",
+                      ranks_.size() - 1, ranks_.back().machine, ranks_.front().machine));
+    }
+  }
+  processors_ = processors_of(ranks_);
+}
+
+std::vector<RankPlace> Ranks::take_places(int jobs) {
+  std::vector<RankPlace> places;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    places.emplace_back(std::move(links_[i]),
+                        fmt::format("rank {} on {}", i + 1, ranks_[i + 1].machine),
+                        jobs > 0 ? jobs : processors_[i + 1]);
+  }
+  return places;
+}
+
+std::string Ranks::text() const {
+  std::set<std::string> machines;
+  for (const RankDescription& rank : ranks_) machines.insert(rank.machine);
+  return fmt::format("{} ranks on {} machine{}", ranks_.size(), machines.size(),
+                     machines.size() == 1 ? "" : "s");
+}
+
+void serve_rank_zero(Channel link) {
+  const Interruption interruption;  // of the processes that will be made
+  if (!link.send({Frame::Kind::message, packed(describe_rank())})) return;
+  serve_tasks(link, work_makers());
+}
+
+}  // namespace pleuel

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.hpp"
+
+namespace pleuel::test {
+
+/// The overrides of quick(), for a line of the shell.
+std::string quick_line();
+
+/// Evaluations in the record of a run.
+int count_evaluations(const std::filesystem::path& folder);
+
+/// Runs in one folder that should have come to the same.
+class ComparedRuns : public testing::Test {
+ protected:
+  /// But for times, which differ from run to run.
+  nlohmann::json result(const std::string& name) const;
+  CsvRows table(const std::string& name, const std::string& file) const;
+
+  /// The same result, the same table, and as many evaluations.
+  void expect_same(const std::string& name, const std::string& other,
+                   const std::string& file) const;
+
+  const TemporaryFolder folder_;
+};
+
+}  // namespace pleuel::test
