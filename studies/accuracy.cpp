@@ -17,6 +17,22 @@
 
 namespace pleuel {
 
+// Parts of a study (studies/packed_accuracy.hpp).
+
+template <class Archive>
+void transfer(Archive& archive, ReferenceCheck& check) {
+  auto& [formulation, failure, differences] = check;
+  archive(formulation, failure, differences);
+}
+
+/// But for the variation, which the file says.
+template <class Archive>
+void transfer(Archive& archive, VariedRun& varied) {
+  auto& [variation, run, time_change, influence] = varied;
+  (void)variation;
+  archive(run, time_change, influence);
+}
+
 namespace {
 
 /// Of the file, then by tens.

@@ -15,6 +15,14 @@
 
 namespace pleuel {
 
+// Parts of a study (studies/packed_accuracy.hpp).
+
+template <class Archive>
+void transfer(Archive& archive, OptimumRun& run) {
+  auto& [settings, failure, status, x, objective, change, seconds, evaluations] = run;
+  archive(settings, failure, status, x, objective, change, seconds, evaluations);
+}
+
 namespace {
 
 constexpr std::size_t most_settings = 6;

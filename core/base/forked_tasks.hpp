@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/base/task_place.hpp"
-#include "core/base/tasks.hpp"
+#include "core/base/task_work.hpp"
 
 namespace pleuel {
 

@@ -2,7 +2,7 @@
 
 #include "core/base/packed.hpp"
 #include "core/base/task_place.hpp"
-#include "core/base/tasks.hpp"
+#include "core/base/task_work.hpp"
 
 /// What rank_place.hpp and task_server.hpp say to each other: packed, one message a frame.
 namespace pleuel {

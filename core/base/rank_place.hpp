@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/base/task_place.hpp"
-#include "core/base/tasks.hpp"
+#include "core/base/task_work.hpp"
 
 namespace pleuel {
 

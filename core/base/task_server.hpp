@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "core/base/tasks.hpp"
+#include "core/base/task_work.hpp"
 #include "core/base/worker.hpp"
 
 namespace pleuel {

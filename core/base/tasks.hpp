@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/task_work.hpp"
+
 namespace pleuel {
 
 class RankPlace;  // core/base/rank_place.hpp
@@ -14,37 +16,6 @@ struct TaskOptions {
   double time_limit = 0.0;  ///< that a task may take before it is given up [s]; 0: any time
   /// Other ranks of an MPI job, which take tasks that can be packed; none: all run here.
   std::vector<RankPlace>* ranks = nullptr;
-};
-
-/// What a task sees of the process that handed it out.
-class TaskCaller {
- public:
-  virtual ~TaskCaller() = default;
-
-  /// Tasks::hear() hears it when all tasks before this one have ended.
-  virtual void tell(const std::string& message) = 0;
-
-  /// What Tasks::reply() says, at once.
-  virtual std::string ask(const std::string& question) = 0;
-};
-
-/// What is computed in parts that do not see each other.
-class TaskWork {
- public:
-  virtual ~TaskWork() = default;
-
-  /// In a process of its own. What is thrown here is thrown by run_tasks() if it is an InputError,
-  /// a SimulationError, std::bad_alloc or anything else of the standard library (as
-  /// std::runtime_error).
-  /// @param needed  answer of the task that it needs; empty if that failed, or if it needs none
-  /// @returns       the answer; the same in each attempt, as what is told on the way
-  virtual std::string run(int task, const std::string& needed, TaskCaller& caller) = 0;
-};
-
-/// Work for processes that know nothing of it (core/base/packed.hpp).
-struct PackedWork {
-  std::string kind;  ///< by which it is made again (task_server.hpp); empty: it cannot be
-  std::string content;
 };
 
 /// Work in parts that do not see each other: run() of each in a process of its own, which is a copy
@@ -74,9 +45,9 @@ class Tasks : public TaskWork {
   virtual void fail(int task, const std::string& failure) = 0;
 };
 
-/// Carries out tasks in worker processes, so many at a time here and on each other rank. A worker that crashes or takes too long
-/// costs its task only, which is tried once more. What is heard, taken and thrown is the same for
-/// any number of jobs and ranks, but for times.
+/// Carries out tasks in worker processes, so many at a time here and on each other rank. A worker
+/// that crashes or takes too long costs its task only, which is tried once more. What is heard,
+/// taken and thrown is the same for any number of jobs and ranks, but for times.
 /// @throws Stopped if the end was asked for: workers have ended by then, and what they knew has been
 ///         heard; answers that were there have been taken, even if earlier tasks have none
 /// @throws what the first task threw that did

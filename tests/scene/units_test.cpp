@@ -118,7 +118,7 @@ TEST(Units, WithoutAnAngleAreNoAngularSpeed) {  // 1500 1/min may be 25 rad/s or
 
 TEST(Units, ThatAreUnknownAreRefused) {
   EXPECT_EQ(complaint("12 mmm", length), "\"mmm\" is not a known unit");
-  EXPECT_EQ(complaint("1,5 mm", length), "\",5 mm\" is not a known unit");
+  EXPECT_EQ(complaint("1,5 mm", length), "numbers have a decimal point, no comma; write 1.5 mm");
   EXPECT_EQ(complaint("0x10 mm", length), "\"x10 mm\" is not a known unit");
 }
 

@@ -174,12 +174,13 @@ TEST(FlexibleSliderCrankGradient, OfTheAdjointIsThatOfTheComplexStep) {
               tolerance_at_20_ms);
 }
 
+/// To the round-off of 20,000 steps, which is largest in q1: 2e-11 … 1.6e-10, by processor.
 TEST(FlexibleSliderCrankGradient, IsTheSameByBothMethods) {
   FourModes rod;
   const Trajectory trajectory = simulated(rod, 0.1, 5e-6);
   const Derivatives expected = direct(rod, trajectory), found = adjoint(rod, trajectory);
   for (int k = 0; k < observed; ++k) {
-    EXPECT_LE(relative_difference(found.row(k), expected.row(k)), 1e-10) << names[k];
+    EXPECT_LE(relative_difference(found.row(k), expected.row(k)), 1e-9) << names[k];
   }
 }
 
