@@ -1,5 +1,6 @@
 #include "cli/files/run_folder.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <fstream>
@@ -57,6 +58,14 @@ std::string command_of(const fs::path& folder) {
   const Json card = Json::parse(stream, nullptr, /*allow_exceptions=*/false);
   const bool is_named = card.is_object() && card.contains("command") && card["command"].is_string();
   return is_named ? card["command"].get<std::string>() : "";
+}
+
+/// Whether there is nothing but drafts of the card of runs that were killed while they wrote it.
+bool has_begun_only(const fs::path& folder) {
+  return std::all_of(fs::directory_iterator(folder), {}, [](const fs::directory_entry& entry) {
+    const std::string name = entry.path().filename().string();
+    return name.starts_with(std::string(card_name) + ".") && name.ends_with(".draft");
+  });
 }
 
 [[noreturn]] void refuse(const fs::path& folder, const std::string& reason) {
@@ -119,7 +128,7 @@ void RunFolder::lock() {
 }
 
 void RunFolder::check_content(const Arguments& arguments) const {
-  if (fs::is_empty(path_)) return;
+  if (has_begun_only(path_)) return;
   if (!fs::exists(path_ / card_name)) {
     refuse(path_, fmt::format("the folder holds something else than a run (it has no {}); choose "
                               "another name",

@@ -19,8 +19,6 @@ namespace {
 constexpr double round_off = 1e-8;
 /// What counts where the file gives no tolerance of effects.
 constexpr double usual_tolerance = 1e-3;
-/// Of the time of a simulation: on a busy machine single runs differ by nearly as much.
-constexpr double noticeable_share = 0.3;
 
 std::string signed_text(double value) {
   if (value == 0.0) return "0";
@@ -77,8 +75,7 @@ double most_changed(const MeasuredEffects& effects, const EffectInfluence& influ
 bool does_matter(const MeasuredEffects& effects, const EffectInfluence& influence) {
   if (!influence.failure.empty()) return false;
   const double asked = effects.problem.effects.tolerance;
-  return std::abs(influence.share) > noticeable_share ||
-         most_changed(effects, influence) > (asked > 0.0 ? asked : usual_tolerance);
+  return most_changed(effects, influence) > (asked > 0.0 ? asked : usual_tolerance);
 }
 
 std::vector<std::string> row_of(const MeasuredEffects& effects, const EffectInfluence& one) {

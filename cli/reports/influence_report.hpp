@@ -23,8 +23,8 @@ struct MeasuredEffects {
 };
 
 /// One an influence, whether it matters: it changes a response or the optimum by more than the
-/// tolerance of the file (0.1 % without one), relative, or costs a noticeable share of the time.
-/// Those that a simulation cannot do without do not count.
+/// tolerance of the file (0.1 % without one), relative; times, which differ from run to run, do not
+/// count. Those that a simulation cannot do without do not count.
 std::vector<bool> effects_that_matter(const MeasuredEffects& effects);
 
 /// Adds "matters" to the effects of effects_document() that were measured.

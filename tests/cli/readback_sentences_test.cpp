@@ -144,7 +144,7 @@ TEST(ReadBackSentences, OfWhatEffectsBringInGrams) {
 }
 
 /// Without --effects the table has the effects that matter by the numbers of the document: more than
-/// 0.1 % of a response or of the optimum, or a noticeable share of the time. A sentence counts the rest.
+/// 0.1 % of a response or of the optimum. A sentence counts the rest.
 TEST(ReadBackSentences, OfWhichEffectsMatter) {
   const Report report = run({"optimize", file});
   const json& document = report.document;

@@ -51,6 +51,17 @@ TEST(RunFolder, CardTellsInputAndVersions) {
   EXPECT_GT(card.at("seconds").at("total"), 0.0);
 }
 
+/// A run that was killed while it wrote its first file leaves a draft, which is nobody else's.
+TEST(RunFolder, MayHoldADraftOfItsCard) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path() / "one");
+  std::ofstream(folder.path() / "one/run_card.json.123.draft") << "{";
+  const ProgramRun run = simulate_into(folder, "one");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  std::ofstream(folder.path() / "other.draft") << "{";
+  EXPECT_EQ(simulate_into(folder, ".").exit_code, 2);
+}
+
 TEST(RunFolder, HashTellsInputsApart) {
   const TemporaryFolder folder;
   simulate_into(folder, "one");
