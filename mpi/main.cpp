@@ -21,7 +21,8 @@ extern "C" void note_end(int /*signal*/) {
   is_asked_to_end = true;
 }
 
-/// Requests of mpirun to end are for the process of rank 0, which ends the others in good order.
+/// Requests to end, of mpirun or passed on by it (SIGUSR1), are for the process of rank 0, which
+/// ends the others in good order.
 void pass_on_end(int rank, pid_t process) {
   if (is_asked_to_end.exchange(false) && rank == 0) ::kill(process, SIGTERM);
 }
@@ -37,7 +38,7 @@ int carry(int argc, char** argv) {
   const auto process = static_cast<pid_t>(std::atoi(argv[1]));
   std::vector<int> sockets;
   for (int i = 3; i < argc; ++i) sockets.push_back(std::atoi(argv[i]));
-  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, note_end);
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) std::signal(signal, note_end);
   int rank = 0, ranks = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);

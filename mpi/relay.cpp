@@ -15,9 +15,14 @@ namespace {
 constexpr int tag = 1;
 constexpr std::size_t most_bytes = 1 << 18;  ///< of a message
 
-/// While there was news within `lively` seconds it looks often: an answer may be on its way.
-constexpr double lively = 2e-3;
-constexpr long short_interval = 50'000, long_interval = 1'000'000;  ///< [ns]
+/// It looks again after so many nanoseconds, where the last news was within so many seconds: an answer
+/// may be on its way, or a task at work.
+struct Interval {
+  double since;
+  long nanoseconds;
+};
+constexpr std::array<Interval, 2> intervals = {{{2e-3, 50'000}, {0.2, 250'000}}};
+constexpr long longest_interval = 1'000'000;  ///< [ns]
 
 }  // namespace
 
@@ -77,8 +82,11 @@ std::vector<pollfd> Relay::descriptors() const {
 }
 
 timespec Relay::interval() const {
-  const bool is_lively = MPI_Wtime() - last_news_ < lively || !sending_.empty();
-  return {0, is_lively ? short_interval : long_interval};
+  const double since = sending_.empty() ? MPI_Wtime() - last_news_ : 0.0;
+  for (const Interval& one : intervals) {
+    if (since < one.since) return {0, one.nanoseconds};
+  }
+  return {0, longest_interval};
 }
 
 bool Relay::take_from_sockets(const std::vector<pollfd>& descriptors) {
