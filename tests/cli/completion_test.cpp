@@ -44,7 +44,8 @@ TEST(Completion, OffersNothingWhereAFileStands) {
 TEST(Completion, OfZshHasTheSameCommandsWithWhatTheyDo) {
   const TemporaryFolder folder;
   const std::string script = run_program(folder.path(), {"completion", "zsh"}).out;
-  EXPECT_THAT(script, HasSubstr("'optimize:find the best design within the limits, and verify it'"));
+  EXPECT_THAT(script,
+              HasSubstr("'optimize:find the best design within the limits, and verify it'"));
   EXPECT_THAT(script, HasSubstr("\n    simulate) options=("));
 }
 
