@@ -15,6 +15,14 @@ constexpr const char* samples =
     R"( --set '/uncertainty={"parameters": {"rod_diameter": {"deviation": "0.1 mm"}}, )"
     R"("samples": 40}')";
 
+/// Children of rank 1: mpirun has started pleuel-mpi twice, each beside its pleuel.
+constexpr const char* workers_of_rank_1 =
+    "children() { cat /proc/$1/task/$1/children 2>/dev/null; }; "
+    "i=0; w=; while [ -z \"$w\" ] && [ $i -lt 3000 ]; do sleep 0.01; i=$((i + 1)); "
+    "r=$(children $p | cut -s -d' ' -f2); [ -n \"$r\" ] || continue; "
+    "e=$(children $r | cut -d' ' -f1); [ -n \"$e\" ] || continue; "
+    "w=$(children $e | cut -d' ' -f1); done; ";
+
 class Mpi : public ComparedRuns {
  protected:
   void SetUp() override {
@@ -36,6 +44,14 @@ class Mpi : public ComparedRuns {
 
   ProgramRun run_ranks(int ranks, const std::string& words) const {
     return run_line(folder_.path(), "--version >/dev/null; " + mpirun(ranks) + " " + words);
+  }
+
+  /// While two ranks are at work.
+  /// @param what  of the shell: $p is mpirun, $e the program of rank 1, $w its worker
+  ProgramRun run_meanwhile(const std::string& words, std::string_view what) const {
+    return run_line(folder_.path(), fmt::format("--version >/dev/null; {} {} >out 2>err & p=$!; "
+                                                "{} {}",
+                                                mpirun(2), words, workers_of_rank_1, what));
   }
 
   /// As one process and its worker does it.
@@ -79,55 +95,29 @@ TEST_F(Mpi, DoesNotChangeSamples) {
   }
 }
 
-/// Children of rank 1: mpirun has started pleuel-mpi twice, each beside its pleuel.
-constexpr const char* workers_of_rank_1 =
-    "children() { cat /proc/$1/task/$1/children 2>/dev/null; }; "
-    "i=0; w=; while [ -z \"$w\" ] && [ $i -lt 3000 ]; do sleep 0.01; i=$((i + 1)); "
-    "r=$(children $p | cut -s -d' ' -f2); [ -n \"$r\" ] || continue; "
-    "e=$(children $r | cut -d' ' -f1); [ -n \"$e\" ] || continue; "
-    "w=$(children $e | cut -d' ' -f1); done; ";
-
-TEST_F(Mpi, MayLoseAWorker) {
+TEST_F(Mpi, MayLoseAWorkerOrTheProgramOfARank) {
   const std::string words =
       "optimize " + problem("slider_crank_round") + quick_line() + " --no-report --starts 4";
   run_alone(words);
-  const ProgramRun run = run_line(
-      folder_.path(), fmt::format("--version >/dev/null; export OMPI_ALLOW_RUN_AS_ROOT=1 "
-                                  "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; {} {} -o hurt >out 2>err & "
-                                  "p=$!; {} kill -9 $w && echo killed; wait $p; echo $?",
-                                  mpirun(2).substr(mpirun(2).find('/')), words, workers_of_rank_1));
-  EXPECT_EQ(run.out, "killed\n0\n") << run.err << read_file(folder_.path() / "err");
-  expect_same("hurt", "alone", "history.csv");
-}
-
-/// The program of rank 1 is lost, and its tasks are done by rank 0.
-TEST_F(Mpi, MayLoseTheTasksOfARank) {
-  const std::string words =
-      "optimize " + problem("slider_crank_round") + quick_line() + " --no-report --starts 4";
-  run_alone(words);
-  const ProgramRun run = run_line(
-      folder_.path(), fmt::format("--version >/dev/null; export OMPI_ALLOW_RUN_AS_ROOT=1 "
-                                  "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; {} {} -o hurt >out 2>err & "
-                                  "p=$!; {} kill -9 $e && echo killed; wait $p; echo $?",
-                                  mpirun(2).substr(mpirun(2).find('/')), words, workers_of_rank_1));
-  EXPECT_EQ(run.out, "killed\n0\n") << run.err << read_file(folder_.path() / "err");
-  expect_same("hurt", "alone", "history.csv");
+  for (const char* lost : {"$w", "$e"}) {
+    SCOPED_TRACE(lost);
+    const ProgramRun run = run_meanwhile(
+        words + " -o hurt", fmt::format("kill -9 {} && echo killed; wait $p; echo $?", lost));
+    EXPECT_EQ(run.out, "killed\n0\n") << run.err << read_file(folder_.path() / "err");
+    expect_same("hurt", "alone", "history.csv");
+    std::filesystem::remove_all(folder_.path() / "hurt");
+  }
 }
 
 /// What was interrupted goes on to the same end, with or without ranks.
 TEST_F(Mpi, EndsInGoodOrderAndGoesOn) {
   const std::string words =
       "optimize " + problem("slider_crank_round") + quick_line() + " --no-report --starts 8";
-  const ProgramRun run = run_line(
-      folder_.path(),
-      fmt::format(
-          "--version >/dev/null; export OMPI_ALLOW_RUN_AS_ROOT=1 "
-          "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; "
-          "{} {} -o run >out 2>err & p=$!; "
-          "{} i=0; while [ $(cat run/history.csv 2>/dev/null | wc -l) -lt 4 ] && "
-          "[ $i -lt 3000 ]; do sleep 0.01; i=$((i + 1)); done; kill -USR1 $p; wait $p; echo $?; "
-          "for q in $w $e; do [ ! -e /proc/$q ] || echo left $q; done",
-          mpirun(2).substr(mpirun(2).find('/')), words, workers_of_rank_1));
+  const ProgramRun run = run_meanwhile(
+      words + " -o run",
+      "i=0; while [ $(cat run/history.csv 2>/dev/null | wc -l) -lt 4 ] && [ $i -lt 3000 ]; do "
+      "sleep 0.01; i=$((i + 1)); done; kill -USR1 $p; wait $p; echo $?; "
+      "for q in $w $e; do [ ! -e /proc/$q ] || echo left $q; done");
   EXPECT_EQ(run.out, "4\n");  // and no process is left
   EXPECT_THAT(unwrapped(read_file(folder_.path() / "out")), HasSubstr("To go on from there: "));
   run_alone(words);
