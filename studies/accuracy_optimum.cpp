@@ -9,7 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/stop.hpp"
-#include "optimization/design_solve.hpp"
+#include "optimization/design/design_solve.hpp"
 #include "studies/packed_accuracy.hpp"
 #include "studies/row_prices.hpp"
 

@@ -13,8 +13,8 @@
 #include "core/base/stop.hpp"
 #include "core/base/tasks.hpp"
 #include "core/scene/packed_problem.hpp"
-#include "optimization/design_problem.hpp"
-#include "optimization/design_solve.hpp"
+#include "optimization/design/design_problem.hpp"
+#include "optimization/design/design_solve.hpp"
 #include "optimization/packed_options.hpp"
 #include "optimization/packed_result.hpp"
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "optimization/design/peak_windows.hpp"
 #include "optimization/kkt_audit.hpp"
-#include "optimization/peak_windows.hpp"
 #include "optimization/prices.hpp"
 #include "optimization/scaling.hpp"
 

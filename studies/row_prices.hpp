@@ -3,9 +3,9 @@
 #include <memory>
 #include <optional>
 
-#include "optimization/design_problem.hpp"
-#include "optimization/margin_problem.hpp"
-#include "optimization/peak_problem.hpp"
+#include "optimization/design/design_problem.hpp"
+#include "optimization/design/margin_problem.hpp"
+#include "optimization/design/peak_problem.hpp"
 
 /// What the rows of a problem, limits and peaks of the objective window by window, are worth at a
 /// design.

@@ -13,7 +13,7 @@
 #include "core/scene/packed_problem.hpp"
 #include "core/scene/sample_extent.hpp"
 #include "core/trust/doubts.hpp"
-#include "optimization/setting_text.hpp"
+#include "optimization/design/setting_text.hpp"
 #include "sensitivity/history_gradients.hpp"
 #include "sensitivity/method_choice.hpp"
 #include "studies/random_numbers.hpp"

@@ -36,13 +36,13 @@
 #include "core/trust/case_doubts.hpp"
 #include "core/trust/doubts.hpp"
 #include "core/trust/nested_runs.hpp"
-#include "optimization/design_problem.hpp"
-#include "optimization/design_solve.hpp"
-#include "optimization/multi_start.hpp"
-#include "optimization/optimum_error.hpp"
+#include "optimization/design/design_problem.hpp"
+#include "optimization/design/design_solve.hpp"
+#include "optimization/design/multi_start.hpp"
+#include "optimization/design/optimum_error.hpp"
+#include "optimization/design/size_choice.hpp"
+#include "optimization/design/staged_solve.hpp"
 #include "optimization/prices.hpp"
-#include "optimization/size_choice.hpp"
-#include "optimization/staged_solve.hpp"
 
 namespace pleuel {
 

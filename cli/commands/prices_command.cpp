@@ -16,8 +16,8 @@
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
 #include "core/trust/doubts.hpp"
-#include "optimization/design_problem.hpp"
-#include "optimization/design_solve.hpp"
+#include "optimization/design/design_problem.hpp"
+#include "optimization/design/design_solve.hpp"
 #include "studies/number_prices.hpp"
 
 namespace pleuel {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cli/files/csv_file.hpp"
-#include "optimization/design_problem.hpp"
+#include "optimization/design/design_problem.hpp"
 #include "optimization/history.hpp"
 
 namespace pleuel {

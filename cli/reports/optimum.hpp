@@ -8,7 +8,7 @@
 #include "core/response/effect_influence.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/shown_unit.hpp"
-#include "optimization/size_choice.hpp"
+#include "optimization/design/size_choice.hpp"
 #include "optimization/solve.hpp"
 #include "sensitivity/gradients.hpp"
 

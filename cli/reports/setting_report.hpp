@@ -6,7 +6,7 @@
 #include "cli/input/problem_input.hpp"
 #include "cli/text/json.hpp"
 #include "core/trust/setting_choice.hpp"
-#include "optimization/staged_solve.hpp"
+#include "optimization/design/staged_solve.hpp"
 
 /// Which steps and elements were chosen for an accuracy.
 namespace pleuel {

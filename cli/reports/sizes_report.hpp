@@ -4,7 +4,7 @@
 #include <string>
 
 #include "cli/text/json.hpp"
-#include "optimization/size_choice.hpp"
+#include "optimization/design/size_choice.hpp"
 
 namespace pleuel {
 

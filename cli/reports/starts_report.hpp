@@ -3,7 +3,7 @@
 #include <string>
 
 #include "cli/text/json.hpp"
-#include "optimization/multi_start.hpp"
+#include "optimization/design/multi_start.hpp"
 
 namespace pleuel {
 

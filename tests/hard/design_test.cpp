@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 
 #include "optimization/backends.hpp"
-#include "optimization/design_problem.hpp"
-#include "optimization/design_solve.hpp"
+#include "optimization/design/design_problem.hpp"
+#include "optimization/design/design_solve.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/hard/hard_problems.hpp"
 #include "tests/support/differences.hpp"

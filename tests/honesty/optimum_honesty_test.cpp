@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/trust/nested_runs.hpp"
-#include "optimization/design_solve.hpp"
+#include "optimization/design/design_solve.hpp"
 #include "tests/honesty/coarseness.hpp"
 #include "tests/honesty/shipped_problems.hpp"
 

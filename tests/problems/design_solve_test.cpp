@@ -1,6 +1,6 @@
 /// What solve_design() makes of designs that are stationary and no optima, and of peaks that tie.
 
-#include "optimization/design_solve.hpp"
+#include "optimization/design/design_solve.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 #include "core/scene/problem_reader.hpp"
 #include "optimization/backends.hpp"
-#include "optimization/peak_problem.hpp"
+#include "optimization/design/peak_problem.hpp"
 #include "tests/optimization/backend_names.hpp"
 
 namespace pleuel::test {

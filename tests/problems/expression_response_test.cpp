@@ -8,7 +8,7 @@
 #include "core/response/linearized_expression.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/doubts.hpp"
-#include "optimization/design_solve.hpp"
+#include "optimization/design/design_solve.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/support/problem_runs.hpp"
 

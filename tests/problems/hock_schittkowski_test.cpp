@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/scene/problem_reader.hpp"
-#include "optimization/design_solve.hpp"
+#include "optimization/design/design_solve.hpp"
 
 /// Problems 21, 35, 37, 71 and 76 of W. Hock & K. Schittkowski, Test Examples for Nonlinear
 /// Programming Codes, Springer 1981, with the optima of the book, written in the language of problem

@@ -7,8 +7,8 @@
 #include "core/base/error.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
-#include "optimization/design_problem.hpp"
-#include "optimization/design_solve.hpp"
+#include "optimization/design/design_problem.hpp"
+#include "optimization/design/design_solve.hpp"
 
 namespace {
 

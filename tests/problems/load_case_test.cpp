@@ -8,9 +8,9 @@
 #include "core/base/parallel.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/problem_reader.hpp"
-#include "optimization/design_solve.hpp"
-#include "optimization/peak_problem.hpp"
-#include "optimization/staged_solve.hpp"
+#include "optimization/design/design_solve.hpp"
+#include "optimization/design/peak_problem.hpp"
+#include "optimization/design/staged_solve.hpp"
 #include "tests/support/problem_runs.hpp"
 
 /// Load cases: closed forms of numbers over cases, and a mechanism against two copies of it.

@@ -7,8 +7,8 @@
 #include "core/scene/problem_reader.hpp"
 #include "core/scene/response_parts.hpp"
 #include "optimization/backends.hpp"
-#include "optimization/design_solve.hpp"
-#include "optimization/peak_problem.hpp"
+#include "optimization/design/design_solve.hpp"
+#include "optimization/design/peak_problem.hpp"
 
 /// The largest of several responses, as an objective and as a limit.
 namespace pleuel::test {

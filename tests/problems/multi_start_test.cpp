@@ -1,4 +1,4 @@
-#include "optimization/multi_start.hpp"
+#include "optimization/design/multi_start.hpp"
 
 #include <cmath>
 
@@ -8,7 +8,7 @@
 
 #include "core/scene/problem_reader.hpp"
 #include "optimization/backends.hpp"
-#include "optimization/setting_text.hpp"
+#include "optimization/design/setting_text.hpp"
 #include "tests/optimization/backend_names.hpp"
 
 namespace pleuel::test {

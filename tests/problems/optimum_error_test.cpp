@@ -1,4 +1,4 @@
-#include "optimization/optimum_error.hpp"
+#include "optimization/design/optimum_error.hpp"
 
 #include <cmath>
 
@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/problem_reader.hpp"
-#include "optimization/design_solve.hpp"
+#include "optimization/design/design_solve.hpp"
 
 /// How far optima are from those of finer simulations, against optimizing with these.
 namespace pleuel::test {

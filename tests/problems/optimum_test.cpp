@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/problem_reader.hpp"
-#include "optimization/design_problem.hpp"
-#include "optimization/design_solve.hpp"
+#include "optimization/design/design_problem.hpp"
+#include "optimization/design/design_solve.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "optimization/peak_problem.hpp"
+#include "optimization/design/peak_problem.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/problem_reader.hpp"
-#include "optimization/design_solve.hpp"
+#include "optimization/design/design_solve.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "optimization/size_choice.hpp"
+#include "optimization/design/size_choice.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/problem_reader.hpp"
-#include "optimization/multi_start.hpp"
+#include "optimization/design/multi_start.hpp"
 
 namespace pleuel::test {
 namespace {

@@ -1,6 +1,6 @@
 /// Optimizations that choose their steps, elements and effects.
 
-#include "optimization/staged_solve.hpp"
+#include "optimization/design/staged_solve.hpp"
 
 #include <cmath>
 #include <filesystem>

@@ -10,7 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/response/analysis.hpp"
-#include "optimization/design_solve.hpp"
+#include "optimization/design/design_solve.hpp"
 #include "studies/accuracy.hpp"
 #include "tests/studies/quick_problem.hpp"
 

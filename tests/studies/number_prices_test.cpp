@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/problem_reader.hpp"
-#include "optimization/design_solve.hpp"
+#include "optimization/design/design_solve.hpp"
 #include "studies/priced_numbers.hpp"
 
 namespace pleuel::test {

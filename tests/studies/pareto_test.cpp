@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 
 #include "core/base/error.hpp"
-#include "optimization/design_problem.hpp"
-#include "optimization/design_solve.hpp"
+#include "optimization/design/design_problem.hpp"
+#include "optimization/design/design_solve.hpp"
 #include "tests/studies/quick_problem.hpp"
 
 namespace pleuel {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "optimization/staged_solve.hpp"
+#include "optimization/design/staged_solve.hpp"
 
 /// Optimization with sizes that are chosen from lists (DesignVariable::choices).
 namespace pleuel {

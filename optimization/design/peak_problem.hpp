@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/scene/response_parts.hpp"
-#include "optimization/design_problem.hpp"
-#include "optimization/peak_windows.hpp"
+#include "optimization/design/design_problem.hpp"
+#include "optimization/design/peak_windows.hpp"
 
 namespace pleuel {
 

@@ -1,4 +1,4 @@
-#include "optimization/packed_solution.hpp"
+#include "optimization/design/packed_solution.hpp"
 
 #include <optional>
 #include <utility>

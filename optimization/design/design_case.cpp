@@ -1,11 +1,11 @@
-#include "optimization/design_case.hpp"
+#include "optimization/design/design_case.hpp"
 
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/stopwatch.hpp"
-#include "optimization/setting_text.hpp"
+#include "optimization/design/setting_text.hpp"
 
 namespace pleuel {
 

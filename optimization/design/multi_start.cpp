@@ -1,4 +1,4 @@
-#include "optimization/multi_start.hpp"
+#include "optimization/design/multi_start.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 #include "core/base/parallel.hpp"
 #include "core/base/tasks.hpp"
 #include "core/scene/packed_problem.hpp"
+#include "optimization/design/packed_solution.hpp"
 #include "optimization/packed_options.hpp"
 #include "optimization/packed_result.hpp"
-#include "optimization/packed_solution.hpp"
 #include "optimization/starts.hpp"
 
 namespace pleuel {

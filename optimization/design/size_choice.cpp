@@ -1,4 +1,4 @@
-#include "optimization/size_choice.hpp"
+#include "optimization/design/size_choice.hpp"
 
 #include <algorithm>
 #include <cmath>

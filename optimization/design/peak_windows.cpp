@@ -1,10 +1,10 @@
-#include "optimization/peak_windows.hpp"
+#include "optimization/design/peak_windows.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/scene/response_parts.hpp"
-#include "optimization/peak_rows.hpp"
+#include "optimization/design/peak_rows.hpp"
 #include "sensitivity/method_choice.hpp"
 
 namespace pleuel {

@@ -1,4 +1,4 @@
-#include "optimization/margin_problem.hpp"
+#include "optimization/design/margin_problem.hpp"
 
 #include "core/base/error.hpp"
 #include "optimization/robust_problem.hpp"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "optimization/design_problem.hpp"
+#include "optimization/design/design_problem.hpp"
 
 namespace pleuel {
 

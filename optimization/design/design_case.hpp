@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/response/analysis.hpp"
+#include "optimization/design/peak_rows.hpp"
 #include "optimization/evaluation_store.hpp"
-#include "optimization/peak_rows.hpp"
 #include "optimization/problem.hpp"
 #include "sensitivity/gradients.hpp"
 

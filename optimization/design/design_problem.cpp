@@ -1,4 +1,4 @@
-#include "optimization/design_problem.hpp"
+#include "optimization/design/design_problem.hpp"
 
 #include <algorithm>
 #include <utility>

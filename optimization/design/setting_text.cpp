@@ -1,4 +1,4 @@
-#include "optimization/setting_text.hpp"
+#include "optimization/design/setting_text.hpp"
 
 #include <variant>
 

@@ -1,4 +1,4 @@
-#include "optimization/peak_problem.hpp"
+#include "optimization/design/peak_problem.hpp"
 
 #include <algorithm>
 #include <cmath>

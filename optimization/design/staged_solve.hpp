@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/trust/setting_choice.hpp"
-#include "optimization/design_problem.hpp"
-#include "optimization/design_solve.hpp"
+#include "optimization/design/design_problem.hpp"
+#include "optimization/design/design_solve.hpp"
 #include "optimization/solve.hpp"
 
 /// Optimization of a problem file in stages: with coarse settings first where an accuracy is asked

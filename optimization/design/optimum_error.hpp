@@ -5,7 +5,7 @@
 
 #include "core/base/error_bar.hpp"
 #include "core/trust/doubts.hpp"
-#include "optimization/design_problem.hpp"
+#include "optimization/design/design_problem.hpp"
 #include "optimization/solve.hpp"
 
 /// How far an optimum may be from that of an arbitrarily fine simulation.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/scene/shown_unit.hpp"
-#include "optimization/design_case.hpp"
+#include "optimization/design/design_case.hpp"
 #include "optimization/problem.hpp"
 
 namespace pleuel {

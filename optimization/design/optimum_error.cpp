@@ -1,4 +1,4 @@
-#include "optimization/optimum_error.hpp"
+#include "optimization/design/optimum_error.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "optimization/staged_solve.hpp"
+#include "optimization/design/staged_solve.hpp"
 
 /// Optimization from several designs: local methods find the optimum of the basin that they begin
 /// in.

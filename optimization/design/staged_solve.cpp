@@ -1,4 +1,4 @@
-#include "optimization/staged_solve.hpp"
+#include "optimization/design/staged_solve.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "optimization/design_problem.hpp"
+#include "optimization/design/design_problem.hpp"
 #include "optimization/find_optimum.hpp"
 #include "optimization/solve.hpp"
 

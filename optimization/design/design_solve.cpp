@@ -1,4 +1,4 @@
-#include "optimization/design_solve.hpp"
+#include "optimization/design/design_solve.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,14 +14,14 @@
 #include "core/trust/doubts.hpp"
 #include "core/trust/nested_runs.hpp"
 #include "optimization/broken_limits.hpp"
-#include "optimization/case_trust.hpp"
+#include "optimization/design/case_trust.hpp"
+#include "optimization/design/margin_problem.hpp"
+#include "optimization/design/optimum_error.hpp"
+#include "optimization/design/peak_problem.hpp"
+#include "optimization/design/peak_windows.hpp"
 #include "optimization/designs_to_try.hpp"
 #include "optimization/find_optimum.hpp"
 #include "optimization/kkt_audit.hpp"
-#include "optimization/margin_problem.hpp"
-#include "optimization/optimum_error.hpp"
-#include "optimization/peak_problem.hpp"
-#include "optimization/peak_windows.hpp"
 #include "optimization/prices.hpp"
 #include "optimization/scaling.hpp"
 #include "optimization/verdict.hpp"

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "optimization/staged_solve.hpp"
+#include "optimization/design/staged_solve.hpp"
 
 namespace pleuel {
 

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "core/trust/doubts.hpp"
-#include "optimization/design_problem.hpp"
+#include "optimization/design/design_problem.hpp"
 
 namespace pleuel {
 

@@ -1,4 +1,4 @@
-#include "optimization/case_trust.hpp"
+#include "optimization/design/case_trust.hpp"
 
 #include <utility>
 

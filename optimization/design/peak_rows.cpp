@@ -1,4 +1,4 @@
-#include "optimization/peak_rows.hpp"
+#include "optimization/design/peak_rows.hpp"
 
 #include <algorithm>
 #include <utility>
