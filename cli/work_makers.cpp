@@ -1,7 +1,7 @@
 #include "cli/work_makers.hpp"
 
 #include "optimization/design/multi_start.hpp"
-#include "optimization/design/size_choice.hpp"
+#include "optimization/design/size_trials.hpp"
 #include "studies/pareto.hpp"
 #include "studies/uncertainty.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -10,14 +9,11 @@
 #include <fmt/format.h>
 
 #include "core/base/number_text.hpp"
-#include "core/base/parallel.hpp"
 #include "core/base/stopwatch.hpp"
-#include "core/base/tasks.hpp"
-#include "core/scene/packed_problem.hpp"
 #include "optimization/broken_limits.hpp"
+#include "optimization/design/size_model.hpp"
+#include "optimization/design/size_trials.hpp"
 #include "optimization/linear_choice.hpp"
-#include "optimization/packed_options.hpp"
-#include "optimization/packed_result.hpp"
 #include "optimization/scaling.hpp"
 
 namespace pleuel {
@@ -34,165 +30,6 @@ constexpr int most_batches = 6;
 /// Sizes up and down that a linear model looks at.
 constexpr int reach = 2;
 
-using Sizes = std::vector<int>;  ///< place in its list, by chosen variable
-
-/// A choice that was tried.
-struct Trial {
-  Eigen::VectorXd x;  ///< [SI]
-  double objective = 0.0, max_violation = std::numeric_limits<double>::infinity();
-  Eigen::VectorXd constraints;
-  History history;
-  double seconds = 0.0;
-
-  bool has_failed() const { return constraints.size() == 0 && !std::isfinite(max_violation); }
-  bool keeps_limits() const { return max_violation <= Tolerances().violation; }
-};
-
-template <class Archive>
-void transfer(Archive& archive, Trial& trial) {
-  auto& [x, objective, violation, constraints, history, seconds] = trial;
-  archive(x, objective, violation, constraints, history, seconds);
-}
-
-bool is_better(const Trial& one, const Trial& other) {
-  if (one.keeps_limits() != other.keeps_limits()) return one.keeps_limits();
-  return one.keeps_limits() ? one.objective < other.objective
-                            : one.max_violation < other.max_violation;
-}
-
-std::vector<std::size_t> chosen_variables(const ProblemFile& file) {
-  std::vector<std::size_t> chosen;
-  for (std::size_t i = 0; i < file.variables.size(); ++i) {
-    if (file.variables[i].has_choices()) chosen.push_back(i);
-  }
-  return chosen;
-}
-
-/// Whether each choice has to be optimized: there are other variables, or margins that follow from
-/// gradients.
-bool needs_optimization(const ProblemFile& file) {
-  return std::any_of(file.variables.begin(), file.variables.end(),
-                     [](const DesignVariable& variable) {
-                       return !variable.has_choices() && variable.lower < variable.upper;
-                     }) ||
-         std::any_of(file.constraints.begin(), file.constraints.end(),
-                     [](const ConstraintSettings& one) { return one.deviations > 0.0; });
-}
-
-/// The problem with these sizes fixed. Its start stays: what the model decides there stays too.
-ProblemFile with_sizes(ProblemFile file, const Eigen::VectorXd& x) {
-  for (std::size_t i = 0; i < file.variables.size(); ++i) {
-    DesignVariable& variable = file.variables[i];
-    if (variable.has_choices()) variable.lower = variable.upper = x(i);
-  }
-  return file;
-}
-
-EvaluationRecord failed_record(const Eigen::VectorXd& x, const std::string& failure) {
-  EvaluationRecord record;
-  record.evaluation = 1;
-  record.x = x;
-  record.failure = failure;
-  return record;
-}
-
-/// Choices to be tried, one a task.
-class TrialWork : public TaskWork {
- public:
-  ProblemFile file;
-  std::vector<Eigen::VectorXd> designs;
-  Eigen::VectorXd scales;
-  SolveOptions options;
-  bool has_store = false;
-
-  std::string run(int task, const std::string& /*needed*/, TaskCaller& caller) override {
-    RemoteStore store(caller);
-    EvaluationStore* known = has_store ? &store : nullptr;
-    const Eigen::VectorXd& x = designs[task];
-    return packed(needs_optimization(file) ? optimized(x, known) : simulated(x, known));
-  }
-
- private:
-  Trial simulated(const Eigen::VectorXd& x, EvaluationStore* store) const {
-    DesignProblem design(file, available_threads(), store);
-    const Stopwatch stopwatch;
-    const Attempt attempt = attempt_evaluation(design, x, Request::values);
-    Trial trial;
-    trial.x = x;
-    EvaluationRecord record = failed_record(x, attempt.failure);
-    if (attempt.evaluation) {
-      trial.objective = record.objective = attempt.evaluation->objective;
-      trial.constraints = record.constraints = attempt.evaluation->constraints;
-      trial.max_violation = record.max_violation = max_violation(design, trial.constraints, scales);
-    }
-    trial.seconds = record.seconds = stopwatch.seconds();
-    trial.history = {simulated_with(file, std::move(record))};
-    return trial;
-  }
-
-  Trial optimized(const Eigen::VectorXd& x, EvaluationStore* store) const {
-    ProblemFile fixed = with_sizes(file, x);
-    fixed.simulation.checks_resolution = false;  // of the answer alone
-    DesignProblem design(std::move(fixed), available_threads(), store);
-    design.start_from(x);
-    const Result result = solve_design(design, options);
-    Trial trial;
-    trial.x = result.x;
-    trial.history = result.history;
-    trial.seconds = result.seconds;
-    if (!result.evaluation.has_gradients()) return trial;
-    trial.objective = result.evaluation.objective;
-    trial.constraints = result.evaluation.constraints;
-    trial.max_violation = result.max_violation;
-    return trial;
-  }
-};
-
-/// Hears of the trials.
-class Trials : public Tasks {
- public:
-  Trials(const ProblemFile& file, const std::vector<Eigen::VectorXd>& designs,
-         const Eigen::VectorXd& scales, const SolveOptions& options, const Execution& execution)
-      : execution_(execution), trials_(designs.size()) {
-    work_.file = file;
-    work_.designs = designs;
-    work_.scales = scales;
-    work_.options = options;
-    work_.has_store = execution.store != nullptr;
-  }
-
-  int count() const override { return static_cast<int>(trials_.size()); }
-
-  PackedWork packed_work() const override {
-    return {trial_work_name,
-            packed(work_.file, work_.designs, work_.scales, work_.options, work_.has_store)};
-  }
-
-  std::string run(int task, const std::string& needed, TaskCaller& caller) override {
-    return work_.run(task, needed, caller);
-  }
-
-  std::string reply(int /*task*/, const std::string& question) override {
-    return reply_of(*execution_.store, question);
-  }
-
-  void take(int task, const std::string& answer) override {
-    trials_[task] = unpacked<Trial>(answer);
-  }
-
-  void fail(int task, const std::string& failure) override {
-    trials_[task].x = work_.designs[task];
-    trials_[task].history = {failed_record(work_.designs[task], failure)};
-  }
-
-  std::vector<Trial> take_trials() { return std::move(trials_); }
-
- private:
-  TrialWork work_;
-  const Execution& execution_;
-  std::vector<Trial> trials_;
-};
-
 class SizeSearch {
  public:
   SizeSearch(StagedSolution& solution, const SolveOptions& options, const Execution& execution,
@@ -203,16 +40,14 @@ class SizeSearch {
         execution_(execution),
         observer_(observer),
         notice_(notice),
-        chosen_(chosen_variables(file_)),
+        lists_(file_.variables),
         is_optimized_(needs_optimization(file_)) {
     options_.starts = 1;
     const Result& relaxed = solution.result;
     report_.relaxed_status = relaxed.status;
     report_.relaxed_objective = relaxed.evaluation.objective;
     report_.relaxed_x = relaxed.x;
-    for (const std::size_t i : chosen_) {
-      report_.combinations *= static_cast<double>(file_.variables[i].choices.size());
-    }
+    report_.combinations = lists_.combinations();
   }
 
   SizeChoiceReport run() {
@@ -227,7 +62,7 @@ class SizeSearch {
         objective_text(report_.relaxed_objective), to_string(report_.relaxed_status)));
     if (report_.is_exhaustive) {
       notify(fmt::format("all {} choices are tried", report_.combinations));
-      try_all();
+      attempt(lists_.all(), report_.relaxed_x);
     } else {
       search();
     }
@@ -236,32 +71,6 @@ class SizeSearch {
   }
 
  private:
-  // ---- designs
-
-  double value(std::size_t k, int size) const {
-    return file_.variables[chosen_[k]].choices[static_cast<std::size_t>(size)].value;
-  }
-  int sizes(std::size_t k) const {
-    return static_cast<int>(file_.variables[chosen_[k]].choices.size());
-  }
-
-  Eigen::VectorXd design(const Sizes& choice, Eigen::VectorXd x) const {
-    for (std::size_t k = 0; k < chosen_.size(); ++k) {
-      x(static_cast<Eigen::Index>(chosen_[k])) = value(k, choice[k]);
-    }
-    return x;
-  }
-
-  /// The sizes at or below those of a design.
-  Sizes below(const Eigen::VectorXd& x) const {
-    Sizes found(chosen_.size(), 0);
-    for (std::size_t k = 0; k < chosen_.size(); ++k) {
-      const double at = x(static_cast<Eigen::Index>(chosen_[k]));
-      while (found[k] + 1 < sizes(k) && value(k, found[k] + 1) <= at) ++found[k];
-    }
-    return found;
-  }
-
   // ---- trials
 
   /// Tries those that were not tried yet, the others beginning at the given design.
@@ -273,24 +82,22 @@ class SizeSearch {
     }
     if (news.empty()) return;
     std::vector<Eigen::VectorXd> designs;
-    for (const Sizes& choice : news) designs.push_back(design(choice, from));
-    Trials trials(file_, designs, scales_, options_, execution_);
-    run_tasks(trials, execution_.tasks);
-    std::vector<Trial> answers = trials.take_trials();
+    for (const Sizes& choice : news) designs.push_back(lists_.design(choice, from));
+    std::vector<SizeTrial> answers = try_sizes(file_, designs, scales_, options_, execution_);
     for (std::size_t i = 0; i < news.size(); ++i) keep(news[i], std::move(answers[i]));
   }
 
-  void keep(const Sizes& choice, Trial trial) {
+  void keep(const Sizes& choice, SizeTrial trial) {
     add_effort(trial);
     trial.history.clear();
     ++report_.tried;
     if (trial.keeps_limits()) ++report_.feasible;
-    const Trial& kept = tried_.emplace(choice, std::move(trial)).first->second;
+    const SizeTrial& kept = tried_.emplace(choice, std::move(trial)).first->second;
     if (!kept.has_failed() && (!best_ || is_better(kept, tried_.at(*best_)))) best_ = choice;
   }
 
   /// The effort of the whole run, in the relaxed result.
-  void add_effort(Trial& trial) {
+  void add_effort(SizeTrial& trial) {
     Result& all = solution_.result;
     for (EvaluationRecord& record : trial.history) {
       record = following(std::move(record), all);
@@ -305,25 +112,12 @@ class SizeSearch {
     all.history.insert(all.history.end(), trial.history.begin(), trial.history.end());
   }
 
-  void try_all() {
-    std::vector<Sizes> all;
-    Sizes choice(chosen_.size(), 0);
-    for (bool is_new = true; is_new;) {
-      all.push_back(choice);
-      is_new = false;
-      for (std::size_t k = chosen_.size(); k-- > 0 && !is_new;) {
-        is_new = ++choice[k] < sizes(k);
-        if (!is_new) choice[k] = 0;
-      }
-    }
-    attempt(all, report_.relaxed_x);
-  }
-
   // ---- search
 
   void search() {
-    propose(report_.relaxed_x, solution_.result, below(report_.relaxed_x), 0, 1);
-    if (!best_) attempt({below(report_.relaxed_x), nearest(report_.relaxed_x)}, report_.relaxed_x);
+    const Eigen::VectorXd& relaxed = report_.relaxed_x;
+    propose(relaxed, solution_.result, lists_.below(relaxed), 0, 1);
+    if (!best_) attempt({lists_.below(relaxed), lists_.nearest(relaxed)}, relaxed);
     for (int round = 0; best_ && round < most_rounds_of_choice; ++round) {
       const Sizes from = *best_;
       const Eigen::VectorXd x = tried_.at(from).x;
@@ -333,7 +127,7 @@ class SizeSearch {
         propose(x, *around, from, -reach, reach);
         if (report_.tried == before) break;
       }
-      if (*best_ == from) attempt(neighbours(from), x);
+      if (*best_ == from) attempt(lists_.neighbours(from), x);
       if (*best_ == from) {
         is_settled_ = true;
         return;
@@ -342,29 +136,6 @@ class SizeSearch {
                          objective_text(tried_.at(*best_).objective),
                          tried_.at(*best_).keeps_limits() ? "" : ", outside the limits"));
     }
-  }
-
-  Sizes nearest(const Eigen::VectorXd& x) const {
-    Sizes found = below(x);
-    for (std::size_t k = 0; k < chosen_.size(); ++k) {
-      const double at = x(static_cast<Eigen::Index>(chosen_[k]));
-      const bool has_next = found[k] + 1 < sizes(k);
-      if (has_next && value(k, found[k] + 1) - at < at - value(k, found[k])) ++found[k];
-    }
-    return found;
-  }
-
-  /// Each size one up or down.
-  std::vector<Sizes> neighbours(const Sizes& from) const {
-    std::vector<Sizes> all;
-    for (std::size_t k = 0; k < chosen_.size(); ++k) {
-      for (const int step : {-1, 1}) {
-        Sizes one = from;
-        one[k] += step;
-        if (one[k] >= 0 && one[k] < sizes(k)) all.push_back(std::move(one));
-      }
-    }
-    return all;
   }
 
   /// Values and gradients at the best choice; multipliers where other variables were optimized.
@@ -376,7 +147,7 @@ class SizeSearch {
     result.x = x;
     const Stopwatch stopwatch;
     Attempt attempt = attempt_evaluation(problem, x, Request::values_and_gradients);
-    Trial effort;
+    SizeTrial effort;
     EvaluationRecord record;
     record.evaluation = record.iteration = 1;
     record.purpose = Purpose::audit;
@@ -406,7 +177,9 @@ class SizeSearch {
 
   /// Tries what a linear model at x thinks best: sizes from so many below to so many above those given.
   void propose(const Eigen::VectorXd& x, const Result& at, const Sizes& around, int down, int up) {
-    const LinearChoiceModel model = linear_model(x, at, around, down, up);
+    const LinearChoiceModel model =
+        size_model(lists_, *solution_.problem, x, at, around, scales_,
+                   {down, up, is_optimized_, report_.relaxed_objective});
     const std::size_t most = is_optimized_ ? optimized_proposals : proposals;
     std::vector<Sizes> choices;
     std::set<Sizes> known;
@@ -431,60 +204,10 @@ class SizeSearch {
     return one.objective < tried_.at(*best_).objective;
   }
 
-  LinearChoiceModel linear_model(const Eigen::VectorXd& x, const Result& at, const Sizes& around,
-                                 int down, int up) const {
-    const Eigen::Index rows = is_optimized_ ? 0 : at.evaluation.constraints.size();
-    LinearChoiceModel model;
-    model.objective = at.evaluation.objective;
-    model.constraints = at.evaluation.constraints.head(rows);
-    model.lower.resize(rows);
-    model.upper.resize(rows);
-    model.scales = scales_.head(rows);
-    for (Eigen::Index j = 0; j < rows; ++j) {
-      model.lower(j) = solution_.problem->constraints()[static_cast<std::size_t>(j)].lower;
-      model.upper(j) = solution_.problem->constraints()[static_cast<std::size_t>(j)].upper;
-    }
-    // Where other variables follow, what they cost is in the multipliers: df = (∇f + Jᵀμ) · dx.
-    Eigen::VectorXd slope = at.evaluation.objective_gradient;
-    if (is_optimized_ && at.constraint_multipliers.size() > 0) {
-      slope += at.evaluation.constraint_jacobian.transpose() * at.constraint_multipliers;
-    }
-    for (std::size_t k = 0; k < chosen_.size(); ++k) {
-      const auto i = static_cast<Eigen::Index>(chosen_[k]);
-      std::vector<LinearOption> options;
-      for (int size = std::max(0, around[k] + down); size <= std::min(sizes(k) - 1, around[k] + up);
-           ++size) {
-        const double change = value(k, size) - x(i);
-        Eigen::VectorXd constraints = at.evaluation.constraint_jacobian.col(i).head(rows) * change;
-        for (Eigen::Index j = 0; j < rows; ++j) {
-          if (constraints(j) * change < 0.0) constraints(j) *= reciprocal(k, x(i), value(k, size));
-        }
-        options.push_back(
-            {size, slope(i) * change + distance_cost(k, change), std::move(constraints)});
-      }
-      model.options.push_back(std::move(options));
-    }
-    return model;
-  }
-
-  /// What falls as a size grows, as a stress does, is taken to be linear in its reciprocal (Fleury &
-  /// Braibant 1986): c' · (y − x) · x / y.
-  double reciprocal(std::size_t k, double from, double to) const {
-    const bool is_size = value(k, 0) > 0.0 && to > 0.0;
-    return is_size ? from / to : 1.0;
-  }
-
-  /// Where slopes vanish, as at an optimum between the sizes, the nearer size is the better guess.
-  double distance_cost(std::size_t k, double change) const {
-    if (!is_optimized_ || sizes(k) < 2) return 0.0;
-    const double gap = (value(k, sizes(k) - 1) - value(k, 0)) / (sizes(k) - 1);
-    return 1e-3 * std::abs(report_.relaxed_objective) * (change / gap) * (change / gap);
-  }
-
   // ---- the answer
 
   void conclude() {
-    const Trial& best = tried_.at(*best_);
+    const SizeTrial& best = tried_.at(*best_);
     const Result before = std::move(solution_.result);
     solution_.problem = std::make_unique<DesignProblem>(with_sizes(file_, best.x),
                                                         execution_.tasks.jobs, execution_.store);
@@ -594,22 +317,16 @@ class SizeSearch {
   const Execution& execution_;
   const Observer& observer_;
   const Notice& notice_;
-  std::vector<std::size_t> chosen_;
+  const SizeLists lists_;
   bool is_optimized_;
   Eigen::VectorXd scales_;
-  std::map<Sizes, Trial> tried_;
+  std::map<Sizes, SizeTrial> tried_;
   std::optional<Sizes> best_;
   bool is_settled_ = false;
   SizeChoiceReport report_;
 };
 
 }  // namespace
-
-std::unique_ptr<TaskWork> make_trial_work(const std::string& content) {
-  auto work = std::make_unique<TrialWork>();
-  unpack(content, work->file, work->designs, work->scales, work->options, work->has_store);
-  return work;
-}
 
 double SizeChoiceReport::penalty(double objective) const {
   if (relaxed_objective == 0.0) return 0.0;

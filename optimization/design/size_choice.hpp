@@ -1,8 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <string>
-
 #include "optimization/design/staged_solve.hpp"
 
 /// Optimization with sizes that are chosen from lists (DesignVariable::choices).
@@ -48,9 +45,5 @@ bool keeps_choices(const ProblemFile& file, const Eigen::VectorXd& x);
 SizeChoiceReport choose_sizes(StagedSolution& solution, const SolveOptions& options,
                               const Execution& execution, const Observer& observer = {},
                               const Notice& notice = {});
-
-/// The choices that are tried, made again on another rank (PackedWork).
-inline constexpr const char* trial_work_name = "trials";
-std::unique_ptr<TaskWork> make_trial_work(const std::string& content);
 
 }  // namespace pleuel

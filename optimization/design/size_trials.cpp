@@ -1,0 +1,169 @@
+#include "optimization/design/size_trials.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/parallel.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/base/tasks.hpp"
+#include "core/scene/packed_problem.hpp"
+#include "optimization/packed_options.hpp"
+#include "optimization/packed_result.hpp"
+#include "optimization/scaling.hpp"
+
+namespace pleuel {
+
+template <class Archive>
+void transfer(Archive& archive, SizeTrial& trial) {
+  auto& [x, objective, violation, constraints, history, seconds] = trial;
+  archive(x, objective, violation, constraints, history, seconds);
+}
+
+namespace {
+
+EvaluationRecord failed_record(const Eigen::VectorXd& x, const std::string& failure) {
+  EvaluationRecord record;
+  record.evaluation = 1;
+  record.x = x;
+  record.failure = failure;
+  return record;
+}
+
+/// Choices to be tried, one a task.
+class TrialWork : public TaskWork {
+ public:
+  ProblemFile file;
+  std::vector<Eigen::VectorXd> designs;
+  Eigen::VectorXd scales;
+  SolveOptions options;
+  bool has_store = false;
+
+  std::string run(int task, const std::string& /*needed*/, TaskCaller& caller) override {
+    RemoteStore store(caller);
+    EvaluationStore* known = has_store ? &store : nullptr;
+    const Eigen::VectorXd& x = designs[task];
+    return packed(needs_optimization(file) ? optimized(x, known) : simulated(x, known));
+  }
+
+ private:
+  SizeTrial simulated(const Eigen::VectorXd& x, EvaluationStore* store) const {
+    DesignProblem design(file, available_threads(), store);
+    const Stopwatch stopwatch;
+    const Attempt attempt = attempt_evaluation(design, x, Request::values);
+    SizeTrial trial;
+    trial.x = x;
+    EvaluationRecord record = failed_record(x, attempt.failure);
+    if (attempt.evaluation) {
+      trial.objective = record.objective = attempt.evaluation->objective;
+      trial.constraints = record.constraints = attempt.evaluation->constraints;
+      trial.max_violation = record.max_violation = max_violation(design, trial.constraints, scales);
+    }
+    trial.seconds = record.seconds = stopwatch.seconds();
+    trial.history = {simulated_with(file, std::move(record))};
+    return trial;
+  }
+
+  SizeTrial optimized(const Eigen::VectorXd& x, EvaluationStore* store) const {
+    ProblemFile fixed = with_sizes(file, x);
+    fixed.simulation.checks_resolution = false;  // of the answer alone
+    DesignProblem design(std::move(fixed), available_threads(), store);
+    design.start_from(x);
+    const Result result = solve_design(design, options);
+    SizeTrial trial;
+    trial.x = result.x;
+    trial.history = result.history;
+    trial.seconds = result.seconds;
+    if (!result.evaluation.has_gradients()) return trial;
+    trial.objective = result.evaluation.objective;
+    trial.constraints = result.evaluation.constraints;
+    trial.max_violation = result.max_violation;
+    return trial;
+  }
+};
+
+/// Hears of the trials.
+class Trials : public Tasks {
+ public:
+  Trials(const ProblemFile& file, const std::vector<Eigen::VectorXd>& designs,
+         const Eigen::VectorXd& scales, const SolveOptions& options, const Execution& execution)
+      : execution_(execution), trials_(designs.size()) {
+    work_.file = file;
+    work_.designs = designs;
+    work_.scales = scales;
+    work_.options = options;
+    work_.has_store = execution.store != nullptr;
+  }
+
+  int count() const override { return static_cast<int>(trials_.size()); }
+
+  PackedWork packed_work() const override {
+    return {trial_work_name,
+            packed(work_.file, work_.designs, work_.scales, work_.options, work_.has_store)};
+  }
+
+  std::string run(int task, const std::string& needed, TaskCaller& caller) override {
+    return work_.run(task, needed, caller);
+  }
+
+  std::string reply(int /*task*/, const std::string& question) override {
+    return reply_of(*execution_.store, question);
+  }
+
+  void take(int task, const std::string& answer) override {
+    trials_[task] = unpacked<SizeTrial>(answer);
+  }
+
+  void fail(int task, const std::string& failure) override {
+    trials_[task].x = work_.designs[task];
+    trials_[task].history = {failed_record(work_.designs[task], failure)};
+  }
+
+  std::vector<SizeTrial> take_trials() { return std::move(trials_); }
+
+ private:
+  TrialWork work_;
+  const Execution& execution_;
+  std::vector<SizeTrial> trials_;
+};
+
+}  // namespace
+
+bool is_better(const SizeTrial& one, const SizeTrial& other) {
+  if (one.keeps_limits() != other.keeps_limits()) return one.keeps_limits();
+  return one.keeps_limits() ? one.objective < other.objective
+                            : one.max_violation < other.max_violation;
+}
+
+bool needs_optimization(const ProblemFile& file) {
+  return std::any_of(file.variables.begin(), file.variables.end(),
+                     [](const DesignVariable& variable) {
+                       return !variable.has_choices() && variable.lower < variable.upper;
+                     }) ||
+         std::any_of(file.constraints.begin(), file.constraints.end(),
+                     [](const ConstraintSettings& one) { return one.deviations > 0.0; });
+}
+
+ProblemFile with_sizes(ProblemFile file, const Eigen::VectorXd& x) {
+  for (std::size_t i = 0; i < file.variables.size(); ++i) {
+    DesignVariable& variable = file.variables[i];
+    if (variable.has_choices()) variable.lower = variable.upper = x(i);
+  }
+  return file;
+}
+
+std::vector<SizeTrial> try_sizes(const ProblemFile& file,
+                                 const std::vector<Eigen::VectorXd>& designs,
+                                 const Eigen::VectorXd& scales, const SolveOptions& options,
+                                 const Execution& execution) {
+  Trials trials(file, designs, scales, options, execution);
+  run_tasks(trials, execution.tasks);
+  return trials.take_trials();
+}
+
+std::unique_ptr<TaskWork> make_trial_work(const std::string& content) {
+  auto work = std::make_unique<TrialWork>();
+  unpack(content, work->file, work->designs, work->scales, work->options, work->has_store);
+  return work;
+}
+
+}  // namespace pleuel
