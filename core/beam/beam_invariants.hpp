@@ -1,5 +1,8 @@
 #pragma once
 
+#include <type_traits>
+
+#include "core/base/dual.hpp"
 #include "core/beam/beam.hpp"
 #include "core/beam/beam_shape.hpp"
 #include "core/beam/elastic_coordinates.hpp"
@@ -141,34 +144,57 @@ inline ElasticPattern beam_pattern(const ElasticCoordinates& coordinates) {
   return pattern_of_groups(coordinates.size(), groups);
 }
 
-/// Invariants of a beam in its local axes (origin at the first node), by one set of shape functions
-/// and exact quadrature.
+namespace beam_detail {
+
 template <class Scalar>
-Invariants<Scalar> beam_invariants(const Beam<Scalar>& beam, const ElasticCoordinates& coordinates,
-                                   RotaryInertia rotary = RotaryInertia::included) {
+Invariants<Scalar> no_invariants(const ElasticCoordinates& coordinates) {
   Invariants<Scalar> sum;
   const Scalar zero(0);
   sum.pattern = beam_pattern(coordinates);
-  sum.pairs = beam_detail::coupled_pairs(coordinates);
+  sum.pairs = coupled_pairs(coordinates);
   const int n = sum.size(), nonzeros = sum.pattern.nonzeros();
   sum.shape.setConstant(3, n, zero);
   sum.mixed.setConstant(9, n, zero);
   sum.moments.setConstant(nonzeros, static_cast<int>(sum.pairs.size()), zero);
   sum.stiffness.setConstant(nonzeros, zero);
   sum.mass_matrix.setConstant(nonzeros, zero);
+  return sum;
+}
 
+template <class Scalar>
+void add_element_stiffness(const BeamElement<Scalar>& element, const std::array<int, 12>& indices,
+                           Invariants<Scalar>& sum) {
+  const auto stiffness = element_stiffness(element);
+  for (int i = 0; i < 12; ++i) {
+    for (int j = 0; j < 12; ++j) {
+      const int row = indices[i], col = indices[j];
+      if (row >= 0 && col >= 0) sum.stiffness(sum.pattern.find(row, col)) += stiffness(i, j);
+    }
+  }
+}
+
+/// Whether the invariants of an element depend on the seeded variable.
+inline bool is_varied(const BeamElement<Dual>& element) {
+  const SectionProperties<Dual>& section = element.section;
+  for (const Dual& number : {element.length, element.young, element.shear, element.density,
+                             section.area, section.inertia_y, section.inertia_z, section.torsion}) {
+    if (derivative_of(number) != 0.0) return true;
+  }
+  return false;
+}
+
+/// @param counts  which elements are summed, by (element, its start along the beam)
+template <class Scalar, class Predicate>
+Invariants<Scalar> sum_elements(const Beam<Scalar>& beam, const ElasticCoordinates& coordinates,
+                                RotaryInertia rotary, const Predicate& counts) {
+  Invariants<Scalar> sum = no_invariants<Scalar>(coordinates);
   Scalar start(0);
   for (int e = 0; e < static_cast<int>(beam.elements.size()); ++e) {
     const BeamElement<Scalar>& element = beam.elements[e];
-    const auto indices = coordinates.element_indices(e);
-    beam_detail::add_element_inertia(element, start, rotary, indices, sum);
-    const auto stiffness = element_stiffness(element);
-    for (int i = 0; i < 12; ++i) {
-      for (int j = 0; j < 12; ++j) {
-        const int row = indices[i];
-        const int col = indices[j];
-        if (row >= 0 && col >= 0) sum.stiffness(sum.pattern.find(row, col)) += stiffness(i, j);
-      }
+    if (counts(element, start)) {
+      const auto indices = coordinates.element_indices(e);
+      add_element_inertia(element, start, rotary, indices, sum);
+      add_element_stiffness(element, indices, sum);
     }
     start += element.length;
   }
@@ -179,6 +205,35 @@ Invariants<Scalar> beam_invariants(const Beam<Scalar>& beam, const ElasticCoordi
   }
   sum.damping = beam.mass_damping * sum.mass_matrix + beam.stiffness_damping * sum.stiffness;
   return sum;
+}
+
+}  // namespace beam_detail
+
+/// Invariants of a beam in its local axes (origin at the first node), by one set of shape functions
+/// and exact quadrature.
+template <class Scalar>
+Invariants<Scalar> beam_invariants(const Beam<Scalar>& beam, const ElasticCoordinates& coordinates,
+                                   RotaryInertia rotary = RotaryInertia::included) {
+  return beam_detail::sum_elements(beam, coordinates, rotary,
+                                   [](const auto&, const auto&) { return true; });
+}
+
+/// Invariants whose derivative alone is wanted: those of seeded dual numbers leave out elements that
+/// do not depend on the seeded variable, which are most of a beam with many segments.
+template <class Scalar>
+Invariants<Scalar> varied_invariants(const Beam<Scalar>& beam,
+                                     const ElasticCoordinates& coordinates, RotaryInertia rotary) {
+  if constexpr (std::is_same_v<Scalar, Dual>) {
+    const bool is_damping_varied =
+        derivative_of(beam.mass_damping) != 0.0 || derivative_of(beam.stiffness_damping) != 0.0;
+    return beam_detail::sum_elements(beam, coordinates, rotary,
+                                     [&](const BeamElement<Dual>& element, const Dual& start) {
+                                       return is_damping_varied || derivative_of(start) != 0.0 ||
+                                              beam_detail::is_varied(element);
+                                     });
+  } else {
+    return beam_invariants(beam, coordinates, rotary);
+  }
 }
 
 }  // namespace pleuel

@@ -279,8 +279,8 @@ void set_beam(const BeamBody& beam, const Body& body, const BuildContext& contex
   for (int variable : variables_of(body, context.scene)) {
     nodal_x.push_back(
         {variable, differentiate_invariants(context, variable, [&](const auto& design) {
-           return beam_invariants(resolve_beam(beam, model.mesh, context.scene, design),
-                                  model.coordinates, rotary);
+           return varied_invariants(resolve_beam(beam, model.mesh, context.scene, design),
+                                    model.coordinates, rotary);
          })});
   }
   model.has_basis = effects.elasticity && (is_mean_axis || beam.reduction);

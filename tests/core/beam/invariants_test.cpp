@@ -1,4 +1,6 @@
 #include <complex>
+#include <initializer_list>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -208,6 +210,47 @@ TEST_P(InvariantDerivatives, OfDualNumbersAreThoseOfTheComplexStep) {
     expect_same(dual.mass_matrix, complex.mass_matrix, "mass");
     expect_same(dual.stiffness, complex.stiffness, "stiffness");
     expect_same(dual.damping, complex.damping, "damping");
+  }
+}
+
+/// What is left out adds nothing, to the last digit: where one element changes, where those behind it
+/// move with it, and where all do.
+TEST(VariedInvariants, HaveTheDerivativeOfAll) {
+  using Change = std::pair<const char*, void (*)(Beam<Dual>&, const Dual&)>;
+  Dual factor(1.0);
+  factor.derivatives()[0] = 0.7;
+  for (const auto& [what, change] : std::initializer_list<Change>{
+           {"area", [](auto&beam, auto&f) { beam.elements[2].section.area *= f; }},
+           {"bending", [](auto&beam, auto&f) { beam.elements[2].section.inertia_z *= f; }},
+           {"twist", [](auto&beam, auto&f) { beam.elements[2].section.torsion *= f; }},
+           {"modulus", [](auto&beam, auto&f) { beam.elements[2].young *= f; }},
+           {"density", [](auto&beam, auto&f) { beam.elements[2].density *= f; }},
+           {"length", [](auto&beam, auto&f) { beam.elements[2].length *= f; }},
+           {"damping", [](auto&beam, auto&f) { beam.stiffness_damping *= f; }}}) {
+    Beam<Dual> beam = uniform_beam<Dual>(5, Dual(length), rectangle_section<Dual>(width, height),
+                                         Dual(young), Dual(density));
+    beam.mass_damping = 3.0;
+    beam.stiffness_damping = 1e-5;
+    change(beam, factor);
+    const auto coordinates = chord_coordinates(6, all_active);
+    const auto all = beam_invariants(beam, coordinates, RotaryInertia::included);
+    const auto varied = varied_invariants(beam, coordinates, RotaryInertia::included);
+    const auto expect_same = [&, name = what](const auto& found, const auto& expected) {
+      EXPECT_EQ(derivative_matrix(found), derivative_matrix(expected)) << name;
+    };
+    EXPECT_EQ(derivative_of(varied.mass), derivative_of(all.mass)) << what;
+    expect_same(varied.first_moment, all.first_moment);
+    expect_same(varied.second_moment, all.second_moment);
+    expect_same(varied.shape, all.shape);
+    expect_same(varied.mixed, all.mixed);
+    expect_same(varied.moments, all.moments);
+    expect_same(varied.mass_matrix, all.mass_matrix);
+    expect_same(varied.stiffness, all.stiffness);
+    expect_same(varied.damping, all.damping);
+    EXPECT_GT(derivative_matrix(varied.stiffness).norm() +
+                  derivative_matrix(varied.damping).norm() + std::abs(derivative_of(varied.mass)),
+              0.0)
+        << what;
   }
 }
 
