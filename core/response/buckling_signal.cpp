@@ -55,9 +55,9 @@ class BucklingQuantity {
     return plane == in_y ? ", bending along y" : ", bending along z";
   }
 
-  template <class Scalar>
-  Scalar evaluate(const Beam<Scalar>& beam, const SectionProperties<Scalar>&,
-                  const SectionForces<Scalar>& forces, int plane) const {
+  template <class Scalar, class Force>
+  StressOf<Scalar, Force> evaluate(const Beam<Scalar>& beam, const SectionProperties<Scalar>&,
+                                   const SectionForces<Force>& forces, int plane) const {
     return -forces.axial / euler_load(beam, plane);
   }
 
@@ -93,9 +93,9 @@ class CompressionQuantity {
 
   std::string name(int) const { return ""; }
 
-  template <class Scalar>
-  Scalar evaluate(const Beam<Scalar>&, const SectionProperties<Scalar>&,
-                  const SectionForces<Scalar>& forces, int) const {
+  template <class Scalar, class Force>
+  StressOf<Scalar, Force> evaluate(const Beam<Scalar>&, const SectionProperties<Scalar>&,
+                                   const SectionForces<Force>& forces, int) const {
     return -forces.axial;
   }
 };

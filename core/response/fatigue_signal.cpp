@@ -29,9 +29,9 @@ class FixedPointStress {
     return fmt::format(", {} degrees from y to z", (-point - 1) * 360 / fatigue_outline_points);
   }
 
-  template <class Scalar>
-  Scalar evaluate(const Beam<Scalar>&, const SectionProperties<Scalar>& section,
-                  const SectionForces<Scalar>& forces, int point) const {
+  template <class Scalar, class Force>
+  StressOf<Scalar, Force> evaluate(const Beam<Scalar>&, const SectionProperties<Scalar>& section,
+                                   const SectionForces<Force>& forces, int point) const {
     const auto [y, z] = place(section, point);
     return forces.axial / section.area - forces.moment_z * y / section.inertia_z +
            forces.moment_y * z / section.inertia_y;

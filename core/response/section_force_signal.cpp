@@ -17,9 +17,9 @@ class SectionForceQuantity {
 
   std::string name(int) const { return ""; }
 
-  template <class Scalar>
-  Scalar evaluate(const Beam<Scalar>&, const SectionProperties<Scalar>&,
-                  const SectionForces<Scalar>& forces, int) const {
+  template <class Scalar, class Force>
+  StressOf<Scalar, Force> evaluate(const Beam<Scalar>&, const SectionProperties<Scalar>&,
+                                   const SectionForces<Force>& forces, int) const {
     switch (part_) {
       case SectionForcePart::axial:
         return forces.axial;

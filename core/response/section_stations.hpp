@@ -12,40 +12,11 @@
 
 namespace pleuel {
 
-/// The same beam in another scalar type, as constants.
-template <class To>
-Beam<To> cast_beam(const Beam<double>& beam) {
-  Beam<To> cast;
-  for (const BeamElement<double>& from : beam.elements) {
-    BeamElement<To> element;
-    element.length = To(from.length);
-    element.young = To(from.young);
-    element.shear = To(from.shear);
-    element.density = To(from.density);
-    element.strength = To(from.strength);
-    element.ultimate_strength = To(from.ultimate_strength);
-    element.endurance_limit = To(from.endurance_limit);
-    element.fatigue_strength = To(from.fatigue_strength);
-    element.fatigue_exponent = from.fatigue_exponent;
-    const SectionProperties<double>& section = from.section;
-    element.section.area = To(section.area);
-    element.section.inertia_y = To(section.inertia_y);
-    element.section.inertia_z = To(section.inertia_z);
-    element.section.torsion = To(section.torsion);
-    element.section.radius_y = To(section.radius_y);
-    element.section.radius_z = To(section.radius_z);
-    for (const StressPoint<double>& point : section.points) {
-      element.section.points.push_back({To(point.y), To(point.z), To(point.shear)});
-    }
-    cast.elements.push_back(std::move(element));
-  }
-  return cast;
-}
-
-/// What is made of the section forces of a beam. Quantity is a formula for any scalar type:
+/// What is made of the section forces of a beam. Quantity is a formula for any scalar types, those
+/// of the beam and of the forces:
 ///     std::vector<int> points(const BodyModel&, const SectionProperties<double>&) const;
-///     template <class Scalar> Scalar evaluate(const Beam<Scalar>&,
-///         const SectionProperties<Scalar>&, const SectionForces<Scalar>&, int point) const;
+///     template <class Scalar, class Force> StressOf<Scalar, Force> evaluate(const Beam<Scalar>&,
+///         const SectionProperties<Scalar>&, const SectionForces<Force>&, int point) const;
 ///     std::string name(int point) const;  // of a negative one: ", tension side", or nothing
 /// One channel a station and point; points from 0 are those of the section, negative ones belong to
 /// the quantity.
@@ -82,17 +53,15 @@ class SectionStations final : public Stations {
   }
 
   Numbers slopes(int channel, const double* numbers) override {
-    if (!cast_) cast_ = std::make_unique<const Beam<ForcesDual>>(cast_beam<ForcesDual>(body_.beam));
     std::array<ForcesDual, section_force_count> seeded;
     for (int i = 0; i < section_force_count; ++i) {
       seeded[i] = {numbers[i], ForcesDual::Derivatives::Unit(i)};
     }
-    return evaluate(*cast_, channel, section_forces(seeded.data())).derivatives();
+    return evaluate(body_.beam, channel, section_forces(seeded.data())).derivatives();
   }
 
   double design_slope(int channel, const double* numbers, std::size_t k) const override {
-    const SectionForces<Dual> fixed{numbers[0], numbers[1], numbers[2], numbers[3]};
-    return derivative_of(evaluate(body_.beam_x[k].second, channel, fixed));
+    return derivative_of(evaluate(body_.beam_x[k].second, channel, section_forces(numbers)));
   }
 
  private:
@@ -112,9 +81,9 @@ class SectionStations final : public Stations {
     return beam.elements[element].section;
   }
 
-  template <class Scalar>
-  Scalar evaluate(const Beam<Scalar>& beam, int channel,
-                  const SectionForces<Scalar>& forces) const {
+  template <class Scalar, class Force>
+  StressOf<Scalar, Force> evaluate(const Beam<Scalar>& beam, int channel,
+                                   const SectionForces<Force>& forces) const {
     const auto& [station, point] = at(channel);
     return quantity_.evaluate(beam, section_of(beam, station), forces, point);
   }
@@ -123,7 +92,6 @@ class SectionStations final : public Stations {
   Quantity quantity_;
   std::vector<Station> stations_;
   std::vector<Channel> channels_;
-  std::unique_ptr<const Beam<ForcesDual>> cast_;  ///< large: made once
 };
 
 /// @param gravity  [m/s²], global axes

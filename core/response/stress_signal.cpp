@@ -23,9 +23,9 @@ std::vector<int> points_of_distinct_shear(const SectionProperties<double>& secti
   return distinct;
 }
 
-template <class Scalar>
-Scalar bending_stress(const SectionProperties<Scalar>& section, const SectionForces<Scalar>& forces,
-                      int point) {
+template <class Scalar, class Force>
+StressOf<Scalar, Force> bending_stress(const SectionProperties<Scalar>& section,
+                                       const SectionForces<Force>& forces, int point) {
   using std::sqrt;
   if (point >= 0) {
     const StressPoint<Scalar>& at = section.points[point];
@@ -33,15 +33,15 @@ Scalar bending_stress(const SectionProperties<Scalar>& section, const SectionFor
   }
   // The largest b_y cos θ + b_z sin θ of a round outline.
   constexpr double tiny = 1e-300;  // keeps the root differentiable at zero [Pa²]
-  const Scalar along_y = forces.moment_z * section.radius_y / section.inertia_z;
-  const Scalar along_z = forces.moment_y * section.radius_z / section.inertia_y;
-  const Scalar largest = sqrt(along_y * along_y + along_z * along_z + tiny);
-  return point == tension_side ? largest : Scalar(-largest);
+  const auto along_y = forces.moment_z * section.radius_y / section.inertia_z;
+  const auto along_z = forces.moment_y * section.radius_z / section.inertia_y;
+  const StressOf<Scalar, Force> largest = sqrt(along_y * along_y + along_z * along_z + tiny);
+  return point == tension_side ? largest : -largest;
 }
 
-template <class Scalar>
-Scalar von_mises(const SectionProperties<Scalar>& section, const SectionForces<Scalar>& forces,
-                 int point) {
+template <class Scalar, class Force>
+StressOf<Scalar, Force> von_mises(const SectionProperties<Scalar>& section,
+                                  const SectionForces<Force>& forces, int point) {
   return von_mises_stress(section, forces,
                           point >= 0 ? section.points[point]
                                      : most_stressed_point(section, forces, point == tension_side));
@@ -59,9 +59,10 @@ class StressQuantity {
     return distinct_stress_points(body, section);
   }
 
-  template <class Scalar>
-  Scalar evaluate(const Beam<Scalar>& beam, const SectionProperties<Scalar>& section,
-                  const SectionForces<Scalar>& forces, int point) const {
+  template <class Scalar, class Force>
+  StressOf<Scalar, Force> evaluate(const Beam<Scalar>& beam,
+                                   const SectionProperties<Scalar>& section,
+                                   const SectionForces<Force>& forces, int point) const {
     switch (part_) {
       case StressPart::normal:
         return forces.axial / section.area + bending_stress(section, forces, point);

@@ -14,16 +14,22 @@ struct SectionForces {
   Scalar axial = Scalar(0), moment_y = Scalar(0), moment_z = Scalar(0), torque = Scalar(0);
 };
 
+/// What forces and sections in two scalar types make: derivatives are those with respect to one of
+/// them, the other is plain.
+template <class Scalar, class Force>
+using StressOf = decltype(Scalar() * Force());
+
 /// Von Mises stress √(σ² + 3τ²) at a point [Pa].
-template <class Scalar>
-Scalar von_mises_stress(const SectionProperties<Scalar>& section,
-                        const SectionForces<Scalar>& forces, const StressPoint<Scalar>& point) {
+template <class Scalar, class Force>
+StressOf<Scalar, Force> von_mises_stress(const SectionProperties<Scalar>& section,
+                                         const SectionForces<Force>& forces,
+                                         const StressPoint<Scalar>& point) {
   using std::sqrt;
   constexpr double tiny = 1e-300;  // keeps the root differentiable at zero [Pa²]
-  const Scalar normal = forces.axial / section.area -
-                        forces.moment_z * point.y / section.inertia_z +
-                        forces.moment_y * point.z / section.inertia_y;
-  const Scalar shear = forces.torque * point.shear;
+  const StressOf<Scalar, Force> normal = forces.axial / section.area -
+                                         forces.moment_z * point.y / section.inertia_z +
+                                         forces.moment_y * point.z / section.inertia_y;
+  const StressOf<Scalar, Force> shear = forces.torque * point.shear;
   return sqrt(normal * normal + 3.0 * shear * shear + tiny);
 }
 
@@ -41,9 +47,9 @@ double angle_of_largest_stress(const OutlineStress& stress, bool where_bending_p
 /// The point of a round outline with the largest von Mises stress, on the half where bending pulls
 /// or on the other one. Its angle is a plain number: the stress is stationary in it, so that a
 /// derivative at fixed angle is that of the maximum (envelope theorem).
-template <class Scalar>
+template <class Scalar, class Force>
 StressPoint<Scalar> most_stressed_point(const SectionProperties<Scalar>& section,
-                                        const SectionForces<Scalar>& forces,
+                                        const SectionForces<Force>& forces,
                                         bool where_bending_pulls) {
   using std::sqrt;
   const Scalar &shear_y = section.points[0].shear, &shear_z = section.points[2].shear;
