@@ -20,6 +20,11 @@ std::vector<AttachedPoint> attached_points(const Scene& scene) {
       }
     }
   }
+  for (const Body& body : scene.bodies) {
+    for (const InitialDeflection& one : body.initial_deflections) {
+      points.push_back({"initial deflection", body.name, one.at});
+    }
+  }
   return points;
 }
 

@@ -7,9 +7,9 @@
 
 namespace pleuel {
 
-/// Where a joint or a load holds on to a body.
+/// Where a joint or a load holds on to a body, or an initial deflection is given.
 struct AttachedPoint {
-  std::string name;  ///< of the joint or load
+  std::string name;  ///< of the joint or load, or "initial deflection"
   std::string body;  ///< or "ground"
   Point at;          ///< at t = 0, global axes [m]
 };

@@ -12,6 +12,7 @@
 #include "core/model/divided_beams.hpp"
 #include "core/model/drive_rows.hpp"
 #include "core/model/imported_builder.hpp"
+#include "core/model/initial_deflections.hpp"
 #include "core/model/joint_builder.hpp"
 #include "core/model/load_builder.hpp"
 #include "core/model/model.hpp"
@@ -307,6 +308,7 @@ class ModelBuilder {
       for (int k = 0; k < built.elastic_size(); ++k) {
         mechanism.elastic.push_back(built.elastic_offset() + k);
       }
+      set_initial_deflections(i, model_.bodies, context_, mechanism);
     }
     mechanism.assembly_weight.array() /= mechanism.scale.array().square();
     set_reaction_weight(bearing_share * size);

@@ -250,6 +250,9 @@ class Estimation {
     if (asks_for_forces || asks_for_buckling) estimates.axial_elasticity = always;
     estimates.torsional_elasticity = change(d.twist, d.twist_acceleration);
     if (asks_for_forces) estimates.torsional_elasticity = always;
+    if (!find_named(problem_.scene.bodies, body.name)->initial_deflections.empty()) {
+      estimates.elasticity = estimates.axial_elasticity = estimates.torsional_elasticity = always;
+    }
     estimates.geometric_stiffening = d.axial_force / euler_load(body, beam);
     estimates.rotary_inertia = rotary_share(body);
     return estimates;

@@ -78,6 +78,7 @@ class PlaneCheck {
   void check_body(const Body& body) {
     const std::string what = "body " + body.name;
     check_velocity(body);
+    check_deflections(body);
     if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
       check_point(beam->from, what);
       check_point(beam->to, what);
@@ -96,6 +97,14 @@ class PlaneCheck {
       require(is_symmetric(imported->file->constants, local), what);
     } else {
       check_point(std::get<PointMass>(body.shape).at, what);
+    }
+  }
+
+  void check_deflections(const Body& body) {
+    const std::string what = "an initial deflection of body " + body.name;
+    for (const InitialDeflection& one : body.initial_deflections) {
+      check_point(one.at, what);
+      require(are_normal(to_vector(one.direction), normal_), what);
     }
   }
 

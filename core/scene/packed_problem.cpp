@@ -247,9 +247,14 @@ void transfer(Archive& archive, ImportedBody& body) {
 }
 
 template <class Archive>
+void transfer(Archive& archive, InitialDeflection& deflection) {
+  auto& [at, direction, displacement, rate] = deflection;
+  archive(at, direction, displacement, rate);
+}
+template <class Archive>
 void transfer(Archive& archive, Body& body) {
-  auto& [name, shape, velocity, angular_velocity] = body;
-  archive(name, shape, velocity, angular_velocity);
+  auto& [name, shape, velocity, angular_velocity, initial_deflections] = body;
+  archive(name, shape, velocity, angular_velocity, initial_deflections);
 }
 
 // ---- joints and loads

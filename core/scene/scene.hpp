@@ -171,12 +171,21 @@ struct ImportedBody {
   bool is_linear = false;
 };
 
+/// A place of an elastic body that starts displaced along a direction, against the body frame.
+struct InitialDeflection {
+  Point at;                         ///< at t = 0, undeformed, global axes [m]
+  std::array<double, 3> direction;  ///< unit vector, global axes at t = 0
+  Number displacement = 0.0;        ///< [m]
+  Number rate = 0.0;                ///< [m/s]
+};
+
 struct Body {
   std::string name;
   std::variant<BeamBody, RigidBody, PointMass, ImportedBody> shape;
   /// Of the body frame at t = 0, made consistent with joints and drives; global axes.
   std::array<Number, 3> velocity = {0.0, 0.0, 0.0};          ///< [m/s]
   std::array<Number, 3> angular_velocity = {0.0, 0.0, 0.0};  ///< [rad/s]
+  std::vector<InitialDeflection> initial_deflections = {};   ///< elastic bodies start straight else
 };
 
 /// What a drive prescribes: a coordinate of the second body of a joint against the first.

@@ -146,6 +146,11 @@ void visit_numbers(const Body& body, Visit&& visit) {
   }
   visiting::all(body.velocity, quantities::speed, visit);
   visiting::all(body.angular_velocity, quantities::angular_speed, visit);
+  for (const InitialDeflection& one : body.initial_deflections) {
+    visiting::all(one.at, quantities::length, visit);
+    visit(one.displacement, quantities::length);
+    visit(one.rate, quantities::speed);
+  }
 }
 
 inline Quantity driven_quantity(DrivenCoordinate coordinate) {

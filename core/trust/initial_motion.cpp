@@ -37,11 +37,34 @@ class InitialMotion {
       if (is_given(body.angular_velocity, design_)) {
         compare(body.name, "angular velocity", "rad/s", turn, frame.rotations());
       }
+      if (!body.initial_deflections.empty()) compare_deflections(body.name);
     }
     return std::move(doubts_);
   }
 
  private:
+  void compare_deflections(const std::string& body) {
+    const BodyModel& model = *run_.analysis.model.parts(body).front();
+    const int first = model.elastic_offset(), size = model.elastic_size();
+    const Eigen::VectorXd scale = run_.analysis.model.mechanism.scale.segment(first, size);
+    const auto share_changed = [&](const Eigen::VectorXd& found, const Eigen::VectorXd& asked) {
+      const Eigen::VectorXd change = (found - asked).segment(first, size).cwiseQuotient(scale);
+      const double norm = asked.segment(first, size).cwiseQuotient(scale).norm();
+      return norm > 0.0 ? change.norm() / norm : 0.0;
+    };
+    for (const auto& [what, share] :
+         {std::pair("deflection", share_changed(start_.q, asked_.q)),
+          std::pair("rate of deflection", share_changed(start_.v, asked_.v))}) {
+      if (!(share > small_correction)) continue;
+      doubts_.push_back(
+          {fmt::format(
+               "the initial {} of \"{}\" is {:.2g} % off the one of the file: joints and drives "
+               "hold the body in another shape.",
+               what, body, 100.0 * share),
+           true});
+    }
+  }
+
   void compare(const std::string& body, const char* what, const char* unit, int offset, int size) {
     const Eigen::VectorXd asked = asked_.v.segment(offset, size);
     const Eigen::VectorXd found = start_.v.segment(offset, size);

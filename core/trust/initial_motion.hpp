@@ -5,9 +5,9 @@
 
 namespace pleuel {
 
-/// Initial velocities of the file that are not those of the simulation: they are made consistent
-/// with joints and drives, and elastic bodies begin without elastic rates. What the file gives and
-/// changes by more than a percent is named.
+/// Initial velocities and deflections of the file that are not those of the simulation: they are made
+/// consistent with joints and drives, and elastic bodies begin without other elastic rates. What the
+/// file gives and changes by more than a percent is named.
 std::vector<Doubt> doubt_initial_motion(const TrustedRun& run);
 
 }  // namespace pleuel

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/scene/packed_problem.hpp"
 #include "core/scene/response_quantity.hpp"
 #include "core/scene/visit_numbers.hpp"
 #include "tests/scene/good_problem.hpp"
@@ -16,6 +17,7 @@ using std::numbers::pi;
 using testing::DoubleEq;
 using testing::DoubleNear;
 using testing::ElementsAre;
+using testing::HasSubstr;
 
 constexpr double rounding = 1e-14;  // relative, of one or two conversions of units
 
@@ -240,6 +242,45 @@ TEST_F(Mechanism, HasEffectsAndInitialState) {
   EXPECT_EQ(effects.tolerance, 1e-3);
   EXPECT_TRUE(problem_.simulation.quasi_static_start);
   EXPECT_FALSE(read(good_json()).simulation.quasi_static_start);
+}
+
+TEST_F(Mechanism, StartsBent) {
+  Json document = good_mechanism();
+  document["simulation"]["initial_state"] = "consistent";
+  document["scene"]["bodies"]["arm"]["initial_deflections"] = Json::parse(
+      R"([{"at": [0.5, 0, 0], "direction": [0, 3, 4], "displacement": "2 mm"},
+          {"at": [1, 0, 0], "direction": [0, 1, 0], "rate": {"variable": "speed"}}])");
+  const auto& deflections = read(document).scene.bodies[0].initial_deflections;
+  ASSERT_EQ(deflections.size(), 2U);
+  EXPECT_EQ(deflections[0].at[0].constant, 0.5);
+  EXPECT_DOUBLE_EQ(deflections[0].direction[2], 0.8);
+  EXPECT_DOUBLE_EQ(deflections[0].displacement.constant, 2e-3);
+  EXPECT_TRUE(deflections[1].rate.is_bound());
+  const std::string bytes = packed(read(document));
+  EXPECT_EQ(packed(unpacked<ProblemFile>(bytes)), bytes);
+}
+
+TEST_F(Mechanism, StartsBentOnlyWhereNothingElseSaysHow) {
+  const auto complaint_with = [](const char* body, const char* deflection,
+                                 const char* state = R"("consistent")") {
+    Json document = good_mechanism();
+    document["simulation"]["initial_state"] = Json::parse(state);
+    document["scene"]["bodies"][body]["initial_deflections"] = Json::parse(deflection);
+    return complaint(document);
+  };
+  const char* good = R"([{"at": [1, 0, 0], "direction": [0, 1, 0], "displacement": 1e-3}])";
+  EXPECT_EQ(complaint_with("arm", good), "");
+  EXPECT_THAT(complaint_with("arm", good, R"("quasi-static")"),
+              HasSubstr("/scene/bodies/arm/initial_deflections cannot be given where "
+                        "/simulation/initial_state is \"quasi-static\""));
+  EXPECT_THAT(complaint_with("arm", good, R"("periodic")"), HasSubstr("is \"periodic\""));
+  EXPECT_THAT(complaint_with("strut", good), HasSubstr("is not for a rigid beam"));
+  EXPECT_THAT(complaint_with("ball", good), HasSubstr("unknown key \"initial_deflections\""));
+  EXPECT_THAT(complaint_with("arm", R"([{"at": [1, 0, 0], "direction": [0, 1, 0]}])"),
+              HasSubstr("/0 needs \"displacement\" or \"rate\""));
+  EXPECT_THAT(
+      complaint_with("arm", R"([{"at": [1, 1, 0], "direction": [0, 1, 0], "rate": 1}])"),
+      HasSubstr("/scene/bodies/arm/initial_deflections/0/at must be on the axis of the beam"));
 }
 
 TEST_F(Mechanism, RepeatsItselfAfterAPeriodOrTheWholeTime) {

@@ -127,7 +127,7 @@ BeamBody read_beam(const JsonNode& node, const std::vector<std::string>& materia
                    NumberReader& numbers) {
   node.allow_keys({"type", "from", "to", "material", "section", "elements", "segments", "frame",
                    "frames", "damping", "reference", "rigid", "reduction", "velocity",
-                   "angular_velocity"});
+                   "angular_velocity", "initial_deflections"});
   BeamBody beam;
   beam.from = numbers.triple(node.at("from"), quantities::length);
   beam.to = numbers.triple(node.at("to"), quantities::length);
@@ -177,6 +177,32 @@ void read_velocities(const JsonNode& node, Body& body, NumberReader& numbers) {
   }
 }
 
+InitialDeflection read_initial_deflection(const JsonNode& node, NumberReader& numbers) {
+  node.allow_keys({"at", "direction", "displacement", "rate"});
+  InitialDeflection one;
+  one.at = numbers.triple(node.at("at"), quantities::length);
+  one.direction = numbers.unit_vector(node.at("direction"));
+  const auto displacement = node.find("displacement"), rate = node.find("rate");
+  if (!displacement && !rate) node.fail("needs \"displacement\" or \"rate\"");
+  if (displacement) one.displacement = numbers.designable(*displacement, quantities::length);
+  if (rate) one.rate = numbers.designable(*rate, quantities::speed);
+  return one;
+}
+
+void read_initial_deflections(const JsonNode& node, Body& body, NumberReader& numbers) {
+  const auto list = node.find("initial_deflections");
+  if (!list) return;
+  if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
+    if (beam->is_rigid) list->fail("is not for a rigid beam");
+    if (beam->frames > 1) {
+      list->fail("cannot be given with \"frames\" more than 1: each of them counts its own");
+    }
+  }
+  for (const JsonNode& item : list->items()) {
+    body.initial_deflections.push_back(read_initial_deflection(item, numbers));
+  }
+}
+
 }  // namespace
 
 Body read_body(const std::string& name, const JsonNode& node,
@@ -197,6 +223,7 @@ Body read_body(const std::string& name, const JsonNode& node,
     body.shape = read_point_mass(node, numbers);
   }
   read_velocities(node, body, numbers);
+  read_initial_deflections(node, body, numbers);
   return body;
 }
 

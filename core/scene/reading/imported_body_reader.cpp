@@ -54,8 +54,8 @@ std::vector<ImportedVariable> find_variables(const JsonNode& name, const Invaria
 }  // namespace
 
 ImportedBody read_imported_body(const JsonNode& node, NumberReader& numbers) {
-  node.allow_keys(
-      {"type", "file", "from", "to", "reference", "other_designs", "velocity", "angular_velocity"});
+  node.allow_keys({"type", "file", "from", "to", "reference", "other_designs", "velocity",
+                   "angular_velocity", "initial_deflections"});
   ImportedBody body;
   const JsonNode name = node.at("file");
   body.source = name.text();

@@ -36,6 +36,14 @@ void add_load(const Scene& scene, const Load& load, std::vector<PlacedPoint>& po
   }
 }
 
+void add_deflections(const Body& body, std::vector<PlacedPoint>& points) {
+  for (std::size_t i = 0; i < body.initial_deflections.size(); ++i) {
+    points.push_back({{"bodies", body.name, "initial_deflections", std::to_string(i), "at"},
+                      &body.initial_deflections[i].at,
+                      &body});
+  }
+}
+
 }  // namespace
 
 std::string PlacedPoint::pointer() const {
@@ -46,6 +54,7 @@ std::vector<PlacedPoint> placed_points(const Scene& scene) {
   std::vector<PlacedPoint> points;
   for (const Joint& joint : scene.joints) add_joint(scene, joint, points);
   for (const Load& load : scene.loads) add_load(scene, load, points);
+  for (const Body& body : scene.bodies) add_deflections(body, points);
   return points;
 }
 

@@ -7,7 +7,7 @@
 
 namespace pleuel {
 
-/// A point of a joint or a load that belongs to a body.
+/// A point of a joint, a load or an initial deflection that belongs to a body.
 struct PlacedPoint {
   std::vector<std::string> path;  ///< in the scene: {"loads", "tip", "at"}; of lists the index
   const Point* point;
@@ -17,7 +17,7 @@ struct PlacedPoint {
   std::string pointer() const;
 };
 
-/// Of all joints and loads; they refer to the scene.
+/// Of all joints, loads and initial deflections; they refer to the scene.
 std::vector<PlacedPoint> placed_points(const Scene& scene);
 
 /// Whether a place is at the share of the length of a beam, up to the rounding of written numbers.

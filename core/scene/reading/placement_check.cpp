@@ -21,8 +21,10 @@ struct PointPair {
 
 /// The node of a placed point.
 JsonNode node_of(const JsonNode& scene, const PlacedPoint& place) {
-  JsonNode node = scene.at(place.path[0]).at(place.path[1]).at(place.path[2]);
-  if (place.path.size() > 3) node = node.items().at(std::stoul(place.path[3]));
+  JsonNode node = scene;
+  for (const std::string& key : place.path) {
+    node = node.value().is_array() ? node.items().at(std::stoul(key)) : node.at(key);
+  }
   return node;
 }
 

@@ -7,7 +7,7 @@
 
 namespace pleuel {
 
-/// Joints and loads act on points of their bodies: on the axis of an elastic beam, at the same
+/// Joints, loads and initial deflections are at points of their bodies: on the axis of an elastic beam, at the same
 /// share of its length in all designs; where a point mass is; at a place of an imported body;
 /// anywhere in the space of a rigid body. The two points of a distance or spring differ.
 /// @param node     the scene in the document, to say where it is wrong.

@@ -78,6 +78,23 @@ void check_bodies(const JsonNode& node, const Scene& scene, const std::vector<Sa
   }
 }
 
+/// What would set the elastic coordinates, too, or leaves none.
+void check_deflections(const JsonNode& bodies, const ProblemFile& problem) {
+  for (const Body& body : problem.scene.bodies) {
+    if (body.initial_deflections.empty()) continue;
+    const JsonNode node = bodies.at(body.name).at("initial_deflections");
+    if (problem.simulation.quasi_static_start) {
+      node.fail("cannot be given where /simulation/initial_state is \"quasi-static\"");
+    }
+    if (problem.simulation.period > 0.0) {
+      node.fail("cannot be given where /simulation/initial_state is \"periodic\"");
+    }
+    if (problem.effects.elasticity == EffectChoice::off) {
+      node.fail("cannot be given where /effects/elasticity is \"off\"");
+    }
+  }
+}
+
 }  // namespace
 
 void check_scene(const JsonNode& node, const ProblemFile& problem) {
@@ -85,6 +102,7 @@ void check_scene(const JsonNode& node, const ProblemFile& problem) {
   const std::vector<Sample> samples = make_samples(problem.variables);
   check_bodies(node.at("bodies"), problem.scene, samples);
   check_placement(node, problem.scene, samples);
+  check_deflections(node.at("bodies"), problem);
 }
 
 }  // namespace pleuel

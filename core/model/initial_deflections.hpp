@@ -1,0 +1,20 @@
+#pragma once
+
+#include "core/integration/mechanism.hpp"
+#include "core/model/body_builder.hpp"
+#include "core/model/build_context.hpp"
+
+namespace pleuel {
+
+/// Starts the elastic coordinates of a body with the deflections and rates that the scene gives it:
+/// the shapes of least elastic energy in which the places move that far,
+///     K q = Sᵀ μ,   S q = d   and   K v = Sᵀ ν,   S v = ḋ,
+/// with a row of S for each place along its direction, d the displacements against the body frame; and
+/// their derivatives.
+/// @param body    number of the body, in the scene and among the bodies
+/// @param guess   of the mechanism: its q, v and their derivatives are set
+/// @throws InputError if a place cannot move along its direction, or if two say the same
+void set_initial_deflections(std::size_t body, const std::vector<BodyModel>& bodies,
+                             const BuildContext& context, Mechanism& mechanism);
+
+}  // namespace pleuel

@@ -1,0 +1,167 @@
+#include "core/model/initial_deflections.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/error.hpp"
+#include "core/trust/initial_motion.hpp"
+#include "sensitivity/gradients.hpp"
+#include "tests/support/differences.hpp"
+#include "tests/support/sample_scenes.hpp"
+
+namespace {
+
+using namespace pleuel;
+using ::testing::HasSubstr;
+
+constexpr double length = 1.0, width = 0.02, height = 0.03, young = 2.1e11, bow = 2e-4, rate = 0.3;
+
+ResponseSettings deflection_at(double at, OverTime over_time) {
+  ResponseSettings response;
+  response.name = "bow";
+  response.type = ResponseType::deflection;
+  response.bodies = {"beam"};
+  response.at = at;
+  response.over_time = over_time;
+  return response;
+}
+
+InitialDeflection along_y(double at, Number displacement, Number speed = 0.0) {
+  return {{at, 0.0, 0.0}, {0, 1, 0}, displacement, speed};
+}
+
+/// A beam without weight, held at one end or at both; its height is the first variable.
+ProblemFile released(ReferenceCondition frame, std::vector<InitialDeflection> deflections) {
+  ProblemFile problem;
+  problem.scene = swinging_beam(length, RectangleSection{width, Number::bound(0)}, 4);
+  problem.scene.gravity = {0.0, 0.0, 0.0};
+  if (frame == ReferenceCondition::chord) {
+    Joint guide = problem.scene.joints[0];
+    guide.name = "guide";
+    guide.type = JointType::point_on_line;
+    guide.at = {length, 0.0, 0.0};
+    guide.axis = {1, 0, 0};
+    problem.scene.joints.push_back(guide);
+  } else {
+    problem.scene.joints[0].type = JointType::fixed;
+  }
+  std::get<BeamBody>(problem.scene.bodies[0].shape).frame = frame;
+  problem.scene.bodies[0].initial_deflections = std::move(deflections);
+  problem.variables = {{"height", height, 0.01, 0.1, ""}};
+  problem.simulation.end_time = 2e-3;
+  problem.simulation.step = 2e-5;
+  return problem;
+}
+
+/// Of the first channel of a response.
+double value_at(const Analysis& analysis, int step, std::size_t response = 0) {
+  State state;
+  analysis.trajectory.states->load(step, state);
+  Signal& signal = *analysis.responses[response].history()->signal;
+  Eigen::VectorXd values(signal.channels());
+  signal.observe(state, values);
+  return values(0);
+}
+
+/// Under a force at its tip a cantilever has 5/16 of the tip's deflection in the middle, and strain
+/// energy ½ (3EI/L³) d².
+TEST(InitialDeflections, AreThoseOfAForceAtTheTip) {
+  ProblemFile problem = released(ReferenceCondition::tangent, {along_y(length, bow)});
+  for (double at : {1.0, 0.5}) problem.responses.push_back(deflection_at(at, OverTime::max));
+  ResponseSettings energy;
+  energy.name = "energy";
+  energy.type = ResponseType::elastic_energy;
+  energy.bodies = {"beam"};
+  energy.over_time = OverTime::max;
+  problem.responses.push_back(energy);
+  const auto analysis = analyze(problem, start_design(problem));
+  EXPECT_NEAR(value_at(*analysis, 0), bow, 1e-12 * bow);
+  EXPECT_NEAR(value_at(*analysis, 0, 1), 5.0 / 16.0 * bow, 1e-9 * bow);
+  const double inertia = width * std::pow(height, 3) / 12;
+  const double expected = 1.5 * young * inertia * bow * bow / std::pow(length, 3);
+  // Nothing is lost: the largest energy is that of the start. Stretching by bending adds 1e-7.
+  EXPECT_NEAR(analysis->reductions[2].value, expected, 1e-6 * expected);
+}
+
+/// Between two supports a force in the middle bows the quarter 11/16 as far.
+TEST(InitialDeflections, AreThoseOfAForceBetweenSupports) {
+  ProblemFile problem = released(ReferenceCondition::chord, {along_y(length / 2, bow)});
+  problem.responses = {deflection_at(0.25, OverTime::max)};
+  const auto analysis = analyze(problem, start_design(problem));
+  EXPECT_NEAR(value_at(*analysis, 0), 11.0 / 16.0 * bow, 1e-9 * bow);
+}
+
+/// Two places may be given; the modes of a reduced beam hold the shape of each exactly.
+TEST(InitialDeflections, HoldForReducedBeams) {
+  ProblemFile problem =
+      released(ReferenceCondition::tangent, {along_y(length, bow), along_y(length / 2, -bow)});
+  std::get<BeamBody>(problem.scene.bodies[0].shape).reduction = CraigBampton{1, {}, 0};
+  for (double at : {1.0, 0.5, 0.25}) problem.responses.push_back(deflection_at(at, OverTime::max));
+  const auto reduced = analyze(problem, start_design(problem));
+  std::get<BeamBody>(problem.scene.bodies[0].shape).reduction.reset();
+  const auto full = analyze(problem, start_design(problem));
+  EXPECT_NEAR(value_at(*reduced, 0, 0), bow, 1e-10 * bow);
+  EXPECT_NEAR(value_at(*reduced, 0, 1), -bow, 1e-10 * bow);
+  EXPECT_NEAR(value_at(*reduced, 0, 2), value_at(*full, 0, 2), 1e-9 * bow);
+  EXPECT_LT(value_at(*full, 0, 2), -0.1 * bow);
+}
+
+/// The rate goes over into motion: y(h) − y(0) = ḋ h to first order in the step.
+TEST(InitialDeflections, HaveRates) {
+  ProblemFile problem = released(ReferenceCondition::tangent, {along_y(length, 0.0, rate)});
+  problem.responses = {deflection_at(1.0, OverTime::max)};
+  problem.simulation.step = 1e-7;
+  problem.simulation.end_time = 1e-6;
+  const auto analysis = analyze(problem, start_design(problem));
+  EXPECT_EQ(value_at(*analysis, 0), 0.0);
+  EXPECT_NEAR(value_at(*analysis, 1) / 1e-7, rate, 1e-4 * rate);
+}
+
+/// Along the beam, two places and the amounts follow the design; by differences of the whole.
+TEST(InitialDeflections, HaveGradients) {
+  for (const auto frame : {ReferenceCondition::tangent, ReferenceCondition::mean_axis}) {
+    ProblemFile problem = released(frame, {along_y(length, Number::bound(1), Number::bound(2)),
+                                           along_y(length / 2, Number::bound(1, -0.5))});
+    std::get<BeamBody>(problem.scene.bodies[0].shape).segments = {
+        {RectangleSection{width, Number::bound(0)}, 2, {}}, {RectangleSection{width, 0.02}, 2, {}}};
+    problem.variables.push_back({"bow", bow, 0.0, 1e-3, ""});
+    problem.variables.push_back({"rate", rate, 0.0, 1.0, ""});
+    for (double at : {1.0, 0.25}) problem.responses.push_back(deflection_at(at, OverTime::rms));
+    const Eigen::VectorXd x = start_design(problem);
+    const auto analysis = analyze(problem, x);
+    const Eigen::MatrixXd direct = gradients(problem, x, *analysis, GradientMethod::direct);
+    const Eigen::MatrixXd adjoint = gradients(problem, x, *analysis, GradientMethod::adjoint);
+    EXPECT_LE(relative_difference(adjoint * x.asDiagonal(), direct * x.asDiagonal()), 1e-9);
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      const Eigen::VectorXd difference = derivative_at_zero(
+          [&](double change) {
+            Eigen::VectorXd moved = x;
+            moved(i) *= 1.0 + change;
+            return values_of(*analyze(problem, moved));
+          },
+          1e-4);
+      EXPECT_LE(relative_difference(direct.col(i) * x(i), difference), 1e-6) << i;
+    }
+  }
+}
+
+TEST(InitialDeflections, MustBePossible) {
+  const auto message = [](std::vector<InitialDeflection> deflections) -> std::string {
+    const ProblemFile problem = released(ReferenceCondition::tangent, std::move(deflections));
+    try {
+      analyze(problem, start_design(problem));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no complaint";
+  };
+  EXPECT_THAT(
+      message({along_y(length, bow), along_y(0.0, bow)}),
+      HasSubstr("\"beam\": the initial deflection 1 cannot be: the frame of the body holds"));
+  EXPECT_THAT(message({along_y(length, bow), along_y(length, 2 * bow)}),
+              HasSubstr("the initial deflection 1 says the same as those before it"));
+}
+
+}  // namespace
