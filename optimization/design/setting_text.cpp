@@ -32,6 +32,21 @@ std::string effects_text(const EffectSettings& effects) {
   return text;
 }
 
+/// What is minimized and what is limited: the searches for the ends of a front differ in both.
+std::string goals_text(const ProblemFile& file) {
+  std::string text;
+  if (file.objective) {
+    const bool is_maximized = file.objective->aim == Aim::maximize;
+    text +=
+        fmt::format("; {} {}", is_maximized ? "maximize" : "minimize", file.objective->response);
+  }
+  text += "; limited";
+  for (const ConstraintSettings& one : file.constraints) {
+    text += fmt::format(" {}", one.response.empty() ? one.name : one.response);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string setting_text(const ProblemFile& file) {
@@ -45,6 +60,7 @@ std::string setting_text(const ProblemFile& file) {
   text +=
       effects_text(file.effects) + "; gradients " + to_string(file.sensitivity.method) + "; start";
   for (const DesignVariable& variable : file.variables) text += fmt::format(" {}", variable.start);
+  text += goals_text(file);
   if (!file.load_case.empty()) text += fmt::format("; case {}", file.load_case);
   return text;
 }

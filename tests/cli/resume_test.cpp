@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <random>
 
@@ -57,13 +58,22 @@ TEST_F(Resumed, SeveralStartsEndAsIfTheyHadNotBeenKilled) {
   expect_same("killed", "whole", "history.csv");
 }
 
+/// Between the objective and a limit, and between two responses: searches with other objectives, which
+/// must not take each other's evaluations from the record.
+const std::array<std::string, 2> fronts = {
+    " --set /pareto/points=4",
+    R"( --set '/pareto={"responses": ["mass", "rod_bow"], "points": 4}')"};
+
 TEST_F(Resumed, FrontEndsAsIfItHadNotBeenKilled) {
-  const std::string words =
-      "pareto " + problem("slider_crank_round") + quick_line() + " --set /pareto/points=4 --jobs 2";
-  ASSERT_EQ(run_line(folder_.path(), words + " -o whole").exit_code, 0);
-  std::mt19937 random(3);
-  kill_and_end(words, "killed", 6, random);
-  expect_same("killed", "whole", "pareto.csv");
+  for (std::size_t i = 0; i < fronts.size(); ++i) {
+    const std::string words =
+        "pareto " + problem("slider_crank_round") + quick_line() + fronts[i] + " --jobs 2";
+    const std::string whole = fmt::format("whole{}", i), killed = fmt::format("killed{}", i);
+    ASSERT_EQ(run_line(folder_.path(), words + " -o " + whole).exit_code, 0);
+    std::mt19937 random(3);
+    kill_and_end(words, killed, 6, random);
+    expect_same(killed, whole, "pareto.csv");
+  }
 }
 
 TEST_F(Resumed, SamplesEndAsIfTheyHadNotBeenKilled) {
@@ -249,15 +259,18 @@ TEST_F(Jobs, DoNotChangeTheAnswerOfSeveralStarts) {
 }
 
 TEST_F(Jobs, DoNotChangeTheFront) {
-  for (const int jobs : {1, 2, 3}) {
-    ASSERT_EQ(run_line(folder_.path(),
-                       fmt::format("pareto {}{} --set /pareto/points=5 --jobs {} -o with{}",
-                                   problem("slider_crank_round"), quick_line(), jobs, jobs))
-                  .exit_code,
-              0);
+  for (const std::string& front : fronts) {
+    for (const int jobs : {1, 2, 3}) {
+      const ProgramRun run =
+          run_line(folder_.path(),
+                   fmt::format("pareto {}{}{} --jobs {} -o with{} --overwrite",
+                               problem("slider_crank_round"), quick_line(), front, jobs, jobs));
+      ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+      EXPECT_THAT(run.out, HasSubstr("4 of 4 points verified"));
+    }
+    expect_same("with2", "with1", "pareto.csv");
+    expect_same("with3", "with1", "pareto.csv");
   }
-  expect_same("with2", "with1", "pareto.csv");
-  expect_same("with3", "with1", "pareto.csv");
 }
 
 /// The search that is killed is tried once more, and is heard once.
