@@ -14,6 +14,7 @@
 #include "core/integration/step_equations.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
 #include "sensitivity/periodic_correction.hpp"
+#include "sensitivity/periodic_sensitivity.hpp"
 
 namespace pleuel {
 
@@ -44,6 +45,7 @@ class AdjointRun {
   }
 
   Eigen::MatrixXd run(const FunctionDerivatives& derivatives) {
+    if (trajectory_.periodic) require_repeated_derivatives(mechanism_, trajectory_);
     go_back_from(trajectory_.steps(), derivatives);
     if (trajectory_.periodic) {
       derivatives(0, state_, adjoint_);

@@ -1,7 +1,11 @@
 #include "sensitivity/periodic_sensitivity.hpp"
 
+#include <string>
+
+#include "core/base/error.hpp"
 #include "core/integration/period_map.hpp"
 #include "core/integration/periodic_start.hpp"
+#include "core/integration/repetition.hpp"
 #include "core/integration/step_differentiation.hpp"
 #include "sensitivity/periodic_correction.hpp"
 
@@ -16,8 +20,16 @@ StateSensitivity zero_sensitivity(const System& system) {
 
 }  // namespace
 
+void require_repeated_derivatives(Mechanism& mechanism, const Trajectory& trajectory) {
+  const PeriodicStart& periodic = *trajectory.periodic;
+  const std::string complaint =
+      complaint_about_repeated_derivatives(mechanism, trajectory, periodic.steps, periodic.period);
+  if (!complaint.empty()) throw SimulationError(complaint);
+}
+
 StateSensitivity periodic_sensitivity(Mechanism& mechanism, const Trajectory& trajectory) {
   const PeriodicStart& periodic = *trajectory.periodic;
+  require_repeated_derivatives(mechanism, trajectory);
   const StackedStates& states = periodic.map->states();
   StateSensitivity start = zero_sensitivity(*mechanism.system);
   StepDifferentiation motion(mechanism, trajectory, DerivativesOf::design);

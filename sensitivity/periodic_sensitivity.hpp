@@ -12,7 +12,11 @@ namespace pleuel {
 /// The map that found the motion solves with 1 − M, but is one of a motion close by: what is left,
 /// the difference between the end and the start of a differentiated period, is solved for again
 /// until it is round-off.
-/// @throws SimulationError if it does not become so
+/// @throws SimulationError if it does not become so, and as require_repeated_derivatives()
 StateSensitivity periodic_sensitivity(Mechanism& mechanism, const Trajectory& trajectory);
+
+/// The period is a number: at designs close by the motion has to repeat itself with the same one.
+/// @throws SimulationError if it does not, as where a design variable is the speed of a drive
+void require_repeated_derivatives(Mechanism& mechanism, const Trajectory& trajectory);
 
 }  // namespace pleuel

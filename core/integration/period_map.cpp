@@ -1,7 +1,5 @@
 #include "core/integration/period_map.hpp"
 
-#include <cmath>
-
 #include "core/integration/configuration.hpp"
 #include "core/integration/step_differentiation.hpp"
 
@@ -11,8 +9,6 @@ namespace {
 
 /// Rows of the history that depend on others up to this.
 constexpr double dependent_rows = 1e-12;
-/// Squarings of the map, for the spectral radius.
-constexpr int squarings = 14;
 
 /// An orthonormal basis of the rows of the history, for states without units.
 Eigen::MatrixXd row_basis(const Scheme& scheme) {
@@ -99,17 +95,7 @@ Eigen::MatrixXd PeriodMap::solve_transposed(const Eigen::MatrixXd& columns) cons
 }
 
 double PeriodMap::growth() const {
-  Eigen::MatrixXd power = reduced_;
-  double logarithm = 0.0;  // of what the power was divided by
-  for (int i = 0;; ++i) {
-    const double norm = power.norm();
-    if (norm == 0.0) return 0.0;
-    power /= norm;
-    logarithm += std::log(norm);
-    if (i == squarings) return std::exp(std::ldexp(logarithm, -squarings));
-    power = (power * power).eval();
-    logarithm *= 2.0;
-  }
+  return reduced_.size() == 0 ? 0.0 : eigenvalues_of(reduced_).cwiseAbs().maxCoeff();
 }
 
 Eigen::Index PeriodMap::freest_coordinate() const {

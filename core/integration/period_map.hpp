@@ -33,8 +33,8 @@ class PeriodMap {
   /// (1 − M)⁻ᵀ columns, of derivatives with respect to states.
   Eigen::MatrixXd solve_transposed(const Eigen::MatrixXd& columns) const;
 
-  /// By what a disturbance grows in a period, in the long run: the spectral radius of M, by the
-  /// norm of a high power. Below 1 the motion is stable.
+  /// By what a disturbance grows in a period, in the long run: the spectral radius of M. Below 1 the
+  /// motion is stable.
   double growth() const;
   /// Estimate of 1/condition of 1 − Vᵀ M V: zero where something moves freely.
   double reciprocal_condition() const { return rest_.reciprocal_condition(); }

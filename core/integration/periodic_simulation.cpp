@@ -27,8 +27,9 @@ constexpr int most_halvings = 6;
 constexpr double gap_of_round_off = 1e-9, no_progress = 0.5;
 /// Below it, 1 − M is singular.
 constexpr double least_condition = 1e-13;
-/// Growth of disturbances in a period that is more than round-off.
-constexpr double unstable = 1.001;
+/// Growth of disturbances in a period that is more than round-off: motions without damping neither grow
+/// nor die.
+constexpr double unstable = 1.0 + 1e-5;
 
 /// One period of the simulation.
 SimulationOptions options_of_period(const SimulationOptions& options) {

@@ -13,7 +13,7 @@ namespace {
 /// What a term changes by in a period, relative to the most that it does.
 constexpr double small_deviation = 1e-7;
 /// Instants that are looked at, at most.
-constexpr int most_samples = 500;
+constexpr int most_samples = 500, most_samples_of_derivatives = 16;
 
 /// Forces and constraints of a term at a state.
 struct Share {
@@ -25,42 +25,59 @@ struct Share {
   }
 };
 
+/// What is compared: the residual of a term, or its derivatives by the design, a column each.
+enum class Compared { residual, design_derivatives };
+
 class RepetitionCheck {
  public:
-  RepetitionCheck(Mechanism& mechanism, double period)
-      : system_(*mechanism.system), period_(period), changes_(system_.terms().size()) {
+  RepetitionCheck(Mechanism& mechanism, double period, Compared compared)
+      : system_(*mechanism.system), period_(period), compared_(compared) {
+    const auto columns = compared == Compared::residual
+                             ? std::size_t{1}
+                             : static_cast<std::size_t>(system_.variables());
+    changes_.assign(system_.terms().size(), std::vector<Share>(columns));
     largest_ = changes_;
   }
 
   void see(State state, const Eigen::VectorXd& turns) {
-    std::vector<Eigen::VectorXd> before;
+    std::vector<Eigen::MatrixXd> before;
     for (const auto& term : system_.terms()) before.push_back(evaluate(*term, state));
     state.q += turns;
     state.time += period_;
     for (std::size_t i = 0; i < before.size(); ++i) {
-      const Eigen::VectorXd after = evaluate(*system_.terms()[i], state);
-      changes_[i].include(size_of(after - before[i]));
-      largest_[i].include(size_of(before[i]));
-      largest_[i].include(size_of(after));
+      const Eigen::MatrixXd after = evaluate(*system_.terms()[i], state);
+      for (std::size_t k = 0; k < changes_[i].size(); ++k) {
+        const auto column = static_cast<Eigen::Index>(k);
+        changes_[i][k].include(size_of(after.col(column) - before[i].col(column)));
+        largest_[i][k].include(size_of(before[i].col(column)));
+        largest_[i][k].include(size_of(after.col(column)));
+      }
     }
   }
 
-  std::string complaint() const {
+  /// The first term that does not repeat itself.
+  const Term* find() const {
     for (std::size_t i = 0; i < changes_.size(); ++i) {
-      const bool repeats = changes_[i].forces <= small_deviation * largest_[i].forces &&
-                           changes_[i].constraints <= small_deviation;
-      if (repeats) continue;
-      return fmt::format(
-          "the motion cannot repeat itself after {:.6g} s, as /simulation/initial_state asks for: "
-          "{} does not. Laws of time must repeat with the period, drives make whole turns in it "
-          "(a constant speed of 2 pi over the period), and what counts turns act alike in each",
-          period_, system_.terms()[i]->name());
+      for (std::size_t k = 0; k < changes_[i].size(); ++k) {
+        if (!repeats(changes_[i][k], largest_[i][k])) return system_.terms()[i].get();
+      }
     }
-    return "";
+    return nullptr;
   }
 
  private:
-  Eigen::VectorXd evaluate(Term& term, const State& state) const {
+  bool repeats(const Share& change, const Share& largest) const {
+    const double constraints = compared_ == Compared::residual ? 1.0 : largest.constraints;
+    return change.forces <= small_deviation * largest.forces &&
+           change.constraints <= small_deviation * constraints;
+  }
+
+  Eigen::MatrixXd evaluate(Term& term, const State& state) const {
+    if (compared_ == Compared::design_derivatives) {
+      Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(system_.size(), system_.variables());
+      term.add_design_derivative(state, ConstraintLevel::position, columns);
+      return columns;
+    }
     Eigen::VectorXd residual = Eigen::VectorXd::Zero(system_.size());
     term.add_residual(state, ConstraintLevel::position, residual);
     return residual;
@@ -75,25 +92,52 @@ class RepetitionCheck {
 
   System& system_;
   double period_;
-  std::vector<Share> changes_, largest_;
+  Compared compared_;
+  std::vector<std::vector<Share>> changes_, largest_;  ///< by term and column
 };
+
+/// Between the instants of a period, as laws may jump at them.
+/// @param samples  at most
+const Term* find_unrepeated(Mechanism& mechanism, const Trajectory& trajectory, int steps,
+                            double period, Compared compared, int samples) {
+  RepetitionCheck check(mechanism, period, compared);
+  State state, end;
+  trajectory.states->load(0, state);
+  trajectory.states->load(steps, end);
+  const Eigen::VectorXd turns = whole_turns(mechanism.angles, state.q, end.q);
+  const int stride = 1 + steps / samples;
+  for (int step = 1; step <= steps; step += stride) {
+    trajectory.states->load(step, state);
+    state.time -= 0.5 * trajectory.step_size(step);
+    check.see(state, turns);
+  }
+  return check.find();
+}
 
 }  // namespace
 
 std::string complaint_about_repetition(Mechanism& mechanism, const Trajectory& trajectory,
                                        double period) {
-  RepetitionCheck check(mechanism, period);
-  State state, end;
-  trajectory.states->load(0, state);
-  trajectory.states->load(trajectory.steps(), end);
-  const Eigen::VectorXd turns = whole_turns(mechanism.angles, state.q, end.q);
-  const int stride = 1 + trajectory.steps() / most_samples;
-  for (int step = 1; step <= trajectory.steps(); step += stride) {
-    trajectory.states->load(step, state);
-    state.time -= 0.5 * trajectory.step_size(step);  // laws may jump at instants
-    check.see(state, turns);
-  }
-  return check.complaint();
+  const Term* term = find_unrepeated(mechanism, trajectory, trajectory.steps(), period,
+                                     Compared::residual, most_samples);
+  if (term == nullptr) return "";
+  return fmt::format(
+      "the motion cannot repeat itself after {:.6g} s, as /simulation/initial_state asks for: "
+      "{} does not. Laws of time must repeat with the period, drives make whole turns in it "
+      "(a constant speed of 2 pi over the period), and what counts turns act alike in each",
+      period, term->name());
+}
+
+std::string complaint_about_repeated_derivatives(Mechanism& mechanism, const Trajectory& trajectory,
+                                                 int steps, double period) {
+  const Term* term = find_unrepeated(mechanism, trajectory, steps, period,
+                                     Compared::design_derivatives, most_samples_of_derivatives);
+  if (term == nullptr) return "";
+  return fmt::format(
+      "a motion that repeats itself after {:.6g} s, as /simulation/initial_state asks for, has no "
+      "derivatives: at other values of the design variables {} no longer repeats itself with this "
+      "period. A speed, a frequency or a duration that sets the period cannot be a design variable",
+      period, term->name());
 }
 
 }  // namespace pleuel

@@ -15,4 +15,10 @@ namespace pleuel {
 std::string complaint_about_repetition(Mechanism& mechanism, const Trajectory& trajectory,
                                        double period);
 
+/// The same of the derivatives of all terms with respect to the design: whether the motion repeats
+/// itself with this period at designs close by, without which it has no derivatives.
+/// @param trajectory  begins with a period of that many steps
+std::string complaint_about_repeated_derivatives(Mechanism& mechanism, const Trajectory& trajectory,
+                                                 int steps, double period);
+
 }  // namespace pleuel

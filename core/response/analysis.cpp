@@ -93,11 +93,12 @@ void set_rigid_mechanism(const ProblemFile& problem, const Eigen::VectorXd& x, A
 }
 
 /// Reduces a history over time; that of a balance becomes the error at each instant.
-Reduction reduce_history(const Response& response, const Eigen::VectorXd& time,
+Reduction reduce_history(const Response& response, const Trajectory& trajectory,
                          const BrokenInstants& breaks, Eigen::MatrixXd& history) {
+  const Eigen::VectorXd& time = trajectory.time;
   const StepRange range = response.steps(time);
   if (response.is_fatigue()) {
-    Reduction reduction = reduce_fatigue(*response.history(), time, history, range, breaks);
+    Reduction reduction = reduce_fatigue(*response.history(), trajectory, history, range, breaks);
     if (!std::isfinite(reduction.value)) {
       throw SimulationError(
           fmt::format("the response \"{}\" has no finite value: a mean stress reaches the strength "
@@ -183,7 +184,7 @@ Reduction reduce_response(std::size_t i, Analysis& analysis) {
   if (response.history()) {
     Eigen::MatrixXd& history = analysis.histories[i];
     history = against_rigid(response, std::move(history), analysis);
-    return reduce_history(response, analysis.trajectory.time, analysis.breaks, history);
+    return reduce_history(response, analysis.trajectory, analysis.breaks, history);
   }
   Reduction constant;
   if (response.expression()) {

@@ -1,9 +1,11 @@
 #include "core/response/fatigue_damage.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "core/integration/periodic_start.hpp"
 #include "core/response/fatigue.hpp"
 #include "core/response/rainflow.hpp"
 
@@ -50,17 +52,20 @@ CycleDamage cycle_damage(FatigueCriterion criterion, double exponent, double amp
 class PointDamage {
  public:
   PointDamage(FatigueCriterion criterion, double exponent, const Eigen::VectorXd& time,
-              const Eigen::MatrixXd& values, const StepRange& range, const BrokenInstants& breaks)
+              const Eigen::MatrixXd& values, const StepRange& range, const BrokenInstants& breaks,
+              RangeEnds ends)
       : criterion_(criterion),
         exponent_(exponent),
         time_(time),
         values_(values),
         range_(range),
-        breaks_(breaks) {}
+        breaks_(breaks),
+        repeats_(ends == RangeEnds::repeating) {}
 
   /// Of the point whose rows begin at `row`.
   Reduction of(int row) const {
-    const std::vector<TurningPoint> turning = turning_points(row);
+    std::vector<TurningPoint> turning = repeats_ ? extremes(row) : turning_points(row);
+    if (repeats_) begin_at_largest(row, turning);
     std::vector<double> heights;
     for (const TurningPoint& point : turning) heights.push_back(point.value(values_, row));
     Reduction damage;
@@ -74,37 +79,71 @@ class PointDamage {
   bool is_broken(int step) const {
     if (breaks_.empty()) return false;
     const auto broken = [&](int at) { return breaks_[static_cast<std::size_t>(at)]; };
-    return broken(step) || broken(step - 1) || broken(step + 1);
+    return broken(step) || broken(before(step)) || broken(after(step));
   }
 
-  /// First and last sample, and what lies between by the parabola through three samples.
+  /// Steps beside a step; of a range that repeats itself the last one is the first.
+  int before(int step) const {
+    return repeats_ && step == range_.first ? range_.last - 1 : step - 1;
+  }
+  int after(int step) const {
+    return repeats_ && step + 1 == range_.last ? range_.first : step + 1;
+  }
+
+  /// First and last sample, and what lies between.
   std::vector<TurningPoint> turning_points(int row) const {
     std::vector<TurningPoint> turning = {{range_.first, {{range_.first, 1.0}}}};
-    double way = 0.0;  // of the last step that was none
+    for (TurningPoint& point : extremes(row)) turning.push_back(std::move(point));
+    turning.push_back({range_.last, {{range_.last, 1.0}}});
+    return turning;
+  }
+
+  /// Where the history turns: by the parabola through three samples.
+  std::vector<TurningPoint> extremes(int row) const {
+    std::vector<TurningPoint> turning;
+    double way = repeats_ ? last_way(row) : 0.0;  // of the last step that was none
     for (int step = range_.first + 1; step <= range_.last; ++step) {
       const double change = values_(row, step) - values_(row, step - 1);
       if (change == 0.0) continue;
       if (change * way < 0.0) turning.push_back(extreme(row, step - 1));
       way = change;
     }
-    turning.push_back({range_.last, {{range_.last, 1.0}}});
     return turning;
+  }
+
+  double last_way(int row) const {
+    for (int step = range_.last; step > range_.first; --step) {
+      const double change = values_(row, step) - values_(row, step - 1);
+      if (change != 0.0) return change;
+    }
+    return 0.0;
   }
 
   /// Near a step; where a stretch is level, its last sample.
   TurningPoint extreme(int row, int step) const {
-    const StepRange around{step - 1, step + 1};
-    const bool is_level = values_(row, step) == values_(row, step - 1);
-    if (is_level || is_broken(step)) return {step, {{step, 1.0}}};
-    const bool is_maximum = values_(row, step) > values_(row, step - 1);
-    const Eigen::MatrixXd three = values_.row(row).segment(around.first, 3);
-    const Reduction vertex =
-        reduce(is_maximum ? OverTime::max : OverTime::min, time_.segment(around.first, 3), three);
+    const std::array<int, 3> steps = {before(step), step, after(step)};
+    const double value = values_(row, step), previous = values_(row, steps[0]);
+    if (value == previous || is_broken(step)) return {step, {{step, 1.0}}};
+    const double turn = time_(range_.last) - time_(range_.first);
+    const Eigen::Vector3d times(time_(steps[0]) - (steps[0] > step ? turn : 0.0), time_(step),
+                                time_(steps[2]) + (steps[2] < step ? turn : 0.0));
+    const Eigen::RowVector3d three(previous, value, values_(row, steps[2]));
+    const Reduction vertex = reduce(value > previous ? OverTime::max : OverTime::min, times, three);
     TurningPoint point{step, {}};
     for (const Sample& sample : vertex.samples) {
-      point.samples.emplace_back(around.first + sample.step, sample.weight);
+      point.samples.emplace_back(steps[static_cast<std::size_t>(sample.step)], sample.weight);
     }
     return point;
+  }
+
+  void begin_at_largest(int row, std::vector<TurningPoint>& turning) const {
+    const auto largest =
+        std::max_element(turning.begin(), turning.end(), [&](const auto& one, const auto& other) {
+          return one.value(values_, row) < other.value(values_, row);
+        });
+    if (largest == turning.end()) return;
+    std::rotate(turning.begin(), largest, turning.end());
+    turning.push_back(turning.front());
   }
 
   void add(const CountedCycle& cycle, const std::vector<TurningPoint>& turning, int row,
@@ -133,6 +172,7 @@ class PointDamage {
   const Eigen::MatrixXd& values_;
   StepRange range_;
   const BrokenInstants& breaks_;
+  bool repeats_;
 };
 
 /// One sample a step and channel, those that count most first.
@@ -161,8 +201,8 @@ void gather(std::vector<Sample>& samples) {
 
 Reduction reduce_damage(FatigueCriterion criterion, double exponent, const Eigen::VectorXd& time,
                         const Eigen::MatrixXd& values, const StepRange& range,
-                        const BrokenInstants& breaks) {
-  const PointDamage damage(criterion, exponent, time, values, range, breaks);
+                        const BrokenInstants& breaks, RangeEnds ends) {
+  const PointDamage damage(criterion, exponent, time, values, range, breaks, ends);
   std::vector<Reduction> points;
   for (int row = 0; row < values.rows(); row += 2) points.push_back(damage.of(row));
   const auto worst =
@@ -187,13 +227,24 @@ Reduction reduce_damage(FatigueCriterion criterion, double exponent, const Eigen
   return reduction;
 }
 
-Reduction reduce_fatigue(const ResponseHistory& history, const Eigen::VectorXd& time,
+RangeEnds ends_of(const StepRange& range, const Trajectory& trajectory) {
+  constexpr double round_off = 1e-9;
+  if (!trajectory.periodic) return RangeEnds::cut;
+  const double duration = trajectory.time(range.last) - trajectory.time(range.first);
+  const double turns = duration / trajectory.periodic->period, whole = std::round(turns);
+  const bool is_whole = whole >= 1.0 && std::abs(turns - whole) <= round_off * whole;
+  return is_whole ? RangeEnds::repeating : RangeEnds::cut;
+}
+
+Reduction reduce_fatigue(const ResponseHistory& history, const Trajectory& trajectory,
                          const Eigen::MatrixXd& values, const StepRange& range,
                          const BrokenInstants& breaks) {
+  const Eigen::VectorXd& time = trajectory.time;
   if (history.transform == HistoryTransform::cycle) {
     return reduce_cycle(history.criterion, time, values, range, breaks);
   }
-  return reduce_damage(history.criterion, history.fatigue_exponent, time, values, range, breaks);
+  return reduce_damage(history.criterion, history.fatigue_exponent, time, values, range, breaks,
+                       ends_of(range, trajectory));
 }
 
 }  // namespace pleuel

@@ -1,26 +1,36 @@
 #pragma once
 
+#include "core/integration/trajectory.hpp"
 #include "core/response/response.hpp"
 
 namespace pleuel {
+
+/// What is before and after a range of time.
+enum class RangeEnds { cut, repeating };
 
 /// The largest damage of many points, each by all of its cycles in a range of time:
 ///     D = Σ n/N     (Palmgren & Miner),   n = 1 or ½ by rainflow counting
 ///     N = ½ (σ_f'/σ_ar)^k                 Basquin's line
 ///     σ_ar = σ_a/(1 − σ_m/S)              Goodman, Soderberg
 ///     σ_ar = σ_a/(1 − (σ_m/S)²)           Gerber;   σ_ar = σ_a for σ_m < 0
-/// with S = S_u, of Soderberg S_y. A part of a cycle that the range cuts off counts as half of one.
+/// with S = S_u, of Soderberg S_y. A part of a cycle that the range cuts off counts as half of one. A
+/// range that repeats itself is counted from its largest stress to the same a turn later (ASTM E1049,
+/// 5.4.5): all cycles are whole, wherever it begins.
 /// Gradients are those of the turning points at their instants with the pairs as they are: where
 /// two ranges are equal they change partners, and the gradient jumps (D does not).
 /// @param values  two rows a point, one after the other: σ/σ_f' and σ/S; × (steps + 1)
 /// @param exponent  k
+/// @param ends      repeating: the last instant is the first of the next turn
 /// @returns a value that is not finite where a mean stress reaches S
 Reduction reduce_damage(FatigueCriterion criterion, double exponent, const Eigen::VectorXd& time,
                         const Eigen::MatrixXd& values, const StepRange& range,
-                        const BrokenInstants& breaks = {});
+                        const BrokenInstants& breaks = {}, RangeEnds ends = RangeEnds::cut);
+
+/// Whether a range is a whole number of periods of a motion that repeats itself.
+RangeEnds ends_of(const StepRange& range, const Trajectory& trajectory);
 
 /// What the history of a fatigue becomes, by its transform: reduce_cycle() or reduce_damage().
-Reduction reduce_fatigue(const ResponseHistory& history, const Eigen::VectorXd& time,
+Reduction reduce_fatigue(const ResponseHistory& history, const Trajectory& trajectory,
                          const Eigen::MatrixXd& values, const StepRange& range,
                          const BrokenInstants& breaks);
 

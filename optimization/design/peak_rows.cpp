@@ -98,8 +98,8 @@ std::vector<Reduction> peaks_of(const Analysis& analysis, std::size_t response,
   const Response& observed = analysis.responses[response];
   const Eigen::VectorXd& time = analysis.trajectory.time;
   if (observed.is_fatigue()) {  // of the whole time: no window has the whole cycle
-    return {
-        reduce_fatigue(*observed.history(), time, values, observed.steps(time), analysis.breaks)};
+    return {reduce_fatigue(*observed.history(), analysis.trajectory, values, observed.steps(time),
+                           analysis.breaks)};
   }
   return reduce_windows(observed.history()->over_time, time, values, windows, observed.steps(time),
                         analysis.breaks);

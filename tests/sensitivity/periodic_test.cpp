@@ -233,38 +233,63 @@ TEST_P(SteadySetting, RepeatsItselfWithEqualGradients) {
   }
 }
 
-// A mass on a spring and a damper under a harmonic force, m = 2 kg, c = 8 N s/m, k = 800 N/m, F = 5
-// N at ω = 30 rad/s. The discrete steady motion is Re(q e^{iωt}) with (Z − H) y = c z for the scheme
-// y⁺ = H y + c z, Z = e^{iωh}, and m a + c v + k q = F.
-TEST(SteadyOscillator, IsThatOfTheDiscreteFrequencyResponse) {
-  constexpr double frequency = 30.0, m = 2.0, c = 8.0, k = 800.0, force = 5.0;
-  constexpr int steps = 40;
-  const double period = 2.0 * std::numbers::pi / frequency;
-  const ProblemFile file =
-      read_problem_text(fmt::format(R"({{"name": "oscillator", "scene": {{"gravity": [0, 0, 0],
+/// A mass on a spring and a damper under a harmonic force, m = 2 kg, k = 800 N/m, F = 5 N at
+/// ω = 30 rad/s.
+/// @param damper  of the joint, in its words; @param frequency  of the force, likewise
+struct Oscillator {
+  static constexpr double frequency = 30.0, m = 2.0, k = 800.0, force = 5.0;
+  static constexpr int steps = 40;
+  static constexpr double period = 2.0 * std::numbers::pi / frequency;
+
+  static ProblemFile with(const std::string& damper, const std::string& frequency_text = "30") {
+    return read_problem_text(
+        fmt::format(R"({{"name": "oscillator", "scene": {{"gravity": [0, 0, 0],
         "bodies": {{"mass": {{"type": "point-mass", "at": [0, 0, 0], "mass": {}}}}},
         "joints": {{"guide": {{"type": "point-on-line", "bodies": ["ground", "mass"],
                                "at": [0, 0, 0], "axis": [1, 0, 0]}}}},
-        "loads": {{"spring": {{"type": "joint", "joint": "guide", "stiffness": {}, "damping": {}}},
+        "loads": {{"spring": {{"type": "joint", "joint": "guide", "stiffness": {}, {}}},
           "push": {{"type": "force", "body": "mass", "at": [0, 0, 0], "direction": [1, 0, 0],
             "value": {{"type": "harmonic", "amplitude": {}, "frequency": {}}}}}}}}},
         "simulation": {{"end_time": {:.17g}, "step": {:.17g}, "initial_state": "periodic",
                         "newton_tolerance": 1e-14}},
+        "variables": {{"speed": {{"start": 30, "lower": 20, "upper": 40}}}},
         "responses": {{"x": {{"type": "position", "body": "mass", "direction": "x",
                               "over_time": "max"}}}}}})",
-                                    m, k, c, force, frequency, period, period / steps),
-                        "oscillator.json");
-  const auto analysis = analyze(file, {});
-  const double h = period / steps;
-  const std::complex<double> turned = std::exp(std::complex<double>(0.0, frequency * h));
+                    m, k, damper, force, frequency_text, period, period / steps),
+        "oscillator.json");
+  }
+};
+
+/// The discrete steady motion is Re(q e^{iωt}) with (Z − H) y = c z for the scheme y⁺ = H y + c z,
+/// Z = e^{iωh}, and m a + c v + k q = F.
+TEST(SteadyOscillator, IsThatOfTheDiscreteFrequencyResponse) {
+  constexpr double c = 8.0;
+  const ProblemFile file = Oscillator::with(R"("damping": 8)");
+  const auto analysis = analyze(file, start_design(file));
+  const double h = Oscillator::period / Oscillator::steps;
+  const std::complex<double> turned =
+      std::exp(std::complex<double>(0.0, Oscillator::frequency * h));
   const Scheme scheme = generalized_alpha(h, file.simulation.spectral_radius);
   const Eigen::Matrix4cd shift = turned * Eigen::Matrix4cd::Identity();
   const Eigen::Vector4cd of_z = (shift - scheme.history.cast<std::complex<double>>()).inverse() *
                                 scheme.correction.cast<std::complex<double>>();
-  const std::complex<double> q = force * of_z(0) / (m * of_z(2) + c * of_z(1) + k * of_z(0));
-  for (int i = 0; i <= steps; ++i) {
+  const std::complex<double> q =
+      Oscillator::force / (Oscillator::m * of_z(2) + c * of_z(1) + Oscillator::k * of_z(0));
+  for (int i = 0; i <= Oscillator::steps; ++i) {
     const double expected = std::imag(q * std::pow(turned, i));  // of the sine
     EXPECT_NEAR(analysis->histories[0](0, i), expected, 1e-10 * std::abs(q)) << i;
+  }
+}
+
+/// A disturbance dies as exp(−c/2m · T), up to the square of the step and the scheme's own damping:
+/// of 1/300 of a period of the free vibration here 4e-4.
+TEST(SteadyOscillator, ForgetsAsItsDampingSays) {
+  for (const double c : {8.0, 0.5, 0.0}) {
+    const ProblemFile file = Oscillator::with(fmt::format(R"("damping": {})", c));
+    const double expected = std::exp(-0.5 * c / Oscillator::m * Oscillator::period);
+    const double growth = analyze(file, start_design(file))->trajectory.periodic->growth;
+    EXPECT_NEAR(growth, expected, 1e-3) << c;
+    EXPECT_LE(growth, 1.0 + 1e-9) << c;
   }
 }
 
@@ -289,6 +314,28 @@ TEST(SteadyMachineErrors, NameALoadThatDoesNotRepeatItself) {
       four_bar({R"(/scene/loads/push={"type": "force", "body": "rocker", "at": ["400 mm", 0, 0],
           "direction": [1, 0, 0], "value": {"type": "harmonic", "amplitude": 1, "frequency": 60}})"}));
   EXPECT_THAT(failure, testing::HasSubstr("push"));
+}
+
+/// Pushed along by 0.1 N s/m of its speed it grows by 0.5 % in a period.
+TEST(SteadyMachineErrors, TellAMotionThatGrows) {
+  const std::string failure = failure_of(
+      Oscillator::with(R"("motor": {"type": "expression", "value": "= 0.1 N s/m*speed"})"));
+  EXPECT_THAT(failure, testing::HasSubstr("is unstable: disturbances grow by a factor of 1.005"));
+}
+
+/// The motion of this design repeats itself; those of others do not with its period.
+TEST(SteadyMachineErrors, NameAVariableThatSetsThePeriod) {
+  const ProblemFile file = Oscillator::with(R"("damping": 8)", R"({"variable": "speed"})");
+  const Eigen::VectorXd x = start_design(file);
+  const auto analysis = analyze(file, x);
+  for (const GradientMethod method : {GradientMethod::direct, GradientMethod::adjoint}) {
+    try {
+      gradients(file, x, *analysis, method);
+      ADD_FAILURE() << "no complaint";
+    } catch (const SimulationError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("push\" no longer repeats itself"));
+    }
+  }
 }
 
 TEST(SteadyMachineErrors, NameAMotionThatNothingBringsBack) {

@@ -79,6 +79,47 @@ Eigen::MatrixXd waves(const Eigen::VectorXd& time) {
   return values;
 }
 
+/// One turn of a motion that repeats itself, begun at any of its samples. Whole cycles by hand: of
+/// 0, 6, 2, 4, −4, 1, −1 one each of the ranges 10 (6 … −4), 2 (2 … 4) and 2 (1 … −1).
+TEST(Damage, OfAMotionThatRepeatsItselfDoesNotDependOnItsBeginning) {
+  const std::vector<double> turn = {0, 6, 2, 4, -4, 1, -1};
+  const auto samples = static_cast<Eigen::Index>(2 * turn.size());
+  const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(samples + 1, 0.0, 14.0);
+  const BrokenInstants breaks(static_cast<std::size_t>(samples + 1), true);
+  const double expected = 2.0 * (std::pow(0.5, 3) + 2.0 * std::pow(0.1, 3));
+  for (Eigen::Index shift = 0; shift < samples; ++shift) {
+    Eigen::MatrixXd values = Eigen::MatrixXd::Zero(2, samples + 1);
+    for (Eigen::Index i = 0; i <= samples; ++i) {
+      const auto at = static_cast<std::size_t>((i + shift) % samples);
+      const double here = turn[at / 2], next = turn[(at / 2 + 1) % turn.size()];
+      values(0, i) = (at % 2 == 0 ? here : 0.5 * (here + next)) / 10.0;
+    }
+    const auto damage = [&](RangeEnds ends) {
+      return reduce_damage(FatigueCriterion::goodman, 3.0, time, values, whole_range(time), breaks,
+                           ends)
+          .value;
+    };
+    EXPECT_NEAR(damage(RangeEnds::repeating), expected, 1e-15) << shift;
+    EXPECT_LE(damage(RangeEnds::cut), expected * (1.0 + 1e-12)) << shift;
+  }
+}
+
+/// Peaks between samples, also across the end of the turn: 2 (σ_a/σ_f')^k of each phase.
+TEST(Damage, OfASineThatRepeatsItselfIsThatOfOneCycle) {
+  for (const double phase : {0.0, 0.01, 0.7, 1.5707, 3.0}) {
+    const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(101, 0.0, 2.0);
+    Eigen::MatrixXd values = Eigen::MatrixXd::Zero(2, 101);
+    for (Eigen::Index i = 0; i < 101; ++i) {
+      values(0, i) = 0.3 * std::sin(std::numbers::pi * time(i) + phase);
+    }
+    values.col(100) = values.col(0);
+    const double found = reduce_damage(FatigueCriterion::goodman, 4.0, time, values,
+                                       whole_range(time), {}, RangeEnds::repeating)
+                             .value;
+    EXPECT_NEAR(found / (2.0 * std::pow(0.3, 4)), 1.0, 1e-6) << phase;
+  }
+}
+
 /// Central differences: 1e-6 of the change, errors of 1e-12 and round-off of 1e-10.
 TEST(Damage, IsLinearisedInItsSamples) {
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(121, 0.0, 3.0);
@@ -90,11 +131,14 @@ TEST(Damage, IsLinearisedInItsSamples) {
   }
   change.row(1) = 0.6 * change.row(0) + 0.1 * values.row(0);
   change.row(3) = 0.6 * change.row(2);
-  for (const FatigueCriterion criterion : {FatigueCriterion::goodman, FatigueCriterion::gerber}) {
-    const auto at = [&](double s) {
-      return reduce_damage(criterion, 5.0, time, values + s * change, whole_range(time)).value;
+  for (const auto& [criterion, ends] : {std::pair(FatigueCriterion::goodman, RangeEnds::cut),
+                                        {FatigueCriterion::gerber, RangeEnds::cut},
+                                        {FatigueCriterion::gerber, RangeEnds::repeating}}) {
+    const auto reduced = [&, criterion = criterion, ends = ends](double s) {
+      return reduce_damage(criterion, 5.0, time, values + s * change, whole_range(time), {}, ends);
     };
-    const Reduction found = reduce_damage(criterion, 5.0, time, values, whole_range(time));
+    const auto at = [&](double s) { return reduced(s).value; };
+    const Reduction found = reduced(0.0);
     double slope = 0.0;
     for (const Sample& sample : found.samples) {
       slope += sample.weight * change(sample.channel, sample.step);
@@ -104,11 +148,10 @@ TEST(Damage, IsLinearisedInItsSamples) {
   }
 }
 
-/// A light bar that is pulled by F₀ + F₁ cos ωt for four periods: one whole cycle less than the
-/// periods closes, the rest are halves; all have one range: D = 4 · 2 (σ_ar/s)^k with Goodman's
-/// σ_ar = σ_a/(1 − σ_m/S_u).
-TEST(Damage, OfAPulledBarIsThatOfItsCycles) {
-  const ProblemFile problem = read_problem_text(
+/// A light bar that is pulled by F₀ + F₁ sin(ωt + phase).
+/// @param simulation  its time, step and start
+ProblemFile pulled_bar(const std::string& simulation, const std::string& phase) {
+  ProblemFile problem = read_problem_text(
       R"j({"scene": {"gravity": [0, 0, 0],
     "materials": {"light": {"young": "200 GPa", "poisson": 0.3, "density": 1,
       "ultimate_strength": "400 MPa", "fatigue_strength": "900 MPa", "fatigue_exponent": 8}},
@@ -120,24 +163,55 @@ TEST(Damage, OfAPulledBarIsThatOfItsCycles) {
                        "value": "20 kN"},
               "shake": {"type": "force", "body": "bar", "at": [0.5, 0, 0], "direction": [1, 0, 0],
                         "value": {"type": "harmonic", "amplitude": "40 kN", "frequency": "10 Hz",
-                                  "phase": "90 deg"}}}},
+                                  "phase": ")j" +
+          phase + R"j("}}}},
   "effects": {"geometric_stiffening": "off"},
-  "simulation": {"end_time": "0.4 s", "step": "1 ms", "initial_state": "quasi-static",
-                 "newton_tolerance": 1e-13},
+  "simulation": {"newton_tolerance": 1e-13, )j" +
+          simulation + R"j(},
   "variables": {"width": {"start": "20 mm", "lower": "2 mm", "upper": "50 mm"}},
   "responses": {"damage": {"type": "fatigue-damage", "body": "bar", "criterion": "goodman"}}})j",
       "bar.json");
+  return problem;
+}
+
+/// Of a cycle: 2 (σ_ar/s)^k with Goodman's σ_ar = σ_a/(1 − σ_m/S_u).
+double bar_damage(double width) {
+  const double area = width * 0.01, full = 40e3 / area / (1.0 - 20e3 / area / 400e6);
+  return 2.0 * std::pow(full / 900e6, 8);
+}
+
+void expect_damage(const ProblemFile& problem, double cycles) {
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
-  const auto damage = [](double across) {
-    const double area = across * 0.01, full = 40e3 / area / (1.0 - 20e3 / area / 400e6);
-    return 4 * 2 * std::pow(full / 900e6, 8);
-  };
   // Eight times the 1e-5 of vibrations in the stress.
-  EXPECT_NEAR(analysis->reductions[0].value / damage(0.02), 1.0, 1e-4);
-  const double slope = (damage(0.02 + 1e-7) - damage(0.02 - 1e-7)) / 2e-7;
+  EXPECT_NEAR(analysis->reductions[0].value / (cycles * bar_damage(0.02)), 1.0, 1e-4);
+  const double slope = cycles * (bar_damage(0.02 + 1e-7) - bar_damage(0.02 - 1e-7)) / 2e-7;
   for (const GradientMethod method : {GradientMethod::direct, GradientMethod::adjoint}) {
     EXPECT_NEAR(gradients(problem, x, *analysis, method)(0, 0) / slope, 1.0, 1e-3);
+  }
+}
+
+/// Of four periods one whole cycle less closes, the rest are halves; all have one range.
+TEST(Damage, OfAPulledBarIsThatOfItsCycles) {
+  expect_damage(
+      pulled_bar(R"("end_time": "0.4 s", "step": "1 ms", "initial_state": "quasi-static")",
+                 "90 deg"),
+      4.0);
+}
+
+/// The steady state of one period is one cycle, wherever it begins; so is a window of it.
+TEST(Damage, OfASteadyStateIsThatOfAWholeCycle) {
+  for (const char* phase : {"90 deg", "0 deg", "200 deg"}) {
+    SCOPED_TRACE(phase);
+    expect_damage(
+        pulled_bar(R"("end_time": "0.1 s", "step": "1 ms", "initial_state": "periodic")", phase),
+        1.0);
+    ProblemFile window = pulled_bar(
+        R"("end_time": "0.3 s", "step": "1 ms", "initial_state": {"type": "periodic", "period": "0.1 s"})",
+        phase);
+    window.responses[0].from = 0.05;
+    window.responses[0].to = 0.25;
+    expect_damage(window, 2.0);
   }
 }
 
