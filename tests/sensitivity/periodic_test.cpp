@@ -242,8 +242,10 @@ struct Oscillator {
   static constexpr double period = 2.0 * std::numbers::pi / frequency;
 
   static ProblemFile with(const std::string& damper, const std::string& frequency_text = "30") {
-    return read_problem_text(
-        fmt::format(R"({{"name": "oscillator", "scene": {{"gravity": [0, 0, 0],
+    constexpr const char* variable =
+        R"("variables": {"speed": {"start": 30, "lower": 20, "upper": 40}},)";
+    const bool is_variable = frequency_text != "30";
+    return read_problem_text(fmt::format(R"({{"name": "oscillator", "scene": {{"gravity": [0, 0, 0],
         "bodies": {{"mass": {{"type": "point-mass", "at": [0, 0, 0], "mass": {}}}}},
         "joints": {{"guide": {{"type": "point-on-line", "bodies": ["ground", "mass"],
                                "at": [0, 0, 0], "axis": [1, 0, 0]}}}},
@@ -252,11 +254,12 @@ struct Oscillator {
             "value": {{"type": "harmonic", "amplitude": {}, "frequency": {}}}}}}}}},
         "simulation": {{"end_time": {:.17g}, "step": {:.17g}, "initial_state": "periodic",
                         "newton_tolerance": 1e-14}},
-        "variables": {{"speed": {{"start": 30, "lower": 20, "upper": 40}}}},
+        {}
         "responses": {{"x": {{"type": "position", "body": "mass", "direction": "x",
                               "over_time": "max"}}}}}})",
-                    m, k, damper, force, frequency_text, period, period / steps),
-        "oscillator.json");
+                                         m, k, damper, force, frequency_text, period,
+                                         period / steps, is_variable ? variable : ""),
+                             "oscillator.json");
   }
 };
 
