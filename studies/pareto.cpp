@@ -56,7 +56,7 @@ bool dominates(const ParetoPoint& one, const ParetoPoint& other, GoodSide side) 
          (gain > least || limited_gain > least_limited);
 }
 
-/// By how much goals may be missed where the other one is improved, relative to the length of the front.
+/// By how much goals may be missed where the other one is improved, relative to their value.
 constexpr double end_tolerance = 1e-4;
 
 double signed_value(const Objective& goal, double value) {
@@ -156,6 +156,12 @@ bool keeps_limits(const Result& result) {
   return result.evaluation.has_gradients() && result.max_violation <= Tolerances().violation;
 }
 
+/// What the best of a response may lose for the good of the other one: a share of its value, which may
+/// be much smaller than the front is long, but no less than round-off of the front.
+double end_slack(double value, double length) {
+  return end_tolerance * std::clamp(std::abs(value), 1e-4 * length, length);
+}
+
 /// An end whose other response is better, if there is one that is as good.
 void refine(End& end, const End& refined, const Objective& other, std::size_t index,
             double length) {
@@ -181,7 +187,8 @@ std::vector<End> find_ends(const ProblemFile& file, const SolveOptions& options,
   std::array<double, 2> lengths{};
   for (std::size_t i = 0; i < 2; ++i) {
     lengths[i] = std::abs(ends[0].values[i] - ends[1].values[i]);
-    const double limit = ends[i].values[i] + goals[i].sign() * end_tolerance * lengths[i];
+    const double slack = end_slack(ends[i].values[i], lengths[i]);
+    const double limit = ends[i].values[i] + goals[i].sign() * slack;
     files.push_back(with_goal(file, goals[1 - i], std::pair(goals[i], limit)));
   }
   const bool is_point = lengths[0] <= resolution * std::abs(ends[0].values[0]) ||

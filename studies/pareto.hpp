@@ -59,7 +59,7 @@ ProblemFile trade_off_problem(ProblemFile problem);
 /// where that broke its limits from where that began. Each is a task of its own
 /// (core/base/tasks.hpp); the points do not depend on the number of jobs. Every point is audited
 /// like any optimum. Between two responses the ends are found first: the best design for each of
-/// them, and of equally good ones (to 10⁻⁴ of the front) the best for the other; the limit on the second
+/// them, and of equally good ones (to 10⁻⁴ of their value) the best for the other; the limit on the second
 /// goes from one to the other. Where both ends are the same there is one point: nothing is to be traded.
 /// @param problem  of two responses: that of trade_off_problem()
 /// @returns the points that were found before a stop, if one was asked for, in the order of limits

@@ -46,15 +46,20 @@ std::vector<std::string> formulation(const std::string& name,
   return overrides;
 }
 
-StabilityRun try_to_measure(const std::filesystem::path& file, const ProblemFile& problem,
-                            const std::string& formulation) {
+/// A failure may also be that the problem does not go with the formulation, as a motion that repeats
+/// itself with one that drifts.
+StabilityRun try_to_measure(const std::filesystem::path& file,
+                            const std::vector<std::string>& overrides,
+                            const ComparedFormulation& formulation) {
   StabilityRun run;
   run.file = file;
-  run.problem = problem.name;
-  run.formulation = formulation;
+  run.formulation = formulation.name;
+  run.problem = read_with(file, overrides, compared_formulations().front()).name;
   try {
-    measure(problem, run);
+    measure(read_with(file, overrides, formulation), run);
   } catch (const SimulationError& error) {
+    run.failure = error.what();
+  } catch (const InputError& error) {
     run.failure = error.what();
   }
   return run;
@@ -85,18 +90,13 @@ std::vector<StabilityRun> stability_study(const std::vector<std::filesystem::pat
                                           const std::vector<std::string>& overrides,
                                           const StabilityObserver& observer) {
   // Bad input shall not cost the runs before it.
-  for (const auto& file : files) {
-    for (const auto* compared : {&compared_formulations(), &compared_schemes()}) {
-      for (const auto& formulation : *compared) read_with(file, overrides, formulation);
-    }
-  }
+  for (const auto& file : files) read_with(file, overrides, compared_formulations().front());
   std::vector<StabilityRun> runs;
   for (const auto& file : files) {
     for (const auto* compared : {&compared_formulations(), &compared_schemes()}) {
       for (const ComparedFormulation& formulation : *compared) {
-        const ProblemFile problem = read_with(file, overrides, formulation);
         try {
-          runs.push_back(try_to_measure(file, problem, formulation.name));
+          runs.push_back(try_to_measure(file, overrides, formulation));
         } catch (const Stopped&) {
           if (runs.empty()) throw;
           return runs;

@@ -12,6 +12,7 @@ namespace {
 
 /// What a term changes by in a period, relative to the most that it does.
 constexpr double small_deviation = 1e-7;
+constexpr double golden_share = 0.381966;
 /// Instants that are looked at, at most.
 constexpr int most_samples = 500, most_samples_of_derivatives = 16;
 
@@ -96,7 +97,8 @@ class RepetitionCheck {
   std::vector<std::vector<Share>> changes_, largest_;  ///< by term and column
 };
 
-/// Between the instants of a period, as laws may jump at them.
+/// Between the instants of a period, as laws may jump at them, and at no simple share of it, where they
+/// may all be zero.
 /// @param samples  at most
 const Term* find_unrepeated(Mechanism& mechanism, const Trajectory& trajectory, int steps,
                             double period, Compared compared, int samples) {
@@ -108,7 +110,7 @@ const Term* find_unrepeated(Mechanism& mechanism, const Trajectory& trajectory, 
   const int stride = 1 + steps / samples;
   for (int step = 1; step <= steps; step += stride) {
     trajectory.states->load(step, state);
-    state.time -= 0.5 * trajectory.step_size(step);
+    state.time -= golden_share * trajectory.step_size(step);
     check.see(state, turns);
   }
   return check.find();

@@ -105,6 +105,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{"/scene/materials/steel/fatigue_exponent", "-8",
                 "/scene/materials/steel/fatigue_exponent must be positive, got -8"},
         BadEdit{
+            "/scene/materials/steel/fatigue_exponent", "0.1",
+            "/scene/materials/steel/fatigue_exponent must be at least 1 (k of Basquin's line, 5 "
+            "to 15 for metals; its slope b is -1/k), got 0.1"},
+        BadEdit{
+            "/scene/materials/steel/ultimate_strength", R"("100 MPa")",
+            R"(/scene/materials/steel/strength must not be more than the "ultimate_strength", got "250 MPa")"},
+        BadEdit{
             "/responses/use/body", R"("rod")",
             R"(/responses/use/part needs the strength of the material "glass", which has none)"},
         BadEdit{

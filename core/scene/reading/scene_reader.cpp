@@ -7,6 +7,17 @@
 namespace pleuel {
 namespace {
 
+/// Yield and endurance come before fracture, where these are numbers.
+void check_strengths(const JsonNode& node, const Material& material) {
+  if (!material.ultimate_strength || material.ultimate_strength->is_bound()) return;
+  for (const auto& [key, strength] : {std::pair("strength", &material.strength),
+                                      std::pair("endurance_limit", &material.endurance_limit)}) {
+    if (!*strength || (*strength)->is_bound()) continue;
+    if ((*strength)->constant <= material.ultimate_strength->constant) continue;
+    node.at(key).fail_with_value("must not be more than the \"ultimate_strength\"");
+  }
+}
+
 Material read_material(const std::string& name, const JsonNode& node, NumberReader& numbers) {
   node.allow_keys({"young", "poisson", "density", "strength", "ultimate_strength",
                    "endurance_limit", "fatigue_strength", "fatigue_exponent"});
@@ -27,7 +38,12 @@ Material read_material(const std::string& name, const JsonNode& node, NumberRead
   material.fatigue_strength = read_strength("fatigue_strength");
   if (const auto exponent = node.find("fatigue_exponent")) {
     material.fatigue_exponent = numbers.fixed(*exponent, quantities::pure_number, Range::positive);
+    if (*material.fatigue_exponent < 1.0) {
+      exponent->fail_with_value(
+          "must be at least 1 (k of Basquin's line, 5 to 15 for metals; its slope b is -1/k)");
+    }
   }
+  check_strengths(node, material);
   return material;
 }
 
