@@ -1,6 +1,9 @@
 #include "core/model/initial_deflections.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <optional>
+#include <set>
 
 #include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
@@ -8,6 +11,7 @@
 
 #include "core/base/error.hpp"
 #include "core/model/attachment.hpp"
+#include "core/model/stiffening_builder.hpp"
 
 namespace pleuel {
 
@@ -15,8 +19,9 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using SparseColumns = Eigen::SparseMatrix<double>;
 
-Eigen::SparseMatrix<double> stiffness_of(const Invariants<double>& invariants) {
+SparseColumns stiffness_of(const Invariants<double>& invariants) {
   const ElasticPattern& pattern = invariants.pattern;
   std::vector<Eigen::Triplet<double>> entries;
   for (int row = 0; row < pattern.size; ++row) {
@@ -24,7 +29,7 @@ Eigen::SparseMatrix<double> stiffness_of(const Invariants<double>& invariants) {
       entries.emplace_back(row, pattern.column[k], invariants.stiffness(k));
     }
   }
-  Eigen::SparseMatrix<double> matrix(pattern.size, pattern.size);
+  SparseColumns matrix(pattern.size, pattern.size);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
 }
@@ -35,36 +40,139 @@ struct Given {
   MatrixXd measures;  ///< d, ḋ: places × 2
 };
 
+/// Elastic forces of a body against its frame, with their derivatives; elastic coordinates alone.
+class ElasticForces {
+ public:
+  /// @param size  of the state of the mechanism
+  ElasticForces(const BodyModel& model, const State& size)
+      : model_(model), linear_(stiffness_of(model.invariants)), state_(size) {
+    state_.q.setZero();
+    state_.v.setZero();
+    if (!model.has_stiffening) return;
+    stiffening_ = make_stiffening(model);
+    stiffening_->declare_entries(places_);
+  }
+
+  const SparseColumns& linear() const { return linear_; }
+  void set(const VectorXd& q) { state_.q.segment(model_.elastic_offset(), q.size()) = q; }
+
+  VectorXd forces() {
+    const VectorXd q = elastic(state_.q);
+    VectorXd sum = linear_ * q;
+    if (!stiffening_) return sum;
+    VectorXd residual = VectorXd::Zero(state_.q.size() + state_.lambda.size());
+    stiffening_->add_residual(state_, ConstraintLevel::position, residual);
+    return sum + elastic(residual);
+  }
+
+  SparseColumns tangent() {
+    if (!stiffening_) return linear_;
+    VectorXd values(static_cast<Eigen::Index>(places_.size()));
+    stiffening_->write_tangent(state_, {.q = 1.0}, ConstraintLevel::position, values.data());
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      entries.emplace_back(places_[k].first - model_.elastic_offset(),
+                           places_[k].second - model_.elastic_offset(),
+                           values(static_cast<Eigen::Index>(k)));
+    }
+    SparseColumns matrix(linear_.rows(), linear_.cols());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return linear_ + matrix;
+  }
+
+  /// By all design variables, at fixed coordinates: n × variables.
+  MatrixXd design_derivatives(int variables) {
+    MatrixXd columns = MatrixXd::Zero(state_.q.size() + state_.lambda.size(), variables);
+    if (stiffening_) {
+      stiffening_->add_design_derivative(state_, ConstraintLevel::position, columns);
+    }
+    MatrixXd sum = columns.middleRows(model_.elastic_offset(), model_.elastic_size());
+    const VectorXd q = elastic(state_.q);
+    for (const auto& [variable, change] : model_.invariants_x) {
+      sum.col(variable) += stiffness_of(change) * q;
+    }
+    return sum;
+  }
+
+ private:
+  VectorXd elastic(const VectorXd& all) const {
+    return all.segment(model_.elastic_offset(), model_.elastic_size());
+  }
+
+  const BodyModel& model_;
+  SparseColumns linear_;
+  State state_;
+  std::unique_ptr<Term> stiffening_;
+  EntryList places_;
+};
+
+/// Solves  A x − Sᵀ μ = f,  S x = d  for several right-hand sides.
+class HeldShape {
+ public:
+  HeldShape(const SparseColumns& matrix, const MatrixXd& rows) : rows_(rows), factors_(matrix) {
+    by_pull_ = factors_.solve(MatrixXd(rows.transpose()));
+    compliance_.compute(rows * by_pull_);
+  }
+
+  struct Solution {
+    MatrixXd x, pulls;
+  };
+  Solution solve(const MatrixXd& f, const MatrixXd& d) const {
+    const MatrixXd free = factors_.solve(f);
+    const MatrixXd pulls = compliance_.solve(d - rows_ * free);
+    return {free + by_pull_ * pulls, pulls};
+  }
+  /// What the places move by unit pulls on them: S A⁻¹ Sᵀ.
+  MatrixXd compliance() const { return rows_ * by_pull_; }
+
+ private:
+  MatrixXd rows_;
+  Eigen::SimplicialLDLT<SparseColumns> factors_;
+  MatrixXd by_pull_;
+  Eigen::LDLT<MatrixXd> compliance_;
+};
+
 class InitialShape {
  public:
-  InitialShape(std::size_t body, const std::vector<BodyModel>& bodies, const BuildContext& context)
-      : context_(context), body_(context.scene.bodies[body]), model_(bodies[body]) {
+  InitialShape(std::size_t body, const std::vector<BodyModel>& bodies, const BuildContext& context,
+               const State& size)
+      : context_(context),
+        body_(context.scene.bodies[body]),
+        model_(bodies[body]),
+        elastic_(model_, size) {
     for (const InitialDeflection& one : body_.initial_deflections) {
       places_.emplace_back(body_.name, one.at, bodies, context);
     }
     given_ = given();
-    stiffness_.compute(stiffness_of(model_.invariants));
-    const MatrixXd shapes = stiffness_.solve(MatrixXd(given_.rows.transpose()));
-    require_independence(given_.rows * shapes);
-    compliance_.compute(given_.rows * shapes);
-    shapes_ = shapes;
-    pulls_ = compliance_.solve(given_.measures);
+    const MatrixXd none = MatrixXd::Zero(model_.elastic_size(), 1);
+    linear_.emplace(elastic_.linear(), given_.rows);
+    require_independence(linear_->compliance());
+    rate_ = linear_->solve(none, given_.measures.col(1));
+    find_shape(linear_->solve(none, given_.measures.col(0)));
   }
 
-  /// Elastic coordinates and their rates, n × 2.
-  MatrixXd shape() const { return shapes_ * pulls_; }
+  VectorXd shape() const { return shape_.x; }
+  VectorXd rate() const { return rate_.x; }
 
-  /// K q' = S'ᵀ μ + Sᵀ μ' − K' q,   S q' = d' − S' q.
-  MatrixXd derivative(int variable) const {
-    const Given change = given_change(variable);
-    const MatrixXd q = shape();
-    MatrixXd rhs = change.rows.transpose() * pulls_;
-    for (const auto& [of, invariants] : model_.invariants_x) {
-      if (of == variable) rhs -= stiffness_of(invariants) * q;
+  /// Of shape and rate, n × 2 each, one a variable:
+  ///     K_T q' − Sᵀ μ' = S'ᵀ μ − f_x,   S q' = d' − S' q
+  std::vector<MatrixXd> derivatives(const std::set<int>& variables) {
+    const MatrixXd of_forces = elastic_.design_derivatives(context_.variables());
+    std::vector<MatrixXd> result;
+    for (const int variable : variables) {
+      const Given change = given_change(variable);
+      MatrixXd both(model_.elastic_size(), 2);
+      both.col(0) = tangent_
+                        ->solve(change.rows.transpose() * shape_.pulls - of_forces.col(variable),
+                                change.measures.col(0) - change.rows * shape_.x)
+                        .x;
+      both.col(1) = linear_
+                        ->solve(change.rows.transpose() * rate_.pulls - stiffness_change(variable),
+                                change.measures.col(1) - change.rows * rate_.x)
+                        .x;
+      result.push_back(std::move(both));
     }
-    const MatrixXd free = stiffness_.solve(rhs);
-    const MatrixXd gap = change.measures - change.rows * q - given_.rows * free;
-    return free + shapes_ * compliance_.solve(gap);
+    return result;
   }
 
  private:
@@ -142,15 +250,45 @@ class InitialShape {
     throw InputError(fmt::format("body \"{}\": the initial deflection {} {}", body_.name, i, why));
   }
 
+  /// By Newton's method from the linear shape: a bent beam is shorter, without axial force.
+  void find_shape(HeldShape::Solution start) {
+    constexpr int most_iterations = 30;
+    shape_ = std::move(start);
+    double size = 0.0;
+    for (int i = 0; i < most_iterations; ++i) {
+      elastic_.set(shape_.x);
+      tangent_.emplace(elastic_.tangent(), given_.rows);
+      const HeldShape::Solution step =
+          tangent_->solve(given_.rows.transpose() * shape_.pulls - elastic_.forces(),
+                          given_.measures.col(0) - given_.rows * shape_.x);
+      shape_.x += step.x;
+      shape_.pulls += step.pulls;
+      size = std::max(size, shape_.x.norm());
+      if (step.x.norm() <= 1e-13 * size) {
+        elastic_.set(shape_.x);
+        return;
+      }
+    }
+    throw InputError(fmt::format(
+        "body \"{}\": no shape with the initial deflections was found; are they too large?",
+        body_.name));
+  }
+
+  VectorXd stiffness_change(int variable) const {
+    for (const auto& [of, change] : model_.invariants_x) {
+      if (of == variable) return stiffness_of(change) * rate_.x;
+    }
+    return VectorXd::Zero(model_.elastic_size());
+  }
+
   const BuildContext& context_;
   const Body& body_;
   const BodyModel& model_;
+  ElasticForces elastic_;
   std::vector<Attachment> places_;
   Given given_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> stiffness_;
-  MatrixXd shapes_;  ///< K⁻¹ Sᵀ
-  Eigen::LDLT<MatrixXd> compliance_;
-  MatrixXd pulls_;  ///< μ, ν
+  std::optional<HeldShape> linear_, tangent_;
+  HeldShape::Solution shape_, rate_;
 };
 
 }  // namespace
@@ -160,15 +298,16 @@ void set_initial_deflections(std::size_t body, const std::vector<BodyModel>& bod
   const Body& of = context.scene.bodies[body];
   const BodyModel& model = bodies[body];
   if (of.initial_deflections.empty() || model.elastic_size() == 0) return;
-  const InitialShape initial(body, bodies, context);
+  InitialShape initial(body, bodies, context, mechanism.guess);
   const int offset = model.elastic_offset(), size = model.elastic_size();
-  const MatrixXd shape = initial.shape();
-  mechanism.guess.q.segment(offset, size) = shape.col(0);
-  mechanism.guess.v.segment(offset, size) = shape.col(1);
-  for (const int variable : variables_of(of, context.scene)) {
-    const MatrixXd change = initial.derivative(variable);
-    mechanism.guess_q_x.col(variable).segment(offset, size) = change.col(0);
-    mechanism.guess_v_x.col(variable).segment(offset, size) = change.col(1);
+  mechanism.guess.q.segment(offset, size) = initial.shape();
+  mechanism.guess.v.segment(offset, size) = initial.rate();
+  const std::set<int> variables = variables_of(of, context.scene);
+  const std::vector<MatrixXd> changes = initial.derivatives(variables);
+  std::size_t k = 0;
+  for (const int variable : variables) {
+    mechanism.guess_q_x.col(variable).segment(offset, size) = changes[k].col(0);
+    mechanism.guess_v_x.col(variable).segment(offset, size) = changes[k++].col(1);
   }
 }
 

@@ -8,9 +8,10 @@ namespace pleuel {
 
 /// Starts the elastic coordinates of a body with the deflections and rates that the scene gives it:
 /// the shapes of least elastic energy in which the places move that far,
-///     K q = Sᵀ μ,   S q = d   and   K v = Sᵀ ν,   S v = ḋ,
-/// with a row of S for each place along its direction, d the displacements against the body frame; and
-/// their derivatives.
+///     f(q) = Sᵀ μ,   S q = d   and   K v = Sᵀ ν,   S v = ḋ,
+/// with a row of S for each place along its direction and d the displacements against the body frame;
+/// and their derivatives. f are the elastic forces with geometric stiffening, so that no axial force
+/// comes of bending; rates have the linear shape.
 /// @param body    number of the body, in the scene and among the bodies
 /// @param guess   of the mechanism: its q, v and their derivatives are set
 /// @throws InputError if a place cannot move along its direction, or if two say the same

@@ -250,7 +250,8 @@ TEST_F(Mechanism, StartsBent) {
   document["scene"]["bodies"]["arm"]["initial_deflections"] = Json::parse(
       R"([{"at": [0.5, 0, 0], "direction": [0, 3, 4], "displacement": "2 mm"},
           {"at": [1, 0, 0], "direction": [0, 1, 0], "rate": {"variable": "speed"}}])");
-  const auto& deflections = read(document).scene.bodies[0].initial_deflections;
+  const std::vector<InitialDeflection> deflections =
+      read(document).scene.bodies[0].initial_deflections;
   ASSERT_EQ(deflections.size(), 2U);
   EXPECT_EQ(deflections[0].at[0].constant, 0.5);
   EXPECT_DOUBLE_EQ(deflections[0].direction[2], 0.8);
