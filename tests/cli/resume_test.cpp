@@ -62,7 +62,7 @@ TEST_F(Resumed, SeveralStartsEndAsIfTheyHadNotBeenKilled) {
 /// must not take each other's evaluations from the record.
 const std::array<std::string, 2> fronts = {
     " --set /pareto/points=4",
-    R"( --set '/pareto={"responses": ["mass", "rod_bow"], "points": 4}')"};
+    R"( --set '/pareto={"responses": ["crank_and_rod", "rod_bow"], "points": 4}')"};
 
 TEST_F(Resumed, FrontEndsAsIfItHadNotBeenKilled) {
   for (std::size_t i = 0; i < fronts.size(); ++i) {

@@ -276,8 +276,8 @@ TEST(SteadyOscillator, IsThatOfTheDiscreteFrequencyResponse) {
   const Eigen::Matrix4cd shift = turned * Eigen::Matrix4cd::Identity();
   const Eigen::Vector4cd of_z = (shift - scheme.history.cast<std::complex<double>>()).inverse() *
                                 scheme.correction.cast<std::complex<double>>();
-  const std::complex<double> q =
-      Oscillator::force / (Oscillator::m * of_z(2) + c * of_z(1) + Oscillator::k * of_z(0));
+  const std::complex<double> q = Oscillator::force * of_z(0) /
+                                 (Oscillator::m * of_z(2) + c * of_z(1) + Oscillator::k * of_z(0));
   for (int i = 0; i <= Oscillator::steps; ++i) {
     const double expected = std::imag(q * std::pow(turned, i));  // of the sine
     EXPECT_NEAR(analysis->histories[0](0, i), expected, 1e-10 * std::abs(q)) << i;
@@ -336,7 +336,7 @@ TEST(SteadyMachineErrors, NameAVariableThatSetsThePeriod) {
       gradients(file, x, *analysis, method);
       ADD_FAILURE() << "no complaint";
     } catch (const SimulationError& error) {
-      EXPECT_THAT(error.what(), testing::HasSubstr("push\" no longer repeats itself"));
+      EXPECT_THAT(error.what(), testing::HasSubstr("push no longer repeats itself"));
     }
   }
 }
