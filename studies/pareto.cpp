@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/base/find_named.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/stop.hpp"
 #include "core/base/tasks.hpp"
+#include "core/scene/case_goals.hpp"
 #include "core/scene/packed_problem.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/design/design_solve.hpp"
@@ -25,18 +25,38 @@ namespace {
 /// Optima agree to about this, relative: what differs by less is the same.
 constexpr double resolution = 1e-4;
 
-const ConstraintSettings& find_varied(const ProblemFile& problem) {
-  const ConstraintSettings* found = find_named(problem.constraints, problem.pareto->constraint);
-  if (!found) throw InputError("/pareto/constraint names no constraint");
-  return *found;
+/// Of a limit that holds in several load cases all its constraints, else one.
+std::vector<std::size_t> varied_rows(const ProblemFile& problem) {
+  std::vector<std::size_t> rows = constraints_of_limit(problem, problem.pareto->constraint);
+  if (rows.empty()) throw InputError("/pareto/constraint names no constraint");
+  return rows;
 }
 
-Eigen::Index varied_row(const ProblemFile& problem) {
-  return &find_varied(problem) - problem.constraints.data();
+void set_limit(ProblemFile& problem, double limit) {
+  for (const std::size_t row : varied_rows(problem)) {
+    ConstraintSettings& constraint = problem.constraints[row];
+    (constraint.upper ? constraint.upper : constraint.lower) = limit;
+  }
 }
 
-void set_limit(ConstraintSettings& constraint, double limit) {
-  (constraint.upper ? constraint.upper : constraint.lower) = limit;
+/// The value that is the nearest to the limit, or the furthest beyond.
+double limited_value(const ProblemFile& problem, const Eigen::VectorXd& constraints) {
+  std::optional<double> worst;
+  for (const std::size_t row : varied_rows(problem)) {
+    const double value = constraints(static_cast<Eigen::Index>(row));
+    const bool is_upper = problem.constraints[row].upper.has_value();
+    if (!worst || (is_upper ? value > *worst : value < *worst)) worst = value;
+  }
+  return *worst;
+}
+
+/// Of all constraints of the limit together, which moves in all of them.
+double multiplier_of_limit(const ProblemFile& problem, const Eigen::VectorXd& multipliers) {
+  double sum = 0.0;
+  for (const std::size_t row : varied_rows(problem)) {
+    sum += multipliers(static_cast<Eigen::Index>(row));
+  }
+  return sum;
 }
 
 /// Bounds are kept exactly: an optimum may miss them by rounding.
@@ -67,13 +87,8 @@ double signed_value(const Objective& goal, double value) {
 /// another response.
 ProblemFile with_goal(ProblemFile file, const Objective& goal,
                       const std::optional<std::pair<Objective, double>>& limit) {
-  file.objective = goal;
-  if (!limit) return file;
-  ConstraintSettings constraint;
-  constraint.name = limit->first.response;
-  constraint.response = limit->first.response;
-  (limit->first.aim == Aim::minimize ? constraint.upper : constraint.lower) = limit->second;
-  file.constraints.push_back(std::move(constraint));
+  set_objective(file, goal);
+  if (limit) add_limit(file, limit->first, limit->second, limit->first.response);
   return file;
 }
 
@@ -104,10 +119,9 @@ struct EndWork : TaskWork {
     End end;
     end.result = solve_design(design, options);
     if (end.result.evaluation.has_gradients()) {
-      const Analysis& analysis = design.load_case(0).analysis_at(end.result.x);  // the only one
       for (std::size_t i = 0; i < 2; ++i) {
         const std::size_t response = design.response_index(file.pareto->goals[i].response);
-        end.values[i] = analysis.reductions[response].value;
+        end.values[i] = design.value_at(end.result.x, response);
       }
     }
     return packed(end);
@@ -231,19 +245,19 @@ struct PointWork : TaskWork {
   std::string run(int task, const std::string& needed, TaskCaller& caller) override {
     if (static_cast<std::size_t>(task) < ends.size()) return packed(ends[task]);
     RemoteStore store(caller);
-    const Eigen::Index row = varied_row(problem);
     FoundPoint found;
     found.start =
         needed.empty() ? start_design(problem) : unpacked<FoundPoint>(needed).next_start();
     ProblemFile varied = problem;
-    set_limit(varied.constraints[row], limits[task]);
+    set_limit(varied, limits[task]);
     start_from(found.start, varied.variables);
     DesignProblem design(varied, available_threads(), has_store ? &store : nullptr);
     found.point.limit = limits[task];
     found.point.result = solve_design(design, options);
     if (found.point.has_design()) {
-      found.point.limited_value = found.point.result.evaluation.constraints(row);
-      found.point.multiplier = found.point.result.constraint_multipliers(row);
+      const Result& result = found.point.result;
+      found.point.limited_value = limited_value(varied, result.evaluation.constraints);
+      found.point.multiplier = multiplier_of_limit(varied, result.constraint_multipliers);
     }
     return packed(found);
   }
@@ -377,21 +391,28 @@ void mark_dominated(std::vector<ParetoPoint>& points, GoodSide side) {
   }
 }
 
+namespace {
+
+/// Of the worst case it stands in all of them, and bears the name that the response has there.
+std::string name_of_limit_on(const Objective& goal, const ProblemFile& problem) {
+  if (goal.over_cases != OverCases::worst) return goal.response;
+  for (std::size_t i = 0; i < problem.responses.size(); ++i) {
+    if (problem.responses[i].name != goal.response) continue;
+    return problem.cases.front().responses[problem.case_responses[i].index].name;
+  }
+  return goal.response;
+}
+
+}  // namespace
+
 ProblemFile trade_off_problem(ProblemFile problem) {
   if (!problem.pareto || problem.pareto->goals.empty()) return problem;
-  if (problem.has_cases()) {
-    throw InputError(
-        "/pareto/responses: fronts between responses take no load cases; take \"constraint\"");
-  }
-  const std::vector<Objective> goals = problem.pareto->goals;
-  problem =
-      with_goal(std::move(problem), goals[0], std::pair(goals[1], goals[1].sign() * infinity));
-  std::string& name = problem.constraints.back().name;
-  const auto is_taken = [&] {
-    return std::count_if(problem.constraints.begin(), problem.constraints.end(),
-                         [&](const ConstraintSettings& one) { return one.name == name; }) > 1;
-  };
-  while (is_taken()) name += " (traded)";
+  for (Objective& goal : problem.pareto->goals) goal = goal_of_problem(problem, goal);
+  const Objective &first = problem.pareto->goals[0], &second = problem.pareto->goals[1];
+  std::string name = name_of_limit_on(second, problem);
+  while (!constraints_of_limit(problem, name).empty()) name += " (traded)";
+  set_objective(problem, first);
+  add_limit(problem, second, second.sign() * infinity, name);
   problem.pareto->constraint = name;
   return problem;
 }
@@ -408,7 +429,7 @@ FoundPoint point_of(const End& end, const ProblemFile& problem, const Execution&
   point.limit = point.limited_value = end.values[1];
   if (!point.has_design()) return found;
   ProblemFile limited = problem;
-  set_limit(limited.constraints[varied_row(problem)], point.limit);
+  set_limit(limited, point.limit);
   DesignProblem design(std::move(limited), available_threads(), execution.store);
   Result& result = point.result;
   result.evaluation = design.evaluate(result.x, Request::values_and_gradients);
@@ -432,7 +453,7 @@ std::vector<ParetoPoint> points_of(Front& front, const Execution& execution) {
 std::vector<ParetoPoint> front_between(ProblemFile problem, const SolveOptions& options,
                                        const Execution& execution, const ParetoObserver& observer) {
   ProblemFile file = problem;
-  file.constraints.pop_back();  // the limit that is varied
+  remove_limit(file, file.pareto->constraint);
   std::vector<FoundPoint> ends;
   for (const End& end : find_ends(file, options, execution)) {
     ends.push_back(point_of(end, problem, execution));
@@ -468,7 +489,7 @@ std::vector<ParetoPoint> pareto_front(const ProblemFile& problem, const SolveOpt
   } else {
     points = front_between(problem, options, execution, observer);
   }
-  const ConstraintSettings& varied = find_varied(problem);
+  const ConstraintSettings& varied = problem.constraints[varied_rows(problem).front()];
   mark_dominated(points, varied.upper ? GoodSide::low : GoodSide::high);
   return points;
 }

@@ -16,7 +16,8 @@ namespace pleuel {
 /// The best design for one value of the limit that is varied.
 struct ParetoPoint {
   double limit = 0.0;          ///< [SI]
-  double limited_value = 0.0;  ///< of the constraint whose limit is varied [SI]
+  /// Of the constraint whose limit is varied [SI]; of several load cases the worst.
+  double limited_value = 0.0;
   /// Of that constraint: d(objective)/d(limit) = −multiplier. Only where has_prices(result).
   double multiplier = 0.0;
   bool is_dominated = false;  ///< another point is better in one goal and no worse in the other
@@ -50,7 +51,8 @@ ParetoOrder pareto_order(int points);
 
 /// Of a front between two responses: the problem that minimizes, or maximizes, the first of them,
 /// with a limit on the second that is varied, after those of the file; it bears the name of that
-/// response, or of its place if there is one. Another problem is as it was.
+/// response, or of its place if there is one. The limit on the worst of several load cases holds in
+/// all of them. Another problem is as it was.
 ProblemFile trade_off_problem(ProblemFile problem);
 
 /// The trade-off between the objective and one limit by the ε-constraint method (Haimes, Lasdon &

@@ -241,6 +241,7 @@ class Study {
       const Eigen::VectorXd parts = gradients.row(i).transpose().cwiseProduct(deviations_);
       UncertainResponse response;
       response.value = analysis_->reductions[i].value;
+      response.gradient = gradients.row(i);
       response.deviation = parts.norm();
       response.bound = gradients.row(i).cwiseAbs() * widths;
       response.shares = parts.cwiseAbs2();

@@ -26,7 +26,8 @@ struct UncertainResponse {
   double value = 0.0;      ///< at the design; to first order the mean [SI]
   double deviation = 0.0;  ///< σ
   double bound = 0.0;      ///< Σ |g_i| r_i: the response lies within value ± bound
-  Eigen::VectorXd shares;  ///< (g_i σ_i)²/σ² of each parameter; zero if σ is
+  Eigen::VectorXd gradient;  ///< g
+  Eigen::VectorXd shares;    ///< (g_i σ_i)²/σ² of each parameter; zero if σ is
   std::optional<Sampled> sampled;
 };
 

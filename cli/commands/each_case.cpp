@@ -8,9 +8,13 @@
 #include <fmt/format.h>
 
 #include "cli/input/fingerprint.hpp"
+#include "cli/input/problem_input.hpp"
 #include "cli/reports/case_report.hpp"
+#include "cli/reports/over_cases_report.hpp"
 #include "cli/text/console.hpp"
 #include "core/base/error.hpp"
+#include "core/base/stop.hpp"
+#include "core/scene/problem_reader.hpp"
 #include "core/scene/reading/document_reader.hpp"
 #include "core/scene/reading/text_file.hpp"
 
@@ -18,7 +22,8 @@ namespace pleuel {
 
 namespace {
 
-constexpr std::array commands = {"simulate", "check", "gradient", "show"};
+constexpr std::array commands = {"simulate", "check",     "gradient",   "show",
+                                 "accuracy", "stability", "uncertainty"};
 
 std::vector<std::string> case_names(const Arguments& arguments) {
   const Json document = overridden_document(
@@ -28,6 +33,22 @@ std::vector<std::string> case_names(const Arguments& arguments) {
     names.push_back(one.name);
   }
   return names;
+}
+
+/// What is made from several cases: no case has it.
+void add_numbers_over_cases(const Arguments& arguments, Outcome& all) {
+  const bool has_values = arguments.command == "simulate" || arguments.command == "gradient" ||
+                          arguments.command == "uncertainty";
+  if (!has_values) return;
+  for (const auto& [name, document] : all.document["cases"].items()) {
+    if (!document.contains("responses")) return;  // it could not be simulated
+  }
+  const ProblemFile joined = read_problem(arguments.file, arguments.overrides);
+  const Json document =
+      over_cases_document(joined, design_of(arguments, joined), all.document["cases"]);
+  if (document.is_null()) return;
+  all.document["over_cases"] = document;
+  all.text += over_cases_text(joined, document);
 }
 
 }  // namespace
@@ -46,13 +67,22 @@ Outcome run_each_case(const Arguments& arguments, Outcome (*command)(const Argum
     Arguments one = arguments;
     one.load_case = name;
     if (arguments.output) one.output = *arguments.output / plain_file_name(name);
-    const Outcome outcome = command(one);
+    Outcome outcome;
+    try {
+      outcome = command(one);
+    } catch (const Stopped&) {
+      if (all.text.empty()) throw;
+      all.exit_code = std::max(all.exit_code, ExitCode::not_verified);
+      all.text += fmt::format("\nInterrupted before the case \"{}\".\n", name);
+      return all;
+    }
     all.document["cases"][name] = outcome.document;
     all.text +=
         fmt::format("{}Case \"{}\"\n\n{}", all.text.empty() ? "" : "\n", name, outcome.text);
     all.exit_code = std::max(all.exit_code, outcome.exit_code);
     all.unwritten.insert(all.unwritten.end(), outcome.unwritten.begin(), outcome.unwritten.end());
   }
+  add_numbers_over_cases(arguments, all);
   return all;
 }
 

@@ -5,7 +5,7 @@
 
 namespace pleuel {
 
-/// Whether the file of a command that looks at one simulation has load cases, and none of them is
+/// Whether the file of a command that looks at one design has load cases, and none of them is
 /// named: then it runs for each.
 bool asks_for_each_case(const Arguments& arguments);
 

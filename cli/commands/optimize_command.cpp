@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -30,7 +31,9 @@
 #include "cli/reports/warnings.hpp"
 #include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
+#include "core/base/error.hpp"
 #include "core/base/stop.hpp"
+#include "core/response/value_over_cases.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/trust/case_doubts.hpp"
@@ -86,19 +89,24 @@ std::vector<CaseDesigns> simulate_designs(RunRecord& record, const Optimum& opti
   return all;
 }
 
-/// Of all cases, in the order of the joined problem. The objective over cases is the last.
+/// Of all cases, in the order of the joined problem.
 Eigen::VectorXd joined_values(const ProblemFile& joined, const std::vector<CaseDesigns>& designs,
-                              double objective,
+                              const Eigen::VectorXd& x,
                               const std::function<Eigen::VectorXd(const CaseDesigns&)>& values_in) {
   std::vector<Eigen::VectorXd> values;
   for (const CaseDesigns& one : designs) values.push_back(values_in(one));
   if (!joined.has_cases()) return values.front();
+  const ValueInCase value_of = [&](std::size_t response) {
+    const auto [load_case, index] = joined.case_responses[response];
+    return values[load_case](static_cast<Eigen::Index>(index));
+  };
   Eigen::VectorXd all(std::ssize(joined.responses));
   for (std::size_t i = 0; i < joined.responses.size(); ++i) {
-    const auto [load_case, index] = joined.case_responses[i];
-    all(static_cast<Eigen::Index>(i)) = is_over_cases(joined, i)
-                                            ? joined.objective->sign() * objective
-                                            : values[load_case](static_cast<Eigen::Index>(index));
+    try {
+      all(static_cast<Eigen::Index>(i)) = value_over_cases(joined, i, x, value_of);
+    } catch (const SimulationError&) {  // of one that is only looked at
+      all(static_cast<Eigen::Index>(i)) = std::numeric_limits<double>::quiet_NaN();
+    }
   }
   return all;
 }
@@ -114,6 +122,27 @@ void add_monitors(Monitors& all, const Monitors& one) {
   all.most_bent = one.most_bent;
 }
 
+/// By those of single cases. @returns NaN where there is none
+template <class GradientInCase>
+Eigen::VectorXd gradient_over_cases(const Optimum& optimum, std::size_t response,
+                                    const GradientInCase& gradient_in_case) {
+  const ValueInCase value_of = [&](std::size_t part) {
+    return optimum.responses(static_cast<Eigen::Index>(part));
+  };
+  try {
+    const LinearizedResponse linear =
+        linearized_over_cases(optimum.problem, response, optimum.result.x, value_of);
+    Eigen::VectorXd gradient = linear.design;
+    for (const WeightedResponse& part : linear.parts) {
+      gradient += part.weight * gradient_in_case(part.response);
+    }
+    return gradient;
+  } catch (const SimulationError&) {
+    return Eigen::VectorXd::Constant(optimum.result.x.size(),
+                                     std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
 /// Gradients of the responses of all cases; none if those of a case are not known.
 std::optional<DesignInfluence> joined_influence(const Optimum& optimum,
                                                 const std::vector<CaseDesigns>& designs) {
@@ -124,16 +153,14 @@ std::optional<DesignInfluence> joined_influence(const Optimum& optimum,
   }
   DesignInfluence all;
   all.gradients.resize(std::ssize(joined.responses), std::ssize(joined.variables));
+  const auto gradient_in_case = [&](std::size_t response) -> Eigen::VectorXd {
+    const auto [load_case, index] = joined.case_responses[response];
+    return designs[load_case].influence->gradients.row(static_cast<Eigen::Index>(index));
+  };
   for (std::size_t i = 0; i < joined.responses.size(); ++i) {
-    const auto [load_case, index] = joined.case_responses[i];
-    const auto row = static_cast<Eigen::Index>(i);
-    if (is_over_cases(joined, i)) {
-      all.gradients.row(row) =
-          joined.objective->sign() * optimum.result.evaluation.objective_gradient.transpose();
-    } else {
-      all.gradients.row(row) =
-          designs[load_case].influence->gradients.row(static_cast<Eigen::Index>(index));
-    }
+    all.gradients.row(static_cast<Eigen::Index>(i)) =
+        is_over_cases(joined, i) ? gradient_over_cases(optimum, i, gradient_in_case)
+                                 : gradient_in_case(i);
   }
   return all;
 }
@@ -173,9 +200,9 @@ Examined examine_designs(RunRecord& record, Optimum& optimum) {
   std::vector<CaseDesigns> designs = simulate_designs(record, optimum);
   const EvaluationRecord& first = first_design(optimum.result.history);
   optimum.start_responses =
-      joined_values(optimum.problem, designs, first.objective,
+      joined_values(optimum.problem, designs, first.x,
                     [](const CaseDesigns& one) { return values_of(*one.start); });
-  optimum.responses = joined_values(optimum.problem, designs, optimum.result.evaluation.objective,
+  optimum.responses = joined_values(optimum.problem, designs, optimum.result.x,
                                     [](const CaseDesigns& one) { return values_of(*one.end); });
   record.begin_phase("influence");
   Examined examined = examine_cases(optimum, designs);

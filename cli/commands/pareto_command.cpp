@@ -17,6 +17,8 @@
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
+#include "core/scene/case_goals.hpp"
+#include "core/scene/load_cases.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "optimization/prices.hpp"
 #include "studies/pareto_knee.hpp"
@@ -25,16 +27,27 @@ namespace pleuel {
 
 namespace {
 
-const ConstraintSettings& varied_constraint(const ProblemFile& problem) {
-  for (const ConstraintSettings& constraint : problem.constraints) {
-    if (constraint.name == problem.pareto->constraint) return constraint;
-  }
-  throw InputError("/pareto/constraint names no constraint");
+std::vector<std::size_t> varied_constraints(const ProblemFile& problem) {
+  std::vector<std::size_t> all = constraints_of_limit(problem, problem.pareto->constraint);
+  if (all.empty()) throw InputError("/pareto/constraint names no constraint");
+  return all;
 }
 
-/// What the front trades against the objective: a response, or a sum of variables by its name.
-std::string limited_name(const ConstraintSettings& constraint) {
-  return constraint.response.empty() ? constraint.name : constraint.response;
+/// Of a limit that holds in several load cases the first.
+const ConstraintSettings& varied_constraint(const ProblemFile& problem) {
+  return problem.constraints[varied_constraints(problem).front()];
+}
+
+/// What the front trades against the objective: a response, that of the worst of several cases, or a
+/// sum of variables by its name.
+std::string limited_name(const ProblemFile& problem) {
+  const std::vector<std::size_t> varied = varied_constraints(problem);
+  const ConstraintSettings& first = problem.constraints[varied.front()];
+  if (first.response.empty()) return first.name;
+  if (varied.size() == 1) return first.response;
+  const OfCase of_case = problem.case_constraints[varied.front()];
+  const ProblemFile& one = problem.cases[of_case.load_case];
+  return name_in_case(one.constraints[of_case.index].response, "worst");
 }
 
 /// pareto.csv: a line for each point, first as it is found, in the end by its limit [SI].
@@ -100,7 +113,7 @@ Json point_document(const ProblemFile& problem, const ParetoPoint& point) {
     const double sign = problem.objective->sign();
     document["objectives"] = {
         {problem.objective->response, sign * point.result.evaluation.objective},
-        {limited_name(varied_constraint(problem)), point.limited_value}};
+        {limited_name(problem), point.limited_value}};
     if (point.has_multiplier()) document["multiplier"] = sign * point.multiplier;
   }
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
@@ -149,11 +162,11 @@ Json make_document(const ProblemFile& problem, const std::vector<ParetoPoint>& p
   const ConstraintSettings& constraint = varied_constraint(problem);
   const bool is_whole = is_whole_front(problem, points);
   Json document = {{"status", study_status(is_whole)},
-                   {"constraint", constraint.name},
+                   {"constraint", problem.pareto->constraint},
                    {"units",
                     {{problem.objective->response,
                       unit_of(find_response(problem, problem.objective->response)).si},
-                     {limited_name(constraint), unit_of(problem, constraint).si}}},
+                     {limited_name(problem), unit_of(problem, constraint).si}}},
                    {"points", Json::array()}};
   const std::optional<std::size_t> knee = knee_of(problem, points);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -171,7 +184,7 @@ std::vector<Table::Column> design_columns(const ProblemFile& problem) {
   const ShownUnit goal = unit_of(find_response(problem, objective));
   std::vector<Table::Column> columns = {
       {fmt::format("limit [{}]", limited.name)},
-      {fmt::format("{} [{}]", limited_name(constraint), limited.name)},
+      {fmt::format("{} [{}]", limited_name(problem), limited.name)},
       {fmt::format("{} [{}]", objective, goal.name)},
       {fmt::format("± [{}]", goal.name)},
       {fmt::format("multiplier [{}/{}]", goal.name, limited.name)}};
@@ -248,7 +261,7 @@ Json front_picture(const ProblemFile& problem, const std::vector<ParetoPoint>& p
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].has_design()) designs.push_back({std::to_string(i + 1), points[i].result.x});
   }
-  return run_picture(problem, designs);
+  return run_picture(*simulated_problems(problem).front(), designs);
 }
 
 void show_progress(std::FILE* out, const ProblemFile& problem, const ParetoPoint& point) {

@@ -41,10 +41,13 @@ Json response_document(const ProblemFile& problem, const UncertaintyStudy& study
                    {"unit", unit},
                    {"deviation", response.deviation},
                    {"bounds", {response.value - response.bound, response.value + response.bound}},
-                   {"shares", Json::object()}};
+                   {"shares", Json::object()},
+                   {"gradients", Json::object()}};
   const auto& parameters = problem.uncertainty->parameters;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    document["shares"][name_of(problem, parameters[i])] = response.shares(i);
+    const std::string& name = name_of(problem, parameters[i]);
+    document["shares"][name] = response.shares(i);
+    document["gradients"][name] = response.gradient(i);
   }
   if (!study.errors.empty()) document["error"] = error_document(error_of(study.errors, index));
   if (response.sampled) document["sampled"] = sampled_document(*response.sampled);

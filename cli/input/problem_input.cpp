@@ -55,10 +55,11 @@ void set_method(SensitivitySettings& sensitivity, const Arguments& arguments) {
   if (arguments.difference_step) sensitivity.difference_step = *arguments.difference_step;
 }
 
-/// Only an optimization looks at all cases together.
+/// Optimizations look at all cases together.
 void require_one_case(const ProblemFile& problem, const std::filesystem::path& file,
                       const Arguments& arguments) {
-  if (!problem.has_cases() || arguments.command == "optimize") return;
+  const bool takes_all = arguments.command == "optimize" || arguments.command == "pareto";
+  if (!problem.has_cases() || takes_all) return;
   throw InputError(fmt::format(
       "{}: has the load cases {}; `pleuel {}` takes one of them: --case \"{}\"", file.string(),
       case_list(problem), arguments.command, problem.cases.front().load_case));
@@ -75,9 +76,7 @@ ProblemInput read_file(const std::filesystem::path& file, const Arguments& argum
   }
   set_method(input.problem.sensitivity, arguments);
   for (ProblemFile& one : input.problem.cases) set_method(one.sensitivity, arguments);
-  input.design = arguments.design ? read_design(*arguments.design, input.problem)
-                                  : start_design(input.problem);
-  apply_named_values(arguments, input.problem, input.design);
+  input.design = design_of(arguments, input.problem);
   decide_effects(input.problem);
   input.text = {whole_text(file), file.string(), arguments.overrides,
                 arguments.load_case.value_or("")};
@@ -99,6 +98,13 @@ ProblemInput read_file(const std::filesystem::path& file, const Arguments& argum
 }
 
 }  // namespace
+
+Eigen::VectorXd design_of(const Arguments& arguments, const ProblemFile& problem) {
+  Eigen::VectorXd design =
+      arguments.design ? read_design(*arguments.design, problem) : start_design(problem);
+  apply_named_values(arguments, problem, design);
+  return design;
+}
 
 ProblemInput read_input(const Arguments& arguments) {
   return read_file(arguments.file, arguments);

@@ -27,6 +27,10 @@ struct ProblemInput {
   std::optional<SettingChoice> choice;
 };
 
+/// The design that a command looks at: that of --design, else the start, with values of variables that
+/// the command line sets [SI].
+Eigen::VectorXd design_of(const Arguments& arguments, const ProblemFile& problem);
+
 /// The file of a command that takes one. @throws InputError
 ProblemInput read_input(const Arguments& arguments);
 

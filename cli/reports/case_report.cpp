@@ -60,6 +60,7 @@ double worth(const ProblemFile& problem, const Result& result, std::size_t const
 std::string limit_of(const ProblemFile& problem, std::size_t constraint) {
   if (!problem.has_cases()) return problem.constraints[constraint].name;
   const OfCase of_case = problem.case_constraints[constraint];
+  if (is_of_several(of_case)) return problem.constraints[constraint].name;
   return problem.cases[of_case.load_case].constraints[of_case.index].name;
 }
 
@@ -67,6 +68,12 @@ std::string case_of(const ProblemFile& problem, std::size_t constraint) {
   const bool is_of_case =
       problem.has_cases() && limit_of(problem, constraint) != problem.constraints[constraint].name;
   return is_of_case ? problem.cases[problem.case_constraints[constraint].load_case].load_case : "";
+}
+
+std::string cases_of_limit(const ProblemFile& problem, std::size_t constraint) {
+  if (is_of_several(case_of_constraint(problem, constraint))) return "several";
+  const std::string load_case = case_of(problem, constraint);
+  return load_case.empty() ? "all" : load_case;
 }
 
 std::vector<bool> deciding_constraints(const ProblemFile& problem, const Eigen::VectorXd& values) {

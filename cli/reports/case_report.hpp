@@ -17,6 +17,9 @@ std::string limit_of(const ProblemFile& problem, std::size_t constraint);
 /// The case that a constraint is of; empty where it holds in all cases alike.
 std::string case_of(const ProblemFile& problem, std::size_t constraint);
 
+/// The same for a table: "fast", "all", or "several" where it is made from some.
+std::string cases_of_limit(const ProblemFile& problem, std::size_t constraint);
+
 /// One a constraint: whether its value is the nearest to the limit, or the furthest beyond, of the
 /// values in all cases.
 std::vector<bool> deciding_constraints(const ProblemFile& problem, const Eigen::VectorXd& values);

@@ -53,19 +53,24 @@ std::string sum_text(const ProblemFile& problem, const Eigen::VectorXd& x,
 
 }  // namespace
 
+Json limit_document(const ProblemFile& problem, const ConstraintSettings& constraint,
+                    double value) {
+  const UsedLimit used = used_limit(constraint, value);
+  Json entry = {{"value", value},
+                {"limit", used.limit},
+                {"side", used.is_upper ? "upper" : "lower"},
+                {"unit", unit_of(problem, constraint).si}};
+  if (used.utilisation) entry["utilisation"] = *used.utilisation;
+  entry["kept"] = is_kept(constraint, value);
+  return entry;
+}
+
 Json limits_document(const ProblemFile& problem, const Eigen::VectorXd& x,
                      const Analysis& analysis) {
   Json document = Json::object();
   for (const ConstraintSettings& constraint : problem.constraints) {
     const double value = value_of(constraint, problem, x, analysis);
-    const UsedLimit used = used_limit(constraint, value);
-    Json& entry = document[constraint.name];
-    entry = {{"value", value},
-             {"limit", used.limit},
-             {"side", used.is_upper ? "upper" : "lower"},
-             {"unit", unit_of(problem, constraint).si}};
-    if (used.utilisation) entry["utilisation"] = *used.utilisation;
-    entry["kept"] = is_kept(constraint, value);
+    document[constraint.name] = limit_document(problem, constraint, value);
   }
   return document;
 }

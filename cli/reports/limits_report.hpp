@@ -9,6 +9,9 @@
 /// `deviations` ask for.
 namespace pleuel {
 
+/// {"value", "limit", "side", "unit", "utilisation", "kept"} of one limit [SI]
+Json limit_document(const ProblemFile& problem, const ConstraintSettings& constraint, double value);
+
 /// {NAME: {"value", "limit", "side", "unit", "utilisation", "kept"}} [SI]
 Json limits_document(const ProblemFile& problem, const Eigen::VectorXd& x,
                      const Analysis& analysis);

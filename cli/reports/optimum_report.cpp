@@ -162,8 +162,7 @@ std::string constraints_text(const Optimum& optimum) {
   for (std::size_t i = 0; i < optimum.problem.constraints.size(); ++i) {
     if (!is_shown(optimum, i, decides)) continue;
     std::vector<std::string> row = constraint_row(optimum, i);
-    const std::string load_case = case_of(optimum.problem, i);
-    if (has_cases) row.insert(row.begin() + 1, load_case.empty() ? "all" : load_case);
+    if (has_cases) row.insert(row.begin() + 1, cases_of_limit(optimum.problem, i));
     table.add_row(std::move(row));
     ++shown;
   }

@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
+#include "core/scene/case_goals.hpp"
 #include "core/scene/reading/suggestion.hpp"
 #include "core/scene/response_parts.hpp"
 
@@ -95,24 +96,14 @@ void add_constraints(ProblemFile& joined, const std::vector<bool>& is_same) {
   }
 }
 
-std::string word_of(const Objective& objective) {
-  if (objective.over_cases == OverCases::worst) return "worst";
-  return objective.weights.empty() ? "sum" : "weighted";
-}
-
 void join_objective(ProblemFile& joined) {
   Objective& objective = *joined.objective;
-  const std::size_t index = index_of(joined.cases.front(), objective.response);
-  const std::size_t first = joined_response(joined, {0, index});
-  if (objective.over_cases != OverCases::same) {
-    joined.responses.push_back(joined.responses[first]);
-    joined.responses.back().name = name_in_case(objective.response, word_of(objective));
-    joined.case_responses.push_back({0, index});
+  if (objective.over_cases == OverCases::same) {
+    const std::size_t index = index_of(joined.cases.front(), objective.response);
+    objective.response = joined.responses[joined_response(joined, {0, index})].name;
+  } else {
+    joined.objective = goal_of_problem(joined, objective);
   }
-  objective.response =
-      joined
-          .responses[objective.over_cases == OverCases::same ? first : joined.responses.size() - 1]
-          .name;
 }
 
 }  // namespace
@@ -197,9 +188,7 @@ OfCase case_of_constraint(const ProblemFile& problem, std::size_t constraint) {
 }
 
 bool is_over_cases(const ProblemFile& problem, std::size_t response) {
-  return problem.has_cases() && problem.objective &&
-         problem.objective->over_cases != OverCases::same &&
-         response + 1 == problem.responses.size();
+  return problem.has_cases() && is_of_several(problem.case_responses[response]);
 }
 
 std::size_t joined_response(const ProblemFile& problem, const OfCase& of_case) {
@@ -208,7 +197,7 @@ std::size_t joined_response(const ProblemFile& problem, const OfCase& of_case) {
   std::size_t same = problem.case_responses.size();
   for (std::size_t i = 0; i < problem.case_responses.size(); ++i) {
     const OfCase& here = problem.case_responses[i];
-    if (here.index != of_case.index) continue;
+    if (is_of_several(here) || here.index != of_case.index) continue;
     if (here.load_case == of_case.load_case) return i;
     if (here.load_case == 0) same = i;
   }

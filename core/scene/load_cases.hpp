@@ -9,6 +9,13 @@
 /// Load cases: one design in several scenes or settings.
 namespace pleuel {
 
+/// OfCase::load_case of a number that is made from those of several cases.
+inline constexpr std::size_t several_cases = static_cast<std::size_t>(-1);
+
+inline bool is_of_several(const OfCase& number) {
+  return number.load_case == several_cases;
+}
+
 /// Whether a list of names means a case: by its own name or that of its range; an empty one all.
 bool is_in_case(const std::vector<std::string>& names, const ProblemFile& load_case);
 
@@ -41,12 +48,12 @@ std::vector<const ProblemFile*> simulated_problems(const ProblemFile& problem);
 /// The same, to be changed.
 std::vector<ProblemFile*> simulated_problems(ProblemFile& problem);
 
-/// Where a response of a problem is simulated; itself where there are no cases. One of the
-/// objective over cases says where it is in the first.
+/// Where a response of a problem is simulated; itself where there are no cases.
 OfCase case_of_response(const ProblemFile& problem, std::size_t response);
 OfCase case_of_constraint(const ProblemFile& problem, std::size_t constraint);
 
-/// Whether a response is that of an objective over cases: a number made from several.
+/// Whether a response is made from those of several cases: that of an objective over cases, or an
+/// expression that names cases. It is an expression of responses of the joined problem.
 bool is_over_cases(const ProblemFile& problem, std::size_t response);
 
 /// The response of the joined problem that a response of a case is.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/scene/reading/across_cases.hpp"
 #include "core/scene/reading/case_reader.hpp"
 #include "core/scene/reading/catalogue.hpp"
 #include "core/scene/reading/document_reader.hpp"
@@ -39,8 +40,7 @@ ProblemFile read_case_problem(const Json& document, const CaseChanges& changes,
   try {
     return read_expanded(std::move(of_case), file, units);
   } catch (const InputError& error) {
-    Json without = document;
-    without.erase("cases");
+    const Json without = document_of_case(document, CaseChanges(), file);
     if (failure_of(without, file, units) == error.what()) throw;
     throw InputError(fmt::format("{} (in the case \"{}\")", error.what(), changes.name));
   }
@@ -67,10 +67,14 @@ ProblemFile read_problem_text(const std::string& text, const std::string& file,
     return problem;
   }
   std::vector<ProblemFile> cases;
+  std::vector<Json> documents;
   for (const CaseChanges& one : changes) {
     cases.push_back(read_case_problem(document, one, file, units));
+    documents.push_back(document_of_case(document, one, file));
   }
-  return join_cases(root, changes, std::move(cases));
+  ProblemFile joined = join_cases(root, changes, std::move(cases));
+  read_across_cases(root, documents, units, joined);
+  return joined;
 }
 
 }  // namespace pleuel

@@ -1,7 +1,10 @@
 #include "optimization/design/case_trust.hpp"
 
+#include <cmath>
+#include <map>
 #include <utility>
 
+#include "core/base/error.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/trust/case_doubts.hpp"
@@ -16,7 +19,55 @@ Trust trust_of(DesignCase& of_case, const Eigen::VectorXd& x, Scrutiny scrutiny)
   return judge_run(TrustedRun{of_case.file(), x, analysis, monitors, scrutiny});
 }
 
+/// The evidence of zero, from the runs of another value.
+Evidence nothing_beside(const Evidence& value) {
+  Evidence nothing = value;
+  nothing.add(value, -1.0);
+  nothing.local = 0.0;
+  return nothing;
+}
+
+/// Of numbers made from several cases, by what they are made from to first order.
+void add_errors_over_cases(DesignProblem& design, const Eigen::VectorXd& x, Trust& trust) {
+  const ProblemFile& file = design.file();
+  for (std::size_t i = 0; i < file.responses.size(); ++i) {
+    if (!is_over_cases(file, i)) continue;
+    try {
+      trust.errors[i] = error_of_sum(file, trust, design.linearized_at(x, i).parts,
+                                     std::abs(design.value_at(x, i)));
+    } catch (const SimulationError&) {  // it has no derivative here
+    }
+  }
+}
+
 }  // namespace
+
+std::optional<ErrorBar> error_of_sum(const ProblemFile& joined, const Trust& trust,
+                                     const std::vector<WeightedResponse>& parts, double magnitude) {
+  std::map<std::size_t, Evidence> sums;
+  ErrorPart effects;
+  for (const WeightedResponse& part : parts) {
+    if (!trust.errors[part.response] || part.weight == 0.0) continue;
+    effects.add(trust.errors[part.response]->effects, part.weight);
+    const Evidence& evidence = *trust.evidence[part.response];
+    const std::size_t load_case = case_of_response(joined, part.response).load_case;
+    auto& sum = sums.try_emplace(load_case, nothing_beside(evidence)).first->second;
+    sum.magnitude = magnitude;
+    sum.add(evidence, part.weight);
+  }
+  if (sums.empty()) return std::nullopt;
+  ErrorBar all;
+  for (auto sum = sums.begin(); sum != sums.end(); ++sum) {
+    const ErrorBar bar = error_bar(sum->second);
+    if (sum == sums.begin()) {
+      all = bar;
+    } else {
+      all.add(bar);
+    }
+  }
+  all.effects = effects;
+  return all;
+}
 
 Trust judge_cases(DesignProblem& design, const Eigen::VectorXd& x, Scrutiny scrutiny) {
   const ProblemFile& file = design.file();
@@ -44,6 +95,7 @@ Trust judge_cases(DesignProblem& design, const Eigen::VectorXd& x, Scrutiny scru
     all.errors.clear();
     all.evidence.clear();
   }
+  if (has_errors) add_errors_over_cases(design, x, all);
   if (!has_bands) all.bands.clear();
   all.doubts = joined_doubts(file, doubts);
   return all;

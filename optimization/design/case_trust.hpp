@@ -1,7 +1,12 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include <Eigen/Core>
 
+#include "core/base/error_bar.hpp"
+#include "core/response/linearized_expression.hpp"
 #include "core/trust/doubts.hpp"
 #include "optimization/design/design_problem.hpp"
 
@@ -12,5 +17,12 @@ namespace pleuel {
 /// share stands once.
 /// @param x  that can be simulated
 Trust judge_cases(DesignProblem& design, const Eigen::VectorXd& x, Scrutiny scrutiny);
+
+/// The error of Σ weight · response. The runs of a case are its own: errors cancel within a case only.
+/// @param parts      responses of single cases, by their places in the joined problem
+/// @param magnitude  what errors are small beside
+/// @returns nothing where no error is known
+std::optional<ErrorBar> error_of_sum(const ProblemFile& joined, const Trust& trust,
+                                     const std::vector<WeightedResponse>& parts, double magnitude);
 
 }  // namespace pleuel

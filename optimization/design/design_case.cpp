@@ -46,12 +46,19 @@ double DesignCase::linear_value(std::size_t constraint) const {
   return sum;
 }
 
-/// The objective, then the rows one after the other.
+std::vector<ConstraintRows> DesignCase::with_objective(
+    const std::vector<ConstraintRows>& rows) const {
+  std::vector<ConstraintRows> all = rows;
+  if (has_objective()) all.insert(all.begin(), ConstraintRows());
+  return all;
+}
+
+/// One after the other.
 std::vector<DesignCase::Row> DesignCase::rows_at(const Analysis& analysis,
                                                  const std::vector<ConstraintRows>& rows) const {
   std::vector<Row> all;
   const auto add = [&](const ConstraintRows& of, std::size_t response, const Reduction& reduction) {
-    const double sign = of.constraint ? 1.0 : objective_sign();
+    const double sign = of.sign.value_or(of.constraint ? 1.0 : objective_sign());
     all.push_back({sign * reduction.value, SampledValue{response, reduction.samples}, sign});
   };
   const auto add_all = [&](const ConstraintRows& of) {
@@ -66,12 +73,11 @@ std::vector<DesignCase::Row> DesignCase::rows_at(const Analysis& analysis,
       add(of, *response, analysis.reductions[*response]);
     }
   };
-  add_all({});
   for (const ConstraintRows& of : rows) add_all(of);
   return all;
 }
 
-/// Of the objective, then of the rows that limit a response.
+/// Of the rows of responses.
 Eigen::MatrixXd DesignCase::gradients_of(Analysis& analysis,
                                          const std::vector<ConstraintRows>& rows) {
   std::vector<SampledValue> values;
@@ -81,6 +87,7 @@ Eigen::MatrixXd DesignCase::gradients_of(Analysis& analysis,
     values.push_back(*row.sampled);
     signs.push_back(row.sign);
   }
+  if (values.empty()) return Eigen::MatrixXd(0, x_.size());
   if (!choice_) choice_ = choose_gradients(file_.sensitivity.method, analysis, values);
   if (!is_difference(choice_->method)) {
     const Eigen::Map<const Eigen::VectorXd> sign(signs.data(), std::ssize(signs));
@@ -150,7 +157,7 @@ void DesignCase::keep(Request request, const Answer& answer) {
     }
   } else {
     stored.evaluation = answer.evaluation;
-    if (request == Request::values_and_gradients) {
+    if (request == Request::values_and_gradients && choice_) {
       stored.method = to_string(choice_->method);
       stored.reason = choice_->reason;
     }
@@ -161,18 +168,20 @@ void DesignCase::keep(Request request, const Answer& answer) {
 Evaluation DesignCase::simulated_rows(const Eigen::VectorXd& x, Request request,
                                       const std::vector<ConstraintRows>& rows) {
   Analysis& analysis = analysis_at(x);
-  const std::vector<Row> all = rows_at(analysis, rows);
-  const Eigen::Index count = std::ssize(all) - 1;
+  const std::vector<ConstraintRows> asked = with_objective(rows);
+  const std::vector<Row> all = rows_at(analysis, asked);
+  const Eigen::Index first = has_objective() ? 1 : 0, count = std::ssize(all) - first;
   Evaluation evaluation;
-  evaluation.objective = all.front().value;
+  if (has_objective()) evaluation.objective = all.front().value;
   evaluation.constraints.resize(count);
-  for (Eigen::Index i = 0; i < count; ++i) evaluation.constraints(i) = all[i + 1].value;
+  for (Eigen::Index i = 0; i < count; ++i) evaluation.constraints(i) = all[first + i].value;
   if (request == Request::values) return evaluation;
 
-  const Eigen::MatrixXd gradients = gradients_of(analysis, rows);
-  evaluation.objective_gradient = gradients.row(0);
+  const Eigen::MatrixXd gradients = gradients_of(analysis, asked);
+  evaluation.objective_gradient = Eigen::VectorXd::Zero(x.size());
+  if (has_objective()) evaluation.objective_gradient = gradients.row(0);
   evaluation.constraint_jacobian = Eigen::MatrixXd::Zero(count, x.size());
-  Eigen::Index row = 0, next = 1;
+  Eigen::Index row = 0, next = first;
   for (const ConstraintRows& of : rows) {
     for (int i = 0; i < of.count(); ++i, ++row) {
       if (response_of(of)) {

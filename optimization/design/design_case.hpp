@@ -22,6 +22,8 @@ struct ConstraintRows {
   /// Of a response that is the largest, or smallest, of others: one of them.
   std::optional<std::size_t> part = {};
   std::optional<PeakDivision> division = {};
+  /// Of `part` by itself, neither limited nor minimized in its case: what it is multiplied with.
+  std::optional<double> sign = {};
 
   int count() const { return division ? division->peaks() : 1; }
 };
@@ -37,7 +39,9 @@ class DesignCase {
   DesignCase(ProblemFile file, int threads, EvaluationStore* store);
 
   const ProblemFile& file() const { return file_; }
-  double objective_sign() const { return file_.objective->sign(); }
+  /// Whether the case has an objective of its own: not where it is made from several cases.
+  bool has_objective() const { return file_.objective.has_value(); }
+  double objective_sign() const { return file_.objective ? file_.objective->sign() : 1.0; }
   /// How gradients are computed; none before the first one.
   const std::optional<GradientChoice>& method() const { return choice_; }
   /// From now on gradients are computed as another problem of this file has chosen.
@@ -75,6 +79,8 @@ class DesignCase {
     double sign = 1.0;  ///< value = sign · what the samples give
   };
 
+  /// The rows, before them the objective, if there is one.
+  std::vector<ConstraintRows> with_objective(const std::vector<ConstraintRows>& rows) const;
   Evaluation simulated_rows(const Eigen::VectorXd& x, Request request,
                             const std::vector<ConstraintRows>& rows);
   EvaluationKey key_of(const Eigen::VectorXd& x, Request request, const std::string& rows) const;

@@ -79,8 +79,17 @@ Eigen::VectorXd DesignProblem::variable_deviations() const {
   return deviations;
 }
 
-Analysis& DesignProblem::analysis_of(std::size_t response, const Eigen::VectorXd& x) {
-  return load_case(case_of_response(file_, response).load_case).analysis_at(x);
+LinearizedResponse DesignProblem::linearized_at(const Eigen::VectorXd& x, std::size_t response) {
+  if (!is_over_cases(file_, response)) return {{{response, 1.0}}, Eigen::VectorXd::Zero(x.size())};
+  return linearized_over_cases(file_, response, x,
+                               [&](std::size_t part) { return value_at(x, part); });
+}
+
+double DesignProblem::value_at(const Eigen::VectorXd& x, std::size_t response) {
+  return value_over_cases(file_, response, x, [&](std::size_t part) {
+    const OfCase of_case = case_of_response(file_, part);
+    return load_case(of_case.load_case).analysis_at(x).reductions[of_case.index].value;
+  });
 }
 
 std::optional<std::size_t> DesignProblem::response_of(std::size_t constraint) const {
@@ -90,7 +99,8 @@ std::optional<std::size_t> DesignProblem::response_of(std::size_t constraint) co
 }
 
 bool DesignProblem::minimizes_worst() const {
-  return case_count() > 1 && file_.objective->over_cases == OverCases::worst;
+  return case_count() > 1 && has_objective_in_cases() &&
+         file_.objective->over_cases == OverCases::worst;
 }
 
 double DesignProblem::objective_weight(std::size_t load_case) const {
@@ -110,6 +120,10 @@ Evaluation DesignProblem::evaluate(const Eigen::VectorXd& x, Request request) {
   rows.cases.resize(case_count());
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const OfCase of_case = case_of_constraint(file_, i);
+    if (is_of_several(of_case)) {
+      rows.over_cases.push_back({*response_of(i), static_cast<Eigen::Index>(i)});
+      continue;
+    }
     rows.cases[of_case.load_case].of.push_back({of_case.index});
     rows.cases[of_case.load_case].places.push_back(static_cast<Eigen::Index>(i));
   }
@@ -168,19 +182,23 @@ double DesignProblem::objective_of(const std::vector<DesignCase::Answer>& answer
   return sum;
 }
 
+std::vector<std::size_t> DesignProblem::responses_over_cases(const NamedRows& rows) const {
+  std::vector<std::size_t> responses;
+  if (!has_objective_in_cases()) responses.push_back(objective_response());
+  for (const RowOverCases& row : rows.over_cases) responses.push_back(row.response);
+  return responses;
+}
+
 Evaluation DesignProblem::evaluate_rows(const Eigen::VectorXd& x, Request request,
                                         const NamedRows& rows) {
-  const std::vector<DesignCase::Answer> answers = answers_of(x, request, rows);
+  const PartRows parts(file_, responses_over_cases(rows));
+  const std::vector<DesignCase::Answer> answers = answers_of(x, request, parts.added_to(rows));
   const bool has_gradients = request == Request::values_and_gradients;
-  std::size_t count = 0;
-  for (const CaseRows& one : rows.cases) count += one.places.size();
+  auto count = static_cast<Eigen::Index>(rows.over_cases.size());
+  for (const CaseRows& one : rows.cases) count += std::ssize(one.places);
   Evaluation evaluation;
-  evaluation.objective =
-      objective_of(answers, has_gradients ? &evaluation.objective_gradient : nullptr);
-  evaluation.constraints.resize(static_cast<Eigen::Index>(count));
-  if (has_gradients) {
-    evaluation.constraint_jacobian.resize(static_cast<Eigen::Index>(count), x.size());
-  }
+  evaluation.constraints.resize(count);
+  if (has_gradients) evaluation.constraint_jacobian.resize(count, x.size());
   for (std::size_t c = 0; c < answers.size(); ++c) {
     const Evaluation& of_case = answers[c].evaluation;
     const std::vector<Eigen::Index>& places = rows.cases[c].places;
@@ -192,6 +210,20 @@ Evaluation DesignProblem::evaluate_rows(const Eigen::VectorXd& x, Request reques
       }
     }
   }
+  Eigen::VectorXd gradient;
+  Eigen::VectorXd* const wanted = has_gradients ? &gradient : nullptr;
+  for (const RowOverCases& row : rows.over_cases) {
+    evaluation.constraints(row.place) = row.sign * parts.combined(row.response, x, answers, wanted);
+    if (has_gradients) evaluation.constraint_jacobian.row(row.place) = row.sign * gradient;
+  }
+  if (has_objective_in_cases()) {
+    evaluation.objective = objective_of(answers, wanted);
+  } else {
+    evaluation.objective =
+        objective_sign() * parts.combined(objective_response(), x, answers, wanted);
+    gradient *= objective_sign();
+  }
+  if (has_gradients) evaluation.objective_gradient = gradient;
   return evaluation;
 }
 

@@ -8,21 +8,10 @@
 
 #include "core/scene/shown_unit.hpp"
 #include "optimization/design/design_case.hpp"
+#include "optimization/design/rows_over_cases.hpp"
 #include "optimization/problem.hpp"
 
 namespace pleuel {
-
-/// Rows of one load case, and where they stand among those of all cases.
-struct CaseRows {
-  std::vector<ConstraintRows> of;
-  std::vector<Eigen::Index> places = {};
-};
-
-/// Rows of all cases, with a name that tells them from other rows of the same file.
-struct NamedRows {
-  std::string name;
-  std::vector<CaseRows> cases;  ///< one a case
-};
 
 /// The optimization problem that a problem file describes: responses of the simulated mechanism as
 /// objective (of a response that is maximized its negative) and constraints. Of a file with load
@@ -72,9 +61,11 @@ class DesignProblem : public Problem {
   /// Standard deviations of the variables, zero where the file does not say that they scatter.
   Eigen::VectorXd variable_deviations() const;
 
-  /// The simulation of the case that a response is of; kept until another design is asked for.
+  /// What a response of the joined problem is made from in the cases, to first order.
   /// @throws SimulationError
-  Analysis& analysis_of(std::size_t response, const Eigen::VectorXd& x);
+  LinearizedResponse linearized_at(const Eigen::VectorXd& x, std::size_t response);
+  /// Its value.
+  double value_at(const Eigen::VectorXd& x, std::size_t response);
 
   /// The response that a constraint limits; none of a sum of variables.
   std::optional<std::size_t> response_of(std::size_t constraint) const;
@@ -85,6 +76,10 @@ class DesignProblem : public Problem {
   /// That of the objective; over cases a number made from several.
   std::size_t objective_response() const { return response_index(file_.objective->response); }
 
+  /// Whether the objective is that of each case, or made from those by `over_cases`; otherwise it is
+  /// an expression that names cases.
+  bool has_objective_in_cases() const { return cases_.front()->has_objective(); }
+
   /// What of each case's objective counts in a sum; of the worst, the share is 1 for every case.
   double objective_weight(std::size_t load_case) const;
   /// Whether the objective is the worst of several cases: it has a kink where two of them tie.
@@ -93,6 +88,7 @@ class DesignProblem : public Problem {
  private:
   double objective_of(const std::vector<DesignCase::Answer>& answers,
                       Eigen::VectorXd* gradient) const;
+  std::vector<std::size_t> responses_over_cases(const NamedRows& rows) const;
   std::vector<DesignCase::Answer> answers_of(const Eigen::VectorXd& x, Request request,
                                              const NamedRows& rows);
 

@@ -107,7 +107,7 @@ std::vector<CaseKink> optimized_kinks(DesignProblem& design, const Eigen::Vector
   try {
     for (std::size_t c = 0; c < design.case_count(); ++c) {
       DesignCase& one = design.load_case(c);
-      const std::vector<std::size_t> optimized = optimized_responses(one);
+      const std::vector<std::size_t> optimized = optimized_responses(design, c);
       for (const Kink& kink : find_kinks(one.analysis_at(x))) {
         const bool counts =
             std::find(optimized.begin(), optimized.end(), kink.response) != optimized.end();
@@ -177,11 +177,23 @@ Result solve_peaks(DesignProblem& design, int windows, const SolveOptions& optio
   return result;
 }
 
+/// Whether the objective is the largest of several responses, or the smallest that is maximized.
+bool has_extreme_objective(const DesignProblem& design) {
+  const Extreme extreme =
+      design.file().objective->aim == Aim::maximize ? Extreme::smallest : Extreme::largest;
+  if (!design.has_objective_in_cases()) {
+    return !extreme_parts(design.file(), design.objective_response(), extreme).empty();
+  }
+  const DesignCase& first = design.load_case(0);
+  return !extreme_parts(first.file(), *first.response_of({}), extreme).empty();
+}
+
 /// On the constraints of the file. The worst of several cases is bounded by a variable, as there is
 /// a kink at nearly every optimum where two of them tie.
 Result solve_plainly(DesignProblem& design, Problem& problem, const SolveOptions& options,
                      const Observer& observer) {
-  if (!design.minimizes_worst()) return solve(problem, options, observer);
+  const bool has_extreme = !design.has_objective_in_cases() && has_extreme_objective(design);
+  if (!design.minimizes_worst() && !has_extreme) return solve(problem, options, observer);
   const Eigen::VectorXd start = checked_start(design);
   const Attempt first = attempt_evaluation(design, start, Request::values_and_gradients);
   if (!first.evaluation) return solve(problem, options, observer);  // tells why it cannot begin
@@ -226,15 +238,6 @@ std::unique_ptr<Problem> robust_problem(DesignProblem& design) {
   std::vector<std::optional<std::size_t>> all;
   for (std::size_t i = 0; i < design.constraints().size(); ++i) all.emplace_back(i);
   return with_margins(design, design, all);
-}
-
-/// Whether the objective is the largest of several responses, or the smallest that is maximized.
-bool has_extreme_objective(const DesignProblem& design) {
-  const bool is_maximized = design.file().objective->aim == Aim::maximize;
-  const DesignCase& first = design.load_case(0);
-  return !extreme_parts(first.file(), *first.response_of({}),
-                        is_maximized ? Extreme::smallest : Extreme::largest)
-              .empty();
 }
 
 /// From the start of the design problem, with one backend.

@@ -8,6 +8,7 @@
 
 #include "core/base/number_text.hpp"
 #include "core/scene/load_cases.hpp"
+#include "optimization/design/case_trust.hpp"
 #include "optimization/prices.hpp"
 
 namespace pleuel {
@@ -53,10 +54,15 @@ bool may_break(const ConstraintSettings& limit, double value, double error) {
 
 /// What the objective is made from: calls add(response, factor).
 template <class Add>
-void for_each_objective(const DesignProblem& design, const Result& result, const Add& add) {
+void for_each_objective(DesignProblem& design, const Result& result, const Add& add) {
   const ProblemFile& file = design.file();
   const std::size_t objective = design.objective_response();
-  if (!is_over_cases(file, objective)) return add(objective, 1.0);
+  if (file.objective->over_cases == OverCases::same) {
+    for (const WeightedResponse& part : design.linearized_at(result.x, objective).parts) {
+      add(part.response, part.weight);
+    }
+    return;
+  }
   const std::size_t of_case = file.case_responses[objective].index;
   for (std::size_t c = 0; c < design.case_count(); ++c) {
     const bool has_shares = result.case_shares.size() > 0;
@@ -66,24 +72,20 @@ void for_each_objective(const DesignProblem& design, const Result& result, const
   }
 }
 
-/// Calls add(response, factor) for what f + Σ μ c is made of: the objective and what is limited. Of a
+/// Calls add(response, factor) for what f + Σ μ c is made of: the objective and what is limited, each a
+/// response of one case. Of a
 /// response f that is maximized f − Σ μ c, as the multipliers are of −f.
 template <class Add>
-void for_each_share(const DesignProblem& design, const Result& result, const Add& add) {
+void for_each_share(DesignProblem& design, const Result& result, const Add& add) {
   for_each_objective(design, result, add);
   for (std::size_t i = 0; i < design.constraints().size(); ++i) {
     const auto response = design.response_of(i);
     const double multiplier = result.constraint_multipliers(i);
-    if (response && multiplier != 0.0) add(*response, design.objective_sign() * multiplier);
+    if (!response || multiplier == 0.0) continue;
+    for (const WeightedResponse& part : design.linearized_at(result.x, *response).parts) {
+      add(part.response, part.weight * design.objective_sign() * multiplier);
+    }
   }
-}
-
-/// The evidence of zero, from the runs of another value.
-Evidence nothing_beside(const Evidence& value) {
-  Evidence nothing = value;
-  nothing.add(value, -1.0);
-  nothing.local = 0.0;
-  return nothing;
 }
 
 double nearest_limit(const ConstraintSettings& limit, double value) {
@@ -94,39 +96,18 @@ double nearest_limit(const ConstraintSettings& limit, double value) {
 
 }  // namespace
 
-std::optional<ErrorBar> optimum_error(const DesignProblem& design, const Result& result,
+std::optional<ErrorBar> optimum_error(DesignProblem& design, const Result& result,
                                       const Trust& trust) {
   if (trust.errors.empty() || !has_prices(result)) return std::nullopt;
-  // The runs of a case are its own: errors cancel within a case only.
-  std::vector<std::optional<Evidence>> sums(design.case_count());
-  ErrorPart effects;
+  std::vector<WeightedResponse> shares;
   for_each_share(design, result, [&](std::size_t response, double factor) {
-    if (!trust.errors[response]) return;
-    effects.add(trust.errors[response]->effects, factor);
-    auto& sum = sums[case_of_response(design.file(), response).load_case];
-    if (!sum) {
-      sum = nothing_beside(*trust.evidence[response]);
-      sum->magnitude = std::abs(result.evaluation.objective);
-    }
-    sum->add(*trust.evidence[response], factor);
+    shares.push_back({response, factor});
   });
-  std::optional<ErrorBar> all;
-  for (const auto& sum : sums) {
-    if (!sum) continue;
-    const ErrorBar bar = error_bar(*sum);
-    if (all) {
-      all->add(bar);
-    } else {
-      all = bar;
-    }
-  }
-  if (!all) all.emplace();
-  all->effects = effects;
-  return all;
+  return error_of_sum(design.file(), trust, shares, std::abs(result.evaluation.objective))
+      .value_or(ErrorBar());
 }
 
-double optimum_change(const DesignProblem& design, const Result& result,
-                      const Eigen::VectorXd& changes) {
+double optimum_change(DesignProblem& design, const Result& result, const Eigen::VectorXd& changes) {
   double change = 0.0;
   for_each_share(design, result, [&](std::size_t response, double factor) {
     change += factor * changes(response);
@@ -134,7 +115,7 @@ double optimum_change(const DesignProblem& design, const Result& result,
   return change;
 }
 
-std::string inaccuracy(const DesignProblem& design, const Result& result, const Trust& trust) {
+std::string inaccuracy(DesignProblem& design, const Result& result, const Trust& trust) {
   const std::optional<ErrorBar> bar = optimum_error(design, result, trust);
   if (!bar) return "";
   const std::vector<std::optional<ErrorBar>>& errors = trust.errors;

@@ -19,17 +19,17 @@ namespace pleuel {
 /// not know.
 /// @param trust  of the optimal design, one error a response of the file
 /// @returns nothing where the design has no multipliers that are prices, or no errors are known
-std::optional<ErrorBar> optimum_error(const DesignProblem& design, const Result& result,
+std::optional<ErrorBar> optimum_error(DesignProblem& design, const Result& result,
                                       const Trust& trust);
 
 /// What changes of the responses at an optimum make of it by the same theorem.
 /// @param changes  one a response of the file [SI]
-double optimum_change(const DesignProblem& design, const Result& result,
+double optimum_change(DesignProblem& design, const Result& result,
                       const Eigen::VectorXd& changes);
 
 /// Why the optimum is not known to the accuracy that the file asks for, and what would do; empty if
 /// it is. What counts is the error of the objective at the optimum, and that of each limit which
 /// the error could break.
-std::string inaccuracy(const DesignProblem& design, const Result& result, const Trust& trust);
+std::string inaccuracy(DesignProblem& design, const Result& result, const Trust& trust);
 
 }  // namespace pleuel

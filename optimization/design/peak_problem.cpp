@@ -54,7 +54,8 @@ PeakProblem::PeakProblem(DesignProblem& problem, int windows, const Eigen::Vecto
   }
   for (std::size_t i = 0; i < file.constraints.size(); ++i) {
     const OfCase of_case = case_of_constraint(file, i);
-    for (Split& one : split(of_case.load_case, i)) {
+    for (Split& one : is_of_several(of_case) ? split_over_cases(*problem.response_of(i), i)
+                                             : split(of_case.load_case, i)) {
       add_rows(one, problem.constraints()[i]);
       splits_.push_back(std::move(one));
     }
@@ -91,22 +92,54 @@ std::vector<PeakProblem::Split> PeakProblem::split(std::size_t load_case,
   if (response) whole.response = *response;
   const auto side = pressed_side(constraint);
   if (!response || !side) return {whole};
-  const auto told_apart = [&](Split one) {
-    const ResponseSettings& settings = file.responses[one.response];
-    const bool can_be_divided = has_peaks(settings) || is_fatigue(settings);
-    if (can_be_divided && is_extreme(settings, *side)) {
-      one.division = division_of(load_case, settings);
-    }
-    return one;
-  };
   std::vector<Split> all;
   for (const std::size_t part : extreme_parts(file, *response, *side)) {
     Split one = whole;
     one.part = part;
     one.response = part;
-    all.push_back(told_apart(std::move(one)));
+    all.push_back(told_apart(std::move(one), *side));
   }
-  if (all.empty()) all.push_back(told_apart(whole));
+  if (all.empty()) all.push_back(told_apart(whole, *side));
+  return all;
+}
+
+const ResponseSettings& PeakProblem::response_of(const Split& split) const {
+  if (split.over_cases) return problem_.file().responses[*split.over_cases];
+  return problem_.load_case(split.load_case).file().responses[split.response];
+}
+
+PeakProblem::Split PeakProblem::told_apart(Split one, Extreme side) const {
+  if (one.over_cases) return one;
+  const ResponseSettings& settings = response_of(one);
+  const bool can_be_divided = has_peaks(settings) || is_fatigue(settings);
+  if (can_be_divided && is_extreme(settings, side)) {
+    one.division = division_of(one.load_case, settings);
+  }
+  return one;
+}
+
+std::vector<PeakProblem::Split> PeakProblem::split_over_cases(
+    std::size_t response, std::optional<std::size_t> constraint) const {
+  const ProblemFile& file = problem_.file();
+  const auto side = pressed_side(constraint);
+  std::vector<std::size_t> parts;
+  if (side) parts = extreme_parts(file, response, *side);
+  if (parts.empty()) parts.push_back(response);
+  std::vector<Split> all;
+  for (const std::size_t part : parts) {
+    Split one;
+    one.constraint = constraint;
+    one.sign = constraint ? 1.0 : problem_.objective_sign();
+    const OfCase of_case = case_of_response(file, part);
+    if (is_of_several(of_case)) {
+      one.over_cases = part;
+    } else {
+      one.load_case = of_case.load_case;
+      one.response = of_case.index;
+      one.part = of_case.index;
+    }
+    all.push_back(side ? told_apart(std::move(one), *side) : std::move(one));
+  }
   return all;
 }
 
@@ -129,14 +162,24 @@ void PeakProblem::add_rows(const Split& split, const Constraint& limits) {
 
 /// What is pressed down from above: a maximum that is minimized, a minimum that is maximized.
 bool PeakProblem::objective_has_peaks() const {
-  const std::vector<Split> first = split(0, std::nullopt);
+  const std::vector<Split> first =
+      problem_.has_objective_in_cases() ? split(0, std::nullopt) : objective_over_cases();
   return first.size() > 1 || first.front().division;
+}
+
+std::vector<PeakProblem::Split> PeakProblem::objective_over_cases() const {
+  return split_over_cases(problem_.objective_response(), std::nullopt);
 }
 
 void PeakProblem::bound_objective() {
   const bool has_peaks = objective_has_peaks();
   if (!has_peaks && !problem_.minimizes_worst()) return;
   Bound all;
+  if (!problem_.has_objective_in_cases()) {
+    all.splits = objective_over_cases();
+    add_bound(std::move(all));
+    return start_bounds();
+  }
   for (std::size_t c = 0; c < problem_.case_count(); ++c) {
     const double weight = problem_.objective_weight(c);
     if (weight == 0.0) continue;
@@ -152,8 +195,7 @@ void PeakProblem::bound_objective() {
 void PeakProblem::add_bound(Bound bound) {
   bound.first_row = std::ssize(rows_);
   for (const Split& split : bound.splits) {
-    const DesignCase& of_case = problem_.load_case(split.load_case);
-    add_rows(split, {of_case.file().responses[split.response].name, -infinity, 0.0});
+    add_rows(split, {response_of(split).name, -infinity, 0.0});
   }
   bound.rows = std::ssize(rows_) - bound.first_row;
   bounds_.push_back(std::move(bound));
@@ -189,9 +231,14 @@ void PeakProblem::name_rows() {
   named_rows_.cases.resize(problem_.case_count());
   Eigen::Index row = 0;
   const auto add = [&](const Split& split) {
+    if (split.over_cases) {
+      named_rows_.over_cases.push_back({*split.over_cases, row++, *split.sign});
+      return;
+    }
     CaseRows& rows = named_rows_.cases[split.load_case];
-    const auto constraint = split.constraint ? std::optional(split.in_case) : std::nullopt;
-    rows.of.push_back({constraint, split.part, split.division});
+    const bool is_of_case = split.constraint && !split.sign;
+    const auto constraint = is_of_case ? std::optional(split.in_case) : std::nullopt;
+    rows.of.push_back({constraint, split.part, split.division, split.sign});
     for (int i = 0; i < split.rows(); ++i) rows.places.push_back(row++);
   };
   for (const Split& split : splits_) add(split);

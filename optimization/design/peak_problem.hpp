@@ -28,6 +28,9 @@ namespace pleuel {
 /// wherever it moves from one segment to another. A limit on it stands once for each window at each
 /// place (place_count()), with fewer windows where there are many places.
 ///
+/// A response that is made from several cases stands as one row, unless it is such a largest one:
+/// max(a[slow], b[fast]) is split into rows of these cases.
+///
 /// All rows bear the names of what they are peaks of: windows and places are nothing that a user
 /// knows.
 class PeakProblem : public Problem {
@@ -77,6 +80,10 @@ class PeakProblem : public Problem {
     std::size_t response = 0;                   ///< in the problem of its case
     std::optional<std::size_t> part = {};       ///< that response, if it is one of several
     std::optional<PeakDivision> division = {};  ///< none: one row, as it is
+    /// In place of a case: a response of the joined problem that is made from several.
+    std::optional<std::size_t> over_cases = {};
+    /// Of a part of a response over cases: what it is multiplied with.
+    std::optional<double> sign = {};
 
     int rows() const { return division ? division->peaks() : 1; }
   };
@@ -90,6 +97,12 @@ class PeakProblem : public Problem {
 
   /// One for each response that is pressed upon.
   std::vector<Split> split(std::size_t load_case, std::optional<std::size_t> constraint) const;
+  /// The same of a response of the joined problem.
+  std::vector<Split> split_over_cases(std::size_t response,
+                                      std::optional<std::size_t> constraint) const;
+  Split told_apart(Split one, Extreme side) const;
+  const ResponseSettings& response_of(const Split& split) const;
+  std::vector<Split> objective_over_cases() const;
   std::optional<Extreme> pressed_side(std::optional<std::size_t> constraint) const;
   PeakDivision division_of(std::size_t load_case, const ResponseSettings& response) const;
   void add_rows(const Split& split, const Constraint& limits);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/response/value_over_cases.hpp"
+#include "core/scene/load_cases.hpp"
 #include "core/scene/response_parts.hpp"
 #include "optimization/design/peak_rows.hpp"
 #include "sensitivity/method_choice.hpp"
@@ -31,11 +33,13 @@ void add_ties(const Analysis& analysis, const ProblemFile& file, std::size_t res
   }
 }
 
-bool have_kinks(const DesignCase& problem, Analysis& analysis, int windows) {
+bool have_kinks(const DesignProblem& design, std::size_t load_case, Analysis& analysis,
+                int windows) {
+  const ProblemFile& file = design.load_case(load_case).file();
   std::vector<SampledValue> values;
-  for (const std::size_t response : optimized_responses(problem)) {
-    if (has_peaks(problem.file().responses[response])) {
-      add_ties(analysis, problem.file(), response, windows, values);
+  for (const std::size_t response : optimized_responses(design, load_case)) {
+    if (has_peaks(file.responses[response])) {
+      add_ties(analysis, file, response, windows, values);
     }
   }
   if (values.empty()) return false;
@@ -55,9 +59,8 @@ int windows_that_part_peaks(DesignProblem& problem, const Eigen::VectorXd& x, in
   try {
     int windows = fewest;
     for (std::size_t c = 0; c < problem.case_count(); ++c) {
-      DesignCase& one = problem.load_case(c);
-      Analysis& analysis = one.analysis_at(x);
-      while (windows < most && have_kinks(one, analysis, windows)) windows *= 2;
+      Analysis& analysis = problem.load_case(c).analysis_at(x);
+      while (windows < most && have_kinks(problem, c, analysis, windows)) windows *= 2;
     }
     return windows;
   } catch (const SimulationError&) {
@@ -65,14 +68,29 @@ int windows_that_part_peaks(DesignProblem& problem, const Eigen::VectorXd& x, in
   }
 }
 
-std::vector<std::size_t> optimized_responses(const DesignCase& problem) {
+std::vector<std::size_t> optimized_responses(const DesignProblem& design, std::size_t load_case) {
+  const DesignCase& one = design.load_case(load_case);
+  const ProblemFile& file = design.file();
   std::vector<std::size_t> responses;
   const auto add = [&](std::size_t response) {
-    for (const std::size_t part : parts_of(problem.file(), response)) responses.push_back(part);
+    for (const std::size_t part : parts_of(one.file(), response)) responses.push_back(part);
   };
-  add(*problem.response_of({}));
-  for (std::size_t i = 0; i < problem.file().constraints.size(); ++i) {
-    if (const auto response = problem.response_of({i})) add(*response);
+  const auto add_over_cases = [&](std::size_t response) {
+    for (const std::size_t part : parts_in_cases(file, response)) {
+      const OfCase of_case = case_of_response(file, part);
+      if (of_case.load_case == load_case) add(of_case.index);
+    }
+  };
+  if (one.has_objective()) {
+    add(*one.response_of({}));
+  } else {
+    add_over_cases(design.objective_response());
+  }
+  for (std::size_t i = 0; i < one.file().constraints.size(); ++i) {
+    if (const auto response = one.response_of({i})) add(*response);
+  }
+  for (std::size_t i = 0; i < file.constraints.size(); ++i) {
+    if (is_of_several(case_of_constraint(file, i))) add_over_cases(*design.response_of(i));
   }
   return responses;
 }

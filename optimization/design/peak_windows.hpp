@@ -13,7 +13,7 @@ namespace pleuel {
 int windows_that_part_peaks(DesignProblem& problem, const Eigen::VectorXd& x, int fewest, int most);
 
 /// The objective and what constraints limit in a case, in this order; indices of its responses. Of
-/// an expression those that it is made from.
-std::vector<std::size_t> optimized_responses(const DesignCase& problem);
+/// an expression those that it is made from; of one over cases those that are of this case.
+std::vector<std::size_t> optimized_responses(const DesignProblem& design, std::size_t load_case);
 
 }  // namespace pleuel

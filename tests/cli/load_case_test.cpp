@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -41,11 +42,74 @@ TEST(LoadCases, AreTakenAloneByTheirNames) {
 
 TEST(LoadCases, HaveToBeNamedWhereACommandTakesOne) {
   const TemporaryFolder folder;
-  for (const std::string command : {"accuracy", "stability", "uncertainty", "pareto", "prices"}) {
-    const ProgramRun run = run_program(folder.path(), {command, problem("two_loads")});
-    EXPECT_EQ(run.exit_code, 2) << command;
-    EXPECT_THAT(unwrapped(run.err), HasSubstr("--case")) << command;
+  const ProgramRun run = run_program(folder.path(), {"prices", problem("two_loads")});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(unwrapped(run.err), HasSubstr("--case"));
+}
+
+/// The shipped problem with a number of both cases, and a limit on it.
+std::string with_spread(const TemporaryFolder& folder) {
+  nlohmann::ordered_json document = nlohmann::ordered_json::parse(read_file(problem("two_loads")));
+  document["responses"]["spread"] = {{"type", "expression"},
+                                     {"value", "rod_bow[fast] - 2*rod_bow[heavy]"}};
+  document["constraints"]["evenness"] = {{"response", "spread"}, {"upper", "0.05 mm"}};
+  const std::filesystem::path file = folder.path() / "spread.json";
+  std::ofstream(file) << document.dump(2);
+  return file.string();
+}
+
+TEST(LoadCases, MakeNumbersTogether) {
+  const TemporaryFolder folder;
+  const std::string file = with_spread(folder);
+  for (const std::string command : {"simulate", "gradient"}) {
+    const ProgramRun run = run_program(folder.path(), {command, file, "--json"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const nlohmann::json document = run.document();
+    const auto entry = [&](const char* name) {
+      return document.at("cases").at(name).at("responses").at("rod_bow");
+    };
+    const nlohmann::json spread = document.at("over_cases").at("responses").at("spread");
+    const auto of_both = [&](const auto& number) {
+      return number(entry("fast")) - 2.0 * number(entry("heavy"));
+    };
+    EXPECT_DOUBLE_EQ(spread.at("value"), of_both([](const nlohmann::json& one) {
+                       return one.at("value").template get<double>();
+                     }));
+    EXPECT_TRUE(document.at("over_cases").at("constraints").contains("evenness"));
+    if (command == "simulate") continue;
+    for (const auto& [method, gradient] : spread.at("gradients").items()) {
+      EXPECT_DOUBLE_EQ(
+          gradient.at("rod_diameter"), of_both([&](const nlohmann::json& one) {
+            return one.at("gradients").at(method).at("rod_diameter").template get<double>();
+          }));
+    }
   }
+}
+
+TEST(LoadCases, AreLimitedTogether) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(folder.path(), {"optimize", with_spread(folder), "-o", "run"});
+  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+  EXPECT_THAT(run.out, HasSubstr("several"));
+  const nlohmann::json result =
+      nlohmann::json::parse(read_file(folder.path() / "run" / "result.json"));
+  const nlohmann::json limit = result.at("constraints").at("evenness");
+  EXPECT_LE(limit.at("value"), 0.05e-3 * (1.0 + 1e-6));
+  const nlohmann::json& responses = result.at("responses");
+  EXPECT_NEAR(responses.at("spread").at("value").get<double>(),
+              responses.at("rod_bow [fast]").at("value").get<double>() -
+                  2.0 * responses.at("rod_bow [heavy]").at("value").get<double>(),
+              1e-12);
+  const auto bound = [&](const char* name) {
+    return responses.at(name).at("error").at("total").get<double>();
+  };
+  // Errors of two cases add up; that of the sum is found from the same runs, to the safety in it.
+  EXPECT_NEAR(bound("spread") / (bound("rod_bow [fast]") + 2.0 * bound("rod_bow [heavy]")), 1.0,
+              0.5);
+  EXPECT_THAT(read_file(folder.path() / "run" / "history.csv"), HasSubstr("constraint:evenness"));
+  const ProgramRun again =
+      run_program(folder.path(), {"optimize", with_spread(folder), "-o", "run", "--resume"});
+  EXPECT_THAT(again.out, HasSubstr("evaluations were known"));
 }
 
 TEST(LoadCases, SayWhichOfThemDecidesALimit) {

@@ -1,6 +1,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,6 +14,7 @@
 namespace pleuel::test {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -217,6 +219,108 @@ TEST(LoadCase, KeepsVariablesTheSameWhereTheyFollowFromConstants) {
   EXPECT_EQ(complaint(document), "");
   EXPECT_THAT(complaint(with(document, "/cases/fast", R"({"/constants/reach": "20 mm"})")),
               HasSubstr("/variables/thick must be the same in all cases"));
+}
+
+/// The rail with a number that is made from two cases, and a limit on it.
+Json across() {
+  Json document = rail();
+  document["responses"]["gap"] = {{"type", "expression"}, {"value", "tip[fast] - tip[slow]"}};
+  document["constraints"]["evenness"] = {{"response", "gap"}, {"upper", "0.5 mm"}};
+  return document;
+}
+
+TEST(AcrossCases, AreReadBesideTheResponsesOfTheCases) {
+  const ProblemFile problem = read(across());
+  const ResponseSettings& gap = problem.responses.back();
+  ASSERT_EQ(gap.name, "gap");
+  EXPECT_TRUE(is_over_cases(problem, problem.responses.size() - 1));
+  EXPECT_EQ(problem.responses[gap.expression->arguments[0].index].name, "tip [fast]");
+  EXPECT_EQ(problem.responses[gap.expression->arguments[1].index].name, "tip [slow]");
+  EXPECT_EQ(problem.constraints.back().name, "evenness");
+  for (const ProblemFile& one : problem.cases) {
+    EXPECT_EQ(one.responses.size(), 5u);
+    EXPECT_THAT(names_of(one.constraints), testing::Not(testing::Contains("evenness")));
+  }
+}
+
+TEST(AcrossCases, MayBeWrittenAsTablesShowThem) {
+  for (const char* formula : {"tip[fast] - tip[slow]", "tip [fast] - tip[ slow ]",
+                              "'tip [fast]' - 'tip'[slow]", "= tip[fast] - 'tip [slow]'"}) {
+    const ProblemFile problem =
+        read(with(across(), "/responses/gap/value", fmt::format("\"{}\"", formula)));
+    EXPECT_EQ(problem.responses.back().expression->arguments.size(), 2u) << formula;
+  }
+}
+
+TEST(AcrossCases, MayBeObjectiveAndLimitByTheirNames) {
+  Json document = with(across(), "/objective", R"({"minimize": "tip[slow]"})");
+  document["constraints"]["strength"] = {{"response", "stress [loaded]"}, {"upper", "100 MPa"}};
+  const ProblemFile problem = read(document);
+  EXPECT_EQ(problem.objective->response, "tip [slow]");
+  EXPECT_EQ(problem.constraints.back().response, "stress [loaded]");
+  EXPECT_FALSE(problem.cases.front().objective);
+}
+
+TEST(AcrossCases, TakeResponsesThatAreTheSameInAllAsTheyAre) {
+  const ProblemFile problem = read(with(across(), "/responses/gap/value", R"("weight*tip[fast]")"));
+  EXPECT_TRUE(is_over_cases(problem, problem.responses.size() - 1));
+}
+
+TEST(AcrossCases, UseVariablesThatNothingElseUses) {
+  Json document = across();
+  document["variables"]["extra"] = {{"start", "1 mm"}, {"lower", "0 mm"}, {"upper", "2 mm"}};
+  document["responses"]["gap"]["value"] = "tip[fast] - tip[slow] + extra";
+  EXPECT_EQ(read(document).variables.size(), 2u);
+  EXPECT_EQ(problem_of_case(read(document), "slow").variables.size(), 2u);
+}
+
+std::string complaint_of(const std::string& formula) {
+  return complaint(with(across(), "/responses/gap/value", "\"" + formula + "\""));
+}
+
+TEST(AcrossCases, SayWhatIsWrongWithNamesAndUnits) {
+  EXPECT_THAT(complaint_of("tip[fats] - tip[slow]"),
+              AllOf(HasSubstr("/responses/gap/value"), HasSubstr("column 1"),
+                    HasSubstr("\"tip\" has no case \"fats\"; did you mean \"fast\"?")));
+  EXPECT_THAT(
+      complaint_of("tip[fast] - tip[quick]"),
+      AllOf(HasSubstr("column 13"), HasSubstr("known are \"slow\", \"fast\" and \"loaded\"")));
+  EXPECT_THAT(complaint_of("tpi[fast] - tip[slow]"), HasSubstr("did you mean \"tip\"?"));
+  EXPECT_THAT(complaint_of("tip[fast] - tip"),
+              AllOf(HasSubstr("column 13"),
+                    HasSubstr("\"tip\" differs from case to case: name one of them, as in "
+                              "\"tip[slow]\"; there are \"slow\", \"fast\" and \"loaded\"")));
+  EXPECT_THAT(complaint_of("weight[fast]*tip[slow]"),
+              HasSubstr("\"weight\" is no number of one load case: leave \"[fast]\" out"));
+  EXPECT_THAT(complaint_of("tip[fast] - stress[slow]"), HasSubstr("units differ"));
+  EXPECT_THAT(complaint_of("tip[fast"), HasSubstr("\"[\" means nothing"));
+}
+
+TEST(AcrossCases, NameTheCasesOfConstantsThatDiffer) {
+  Json document = across();
+  document["cases"]["fast"]["/constants/reach"] = "50 mm";
+  document["responses"]["gap"]["value"] = "tip[fast] + reach[fast] - reach[slow]";
+  EXPECT_EQ(read(document).responses.back().expression->arguments.size(), 1u);
+  document["responses"]["gap"]["value"] = "tip[fast] + reach";
+  EXPECT_THAT(complaint(document), HasSubstr("\"reach\" differs from case to case"));
+}
+
+TEST(AcrossCases, SayNotTwiceWhichCasesAreMeant) {
+  EXPECT_THAT(complaint(with(across(), "/constraints/evenness/cases", R"(["fast"])")),
+              AllOf(HasSubstr("/constraints/evenness/cases"), HasSubstr("names its cases itself")));
+  EXPECT_THAT(
+      complaint(with(across(), "/objective", R"({"minimize": "gap", "over_cases": "worst"})")),
+      HasSubstr("/objective/over_cases"));
+}
+
+TEST(AcrossCases, NeedCases) {
+  Json document = across();
+  document.erase("cases");
+  document["constraints"]["stiffness"].erase("cases");
+  EXPECT_THAT(complaint(document),
+              AllOf(HasSubstr("/responses/gap/value"), HasSubstr("\"[fast]\" names a load case")));
+  EXPECT_THAT(complaint(with(rail(), "/scene/bodies/load/mass", R"x("= 2 kg*tip[fast]/(1 m)")x")),
+              HasSubstr("names a load case"));
 }
 
 }  // namespace

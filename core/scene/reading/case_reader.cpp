@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/scene/load_cases.hpp"
+#include "core/scene/reading/across_cases.hpp"
 #include "core/scene/reading/override.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/scene/units.hpp"
@@ -290,7 +291,7 @@ Json document_of_case(Json document, const CaseChanges& changes, const std::stri
     replace_at(document, pointer, value, child_pointer(place, pointer), file);
   }
   document.erase("cases");
-  return document;
+  return without_across_cases(std::move(document));
 }
 
 Json lone_document(Json document, const CaseChanges& changes, const std::string& file) {

@@ -19,7 +19,7 @@ namespace {
 void read_heading(const JsonNode& root, ProblemFile& problem) {
   root.allow_keys({"$schema", "name", "description", "scene", "effects", "simulation",
                    "sensitivity", "constants", "variables", "responses", "objective", "constraints",
-                   "optimizer", "pareto", "accuracy", "uncertainty"});
+                   "optimizer", "pareto", "accuracy", "uncertainty", "mentioned"});
   if (const auto schema = root.find("$schema")) schema->text();
   if (const auto name = root.find("name")) problem.name = name->text();
   if (const auto description = root.find("description")) problem.description = description->text();
@@ -90,11 +90,21 @@ std::vector<std::string> variable_names(const JsonNode& root) {
   return names;
 }
 
+/// Variables that only formulas over several load cases name (across_cases.hpp).
+void count_mentioned(const JsonNode& root, NumberReader& numbers) {
+  const auto mentioned = root.find("mentioned");
+  if (!mentioned) return;
+  for (const JsonNode& name : mentioned->items()) {
+    numbers.count_as_used(numbers.variable(name, name.text()));
+  }
+}
+
 /// The variables come late: where they are used tells what they measure.
 ProblemFile read_document(const JsonNode& root, NumberReader& numbers) {
   ProblemFile problem;
   read_heading(root, problem);
   numbers.declare(root);
+  count_mentioned(root, numbers);
   problem.scene = read_scene(root.at("scene"), numbers);
   problem.simulation = read_simulation(root.at("simulation"), numbers);
   if (const auto responses = root.find("responses")) {

@@ -202,11 +202,55 @@ Dimension ExpressionBuilder::power(std::size_t position, int base, int exponent)
   return fact(base).dimension.to_the(*fact(exponent).constant);
 }
 
+std::vector<std::string> ExpressionBuilder::cases_with(const std::string& name) const {
+  std::vector<std::string> cases;
+  for (const Symbol& symbol : symbols_) {
+    const auto split = split_case(symbol.name);
+    if (split && split->name == name) cases.push_back(split->load_case);
+  }
+  return cases;
+}
+
+void ExpressionBuilder::fail_unknown_case(std::size_t position, const NameInCase& wanted) const {
+  const auto& [name, load_case] = wanted;
+  if (find(name) != nullptr) {
+    fail(position,
+         fmt::format("\"{}\" is no number of one load case: leave \"[{}]\" out", name, load_case));
+  }
+  const std::vector<std::string> cases = cases_with(name);
+  if (!cases.empty()) {
+    fail(position,
+         fmt::format("\"{}\" has no case \"{}\"{}", name, load_case, hint(load_case, cases)));
+  }
+  std::vector<std::string> known;
+  for (const Symbol& symbol : symbols_) {
+    const auto split = split_case(symbol.name);
+    if (!split) continue;
+    if (std::find(known.begin(), known.end(), split->name) == known.end()) {
+      known.push_back(split->name);
+    }
+  }
+  if (known.empty()) {
+    fail(position,
+         fmt::format("\"[{}]\" names a load case: only responses, limits and the objective of a "
+                     "file with \"cases\" can do so",
+                     load_case));
+  }
+  fail(position, fmt::format("unknown name \"{}\"{}", name, hint(name, known)));
+}
+
 void ExpressionBuilder::fail_unknown(std::size_t position, const std::string& name) const {
   for (const char* sign : {"·", "²", "³"}) {  // of units only
     if (name.find(sign) != std::string::npos) {
       fail(position, fmt::format("\"{}\": a product is written \"*\", a power \"^\"", name));
     }
+  }
+  if (const auto split = split_case(name)) fail_unknown_case(position, *split);
+  const std::vector<std::string> cases = cases_with(name);
+  if (!cases.empty()) {
+    fail(position, fmt::format("\"{}\" differs from case to case: name one of them, as in "
+                               "\"{}[{}]\"; there are {}",
+                               name, name, cases.front(), quoted_list(cases, "and")));
   }
   std::vector<std::string> known;
   for (const Symbol& symbol : symbols_) known.push_back(symbol.name);

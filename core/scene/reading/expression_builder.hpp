@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/scene/reading/case_suffix.hpp"
 #include "core/scene/reading/read_expression.hpp"
 
 namespace pleuel {
@@ -61,6 +62,9 @@ class ExpressionBuilder {
   Dimension power(std::size_t position, int base, int exponent) const;
 
   [[noreturn]] void fail_unknown(std::size_t position, const std::string& name) const;
+  [[noreturn]] void fail_unknown_case(std::size_t position, const NameInCase& wanted) const;
+  /// Load cases that a name is known with: "fast" where there is a symbol "bow [fast]".
+  std::vector<std::string> cases_with(const std::string& name) const;
 
   std::string_view text_;
   const std::vector<Symbol>& symbols_;

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <mpParser.h>
 
+#include "core/scene/load_cases.hpp"
+#include "core/scene/reading/case_suffix.hpp"
 #include "core/scene/reading/expression_builder.hpp"
 #include "core/scene/reading/suggestion.hpp"
 #include "core/scene/reading/unit_scanner.hpp"
@@ -176,7 +178,16 @@ class OperandReader : public mup::IValueReader {
     const std::size_t close = text.find('\'', at + 1);
     if (close == std::string_view::npos) builder_->fail(at, "a quote is not closed");
     end = close + 1;
-    return builder_->add_name(at, std::string(text.substr(at + 1, close - at - 1)));
+    return add_name(text, at, std::string(text.substr(at + 1, close - at - 1)), end);
+  }
+
+  /// @param end  behind the name; moved behind its case, if it has one
+  int add_name(std::string_view text, std::size_t at, std::string name, std::size_t& end) {
+    if (const auto suffix = case_suffix(text, end)) {
+      end = suffix->end;
+      name = name_in_case(name, suffix->load_case);
+    }
+    return builder_->add_name(at, name);
   }
 
   std::optional<int> read_name(std::string_view text, std::size_t at, std::size_t& end) {
@@ -192,7 +203,7 @@ class OperandReader : public mup::IValueReader {
     if (name == "pi" && builder_->find(name) == nullptr) {
       return read_unit(text, stop, std::numbers::pi, end);
     }
-    return builder_->add_name(at, name);
+    return add_name(text, at, name, end);
   }
 
   void check_function(std::size_t at, const std::string& name) const {
@@ -231,10 +242,16 @@ mup::ParserX make_parser(ExpressionBuilder& builder) {
 
 /// Characters that mean something to the parser, or to other people, but nothing here.
 void check_characters(const ExpressionBuilder& builder, std::string_view text) {
-  bool is_quoted = false;
+  bool is_quoted = false, is_behind_name = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '\'') is_quoted = !is_quoted;
     if (is_quoted) continue;
+    if (is_behind_name && text[i] == '[') {
+      if (const auto suffix = case_suffix(text, i)) i = suffix->end;
+      if (i >= text.size()) return;
+    }
+    is_behind_name =
+        text[i] == '\'' || is_name_character(text[i]) || (is_behind_name && text[i] == ' ');
     const std::string_view rest = text.substr(i);
     if (rest.starts_with("**")) builder.fail(i, "a power is written \"^\", not \"**\"");
     for (const char* sign : {"×", "−", "–", "÷"}) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/reading/case_suffix.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/symbols.hpp"
 #include "core/scene/response_quantity.hpp"
@@ -208,6 +209,8 @@ const ResponseSettings& read_response_or_formula(const JsonNode& node,
                                                  std::vector<ResponseSettings>& responses,
                                                  NumberReader& numbers) {
   if (!is_formula(node)) {
+    const ResponseSettings* in_case = find_named(responses, spaced_case(node.text()));
+    if (in_case != nullptr) return *in_case;
     return *find_named(responses, read_known_name(node, "response", names_of(responses)));
   }
   const std::string name = formula_name(node);

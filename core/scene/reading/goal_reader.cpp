@@ -1,8 +1,13 @@
 #include "core/scene/reading/goal_reader.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/base/find_named.hpp"
+#include "core/scene/case_goals.hpp"
+#include "core/scene/load_cases.hpp"
+#include "core/scene/reading/case_suffix.hpp"
 #include "core/scene/reading/expression_response_reader.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/response_quantity.hpp"
@@ -58,6 +63,54 @@ std::vector<std::string> read_case_names(const JsonNode& node) {
   return names;
 }
 
+void read_over_cases(const JsonNode& node, Objective& objective) {
+  if (node.value().is_object()) {
+    objective.over_cases = OverCases::weighted;
+    for (const auto& [name, weight] : node.members()) {
+      if (weight.number() <= 0.0) weight.fail_with_value("must be positive");
+      objective.weights.emplace_back(name, weight.number());
+    }
+    if (objective.weights.empty()) node.fail("must give at least one case a weight");
+    return;
+  }
+  static constexpr Choice<OverCases> choices[] = {{"worst", OverCases::worst},
+                                                  {"sum", OverCases::weighted}};
+  objective.over_cases = read_choice(node, choices);
+}
+
+/// Of a limit that holds in several cases the first of them.
+const ConstraintSettings& read_varied_constraint(const JsonNode& node, const ProblemFile& problem,
+                                                 std::string& name) {
+  name = spaced_case(node.text());
+  const std::vector<std::size_t> rows = constraints_of_limit(problem, name);
+  if (rows.empty()) {
+    std::vector<std::string> known = names_of(problem.constraints);
+    for (const ProblemFile& one : problem.cases) {
+      for (const ConstraintSettings& limit : one.constraints) {
+        if (std::find(known.begin(), known.end(), limit.name) == known.end()) {
+          known.push_back(limit.name);
+        }
+      }
+    }
+    fail_unknown_name(node, "constraint", node.text(), known);
+  }
+  const ConstraintSettings& constraint = problem.constraints[rows.front()];
+  if (constraint.lower && constraint.upper) {
+    node.fail(fmt::format("must name a constraint with one limit, but \"{}\" has two", name));
+  }
+  return constraint;
+}
+
+Quantity quantity_of(const ConstraintSettings& constraint, const ProblemFile& problem,
+                     const NumberReader& numbers) {
+  const ResponseSettings* response = find_named(problem.responses, constraint.response);
+  if (response) return quantity_of(*response);
+  const auto known = problem.variables[constraint.linear.front().first].quantity;
+  return problem.has_cases() && known ? *known : quantity_of(constraint.linear, numbers);
+}
+
+}  // namespace
+
 ConstraintSettings read_constraint(const std::string& name, const JsonNode& node,
                                    std::vector<ResponseSettings>& responses,
                                    NumberReader& numbers) {
@@ -80,39 +133,6 @@ ConstraintSettings read_constraint(const std::string& name, const JsonNode& node
   read_limits(node, quantity_of(response), numbers, constraint);
   return constraint;
 }
-
-void read_over_cases(const JsonNode& node, Objective& objective) {
-  if (node.value().is_object()) {
-    objective.over_cases = OverCases::weighted;
-    for (const auto& [name, weight] : node.members()) {
-      if (weight.number() <= 0.0) weight.fail_with_value("must be positive");
-      objective.weights.emplace_back(name, weight.number());
-    }
-    if (objective.weights.empty()) node.fail("must give at least one case a weight");
-    return;
-  }
-  static constexpr Choice<OverCases> choices[] = {{"worst", OverCases::worst},
-                                                  {"sum", OverCases::weighted}};
-  objective.over_cases = read_choice(node, choices);
-}
-
-const ConstraintSettings& read_varied_constraint(const JsonNode& node, const ProblemFile& problem) {
-  const std::string name = read_known_name(node, "constraint", names_of(problem.constraints));
-  const ConstraintSettings& constraint = *find_named(problem.constraints, name);
-  if (constraint.lower && constraint.upper) {
-    node.fail(fmt::format("must name a constraint with one limit, but \"{}\" has two", name));
-  }
-  return constraint;
-}
-
-Quantity quantity_of(const ConstraintSettings& constraint, const ProblemFile& problem,
-                     const NumberReader& numbers) {
-  const ResponseSettings* response = find_named(problem.responses, constraint.response);
-  if (response) return quantity_of(*response);
-  return quantity_of(constraint.linear, numbers);
-}
-
-}  // namespace
 
 Objective read_objective(const JsonNode& node, std::vector<ResponseSettings>& responses,
                          NumberReader& numbers) {
@@ -138,15 +158,63 @@ std::vector<ConstraintSettings> read_constraints(const JsonNode& node,
 
 namespace {
 
-/// "mass", {"minimize": "mass"} or {"maximize": "speed"}.
+/// Weights must be of cases that there are.
+void check_weights(const JsonNode& node, const Objective& goal, const ProblemFile& problem) {
+  std::vector<std::string> known;
+  for (const ProblemFile& one : problem.cases) known.push_back(one.load_case);
+  for (const auto& [name, weight] : goal.weights) {
+    const bool is_known =
+        std::any_of(problem.cases.begin(), problem.cases.end(),
+                    [&](const ProblemFile& one) { return is_in_case({name}, one); });
+    if (!is_known) fail_unknown_name(node.at(name), "case", name, known);
+  }
+}
+
+/// A response that each case has by itself: the worst, unless the goal or the objective says more.
+void read_goal_over_cases(const std::optional<JsonNode>& node, const ProblemFile& problem,
+                          Objective& goal) {
+  goal.over_cases = OverCases::worst;
+  if (node) {
+    read_over_cases(*node, goal);
+    return check_weights(*node, goal, problem);
+  }
+  const auto& objective = problem.cases.front().objective;
+  if (!objective || objective->response != goal.response || !problem.objective ||
+      problem.objective->over_cases == OverCases::same) {
+    return;
+  }
+  goal.over_cases = problem.objective->over_cases;
+  goal.weights = problem.objective->weights;
+}
+
+/// "mass", {"minimize": "mass"} or {"maximize": "speed"}; with load cases also a response of one of
+/// them, "bow[fast]", or of all, {"minimize": "bow", "over_cases": "sum"}.
 Objective read_goal(const JsonNode& node, const ProblemFile& problem) {
-  const std::vector<std::string> known = names_of(problem.responses);
-  if (!node.value().is_object()) return {read_known_name(node, "response", known), Aim::minimize};
-  node.allow_keys({"minimize", "maximize"});
-  const auto largest = node.find("maximize");
-  if (largest && node.find("minimize")) node.fail("has both \"minimize\" and \"maximize\"");
-  return {read_known_name(largest ? *largest : node.at("minimize"), "response", known),
-          largest ? Aim::maximize : Aim::minimize};
+  std::vector<std::string> known = names_of(problem.responses);
+  std::optional<JsonNode> over_cases;
+  JsonNode name = node;
+  Aim aim = Aim::minimize;
+  if (node.value().is_object()) {
+    node.allow_keys({"minimize", "maximize", "over_cases"});
+    const auto largest = node.find("maximize");
+    if (largest && node.find("minimize")) node.fail("has both \"minimize\" and \"maximize\"");
+    name = largest ? *largest : node.at("minimize");
+    if (largest) aim = Aim::maximize;
+    over_cases = node.find("over_cases");
+  }
+  if (find_named(problem.responses, spaced_case(name.text())) != nullptr) {
+    if (over_cases) {
+      over_cases->fail(problem.has_cases() ? "is for a response that differs from case to case"
+                                           : "names cases, and the problem has none (\"cases\")");
+    }
+    return {spaced_case(name.text()), aim};
+  }
+  if (problem.has_cases()) {
+    for (const std::string& one : names_of(problem.cases.front().responses)) known.push_back(one);
+  }
+  Objective goal{read_known_name(name, "response", known), aim};
+  read_goal_over_cases(over_cases, problem, goal);
+  return goal;
 }
 
 ParetoSettings read_front_between(const JsonNode& node, const JsonNode& responses,
@@ -156,7 +224,8 @@ ParetoSettings read_front_between(const JsonNode& node, const JsonNode& response
   for (const JsonNode& goal : responses.items(2)) {
     pareto.goals.push_back(read_goal(goal, problem));
   }
-  if (pareto.goals[0].response == pareto.goals[1].response) {
+  const Objective &first = pareto.goals[0], &second = pareto.goals[1];
+  if (first.response == second.response && first.over_cases == second.over_cases) {
     responses.fail("must be two different responses");
   }
   if (const auto points = node.find("points")) pareto.points = points->whole_number(2, 10000);
@@ -172,10 +241,10 @@ ParetoSettings read_pareto(const JsonNode& node, const ProblemFile& problem,
   }
   node.allow_keys({"constraint", "from", "to", "points"});
   if (!problem.objective) node.fail("needs an objective, and the problem has none");
-  const ConstraintSettings& constraint = read_varied_constraint(node.at("constraint"), problem);
-  const Quantity quantity = quantity_of(constraint, problem, numbers);
   ParetoSettings pareto;
-  pareto.constraint = constraint.name;
+  const ConstraintSettings& constraint =
+      read_varied_constraint(node.at("constraint"), problem, pareto.constraint);
+  const Quantity quantity = quantity_of(constraint, problem, numbers);
   pareto.from = numbers.fixed(node.at("from"), quantity);
   pareto.to = numbers.fixed(node.at("to"), quantity);
   if (pareto.from == pareto.to) node.at("to").fail_with_value("must differ from \"from\"");

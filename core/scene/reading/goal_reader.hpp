@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/scene/problem_file.hpp"
@@ -21,6 +22,11 @@ Objective read_objective(const JsonNode& node, std::vector<ResponseSettings>& re
 std::vector<ConstraintSettings> read_constraints(const JsonNode& node,
                                                  std::vector<ResponseSettings>& responses,
                                                  NumberReader& numbers);
+
+/// One of them.
+ConstraintSettings read_constraint(const std::string& name, const JsonNode& node,
+                                   std::vector<ResponseSettings>& responses,
+                                   NumberReader& numbers);
 
 /// `problem` has its constraints already. @throws InputError
 ParetoSettings read_pareto(const JsonNode& node, const ProblemFile& problem,

@@ -252,7 +252,8 @@ std::optional<Quantity> NumberReader::quantity_of(int variable) const {
   if (const VariableUse* first = first_use(variable)) return first->quantity;
   const bool is_mentioned =
       std::any_of(mentions_.begin(), mentions_.end(),
-                  [&](const VariableMention& mention) { return mention.variable == variable; });
+                  [&](const VariableMention& mention) { return mention.variable == variable; }) ||
+      std::find(used_elsewhere_.begin(), used_elsewhere_.end(), variable) != used_elsewhere_.end();
   if (!is_mentioned) return std::nullopt;
   return find_quantity(symbol_of(variable)->dimension, *units_);
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/scene/number.hpp"
@@ -47,6 +48,11 @@ class NumberReader {
 
   /// Takes from the document what formulas may name (symbols.hpp).
   void declare(const JsonNode& root);
+  /// The same names, from elsewhere.
+  void declare(std::vector<Symbol> symbols) { symbols_ = std::move(symbols); }
+
+  /// A design variable that a formula outside of this document names.
+  void count_as_used(int variable) { used_elsewhere_.push_back(variable); }
 
   /// A number in SI, a text with unit or a formula of constants, not designable.
   double fixed(const JsonNode& node, const Quantity& quantity, Range range = Range::any) const;
@@ -122,6 +128,7 @@ class NumberReader {
   std::vector<std::string> variables_;
   std::vector<Symbol> symbols_;
   std::vector<VariableMention> mentions_;
+  std::vector<int> used_elsewhere_;
   std::vector<VariableUse> uses_;
   std::vector<FixedNumber> fixed_;
 };

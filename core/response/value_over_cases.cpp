@@ -1,0 +1,119 @@
+#include "core/response/value_over_cases.hpp"
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "core/scene/load_cases.hpp"
+
+namespace pleuel {
+
+namespace {
+
+using Kind = ExpressionArgument::Kind;
+
+class OverCasesValue {
+ public:
+  OverCasesValue(const ProblemFile& joined, const Eigen::VectorXd& x, const ValueInCase& value_of)
+      : joined_(joined), x_(x), value_of_(value_of), design_(Eigen::VectorXd::Zero(x.size())) {}
+
+  double value(std::size_t response) const {
+    return is_over_cases(joined_, response) ? evaluated(response).value : value_of_(response);
+  }
+
+  /// Adds `weight` times the derivatives.
+  void add(std::size_t response, double weight) {
+    if (!is_over_cases(joined_, response)) {
+      weights_[response] += weight;
+      return;
+    }
+    const ExpressionValue at = evaluated(response);
+    const Expression& expression = *joined_.responses[response].expression;
+    for (std::size_t i = 0; i < expression.arguments.size(); ++i) {
+      const ExpressionArgument& argument = expression.arguments[i];
+      const double share = weight * at.derivatives[i];
+      if (!std::isfinite(share)) refuse(response, "derivative");
+      if (argument.kind == Kind::response) {
+        add(argument.index, share);
+      } else {
+        design_(static_cast<Eigen::Index>(argument.index)) += share;
+      }
+    }
+  }
+
+  LinearizedResponse take() && {
+    LinearizedResponse found;
+    for (const auto& [response, weight] : weights_) found.parts.push_back({response, weight});
+    found.design = std::move(design_);
+    return found;
+  }
+
+ private:
+  ExpressionValue evaluated(std::size_t response) const {
+    const Expression& expression = *joined_.responses[response].expression;
+    std::vector<double> arguments;
+    for (const ExpressionArgument& argument : expression.arguments) {
+      arguments.push_back(argument.kind == Kind::response
+                              ? value(argument.index)
+                              : x_(static_cast<Eigen::Index>(argument.index)));
+    }
+    ExpressionValue found = evaluate(expression, arguments);
+    if (!std::isfinite(found.value)) refuse(response, "value");
+    return found;
+  }
+
+  [[noreturn]] void refuse(std::size_t response, const char* what) const {
+    const Expression& expression = *joined_.responses[response].expression;
+    std::string text;
+    for (const ExpressionArgument& argument : expression.arguments) {
+      if (argument.kind != Kind::response) continue;
+      text += fmt::format("{}{} = {:.6g}", text.empty() ? ", with " : ", ",
+                          joined_.responses[argument.index].name, value(argument.index));
+    }
+    throw SimulationError(fmt::format("the response \"{}\" has no finite {} there: \"{}\"{}",
+                                      joined_.responses[response].name, what, expression.text,
+                                      text));
+  }
+
+  const ProblemFile& joined_;
+  const Eigen::VectorXd& x_;
+  const ValueInCase& value_of_;
+  std::map<std::size_t, double> weights_;
+  Eigen::VectorXd design_;
+};
+
+void add_parts(const ProblemFile& joined, std::size_t response, std::set<std::size_t>& parts) {
+  if (!is_over_cases(joined, response)) {
+    parts.insert(response);
+    return;
+  }
+  for (const ExpressionArgument& argument : joined.responses[response].expression->arguments) {
+    if (argument.kind == Kind::response) add_parts(joined, argument.index, parts);
+  }
+}
+
+}  // namespace
+
+double value_over_cases(const ProblemFile& joined, std::size_t response, const Eigen::VectorXd& x,
+                        const ValueInCase& value_of) {
+  return OverCasesValue(joined, x, value_of).value(response);
+}
+
+LinearizedResponse linearized_over_cases(const ProblemFile& joined, std::size_t response,
+                                         const Eigen::VectorXd& x, const ValueInCase& value_of) {
+  OverCasesValue over_cases(joined, x, value_of);
+  over_cases.add(response, 1.0);
+  return std::move(over_cases).take();
+}
+
+std::vector<std::size_t> parts_in_cases(const ProblemFile& joined, std::size_t response) {
+  std::set<std::size_t> parts;
+  add_parts(joined, response, parts);
+  return {parts.begin(), parts.end()};
+}
+
+}  // namespace pleuel

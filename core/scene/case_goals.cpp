@@ -1,0 +1,212 @@
+#include "core/scene/case_goals.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "core/base/find_named.hpp"
+#include "core/scene/load_cases.hpp"
+#include "core/scene/response_quantity.hpp"
+
+namespace pleuel {
+
+namespace {
+
+std::size_t index_of(const std::vector<ResponseSettings>& responses, const std::string& name) {
+  return static_cast<std::size_t>(find_named(responses, name) - responses.data());
+}
+
+std::string word_of(const Objective& goal) {
+  if (goal.over_cases == OverCases::worst) return "worst";
+  return goal.weights.empty() ? "sum" : "weighted";
+}
+
+double weight_of(const Objective& goal, const ProblemFile& load_case) {
+  if (goal.over_cases == OverCases::worst || goal.weights.empty()) return 1.0;
+  double weight = 0.0;
+  for (const auto& [name, value] : goal.weights) {
+    if (is_in_case({name}, load_case)) weight = value;
+  }
+  return weight;
+}
+
+/// Puts a number together from those of the cases: their largest or smallest, or a weighted sum.
+class FormulaOverCases {
+ public:
+  FormulaOverCases(const ProblemFile& joined, const Objective& goal, std::size_t index)
+      : joined_(joined), goal_(goal) {
+    const ResponseSettings& first = joined.responses[joined_response(joined, {0, index})];
+    const Quantity quantity = quantity_of(first);
+    whole_.text = name_in_case(goal.response, word_of(goal));
+    whole_.quantity = quantity.name;
+    whole_.unit = quantity.unit;
+    for (std::size_t c = 0; c < joined.cases.size(); ++c) add(c, index);
+  }
+
+  std::shared_ptr<const Expression> take() {
+    return std::make_shared<const Expression>(std::move(whole_));
+  }
+
+ private:
+  int add_step(const ExpressionStep& step) {
+    whole_.steps.push_back(step);
+    return static_cast<int>(whole_.steps.size()) - 1;
+  }
+
+  void add(std::size_t load_case, std::size_t index) {
+    const double weight = weight_of(goal_, joined_.cases[load_case]);
+    if (weight == 0.0) return;
+    const std::size_t response = joined_response(joined_, {load_case, index});
+    whole_.arguments.push_back({ExpressionArgument::Kind::response, response});
+    const auto argument = static_cast<int>(whole_.arguments.size()) - 1;
+    int term = add_step({Operation::argument, 0.0, argument});
+    if (weight != 1.0) {
+      const int factor = add_step({Operation::constant, weight});
+      term = add_step({Operation::times, 0.0, factor, term});
+    }
+    last_ = last_ ? add_step({operation(), 0.0, *last_, term}) : term;
+  }
+
+  Operation operation() const {
+    if (goal_.over_cases == OverCases::weighted) return Operation::plus;
+    return goal_.aim == Aim::maximize ? Operation::smaller : Operation::larger;
+  }
+
+  const ProblemFile& joined_;
+  const Objective& goal_;
+  Expression whole_;
+  std::optional<int> last_;
+};
+
+ResponseSettings response_over_cases(const ProblemFile& joined, const Objective& goal,
+                                     std::size_t index) {
+  const ResponseSettings& first = joined.responses[joined_response(joined, {0, index})];
+  ResponseSettings over_cases;
+  over_cases.name = name_in_case(goal.response, word_of(goal));
+  over_cases.type = ResponseType::expression;
+  over_cases.unit = first.unit;
+  over_cases.unit_scale = first.unit_scale;
+  over_cases.expression = FormulaOverCases(joined, goal, index).take();
+  return over_cases;
+}
+
+bool is_same(const Expression& one, const Expression& other) {
+  const auto same_step = [](const ExpressionStep& a, const ExpressionStep& b) {
+    return a.operation == b.operation && a.constant == b.constant && a.first == b.first &&
+           a.second == b.second;
+  };
+  return std::equal(one.steps.begin(), one.steps.end(), other.steps.begin(), other.steps.end(),
+                    same_step);
+}
+
+ConstraintSettings limit_on(const Objective& goal, double value, const std::string& name,
+                            const std::string& response) {
+  ConstraintSettings constraint;
+  constraint.name = name;
+  constraint.response = response;
+  (goal.aim == Aim::minimize ? constraint.upper : constraint.lower) = value;
+  return constraint;
+}
+
+/// Name of a constraint in the problem of its case; its own where it is of none.
+const std::string& limit_name(const ProblemFile& problem, std::size_t constraint) {
+  const OfCase of_case = case_of_constraint(problem, constraint);
+  if (!problem.has_cases() || is_of_several(of_case)) return problem.constraints[constraint].name;
+  return problem.cases[of_case.load_case].constraints[of_case.index].name;
+}
+
+}  // namespace
+
+Objective goal_of_problem(ProblemFile& problem, Objective goal) {
+  if (!problem.has_cases() || goal.over_cases == OverCases::same) return goal;
+  const std::size_t index = index_of(problem.cases.front().responses, goal.response);
+  ResponseSettings over_cases = response_over_cases(problem, goal, index);
+  const ResponseSettings* known = find_named(problem.responses, over_cases.name);
+  while (known != nullptr && !is_same(*known->expression, *over_cases.expression)) {
+    over_cases.name += " (other weights)";
+    known = find_named(problem.responses, over_cases.name);
+  }
+  goal.response = over_cases.name;
+  if (known != nullptr) return goal;
+  problem.responses.push_back(std::move(over_cases));
+  problem.case_responses.push_back({several_cases, index});
+  return goal;
+}
+
+void set_objective(ProblemFile& problem, const Objective& goal) {
+  problem.objective = goal;
+  if (!problem.has_cases()) return;
+  const std::size_t response = index_of(problem.responses, goal.response);
+  problem.case_weights.clear();
+  for (ProblemFile& one : problem.cases) {
+    one.objective.reset();
+    if (goal.over_cases == OverCases::same) continue;
+    one.objective = goal;
+    one.objective->response = one.responses[problem.case_responses[response].index].name;
+    problem.case_weights.push_back(weight_of(goal, one));
+  }
+  if (goal.over_cases == OverCases::same) ask_for_accuracy(problem, response);
+}
+
+void add_limit(ProblemFile& problem, const Objective& goal, double value, const std::string& name) {
+  if (!problem.has_cases()) {
+    problem.constraints.push_back(limit_on(goal, value, name, goal.response));
+    return;
+  }
+  const std::size_t response = index_of(problem.responses, goal.response);
+  if (goal.over_cases != OverCases::worst) {
+    problem.constraints.push_back(limit_on(goal, value, name, goal.response));
+    problem.case_constraints.push_back({several_cases, 0});
+    ask_for_accuracy(problem, response);
+    return;
+  }
+  const std::size_t index = problem.case_responses[response].index;
+  for (std::size_t c = 0; c < problem.cases.size(); ++c) {
+    ProblemFile& one = problem.cases[c];
+    const std::string& joined = problem.responses[joined_response(problem, {c, index})].name;
+    problem.constraints.push_back(limit_on(goal, value, name_in_case(name, one.load_case), joined));
+    problem.case_constraints.push_back({c, one.constraints.size()});
+    one.constraints.push_back(limit_on(goal, value, name, one.responses[index].name));
+  }
+}
+
+void remove_limit(ProblemFile& problem, const std::string& name) {
+  std::vector<std::size_t> rows = constraints_of_limit(problem, name);
+  std::reverse(rows.begin(), rows.end());
+  for (const std::size_t row : rows) {
+    const auto place = static_cast<std::ptrdiff_t>(row);
+    if (problem.has_cases()) {
+      const OfCase of_case = problem.case_constraints[row];
+      if (!is_of_several(of_case)) problem.cases[of_case.load_case].constraints.pop_back();
+      problem.case_constraints.erase(problem.case_constraints.begin() + place);
+    }
+    problem.constraints.erase(problem.constraints.begin() + place);
+  }
+}
+
+std::vector<std::size_t> constraints_of_limit(const ProblemFile& problem, const std::string& name) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < problem.constraints.size(); ++i) {
+    if (problem.constraints[i].name == name || limit_name(problem, i) == name) rows.push_back(i);
+  }
+  return rows;
+}
+
+void ask_for_accuracy(ProblemFile& problem, std::size_t response) {
+  if (is_over_cases(problem, response)) {
+    for (const ExpressionArgument& argument : problem.responses[response].expression->arguments) {
+      if (argument.kind == ExpressionArgument::Kind::response) {
+        ask_for_accuracy(problem, argument.index);
+      }
+    }
+    return;
+  }
+  const OfCase of_case = problem.case_responses[response];
+  ProblemFile& one = problem.cases[of_case.load_case];
+  const std::string& name = one.responses[of_case.index].name;
+  std::vector<std::string>& asked = one.accuracy.responses;
+  if (std::find(asked.begin(), asked.end(), name) == asked.end()) asked.push_back(name);
+}
+
+}  // namespace pleuel

@@ -1,0 +1,331 @@
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/response/analysis.hpp"
+#include "core/scene/load_cases.hpp"
+#include "core/scene/problem_reader.hpp"
+#include "optimization/design/design_solve.hpp"
+
+/// Expressions that name load cases, `bow[fast] - bow[slow]`: closed forms, differences, and the same
+/// problem said in another way.
+namespace {
+
+using namespace pleuel;
+using Json = nlohmann::ordered_json;
+
+ProblemFile problem_of(const Json& document) {
+  return read_problem_text(document.dump(), "across.json");
+}
+
+/// A stone on the floor: what is simulated does not matter.
+Json stone() {
+  return Json::parse(R"json({
+    "scene": {"bodies": {"stone": {"type": "rigid", "at": [0, 0, 0], "mass": 1,
+                                   "inertia": [1, 1, 1, 0, 0, 0]}},
+              "joints": {"floor": {"type": "fixed", "bodies": ["ground", "stone"],
+                                   "at": [0, 0, 0]}}},
+    "simulation": {"end_time": "2 s", "step": "1 s", "resolution_check": false}
+  })json");
+}
+
+/// A number x whose distance from a target is squared: the target is that of the case.
+Json distances() {
+  Json document = stone();
+  document.update(Json::parse(R"json({
+    "constants": {"target": 1},
+    "variables": {"x": {"start": 2.7, "lower": -10, "upper": 10}},
+    "responses": {"distance": {"type": "expression", "value": "(x - target)^2"}},
+    "objective": {"minimize": "= 3*distance[near] + distance[far]"},
+    "cases": {"near": {}, "far": {"/constants/target": 3}}
+  })json"));
+  return document;
+}
+
+TEST(AcrossCases, MinimizeAFormulaOfResponsesInCases) {
+  DesignProblem design(problem_of(distances()));
+  const Result result = solve_design(design, {});
+  EXPECT_EQ(result.status, Status::verified) << result.message;
+  EXPECT_NEAR(result.x(0), 1.5, 1e-4);                  // 6 (x − 1) + 2 (x − 3) = 0
+  EXPECT_NEAR(result.evaluation.objective, 3.0, 1e-6);  // 3 · 0.5² + 1.5²
+}
+
+TEST(AcrossCases, TakeConstantsOfTheirCasesAndDesignVariables) {
+  Json document = distances();
+  document["responses"]["pull"] = {{"type", "expression"},
+                                   {"value", "(target[far] - target[near])*x"}};
+  document["objective"]["minimize"] = "= distance[near] - pull";
+  DesignProblem design(problem_of(document));
+  const Result result = solve_design(design, {});
+  EXPECT_EQ(result.status, Status::verified) << result.message;
+  EXPECT_NEAR(result.x(0), 2.0, 1e-4);  // 2 (x − 1) − 2 = 0
+}
+
+TEST(AcrossCases, AreMaximizedWithTheirSign) {
+  Json document = distances();
+  document["objective"] = {{"maximize", "= -3*distance[near] - distance[far]"}};
+  DesignProblem design(problem_of(document));
+  const Result result = solve_design(design, {});
+  EXPECT_EQ(result.status, Status::verified) << result.message;
+  EXPECT_NEAR(result.x(0), 1.5, 1e-4);
+  EXPECT_NEAR(result.evaluation.objective, 3.0, 1e-6);  // of what is minimized: the negative
+}
+
+TEST(AcrossCases, MeetHalfWayInTheLargestOfTwo) {
+  Json document = distances();
+  document["objective"] = {{"minimize", "= max(distance[near], distance[far])"}};
+  DesignProblem design(problem_of(document));
+  const Result result = solve_design(design, {});
+  EXPECT_EQ(result.status, Status::verified) << result.message;
+  EXPECT_NEAR(result.x(0), 2.0, 1e-4);  // (x − 1)² = (x − 3)²
+  EXPECT_NEAR(result.evaluation.objective, 1.0, 1e-4);
+}
+
+TEST(AcrossCases, AreLimitedWithAPrice) {
+  Json document = distances();
+  document["objective"] = {{"minimize", "distance[far]"}};
+  // (x − 1)² − (x − 3)² = 4 x − 8
+  document["constraints"]["lead"] = {{"response", "= distance[near] - distance[far]"},
+                                     {"upper", -2}};
+  DesignProblem design(problem_of(document));
+  const Result result = solve_design(design, {});
+  EXPECT_EQ(result.status, Status::verified) << result.message;
+  EXPECT_NEAR(result.x(0), 1.5, 1e-6);
+  EXPECT_NEAR(result.evaluation.constraints(0), -2.0, 1e-6);
+  EXPECT_NEAR(result.constraint_multipliers(0), 0.75, 1e-4);  // 2 (3 − 1.5) = 4 μ
+}
+
+TEST(AcrossCases, KeepTheirMargins) {
+  Json document = distances();
+  document["objective"] = {{"minimize", "distance[far]"}};
+  document["constraints"]["lead"] = {
+      {"response", "= distance[near] - distance[far]"}, {"upper", -2}, {"deviations", 3}};
+  document["uncertainty"] = {{"parameters", {{"x", {{"deviation", 0.1}}}}}};
+  DesignProblem design(problem_of(document));
+  const Result result = solve_design(design, {});
+  EXPECT_EQ(result.status, Status::verified) << result.message;
+  EXPECT_NEAR(result.x(0), 1.2, 1e-5);  // 4 x − 8 + 3 · 4 · 0.1 = −2
+}
+
+/// Hock & Schittkowski 1981, problem 71: both terms of the objective and both limits are numbers of
+/// two cases.
+Json hock_schittkowski_71() {
+  Json document = stone();
+  document.update(Json::parse(R"json({
+    "constants": {"a": 1, "b": 0},
+    "variables": {"x1": {"start": 1, "lower": 1, "upper": 5},
+                  "x2": {"start": 5, "lower": 1, "upper": 5},
+                  "x3": {"start": 5, "lower": 1, "upper": 5},
+                  "x4": {"start": 1, "lower": 1, "upper": 5}},
+    "responses": {
+      "term": {"type": "expression", "value": "a*x1*x4*(x1 + x2 + x3) + b*x3"},
+      "size": {"type": "expression", "value": "a*x1*x2*x3*x4 + b*(x1^2 + x2^2 + x3^2 + x4^2)"},
+      "sum": {"type": "expression", "value": "term[first] + term[second]"}
+    },
+    "objective": {"minimize": "sum"},
+    "constraints": {"product": {"response": "size[first]", "lower": 25},
+                    "sphere": {"response": "= 2*size[second]/2", "lower": 40, "upper": 40}},
+    "cases": {"first": {}, "second": {"/constants/a": 0, "/constants/b": 1}}
+  })json"));
+  return document;
+}
+
+TEST(AcrossCases, SolveAHockSchittkowskiProblemThatIsSpreadOverCases) {
+  DesignProblem design(problem_of(hock_schittkowski_71()));
+  const Result result = solve_design(design, {});
+  EXPECT_EQ(result.status, Status::verified) << result.message;
+  EXPECT_NEAR(result.evaluation.objective, 17.0140173, 1e-5);  // Hock & Schittkowski 1981
+  const double optimum[] = {1.0, 4.7429994, 3.8211503, 1.3794082};
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(result.x(i), optimum[i], 1e-4);
+}
+
+/// A cantilever in equilibrium under a force at its tip.
+Json cantilever() {
+  return Json::parse(R"json({
+    "scene": {
+      "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": ["1 m", 0, 0],
+                         "material": "steel",
+                         "section": {"type": "rectangle", "width": "20 mm",
+                                     "height": {"variable": "height"}},
+                         "elements": 2}},
+      "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}},
+      "loads": {"pull": {"type": "force", "body": "bar", "at": ["1 m", 0, 0],
+                         "direction": [0, 1, 0], "value": "20 N"}}
+    },
+    "effects": {"geometric_stiffening": "off"},
+    "simulation": {"end_time": "2 ms", "step": "1 ms", "initial_state": "quasi-static"},
+    "variables": {"height": {"start": "40 mm", "lower": "10 mm", "upper": "80 mm"}},
+    "responses": {"mass": {"type": "mass"},
+                  "tip": {"type": "deflection", "body": "bar", "at": 1, "over_time": "final"},
+                  "spread": {"type": "expression", "value": "tip[strong] - tip[weak]"}},
+    "objective": {"minimize": "mass"},
+    "constraints": {"evenness": {"response": "spread", "upper": "1 mm"}},
+    "cases": {"weak": {}, "strong": {"/scene/loads/pull/value": "100 N"}}
+  })json");
+}
+
+/// (F₂ − F₁) L³/(3 E I) = 1 mm with I = b h³/12.
+double height_of_cantilever() {
+  return std::cbrt(12.0 * 80.0 / (3.0 * 210e9 * 0.020 * 1e-3));
+}
+
+TEST(AcrossCases, LimitTheDifferenceOfTwoDeflectionsOfACantilever) {
+  DesignProblem design(problem_of(cantilever()));
+  const Result result = solve_design(design, {});
+  EXPECT_EQ(result.status, Status::verified) << result.message;
+  EXPECT_NEAR(result.x(0), height_of_cantilever(), 1e-6 * height_of_cantilever());
+  ASSERT_FALSE(result.response_errors.empty());
+  const ProblemFile& file = design.file();
+  const std::size_t spread = design.response_index("spread");
+  ASSERT_TRUE(is_over_cases(file, spread));
+  ASSERT_TRUE(result.response_errors[spread]);
+  const auto& weak = result.response_errors[design.response_index("tip [weak]")];
+  const auto& strong = result.response_errors[design.response_index("tip [strong]")];
+  // Errors of both cases are their own: the bound of the difference is the sum of the bounds.
+  EXPECT_NEAR(result.response_errors[spread]->bound(), weak->bound() + strong->bound(),
+              1e-3 * (weak->bound() + strong->bound()) + 1e-12);
+}
+
+/// A turn of a slender crank with a load at its end, at two speeds and with two loads.
+Json crank() {
+  return Json::parse(R"json({
+    "scene": {
+      "gravity": [0, "-9.81 m/s^2", 0],
+      "bodies": {
+        "crank": {"type": "beam", "from": [0, 0, 0], "to": ["200 mm", 0, 0], "material": "steel",
+                  "section": {"type": "rectangle", "width": {"variable": "width"},
+                              "height": {"variable": "height"}},
+                  "elements": 2, "frame": "tangent", "damping": {"stiffness": "1e-4 s"}},
+        "load": {"type": "point-mass", "at": ["200 mm", 0, 0], "mass": "0.5 kg"}
+      },
+      "joints": {
+        "hub": {"type": "revolute", "bodies": ["ground", "crank"], "at": [0, 0, 0],
+                "drive": {"type": "ramp-to-speed", "speed": "60 rad/s", "ramp": "40 ms"}},
+        "clamp": {"type": "fixed", "bodies": ["crank", "load"], "at": ["200 mm", 0, 0]}
+      }
+    },
+    "simulation": {"end_time": "60 ms", "step": "0.5 ms", "resolution_check": false},
+    "variables": {
+      "width": {"start": "8 mm", "lower": "4 mm", "upper": "40 mm"},
+      "height": {"start": "12 mm", "lower": "4 mm", "upper": "40 mm"}
+    },
+    "responses": {
+      "mass": {"type": "mass", "bodies": ["crank"]},
+      "stress": {"type": "stress", "body": "crank", "over_time": "max"},
+      "tip": {"type": "deflection", "body": "crank", "at": 1, "over_time": "rms"},
+      "torque": {"type": "drive-torque", "joint": "hub", "over_time": "max-abs"},
+      "ratio": {"type": "expression", "value": "tip[fast]/tip[heavy] + (1 mm)/width"}
+    },
+    "objective": {"minimize": "= tip[fast]*ratio + 0.2*tip[heavy]"},
+    "constraints": {
+      "balance": {"response": "= tip[fast] - tip[heavy]", "upper": "1 mm"},
+      "evenness": {"response": "ratio", "lower": 0.1},
+      "strength": {"response": "stress", "upper": "60 MPa"},
+      "weight": {"response": "mass", "upper": "0.5 kg"}
+    },
+    "sensitivity": {"method": "direct"},
+    "cases": {
+      "fast": {},
+      "heavy": {"/scene/bodies/load/mass": "2 kg",
+                "/scene/joints/hub/drive/speed": "30 rad/s"}
+    }
+  })json");
+}
+
+Evaluation evaluated(const Json& document) {
+  const ProblemFile file = problem_of(document);
+  DesignProblem design(file);
+  return design.evaluate(start_design(file), Request::values_and_gradients);
+}
+
+TEST(AcrossCases, HaveTheGradientsOfTheChainRule) {
+  const ProblemFile file = problem_of(crank());
+  DesignProblem design(file);
+  const Eigen::VectorXd x = start_design(file);
+  const Evaluation exact = design.evaluate(x, Request::values_and_gradients);
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
+    // Central differences: error ~ h² and 1e-12/h of the values; 1e-6 is ten times what was seen.
+    const double h = 1e-5 * x(j);
+    Eigen::VectorXd above = x, below = x;
+    above(j) += h;
+    below(j) -= h;
+    const Evaluation up = design.evaluate(above, Request::values);
+    const Evaluation down = design.evaluate(below, Request::values);
+    const double slope = (up.objective - down.objective) / (2.0 * h);
+    EXPECT_NEAR(exact.objective_gradient(j), slope, 1e-6 * exact.objective_gradient.norm());
+    const Eigen::VectorXd slopes = (up.constraints - down.constraints) / (2.0 * h);
+    for (Eigen::Index i = 0; i < slopes.size(); ++i) {
+      EXPECT_NEAR(exact.constraint_jacobian(i, j), slopes(i),
+                  1e-6 * exact.constraint_jacobian.row(i).norm())
+          << design.constraints()[i].name;
+    }
+  }
+}
+
+TEST(AcrossCases, HaveTheSameGradientsByTheAdjoint) {
+  Json document = crank();
+  const Evaluation direct = evaluated(document);
+  document["sensitivity"]["method"] = "adjoint";
+  const Evaluation adjoint = evaluated(document);
+  EXPECT_NEAR((direct.objective_gradient - adjoint.objective_gradient).norm(), 0.0,
+              1e-10 * direct.objective_gradient.norm());
+  EXPECT_NEAR((direct.constraint_jacobian - adjoint.constraint_jacobian).norm(), 0.0,
+              1e-10 * direct.constraint_jacobian.norm());
+}
+
+TEST(AcrossCases, AreMadeOfTheNumbersOfTheCases) {
+  const ProblemFile file = problem_of(crank());
+  DesignProblem design(file);
+  const Eigen::VectorXd x = start_design(file);
+  const Evaluation all = design.evaluate(x, Request::values);
+  const auto tip = [&](const std::string& name) {
+    const ProblemFile one = problem_of_case(file, name);
+    return analyze(one, x)->reductions[2].value;
+  };
+  ASSERT_EQ(file.cases[0].responses[2].name, "tip");
+  const double fast = tip("fast"), heavy = tip("heavy");
+  const double ratio = fast / heavy + 1e-3 / x(0);
+  EXPECT_DOUBLE_EQ(all.objective, fast * ratio + 0.2 * heavy);
+}
+
+/// With limits that decide: the optimum is not at a bound.
+Json stiff_crank() {
+  Json document = crank();
+  document["objective"] = {{"minimize", "mass"}};
+  document["responses"]["most"] = {{"type", "expression"},
+                                   {"value", "max(stress[fast], stress[heavy])"}};
+  document["constraints"] = Json::parse(R"json({
+      "strength": {"response": "most", "upper": "60 MPa"},
+      "sag": {"response": "= tip[fast] + tip[heavy]", "upper": "0.15 mm"},
+      "shape": {"linear": {"height": 1, "width": -2}, "upper": 0}})json");
+  return document;
+}
+
+TEST(AcrossCases, LimitTheLargestOfTwoAsBothDo) {
+  Json document = stiff_crank();
+  document["constraints"].erase("sag");
+  DesignProblem largest(problem_of(document));
+  document["constraints"]["strength"]["response"] = "stress";
+  DesignProblem both(problem_of(document));
+  const Result one = solve_design(largest, {}), other = solve_design(both, {});
+  EXPECT_EQ(one.status, Status::verified) << one.message;
+  EXPECT_EQ(other.status, Status::verified) << other.message;
+  // Optima are found to 1e-6 of the objective.
+  EXPECT_NEAR(one.evaluation.objective, other.evaluation.objective,
+              1e-5 * other.evaluation.objective);
+}
+
+TEST(AcrossCases, HaveTheSameDigitsWhateverTheNumberOfJobs) {
+  const ProblemFile file = problem_of(stiff_crank());
+  DesignProblem one(file, 1), two(file, 2);
+  const Result with_one = solve_design(one, {}), with_two = solve_design(two, {});
+  EXPECT_EQ(with_one.status, Status::verified) << with_one.message;
+  EXPECT_EQ(with_one.x, with_two.x);
+  EXPECT_EQ(with_one.evaluation.constraints, with_two.evaluation.constraints);
+  EXPECT_EQ(with_one.constraint_multipliers, with_two.constraint_multipliers);
+  EXPECT_EQ(with_one.evaluations, with_two.evaluations);
+}
+
+}  // namespace
