@@ -24,6 +24,11 @@ DesignProblem::DesignProblem(ProblemFile file, int threads, EvaluationStore* sto
   if (file_.variables.empty())
     throw InputError("/variables is missing: there is nothing to design");
   variable_units_ = variable_units(file_);
+  if (!file_.objective && !file_.load_case.empty()) {
+    throw InputError(fmt::format(
+        "/objective is made from several cases, or missing: the case \"{}\" alone has none",
+        file_.load_case));
+  }
   if (!file_.objective) throw InputError("/objective is missing: there is nothing to minimize");
   for (const DesignVariable& variable : file_.variables) {
     variables_.push_back({variable.name, variable.start, variable.lower, variable.upper});

@@ -211,32 +211,34 @@ std::vector<std::string> ExpressionBuilder::cases_with(const std::string& name) 
   return cases;
 }
 
-void ExpressionBuilder::fail_unknown_case(std::size_t position, const NameInCase& wanted) const {
-  const auto& [name, load_case] = wanted;
-  if (find(name) != nullptr) {
-    fail(position,
-         fmt::format("\"{}\" is no number of one load case: leave \"[{}]\" out", name, load_case));
-  }
-  const std::vector<std::string> cases = cases_with(name);
-  if (!cases.empty()) {
-    fail(position,
-         fmt::format("\"{}\" has no case \"{}\"{}", name, load_case, hint(load_case, cases)));
-  }
-  std::vector<std::string> known;
+std::vector<std::string> ExpressionBuilder::names_with_cases() const {
+  std::vector<std::string> names;
   for (const Symbol& symbol : symbols_) {
     const auto split = split_case(symbol.name);
-    if (!split) continue;
-    if (std::find(known.begin(), known.end(), split->name) == known.end()) {
-      known.push_back(split->name);
+    if (split && std::find(names.begin(), names.end(), split->name) == names.end()) {
+      names.push_back(split->name);
     }
   }
-  if (known.empty()) {
+  return names;
+}
+
+void ExpressionBuilder::fail_unknown_case(std::size_t position, const NameInCase& wanted) const {
+  const auto& [name, load_case] = wanted;
+  const std::vector<std::string> names = names_with_cases();
+  if (names.empty()) {
     fail(position,
          fmt::format("\"[{}]\" names a load case: only responses, limits and the objective of a "
                      "file with \"cases\" can do so",
                      load_case));
   }
-  fail(position, fmt::format("unknown name \"{}\"{}", name, hint(name, known)));
+  if (find(name) != nullptr) {
+    fail(position,
+         fmt::format("\"{}\" is no number of one load case: leave \"[{}]\" out", name, load_case));
+  }
+  const std::vector<std::string> cases = cases_with(name);
+  if (cases.empty()) fail(position, fmt::format("unknown name \"{}\"{}", name, hint(name, names)));
+  fail(position,
+       fmt::format("\"{}\" has no case \"{}\"{}", name, load_case, hint(load_case, cases)));
 }
 
 void ExpressionBuilder::fail_unknown(std::size_t position, const std::string& name) const {

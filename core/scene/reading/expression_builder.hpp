@@ -63,6 +63,8 @@ class ExpressionBuilder {
 
   [[noreturn]] void fail_unknown(std::size_t position, const std::string& name) const;
   [[noreturn]] void fail_unknown_case(std::size_t position, const NameInCase& wanted) const;
+  /// "bow", where there are symbols "bow [fast]" …
+  std::vector<std::string> names_with_cases() const;
   /// Load cases that a name is known with: "fast" where there is a symbol "bow [fast]".
   std::vector<std::string> cases_with(const std::string& name) const;
 
