@@ -34,7 +34,8 @@ std::vector<std::string> common_methods(const ProblemFile& joined, const Json& c
   for (const WeightedResponse& part : parts) {
     const Json& entry = entry_of(joined, cases, part.response);
     std::vector<std::string> here;
-    for (const auto& [method, gradient] : entry.value("gradients", Json::object()).items()) {
+    const Json gradients = entry.value("gradients", Json::object());
+    for (const auto& [method, gradient] : gradients.items()) {
       if (gradient.is_object()) here.push_back(method);
     }
     if (&part == &parts.front()) methods = here;

@@ -1,5 +1,8 @@
 #include "core/scene/reading/document_reader.hpp"
 
+#include <string_view>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
@@ -17,9 +20,12 @@ namespace pleuel {
 namespace {
 
 void read_heading(const JsonNode& root, ProblemFile& problem) {
-  root.allow_keys({"$schema", "name", "description", "scene", "effects", "simulation",
-                   "sensitivity", "constants", "variables", "responses", "objective", "constraints",
-                   "optimizer", "pareto", "accuracy", "uncertainty", "mentioned"});
+  std::vector<std::string_view> keys = {"$schema",   "name",       "description", "scene",
+                                        "effects",   "simulation", "sensitivity", "constants",
+                                        "variables", "responses",  "objective",   "constraints",
+                                        "optimizer", "pareto",     "accuracy",    "uncertainty"};
+  if (root.find("mentioned")) keys.push_back("mentioned");  // not the user's
+  root.allow_keys(keys);
   if (const auto schema = root.find("$schema")) schema->text();
   if (const auto name = root.find("name")) problem.name = name->text();
   if (const auto description = root.find("description")) problem.description = description->text();
