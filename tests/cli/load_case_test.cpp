@@ -86,6 +86,24 @@ TEST(LoadCases, MakeNumbersTogether) {
   }
 }
 
+/// What both cases share cancels in a difference: its deviation is that of the difference of slopes.
+TEST(LoadCases, ShareTheirUncertainParameters) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(
+      folder.path(), {"uncertainty", with_spread(folder), "--json", "--set",
+                      R"(/uncertainty={"parameters": {"rod_diameter": {"deviation": "0.1 mm"}}})"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json document = run.document();
+  const auto deviation = [](const nlohmann::json& of) {
+    return of.at("responses").at("rod_bow").at("deviation").get<double>();
+  };
+  const double fast = deviation(document.at("cases").at("fast"));
+  const double heavy = deviation(document.at("cases").at("heavy"));
+  const nlohmann::json spread = document.at("over_cases").at("responses").at("spread");
+  EXPECT_NEAR(spread.at("deviation").get<double>(), fast - 2.0 * heavy, 1e-9 * fast);
+  EXPECT_NEAR(spread.at("shares").at("rod_diameter").get<double>(), 1.0, 1e-12);
+}
+
 TEST(LoadCases, AreLimitedTogether) {
   const TemporaryFolder folder;
   const ProgramRun run = run_program(folder.path(), {"optimize", with_spread(folder), "-o", "run"});
