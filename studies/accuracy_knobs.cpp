@@ -178,6 +178,7 @@ bool needs_elasticity(const ProblemFile& problem) {
                          case ResponseType::deflection:
                          case ResponseType::frequency:
                          case ResponseType::buckling:
+                         case ResponseType::lateral_buckling:
                          case ResponseType::elastic_energy:
                            return true;
                          default:

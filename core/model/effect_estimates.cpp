@@ -242,7 +242,8 @@ class Estimation {
         asks_for(problem_, body.name,
                  {ResponseType::stress, ResponseType::elastic_energy, ResponseType::section_force,
                   ResponseType::fatigue, ResponseType::fatigue_damage, ResponseType::shear_stress});
-    const bool asks_for_buckling = asks_for(problem_, body.name, {ResponseType::buckling});
+    const bool asks_for_buckling =
+        asks_for(problem_, body.name, {ResponseType::buckling, ResponseType::lateral_buckling});
     const bool asks_for_bending =
         asks_for(problem_, body.name, {ResponseType::deflection, ResponseType::frequency});
     if (asks_for_forces || asks_for_buckling || asks_for_bending) estimates.elasticity = always;

@@ -14,6 +14,7 @@
 #include "core/joints/joint.hpp"
 #include "core/model/beam_mesh.hpp"
 #include "core/model/elastic_body.hpp"
+#include "core/model/joint_holds.hpp"
 #include "core/model/motion_plane.hpp"
 #include "core/model/stretched_members.hpp"
 #include "core/scene/problem_file.hpp"
@@ -135,6 +136,9 @@ struct Model {
   /// Beams that are divided, as if they were not: for their constants. They have no coordinates in
   /// the system.
   std::vector<BodyModel> undivided;
+  /// What joints hold of each elastic beam, by its name: for judgements on beams out of the plane of
+  /// motion, too.
+  std::unordered_map<std::string, std::vector<JointHold>> holds;
   std::vector<JointModel> joints;
   std::vector<LoadModel> loads;
   std::vector<EffectRecord> effects;

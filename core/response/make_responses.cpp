@@ -93,6 +93,7 @@ class ResponseMaker {
       case ResponseType::fatigue_damage:
       case ResponseType::shear_stress:
       case ResponseType::buckling:
+      case ResponseType::lateral_buckling:
       case ResponseType::deflection:
       case ResponseType::position:
       case ResponseType::velocity:

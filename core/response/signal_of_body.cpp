@@ -8,6 +8,7 @@
 #include "core/response/buckling_signal.hpp"
 #include "core/response/divided_deflection.hpp"
 #include "core/response/fatigue_signal.hpp"
+#include "core/response/lateral_buckling_signal.hpp"
 #include "core/response/motion_signals.hpp"
 #include "core/response/norm_signal.hpp"
 #include "core/response/place_deflection.hpp"
@@ -44,6 +45,8 @@ class BodySignalMaker {
       case ResponseType::buckling:
         check_section_forces();
         return make_buckling_signal(body_, model_.gravity);
+      case ResponseType::lateral_buckling:
+        return make_lateral_buckling();
       case ResponseType::deflection:
         return make_deflection();
       case ResponseType::position:
@@ -82,7 +85,8 @@ class BodySignalMaker {
     if (!body_.is_elastic) fail(fmt::format("\"{}\" is rigid", body_.name));
     const bool is_section_force = settings_.type == ResponseType::section_force;
     const bool needs_axial =
-        settings_.type == ResponseType::buckling || settings_.part == StressPart::axial ||
+        settings_.type == ResponseType::buckling ||
+        settings_.type == ResponseType::lateral_buckling || settings_.part == StressPart::axial ||
         (is_section_force && settings_.section_part == SectionForcePart::axial);
     if (needs_axial && !has_displacement(0)) {
       fail(fmt::format("\"{}\" has no axial elasticity", body_.name));
@@ -150,6 +154,19 @@ class BodySignalMaker {
                       body_.name));
     }
     return make_shear_stress_signal(body_, model_.gravity, {settings_.segment, settings_.station});
+  }
+
+  /// Of the whole beam, also where the body is a part of it.
+  std::unique_ptr<Signal> make_lateral_buckling() const {
+    check_section_forces();
+    auto signal = make_lateral_buckling_signal(body_.name, model_);
+    if (!signal) {
+      fail(
+          fmt::format("the joints of \"{}\" let it move as a whole out of the plane in which it "
+                      "bends",
+                      body_.name));
+    }
+    return signal;
   }
 
   /// The point that the response looks at.

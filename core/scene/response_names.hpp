@@ -38,6 +38,7 @@ inline constexpr Choice<ResponseType> response_types[] = {
     {"fatigue", ResponseType::fatigue},
     {"shear-stress", ResponseType::shear_stress},
     {"fatigue-damage", ResponseType::fatigue_damage},
+    {"lateral-buckling", ResponseType::lateral_buckling},
 };
 
 inline constexpr Choice<FatigueCriterion> fatigue_criteria[] = {

@@ -29,6 +29,7 @@ Quantity instant_quantity(const ResponseSettings& response) {
     case ResponseType::frequency:
       return quantities::angular_frequency;
     case ResponseType::buckling:
+    case ResponseType::lateral_buckling:
     case ResponseType::fatigue:
     case ResponseType::fatigue_damage:
     case ResponseType::constraint_drift:

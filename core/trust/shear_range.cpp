@@ -343,6 +343,7 @@ class ShearDoubts {
       case ResponseType::elastic_energy:
         return is_of_body ? largest : 0.0;
       case ResponseType::buckling:
+      case ResponseType::lateral_buckling:
         return is_of_body ? euler_share(body) : 0.0;
       case ResponseType::frequency:
         return is_of_body ? mode_share(body, response.mode) : 0.0;

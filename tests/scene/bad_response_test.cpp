@@ -10,7 +10,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadEdit{
             "/responses/speed/type", R"("velocty")",
-            R"(/responses/speed/type must be "mass", "stress", "deflection", "position", "velocity", "acceleration", "drive-torque", "drive-force", "drive-power", "reaction-force", "reaction-moment", "frequency", "buckling", "kinetic-energy", "elastic-energy", "energy-balance", "constraint-drift", "expression", "section-force", "angular-velocity", "joint-position", "joint-velocity", "spring-length", "spring-force", "motor-power", "damper-power", "angle", "angular-acceleration", "fatigue", "shear-stress" or "fatigue-damage", got "velocty"; did you mean "velocity"?)"},
+            R"(/responses/speed/type must be "mass", "stress", "deflection", "position", "velocity", "acceleration", "drive-torque", "drive-force", "drive-power", "reaction-force", "reaction-moment", "frequency", "buckling", "kinetic-energy", "elastic-energy", "energy-balance", "constraint-drift", "expression", "section-force", "angular-velocity", "joint-position", "joint-velocity", "spring-length", "spring-force", "motor-power", "damper-power", "angle", "angular-acceleration", "fatigue", "shear-stress", "fatigue-damage" or "lateral-buckling", got "velocty"; did you mean "velocity"?)"},
         BadEdit{
             "/responses/time", R"({"type": "mass"})",
             R"(/responses/time has a name that files of histories need for their own columns: "time" and "…:error")"},
@@ -90,6 +90,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{"/responses/tau",
                 R"({"type": "shear-stress", "body": "arm", "at": 2, "over_time": "max"})",
                 "/responses/tau/at must be a place along the beam from 0 to 1, got 2"},
+        BadEdit{"/responses/sideways",
+                R"({"type": "lateral-buckling", "body": "strut", "over_time": "max"})",
+                R"(/responses/sideways/body must name an elastic beam, but "strut" is rigid)"},
         BadEdit{"/responses/force",
                 R"({"type": "section-force", "body": "arm", "at": 0.5, "part": "axial",
                 "side": "left", "over_time": "max"})",

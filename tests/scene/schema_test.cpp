@@ -156,7 +156,7 @@ TEST_F(ProblemSchema, AcceptsEveryReferenceOfADeflection) {
   }
 }
 
-TEST_F(ProblemSchema, AcceptsFatigueAndShear) {
+TEST_F(ProblemSchema, AcceptsFatigueShearAndBuckling) {
   Json document = edited("/scene/materials/steel/ultimate_strength", R"("470 MPa")");
   document = edited(std::move(document), "/scene/materials/steel/endurance_limit", R"("180 MPa")");
   document = edited(std::move(document), "/scene/materials/steel/fatigue_strength", R"("900 MPa")");
@@ -166,6 +166,7 @@ TEST_F(ProblemSchema, AcceptsFatigueAndShear) {
         R"({"type": "fatigue", "bodies": ["crank"], "criterion": "gerber"})",
         R"({"type": "fatigue-damage", "body": "crank", "at": 0.5, "criterion": "gerber"})",
         R"({"type": "shear-stress", "body": "crank", "segment": 0, "over_time": "max"})",
+        R"({"type": "lateral-buckling", "body": "crank", "over_time": "rms", "to": "2 ms"})",
         R"({"type": "section-force", "body": "crank", "at": 0.5, "part": "shear-y",
             "side": "before", "over_time": "final"})"}) {
     const Json whole = edited(document, "/responses/more", response);

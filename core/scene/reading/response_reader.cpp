@@ -220,6 +220,7 @@ ResponseSettings read_response(const std::string& name, const JsonNode& node,
       read_deflection(node, context, response);
       break;
     case ResponseType::buckling:
+    case ResponseType::lateral_buckling:
       read_buckling(node, context, response);
       break;
     case ResponseType::position:

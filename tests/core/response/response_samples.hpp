@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "core/response/lateral_buckling_signal.hpp"
 #include "core/response/make_responses.hpp"
 #include "tests/support/random_state.hpp"
 #include "tests/support/sample_scenes.hpp"
@@ -80,6 +81,16 @@ inline void add_beam_responses(const BodyModel& body, std::vector<ResponseSettin
     settings.name = body.name + " section force " + std::to_string(static_cast<int>(part));
     all.push_back(settings);
   }
+}
+
+inline void add_lateral_buckling(const BodyModel& body, const Model& model,
+                                 std::vector<ResponseSettings>& all) {
+  if (!make_lateral_buckling_signal(body.name, model)) return;  // nothing holds it
+  ResponseSettings settings;
+  settings.type = ResponseType::lateral_buckling;
+  settings.bodies = {body.name};
+  settings.name = body.name + " lateral buckling";
+  all.push_back(settings);
 }
 
 inline void add_spin_responses(const BodyModel& body, std::vector<ResponseSettings>& all) {
@@ -195,7 +206,10 @@ inline void add_monitor_responses(const Model& model, std::vector<ResponseSettin
 inline std::vector<ResponseSettings> all_histories(const Model& model) {
   std::vector<ResponseSettings> all;
   for (const BodyModel& body : model.bodies) {
-    if (body.is_beam() && body.is_elastic) add_beam_responses(body, all);
+    if (body.is_beam() && body.is_elastic) {
+      add_beam_responses(body, all);
+      add_lateral_buckling(body, model, all);
+    }
     add_motion_responses(body, all);
     if (body.frame.rotations() > 0) add_spin_responses(body, all);
   }

@@ -1,0 +1,170 @@
+#include "core/response/lateral_buckling_signal.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "core/beam/beam_place.hpp"
+#include "core/response/recovered_signal.hpp"
+#include "core/response/section_forces.hpp"
+#include "core/response/signal_list.hpp"
+
+namespace pleuel {
+
+namespace {
+
+using Parts = std::vector<const BodyModel*>;
+
+/// N at both ends of an element and M at both ends, element by element.
+class PlaneForces final : public Stations {
+ public:
+  PlaneForces(const BodyModel& body, BendingPlane plane)
+      : body_(body), moment_(plane == BendingPlane::xy ? 2 : 1) {
+    for (int e = 0; e < static_cast<int>(body.beam.elements.size()); ++e) {
+      stations_.push_back({{e}, double(e)});
+      stations_.push_back({{e}, e + 1.0});
+    }
+  }
+
+  int numbers() const override { return section_force_count; }
+  Recovery recovery() const override { return section_force_recovery(body_, stations_); }
+  Recovery recovery_derivative(std::size_t k) const override {
+    return section_force_derivative(body_, stations_, k);
+  }
+  int channels() const override { return 2 * static_cast<int>(stations_.size()); }
+  int station(int channel) const override { return channel / 4 * 2 + channel % 2; }
+  std::string describe(int channel) const override {
+    return pleuel::describe(stations_[static_cast<std::size_t>(station(channel))], body_);
+  }
+  double value(int channel, const double* numbers) const override { return numbers[part(channel)]; }
+  Numbers slopes(int channel, const double*) override {
+    return Numbers::Unit(section_force_count, part(channel));
+  }
+  double design_slope(int, const double*, std::size_t) const override { return 0.0; }
+
+ private:
+  /// Which of N, M_y, M_z, T.
+  int part(int channel) const { return channel % 4 < 2 ? 0 : moment_; }
+
+  const BodyModel& body_;
+  int moment_;
+  std::vector<Station> stations_;
+};
+
+std::unique_ptr<Signal> plane_forces(const Parts& parts, const Model& model, BendingPlane plane) {
+  std::vector<std::unique_ptr<Signal>> signals;
+  for (const BodyModel* part : parts) {
+    signals.push_back(
+        make_recovered_signal(*part, model.gravity, std::make_unique<PlaneForces>(*part, plane)));
+  }
+  return std::make_unique<SignalList>(std::move(signals));
+}
+
+/// The elements of all parts of a beam in one.
+template <class Scalar>
+void append(Beam<Scalar>& beam, const Beam<Scalar>& more) {
+  beam.elements.insert(beam.elements.end(), more.elements.begin(), more.elements.end());
+}
+
+Beam<double> whole_beam(const Parts& parts) {
+  Beam<double> beam;
+  for (const BodyModel* part : parts) append(beam, part->beam);
+  return beam;
+}
+
+std::vector<LateralSupport> lateral_supports(const Beam<double>& beam, BendingPlane plane,
+                                             const std::vector<JointHold>& holds) {
+  const bool is_xy = plane == BendingPlane::xy;
+  const std::size_t lateral = is_xy ? 2 : 1, transverse = is_xy ? 1 : 2;
+  std::vector<LateralSupport> supports(static_cast<std::size_t>(beam.node_count()));
+  for (const JointHold& hold : holds) {
+    LateralSupport& at = supports[static_cast<std::size_t>(find_place(beam, hold.at).node())];
+    at.deflection = at.deflection || hold.displacements[lateral];
+    at.slope = at.slope || hold.rotations[transverse];
+    at.twist = at.twist || hold.rotations[0];
+  }
+  return supports;
+}
+
+/// One plane of a member.
+class LateralBucklingSignal final : public Signal {
+ public:
+  LateralBucklingSignal(LateralMember member, BendingPlane plane)
+      : member_(std::move(member)), plane_(plane) {}
+
+  int channels() const override { return 1; }
+  std::string describe(int) const override {
+    return plane_ == BendingPlane::xy ? "sideways along z" : "sideways along y";
+  }
+
+  void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
+    values(0) = member_.buckling().share(member_.observe(state));
+  }
+
+  void add_gradient(const State& state, int, double weight, SignalGradient& gradient) override {
+    LateralBuckling& buckling = member_.buckling();
+    const PlaneLoad& load = member_.observe(state);
+    const LateralModes modes = buckling.modes(load);
+    if (modes.shapes.cols() == 0) return;
+    for (const auto& [variable, beam] : member_.beam_x()) {
+      gradient.design(variable) += weight * buckling.design_slope(beam, load, modes);
+    }
+    member_.add_gradient(state, weight * buckling.load_slopes(modes), gradient);
+  }
+
+ private:
+  LateralMember member_;
+  BendingPlane plane_;
+};
+
+}  // namespace
+
+LateralMember::LateralMember(const std::string& name, const Model& model, BendingPlane plane)
+    : parts_(model.parts(name)),
+      beam_(whole_beam(parts_)),
+      buckling_(beam_, plane, lateral_supports(beam_, plane, model.holds.at(name))),
+      forces_(plane_forces(parts_, model, plane)),
+      load_(4, static_cast<Eigen::Index>(beam_.elements.size())) {}
+
+const PlaneLoad& LateralMember::observe(const State& state) {
+  forces_->observe(state, load_.reshaped());
+  return load_;
+}
+
+void LateralMember::add_gradient(const State& state, const PlaneLoad& weights,
+                                 SignalGradient& gradient) {
+  for (Eigen::Index i = 0; i < weights.size(); ++i) {
+    const double weight = weights.reshaped()(i);
+    if (weight != 0.0) forces_->add_gradient(state, static_cast<int>(i), weight, gradient);
+  }
+}
+
+const std::vector<std::pair<int, Beam<Dual>>>& LateralMember::beam_x() {
+  if (!beam_x_.empty()) return beam_x_;
+  for (const auto& [variable, beam] : parts_.front()->beam_x) beam_x_.emplace_back(variable, beam);
+  for (std::size_t i = 1; i < parts_.size(); ++i) {
+    for (std::size_t k = 0; k < beam_x_.size(); ++k) {
+      append(beam_x_[k].second, parts_[i]->beam_x[k].second);
+    }
+  }
+  return beam_x_;
+}
+
+std::vector<BendingPlane> bending_planes(const BodyModel& body) {
+  const BodyFrame& frame = body.frame;
+  if (frame.rotation != RotationCoordinates::angle) return {BendingPlane::xy, BendingPlane::xz};
+  const Eigen::Vector3d out = frame.reference.transpose() * frame.axis;
+  return {std::abs(out.z()) > 0.5 ? BendingPlane::xy : BendingPlane::xz};
+}
+
+std::unique_ptr<Signal> make_lateral_buckling_signal(const std::string& name, const Model& model) {
+  std::vector<std::unique_ptr<Signal>> signals;
+  for (const BendingPlane plane : bending_planes(*model.parts(name).front())) {
+    LateralMember member(name, model, plane);
+    if (!member.buckling().is_held()) continue;
+    signals.push_back(std::make_unique<LateralBucklingSignal>(std::move(member), plane));
+  }
+  if (signals.empty()) return nullptr;
+  return std::make_unique<SignalList>(std::move(signals));
+}
+
+}  // namespace pleuel

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/beam/lateral_buckling.hpp"
+#include "core/model/model.hpp"
+#include "core/response/signal.hpp"
+
+namespace pleuel {
+
+/// A beam of the scene with all that its lateral buckling is made of.
+class LateralMember {
+ public:
+  /// @param name   of an elastic beam with section forces; of a divided one all parts count
+  /// @param model  must outlive the member
+  LateralMember(const std::string& name, const Model& model, BendingPlane plane);
+
+  const Beam<double>& beam() const { return beam_; }
+  /// By the joints of the beam, whose neighbours are taken to be rigid.
+  LateralBuckling& buckling() { return buckling_; }
+
+  /// N and M in the plane, at both ends of each element, as stress is made from them.
+  const PlaneLoad& observe(const State& state);
+  /// gradient += Σ weights · ∂load/∂(…)
+  void add_gradient(const State& state, const PlaneLoad& weights, SignalGradient& gradient);
+  /// The beam with a design variable seeded, for each that it depends on.
+  const std::vector<std::pair<int, Beam<Dual>>>& beam_x();
+
+ private:
+  std::vector<const BodyModel*> parts_;
+  Beam<double> beam_;
+  std::vector<std::pair<int, Beam<Dual>>> beam_x_;  ///< once it is needed
+  LateralBuckling buckling_;
+  std::unique_ptr<Signal> forces_;
+  PlaneLoad load_;
+};
+
+/// The planes in which a body of the model bends by its motion: one, or in space both.
+std::vector<BendingPlane> bending_planes(const BodyModel& body);
+
+/// The section forces of a beam at an instant over those at which it buckles out of the plane in
+/// which it bends (core/beam/lateral_buckling.hpp), 0 where it does not [–]. In space a channel for
+/// each plane in which its joints hold it.
+/// @returns  null where they hold it in none
+std::unique_ptr<Signal> make_lateral_buckling_signal(const std::string& name, const Model& model);
+
+}  // namespace pleuel

@@ -1,0 +1,206 @@
+#include "core/response/lateral_buckling_signal.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/base/error.hpp"
+#include "core/scene/problem_reader.hpp"
+#include "core/trust/sideways_buckling.hpp"
+#include "sensitivity/gradients.hpp"
+#include "tests/core/trust/doubts_of.hpp"
+
+/// A thin bar of 1.2 m, 2 mm × 40 mm, on edge: it bends in the plane x–y.
+namespace {
+
+using namespace pleuel;
+
+constexpr double young = 2.1e11, shear = 8.0e10, length = 1.2, pi = std::numbers::pi;
+
+struct Bar {
+  std::string joints, loads, effects = R"("geometric_stiffening": "off")", body = "";
+  int elements = 16;
+};
+
+const std::string clamp =
+    R"("wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]})";
+
+std::string force(double value, const std::string& direction) {
+  return fmt::format(R"("f": {{"type": "force", "body": "bar", "at": [1.2, 0, 0],
+                               "direction": {}, "value": {}}})",
+                     direction, value);
+}
+
+ProblemFile problem_of(const Bar& bar) {
+  const std::string text = fmt::format(
+      R"j({{"scene": {{
+    "materials": {{"light": {{"young": 2.1e11, "poisson": 0.3125, "density": 1}}}},
+    "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [1.2, 0, 0], "elements": {},
+      "material": "light", "section": {{"type": "rectangle", "width": {{"variable": "b"}},
+                                       "height": {{"variable": "h"}}}}{}}}}},
+    "joints": {{{}}}, "loads": {{{}}}}},
+  "effects": {{{}}},
+  "simulation": {{"end_time": "2 ms", "step": "1 ms", "initial_state": "quasi-static",
+                  "newton_tolerance": 1e-13}},
+  "variables": {{"b": {{"start": "2 mm", "lower": "1 mm", "upper": "50 mm"}},
+                "h": {{"start": "40 mm", "lower": "1 mm", "upper": "90 mm"}}}},
+  "responses": {{"share": {{"type": "lateral-buckling", "body": "bar", "over_time": "max"}}}}}})j",
+      bar.elements, bar.body, bar.joints, bar.loads, bar.effects);
+  return read_problem_text(text, "bar.json");
+}
+
+std::unique_ptr<Analysis> analysis_of(const Bar& bar) {
+  const ProblemFile problem = problem_of(bar);
+  return analyze(problem, start_design(problem));
+}
+double share_of(const Bar& bar) {
+  return analysis_of(bar)->reductions[0].value;
+}
+
+const double lateral = young * 0.04 * std::pow(0.002, 3) / 12;
+/// J = hb³/3 (1 − 0.63 b/h) for b ≪ h (Timoshenko & Goodier, §109).
+const double twisting = shear * 0.04 * std::pow(0.002, 3) / 3 * (1 - 0.63 * 0.05);
+/// Bending in the plane holds the bar: critical moments are larger by 1/m.
+const double m = std::sqrt(1 - 0.05 * 0.05);
+const double tip_critical = 4.0126 * std::sqrt(lateral * twisting) / (length * length) / m;
+const double euler = pi * pi * lateral / (length * length);
+
+// 2e-3: twist is linear in the elements (1e-3 of a cantilever with sixteen), and forces turn with the
+// bent bar.
+
+TEST(LateralBucklingResponse, OfATipForceIsTheClosedForm) {
+  for (const char* effects : {R"("geometric_stiffening": "off")", R"("spatial_motion": "on")"}) {
+    const Bar bar{clamp, force(0.5 * tip_critical, "[0, -1, 0]"), effects};
+    EXPECT_NEAR(share_of(bar) / 0.5, 1.0, 2e-3) << effects;
+  }
+}
+
+/// Between hinges that turn in the plane only, slope and twist are held at both ends. EI w''' = −M φ'
+/// and GJ φ' = M w' have φ = 1 − cos kx with k² = M²/(EI GJ); φ = φ' = 0 at both ends: k = 2π/L.
+TEST(LateralBucklingResponse, OfAConstantMomentBetweenHingesIsTheClosedForm) {
+  const double moment = 0.4 * 2 * pi * std::sqrt(lateral * twisting) / length / m;
+  const std::string loads = fmt::format(
+      R"("a": {{"type": "torque", "body": "bar", "at": [0, 0, 0], "direction": [0, 0, 1],
+                "value": {}}},
+         "b": {{"type": "torque", "body": "bar", "at": [1.2, 0, 0], "direction": [0, 0, -1],
+                "value": {}}})",
+      moment, moment);
+  const std::string hinges =
+      R"("a": {"type": "revolute", "bodies": ["ground", "bar"], "at": [0, 0, 0],
+               "axis": [0, 0, 1]},
+         "b": {"type": "revolute", "bodies": ["ground", "bar"], "at": [1.2, 0, 0],
+               "axis": [0, 0, 1]})";
+  // (2π/16)²/24 = 6.4e-3 of a whole wave of twist.
+  EXPECT_NEAR(share_of({hinges, loads}) / 0.4, 1.0, 8e-3);
+}
+
+TEST(LateralBucklingResponse, OfColumnsIsTheirEulerLoad) {
+  const std::string space = R"("spatial_motion": "on", "geometric_stiffening": "off")";
+  const std::string slide =
+      R"(, "slide": {"type": "prismatic", "bodies": ["ground", "bar"], "at": [1.2, 0, 0],
+                     "axis": [1, 0, 0]})";
+  const auto pressed = [&](const std::string& joints, double load) {
+    return share_of({joints, force(load, "[-1, 0, 0]"), space});
+  };
+  EXPECT_NEAR(pressed(clamp, 0.1 * euler), 0.4, 1e-4);
+  EXPECT_NEAR(pressed(clamp + slide, 0.8 * euler), 0.2, 1e-4);
+  EXPECT_EQ(pressed(clamp, -0.8 * euler), 0.0) << "pull";
+}
+
+/// The gradient of nothing is nothing.
+TEST(LateralBucklingResponse, HasNoGradientWhereNothingBuckles) {
+  const auto analysis = analysis_of({clamp, force(10.0, "[1, 0, 0]"), R"("spatial_motion": "on")"});
+  EXPECT_EQ(direct_gradients(*analysis), Eigen::MatrixXd::Zero(1, 2));
+}
+
+/// However many frames the beam has, and of a reduced one what its modes make: one force at the tip
+/// bends it statically.
+TEST(LateralBucklingResponse, OfADividedOrReducedBeamIsThatOfTheWhole) {
+  const Bar bar{clamp, force(0.5 * tip_critical, "[0, -1, 0]")};
+  const double whole = share_of(bar);
+  for (const char* body :
+       {R"(, "frames": 2)", R"(, "frames": 4)", R"(, "reduction": {"modes": 2})"}) {
+    Bar other = bar;
+    other.body = body;
+    EXPECT_NEAR(share_of(other) / whole, 1.0, 1e-3) << body;
+  }
+}
+
+TEST(LateralBucklingResponse, IsWhatTheDoubtTells) {
+  const ProblemFile problem = problem_of({clamp, force(0.8 * tip_critical, "[0, -1, 0]")});
+  const double share = analyze(problem, start_design(problem))->reductions[0].value;
+  const std::vector<Doubt> doubts = test::doubts_of(problem, doubt_sideways_buckling);
+  ASSERT_EQ(doubts.size(), 1U);
+  EXPECT_NE(doubts[0].text.find(fmt::format("critical load is {:.3g} times", 1.0 / share)),
+            std::string::npos)
+      << doubts[0].text;
+}
+
+/// A bar that swings under its weight and a force that turns: N and M change in time, in the plane
+/// and in space, whole, divided and reduced.
+class GradientsOfLateralBuckling
+    : public testing::TestWithParam<std::pair<const char*, const char*>> {
+ protected:
+  static ProblemFile swinging() {
+    const auto& [effects, body] = GetParam();
+    Bar bar{R"("hinge": {"type": "revolute", "bodies": ["ground", "bar"], "at": [0, 0, 0],
+                         "axis": [0, 0, 1], "drive": {"type": "ramp-to-speed", "speed": 8,
+                         "ramp": "20 ms"}})",
+            force(3.0, "[-1, -2, 0]"), effects, body, 6};
+    ProblemFile problem = problem_of(bar);
+    problem.simulation.end_time = 0.02;
+    problem.scene.materials[0].density = 7850.0;
+    for (const OverTime kind : {OverTime::rms, OverTime::final}) {
+      ResponseSettings more = problem.responses[0];
+      more.name = fmt::format("share {}", static_cast<int>(kind));
+      more.over_time = kind;
+      problem.responses.push_back(more);
+    }
+    return problem;
+  }
+};
+
+TEST_P(GradientsOfLateralBuckling, OfBothMethodsAndOfDifferencesAgree) {
+  const ProblemFile problem = swinging();
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  for (const Reduction& reduction : analysis->reductions) EXPECT_GT(reduction.value, 0.01);
+  const Eigen::MatrixXd direct =
+      gradients(problem, x, *analysis, GradientMethod::direct) * x.asDiagonal();
+  const Eigen::MatrixXd adjoint =
+      gradients(problem, x, *analysis, GradientMethod::adjoint) * x.asDiagonal();
+  const Eigen::MatrixXd wide = central_differences(problem, x, 2e-3) * x.asDiagonal();
+  const Eigen::MatrixXd narrow = central_differences(problem, x, 1e-3) * x.asDiagonal();
+  const Eigen::MatrixXd differences = (4.0 * narrow - wide) / 3.0;
+  for (Eigen::Index i = 0; i < direct.rows(); ++i) {
+    const double scale = direct.row(i).lpNorm<Eigen::Infinity>();
+    const auto error = [&](const Eigen::MatrixXd& other) {
+      return (other - direct).row(i).lpNorm<Eigen::Infinity>() / scale;
+    };
+    EXPECT_LT(error(adjoint), 1e-10) << problem.responses[i].name;
+    EXPECT_LT(error(differences), 1e-6) << problem.responses[i].name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Bodies, GradientsOfLateralBuckling,
+                         testing::Values(std::pair(R"("geometric_stiffening": "off")", ""),
+                                         std::pair(R"("geometric_stiffening": "on")", ""),
+                                         std::pair(R"("spatial_motion": "on")", ""),
+                                         std::pair("", R"(, "frames": 2)"),
+                                         std::pair("", R"(, "reduction": {"modes": 2})")));
+
+TEST(LateralBucklingResponse, IsRefusedWhereTheJointsDoNotHoldTheBeam) {
+  const Bar bar{R"("ball": {"type": "spherical", "bodies": ["ground", "bar"], "at": [0, 0, 0]})",
+                force(1.0, "[1, 0, 0]")};
+  try {
+    analysis_of(bar);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("\"share\""), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("let it move as a whole"), std::string::npos);
+  }
+}
+
+}  // namespace
