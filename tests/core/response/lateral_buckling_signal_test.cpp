@@ -22,6 +22,7 @@ constexpr double young = 2.1e11, shear = 8.0e10, length = 1.2, pi = std::numbers
 struct Bar {
   std::string joints, loads, effects = R"("geometric_stiffening": "off")", body = "";
   int elements = 16;
+  std::string bodies = "";  ///< beside it
 };
 
 const std::string clamp =
@@ -39,7 +40,7 @@ ProblemFile problem_of(const Bar& bar) {
     "materials": {{"light": {{"young": 2.1e11, "poisson": 0.3125, "density": 1}}}},
     "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [1.2, 0, 0], "elements": {},
       "material": "light", "section": {{"type": "rectangle", "width": {{"variable": "b"}},
-                                       "height": {{"variable": "h"}}}}{}}}}},
+                                       "height": {{"variable": "h"}}}}{}}}{}}},
     "joints": {{{}}}, "loads": {{{}}}}},
   "effects": {{{}}},
   "simulation": {{"end_time": "2 ms", "step": "1 ms", "initial_state": "quasi-static",
@@ -47,7 +48,7 @@ ProblemFile problem_of(const Bar& bar) {
   "variables": {{"b": {{"start": "2 mm", "lower": "1 mm", "upper": "50 mm"}},
                 "h": {{"start": "40 mm", "lower": "1 mm", "upper": "90 mm"}}}},
   "responses": {{"share": {{"type": "lateral-buckling", "body": "bar", "over_time": "max"}}}}}})j",
-      bar.elements, bar.body, bar.joints, bar.loads, bar.effects);
+      bar.elements, bar.body, bar.bodies, bar.joints, bar.loads, bar.effects);
   return read_problem_text(text, "bar.json");
 }
 
@@ -90,10 +91,15 @@ TEST(LateralBucklingResponse, OfAConstantMomentBetweenHingesIsTheClosedForm) {
   const std::string hinges =
       R"("a": {"type": "revolute", "bodies": ["ground", "bar"], "at": [0, 0, 0],
                "axis": [0, 0, 1]},
-         "b": {"type": "revolute", "bodies": ["ground", "bar"], "at": [1.2, 0, 0],
-               "axis": [0, 0, 1]})";
+         "b": {"type": "revolute", "bodies": ["carriage", "bar"], "at": [1.2, 0, 0],
+               "axis": [0, 0, 1]},
+         "slide": {"type": "prismatic", "bodies": ["ground", "carriage"], "at": [1.2, 0, 0],
+                   "axis": [1, 0, 0]})";
+  Bar bar{hinges, loads};
+  bar.bodies = R"(, "carriage": {"type": "rigid", "at": [1.2, 0, 0], "mass": 1e-3,
+                                 "inertia": [1e-6, 1e-6, 1e-6, 0, 0, 0]})";
   // (2π/16)²/24 = 6.4e-3 of a whole wave of twist.
-  EXPECT_NEAR(share_of({hinges, loads}) / 0.4, 1.0, 8e-3);
+  EXPECT_NEAR(share_of(bar) / 0.4, 1.0, 8e-3);
 }
 
 TEST(LateralBucklingResponse, OfColumnsIsTheirEulerLoad) {
@@ -115,8 +121,8 @@ TEST(LateralBucklingResponse, HasNoGradientWhereNothingBuckles) {
   EXPECT_EQ(direct_gradients(*analysis), Eigen::MatrixXd::Zero(1, 2));
 }
 
-/// However many frames the beam has, and of a reduced one what its modes make: one force at the tip
-/// bends it statically.
+/// However many frames the beam has, and of a reduced one what its modes make. 3e-3: frames that turn
+/// with the bar see an axial force F sin θ, which presses with F θ/P = 3e-3 of its Euler load.
 TEST(LateralBucklingResponse, OfADividedOrReducedBeamIsThatOfTheWhole) {
   const Bar bar{clamp, force(0.5 * tip_critical, "[0, -1, 0]")};
   const double whole = share_of(bar);
@@ -124,7 +130,7 @@ TEST(LateralBucklingResponse, OfADividedOrReducedBeamIsThatOfTheWhole) {
        {R"(, "frames": 2)", R"(, "frames": 4)", R"(, "reduction": {"modes": 2})"}) {
     Bar other = bar;
     other.body = body;
-    EXPECT_NEAR(share_of(other) / whole, 1.0, 1e-3) << body;
+    EXPECT_NEAR(share_of(other) / whole, 1.0, 3e-3) << body;
   }
 }
 
