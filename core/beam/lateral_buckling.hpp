@@ -48,6 +48,7 @@ class LateralBuckling {
   /// is nothing to ask for.
   bool is_held() const { return is_held_; }
 
+  /// @pre is_held()
   double share(const PlaneLoad& load);
   /// The same with its mode; with two where their shares coincide (to 1e-8).
   LateralModes modes(const PlaneLoad& load);
