@@ -8,6 +8,11 @@ namespace pleuel {
 
 void differentiate(Mechanism& mechanism, const Trajectory& trajectory,
                    const SensitivityObserver& observer) {
+  differentiate_until(trajectory.steps(), mechanism, trajectory, observer);
+}
+
+void differentiate_until(int last_step, Mechanism& mechanism, const Trajectory& trajectory,
+                         const SensitivityObserver& observer) {
   State start;
   trajectory.states->load(0, start);
   StateSensitivity initial = trajectory.periodic
@@ -19,7 +24,9 @@ void differentiate(Mechanism& mechanism, const Trajectory& trajectory,
   }
   StepDifferentiation motion(mechanism, trajectory, DerivativesOf::design);
   motion.begin(std::move(initial));
-  while (motion.advance()) observer(motion.step(), motion.state(), motion.sensitivity());
+  while (motion.step() < last_step && motion.advance()) {
+    observer(motion.step(), motion.state(), motion.sensitivity());
+  }
 }
 
 }  // namespace pleuel

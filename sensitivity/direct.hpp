@@ -19,4 +19,8 @@ using SensitivityObserver =
 void differentiate(Mechanism& mechanism, const Trajectory& trajectory,
                    const SensitivityObserver& observer);
 
+/// The same as far as a step only: what comes later costs nothing.
+void differentiate_until(int last_step, Mechanism& mechanism, const Trajectory& trajectory,
+                         const SensitivityObserver& observer);
+
 }  // namespace pleuel

@@ -61,15 +61,16 @@ class SampledGradients {
 
   Gradients direct() {
     if (uses_.empty() || gradients_.cols() == 0) return gradients_;
-    differentiate(mechanism_, analysis_.trajectory,
-                  [&](int step, const State& state, const StateSensitivity& s) {
-                    for_each_use(step, state, [&](const Use& use) {
-                      gradients_.row(use.value) +=
-                          part_.q.transpose() * s.q + part_.v.transpose() * s.v +
-                          part_.a.transpose() * s.a + part_.lambda.transpose() * s.lambda +
-                          part_.design.transpose();
-                    });
-                  });
+    const int last_step = uses_.rbegin()->first;
+    differentiate_until(last_step, mechanism_, analysis_.trajectory,
+                        [&](int step, const State& state, const StateSensitivity& s) {
+                          for_each_use(step, state, [&](const Use& use) {
+                            gradients_.row(use.value) +=
+                                part_.q.transpose() * s.q + part_.v.transpose() * s.v +
+                                part_.a.transpose() * s.a + part_.lambda.transpose() * s.lambda +
+                                part_.design.transpose();
+                          });
+                        });
     return gradients_;
   }
 

@@ -76,7 +76,6 @@ FloatingFrameBody::FloatingFrameBody(
     Derivative& derivative = derivatives_.emplace_back();
     derivative.variable = variable;
     derivative.invariants = without_zeros(data);
-    derivative.forces.resize(frame_.size() + derivative.invariants.data.size());
   }
 }
 
@@ -121,12 +120,11 @@ void FloatingFrameBody::add_residual(const State& state, ConstraintLevel,
 /// Forces of dI/dx at the state evaluated last.
 void FloatingFrameBody::evaluate(Derivative& derivative) {
   const PartialInvariants& partial = derivative.invariants;
-  derivative.products.q = products_.q(partial.coordinates);
-  derivative.products.v = products_.v(partial.coordinates);
-  derivative.products.a = products_.a(partial.coordinates);
-  evaluate_body(partial.data, motion_, gravity_, derivative.products);
-  derivative.forces.setZero();
-  add_body_forces(partial.data, frame_, motion_, derivative.products, 0, derivative.forces);
+  derivative.elastic.q = products_.q(partial.coordinates);
+  derivative.elastic.v = products_.v(partial.coordinates);
+  derivative.elastic.a = products_.a(partial.coordinates);
+  set_derivative_forces(partial.data, frame_, motion_, derivative.elastic, products_,
+                        derivative.forces);
 }
 
 void FloatingFrameBody::add_design_derivative(const State& state, ConstraintLevel,

@@ -45,7 +45,7 @@ class FloatingFrameBody : public Term {
     int variable = 0;
     PartialInvariants invariants;
     Eigen::VectorXd forces;  ///< scratch: frame, then those coordinates
-    BodyProducts products;   ///< scratch
+    ElasticMotion elastic;   ///< scratch
   };
 
   bool is_designed() const { return !derivatives_.empty(); }

@@ -18,9 +18,13 @@
 /// forces need no formula of their own.
 namespace pleuel {
 
+/// Elastic coordinates and rates (n).
+struct ElasticMotion {
+  Eigen::VectorXd q, v, a;
+};
+
 /// Products of one configuration that residual and tangent share.
-struct BodyProducts {
-  Eigen::VectorXd q, v, a;  ///< elastic coordinates and rates (n)
+struct BodyProducts : ElasticMotion {
   /// What the coupling of frame and elastic coordinates is made of, one column for each of these:
   /// S̄ (3), W (9, W_kl in row 3k + l), S_kl q̇_f and S_kl q̈_f (as many as pairs).
   Eigen::MatrixXd coupling;
@@ -55,5 +59,13 @@ void evaluate_body(const Invariants<double>& body, const FrameMotion<double>& fr
 void add_body_forces(const Invariants<double>& body, const BodyFrame& frame,
                      const FrameMotion<double>& motion, const BodyProducts& products, int row,
                      Eigen::Ref<Eigen::VectorXd> residual);
+
+/// The same of invariants dI/dx in the motion of a body, without what only tangents need.
+/// @param elastic   of the coordinates that dI/dx has
+/// @param products  of the body: a₀, X and Y are taken from there
+/// @param forces    frame, then those coordinates; overwritten
+void set_derivative_forces(const Invariants<double>& derivative, const BodyFrame& frame,
+                           const FrameMotion<double>& motion, const ElasticMotion& elastic,
+                           const BodyProducts& products, Eigen::VectorXd& forces);
 
 }  // namespace pleuel

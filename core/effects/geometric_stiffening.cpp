@@ -22,6 +22,19 @@ auto working_vector(Eigen::VectorXd& scratch, Eigen::Index size) {
   }
 }
 
+/// The first entries of a vector; where these are all, their number is known to the compiler, which
+/// then calls no function for it.
+template <int Size, class From>
+void copy_head(const From& from, Eigen::Index size, double* to) {
+  if constexpr (Size != Eigen::Dynamic) {
+    if (size == Size) {
+      Eigen::Map<Vector<Size>>(to, Size) = from;
+      return;
+    }
+  }
+  std::copy_n(from.data(), size, to);
+}
+
 template <int Size>
 Eigen::Map<const Vector<Size>> column(const Eigen::MatrixXd& matrix, Eigen::Index i) {
   return {matrix.data() + i * matrix.rows(), matrix.rows()};
@@ -195,7 +208,7 @@ void GeometricStiffening::write_element(const PaddedElement& element, const Weig
   for (Eigen::Index i = 0; i < size; ++i) {  // Ĝ is symmetric
     entries_of_row = gradient(i) * row - (material * elongation(i)) * elongation +
                      geometric * column<Size>(element.padded_slopes, i);
-    std::copy_n(entries_of_row.data(), size, entries + i * size);
+    copy_head<Size>(entries_of_row, size, entries + i * size);
   }
 }
 

@@ -5,7 +5,7 @@
 
 #include "core/integration/mechanism.hpp"
 #include "core/integration/state_sensitivity.hpp"
-#include "core/system/linear_forces.hpp"
+#include "core/system/constraint_terms.hpp"
 
 namespace pleuel {
 
@@ -32,7 +32,8 @@ class PositionShift {
   struct Tangents {
     const System::Matrix& step;    ///< for z, scaled
     const System::Matrix& with_q;  ///< for q, not scaled
-    const System::Matrix& with_v;  ///< for v: there the derivative of constraints is Φ_q
+    /// Φ_q in the rows of constraints, for changes of the increment; nothing else of it is read.
+    const System::Matrix& constraints;
   };
   /// The matrix of both block rows.
   /// @param dynamic_scale, constraint_scale  factors of the rows of the first
@@ -57,6 +58,8 @@ class PositionShift {
   };
 
   void build_pattern();
+  /// To the old state with η as multipliers.
+  void set_forces(const Eigen::VectorXd& eta);
 
   Mechanism& mechanism_;
   System& system_;
@@ -64,9 +67,10 @@ class PositionShift {
   std::vector<Slots> slots_;  ///< one an entry of the system's pattern
   State old_;
   System::Matrix old_constraints_;  ///< Φ_q(q)ᵀ of the old state, in the columns of λ
-  LinearForces forces_;             ///< Φ_q(q)ᵀ η of the old state
-  System::Matrix tangent_;          ///< scratch
-  Eigen::VectorXd system_residual_;
+  ConstraintTerms constraints_;
+  State forces_;            ///< the old state at rest, with η: there R is Φ_q(q)ᵀ η
+  System::Matrix tangent_;  ///< scratch
+  Eigen::VectorXd values_;  ///< scratch
   Eigen::MatrixXd columns_, mu_;
 };
 

@@ -1,9 +1,12 @@
 #include "core/integration/step_equations.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "core/integration/configuration.hpp"
+#include "core/integration/matrix_entries.hpp"
 #include "core/integration/sparse_products.hpp"
+#include "core/system/matrix_slot.hpp"
 
 namespace pleuel {
 
@@ -21,6 +24,23 @@ double scale_of(ConstraintLevel level, const Scheme& scheme) {
   }
 }
 
+/// Entries of Φ_q in the rows of constraints that are not left out, each with its transposed.
+std::vector<std::pair<int, int>> transposed_entries(const System& system) {
+  const int n = system.coordinates();
+  const System::Matrix pattern = system.make_matrix();
+  System::Matrix places = pattern;
+  for_each_entry(pattern,
+                 [&](std::size_t k, int, int) { places.valuePtr()[k] = static_cast<double>(k); });
+  const std::vector<int>& left_out = system.left_out();
+  std::vector<std::pair<int, int>> entries;
+  for_each_entry(pattern, [&](std::size_t k, int row, int col) {
+    if (row < n || col >= n) return;
+    if (std::binary_search(left_out.begin(), left_out.end(), row - n)) return;
+    entries.emplace_back(static_cast<int>(k), slot_of(pattern, col, row));
+  });
+  return entries;
+}
+
 }  // namespace
 
 StepEquations::StepEquations(Mechanism& mechanism, const Scheme& scheme,
@@ -34,7 +54,8 @@ StepEquations::StepEquations(Mechanism& mechanism, const Scheme& scheme,
   set_scheme(scheme);
   if (formulation.constraints == ConstraintForm::stabilized_index_2) {
     shift_.emplace(mechanism_);
-    turned_ = system_.make_matrix();
+    constraint_rows_ = system_.make_matrix();
+    transposed_ = transposed_entries(system_);
   }
 }
 
@@ -91,16 +112,15 @@ void StepEquations::residual(const StepState& state, Eigen::VectorXd& residual) 
 void StepEquations::linearize(const StepState& state, Eigen::VectorXd& residual,
                               System::Matrix& matrix) {
   const Eigen::Vector4d& b = scheme_.correction;
-  const std::array<Weights, 3> weights{{{b(0), b(1), b(2)}, {.q = 1.0}, {.v = 1.0}}};
+  const std::array<Weights, 2> weights{{{b(0), b(1), b(2)}, {.q = 1.0}}};
   const bool turns = !mechanism_.rotations.empty();
-  const WeightList needed(weights.data(), shift_ ? 3u : turns ? 2u : 1u);
+  const WeightList needed(weights.data(), shift_ || turns ? 2u : 1u);
   write_residual(state, formulated_.linearize(state, needed, 0, matrices_), residual);
-  write_matrix(state, 1, 2, matrix);
+  write_matrix(state, 1, matrix);
 }
 
-/// From matrices_: the step's, the one with weight q and the one with weight v.
-void StepEquations::write_matrix(const StepState& state, std::size_t q, std::size_t v,
-                                 System::Matrix& matrix) {
+/// From matrices_: the step's and the one with weight q.
+void StepEquations::write_matrix(const StepState& state, std::size_t q, System::Matrix& matrix) {
   const Rotations& rotations = mechanism_.rotations;
   System::Matrix& step = matrices_.front();
   if (!rotations.empty()) {
@@ -111,13 +131,20 @@ void StepEquations::write_matrix(const StepState& state, std::size_t q, std::siz
     matrix.coeffs() = step.coeffs();
     return;
   }
-  System::Matrix &with_q = matrices_[q], &with_v = turned_;
-  with_v.coeffs() = matrices_[v].coeffs();
-  if (!rotations.empty()) {
-    add_increment_tangent(rotations, state.increment, with_q, 1.0, with_q);
-    add_increment_tangent(rotations, state.increment, matrices_[v], 1.0, with_v);
+  System::Matrix& with_q = matrices_[q];
+  add_increment_tangent(rotations, state.increment, with_q, 1.0, with_q);
+  set_constraint_rows(state);
+  shift_->write_matrix({step, with_q, constraint_rows_}, dynamic_scale_, constraint_scale_, matrix);
+}
+
+/// From R_λ = Φ_qᵀ, which stands in the step's tangent.
+void StepEquations::set_constraint_rows(const StepState& state) {
+  const double* columns = matrices_.front().valuePtr();
+  for (const auto& [in_row, in_column] : transposed_) {
+    constraint_rows_.valuePtr()[in_row] = columns[in_column];
   }
-  shift_->write_matrix({step, with_q, with_v}, dynamic_scale_, constraint_scale_, matrix);
+  add_increment_tangent(mechanism_.rotations, state.increment, constraint_rows_, 1.0,
+                        constraint_rows_);
 }
 
 void StepEquations::apply(const Eigen::VectorXd& correction, StepState& state) const {
@@ -140,7 +167,7 @@ void StepEquations::linearize_sensitivities(const StepState& state, System::Matr
   const std::array<Weights, 3> weights{{{.v = 1.0}, {.a = 1.0}, {.q = 1.0}}};
   formulated_.linearize(state, weights, 1, matrices_);
   combine_tangents();
-  write_matrix(state, 3, 1, matrix);
+  write_matrix(state, 3, matrix);
 }
 
 /// The step's tangent from those with weights one.

@@ -73,7 +73,8 @@ class StepEquations {
   void combine_tangents();
   void write_residual(const StepState& state, const Eigen::VectorXd& of_system,
                       Eigen::VectorXd& residual);
-  void write_matrix(const StepState& state, std::size_t q, std::size_t v, System::Matrix& matrix);
+  void write_matrix(const StepState& state, std::size_t q, System::Matrix& matrix);
+  void set_constraint_rows(const StepState& state);
 
   Mechanism& mechanism_;
   System& system_;
@@ -85,7 +86,9 @@ class StepEquations {
   State old_;
   Eigen::ArrayXd scales_;  ///< of the entries in coordinate columns
   std::vector<System::Matrix> matrices_;
-  System::Matrix turned_;         ///< scratch
+  System::Matrix constraint_rows_;  ///< scratch: Φ_q for changes of the increment
+  /// Entries of Φ_q in the rows of constraints, each with its transposed in the columns of λ.
+  std::vector<std::pair<int, int>> transposed_;
   Eigen::MatrixXd columns_, mu_;  ///< scratch
 };
 
