@@ -188,6 +188,7 @@ void JointLinearization::add_product(const Attached& a, const Attached& b, doubl
 }
 
 void JointLinearization::evaluate(const JointEquation& equation) {
+  rate_ = 0.0;
   gradient_.setZero();
   gradient_rate_.setZero();
   hessian_.setZero();
@@ -202,6 +203,7 @@ void JointLinearization::evaluate(const JointEquation& equation) {
     case EquationKind::slide:
       evaluate_on_plane(equation);
       value_ -= drive_.value;
+      rate_ = -drive_.rate;
       break;
     case EquationKind::distance:
       evaluate_distance();
@@ -249,6 +251,7 @@ void JointLinearization::evaluate_distance() {
   const Vector3d difference = second.y - first.y;
   const double length = data_.length + drive_.value;
   value_ = 0.5 * (difference.squaredNorm() / length - length);
+  rate_ = -0.5 * drive_.rate * (difference.squaredNorm() / (length * length) + 1.0);
   const Vector3d g = difference / length;
   add_gradient(first, -g);
   add_gradient(second, g);
@@ -283,11 +286,13 @@ void JointLinearization::evaluate_drive(const JointEquation& equation) {
   const Attached rate = direction(0, drive_.rate * driven_direction(equation, 1.0));
   add_to(gradient_rate_, rate, second.y);
   add_to(gradient_rate_, second, rate.y);
+  rate_ = rate.y.dot(second.y);
 }
 
 void JointLinearization::evaluate_planar_angle(const JointEquation& equation) {
   const double sense = equation.sense;
   value_ = -sense * data_.offset - (equation.is_driven ? drive_.value : 0.0);
+  rate_ = equation.is_driven ? -drive_.rate : 0.0;
   for (std::size_t m = 0; m < 2; ++m) {
     const MarkerState& state = markers_[m];
     const Marker& marker = topology_.markers[m];

@@ -24,10 +24,12 @@ class JointLinearization {
   JointLinearization(const JointTopology& topology, const JointData<double>& data, double time,
                      const double* q, int size);
 
-  /// Sets value(), gradient(), hessian() and gradient_rate() to those of one equation.
+  /// Sets value(), rate(), gradient(), hessian() and gradient_rate() to those of one equation.
   void evaluate(const JointEquation& equation);
 
   double value() const { return value_; }
+  /// Φ_t: zero unless a drive moves the equation.
+  double rate() const { return rate_; }
   const Vector& gradient() const { return gradient_; }
   /// H: rows belong to g, columns to its derivatives; not symmetric for rotations in space.
   const Hessian& hessian() const { return hessian_; }
@@ -86,7 +88,7 @@ class JointLinearization {
   const JointData<double>& data_;
   TimeValue<double> drive_{0.0, 0.0, 0.0};
   std::array<MarkerState, 2> markers_;
-  double value_ = 0.0;
+  double value_ = 0.0, rate_ = 0.0;
   Vector gradient_, gradient_rate_;
   Hessian hessian_;
 };

@@ -50,12 +50,11 @@ class JointTerm : public Term {
     const Local<double> local = load<double>(state);
     JointLinearization joint(topology_, data_, state.time, local.q.data(), size);
     curvature_.setZero(size, size);
-    const bool is_position = level == ConstraintLevel::position;
     const auto first = topology_.multiplier - state.q.size();
     for (int i = 0; i < count; ++i) {
       joint.evaluate(topology_.equations[index(i)]);
       const double lambda = state.lambda(first + i);
-      if (is_position) residual(topology_.multiplier + i) += joint.value();
+      residual(topology_.multiplier + i) += value_of(joint, local, level);
       for (int row = 0; row < size; ++row) {
         residual(coordinate(row)) += lambda * joint.gradient()(row);
       }
@@ -66,11 +65,12 @@ class JointTerm : public Term {
       }
     }
     for (std::size_t k = 0; k < weights.size(); ++k) write_curvature(weights[k], entries.block(k));
-    if (is_position) return;
+    if (level != ConstraintLevel::acceleration) return;
     const Result<double> result = evaluate(data_, local, state.time, level);
-    for (int i = 0; i < count; ++i)
+    for (int i = 0; i < count; ++i) {
       residual(topology_.multiplier + i) += result.equations[index(i)];
-    if (level == ConstraintLevel::acceleration) add_third_derivatives(state, weights, entries);
+    }
+    add_third_derivatives(state, weights, entries);
   }
 
   void add_design_derivative(const State& state, ConstraintLevel level,
@@ -131,6 +131,15 @@ class JointTerm : public Term {
   int local_size() const { return static_cast<int>(coordinates_.size()); }
   int equations() const { return static_cast<int>(topology_.equations.size()); }
   int coordinate(int i) const { return coordinates_[index(i)]; }
+
+  /// Φ or dΦ/dt = gᵀv + Φ_t of one equation; zero on the level of accelerations.
+  double value_of(const JointLinearization& joint, const Local<double>& local,
+                  ConstraintLevel level) const {
+    if (level == ConstraintLevel::position) return joint.value();
+    if (level == ConstraintLevel::acceleration) return 0.0;
+    return joint.gradient().dot(Eigen::Map<const Eigen::VectorXd>(local.v.data(), local_size())) +
+           joint.rate();
+  }
 
   /// Derivatives of one equation at a level; of d²Φ/dt² without that by q.
   struct EquationTangent {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sensitivity/direct.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/support/problem_runs.hpp"
 
@@ -40,6 +41,24 @@ TEST_F(Histories, ComeWithTheGradientsOfTheValuesByTheSameRun) {
   for (std::size_t i = 0; i < histories_.size(); ++i) {
     EXPECT_EQ(all.histories[i].gradients, histories_[i].gradients) << i;
   }
+}
+
+/// Direct differentiation ends with the last sample: what is asked for at an instant does not
+/// depend on what else is.
+TEST_F(Histories, HaveTheGradientsOfTheirInstantsAlone) {
+  const int step = analysis_->trajectory.steps() / 3;
+  for (const HistoryGradients& history : histories_) {
+    const SampledValue alone{history.response, {{step, history.place, 1.0}}};
+    const Eigen::MatrixXd found = sampled_gradients(*analysis_, {alone}, ExactMethod::direct);
+    EXPECT_EQ(found.row(0), history.gradients.row(step)) << history.response;
+  }
+}
+
+TEST_F(Histories, AreDifferentiatedAsFarAsIsAskedFor) {
+  int last = -1;
+  differentiate_until(7, analysis_->model.mechanism, analysis_->trajectory,
+                      [&](int step, const State&, const StateSensitivity&) { last = step; });
+  EXPECT_EQ(last, 7);
 }
 
 /// Central differences of the simulated histories, extrapolated once; largest over time and

@@ -108,6 +108,19 @@ TEST_P(JointEquations, HaveTheRateOfTheirGradient) {
   EXPECT_LE((joint.gradient_rate() - expected).lpNorm<Eigen::Infinity>(), 1e-9);
 }
 
+TEST_P(JointEquations, HaveTheRateOfTheirValue) {
+  JointLinearization joint(topology_, data_, time_, q_.data(), size);
+  joint.evaluate(equation_);
+  const Eigen::VectorXd expected = derivative_at_zero(
+      [&](double t) -> Eigen::VectorXd {
+        JointLinearization later(topology_, data_, time_ + t, q_.data(), size);
+        later.evaluate(equation_);
+        return Eigen::VectorXd::Constant(1, later.value());
+      },
+      1e-3);
+  EXPECT_NEAR(joint.rate(), expected(0), 1e-9);  // as for the gradient
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, JointEquations,
                          testing::Values(EquationKind::coincident, EquationKind::on_plane,
                                          EquationKind::perpendicular, EquationKind::drive,
