@@ -198,6 +198,10 @@ void FloatingFrameBody::set_frame_columns(const Weights& weights) {
     coupling_.row(m + j).head<3>() = d_a0;
   };
   for (int j = 0; j < k; ++j) {
+    if (weights.a == 0.0) {
+      frame_block_.col(j).setZero();
+      continue;
+    }
     const Vector3d d_a0 = weights.a * (motion_.A.transpose() * frame_.basis.col(j));
     set_column(j, invariants_.mass * (motion_.A * d_a0), p.c.cross(d_a0), d_a0);
   }

@@ -10,4 +10,8 @@ namespace pleuel {
 void add_products(const System::Matrix& a, const Eigen::MatrixXd& x, const System::Matrix& b,
                   const Eigen::MatrixXd& y, Eigen::MatrixXd& out);
 
+/// of_a += Aᵀ y and of_b += Bᵀ y, likewise (the first of_a.rows() columns of the matrices).
+void add_transposed_products(const System::Matrix& a, const System::Matrix& b,
+                             const Eigen::MatrixXd& y, Columns of_a, Columns of_b);
+
 }  // namespace pleuel

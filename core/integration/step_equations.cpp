@@ -202,8 +202,7 @@ void StepEquations::differentiate_transposed(const StepState& state, const Const
   mu_.topRows(n) = -dynamic_scale_ * y.topRows(n);
   mu_.bottomRows(m) = -constraint_scale_ * y.middleRows(n, m);
   formulated_.add_parameter_adjoints(state, mu_, sums);
-  v.noalias() += matrices_[1].leftCols(n).transpose() * mu_;
-  a.noalias() += matrices_[2].leftCols(n).transpose() * mu_;
+  add_transposed_products(matrices_[1], matrices_[2], mu_, v, a);
   if (shift_) {
     shift_->differentiate_transposed(state, state.eta, y.bottomRows(n + m), old_q, sums);
   }
