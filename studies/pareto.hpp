@@ -15,7 +15,7 @@ namespace pleuel {
 
 /// The best design for one value of the limit that is varied.
 struct ParetoPoint {
-  double limit = 0.0;          ///< [SI]
+  double limit = 0.0;  ///< [SI]
   /// Of the constraint whose limit is varied [SI]; of several load cases the worst.
   double limited_value = 0.0;
   /// Of that constraint: d(objective)/d(limit) = −multiplier. Only where has_prices(result).

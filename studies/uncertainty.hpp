@@ -23,9 +23,9 @@ struct Sampled {
 ///     σ² = Σ (g_i σ_i)²,   bounds = value ∓ Σ |g_i| r_i,   g_i = ∂(response)/∂(parameter)
 /// for independent parameters with deviations σ_i and half widths r_i.
 struct UncertainResponse {
-  double value = 0.0;      ///< at the design; to first order the mean [SI]
-  double deviation = 0.0;  ///< σ
-  double bound = 0.0;      ///< Σ |g_i| r_i: the response lies within value ± bound
+  double value = 0.0;        ///< at the design; to first order the mean [SI]
+  double deviation = 0.0;    ///< σ
+  double bound = 0.0;        ///< Σ |g_i| r_i: the response lies within value ± bound
   Eigen::VectorXd gradient;  ///< g
   Eigen::VectorXd shares;    ///< (g_i σ_i)²/σ² of each parameter; zero if σ is
   std::optional<Sampled> sampled;

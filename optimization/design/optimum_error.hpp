@@ -24,8 +24,7 @@ std::optional<ErrorBar> optimum_error(DesignProblem& design, const Result& resul
 
 /// What changes of the responses at an optimum make of it by the same theorem.
 /// @param changes  one a response of the file [SI]
-double optimum_change(DesignProblem& design, const Result& result,
-                      const Eigen::VectorXd& changes);
+double optimum_change(DesignProblem& design, const Result& result, const Eigen::VectorXd& changes);
 
 /// Why the optimum is not known to the accuracy that the file asks for, and what would do; empty if
 /// it is. What counts is the error of the objective at the optimum, and that of each limit which

@@ -25,8 +25,7 @@ std::vector<ConstraintSettings> read_constraints(const JsonNode& node,
 
 /// One of them.
 ConstraintSettings read_constraint(const std::string& name, const JsonNode& node,
-                                   std::vector<ResponseSettings>& responses,
-                                   NumberReader& numbers);
+                                   std::vector<ResponseSettings>& responses, NumberReader& numbers);
 
 /// `problem` has its constraints already. @throws InputError
 ParetoSettings read_pareto(const JsonNode& node, const ProblemFile& problem,
