@@ -239,6 +239,10 @@ void PeakProblem::name_rows() {
     const bool is_of_case = split.constraint && !split.sign;
     const auto constraint = is_of_case ? std::optional(split.in_case) : std::nullopt;
     rows.of.push_back({constraint, split.part, split.division, split.sign});
+    if (split.sign) {  // no goal of its case, whose goals the record knows (setting_text.hpp)
+      named_rows_.name += fmt::format(", {}{} in case {}", *split.sign < 0.0 ? "-" : "",
+                                      response_of(split).name, split.load_case);
+    }
     for (int i = 0; i < split.rows(); ++i) rows.places.push_back(row++);
   };
   for (const Split& split : splits_) add(split);

@@ -26,6 +26,7 @@ Json distances(const std::string& pareto) {
               "joints": {"floor": {"type": "fixed", "bodies": ["ground", "stone"],
                                    "at": [0, 0, 0]}}},
     "simulation": {"end_time": "2 s", "step": "1 s", "resolution_check": false},
+    "sensitivity": {"method": "direct"},
     "variables": {"x": {"start": 1.3, "lower": 0.5, "upper": 10}},
     "responses": {"distance": {"type": "expression", "value": "(x - target)^2"},
                   "cost": {"type": "expression", "value": "x^2"}},
