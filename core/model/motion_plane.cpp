@@ -203,7 +203,7 @@ class PlaneCheck {
 };
 
 /// Directions that a plane of motion can be normal to: axes of joints that turn, and cross products
-/// of the directions and distances of the scene and of its loads.
+/// of the directions and distances of the scene, of its loads and of initial deflections.
 std::vector<Eigen::Vector3d> candidate_normals(const Scene& scene, const Design<double>& start) {
   std::vector<Eigen::Vector3d> normals, directions, points;
   for (const Joint& joint : scene.joints) {
@@ -222,6 +222,9 @@ std::vector<Eigen::Vector3d> candidate_normals(const Scene& scene, const Design<
     const bool lies_as_beam = std::holds_alternative<BeamBody>(body.shape) ||
                               std::holds_alternative<ImportedBody>(body.shape);
     if (lies_as_beam) directions.push_back(pose.rotation.col(0));
+    for (const InitialDeflection& one : body.initial_deflections) {
+      directions.push_back(to_vector(one.direction));
+    }
   }
   for (const auto& point : points) {
     const Eigen::Vector3d distance = point - points.front();

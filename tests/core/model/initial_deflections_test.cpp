@@ -77,6 +77,7 @@ TEST(InitialDeflections, AreThoseOfAForceAtTheTip) {
   energy.over_time = OverTime::max;
   problem.responses.push_back(energy);
   const auto analysis = analyze(problem, start_design(problem));
+  EXPECT_EQ(analysis->model.bodies[0].frame.rotation, RotationCoordinates::angle);  // in a plane
   EXPECT_NEAR(value_at(*analysis, 0), bow, 1e-12 * bow);
   EXPECT_NEAR(value_at(*analysis, 0, 1), 5.0 / 16.0 * bow, 1e-9 * bow);
   const double inertia = width * std::pow(height, 3) / 12;
