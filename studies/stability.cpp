@@ -6,6 +6,7 @@
 #include "core/response/analysis.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/response/monitors.hpp"
+#include "core/scene/load_cases.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/doubts.hpp"
 
@@ -13,10 +14,18 @@ namespace pleuel {
 
 namespace {
 
-ProblemFile read_with(const std::filesystem::path& file, std::vector<std::string> overrides,
+/// What all runs of a study are read with.
+struct Reading {
+  const std::vector<std::string>& overrides;
+  const std::optional<std::string>& load_case;
+};
+
+ProblemFile read_with(const std::filesystem::path& file, const Reading& reading,
                       const ComparedFormulation& formulation) {
+  std::vector<std::string> overrides = reading.overrides;
   overrides.insert(overrides.end(), formulation.overrides.begin(), formulation.overrides.end());
-  return read_problem(file, overrides);
+  const ProblemFile problem = read_problem(file, overrides);
+  return reading.load_case ? problem_of_case(problem, *reading.load_case) : problem;
 }
 
 void measure(ProblemFile problem, StabilityRun& run) {
@@ -48,15 +57,14 @@ std::vector<std::string> formulation(const std::string& name,
 
 /// A failure may also be that the problem does not go with the formulation, as a motion that repeats
 /// itself with one that drifts.
-StabilityRun try_to_measure(const std::filesystem::path& file,
-                            const std::vector<std::string>& overrides,
+StabilityRun try_to_measure(const std::filesystem::path& file, const Reading& reading,
                             const ComparedFormulation& formulation) {
   StabilityRun run;
   run.file = file;
   run.formulation = formulation.name;
-  run.problem = read_with(file, overrides, compared_formulations().front()).name;
+  run.problem = read_with(file, reading, compared_formulations().front()).name;
   try {
-    measure(read_with(file, overrides, formulation), run);
+    measure(read_with(file, reading, formulation), run);
   } catch (const SimulationError& error) {
     run.failure = error.what();
   } catch (const InputError& error) {
@@ -88,15 +96,17 @@ const std::vector<ComparedFormulation>& compared_schemes() {
 
 std::vector<StabilityRun> stability_study(const std::vector<std::filesystem::path>& files,
                                           const std::vector<std::string>& overrides,
-                                          const StabilityObserver& observer) {
+                                          const StabilityObserver& observer,
+                                          const std::optional<std::string>& load_case) {
+  const Reading reading{overrides, load_case};
   // Bad input shall not cost the runs before it.
-  for (const auto& file : files) read_with(file, overrides, compared_formulations().front());
+  for (const auto& file : files) read_with(file, reading, compared_formulations().front());
   std::vector<StabilityRun> runs;
   for (const auto& file : files) {
     for (const auto* compared : {&compared_formulations(), &compared_schemes()}) {
       for (const ComparedFormulation& formulation : *compared) {
         try {
-          runs.push_back(try_to_measure(file, overrides, formulation));
+          runs.push_back(try_to_measure(file, reading, formulation));
         } catch (const Stopped&) {
           if (runs.empty()) throw;
           return runs;

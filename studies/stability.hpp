@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,12 +45,14 @@ using StabilityObserver = std::function<void(const StabilityRun&)>;
 /// Simulates the start design of each file with each formulation and scheme; everything else is as
 /// the file says.
 /// @param overrides  of all files, as in read_problem()
+/// @param load_case  the only one of each file that is meant; none: files have no load cases
 /// @throws InputError for a file that cannot be read, before any is simulated; a failing simulation
 ///         is only marked
 /// @throws Stopped if a stop was asked for before the first run was done; later, the runs that were
 ///         done are returned
 std::vector<StabilityRun> stability_study(const std::vector<std::filesystem::path>& files,
                                           const std::vector<std::string>& overrides,
-                                          const StabilityObserver& observer = {});
+                                          const StabilityObserver& observer = {},
+                                          const std::optional<std::string>& load_case = {});
 
 }  // namespace pleuel

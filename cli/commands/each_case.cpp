@@ -22,8 +22,8 @@ namespace pleuel {
 
 namespace {
 
-constexpr std::array commands = {"simulate", "check",     "gradient",   "show",
-                                 "accuracy", "stability", "uncertainty"};
+constexpr std::array commands = {"simulate", "check",    "gradient",
+                                 "show",     "accuracy", "uncertainty"};
 
 std::vector<std::string> case_names(const Arguments& arguments) {
   const Json document = overridden_document(

@@ -133,13 +133,16 @@ std::vector<StabilityRun> run_all(const Arguments& arguments, std::size_t all,
                                   const StabilityObserver& keep) {
   ProgressLine progress(arguments, fmt::format("0 of {} runs", all));
   std::size_t done = 0;
-  return stability_study(arguments.files, arguments.overrides, [&](const StabilityRun& run) {
-    keep(run);
-    ++done;
-    progress.print(fmt::format("  {}, {}: {}", case_name(run), run.formulation,
-                               run.is_ok() ? duration(run.seconds) : "failed"));
-    progress.show_share(fmt::format("{} of {} runs", done, all), double(done) / double(all));
-  });
+  return stability_study(
+      arguments.files, arguments.overrides,
+      [&](const StabilityRun& run) {
+        keep(run);
+        ++done;
+        progress.print(fmt::format("  {}, {}: {}", case_name(run), run.formulation,
+                                   run.is_ok() ? duration(run.seconds) : "failed"));
+        progress.show_share(fmt::format("{} of {} runs", done, all), double(done) / double(all));
+      },
+      arguments.load_case);
 }
 
 }  // namespace

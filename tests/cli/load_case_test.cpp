@@ -42,9 +42,15 @@ TEST(LoadCases, AreTakenAloneByTheirNames) {
 
 TEST(LoadCases, HaveToBeNamedWhereACommandTakesOne) {
   const TemporaryFolder folder;
-  const ProgramRun run = run_program(folder.path(), {"prices", problem("two_loads")});
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(unwrapped(run.err), HasSubstr("--case"));
+  for (const std::string command : {"prices", "stability"}) {
+    const ProgramRun run = run_program(folder.path(), {command, problem("two_loads")});
+    EXPECT_EQ(run.exit_code, 2) << command;
+    EXPECT_THAT(unwrapped(run.err), HasSubstr("--case")) << command;
+  }
+  const ProgramRun run =
+      run_program(folder.path(), {"stability", problem("two_loads"), "--case", "fast", "--json"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_FALSE(run.document().at("formulations").empty());
 }
 
 /// The shipped problem with a number of both cases, and a limit on it.

@@ -10,12 +10,12 @@
 #include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/reading/case_suffix.hpp"
-#include "core/scene/reading/document_reader.hpp"
 #include "core/scene/reading/expression_response_reader.hpp"
 #include "core/scene/reading/goal_reader.hpp"
 #include "core/scene/reading/number_reader.hpp"
 #include "core/scene/reading/symbols.hpp"
 #include "core/scene/reading/unit_scanner.hpp"
+#include "core/scene/reading/variable_reader.hpp"
 #include "core/scene/response_parts.hpp"
 
 namespace pleuel {

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/joined_cases.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/reading/across_cases.hpp"
 #include "core/scene/reading/override.hpp"

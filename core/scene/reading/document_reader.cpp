@@ -88,14 +88,6 @@ Json whole_document(const ProblemText& text, const UnitSystem& units) {
   return document;
 }
 
-std::vector<std::string> variable_names(const JsonNode& root) {
-  std::vector<std::string> names;
-  if (const auto variables = root.find("variables")) {
-    for (const auto& [name, variable] : variables->members()) names.push_back(name);
-  }
-  return names;
-}
-
 /// Variables that only formulas over several load cases name (across_cases.hpp).
 void count_mentioned(const JsonNode& root, NumberReader& numbers) {
   const auto mentioned = root.find("mentioned");

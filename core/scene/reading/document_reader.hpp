@@ -8,6 +8,7 @@
 #include "core/scene/reading/case_reader.hpp"
 #include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/number_reader.hpp"
+#include "core/scene/reading/variable_reader.hpp"
 #include "core/scene/units.hpp"
 
 namespace pleuel {
@@ -22,9 +23,6 @@ std::vector<CaseChanges> cases_of(const Json& document, const std::string& file)
 /// The document that a problem is read from: with all overrides, and sections of the catalogue
 /// written out. @throws InputError
 Json whole_document(const ProblemText& text, const UnitSystem& units);
-
-/// Names of the design variables, in order.
-std::vector<std::string> variable_names(const JsonNode& root);
 
 /// @param numbers  that knows variable_names()
 /// @throws InputError

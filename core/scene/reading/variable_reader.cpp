@@ -151,4 +151,12 @@ std::vector<DesignVariable> read_variables(const JsonNode& node, const NumberRea
   return variables;
 }
 
+std::vector<std::string> variable_names(const JsonNode& root) {
+  std::vector<std::string> names;
+  if (const auto variables = root.find("variables")) {
+    for (const auto& [name, variable] : variables->members()) names.push_back(name);
+  }
+  return names;
+}
+
 }  // namespace pleuel

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/scene/problem_file.hpp"
@@ -7,6 +8,9 @@
 #include "core/scene/reading/number_reader.hpp"
 
 namespace pleuel {
+
+/// Names of the design variables, in order.
+std::vector<std::string> variable_names(const JsonNode& root);
 
 /// Start values and bounds, once `numbers` has seen where the variables are used: that tells their
 /// quantities. Every variable must be used, and every number bound to one must keep to its range at
