@@ -48,15 +48,19 @@ void add_overrides(CLI::App* command, Arguments& arguments) {
       ->allow_extra_args(false);
 }
 
+void add_case(CLI::App* command, Arguments& arguments) {
+  command
+      ->add_option("--case", arguments.load_case,
+                   "of a file with load cases this one alone (/cases of the file)")
+      ->type_name("NAME");
+}
+
 CLI::App* add_file_command(CLI::App& app, Arguments& arguments, const std::string& name,
                            const std::string& description) {
   CLI::App* command = add_command(app, arguments, name, description);
   command->add_option("FILE", arguments.file, "problem file (JSON)")->required();
   add_overrides(command, arguments);
-  command
-      ->add_option("--case", arguments.load_case,
-                   "of a file with load cases this one alone (/cases of the file)")
-      ->type_name("NAME");
+  add_case(command, arguments);
   return command;
 }
 
@@ -170,6 +174,7 @@ void add_stability(CLI::App& app, Arguments& arguments) {
                                     "drift, energy and work of files x formulations and schemes");
   stability->add_option("FILE", arguments.files, "problem files (JSON)")->required();
   add_overrides(stability, arguments);
+  add_case(stability, arguments);
   add_output(stability, arguments);
 }
 
