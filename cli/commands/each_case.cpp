@@ -49,6 +49,9 @@ void add_numbers_over_cases(const Arguments& arguments, Outcome& all) {
   if (document.is_null()) return;
   all.document["over_cases"] = document;
   all.text += over_cases_text(joined, document);
+  if (arguments.command == "simulate" && tries_a_design(arguments) && breaks_limits(document)) {
+    all.exit_code = std::max(all.exit_code, ExitCode::not_verified);
+  }
 }
 
 }  // namespace

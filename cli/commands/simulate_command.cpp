@@ -150,15 +150,6 @@ std::string simulation_text(const ProblemFile& problem, const std::string& desig
                             trajectory.factorizations, duration(run.check_seconds));
 }
 
-/// Whether the user asks what becomes of a design of theirs: one that breaks a limit is no success
-/// then, as the start of a search is.
-bool tries_a_design(const Arguments& arguments) {
-  return arguments.design || std::any_of(arguments.overrides.begin(), arguments.overrides.end(),
-                                         [](const std::string& assignment) {
-                                           return !assigned_place(assignment).starts_with("/");
-                                         });
-}
-
 /// Numbers out of proportion are a frequent reason why a simulation fails.
 std::unique_ptr<Analysis> analyze_or_doubt(const ProblemInput& input) {
   try {

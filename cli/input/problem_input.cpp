@@ -106,6 +106,13 @@ Eigen::VectorXd design_of(const Arguments& arguments, const ProblemFile& problem
   return design;
 }
 
+bool tries_a_design(const Arguments& arguments) {
+  return arguments.design || std::any_of(arguments.overrides.begin(), arguments.overrides.end(),
+                                         [](const std::string& assignment) {
+                                           return !assigned_place(assignment).starts_with("/");
+                                         });
+}
+
 ProblemInput read_input(const Arguments& arguments) {
   return read_file(arguments.file, arguments);
 }

@@ -37,4 +37,8 @@ ProblemInput read_input(const Arguments& arguments);
 /// Those of a command that takes several. @throws InputError
 std::vector<ProblemInput> read_inputs(const Arguments& arguments);
 
+/// Whether the user asks what becomes of a design of theirs: one that breaks a limit is no success
+/// then, as the start of a search is.
+bool tries_a_design(const Arguments& arguments);
+
 }  // namespace pleuel

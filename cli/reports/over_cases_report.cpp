@@ -171,10 +171,17 @@ std::string over_cases_text(const ProblemFile& joined, const Json& document) {
     limits.add_row({constraint.name, significant(unit.shown(entry.at("value").get<double>())),
                     (entry.at("side") == "upper" ? "≤ " : "≥ ") +
                         significant(unit.shown(entry.at("limit").get<double>())),
-                    unit.name, entry.at("kept").get<bool>() ? "" : "broken"});
+                    unit.name, entry.at("kept").get<bool>() ? "kept" : "BROKEN"});
   }
   if (!limits.is_empty()) text += "\n" + limits.text();
+  if (breaks_limits(document)) text += "\nA limit that is made from several cases is broken.\n";
   return text;
+}
+
+bool breaks_limits(const Json& document) {
+  const Json limited = document.value("constraints", Json::object());
+  return std::any_of(limited.begin(), limited.end(),
+                     [](const Json& entry) { return !entry.at("kept").get<bool>(); });
 }
 
 }  // namespace pleuel

@@ -20,4 +20,7 @@ Json over_cases_document(const ProblemFile& joined, const Eigen::VectorXd& x, co
 /// A table of the same; empty where there are none.
 std::string over_cases_text(const ProblemFile& joined, const Json& document);
 
+/// Whether a limit in that document is broken.
+bool breaks_limits(const Json& document);
+
 }  // namespace pleuel

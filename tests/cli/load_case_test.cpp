@@ -11,6 +11,7 @@ namespace pleuel::test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(LoadCases, GoThroughSimulateOneAfterTheOther) {
   const TemporaryFolder folder;
@@ -108,6 +109,19 @@ TEST(LoadCases, ShareTheirUncertainParameters) {
   const nlohmann::json spread = document.at("over_cases").at("responses").at("spread");
   EXPECT_NEAR(spread.at("deviation").get<double>(), fast - 2.0 * heavy, 1e-9 * fast);
   EXPECT_NEAR(spread.at("shares").at("rod_diameter").get<double>(), 1.0, 1e-12);
+}
+
+TEST(LoadCases, TellADesignThatBreaksALimitOnSeveral) {
+  const TemporaryFolder folder;
+  const std::string file = with_spread(folder);
+  const auto run_with = [&](const std::string& limit) {
+    return run_program(folder.path(),
+                       {"simulate", file, "--no-report", "--set", "rod_diameter=20 mm", "--set",
+                        "/constraints/evenness/upper=" + limit});
+  };
+  EXPECT_THAT(run_with("-1 m").out, HasSubstr("BROKEN"));
+  EXPECT_EQ(run_with("-1 m").exit_code, 4);
+  EXPECT_THAT(run_with("1 m").out, Not(HasSubstr("made from several cases is broken")));
 }
 
 TEST(LoadCases, AreLimitedTogether) {

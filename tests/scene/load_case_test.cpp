@@ -222,6 +222,13 @@ TEST(LoadCase, KeepsVariablesTheSameWhereTheyFollowFromConstants) {
               HasSubstr("/variables/thick must be the same in all cases"));
 }
 
+TEST(LoadCase, ChangesConstantsThatThereAre) {
+  Json document = with(rail(), "/variables/thick/upper", "\"= reach\"");
+  EXPECT_THAT(complaint(with(document, "/cases/fast", R"({"/constants/reech": "20 mm"})")),
+              HasSubstr("/cases/fast/~1constants~1reech names the unknown constant \"reech\"; did "
+                        "you mean \"reach\"?"));
+}
+
 /// The rail with a number that is made from two cases, and a limit on it.
 Json across() {
   Json document = rail();

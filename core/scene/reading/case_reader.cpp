@@ -8,10 +8,12 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.hpp"
 #include "core/scene/joined_cases.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/reading/across_cases.hpp"
 #include "core/scene/reading/override.hpp"
+#include "core/scene/reading/suggestion.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/scene/units.hpp"
 
@@ -285,10 +287,26 @@ std::vector<CaseChanges> read_cases(const JsonNode& node) {
   return cases;
 }
 
+/// A constant that the file does not have would change nothing.
+void check_constant(const Json& document, const std::string& pointer, const std::string& place,
+                    const std::string& file) {
+  constexpr std::string_view constants = "/constants/";
+  if (!pointer.starts_with(constants)) return;
+  std::vector<std::string> names;
+  if (document.contains("constants") && document["constants"].is_object()) {
+    for (const auto& [name, value] : document["constants"].items()) names.push_back(name);
+  }
+  const std::string name = pointer.substr(constants.size());
+  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  throw InputError(fmt::format("{}: {} names the unknown constant \"{}\"{}", file, place, name,
+                               hint(name, names)));
+}
+
 Json document_of_case(Json document, const CaseChanges& changes, const std::string& file) {
   const std::string place =
       child_pointer("/cases", changes.range.empty() ? changes.name : changes.range);
   for (const auto& [pointer, value] : changes.values) {
+    check_constant(document, pointer, child_pointer(place, pointer), file);
     replace_at(document, pointer, value, child_pointer(place, pointer), file);
   }
   document.erase("cases");

@@ -135,7 +135,7 @@ export function showPage(data: ReportData): HTMLElement[] {
               {},
               h(`span.badge.${free > 0 ? "warn" : "good"}`, {}, free > 0 ? `${free} free` : "no freedom left"),
               ` ${result.rigid_motion.coordinates} coordinates of rigid motion, ${result.rigid_motion.constraints} independent constraints, ${result.rigid_motion.drives} of them of drives: ${
-                free > 0 ? `${free} freedom${free > 1 ? "s are" : " is"} left to the forces. Is that meant?` : "the drives prescribe the motion."
+                free > 0 ? `${free} freedom${free > 1 ? "s are" : " is"} left to the forces. Is that meant?` : result.rigid_motion.drives > 0 ? "the drives prescribe the motion." : "nothing can move."
               }`,
             )
           : null,
