@@ -2,6 +2,7 @@
 
 #include "optimization/design/multi_start.hpp"
 #include "optimization/design/size_trials.hpp"
+#include "studies/front_ends.hpp"
 #include "studies/pareto.hpp"
 #include "studies/uncertainty.hpp"
 

@@ -17,13 +17,11 @@
 #include "optimization/design/design_solve.hpp"
 #include "optimization/packed_options.hpp"
 #include "optimization/packed_result.hpp"
+#include "studies/front_ends.hpp"
 
 namespace pleuel {
 
 namespace {
-
-/// Optima agree to about this, relative: what differs by less is the same.
-constexpr double resolution = 1e-4;
 
 /// Of a limit that holds in several load cases all its constraints, else one.
 std::vector<std::size_t> varied_rows(const ProblemFile& problem) {
@@ -59,161 +57,14 @@ double multiplier_of_limit(const ProblemFile& problem, const Eigen::VectorXd& mu
   return sum;
 }
 
-/// Bounds are kept exactly: an optimum may miss them by rounding.
-void start_from(const Eigen::VectorXd& x, std::vector<DesignVariable>& variables) {
-  for (std::size_t i = 0; i < variables.size(); ++i) {
-    variables[i].start = std::clamp(x(i), variables[i].lower, variables[i].upper);
-  }
-}
-
 bool dominates(const ParetoPoint& one, const ParetoPoint& other, GoodSide side) {
   const double sign = side == GoodSide::low ? 1.0 : -1.0;
   const double gain = other.result.evaluation.objective - one.result.evaluation.objective;
   const double limited_gain = sign * (other.limited_value - one.limited_value);
-  const double least = resolution * std::abs(one.result.evaluation.objective);
-  const double least_limited = resolution * std::abs(one.limited_value);
+  const double least = optimum_resolution * std::abs(one.result.evaluation.objective);
+  const double least_limited = optimum_resolution * std::abs(one.limited_value);
   return gain >= -least && limited_gain >= -least_limited &&
          (gain > least || limited_gain > least_limited);
-}
-
-/// By how much goals may be missed where the other one is improved, relative to their value.
-constexpr double end_tolerance = 1e-4;
-
-double signed_value(const Objective& goal, double value) {
-  return goal.sign() * value;
-}
-
-/// The file with another objective, and at most this value (of what is maximized at least) of
-/// another response.
-ProblemFile with_goal(ProblemFile file, const Objective& goal,
-                      const std::optional<std::pair<Objective, double>>& limit) {
-  set_objective(file, goal);
-  if (limit) add_limit(file, limit->first, limit->second, limit->first.response);
-  return file;
-}
-
-/// The best design for one of two responses.
-struct End {
-  Result result;
-  std::array<double, 2> values{};  ///< of both responses
-};
-
-template <class Archive>
-void transfer(Archive& archive, End& end) {
-  auto& [result, values] = end;
-  archive(result, values[0], values[1]);
-}
-
-/// Searches that each are a file and a start.
-struct EndWork : TaskWork {
-  std::vector<ProblemFile> files;
-  std::vector<Eigen::VectorXd> starts;
-  SolveOptions options;
-  bool has_store = false;
-
-  std::string run(int task, const std::string& /*needed*/, TaskCaller& caller) override {
-    RemoteStore store(caller);
-    ProblemFile file = files[task];
-    start_from(starts[task], file.variables);
-    DesignProblem design(file, available_threads(), has_store ? &store : nullptr);
-    End end;
-    end.result = solve_design(design, options);
-    if (end.result.evaluation.has_gradients()) {
-      for (std::size_t i = 0; i < 2; ++i) {
-        const std::size_t response = design.response_index(file.pareto->goals[i].response);
-        end.values[i] = design.value_at(end.result.x, response);
-      }
-    }
-    return packed(end);
-  }
-};
-
-class EndSearches : public Tasks {
- public:
-  EndSearches(std::vector<ProblemFile> files, std::vector<Eigen::VectorXd> starts,
-              const SolveOptions& options, const Execution& execution)
-      : execution_(execution), ends_(files.size()) {
-    work_.files = std::move(files);
-    work_.starts = std::move(starts);
-    work_.options = options;
-    work_.has_store = execution.store != nullptr;
-  }
-
-  int count() const override { return static_cast<int>(ends_.size()); }
-
-  PackedWork packed_work() const override {
-    return {end_work_name, packed(work_.files, work_.starts, work_.options, work_.has_store)};
-  }
-
-  std::string run(int task, const std::string& needed, TaskCaller& caller) override {
-    return work_.run(task, needed, caller);
-  }
-
-  std::string reply(int /*task*/, const std::string& question) override {
-    return reply_of(*execution_.store, question);
-  }
-  void take(int task, const std::string& answer) override { ends_[task] = unpacked<End>(answer); }
-  void fail(int task, const std::string& failure) override {
-    ends_[task].result.message = "the search was lost: " + failure;
-    ends_[task].result.x = work_.starts[task];
-  }
-
-  std::vector<End> take_ends() { return std::move(ends_); }
-
- private:
-  EndWork work_;
-  const Execution& execution_;
-  std::vector<End> ends_;
-};
-
-bool keeps_limits(const Result& result) {
-  return result.evaluation.has_gradients() && result.max_violation <= Tolerances().violation;
-}
-
-/// What the best of a response may lose for the good of the other one: a share of its value, which may
-/// be much smaller than the front is long, but no less than round-off of the front.
-double end_slack(double value, double length) {
-  return end_tolerance * std::clamp(std::abs(value), 1e-4 * length, length);
-}
-
-/// An end whose other response is better, if there is one that is as good.
-void refine(End& end, const End& refined, const Objective& other, std::size_t index,
-            double length) {
-  if (!keeps_limits(refined.result)) return;
-  const double gain =
-      signed_value(other, end.values[index]) - signed_value(other, refined.values[index]);
-  if (gain > 10.0 * end_tolerance * length) end = refined;
-}
-
-/// The best designs for both responses.
-/// @param file  that of the user: without the limit that is varied
-std::vector<End> find_ends(const ProblemFile& file, const SolveOptions& options,
-                           const Execution& execution) {
-  const std::vector<Objective>& goals = file.pareto->goals;
-  const Eigen::VectorXd start = start_design(file);
-  EndSearches first(
-      {with_goal(file, goals[0], std::nullopt), with_goal(file, goals[1], std::nullopt)},
-      {start, start}, options, execution);
-  run_tasks(first, execution.tasks);
-  std::vector<End> ends = first.take_ends();
-  if (!keeps_limits(ends[0].result) || !keeps_limits(ends[1].result)) return ends;
-  std::vector<ProblemFile> files;
-  std::array<double, 2> lengths{};
-  for (std::size_t i = 0; i < 2; ++i) {
-    lengths[i] = std::abs(ends[0].values[i] - ends[1].values[i]);
-    const double slack = end_slack(ends[i].values[i], lengths[i]);
-    const double limit = ends[i].values[i] + goals[i].sign() * slack;
-    files.push_back(with_goal(file, goals[1 - i], std::pair(goals[i], limit)));
-  }
-  const bool is_point = lengths[0] <= resolution * std::abs(ends[0].values[0]) ||
-                        lengths[1] <= resolution * std::abs(ends[0].values[1]);
-  if (is_point) return ends;
-  EndSearches second(files, {ends[0].result.x, ends[1].result.x}, options, execution);
-  run_tasks(second, execution.tasks);
-  const std::vector<End> refined = second.take_ends();
-  for (std::size_t i = 0; i < 2; ++i)
-    refine(ends[i], refined[i], goals[1 - i], 1 - i, lengths[1 - i]);
-  return ends;
 }
 
 /// A point as an answer of a task, with the design that its search began at.
@@ -340,12 +191,6 @@ class Front : public Tasks {
 
 }  // namespace
 
-std::unique_ptr<TaskWork> make_end_work(const std::string& content) {
-  auto work = std::make_unique<EndWork>();
-  unpack(content, work->files, work->starts, work->options, work->has_store);
-  return work;
-}
-
 std::unique_ptr<TaskWork> make_point_work(const std::string& content) {
   auto work = std::make_unique<PointWork>();
   unpack(content, work->problem, work->ends, work->limits, work->options, work->has_store);
@@ -420,7 +265,7 @@ ProblemFile trade_off_problem(ProblemFile problem) {
 namespace {
 
 /// An end as a point of the front.
-FoundPoint point_of(const End& end, const ProblemFile& problem, const Execution& execution) {
+FoundPoint point_of(const FrontEnd& end, const ProblemFile& problem, const Execution& execution) {
   FoundPoint found;
   found.start = end.result.x;
   ParetoPoint& point = found.point;
@@ -455,7 +300,7 @@ std::vector<ParetoPoint> front_between(ProblemFile problem, const SolveOptions& 
   ProblemFile file = problem;
   remove_limit(file, file.pareto->constraint);
   std::vector<FoundPoint> ends;
-  for (const End& end : find_ends(file, options, execution)) {
+  for (const FrontEnd& end : find_front_ends(file, options, execution)) {
     ends.push_back(point_of(end, problem, execution));
   }
   ParetoSettings& settings = *problem.pareto;
@@ -463,7 +308,7 @@ std::vector<ParetoPoint> front_between(ProblemFile problem, const SolveOptions& 
   settings.to = ends[1].point.limit;
   const bool has_ends = ends[0].point.has_design() && ends[1].point.has_design();
   const double length = std::abs(settings.to - settings.from);
-  if (!has_ends || length <= resolution * std::abs(settings.from)) {
+  if (!has_ends || length <= optimum_resolution * std::abs(settings.from)) {
     if (has_ends) ends.pop_back();
     std::vector<ParetoPoint> points;
     for (FoundPoint& end : ends) {

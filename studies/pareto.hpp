@@ -71,9 +71,8 @@ std::vector<ParetoPoint> pareto_front(const ProblemFile& problem, const SolveOpt
                                       const Execution& execution = {},
                                       const ParetoObserver& observer = {});
 
-/// The searches for ends and for points, made again on another rank (PackedWork).
-inline constexpr const char *end_work_name = "ends", *point_work_name = "points";
-std::unique_ptr<TaskWork> make_end_work(const std::string& content);
+/// The searches for points, made again on another rank (PackedWork).
+inline constexpr const char* point_work_name = "points";
 std::unique_ptr<TaskWork> make_point_work(const std::string& content);
 
 }  // namespace pleuel

@@ -2,56 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "core/response/expression_value.hpp"
 
 namespace pleuel {
 
-namespace {
-
-class Linearization {
- public:
-  explicit Linearization(const Analysis& analysis)
-      : analysis_(analysis), design_(Eigen::VectorXd::Zero(analysis.x.size())) {}
-
-  void add(std::size_t response, double weight) {
-    const Expression* expression = analysis_.responses[response].expression();
-    if (expression == nullptr) {
-      weights_[response] += weight;
-      return;
-    }
-    const ExpressionValue at = evaluate_at(analysis_.reductions, analysis_.x, *expression);
-    for (std::size_t i = 0; i < expression->arguments.size(); ++i) {
-      const ExpressionArgument& argument = expression->arguments[i];
-      const double share = weight * at.derivatives[i];
-      if (argument.kind == ExpressionArgument::Kind::response) {
-        add(argument.index, share);
-      } else {
-        design_(argument.index) += share;
-      }
-    }
-  }
-
-  LinearizedResponse take() && {
-    LinearizedResponse found;
-    for (const auto& [response, weight] : weights_) found.parts.push_back({response, weight});
-    found.design = std::move(design_);
-    return found;
-  }
-
- private:
-  const Analysis& analysis_;
-  std::map<std::size_t, double> weights_;
-  Eigen::VectorXd design_;
-};
-
-}  // namespace
-
 LinearizedResponse linearized(const Analysis& analysis, std::size_t response) {
-  Linearization linearization(analysis);
-  linearization.add(response, 1.0);
-  return std::move(linearization).take();
+  return ChainedResponse(
+             analysis.x.size(),
+             [&](std::size_t one) { return analysis.responses[one].expression(); },
+             [&](std::size_t, const Expression& expression) {
+               return evaluate_at(analysis.reductions, analysis.x, expression);
+             })
+      .linearized(response);
 }
 
 void require_derivatives(const Analysis& analysis, std::size_t response) {

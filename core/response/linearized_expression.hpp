@@ -1,23 +1,9 @@
 #pragma once
 
-#include <vector>
-
 #include "core/response/analysis.hpp"
+#include "core/response/chained_response.hpp"
 
 namespace pleuel {
-
-/// A response, and how much of its change counts.
-struct WeightedResponse {
-  std::size_t response;
-  double weight;
-};
-
-/// What a response is made from, to first order at the design of the analysis:
-///     d(response) = Σ weight · d(part) + design · dx
-struct LinearizedResponse {
-  std::vector<WeightedResponse> parts;  ///< responses that are no expressions, each once
-  Eigen::VectorXd design;               ///< explicit part, one a design variable [SI]
-};
 
 /// By the chain rule through all expressions; of a response that is none, itself with weight 1.
 LinearizedResponse linearized(const Analysis& analysis, std::size_t response);

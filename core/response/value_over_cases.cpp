@@ -1,7 +1,6 @@
 #include "core/response/value_over_cases.hpp"
 
 #include <cmath>
-#include <map>
 #include <set>
 #include <string>
 
@@ -19,37 +18,27 @@ using Kind = ExpressionArgument::Kind;
 class OverCasesValue {
  public:
   OverCasesValue(const ProblemFile& joined, const Eigen::VectorXd& x, const ValueInCase& value_of)
-      : joined_(joined), x_(x), value_of_(value_of), design_(Eigen::VectorXd::Zero(x.size())) {}
+      : joined_(joined), x_(x), value_of_(value_of) {}
 
   double value(std::size_t response) const {
     return is_over_cases(joined_, response) ? evaluated(response).value : value_of_(response);
   }
 
-  /// Adds `weight` times the derivatives.
-  void add(std::size_t response, double weight) {
-    if (!is_over_cases(joined_, response)) {
-      weights_[response] += weight;
-      return;
-    }
-    const ExpressionValue at = evaluated(response);
-    const Expression& expression = *joined_.responses[response].expression;
-    for (std::size_t i = 0; i < expression.arguments.size(); ++i) {
-      const ExpressionArgument& argument = expression.arguments[i];
-      const double share = weight * at.derivatives[i];
-      if (!std::isfinite(share)) refuse(response, "derivative");
-      if (argument.kind == Kind::response) {
-        add(argument.index, share);
-      } else {
-        design_(static_cast<Eigen::Index>(argument.index)) += share;
-      }
-    }
-  }
-
-  LinearizedResponse take() && {
-    LinearizedResponse found;
-    for (const auto& [response, weight] : weights_) found.parts.push_back({response, weight});
-    found.design = std::move(design_);
-    return found;
+  LinearizedResponse linearized(std::size_t response) const {
+    return ChainedResponse(
+               x_.size(),
+               [this](std::size_t one) {
+                 return is_over_cases(joined_, one) ? joined_.responses[one].expression.get()
+                                                    : nullptr;
+               },
+               [this](std::size_t one, const Expression&) {
+                 ExpressionValue at = evaluated(one);
+                 for (const double derivative : at.derivatives) {
+                   if (!std::isfinite(derivative)) refuse(one, "derivative");
+                 }
+                 return at;
+               })
+        .linearized(response);
   }
 
  private:
@@ -82,8 +71,6 @@ class OverCasesValue {
   const ProblemFile& joined_;
   const Eigen::VectorXd& x_;
   const ValueInCase& value_of_;
-  std::map<std::size_t, double> weights_;
-  Eigen::VectorXd design_;
 };
 
 void add_parts(const ProblemFile& joined, std::size_t response, std::set<std::size_t>& parts) {
@@ -105,9 +92,7 @@ double value_over_cases(const ProblemFile& joined, std::size_t response, const E
 
 LinearizedResponse linearized_over_cases(const ProblemFile& joined, std::size_t response,
                                          const Eigen::VectorXd& x, const ValueInCase& value_of) {
-  OverCasesValue over_cases(joined, x, value_of);
-  over_cases.add(response, 1.0);
-  return std::move(over_cases).take();
+  return OverCasesValue(joined, x, value_of).linearized(response);
 }
 
 std::vector<std::size_t> parts_in_cases(const ProblemFile& joined, std::size_t response) {

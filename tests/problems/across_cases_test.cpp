@@ -8,6 +8,7 @@
 #include "core/scene/load_cases.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_solve.hpp"
+#include "tests/problems/loaded_crank.hpp"
 
 /// Expressions that name load cases, `bow[fast] - bow[slow]`: closed forms, differences, and the same
 /// problem said in another way.
@@ -190,48 +191,18 @@ TEST(AcrossCases, LimitTheDifferenceOfTwoDeflectionsOfACantilever) {
 
 /// A turn of a slender crank with a load at its end, at two speeds and with two loads.
 Json crank() {
-  return Json::parse(R"json({
-    "scene": {
-      "gravity": [0, "-9.81 m/s^2", 0],
-      "bodies": {
-        "crank": {"type": "beam", "from": [0, 0, 0], "to": ["200 mm", 0, 0], "material": "steel",
-                  "section": {"type": "rectangle", "width": {"variable": "width"},
-                              "height": {"variable": "height"}},
-                  "elements": 2, "frame": "tangent", "damping": {"stiffness": "1e-4 s"}},
-        "load": {"type": "point-mass", "at": ["200 mm", 0, 0], "mass": "0.5 kg"}
-      },
-      "joints": {
-        "hub": {"type": "revolute", "bodies": ["ground", "crank"], "at": [0, 0, 0],
-                "drive": {"type": "ramp-to-speed", "speed": "60 rad/s", "ramp": "40 ms"}},
-        "clamp": {"type": "fixed", "bodies": ["crank", "load"], "at": ["200 mm", 0, 0]}
-      }
-    },
-    "simulation": {"end_time": "60 ms", "step": "0.5 ms", "resolution_check": false},
-    "variables": {
-      "width": {"start": "8 mm", "lower": "4 mm", "upper": "40 mm"},
-      "height": {"start": "12 mm", "lower": "4 mm", "upper": "40 mm"}
-    },
-    "responses": {
-      "mass": {"type": "mass", "bodies": ["crank"]},
-      "stress": {"type": "stress", "body": "crank", "over_time": "max"},
-      "tip": {"type": "deflection", "body": "crank", "at": 1, "over_time": "rms"},
-      "torque": {"type": "drive-torque", "joint": "hub", "over_time": "max-abs"},
-      "ratio": {"type": "expression", "value": "tip[fast]/tip[heavy] + (1 mm)/width"}
-    },
-    "objective": {"minimize": "= tip[fast]*ratio + 0.2*tip[heavy]"},
-    "constraints": {
+  Json document = test::loaded_crank();
+  document["responses"]["tip"]["over_time"] = "rms";
+  document["responses"]["ratio"] = {{"type", "expression"},
+                                    {"value", "tip[fast]/tip[heavy] + (1 mm)/width"}};
+  document["objective"] = {{"minimize", "= tip[fast]*ratio + 0.2*tip[heavy]"}};
+  document["constraints"] = Json::parse(R"json({
       "balance": {"response": "= tip[fast] - tip[heavy]", "upper": "1 mm"},
       "evenness": {"response": "ratio", "lower": 0.1},
       "strength": {"response": "stress", "upper": "60 MPa"},
       "weight": {"response": "mass", "upper": "0.5 kg"}
-    },
-    "sensitivity": {"method": "direct"},
-    "cases": {
-      "fast": {},
-      "heavy": {"/scene/bodies/load/mass": "2 kg",
-                "/scene/joints/hub/drive/speed": "30 rad/s"}
-    }
-  })json");
+    })json");
+  return document;
 }
 
 Evaluation evaluated(const Json& document) {

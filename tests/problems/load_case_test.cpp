@@ -1,5 +1,4 @@
 #include <cmath>
-#include <map>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -11,6 +10,8 @@
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/peak_problem.hpp"
 #include "optimization/design/staged_solve.hpp"
+#include "tests/problems/loaded_crank.hpp"
+#include "tests/support/evaluation_memory.hpp"
 #include "tests/support/problem_runs.hpp"
 
 /// Load cases: closed forms of numbers over cases, and a mechanism against two copies of it.
@@ -89,53 +90,9 @@ TEST(LoadCases, HoldALimitInThoseThatItNames) {
   EXPECT_NEAR(solve_design(near, {}).x(0), 0.5, 1e-4);  // (x − 1)² ≤ 1/4
 }
 
-/// Half a turn of a slender crank with a load at its end, at two speeds and with two loads.
-Json crank() {
-  return Json::parse(R"json({
-    "scene": {
-      "gravity": [0, "-9.81 m/s^2", 0],
-      "bodies": {
-        "crank": {"type": "beam", "from": [0, 0, 0], "to": ["200 mm", 0, 0], "material": "steel",
-                  "section": {"type": "rectangle", "width": {"variable": "width"},
-                              "height": {"variable": "height"}},
-                  "elements": 2, "frame": "tangent", "damping": {"stiffness": "1e-4 s"}},
-        "load": {"type": "point-mass", "at": ["200 mm", 0, 0], "mass": "0.5 kg"}
-      },
-      "joints": {
-        "hub": {"type": "revolute", "bodies": ["ground", "crank"], "at": [0, 0, 0],
-                "drive": {"type": "ramp-to-speed", "speed": "60 rad/s", "ramp": "40 ms"}},
-        "clamp": {"type": "fixed", "bodies": ["crank", "load"], "at": ["200 mm", 0, 0]}
-      }
-    },
-    "simulation": {"end_time": "60 ms", "step": "0.5 ms", "resolution_check": false},
-    "variables": {
-      "width": {"start": "8 mm", "lower": "4 mm", "upper": "40 mm"},
-      "height": {"start": "12 mm", "lower": "4 mm", "upper": "40 mm"}
-    },
-    "responses": {
-      "mass": {"type": "mass", "bodies": ["crank"]},
-      "stress": {"type": "stress", "body": "crank", "over_time": "max"},
-      "tip": {"type": "deflection", "body": "crank", "at": 1, "over_time": "max-abs"},
-      "torque": {"type": "drive-torque", "joint": "hub", "over_time": "max-abs"}
-    },
-    "objective": {"minimize": "mass"},
-    "constraints": {
-      "strength": {"response": "stress", "upper": "60 MPa"},
-      "stiffness": {"response": "tip", "upper": "0.2 mm"},
-      "shape": {"linear": {"height": 1, "width": -2}, "upper": 0}
-    },
-    "sensitivity": {"method": "direct"},
-    "cases": {
-      "fast": {},
-      "heavy": {"/scene/bodies/load/mass": "2 kg",
-                "/scene/joints/hub/drive/speed": "30 rad/s"}
-    }
-  })json");
-}
-
 /// Both cases as two mechanisms in one scene, with the limits of each.
 Json twins() {
-  Json document = crank();
+  Json document = test::loaded_crank();
   Json& scene = document["scene"];
   Json bodies, joints, responses, constraints;
   for (const std::string& name : {std::string("fast"), std::string("heavy")}) {
@@ -170,7 +127,7 @@ Json twins() {
 }
 
 TEST(LoadCases, HaveTheOptimumOfTheMechanismCopiedForEach) {
-  DesignProblem cases(problem_of(crank())), copies(problem_of(twins()));
+  DesignProblem cases(problem_of(test::loaded_crank())), copies(problem_of(twins()));
   const Result one = solve_design(cases, {}), other = solve_design(copies, {});
   EXPECT_EQ(one.status, Status::verified) << one.message;
   EXPECT_EQ(other.status, Status::verified) << other.message;
@@ -199,7 +156,7 @@ TEST(LoadCases, OfTheShippedProblemDecideALimitEach) {
 }
 
 TEST(LoadCases, HaveTheValuesAndGradientsOfEachByItself) {
-  const ProblemFile file = problem_of(crank());
+  const ProblemFile file = problem_of(test::loaded_crank());
   DesignProblem design(file);
   const Eigen::VectorXd x = start_design(file);
   const Evaluation all = design.evaluate(x, Request::values_and_gradients);
@@ -218,7 +175,7 @@ TEST(LoadCases, HaveTheValuesAndGradientsOfEachByItself) {
 }
 
 TEST(LoadCases, TellPeaksApartInEachOfThem) {
-  const ProblemFile file = problem_of(crank());
+  const ProblemFile file = problem_of(test::loaded_crank());
   DesignProblem design(file);
   PeakProblem peaks(design, 4);
   const Eigen::VectorXd x = start_design(file);
@@ -232,7 +189,7 @@ TEST(LoadCases, TellPeaksApartInEachOfThem) {
 
 /// Eight speeds with their worst torque.
 Json eight_speeds() {
-  Json document = crank();
+  Json document = test::loaded_crank();
   document["cases"] = Json::parse(R"({"speed": {"range": {
       "/scene/joints/hub/drive/speed": {"from": "20 rad/s", "to": "60 rad/s", "count": 8}}}})");
   document["objective"] = {{"minimize", "torque"}, {"over_cases", "worst"}};
@@ -252,36 +209,9 @@ TEST(LoadCases, HaveTheSameDigitsWhateverTheNumberOfJobs) {
   EXPECT_EQ(with_one.evaluations, with_two.evaluations);
 }
 
-/// Keeps what it is told.
-class Memory : public EvaluationStore {
- public:
-  std::optional<StoredEvaluation> find(const EvaluationKey& key) override {
-    const auto found = kept_.find(text_of(key));
-    if (found == kept_.end()) return std::nullopt;
-    ++known;
-    return found->second;
-  }
-  void keep(const EvaluationKey& key, const StoredEvaluation& stored) override {
-    ++made;
-    kept_[text_of(key)] = stored;
-  }
-
-  int known = 0, made = 0;
-
- private:
-  static std::string text_of(const EvaluationKey& key) {
-    const auto* bytes = reinterpret_cast<const char*>(key.x.data());
-    return key.setting + "|" + key.rows + "|" + key.method + "|" +
-           (key.request == Request::values ? "v" : "g") +
-           std::string(bytes, sizeof(double) * static_cast<std::size_t>(key.x.size()));
-  }
-
-  std::map<std::string, StoredEvaluation> kept_;
-};
-
 TEST(LoadCases, GoOnFromTheirRecordWithTheSameDigits) {
-  const ProblemFile file = problem_of(crank());
-  Memory memory;
+  const ProblemFile file = problem_of(test::loaded_crank());
+  EvaluationMemory memory;
   DesignProblem first(file, 1, &memory);
   const Result before = solve_design(first, {});
   const int made = memory.made;
@@ -294,7 +224,7 @@ TEST(LoadCases, GoOnFromTheirRecordWithTheSameDigits) {
 }
 
 TEST(LoadCases, HaveStepsOfTheirOwnWhereAnAccuracyIsAskedFor) {
-  Json document = crank();
+  Json document = test::loaded_crank();
   document["simulation"].erase("resolution_check");
   document["accuracy"] = {{"target", "1 %"}};
   document["cases"]["heavy"]["/simulation/end_time"] = "120 ms";

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <map>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -9,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "studies/pareto.hpp"
+#include "tests/support/evaluation_memory.hpp"
 
 /// Fronts of files with load cases, against closed forms.
 namespace pleuel::test {
@@ -127,39 +127,12 @@ TEST(ParetoOverCases, HasTheSamePointsWhateverTheNumberOfJobs) {
   }
 }
 
-/// Keeps what it is told.
-class Memory : public EvaluationStore {
- public:
-  std::optional<StoredEvaluation> find(const EvaluationKey& key) override {
-    const auto found = kept_.find(text_of(key));
-    if (found == kept_.end()) return std::nullopt;
-    ++known;
-    return found->second;
-  }
-  void keep(const EvaluationKey& key, const StoredEvaluation& stored) override {
-    ++made;
-    kept_.emplace(text_of(key), stored);
-  }
-
-  int known = 0, made = 0;
-
- private:
-  static std::string text_of(const EvaluationKey& key) {
-    const auto* bytes = reinterpret_cast<const char*>(key.x.data());
-    return key.setting + "|" + key.rows + "|" + key.method + "|" +
-           (key.request == Request::values ? "v" : "g") +
-           std::string(bytes, sizeof(double) * static_cast<std::size_t>(key.x.size()));
-  }
-
-  std::map<std::string, StoredEvaluation> kept_;
-};
-
 /// Both ends begin at one design with another objective each: what is kept of one is not the other's.
 TEST(ParetoOverCases, GoesOnFromItsRecordWithTheSameDigits) {
   for (const char* goals :
        {R"(["distance", "cost[near]"])", R"(["cost[near]", "distance[far]"])"}) {
     const Json document = distances(R"({"points": 3, "responses": )" + std::string(goals) + "}");
-    Memory memory;
+    EvaluationMemory memory;
     const auto without = front(document), first = front(document, 1, &memory);
     const int made = memory.made;
     const auto again = front(document, 1, &memory);

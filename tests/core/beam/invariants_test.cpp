@@ -220,13 +220,14 @@ TEST(VariedInvariants, HaveTheDerivativeOfAll) {
   Dual factor(1.0);
   factor.derivatives()[0] = 0.7;
   for (const auto& [what, change] : std::initializer_list<Change>{
-           {"area", [](auto&beam, auto&f) { beam.elements[2].section.area *= f; }},
-           {"bending", [](auto&beam, auto&f) { beam.elements[2].section.inertia_z *= f; }},
-           {"twist", [](auto&beam, auto&f) { beam.elements[2].section.torsion *= f; }},
-           {"modulus", [](auto&beam, auto&f) { beam.elements[2].young *= f; }},
-           {"density", [](auto&beam, auto&f) { beam.elements[2].density *= f; }},
-           {"length", [](auto&beam, auto&f) { beam.elements[2].length *= f; }},
-           {"damping", [](auto&beam, auto&f) { beam.stiffness_damping *= f; }}}) {
+           {"area", [](Beam<Dual>&beam, const Dual&f) { beam.elements[2].section.area *= f; }},
+           {"bending",
+            [](Beam<Dual>&beam, const Dual&f) { beam.elements[2].section.inertia_z *= f; }},
+           {"twist", [](Beam<Dual>&beam, const Dual&f) { beam.elements[2].section.torsion *= f; }},
+           {"modulus", [](Beam<Dual>&beam, const Dual&f) { beam.elements[2].young *= f; }},
+           {"density", [](Beam<Dual>&beam, const Dual&f) { beam.elements[2].density *= f; }},
+           {"length", [](Beam<Dual>&beam, const Dual&f) { beam.elements[2].length *= f; }},
+           {"damping", [](Beam<Dual>&beam, const Dual&f) { beam.stiffness_damping *= f; }}}) {
     Beam<Dual> beam = uniform_beam<Dual>(5, Dual(length), rectangle_section<Dual>(width, height),
                                          Dual(young), Dual(density));
     beam.mass_damping = 3.0;

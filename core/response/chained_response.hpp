@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/base/expression.hpp"
+
+namespace pleuel {
+
+/// A response, and how much of its change counts.
+struct WeightedResponse {
+  std::size_t response;
+  double weight;
+};
+
+/// What a response is made from, to first order at the design of the analysis:
+///     d(response) = Σ weight · d(part) + design · dx
+struct LinearizedResponse {
+  std::vector<WeightedResponse> parts;  ///< responses that are no expressions, each once
+  Eigen::VectorXd design;               ///< explicit part, one a design variable [SI]
+};
+
+/// The derivatives of a response that is made from others by expressions of expressions: adds up by the
+/// chain rule what each of those counts that are none.
+class ChainedResponse {
+ public:
+  /// The expression of a response, none if it is no expression.
+  using ExpressionOf = std::function<const Expression*(std::size_t response)>;
+  /// An expression of a response, with its derivatives by its arguments.
+  using Evaluated = std::function<ExpressionValue(std::size_t response, const Expression&)>;
+
+  ChainedResponse(Eigen::Index variables, ExpressionOf expression_of, Evaluated evaluated);
+
+  LinearizedResponse linearized(std::size_t response) &&;
+
+ private:
+  void add(std::size_t response, double weight);
+
+  ExpressionOf expression_of_;
+  Evaluated evaluated_;
+  std::map<std::size_t, double> weights_;
+  Eigen::VectorXd design_;
+};
+
+}  // namespace pleuel

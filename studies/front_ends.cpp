@@ -1,0 +1,169 @@
+#include "studies/front_ends.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/base/parallel.hpp"
+#include "core/base/tasks.hpp"
+#include "core/scene/case_goals.hpp"
+#include "core/scene/packed_problem.hpp"
+#include "optimization/design/design_problem.hpp"
+#include "optimization/design/design_solve.hpp"
+#include "optimization/packed_options.hpp"
+#include "optimization/packed_result.hpp"
+
+namespace pleuel {
+
+template <class Archive>
+void transfer(Archive& archive, FrontEnd& end) {
+  auto& [result, values] = end;
+  archive(result, values[0], values[1]);
+}
+
+namespace {
+
+/// By how much goals may be missed where the other one is improved, relative to their value.
+constexpr double end_tolerance = 1e-4;
+
+double signed_value(const Objective& goal, double value) {
+  return goal.sign() * value;
+}
+
+/// The file with another objective, and at most this value (of what is maximized at least) of
+/// another response.
+ProblemFile with_goal(ProblemFile file, const Objective& goal,
+                      const std::optional<std::pair<Objective, double>>& limit) {
+  set_objective(file, goal);
+  if (limit) add_limit(file, limit->first, limit->second, limit->first.response);
+  return file;
+}
+
+/// Searches that each are a file and a start.
+struct EndWork : TaskWork {
+  std::vector<ProblemFile> files;
+  std::vector<Eigen::VectorXd> starts;
+  SolveOptions options;
+  bool has_store = false;
+
+  std::string run(int task, const std::string& /*needed*/, TaskCaller& caller) override {
+    RemoteStore store(caller);
+    ProblemFile file = files[task];
+    start_from(starts[task], file.variables);
+    DesignProblem design(file, available_threads(), has_store ? &store : nullptr);
+    FrontEnd end;
+    end.result = solve_design(design, options);
+    if (end.result.evaluation.has_gradients()) {
+      for (std::size_t i = 0; i < 2; ++i) {
+        const std::size_t response = design.response_index(file.pareto->goals[i].response);
+        end.values[i] = design.value_at(end.result.x, response);
+      }
+    }
+    return packed(end);
+  }
+};
+
+class EndSearches : public Tasks {
+ public:
+  EndSearches(std::vector<ProblemFile> files, std::vector<Eigen::VectorXd> starts,
+              const SolveOptions& options, const Execution& execution)
+      : execution_(execution), ends_(files.size()) {
+    work_.files = std::move(files);
+    work_.starts = std::move(starts);
+    work_.options = options;
+    work_.has_store = execution.store != nullptr;
+  }
+
+  int count() const override { return static_cast<int>(ends_.size()); }
+
+  PackedWork packed_work() const override {
+    return {end_work_name, packed(work_.files, work_.starts, work_.options, work_.has_store)};
+  }
+
+  std::string run(int task, const std::string& needed, TaskCaller& caller) override {
+    return work_.run(task, needed, caller);
+  }
+
+  std::string reply(int /*task*/, const std::string& question) override {
+    return reply_of(*execution_.store, question);
+  }
+  void take(int task, const std::string& answer) override {
+    ends_[task] = unpacked<FrontEnd>(answer);
+  }
+  void fail(int task, const std::string& failure) override {
+    ends_[task].result.message = "the search was lost: " + failure;
+    ends_[task].result.x = work_.starts[task];
+  }
+
+  std::vector<FrontEnd> take_ends() { return std::move(ends_); }
+
+ private:
+  EndWork work_;
+  const Execution& execution_;
+  std::vector<FrontEnd> ends_;
+};
+
+bool keeps_limits(const Result& result) {
+  return result.evaluation.has_gradients() && result.max_violation <= Tolerances().violation;
+}
+
+/// What the best of a response may lose for the good of the other one: a share of its value, which may
+/// be much smaller than the front is long, but no less than round-off of the front.
+double end_slack(double value, double length) {
+  return end_tolerance * std::clamp(std::abs(value), 1e-4 * length, length);
+}
+
+/// An end whose other response is better, if there is one that is as good.
+void refine(FrontEnd& end, const FrontEnd& refined, const Objective& other, std::size_t index,
+            double length) {
+  if (!keeps_limits(refined.result)) return;
+  const double gain =
+      signed_value(other, end.values[index]) - signed_value(other, refined.values[index]);
+  if (gain > 10.0 * end_tolerance * length) end = refined;
+}
+
+}  // namespace
+
+void start_from(const Eigen::VectorXd& x, std::vector<DesignVariable>& variables) {
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    variables[i].start = std::clamp(x(i), variables[i].lower, variables[i].upper);
+  }
+}
+
+std::unique_ptr<TaskWork> make_end_work(const std::string& content) {
+  auto work = std::make_unique<EndWork>();
+  unpack(content, work->files, work->starts, work->options, work->has_store);
+  return work;
+}
+
+std::vector<FrontEnd> find_front_ends(const ProblemFile& file, const SolveOptions& options,
+                                      const Execution& execution) {
+  const std::vector<Objective>& goals = file.pareto->goals;
+  const Eigen::VectorXd start = start_design(file);
+  EndSearches first(
+      {with_goal(file, goals[0], std::nullopt), with_goal(file, goals[1], std::nullopt)},
+      {start, start}, options, execution);
+  run_tasks(first, execution.tasks);
+  std::vector<FrontEnd> ends = first.take_ends();
+  if (!keeps_limits(ends[0].result) || !keeps_limits(ends[1].result)) return ends;
+  std::vector<ProblemFile> files;
+  std::array<double, 2> lengths{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    lengths[i] = std::abs(ends[0].values[i] - ends[1].values[i]);
+    const double slack = end_slack(ends[i].values[i], lengths[i]);
+    const double limit = ends[i].values[i] + goals[i].sign() * slack;
+    files.push_back(with_goal(file, goals[1 - i], std::pair(goals[i], limit)));
+  }
+  const bool is_point = lengths[0] <= optimum_resolution * std::abs(ends[0].values[0]) ||
+                        lengths[1] <= optimum_resolution * std::abs(ends[0].values[1]);
+  if (is_point) return ends;
+  EndSearches second(files, {ends[0].result.x, ends[1].result.x}, options, execution);
+  run_tasks(second, execution.tasks);
+  const std::vector<FrontEnd> refined = second.take_ends();
+  for (std::size_t i = 0; i < 2; ++i)
+    refine(ends[i], refined[i], goals[1 - i], 1 - i, lengths[1 - i]);
+  return ends;
+}
+
+}  // namespace pleuel
