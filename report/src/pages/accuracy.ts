@@ -161,16 +161,21 @@ function allRuns(result: Document, counted: string[]): HTMLElement {
   );
 }
 
+function changeOfTime(one: Document): string {
+  return Number.isFinite(one.time_change) ? percent(one.time_change, 2) : "–";
+}
+
 function knobs(result: Document, counted: string[]): HTMLElement | null {
   if (!(result.knobs ?? []).length) return null;
   return section(
     "Other knobs",
-    "At the setting that is recommended.",
+    "At the setting that is recommended: a simulation, its time against one without the change beside it.",
     table(
       [
         { title: "knob", left: true },
         { title: "value", left: true },
         { title: "time" },
+        { title: "change of time" },
         { title: "error" },
         { title: "of", left: true },
       ],
@@ -179,7 +184,8 @@ function knobs(result: Document, counted: string[]): HTMLElement | null {
         return [
           words(knob.knob),
           String(knob.value),
-          knob.seconds ? seconds(knob.seconds) : "–",
+          knob.simulation_seconds ? seconds(knob.simulation_seconds) : "–",
+          changeOfTime(knob),
           errorCell(largest, result.reference?.errors),
           nameCell(largest),
         ];
@@ -213,7 +219,7 @@ function savedEffects(result: Document, counted: string[]): HTMLElement | null {
         words(one.effect),
         String(one.value),
         one.seconds ? seconds(one.seconds) : "–",
-        Number.isFinite(one.time_change) ? percent(one.time_change, 2) : "–",
+        changeOfTime(one),
         one.failure ? "the simulation fails" : effectChange(one, values, counted),
       ]),
     ),

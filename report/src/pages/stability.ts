@@ -85,7 +85,7 @@ export function stabilityPage(data: ReportData): HTMLElement[] {
   if (shown.length) show(shown[0].key);
   return [
     hero(data, failed.length ? `${failed.length} of ${runs.length} runs failed.` : `All ${runs.length} runs came to their ends.`, [
-      fact(count(files.length), "files"),
+      fact(count(files.length), files.length === 1 ? "file" : "files"),
       fact(count(formulations.length), "formulations and schemes"),
     ]),
     section("Formulations side by side", "", h("label.choice.bordered", {}, h("span.soft", {}, "measure"), select), note, place),
