@@ -96,11 +96,16 @@ function axis(options: ChartOptions, which: "x" | "y") {
   };
 }
 
+/** The lower one of two limits has its name below its line: they may stand on each other. */
+function isLowest(limit: { value: number }, options: ChartOptions): boolean {
+  return (options.limits ?? []).some((other) => other.value > limit.value);
+}
+
 function seriesOption(options: ChartOptions, s: Series, i: number) {
   const paint = color(s.color);
   const isDots = s.line === false;
   // Names of limits stay clear of the numbers of peaks.
-  const limitSide = options.peaks?.some((peak) => placeAcross(options, peak.x) < 0.45) ? ("insideEndTop" as const) : ("insideStartTop" as const);
+  const isPeakEarly = options.peaks?.some((peak) => placeAcross(options, peak.x) < 0.45);
   return {
     type: isDots ? ("scatter" as const) : ("line" as const),
     name: s.name,
@@ -125,7 +130,7 @@ function seriesOption(options: ChartOptions, s: Series, i: number) {
               yAxis: limit.value,
               label: {
                 formatter: limit.label,
-                position: limitSide,
+                position: `inside${isPeakEarly ? "End" : "Start"}${isLowest(limit, options) ? "Bottom" : "Top"}` as const,
                 color: color("limit"),
                 fontSize: 11,
               },
