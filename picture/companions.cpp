@@ -4,6 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/response/make_responses.hpp"
+#include "core/scene/magnitude_direction.hpp"
 
 namespace pleuel {
 
@@ -50,7 +51,7 @@ std::vector<ResponseSettings> wanted_settings(const ProblemFile& problem) {
   for (const Joint& joint : problem.scene.joints) {
     wanted.push_back(
         settings_of(ResponseType::reaction_force, joint.name, "force in the joint " + joint.name));
-    wanted.back().direction = -1;
+    wanted.back().direction = magnitude_direction;
   }
   wanted.push_back(settings_of(ResponseType::kinetic_energy, "", "kinetic energy"));
   wanted.push_back(settings_of(ResponseType::elastic_energy, "", "elastic energy"));

@@ -13,11 +13,11 @@ namespace pleuel {
 namespace {
 
 /// Bending in the local x–y plane and in the x–z plane, whether the motion has both or not.
-constexpr int in_y = -1, in_z = -2;
+enum class Plane { y, z };
 
 template <class Scalar>
-Scalar inertia(const SectionProperties<Scalar>& section, int plane) {
-  return plane == in_y ? section.inertia_z : section.inertia_y;
+Scalar inertia(const SectionProperties<Scalar>& section, Plane plane) {
+  return plane == Plane::y ? section.inertia_z : section.inertia_y;
 }
 
 /// Whether all sections are as stiff about one axis as about the other, at neighbouring designs,
@@ -43,28 +43,31 @@ bool is_equal_in_both(const BodyModel& body) {
 
 class BucklingQuantity {
  public:
-  explicit BucklingQuantity(const BodyModel& body)
-      : planes_(is_equal_in_both(body) ? std::vector<int>{in_y} : std::vector<int>{in_y, in_z}) {}
+  using Point = Plane;
 
-  std::vector<int> points(const BodyModel&, const SectionProperties<double>&) const {
+  explicit BucklingQuantity(const BodyModel& body)
+      : planes_(is_equal_in_both(body) ? std::vector<Plane>{Plane::y}
+                                       : std::vector<Plane>{Plane::y, Plane::z}) {}
+
+  std::vector<Plane> points(const BodyModel&, const SectionProperties<double>&) const {
     return planes_;
   }
 
-  std::string name(int plane) const {
+  std::string name(const SectionProperties<double>&, Plane plane) const {
     if (planes_.size() == 1) return "";
-    return plane == in_y ? ", bending along y" : ", bending along z";
+    return plane == Plane::y ? ", bending along y" : ", bending along z";
   }
 
   template <class Scalar, class Force>
   StressOf<Scalar, Force> evaluate(const Beam<Scalar>& beam, const SectionProperties<Scalar>&,
-                                   const SectionForces<Force>& forces, int plane) const {
+                                   const SectionForces<Force>& forces, Plane plane) const {
     return -forces.axial / euler_load(beam, plane);
   }
 
-  const std::vector<int>& planes() const { return planes_; }
+  const std::vector<Plane>& planes() const { return planes_; }
 
   template <class Scalar>
-  static Scalar euler_load(const Beam<Scalar>& beam, int plane) {
+  static Scalar euler_load(const Beam<Scalar>& beam, Plane plane) {
     constexpr double pi = std::numbers::pi;
     const Scalar length = beam.node_position(beam.node_count() - 1);
     return pi * pi * least_stiffness(beam, plane) / (length * length);
@@ -72,7 +75,7 @@ class BucklingQuantity {
 
  private:
   template <class Scalar>
-  static Scalar least_stiffness(const Beam<Scalar>& beam, int plane) {
+  static Scalar least_stiffness(const Beam<Scalar>& beam, Plane plane) {
     Scalar least(std::numeric_limits<double>::infinity());
     for (const BeamElement<Scalar>& element : beam.elements) {
       const Scalar stiffness = element.young * inertia(element.section, plane);
@@ -81,21 +84,22 @@ class BucklingQuantity {
     return least;
   }
 
-  std::vector<int> planes_;
+  std::vector<Plane> planes_;
 };
 
 class CompressionQuantity {
  public:
-  std::vector<int> points(const BodyModel&, const SectionProperties<double>&) const {
-    constexpr int whole = -1;
-    return {whole};
+  using Point = WholeSection;
+
+  std::vector<Point> points(const BodyModel&, const SectionProperties<double>&) const {
+    return {{}};
   }
 
-  std::string name(int) const { return ""; }
+  std::string name(const SectionProperties<double>&, Point) const { return ""; }
 
   template <class Scalar, class Force>
   StressOf<Scalar, Force> evaluate(const Beam<Scalar>&, const SectionProperties<Scalar>&,
-                                   const SectionForces<Force>& forces, int) const {
+                                   const SectionForces<Force>& forces, Point) const {
     return -forces.axial;
   }
 };
@@ -115,7 +119,7 @@ std::unique_ptr<Signal> make_compression_signal(const BodyModel& body,
 std::vector<EulerLoad> euler_loads(const BodyModel& body, int variables) {
   std::vector<EulerLoad> loads;
   const BucklingQuantity quantity(body);
-  for (const int plane : quantity.planes()) {
+  for (const Plane plane : quantity.planes()) {
     EulerLoad load{BucklingQuantity::euler_load(body.beam, plane),
                    Eigen::VectorXd::Zero(variables)};
     for (const auto& [variable, beam] : body.beam_x) {

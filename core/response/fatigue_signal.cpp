@@ -14,24 +14,36 @@ namespace {
 /// Of a round outline.
 constexpr int fatigue_outline_points = 24;
 
-/// Normal stress at points that stay where they are: negative ones are those of an outline.
+/// A point that stays where it is: a stress point of the section, or of a round outline, by number.
+struct FixedPoint {
+  bool is_on_outline;
+  int number;
+};
+
+/// Normal stress at such points.
 class FixedPointStress {
  public:
-  std::vector<int> points(const BodyModel& body, const SectionProperties<double>& section) const {
+  using Point = FixedPoint;
+
+  std::vector<Point> points(const BodyModel& body, const SectionProperties<double>& section) const {
     const bool is_planar = body.frame.rotation == RotationCoordinates::angle;
-    if (is_planar || !section.is_round()) return distinct_stress_points(body, section);
-    std::vector<int> points;
-    for (int i = 1; i <= fatigue_outline_points; ++i) points.push_back(-i);
+    std::vector<Point> points;
+    if (is_planar || !section.is_round()) {
+      for (const int i : distinct_stress_points(body, section)) points.push_back({false, i});
+    } else {
+      for (int i = 0; i < fatigue_outline_points; ++i) points.push_back({true, i});
+    }
     return points;
   }
 
-  std::string name(int point) const {
-    return fmt::format(", {} degrees from y to z", (-point - 1) * 360 / fatigue_outline_points);
+  std::string name(const SectionProperties<double>& section, const Point& point) const {
+    if (!point.is_on_outline) return stress_point_name(section, point.number);
+    return fmt::format(", {} degrees from y to z", point.number * 360 / fatigue_outline_points);
   }
 
   template <class Scalar, class Force>
   StressOf<Scalar, Force> evaluate(const Beam<Scalar>&, const SectionProperties<Scalar>& section,
-                                   const SectionForces<Force>& forces, int point) const {
+                                   const SectionForces<Force>& forces, const Point& point) const {
     const auto [y, z] = place(section, point);
     return forces.axial / section.area - forces.moment_z * y / section.inertia_z +
            forces.moment_y * z / section.inertia_y;
@@ -39,9 +51,13 @@ class FixedPointStress {
 
  private:
   template <class Scalar>
-  static std::pair<Scalar, Scalar> place(const SectionProperties<Scalar>& section, int point) {
-    if (point >= 0) return {section.points[point].y, section.points[point].z};
-    const double angle = 2.0 * std::numbers::pi * (-point - 1) / fatigue_outline_points;
+  static std::pair<Scalar, Scalar> place(const SectionProperties<Scalar>& section,
+                                         const Point& point) {
+    if (!point.is_on_outline) {
+      const StressPoint<Scalar>& at = section.points[point.number];
+      return {at.y, at.z};
+    }
+    const double angle = 2.0 * std::numbers::pi * point.number / fatigue_outline_points;
     return {section.radius_y * std::cos(angle), section.radius_z * std::sin(angle)};
   }
 };

@@ -26,7 +26,7 @@ std::unique_ptr<Signal> make_deflection_signal(const BodyModel& body, NamedPoint
 std::unique_ptr<Signal> make_axis_signal(const BodyModel& body, int axis);
 
 /// Angular velocity A ω [rad/s] or acceleration A α [rad/s²] of the body frame, global axes.
-/// @param direction  0 … 2: global x, y, z; −1: magnitude
+/// @param direction  0 … 2: global x, y, z, or magnitude_direction
 /// @param derivative  first: velocity; second: acceleration
 std::unique_ptr<Signal> make_spin_signal(const BodyModel& body, int direction,
                                          TimeDerivative derivative);
@@ -41,7 +41,7 @@ std::unique_ptr<Signal> make_angle_signal(const BodyModel& body, int direction);
 /// Motion of a point in global axes. With p the point in the frame, displaced:
 ///     r + A p [m],    ṙ + Ȧ p + A ṗ [m/s],    r̈ + Ä p + 2 Ȧ ṗ + A p̈ [m/s²]
 /// The acceleration is that of the true a, not the scheme's.
-/// @param direction  0 … 2: global x, y, z; −1: magnitude
+/// @param direction  0 … 2: global x, y, z, or magnitude_direction
 std::unique_ptr<Signal> make_motion_signal(const BodyModel& body, NamedPoint point, int direction,
                                            TimeDerivative derivative);
 

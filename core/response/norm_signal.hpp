@@ -19,10 +19,10 @@ class NormSignal final : public Signal {
   int channels() const override { return 1; }
   std::string describe(int) const override { return parts_[0]->describe(0); }
   void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
-    values(0) = component_of<double>(observed(state), magnitude);
+    values(0) = component_of<double>(observed(state), magnitude_direction);
   }
   void add_gradient(const State& state, int, double weight, SignalGradient& gradient) override {
-    const Eigen::RowVector3d slope = component_slope(observed(state), magnitude);
+    const Eigen::RowVector3d slope = component_slope(observed(state), magnitude_direction);
     for (Eigen::Index i = 0; i < 2; ++i) {
       parts_[i]->add_gradient(state, 0, weight * slope(i), gradient);
     }

@@ -11,7 +11,7 @@ namespace pleuel {
 struct ReactionPart {
   enum class Kind { force, moment };
   Kind kind = Kind::force;
-  int direction = 0;  ///< 0 … 2: global x, y, z; −1: magnitude
+  int direction = 0;  ///< 0 … 2: global x, y, z, or magnitude_direction
 };
 
 /// What a joint, its drive included, exerts on its second body at that body's point of the joint:

@@ -8,18 +8,19 @@ namespace {
 
 class SectionForceQuantity {
  public:
+  using Point = WholeSection;
+
   explicit SectionForceQuantity(SectionForcePart part) : part_(part) {}
 
-  std::vector<int> points(const BodyModel&, const SectionProperties<double>&) const {
-    constexpr int whole_section = -1;
-    return {whole_section};
+  std::vector<Point> points(const BodyModel&, const SectionProperties<double>&) const {
+    return {{}};
   }
 
-  std::string name(int) const { return ""; }
+  std::string name(const SectionProperties<double>&, Point) const { return ""; }
 
   template <class Scalar, class Force>
   StressOf<Scalar, Force> evaluate(const Beam<Scalar>&, const SectionProperties<Scalar>&,
-                                   const SectionForces<Force>& forces, int) const {
+                                   const SectionForces<Force>& forces, Point) const {
     switch (part_) {
       case SectionForcePart::axial:
         return forces.axial;

@@ -12,21 +12,30 @@
 
 namespace pleuel {
 
+/// The section as a whole, of quantities that have one number a section.
+struct WholeSection {};
+
+/// ", y = 0.005 m, z = 0 m": where a stress point of a section is, by its number.
+inline std::string stress_point_name(const SectionProperties<double>& section, int point) {
+  const StressPoint<double>& at = section.points[point];
+  return fmt::format(", y = {:.4g} m, z = {:.4g} m", at.y, at.z);
+}
+
 /// What is made of the section forces of a beam. Quantity is a formula for any scalar types, those
 /// of the beam and of the forces:
-///     std::vector<int> points(const BodyModel&, const SectionProperties<double>&) const;
+///     using Point = …;  // a place of a section
+///     std::vector<Point> points(const BodyModel&, const SectionProperties<double>&) const;
 ///     template <class Scalar, class Force> StressOf<Scalar, Force> evaluate(const Beam<Scalar>&,
-///         const SectionProperties<Scalar>&, const SectionForces<Force>&, int point) const;
-///     std::string name(int point) const;  // of a negative one: ", tension side", or nothing
-/// One channel a station and point; points from 0 are those of the section, negative ones belong to
-/// the quantity.
+///         const SectionProperties<Scalar>&, const SectionForces<Force>&, const Point&) const;
+///     std::string name(const SectionProperties<double>&, const Point&) const;  // ", tension side"
+/// One channel a station and point.
 template <class Quantity>
 class SectionStations final : public Stations {
  public:
   SectionStations(const BodyModel& body, const StationChoice& choice, Quantity quantity)
       : body_(body), quantity_(std::move(quantity)), stations_(find_stations(body, choice)) {
     for (int s = 0; s < static_cast<int>(stations_.size()); ++s) {
-      for (int point : quantity_.points(body, section_of(body.beam, s))) {
+      for (const Point& point : quantity_.points(body, section_of(body.beam, s))) {
         channels_.push_back({s, point});
       }
     }
@@ -41,11 +50,9 @@ class SectionStations final : public Stations {
   int channels() const override { return static_cast<int>(channels_.size()); }
   int station(int channel) const override { return at(channel).station; }
   std::string describe(int channel) const override {
-    const auto& [station, index] = at(channel);
-    const std::string place = pleuel::describe(stations_[station], body_);
-    if (index < 0) return place + quantity_.name(index);
-    const auto& point = section_of(body_.beam, station).points[index];
-    return fmt::format("{}, y = {:.4g} m, z = {:.4g} m", place, point.y, point.z);
+    const auto& [station, point] = at(channel);
+    return pleuel::describe(stations_[station], body_) +
+           quantity_.name(section_of(body_.beam, station), point);
   }
 
   double value(int channel, const double* numbers) const override {
@@ -66,11 +73,12 @@ class SectionStations final : public Stations {
 
  private:
   using ForcesDual = DualOf<section_force_count>;
+  using Point = typename Quantity::Point;
 
   /// One number of a station.
   struct Channel {
     int station;
-    int point;  ///< as Quantity names it
+    Point point;
   };
 
   const Channel& at(int channel) const { return channels_[channel]; }

@@ -414,7 +414,7 @@ std::unique_ptr<Signal> make_list(ResponseSettings settings, const Model& model)
 std::unique_ptr<Signal> make_signal_of_body(const ResponseSettings& settings, const Model& model) {
   if (settings.bodies.size() > 1) return make_list(settings, model);
   if (settings.along) return make_along(settings, model);
-  if (settings.type == ResponseType::deflection && settings.direction == magnitude) {
+  if (settings.type == ResponseType::deflection && settings.direction == magnitude_direction) {
     return make_resultant(settings, model);
   }
   const std::vector<const BodyModel*> parts = model.parts(settings.bodies.front());

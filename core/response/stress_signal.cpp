@@ -8,8 +8,15 @@ namespace pleuel {
 
 namespace {
 
-/// Halves of a round outline, and sections as a whole.
-constexpr int tension_side = -1, compression_side = -2, whole = -3;
+/// A stress point of the section by its number, or half of a round outline.
+struct OutlinePlace {
+  enum class Kind { point, tension_side, compression_side };
+  Kind kind;
+  int point = 0;
+
+  bool is_point() const { return kind == Kind::point; }
+  bool is_tension_side() const { return kind == Kind::tension_side; }
+};
 
 /// Points that torsion tells apart.
 std::vector<int> points_of_distinct_shear(const SectionProperties<double>& section) {
@@ -25,10 +32,11 @@ std::vector<int> points_of_distinct_shear(const SectionProperties<double>& secti
 
 template <class Scalar, class Force>
 StressOf<Scalar, Force> bending_stress(const SectionProperties<Scalar>& section,
-                                       const SectionForces<Force>& forces, int point) {
+                                       const SectionForces<Force>& forces,
+                                       const OutlinePlace& place) {
   using std::sqrt;
-  if (point >= 0) {
-    const StressPoint<Scalar>& at = section.points[point];
+  if (place.is_point()) {
+    const StressPoint<Scalar>& at = section.points[place.point];
     return forces.moment_y * at.z / section.inertia_y - forces.moment_z * at.y / section.inertia_z;
   }
   // The largest b_y cos θ + b_z sin θ of a round outline.
@@ -36,51 +44,77 @@ StressOf<Scalar, Force> bending_stress(const SectionProperties<Scalar>& section,
   const auto along_y = forces.moment_z * section.radius_y / section.inertia_z;
   const auto along_z = forces.moment_y * section.radius_z / section.inertia_y;
   const StressOf<Scalar, Force> largest = sqrt(along_y * along_y + along_z * along_z + tiny);
-  return point == tension_side ? largest : -largest;
+  return place.is_tension_side() ? largest : -largest;
 }
 
 template <class Scalar, class Force>
 StressOf<Scalar, Force> von_mises(const SectionProperties<Scalar>& section,
-                                  const SectionForces<Force>& forces, int point) {
+                                  const SectionForces<Force>& forces, const OutlinePlace& place) {
   return von_mises_stress(section, forces,
-                          point >= 0 ? section.points[point]
-                                     : most_stressed_point(section, forces, point == tension_side));
+                          place.is_point()
+                              ? section.points[place.point]
+                              : most_stressed_point(section, forces, place.is_tension_side()));
 }
 
+class AxialStress {
+ public:
+  using Point = WholeSection;
+
+  std::vector<Point> points(const BodyModel&, const SectionProperties<double>&) const {
+    return {{}};
+  }
+
+  std::string name(const SectionProperties<double>&, Point) const { return ""; }
+
+  template <class Scalar, class Force>
+  StressOf<Scalar, Force> evaluate(const Beam<Scalar>&, const SectionProperties<Scalar>& section,
+                                   const SectionForces<Force>& forces, Point) const {
+    return forces.axial / section.area;
+  }
+};
+
+/// All parts but the axial one.
 class StressQuantity {
  public:
+  using Point = OutlinePlace;
+
   explicit StressQuantity(StressPart part) : part_(part) {}
 
-  std::vector<int> points(const BodyModel& body, const SectionProperties<double>& section) const {
-    if (part_ == StressPart::axial) return {whole};
-    if (part_ == StressPart::shear) return points_of_distinct_shear(section);
+  std::vector<Point> points(const BodyModel& body, const SectionProperties<double>& section) const {
     const bool is_planar = body.frame.rotation == RotationCoordinates::angle;
-    if (section.is_round() && !is_planar) return {tension_side, compression_side};
-    return distinct_stress_points(body, section);
+    const bool is_shear = part_ == StressPart::shear;
+    if (!is_shear && section.is_round() && !is_planar) {
+      return {{Point::Kind::tension_side}, {Point::Kind::compression_side}};
+    }
+    std::vector<Point> all;
+    for (const int point :
+         is_shear ? points_of_distinct_shear(section) : distinct_stress_points(body, section)) {
+      all.push_back({Point::Kind::point, point});
+    }
+    return all;
+  }
+
+  std::string name(const SectionProperties<double>& section, const Point& place) const {
+    if (place.is_point()) return stress_point_name(section, place.point);
+    return place.is_tension_side() ? ", tension side" : ", compression side";
   }
 
   template <class Scalar, class Force>
   StressOf<Scalar, Force> evaluate(const Beam<Scalar>& beam,
                                    const SectionProperties<Scalar>& section,
-                                   const SectionForces<Force>& forces, int point) const {
+                                   const SectionForces<Force>& forces, const Point& place) const {
     switch (part_) {
       case StressPart::normal:
-        return forces.axial / section.area + bending_stress(section, forces, point);
-      case StressPart::axial:
-        return forces.axial / section.area;
+        return forces.axial / section.area + bending_stress(section, forces, place);
       case StressPart::bending:
-        return bending_stress(section, forces, point);
+        return bending_stress(section, forces, place);
       case StressPart::shear:
-        return forces.torque * section.points[point].shear;
+        return forces.torque * section.points[place.point].shear;
       case StressPart::utilization:  // a beam has one material
-        return von_mises(section, forces, point) / beam.elements.front().strength;
+        return von_mises(section, forces, place) / beam.elements.front().strength;
       default:
-        return von_mises(section, forces, point);
+        return von_mises(section, forces, place);
     }
-  }
-
-  std::string name(int point) const {
-    return point == whole ? "" : point == tension_side ? ", tension side" : ", compression side";
   }
 
  private:
@@ -115,6 +149,9 @@ std::vector<int> distinct_stress_points(const BodyModel& body,
 
 std::unique_ptr<Signal> make_stress_signal(const BodyModel& body, const Eigen::Vector3d& gravity,
                                            StressPart part, const StationChoice& stations) {
+  if (part == StressPart::axial) {
+    return make_section_signal(body, gravity, stations, AxialStress());
+  }
   return make_section_signal(body, gravity, stations, StressQuantity(part));
 }
 

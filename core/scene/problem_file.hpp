@@ -176,9 +176,9 @@ struct ResponseSettings {
   /// Section force: of the part before the place, or of that behind it.
   std::optional<SectionSide> side = {};
   DeflectionReference against = DeflectionReference::frame;
-  /// deflection: 0 … 2 = local x, y, z, −1 = √(y² + z²); deflection against the rigid mechanism,
-  /// position, velocity, acceleration, angular velocity, reaction: 0 … 2 global axes, −1 =
-  /// magnitude
+  /// deflection: 0 … 2 = local x, y, z, magnitude_direction = √(y² + z²); deflection against the
+  /// rigid mechanism, position, velocity, acceleration, angular velocity, reaction: 0 … 2 global
+  /// axes, magnitude_direction
   int direction = 1;
   /// position, velocity, acceleration, angular velocity and acceleration: the component along this
   /// unit vector, global axes; in place of `direction`

@@ -5,6 +5,7 @@
 
 #include "core/response/make_responses.hpp"
 #include "core/response/recorder.hpp"
+#include "core/scene/magnitude_direction.hpp"
 #include "core/scene/response_parts.hpp"
 
 namespace pleuel {
@@ -159,7 +160,7 @@ class RoundOff {
       case ResponseType::acceleration:
       case ResponseType::angular_velocity:
       case ResponseType::angular_acceleration:
-        whole.direction = -1;
+        whole.direction = magnitude_direction;
         whole.along = std::nullopt;
         return {{whole}};
       case ResponseType::reaction_force:
@@ -206,7 +207,7 @@ class RoundOff {
         type == ResponseType::reaction_moment || type == ResponseType::drive_torque;
     const double steps = run_.analysis.trajectory.steps();
     const double inertia = std::clamp(tiny_inertia * steps * steps, tiny_force, most_inertia);
-    whole.direction = -1;
+    whole.direction = magnitude_direction;
     whole.type = ResponseType::reaction_force;
     const Measure force{whole, tiny_force * (is_moment ? size_ : 1.0)};
     whole.type = ResponseType::reaction_moment;

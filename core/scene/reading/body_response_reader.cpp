@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/magnitude_direction.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/response_names.hpp"
 
@@ -40,7 +41,7 @@ void read_direction_or_vector(const JsonNode& node, const ResponseContext& conte
     return;
   }
   response.along = context.numbers.unit_vector(node);
-  response.direction = -1;  // as of the magnitude
+  response.direction = magnitude_direction;
 }
 
 double read_place(const JsonNode& node) {

@@ -2,15 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/magnitude_direction.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/response_names.hpp"
 
 namespace pleuel {
-namespace {
-
-constexpr int magnitude = -1;  // ResponseSettings::direction
-
-}  // namespace
 
 const Body& read_body_name(const JsonNode& node, const Scene& scene) {
   return *find_named(scene.bodies, read_known_name(node, "body", names_of(scene.bodies)));
@@ -67,7 +63,7 @@ void read_history(const JsonNode& node, const ResponseContext& context,
 }
 
 int read_direction_or_magnitude(const JsonNode& node) {
-  return read_choice<int>(node, {{"x", 0}, {"y", 1}, {"z", 2}, {"magnitude", magnitude}});
+  return read_choice<int>(node, {{"x", 0}, {"y", 1}, {"z", 2}, {"magnitude", magnitude_direction}});
 }
 
 }  // namespace pleuel

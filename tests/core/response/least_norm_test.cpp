@@ -129,7 +129,7 @@ ProblemFile falling_door() {
   problem.simulation.newton_tolerance = 1e-13;
   for (const char* hinge : {"lower", "upper"}) {
     for (ResponseType type : {ResponseType::reaction_force, ResponseType::reaction_moment}) {
-      for (int direction : {0, 2, magnitude_of}) {
+      for (int direction : {0, 2, magnitude_direction}) {
         ResponseSettings settings;
         settings.name = hinge + std::to_string(static_cast<int>(type)) + std::to_string(direction);
         settings.type = type;

@@ -101,7 +101,7 @@ TEST_P(Reaction, OfAPendulumAtItsLowestPointIsWeightAndCentripetalForce) {
     ResponseSettings settings;
     settings.type = ResponseType::reaction_force;
     settings.joint = "bearing";
-    settings.direction = magnitude_of;
+    settings.direction = magnitude_direction;
     EXPECT_NEAR(observed(model, settings, state), expected, 1e-12 * expected);
   }
 }

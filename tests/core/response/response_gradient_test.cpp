@@ -72,7 +72,7 @@ TEST_P(GradientsOfResponses, AreThoseOfDifferencesOfSimulations) {
     const ResponseSettings& response = problem_.responses[i];
     const double value = std::abs(analysis->reductions[i].value);
     // The magnitude of what vanishes has a kink.
-    if (response.direction == magnitude_of && value < 1e-6) continue;
+    if (response.direction == magnitude_direction && value < 1e-6) continue;
     const double slope = direct.row(i).lpNorm<Eigen::Infinity>(), scale = slope + value;
     if (response.type == ResponseType::shear_stress && value < 1e-2 * slope) continue;
     EXPECT_LE(best(i), 5e-6 * scale + noise_of(response.type)) << response.name << " of " << scale;

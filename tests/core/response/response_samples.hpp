@@ -4,6 +4,7 @@
 
 #include "core/response/lateral_buckling_signal.hpp"
 #include "core/response/make_responses.hpp"
+#include "core/scene/magnitude_direction.hpp"
 #include "tests/support/random_state.hpp"
 #include "tests/support/sample_scenes.hpp"
 
@@ -12,8 +13,6 @@
 namespace response_samples {
 
 using namespace pleuel;
-
-inline constexpr int magnitude_of = -1;
 
 /// In the plane as far as the scene allows, or in space.
 inline EffectSettings in_motion(EffectChoice spatial) {
@@ -67,7 +66,7 @@ inline void add_beam_responses(const BodyModel& body, std::vector<ResponseSettin
   all.push_back(settings);
   settings.type = ResponseType::deflection;
   settings.at = 0.6;
-  for (int direction : {1, 2, 0, magnitude_of}) {
+  for (int direction : {1, 2, 0, magnitude_direction}) {
     settings.direction = direction;
     settings.name = body.name + " deflection " + std::to_string(direction);
     all.push_back(settings);
@@ -98,7 +97,7 @@ inline void add_spin_responses(const BodyModel& body, std::vector<ResponseSettin
   settings.bodies = {body.name};
   for (ResponseType type : {ResponseType::angular_velocity, ResponseType::angular_acceleration}) {
     settings.type = type;
-    for (int direction : {0, 1, 2, magnitude_of}) {
+    for (int direction : {0, 1, 2, magnitude_direction}) {
       settings.direction = direction;
       settings.name = body.name + " turning " + std::to_string(static_cast<int>(type)) + " " +
                       std::to_string(direction);
@@ -143,7 +142,7 @@ inline void add_motion_responses(const BodyModel& body, std::vector<ResponseSett
   for (ResponseType type :
        {ResponseType::position, ResponseType::velocity, ResponseType::acceleration}) {
     settings.type = type;
-    for (int direction : {0, 1, 2, magnitude_of}) {
+    for (int direction : {0, 1, 2, magnitude_direction}) {
       settings.direction = direction;
       settings.name = body.name + " motion " + std::to_string(static_cast<int>(type)) + " " +
                       std::to_string(direction);
@@ -161,7 +160,7 @@ inline void add_joint_responses(const JointModel& joint, std::vector<ResponseSet
   settings.joint = joint.name;
   for (ResponseType type : {ResponseType::reaction_force, ResponseType::reaction_moment}) {
     settings.type = type;
-    for (int direction : {0, 1, 2, magnitude_of}) {
+    for (int direction : {0, 1, 2, magnitude_direction}) {
       settings.direction = direction;
       settings.name = joint.name + " reaction " + std::to_string(static_cast<int>(type)) + " " +
                       std::to_string(direction);

@@ -128,7 +128,8 @@ TEST_P(EverySignal, OfAMotionFollowsTheSimulatedPosition) {
   for (const ResponseSettings& settings : all_histories(model_)) {
     const bool is_motion =
         settings.type == ResponseType::position || settings.type == ResponseType::velocity;
-    if (is_motion && settings.direction != magnitude_of) problem.responses.push_back(settings);
+    if (is_motion && settings.direction != magnitude_direction)
+      problem.responses.push_back(settings);
   }
   const auto analysis = analyze(problem, start_design(problem));
   const double h = analysis->trajectory.time(1);
