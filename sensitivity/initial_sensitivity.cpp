@@ -70,6 +70,18 @@ class InitialDifferentiation {
     return result;
   }
 
+  /// W_x d, one column a design variable.
+  Eigen::MatrixXd changed_weights(const Eigen::VectorXd& d) const {
+    Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(n_, system_.variables());
+    for (const BentStart& bent : mechanism_.bent_starts) {
+      const Eigen::Index size = bent.weight.cols();
+      for (const auto& [variable, change] : bent.weight_x) {
+        forces.col(variable).segment(bent.offset, size) += change * d.segment(bent.offset, size);
+      }
+    }
+    return forces;
+  }
+
   void solve(Eigen::MatrixXd& rhs) {
     if (!solver_.factorize(matrix_)) {
       throw SimulationError("the derivatives of the initial state are singular");
@@ -95,8 +107,9 @@ class InitialDifferentiation {
     const Eigen::VectorXd d = difference(rotations, state.q, mechanism_.guess.q);
     Eigen::MatrixXd guess_x = mechanism_.guess_q_x;
     pull_back(rotations, d, guess_x);
-    rhs.topRows(n_) = mechanism_.assembly_weight.asDiagonal() * guess_x - curved.x.topRows(n_);
-    projection_matrix(mechanism_, state, matrix_);
+    rhs.topRows(n_) =
+        assembly_forces(mechanism_, guess_x) - changed_weights(d) - curved.x.topRows(n_);
+    assembly_matrix(mechanism_, state, matrix_);
     for (int i : rotations) {
       const Eigen::Matrix3d pull = inverse_tangent_operator(d.segment<3>(i));
       for (int row = 0; row < 3; ++row) {
@@ -116,12 +129,13 @@ class InitialDifferentiation {
     const Curvature curved = curvature(state, initial_.velocity_multipliers);
     Eigen::MatrixXd rhs;
     system_.design_derivative(state, ConstraintLevel::velocity, rhs);
-    rhs.topRows(n_) = curved.x.topRows(n_) + (curved.q.leftCols(n_) * sensitivity_.q).topRows(n_) -
-                      mechanism_.assembly_weight.asDiagonal() * mechanism_.guess_v_x;
+    rhs.topRows(n_) = curved.x.topRows(n_) + (curved.q.leftCols(n_) * sensitivity_.q).topRows(n_) +
+                      changed_weights(state.v - mechanism_.guess.v) -
+                      assembly_forces(mechanism_, mechanism_.guess_v_x);
     system_.tangent(state, {.q = 1.0}, ConstraintLevel::velocity, matrix_);
     rhs.bottomRows(m_) += (matrix_.leftCols(n_) * sensitivity_.q).bottomRows(m_);
     rhs *= -1.0;
-    projection_matrix(mechanism_, state, matrix_);
+    assembly_matrix(mechanism_, state, matrix_);
     solve(rhs);
     sensitivity_.v = rhs.topRows(n_);
   }

@@ -17,8 +17,6 @@ using RowOf = Eigen::Matrix<Scalar, 1, 6>;
 template <class Scalar>
 using MatrixOf = Eigen::Matrix<Scalar, 6, 6>;
 
-/// Shares below this are none.
-constexpr double least_share = 1e-9;
 /// A beam whose stiffnesses in both planes differ by less is as stiff in both.
 constexpr double equal_stiffness = 1e-9;
 
@@ -172,9 +170,9 @@ double LateralBuckling::size_of(const PlaneLoad& load) const {
          load.bottomRows<2>().cwiseAbs().maxCoeff() / critical_moment_;
 }
 
-double LateralBuckling::share(const PlaneLoad& load) {
+double LateralBuckling::share(const PlaneLoad& load, double least) {
   set_destabilizing(load);
-  return largest_.value(destabilizing_, size_of(load), least_share);
+  return largest_.value(destabilizing_, size_of(load), least);
 }
 
 LateralModes LateralBuckling::modes(const PlaneLoad& load) {

@@ -40,6 +40,9 @@ struct LateralModes {
 /// sideways has m = 0. Warping of sections is free, transverse loads act at the centroid.
 class LateralBuckling {
  public:
+  /// Shares up to this one are none.
+  static constexpr double least_share = 1e-9;
+
   /// @param supports  one a node. If they let the beam turn about its axis, its first node is held.
   LateralBuckling(const Beam<double>& beam, BendingPlane plane,
                   std::vector<LateralSupport> supports);
@@ -48,8 +51,9 @@ class LateralBuckling {
   /// is nothing to ask for.
   bool is_held() const { return is_held_; }
 
+  /// @param least  shares up to this one are 0
   /// @pre is_held()
-  double share(const PlaneLoad& load);
+  double share(const PlaneLoad& load, double least = least_share);
   /// The same with its mode; with two where their shares coincide (to 1e-8).
   LateralModes modes(const PlaneLoad& load);
 

@@ -84,11 +84,11 @@ void assemble_positions(Mechanism& mechanism, LinearSolver& solver, System::Matr
   for (int iteration = 0; iteration < max_assembly_steps; ++iteration) {
     system.residual(at, ConstraintLevel::position, residual);
     const double violation = m > 0 ? residual.tail(m).lpNorm<Eigen::Infinity>() : 0.0;
-    projection_matrix(mechanism, at, matrix);
+    assembly_matrix(mechanism, at, matrix);
     factorize_for_start(solver, matrix, "positions");
     Eigen::VectorXd step(n + m);
-    step.head(n) = -mechanism.assembly_weight.cwiseProduct(
-        difference(mechanism.rotations, at.q, mechanism.guess.q));
+    step.head(n) =
+        -assembly_forces(mechanism, difference(mechanism.rotations, at.q, mechanism.guess.q));
     step.tail(m) = -residual.tail(m);
     solver.solve(step);
     const Eigen::VectorXd before = at.q;
@@ -118,7 +118,7 @@ void project_velocities(Mechanism& mechanism, LinearSolver& solver, System::Matr
   const int n = system.coordinates(), m = system.multipliers();
   Eigen::VectorXd residual;
   system.residual(state, ConstraintLevel::velocity, residual);
-  projection_matrix(mechanism, state, matrix);
+  assembly_matrix(mechanism, state, matrix);
   factorize_for_start(solver, matrix, "velocities");
   Eigen::VectorXd step = Eigen::VectorXd::Zero(n + m);
   step.tail(m) = -residual.tail(m);
@@ -138,11 +138,31 @@ void factorize_for_start(LinearSolver& solver, const System::Matrix& matrix, con
       what));
 }
 
+Eigen::MatrixXd assembly_forces(const Mechanism& mechanism, const Eigen::MatrixXd& changes) {
+  Eigen::MatrixXd forces = mechanism.assembly_weight.asDiagonal() * changes;
+  for (const BentStart& bent : mechanism.bent_starts) {
+    const Eigen::Index size = bent.weight.cols();
+    forces.middleRows(bent.offset, size) = bent.weight * changes.middleRows(bent.offset, size);
+  }
+  return forces;
+}
+
 void projection_matrix(const Mechanism& mechanism, const State& state, System::Matrix& matrix) {
   const int n = mechanism.system->coordinates();
   mechanism.system->tangent(state, {.q = 1.0}, ConstraintLevel::position, matrix);
   scale_dynamic_block(n, 0.0, matrix);
   for (int i = 0; i < n; ++i) matrix.coeffRef(i, i) = mechanism.assembly_weight(i);
+}
+
+void assembly_matrix(const Mechanism& mechanism, const State& state, System::Matrix& matrix) {
+  projection_matrix(mechanism, state, matrix);
+  for (const BentStart& bent : mechanism.bent_starts) {
+    for (int col = 0; col < bent.weight.outerSize(); ++col) {
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(bent.weight, col); entry; ++entry) {
+        matrix.coeffRef(bent.offset + entry.row(), bent.offset + col) = entry.value();
+      }
+    }
+  }
 }
 
 InitialState assemble(Mechanism& mechanism, LinearSolver& solver, System::Matrix& matrix) {

@@ -12,9 +12,14 @@ struct InitialState {
   Eigen::VectorXd position_multipliers, velocity_multipliers;
 };
 
-/// [ W  Φ_qᵀ ; Φ_q  0 ] at a state: the matrix of velocity projection and, up to curvature, of
-/// assembly.
+/// W d, one change of the coordinates a column.
+Eigen::MatrixXd assembly_forces(const Mechanism& mechanism, const Eigen::MatrixXd& changes);
+
+/// [ W  Φ_qᵀ ; Φ_q  0 ] at a state, with the assembly weights alone as W: the matrix of projections.
 void projection_matrix(const Mechanism& mechanism, const State& state, System::Matrix& matrix);
+
+/// The same with the whole W: the matrix of assembly, up to curvature.
+void assembly_matrix(const Mechanism& mechanism, const State& state, System::Matrix& matrix);
 
 /// Factorizes a matrix of the start. @throws SimulationError if it is singular
 /// @param what  is solved for, for the message: "positions"

@@ -2,11 +2,24 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include <Eigen/SparseCore>
 
 #include "core/system/system.hpp"
 
 namespace pleuel {
+
+/// A body whose elastic coordinates start in a given shape. Where joints ask for another one, it is
+/// that of least elastic energy beside the given one, and places that are given move last.
+struct BentStart {
+  int offset;  ///< of its first elastic coordinate
+  Eigen::SparseMatrix<double>
+      weight;  ///< W, in place of the assembly weights: its scaled stiffness
+  std::vector<std::pair<int, Eigen::SparseMatrix<double>>> weight_x;  ///< by design variables
+  Eigen::MatrixXd rows;  ///< of the displacements that are given, in its elastic coordinates
+};
 
 /// Equations of motion together with where they start from and how large their unknowns are.
 struct Mechanism {
@@ -33,6 +46,7 @@ struct Mechanism {
   /// Weights of the distance to the guess in the assembly; elastic coordinates weigh most, so that
   /// assembly moves frames rather than deforms bodies.
   Eigen::VectorXd assembly_weight;
+  std::vector<BentStart> bent_starts;
   /// What the square of each multiplier weighs in the norm of the reactions (least_norm.hpp): 1 for
   /// forces, one over the square of a length [1/m²] for moments.
   Eigen::VectorXd reaction_weight;

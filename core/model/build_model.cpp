@@ -104,7 +104,7 @@ class ModelBuilder {
       coordinates_ += added.frame.size() + added.elastic_size();
     }
     add_undivided();
-    add_holds();
+    model_.holds = JointHolds(scene_, context_.start);
     if (context_.plane) model_.effects.front().coordinates_saved = out_of_plane_coordinates();
     add_body_terms();
     add_joints();
@@ -151,14 +151,6 @@ class ModelBuilder {
     for (const Body& body : scene_.bodies) {
       if (model_.parts(body.name).size() < 2) continue;
       model_.undivided.push_back(make_body_model(body, whole, 0));
-    }
-  }
-
-  void add_holds() {
-    const JointHolds holds(scene_, context_.start);
-    for (const Body& body : scene_.bodies) {
-      if (!std::holds_alternative<BeamBody>(body.shape)) continue;
-      if (model_.parts(body.name).front()->is_elastic) model_.holds[body.name] = holds.of(body);
     }
   }
 

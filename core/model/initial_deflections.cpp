@@ -1,6 +1,7 @@
 #include "core/model/initial_deflections.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <set>
@@ -19,6 +20,11 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+/// Newton's steps that no longer fall below this share of the shape are round-off.
+constexpr double stalled_step = 1e-6;
+/// Where places are held in the assembly they weigh as much as so many times the stiffest coordinate.
+constexpr double held_place = 1e3;
 using SparseColumns = Eigen::SparseMatrix<double>;
 
 SparseColumns stiffness_of(const Invariants<double>& invariants) {
@@ -151,6 +157,24 @@ class InitialShape {
     find_shape(linear_->solve(none, given_.measures.col(0)));
   }
 
+  /// @param weight  of the softest of the given displacements
+  BentStart start(double weight) const {
+    const MatrixXd& rows = given_.rows;
+    const double stiffness = linear_->compliance().diagonal().cwiseInverse().minCoeff();
+    const double factor = weight / stiffness;
+    BentStart bent{model_.elastic_offset(), factor * elastic_.linear(), {}, rows};
+    VectorXd held = VectorXd::Zero(rows.cols());
+    for (const auto& row : rows.rowwise()) held += row.transpose().cwiseAbs2();
+    const double hold = held_place * bent.weight.diagonal().maxCoeff();
+    for (Eigen::Index i = 0; i < held.size(); ++i) {
+      if (held(i) > 0.0) bent.weight.coeffRef(i, i) += hold * held(i);
+    }
+    for (const auto& [variable, change] : model_.invariants_x) {
+      bent.weight_x.emplace_back(variable, factor * stiffness_of(change));
+    }
+    return bent;
+  }
+
   VectorXd shape() const { return shape_.x; }
   VectorXd rate() const { return rate_.x; }
 
@@ -254,7 +278,7 @@ class InitialShape {
   void find_shape(HeldShape::Solution start) {
     constexpr int most_iterations = 30;
     shape_ = std::move(start);
-    double size = 0.0;
+    double size = 0.0, before = std::numeric_limits<double>::infinity();
     for (int i = 0; i < most_iterations; ++i) {
       elastic_.set(shape_.x);
       tangent_.emplace(elastic_.tangent(), given_.rows);
@@ -264,10 +288,14 @@ class InitialShape {
       shape_.x += step.x;
       shape_.pulls += step.pulls;
       size = std::max(size, shape_.x.norm());
-      if (step.x.norm() <= 1e-13 * size) {
+      // Steps end in round-off: of bending, the condition of the stiffness makes it more than 1e-13.
+      const double moved = step.x.norm();
+      const bool is_stalled = moved <= stalled_step * size && moved > 0.3 * before;
+      if (moved <= 1e-13 * size || is_stalled) {
         elastic_.set(shape_.x);
         return;
       }
+      before = moved;
     }
     throw InputError(fmt::format(
         "body \"{}\": no shape with the initial deflections was found; are they too large?",
@@ -302,6 +330,8 @@ void set_initial_deflections(std::size_t body, const std::vector<BodyModel>& bod
   const int offset = model.elastic_offset(), size = model.elastic_size();
   mechanism.guess.q.segment(offset, size) = initial.shape();
   mechanism.guess.v.segment(offset, size) = initial.rate();
+  const double scale = mechanism.scale(offset);
+  mechanism.bent_starts.push_back(initial.start(1.0 / (scale * scale)));
   const std::set<int> variables = variables_of(of, context.scene);
   const std::vector<MatrixXd> changes = initial.derivatives(variables);
   std::size_t k = 0;

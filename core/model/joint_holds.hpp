@@ -5,35 +5,40 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/model/scene_geometry.hpp"
+#include "core/model/rigid_motions.hpp"
 
 namespace pleuel {
 
-/// What a joint holds of a beam in space, as if the body on its other side were rigid.
+/// What a joint holds of a beam in space, as if all other bodies were rigid.
 struct JointHold {
   double at = 0.0;                         ///< share of the length of the beam
   std::array<bool, 3> displacements = {};  ///< along local x, y, z
   std::array<bool, 3> rotations = {};      ///< about local x, y, z
 };
 
-/// What the joints of a scene hold of its beams. A neighbour holds where other joints hold it; a
-/// drive holds what it drives. A joint that turns or slides in a direction holds there all the same
-/// where its axis is normal to it (to 6°).
+/// What the joints of a scene hold of its beams: the directions in which neither the joint nor the
+/// rest of the mechanism, without the beam, lets its place move (RigidMotions). Motions within 6° of
+/// a right angle to a direction do not count.
 class JointHolds {
  public:
+  JointHolds() = default;
   /// @param start  values of the variables that decide the topology: what is held does not change
   ///               with the design
   JointHolds(const Scene& scene, const Design<double>& start);
 
-  std::vector<JointHold> of(const Body& beam) const;
+  /// @param beam  name of a beam of the scene
+  std::vector<JointHold> of(const std::string& beam) const;
 
  private:
-  bool is_held(const std::string& neighbour, const std::string& body) const;
-  JointHold hold_of(const Joint& joint, std::size_t side, const Body& body) const;
+  struct Axis {
+    Pose<double> pose;
+    double length;
+  };
 
-  const Scene& scene_;
-  const Design<double>& start_;
-  std::unordered_map<std::string, std::vector<const Joint*>> joints_;  ///< by body
+  JointHold hold_of(const PlacedJoint& joint, const std::string& beam) const;
+
+  RigidMotions motions_;
+  std::unordered_map<std::string, Axis> beams_;
 };
 
 }  // namespace pleuel

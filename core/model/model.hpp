@@ -136,9 +136,8 @@ struct Model {
   /// Beams that are divided, as if they were not: for their constants. They have no coordinates in
   /// the system.
   std::vector<BodyModel> undivided;
-  /// What joints hold of each elastic beam, by its name: for judgements on beams out of the plane of
-  /// motion, too.
-  std::unordered_map<std::string, std::vector<JointHold>> holds;
+  /// What joints hold of beams: for judgements on beams out of the plane of motion, too.
+  JointHolds holds;
   std::vector<JointModel> joints;
   std::vector<LoadModel> loads;
   std::vector<EffectRecord> effects;

@@ -119,11 +119,20 @@ class LateralBucklingSignal final : public Signal {
 }  // namespace
 
 LateralMember::LateralMember(const std::string& name, const Model& model, BendingPlane plane)
-    : parts_(model.parts(name)),
+    : name_(name),
+      model_(model),
+      plane_(plane),
+      parts_(model.parts(name)),
       beam_(whole_beam(parts_)),
-      buckling_(beam_, plane, lateral_supports(beam_, plane, model.holds.at(name))),
       forces_(plane_forces(parts_, model, plane)),
       load_(4, static_cast<Eigen::Index>(beam_.elements.size())) {}
+
+LateralBuckling& LateralMember::buckling() {
+  if (!buckling_) {
+    buckling_.emplace(beam_, plane_, lateral_supports(beam_, plane_, model_.holds.of(name_)));
+  }
+  return *buckling_;
+}
 
 const PlaneLoad& LateralMember::observe(const State& state) {
   forces_->observe(state, load_.reshaped());

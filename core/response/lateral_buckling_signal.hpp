@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ class LateralMember {
 
   const Beam<double>& beam() const { return beam_; }
   /// By the joints of the beam, whose neighbours are taken to be rigid.
-  LateralBuckling& buckling() { return buckling_; }
+  LateralBuckling& buckling();
 
   /// N and M in the plane, at both ends of each element, as stress is made from them.
   const PlaneLoad& observe(const State& state);
@@ -29,10 +30,13 @@ class LateralMember {
   const std::vector<std::pair<int, Beam<Dual>>>& beam_x();
 
  private:
+  std::string name_;
+  const Model& model_;
+  BendingPlane plane_;
   std::vector<const BodyModel*> parts_;
   Beam<double> beam_;
   std::vector<std::pair<int, Beam<Dual>>> beam_x_;  ///< once it is needed
-  LateralBuckling buckling_;
+  std::optional<LateralBuckling> buckling_;         ///< once it is needed
   std::unique_ptr<Signal> forces_;
   PlaneLoad load_;
 };

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -19,6 +21,8 @@ constexpr double near_critical = 0.75;
 /// can buckle: a free end under a constant moment takes half of that of supported ends, a free
 /// column a quarter.
 constexpr double harmless_load = 0.05;
+/// A member is straight whose moments are what its axial force makes of this share of its length.
+constexpr double straight_offset = 1e-6;
 
 double largest_moment(const PlaneLoad& load) {
   return load.bottomRows<2>().cwiseAbs().maxCoeff();
@@ -27,15 +31,24 @@ double largest_press(const PlaneLoad& load) {
   return std::max(0.0, -load.topRows<2>().minCoeff());
 }
 
+BendingPlane other_plane(BendingPlane plane) {
+  return plane == BendingPlane::xy ? BendingPlane::xz : BendingPlane::xy;
+}
+
+/// A member by its forces in one plane, buckling out of it, or in it by its axial force alone.
 class SidewaysBuckling {
  public:
-  SidewaysBuckling(const TrustedRun& run, const BodyModel& part)
+  enum class Way { out_of_plane, in_plane };
+
+  SidewaysBuckling(const TrustedRun& run, const BodyModel& part, BendingPlane plane, Way way)
       : run_(run),
         name_(part.name),
         is_planar_(part.frame.rotation == RotationCoordinates::angle),
-        plane_(plane_of(part)),
-        member_(name_, run.analysis.model, plane_) {
-    const Beam<double>& beam = member_.beam();
+        way_(way),
+        plane_(way == Way::out_of_plane ? plane : other_plane(plane)),
+        observed_(name_, run.analysis.model, plane),
+        judged_(name_, run.analysis.model, plane_) {
+    const Beam<double>& beam = judged_.beam();
     length_ = beam.node_position(beam.node_count() - 1);
     lateral_ = twisting_ = std::numeric_limits<double>::infinity();
     bool is_equal = true;
@@ -51,45 +64,51 @@ class SidewaysBuckling {
         depth_ = std::max(depth_, std::abs(is_xy ? point.y : point.z));
       }
     }
-    moments_matter_ = !is_equal;
+    moments_matter_ = way == Way::out_of_plane && !is_equal;
   }
 
-  std::vector<Doubt> find() {
-    LateralBuckling& buckling = member_.buckling();
-    if (!buckling.is_held()) return {};
+  std::optional<Doubt> find() {
     find_worst();
-    if (worst_ < harmless_load) return {};
-    const double share = buckling.share(load_);
-    if (share < near_critical) return {};
-    PlaneLoad straight = load_;
-    straight.bottomRows<2>().setZero();
-    return {doubt(1.0 / share, share > 1.01 * buckling.share(straight))};
+    if (share_ <= near_critical) return std::nullopt;
+    if (way_ == Way::in_plane && !is_straight_) return std::nullopt;
+    PlaneLoad pressed = load_;
+    pressed.bottomRows<2>().setZero();
+    return doubt(1.0 / share_, share_ > 1.01 * judged_.buckling().share(pressed));
   }
+
+  double share() const { return share_; }
 
  private:
-  /// Of the motion, or in space that of the stiffer axis.
-  static BendingPlane plane_of(const BodyModel& part) {
-    const std::vector<BendingPlane> planes = bending_planes(part);
-    if (planes.size() == 1) return planes.front();
-    const SectionProperties<double>& s = part.beam.elements.front().section;
-    return s.inertia_z >= s.inertia_y ? BendingPlane::xy : BendingPlane::xz;
-  }
-
+  /// The instant of the largest share, if that is worth a word.
   void find_worst() {
-    const double pi = std::numbers::pi;
-    const double moment = pi * std::sqrt(lateral_ * twisting_) / length_;
-    const double press = pi * pi * lateral_ / (length_ * length_);
     State state;
     for (Eigen::Index i = 0; i < run_.analysis.trajectory.time.size(); ++i) {
       run_.analysis.trajectory.states->load(static_cast<int>(i), state);
-      const PlaneLoad& load = member_.observe(state);
-      const double bent = moments_matter_ ? largest_moment(load) / moment : 0.0;
-      const double share = bent * bent + largest_press(load) / press;
-      if (share <= worst_) continue;
-      worst_ = share;
+      PlaneLoad load = observed_.observe(state);
+      if (way_ == Way::in_plane) {
+        const double offset = straight_offset * length_ * largest_press(load);
+        is_straight_ = is_straight_ && largest_moment(load) <= offset;
+        if (!is_straight_) return;
+        load.bottomRows<2>().setZero();
+      }
+      if (most_share(load) <= share_) continue;
+      if (!judged_.buckling().is_held()) return;
+      const double share = judged_.buckling().share(load, share_);
+      if (share <= share_) continue;
+      share_ = share;
       load_ = load;
       time_ = run_.analysis.trajectory.time(i);
     }
+  }
+
+  /// No share is larger: 1/s of b² s² + p s = harmless_load.
+  double most_share(const PlaneLoad& load) const {
+    const double pi = std::numbers::pi;
+    const double moment = pi * std::sqrt(lateral_ * twisting_) / length_;
+    const double press = pi * pi * lateral_ / (length_ * length_);
+    const double b = moments_matter_ ? largest_moment(load) / moment : 0.0;
+    const double p = largest_press(load) / press;
+    return (p + std::sqrt(p * p + 4.0 * b * b * harmless_load)) / (2.0 * harmless_load);
   }
 
   /// What restrained warping could add at most: flanges that hold all of the lateral stiffness, at
@@ -111,28 +130,54 @@ class SidewaysBuckling {
       what += fmt::format("{}a pressing force of {:.3g} N", is_bent ? " and " : "", press);
     }
     const bool is_beyond = factor * (is_bent ? warping() : 1.0) < 1.0;
-    const char* unseen = is_planar_ || is_bent
+    const bool is_out_of_plane = way_ == Way::out_of_plane;
+    const char* unseen = (is_planar_ && is_out_of_plane) || is_bent
                              ? "The equations of motion do not have this buckling."
                              : "In the motion a member that is exactly straight stays so.";
+    const char* remedy = is_out_of_plane ? " Make it stiffer sideways or in torsion, or hold it."
+                                         : " Make it stiffer, or hold it.";
+    const std::string column =
+        fmt::format("as a column, along local {}", plane_ == BendingPlane::xy ? "z" : "y");
     return {fmt::format(
-                "\"{}\" {} out of the plane in which it bends ({}) under {} at t = {:.4g} s: the "
-                "critical load is {:.3g} times that. {}{}",
+                "\"{}\" {} {} ({}) under {} at t = {:.4g} s: the critical load is {:.3g} times "
+                "that. {}{}",
                 name_, is_beyond ? "buckles" : "comes near to buckling",
-                is_bent ? "lateral-torsional buckling" : "about its weak axis", what, time_, factor,
-                unseen, is_beyond ? " Make it stiffer sideways or in torsion, or hold it." : ""),
+                is_out_of_plane ? "out of the plane in which it bends" : "in the plane of motion",
+                is_bent ? "lateral-torsional buckling" : column, what, time_, factor, unseen,
+                is_beyond ? remedy : ""),
             is_beyond && !is_bent};
   }
 
   const TrustedRun& run_;
   std::string name_;
   bool is_planar_;
-  BendingPlane plane_;
-  LateralMember member_;
-  bool moments_matter_ = true;
+  Way way_;
+  BendingPlane plane_;  ///< out of which it buckles
+  LateralMember observed_, judged_;
+  bool moments_matter_ = true, is_straight_ = true;
   double length_ = 0.0, lateral_ = 0.0, twisting_ = 0.0, depth_ = 0.0;
-  double worst_ = 0.0, time_ = 0.0;
+  double share_ = near_critical, time_ = 0.0;
   PlaneLoad load_;
 };
+
+/// Of the ways in which a member may buckle that with the largest share.
+std::optional<Doubt> doubt_member(const TrustedRun& run, const BodyModel& part) {
+  using Way = SidewaysBuckling::Way;
+  const std::vector<BendingPlane> planes = bending_planes(part);
+  std::vector<std::pair<BendingPlane, Way>> ways;
+  for (const BendingPlane plane : planes) ways.emplace_back(plane, Way::out_of_plane);
+  if (planes.size() == 1) ways.emplace_back(planes.front(), Way::in_plane);
+  std::optional<Doubt> worst;
+  double share = 0.0;
+  for (const auto& [plane, way] : ways) {
+    SidewaysBuckling member(run, part, plane, way);
+    std::optional<Doubt> doubt = member.find();
+    if (!doubt || member.share() <= share) continue;
+    share = member.share();
+    worst = std::move(doubt);
+  }
+  return worst;
+}
 
 }  // namespace
 
@@ -142,8 +187,7 @@ std::vector<Doubt> doubt_sideways_buckling(const TrustedRun& run) {
     if (!std::holds_alternative<BeamBody>(body.shape)) continue;
     const BodyModel& part = *run.analysis.model.parts(body.name).front();
     if (!part.is_elastic) continue;
-    const std::vector<Doubt> found = SidewaysBuckling(run, part).find();
-    doubts.insert(doubts.end(), found.begin(), found.end());
+    if (std::optional<Doubt> doubt = doubt_member(run, part)) doubts.push_back(std::move(*doubt));
   }
   return doubts;
 }
