@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/model/scene_geometry.hpp"
+#include "core/response/make_responses.hpp"
 
 namespace pleuel {
 
@@ -38,6 +39,7 @@ class InitialMotion {
         compare(body.name, "angular velocity", "rad/s", turn, frame.rotations());
       }
       if (!body.initial_deflections.empty()) compare_deflections(body.name);
+      for (std::size_t i = 0; i < body.initial_deflections.size(); ++i) compare_place(body, i);
     }
     return std::move(doubts_);
   }
@@ -68,6 +70,51 @@ class InitialMotion {
                      "the file: joints and drives hold the body in another shape.",
                      what, worst, body, is(worst), unit, should(worst)),
          true});
+  }
+
+  /// A frame that is the tangent at an end turns with the bent beam where joints hold both ends.
+  void compare_place(const Body& body, std::size_t i) {
+    const InitialDeflection& one = body.initial_deflections[i];
+    const double displacement = resolve(one.displacement, design_);
+    const auto* beam = std::get_if<BeamBody>(&body.shape);
+    if (beam == nullptr || displacement == 0.0) return;
+    if (beam->frame != ReferenceCondition::tangent &&
+        beam->frame != ReferenceCondition::tangent_end) {
+      return;
+    }
+    const Eigen::Vector3d from = resolve_point(beam->from, design_),
+                          axis = resolve_point(beam->to, design_) - from,
+                          at = resolve_point(one.at, design_);
+    const double share = std::clamp((at - from).dot(axis) / axis.squaredNorm(), 0.0, 1.0);
+    const double small = small_correction * std::abs(displacement);
+    const double moved = moved_along(body.name, one, share, at);
+    if (std::abs(moved - displacement) <= small) return;
+    for (const double end : {0.0, 1.0}) {
+      if (std::abs(moved_along(body.name, one, end, from + end * axis)) > small) return;
+    }
+    doubts_.push_back(
+        {fmt::format("the initial deflection {} of \"{}\" moves its place by {:.4g} m from where "
+                     "it is drawn, not by {:.4g} m: it counts against the body frame, which is the "
+                     "tangent at an end and turns with the bent beam. With \"frame\": \"chord\" "
+                     "it counts from the line between the ends.",
+                     i, body.name, moved, displacement),
+         false});
+  }
+
+  /// How far a place of a beam starts from a point, along the direction of a deflection.
+  double moved_along(const std::string& body, const InitialDeflection& one, double share,
+                     const Eigen::Vector3d& drawn) const {
+    ResponseSettings settings;
+    settings.name = "place";
+    settings.type = ResponseType::position;
+    settings.bodies = {body};
+    settings.at = share;
+    settings.along = one.direction;
+    const std::vector<Response> responses = make_responses({settings}, run_.analysis.model);
+    Signal& signal = *responses.front().history()->signal;
+    Eigen::VectorXd value(signal.channels());
+    signal.observe(start_, value);
+    return value(0) - to_vector(one.direction).dot(drawn);
   }
 
   void compare(const std::string& body, const char* what, const char* unit, int offset, int size) {

@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/trust/initial_motion.hpp"
 #include "sensitivity/gradients.hpp"
+#include "tests/core/trust/doubts_of.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_scenes.hpp"
 
@@ -33,9 +34,10 @@ InitialDeflection along_y(double at, Number displacement, Number speed = 0.0) {
 }
 
 /// A beam without weight, held at one end or at both; its height is the first variable.
-ProblemFile released(ReferenceCondition frame, std::vector<InitialDeflection> deflections) {
+ProblemFile released(ReferenceCondition frame, std::vector<InitialDeflection> deflections,
+                     int elements = 4) {
   ProblemFile problem;
-  problem.scene = swinging_beam(length, RectangleSection{width, Number::bound(0)}, 4);
+  problem.scene = swinging_beam(length, RectangleSection{width, Number::bound(0)}, elements);
   problem.scene.gravity = {0.0, 0.0, 0.0};
   if (frame == ReferenceCondition::chord) {
     Joint guide = problem.scene.joints[0];
@@ -121,11 +123,16 @@ TEST(InitialDeflections, HaveRates) {
   EXPECT_NEAR(value_at(*analysis, 1) / 1e-7, rate, 1e-4 * rate);
 }
 
-/// Along the beam, two places and the amounts follow the design; by differences of the whole.
+/// Along the beam, two places and the amounts follow the design; by differences of the whole. Between
+/// two fixed pins joints change the shape.
 TEST(InitialDeflections, HaveGradients) {
-  for (const auto frame : {ReferenceCondition::tangent, ReferenceCondition::mean_axis}) {
-    ProblemFile problem = released(frame, {along_y(length, Number::bound(1), Number::bound(2)),
+  for (const auto frame :
+       {ReferenceCondition::tangent, ReferenceCondition::mean_axis, ReferenceCondition::chord}) {
+    const bool is_stretched = frame == ReferenceCondition::chord;
+    const double outer = is_stretched ? 0.75 * length : length;
+    ProblemFile problem = released(frame, {along_y(outer, Number::bound(1), Number::bound(2)),
                                            along_y(length / 2, Number::bound(1, -0.5))});
+    if (is_stretched) problem.scene.joints[1].type = JointType::spherical;
     std::get<BeamBody>(problem.scene.bodies[0].shape).segments = {
         {RectangleSection{width, Number::bound(0)}, 2, {}}, {RectangleSection{width, 0.02}, 2, {}}};
     problem.variables.push_back({"bow", bow, 0.0, 1e-3, ""});
@@ -147,6 +154,60 @@ TEST(InitialDeflections, HaveGradients) {
       EXPECT_LE(relative_difference(direct.col(i) * x(i), difference), 1e-6) << i;
     }
   }
+}
+
+/// Between two fixed pins a bent beam is stretched: over all of its length alike. By the mean of ½ w'²
+/// of the shape of a force in the middle, w = d (3 ξ − 4 ξ³) with ξ = x/L ≤ ½: 12/5 d²/L².
+TEST(InitialDeflections, BetweenFixedPinsStretchTheWholeBeam) {
+  constexpr double d = 2e-3;
+  for (const int elements : {2, 8, 16}) {
+    ProblemFile problem = released(ReferenceCondition::chord, {along_y(0.5 * length, d)}, elements);
+    problem.scene.joints[1].type = JointType::spherical;
+    ResponseSettings axial = deflection_at(0.5, OverTime::max);
+    axial.type = ResponseType::stress;
+    axial.part = StressPart::axial;
+    ResponseSettings energy = deflection_at(0.5, OverTime::max);
+    energy.type = ResponseType::elastic_energy;
+    problem.responses = {axial, energy};
+    const auto analysis = analyze(problem, start_design(problem));
+    State start;
+    analysis->trajectory.states->load(0, start);
+    Signal& stress = *analysis->responses[0].history()->signal;
+    Eigen::VectorXd values(stress.channels());
+    stress.observe(start, values);
+    const double stretch = 2.4 * d * d / (length * length);
+    // 0.1 %: stiffening by the stretch itself bends the shape a little otherwise.
+    EXPECT_NEAR(values.maxCoeff() / (young * stretch), 1.0, 1e-3) << elements;
+    EXPECT_NEAR(values.minCoeff() / (young * stretch), 1.0, 1e-3) << elements;
+    const double inertia = width * std::pow(height, 3) / 12;
+    EXPECT_NEAR(
+        value_at(*analysis, 0, 1) / (0.5 * 48 * young * inertia / std::pow(length, 3) * d * d +
+                                     0.5 * young * width * height * length * stretch * stretch),
+        1.0, 1e-3)
+        << elements;
+    EXPECT_TRUE(test::doubts_of(problem, doubt_initial_motion).empty());
+  }
+}
+
+/// Newton's steps end in the round-off of stiffnesses whose condition grows as n⁴.
+TEST(InitialDeflections, AreFoundOnFineMeshes) {
+  for (const int elements : {32, 128}) {
+    ProblemFile problem = released(ReferenceCondition::tangent, {along_y(length, 2e-3)}, elements);
+    problem.responses = {deflection_at(0.5, OverTime::max)};
+    const auto analysis = analyze(problem, start_design(problem));
+    EXPECT_NEAR(value_at(*analysis, 0), 5.0 / 16.0 * 2e-3, 1e-7) << elements;
+  }
+}
+
+/// Joints at both ends turn the frame that is the tangent at one of them.
+TEST(InitialDeflections, AgainstATangentThatTurnsAreTold) {
+  ProblemFile problem = released(ReferenceCondition::chord, {along_y(0.5 * length, bow)});
+  std::get<BeamBody>(problem.scene.bodies[0].shape).frame = ReferenceCondition::tangent;
+  problem.responses = {deflection_at(0.5, OverTime::max)};
+  const std::vector<Doubt> doubts = test::doubts_of(problem, doubt_initial_motion);
+  ASSERT_EQ(doubts.size(), 1U);
+  EXPECT_THAT(doubts[0].text, HasSubstr("\"frame\": \"chord\""));
+  EXPECT_FALSE(doubts[0].is_serious);
 }
 
 TEST(InitialDeflections, MustBePossible) {

@@ -34,6 +34,14 @@ std::string force(double value, const std::string& direction) {
                      direction, value);
 }
 
+std::string rigid(const std::string& name, const std::string& at) {
+  return fmt::format(R"(, "{}": {{"type": "rigid", "at": {}, "mass": 1e-3,
+                                 "inertia": [1e-6, 1e-6, 1e-6, 0, 0, 0]}})",
+                     name, at);
+}
+
+const std::string space = R"("spatial_motion": "on", "geometric_stiffening": "off")";
+
 ProblemFile problem_of(const Bar& bar) {
   const std::string text = fmt::format(
       R"j({{"scene": {{
@@ -96,14 +104,12 @@ TEST(LateralBucklingResponse, OfAConstantMomentBetweenHingesIsTheClosedForm) {
          "slide": {"type": "prismatic", "bodies": ["ground", "carriage"], "at": [1.2, 0, 0],
                    "axis": [1, 0, 0]})";
   Bar bar{hinges, loads};
-  bar.bodies = R"(, "carriage": {"type": "rigid", "at": [1.2, 0, 0], "mass": 1e-3,
-                                 "inertia": [1e-6, 1e-6, 1e-6, 0, 0, 0]})";
+  bar.bodies = rigid("carriage", "[1.2, 0, 0]");
   // (2π/16)²/24 = 6.4e-3 of a whole wave of twist.
   EXPECT_NEAR(share_of(bar) / 0.4, 1.0, 8e-3);
 }
 
 TEST(LateralBucklingResponse, OfColumnsIsTheirEulerLoad) {
-  const std::string space = R"("spatial_motion": "on", "geometric_stiffening": "off")";
   const std::string slide =
       R"(, "slide": {"type": "prismatic", "bodies": ["ground", "bar"], "at": [1.2, 0, 0],
                      "axis": [1, 0, 0]})";
@@ -113,6 +119,49 @@ TEST(LateralBucklingResponse, OfColumnsIsTheirEulerLoad) {
   EXPECT_NEAR(pressed(clamp, 0.1 * euler), 0.4, 1e-4);
   EXPECT_NEAR(pressed(clamp + slide, 0.8 * euler), 0.2, 1e-4);
   EXPECT_EQ(pressed(clamp, -0.8 * euler), 0.0) << "pull";
+}
+
+/// Blocks at both ends turn with the bar: on a universal joint and a line it is a column on two pins.
+TEST(LateralBucklingResponse, OfAColumnBetweenBlocksIsByWhatHoldsTheBlocks) {
+  const std::string welds =
+      R"("a": {"type": "fixed", "bodies": ["left", "bar"], "at": [0, 0, 0]},
+         "b": {"type": "fixed", "bodies": ["bar", "right"], "at": [1.2, 0, 0]},)";
+  const std::string blocks = rigid("left", "[0, 0, 0]") + rigid("right", "[1.2, 0, 0]");
+  const auto pressed = [&](const std::string& joints) {
+    Bar bar{welds + joints, force(0.5 * euler, "[-1, 0, 0]"), space};
+    bar.bodies = blocks;
+    return share_of(bar);
+  };
+  const std::string line = R"("l": {"type": "point-on-line", "bodies": ["ground", "right"],
+                                    "at": [1.2, 0, 0], "axis": [1, 0, 0]})";
+  EXPECT_NEAR(pressed(R"("u": {"type": "universal", "bodies": ["ground", "left"], "at": [0, 0, 0],
+                               "axis": [0, 0, 1], "second_axis": [0, 1, 0]},)" +
+                      line),
+              0.5, 1e-4);
+  // A block that is welded to the wall clamps: a clamped and a pinned end, 20.19 EI/L².
+  EXPECT_NEAR(
+      pressed(R"("u": {"type": "fixed", "bodies": ["ground", "left"], "at": [0, 0, 0]},)" + line),
+      0.5 * pi * pi / 20.1907, 1e-4);
+}
+
+/// What hangs on the tip of a column holds nothing, however it hangs there.
+TEST(LateralBucklingResponse, OfAColumnIsNotChangedByWhatItsTipCarries) {
+  const std::string pod =
+      R"(, "p": {"type": "fixed", "bodies": ["bar", "pod"], "at": [1.2, 0, 0]})";
+  const std::string payload =
+      R"(, "q": {"type": "spherical", "bodies": ["pod", "payload"], "at": [1.2, 0, 0]})";
+  Bar bar{clamp + pod + payload, force(0.1 * euler, "[-1, 0, 0]"), space};
+  bar.bodies = rigid("pod", "[1.2, 0, 0]") +
+               R"(, "payload": {"type": "point-mass", "at": [1.2, 0, 0], "mass": 1e-3})";
+  EXPECT_NEAR(share_of(bar), 0.4, 1e-4);
+}
+
+/// A line across both axes of the section holds neither alone: the tip is free to go along it.
+TEST(LateralBucklingResponse, OfAColumnOnALineAcrossItIsThatOfAFreeTip) {
+  const Bar bar{clamp + R"(, "l": {"type": "point-on-line", "bodies": ["ground", "bar"],
+                                   "at": [1.2, 0, 0], "axis": [0, 1, 1]})",
+                force(0.1 * euler, "[-1, 0, 0]"), space};
+  EXPECT_NEAR(share_of(bar), 0.4, 1e-4);
 }
 
 /// The gradient of nothing is nothing.

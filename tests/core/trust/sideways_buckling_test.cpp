@@ -119,6 +119,61 @@ TEST(SidewaysBuckling, OfAColumnInASlideIsThatOfTwoClampedEnds) {
   EXPECT_EQ(pressed(0.9), 1u);
 }
 
+/// First a force at the tip far below the critical one, then a smaller moment, along all of the arm:
+/// over half of π √(EI GJ)/L it is critical.
+TEST(SidewaysBuckling, IsLookedForAtEveryInstant) {
+  const double cube = 0.04 * std::pow(0.002, 3);
+  const double moment =
+      0.5 * pi / 1.2 * std::sqrt(young * cube / 12 * shear * cube / 3 * (1 - 0.63 * 0.05));
+  const double force = 0.72 * critical_force();
+  ASSERT_LT(0.9 * moment, 1.2 * force);
+  std::string text = cantilever(force, thin, R"({"geometric_stiffening": "off"})");
+  const auto put = [&](const std::string& old, const std::string& with) {
+    text.replace(text.find(old), old.size(), with);
+  };
+  put(fmt::format("\"value\": {}", force),
+      fmt::format(R"("value": {{"type": "table", "times": [0, 1, 2], "values": [{}, 0, 0]}})",
+                  force));
+  put("\"loads\": {", fmt::format(R"("loads": {{"m": {{"type": "torque", "body": "arm",
+      "at": [1.2, 0, 0], "direction": [0, 0, -1],
+      "value": {{"type": "table", "times": [0, 1, 2], "values": [0, 0, {}]}}}},)",
+                                  0.9 * moment));
+  // So slow that the arm follows: its first frequency across is 1.1 Hz.
+  put("\"end_time\": 0.002, \"step\": 0.001", "\"end_time\": 2, \"step\": 0.01");
+  const std::vector<Doubt> doubts = sideways_doubts_of(text);
+  ASSERT_EQ(doubts.size(), 1u);
+  EXPECT_NE(doubts[0].text.find("at t = 2 s"), std::string::npos) << doubts[0].text;
+}
+
+/// A square bar between hinges is a column on two pins in the plane of motion, where it stays
+/// straight, and a clamped one out of it.
+TEST(SidewaysBuckling, OfAStraightStrutInThePlaneOfItsHingesIsTold) {
+  const double critical = pi * pi * young * std::pow(0.01, 4) / 12 / (1.2 * 1.2);
+  for (const char* effects : {"{}", R"({"spatial_motion": "on"})"}) {
+    const auto pressed = [&](double share) {
+      std::string text = cantilever(
+          share * critical, R"({"type": "rectangle", "width": 0.01, "height": 0.01})", effects);
+      const auto put = [&](const std::string& old, const std::string& with) {
+        text.replace(text.find(old), old.size(), with);
+      };
+      put("[0, -1, 0]", "[-1, 0, 0]");
+      put(R"("initial_state": "quasi-static")", R"("initial_state": "consistent")");
+      put(R"("c": {"type": "fixed", "bodies": ["ground", "arm"], "at": [0, 0, 0]})",
+          R"("c": {"type": "revolute", "bodies": ["ground", "arm"], "at": [0, 0, 0],
+                   "axis": [0, 0, 1]},
+             "l": {"type": "point-on-line", "bodies": ["ground", "arm"], "at": [1.2, 0, 0],
+                   "axis": [1, 0, 0]})");
+      return sideways_doubts_of(text);
+    };
+    EXPECT_TRUE(pressed(0.4).empty()) << effects;
+    const std::vector<Doubt> doubts = pressed(1.2);
+    ASSERT_EQ(doubts.size(), 1u) << effects;
+    EXPECT_TRUE(doubts[0].is_serious);
+    EXPECT_NE(doubts[0].text.find("along local y"), std::string::npos) << doubts[0].text;
+    EXPECT_NE(doubts[0].text.find("straight stays so"), std::string::npos) << doubts[0].text;
+  }
+}
+
 /// However many frames it has, and whether their stretches share its elements or divide them.
 TEST(SidewaysBuckling, OfADividedBeamIsThatOfTheWhole) {
   for (const char* frames : {R"(, "frames": 2)", R"(, "frames": 12)"}) {
