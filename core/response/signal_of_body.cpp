@@ -163,7 +163,7 @@ class BodySignalMaker {
     if (!signal) {
       fail(
           fmt::format("the joints of \"{}\" let it move as a whole out of the plane in which it "
-                      "bends",
+                      "bends; springs, loads and bodies that it carries hold nothing",
                       body_.name));
     }
     return signal;
