@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <set>
 
@@ -12,7 +11,7 @@
 
 #include "core/base/error.hpp"
 #include "core/model/attachment.hpp"
-#include "core/model/stiffening_builder.hpp"
+#include "core/model/elastic_forces.hpp"
 
 namespace pleuel {
 
@@ -25,20 +24,6 @@ using Eigen::VectorXd;
 constexpr double stalled_step = 1e-6;
 /// Where places are held in the assembly they weigh as much as so many times the stiffest coordinate.
 constexpr double held_place = 1e3;
-using SparseColumns = Eigen::SparseMatrix<double>;
-
-SparseColumns stiffness_of(const Invariants<double>& invariants) {
-  const ElasticPattern& pattern = invariants.pattern;
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int row = 0; row < pattern.size; ++row) {
-    for (int k = pattern.row_start[row]; k < pattern.row_start[row + 1]; ++k) {
-      entries.emplace_back(row, pattern.column[k], invariants.stiffness(k));
-    }
-  }
-  SparseColumns matrix(pattern.size, pattern.size);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
-}
 
 /// What the file gives: a row each, and the displacements and rates along them.
 struct Given {
@@ -46,76 +31,11 @@ struct Given {
   MatrixXd measures;  ///< d, ḋ: places × 2
 };
 
-/// Elastic forces of a body against its frame, with their derivatives; elastic coordinates alone.
-class ElasticForces {
- public:
-  /// @param size  of the state of the mechanism
-  ElasticForces(const BodyModel& model, const State& size)
-      : model_(model), linear_(stiffness_of(model.invariants)), state_(size) {
-    state_.q.setZero();
-    state_.v.setZero();
-    if (!model.has_stiffening) return;
-    stiffening_ = make_stiffening(model);
-    stiffening_->declare_entries(places_);
-  }
-
-  const SparseColumns& linear() const { return linear_; }
-  void set(const VectorXd& q) { state_.q.segment(model_.elastic_offset(), q.size()) = q; }
-
-  VectorXd forces() {
-    const VectorXd q = elastic(state_.q);
-    VectorXd sum = linear_ * q;
-    if (!stiffening_) return sum;
-    VectorXd residual = VectorXd::Zero(state_.q.size() + state_.lambda.size());
-    stiffening_->add_residual(state_, ConstraintLevel::position, residual);
-    return sum + elastic(residual);
-  }
-
-  SparseColumns tangent() {
-    if (!stiffening_) return linear_;
-    VectorXd values(static_cast<Eigen::Index>(places_.size()));
-    stiffening_->write_tangent(state_, {.q = 1.0}, ConstraintLevel::position, values.data());
-    std::vector<Eigen::Triplet<double>> entries;
-    for (std::size_t k = 0; k < places_.size(); ++k) {
-      entries.emplace_back(places_[k].first - model_.elastic_offset(),
-                           places_[k].second - model_.elastic_offset(),
-                           values(static_cast<Eigen::Index>(k)));
-    }
-    SparseColumns matrix(linear_.rows(), linear_.cols());
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    return linear_ + matrix;
-  }
-
-  /// By all design variables, at fixed coordinates: n × variables.
-  MatrixXd design_derivatives(int variables) {
-    MatrixXd columns = MatrixXd::Zero(state_.q.size() + state_.lambda.size(), variables);
-    if (stiffening_) {
-      stiffening_->add_design_derivative(state_, ConstraintLevel::position, columns);
-    }
-    MatrixXd sum = columns.middleRows(model_.elastic_offset(), model_.elastic_size());
-    const VectorXd q = elastic(state_.q);
-    for (const auto& [variable, change] : model_.invariants_x) {
-      sum.col(variable) += stiffness_of(change) * q;
-    }
-    return sum;
-  }
-
- private:
-  VectorXd elastic(const VectorXd& all) const {
-    return all.segment(model_.elastic_offset(), model_.elastic_size());
-  }
-
-  const BodyModel& model_;
-  SparseColumns linear_;
-  State state_;
-  std::unique_ptr<Term> stiffening_;
-  EntryList places_;
-};
-
 /// Solves  A x − Sᵀ μ = f,  S x = d  for several right-hand sides.
 class HeldShape {
  public:
-  HeldShape(const SparseColumns& matrix, const MatrixXd& rows) : rows_(rows), factors_(matrix) {
+  HeldShape(const Eigen::SparseMatrix<double>& matrix, const MatrixXd& rows)
+      : rows_(rows), factors_(matrix) {
     by_pull_ = factors_.solve(MatrixXd(rows.transpose()));
     compliance_.compute(rows * by_pull_);
   }
@@ -133,7 +53,7 @@ class HeldShape {
 
  private:
   MatrixXd rows_;
-  Eigen::SimplicialLDLT<SparseColumns> factors_;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
   MatrixXd by_pull_;
   Eigen::LDLT<MatrixXd> compliance_;
 };
