@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -21,7 +19,7 @@ constexpr double near_critical = 0.75;
 /// can buckle: a free end under a constant moment takes half of that of supported ends, a free
 /// column a quarter.
 constexpr double harmless_load = 0.05;
-/// A member is straight whose moments are what its axial force makes of this share of its length.
+/// A member is straight whose moments are less than its Euler load makes of this share of its length.
 constexpr double straight_offset = 1e-6;
 
 double largest_moment(const PlaneLoad& load) {
@@ -41,8 +39,7 @@ class SidewaysBuckling {
   enum class Way { out_of_plane, in_plane };
 
   SidewaysBuckling(const TrustedRun& run, const BodyModel& part, BendingPlane plane, Way way)
-      : run_(run),
-        name_(part.name),
+      : name_(part.name),
         is_planar_(part.frame.rotation == RotationCoordinates::angle),
         way_(way),
         plane_(way == Way::out_of_plane ? plane : other_plane(plane)),
@@ -67,48 +64,47 @@ class SidewaysBuckling {
     moments_matter_ = way == Way::out_of_plane && !is_equal;
   }
 
-  std::optional<Doubt> find() {
-    find_worst();
-    if (share_ <= near_critical) return std::nullopt;
-    if (way_ == Way::in_plane && !is_straight_) return std::nullopt;
+  /// Looks at an instant: keeps that of the largest share, if it is worth a word.
+  void see(const State& state, double time) {
+    if (!may_buckle_) return;
+    PlaneLoad load = observed_.observe(state);
+    if (way_ == Way::in_plane) {
+      may_buckle_ = largest_moment(load) <= straight_offset * length_ * euler_load();
+      load.bottomRows<2>().setZero();
+    }
+    if (!may_buckle_ || most_share(load) <= share_) return;
+    may_buckle_ = judged_.buckling().is_held();
+    const double share = may_buckle_ ? judged_.buckling().share(load, share_) : 0.0;
+    if (share <= share_) return;
+    share_ = share;
+    load_ = load;
+    time_ = time;
+  }
+
+  /// 0: nothing is worth a word.
+  double share() const { return may_buckle_ && share_ > near_critical ? share_ : 0.0; }
+
+  /// @pre share() > 0
+  Doubt doubt() {
     PlaneLoad pressed = load_;
     pressed.bottomRows<2>().setZero();
     return doubt(1.0 / share_, share_ > 1.01 * judged_.buckling().share(pressed));
   }
 
-  double share() const { return share_; }
-
  private:
-  /// The instant of the largest share, if that is worth a word.
-  void find_worst() {
-    State state;
-    for (Eigen::Index i = 0; i < run_.analysis.trajectory.time.size(); ++i) {
-      run_.analysis.trajectory.states->load(static_cast<int>(i), state);
-      PlaneLoad load = observed_.observe(state);
-      if (way_ == Way::in_plane) {
-        const double offset = straight_offset * length_ * largest_press(load);
-        is_straight_ = is_straight_ && largest_moment(load) <= offset;
-        if (!is_straight_) return;
-        load.bottomRows<2>().setZero();
-      }
-      if (most_share(load) <= share_) continue;
-      if (!judged_.buckling().is_held()) return;
-      const double share = judged_.buckling().share(load, share_);
-      if (share <= share_) continue;
-      share_ = share;
-      load_ = load;
-      time_ = run_.analysis.trajectory.time(i);
-    }
-  }
-
   /// No share is larger: 1/s of b² s² + p s = harmless_load.
   double most_share(const PlaneLoad& load) const {
     const double pi = std::numbers::pi;
     const double moment = pi * std::sqrt(lateral_ * twisting_) / length_;
-    const double press = pi * pi * lateral_ / (length_ * length_);
     const double b = moments_matter_ ? largest_moment(load) / moment : 0.0;
-    const double p = largest_press(load) / press;
+    const double p = largest_press(load) / euler_load();
     return (p + std::sqrt(p * p + 4.0 * b * b * harmless_load)) / (2.0 * harmless_load);
+  }
+
+  /// Of two pins.
+  double euler_load() const {
+    const double pi = std::numbers::pi;
+    return pi * pi * lateral_ / (length_ * length_);
   }
 
   /// What restrained warping could add at most: flanges that hold all of the lateral stiffness, at
@@ -125,8 +121,7 @@ class SidewaysBuckling {
     const double moment = largest_moment(load_), press = largest_press(load_);
     std::string what;
     if (is_bent) what = fmt::format("a bending moment of {:.3g} N m", moment);
-    const double pi = std::numbers::pi;
-    if (press > 1e-3 * pi * pi * lateral_ / (length_ * length_)) {
+    if (press > 1e-3 * euler_load()) {
       what += fmt::format("{}a pressing force of {:.3g} N", is_bent ? " and " : "", press);
     }
     const bool is_beyond = factor * (is_bent ? warping() : 1.0) < 1.0;
@@ -148,46 +143,51 @@ class SidewaysBuckling {
             is_beyond && !is_bent};
   }
 
-  const TrustedRun& run_;
   std::string name_;
   bool is_planar_;
   Way way_;
   BendingPlane plane_;  ///< out of which it buckles
   LateralMember observed_, judged_;
-  bool moments_matter_ = true, is_straight_ = true;
+  bool moments_matter_ = true;
+  bool may_buckle_ = true;  ///< it is held, and in its plane it stays straight
   double length_ = 0.0, lateral_ = 0.0, twisting_ = 0.0, depth_ = 0.0;
   double share_ = near_critical, time_ = 0.0;
   PlaneLoad load_;
 };
 
-/// Of the ways in which a member may buckle that with the largest share.
-std::optional<Doubt> doubt_member(const TrustedRun& run, const BodyModel& part) {
+/// The ways in which a member may buckle.
+std::vector<SidewaysBuckling> ways_of(const TrustedRun& run, const BodyModel& part) {
   using Way = SidewaysBuckling::Way;
   const std::vector<BendingPlane> planes = bending_planes(part);
-  std::vector<std::pair<BendingPlane, Way>> ways;
-  for (const BendingPlane plane : planes) ways.emplace_back(plane, Way::out_of_plane);
-  if (planes.size() == 1) ways.emplace_back(planes.front(), Way::in_plane);
-  std::optional<Doubt> worst;
-  double share = 0.0;
-  for (const auto& [plane, way] : ways) {
-    SidewaysBuckling member(run, part, plane, way);
-    std::optional<Doubt> doubt = member.find();
-    if (!doubt || member.share() <= share) continue;
-    share = member.share();
-    worst = std::move(doubt);
-  }
-  return worst;
+  std::vector<SidewaysBuckling> ways;
+  for (const BendingPlane plane : planes) ways.emplace_back(run, part, plane, Way::out_of_plane);
+  if (planes.size() == 1) ways.emplace_back(run, part, planes.front(), Way::in_plane);
+  return ways;
 }
 
 }  // namespace
 
 std::vector<Doubt> doubt_sideways_buckling(const TrustedRun& run) {
-  std::vector<Doubt> doubts;
+  std::vector<std::vector<SidewaysBuckling>> members;
   for (const Body& body : run.problem.scene.bodies) {
     if (!std::holds_alternative<BeamBody>(body.shape)) continue;
     const BodyModel& part = *run.analysis.model.parts(body.name).front();
-    if (!part.is_elastic) continue;
-    if (std::optional<Doubt> doubt = doubt_member(run, part)) doubts.push_back(std::move(*doubt));
+    if (part.is_elastic) members.push_back(ways_of(run, part));
+  }
+  if (members.empty()) return {};
+  State state;
+  for (Eigen::Index i = 0; i < run.analysis.trajectory.time.size(); ++i) {
+    run.analysis.trajectory.states->load(static_cast<int>(i), state);
+    for (auto& ways : members) {
+      for (SidewaysBuckling& way : ways) way.see(state, run.analysis.trajectory.time(i));
+    }
+  }
+  std::vector<Doubt> doubts;
+  for (auto& ways : members) {
+    auto worst = std::max_element(ways.begin(), ways.end(), [](const auto& one, const auto& other) {
+      return one.share() < other.share();
+    });
+    if (worst->share() > 0.0) doubts.push_back(worst->doubt());
   }
   return doubts;
 }
