@@ -5,14 +5,13 @@
 #include <optional>
 #include <utility>
 
-#include "core/base/parallel.hpp"
 #include "core/base/tasks.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/packed_problem.hpp"
 #include "optimization/design/design_problem.hpp"
-#include "optimization/design/design_solve.hpp"
 #include "optimization/packed_options.hpp"
 #include "optimization/packed_result.hpp"
+#include "studies/sized_search.hpp"
 
 namespace pleuel {
 
@@ -51,9 +50,10 @@ struct EndWork : TaskWork {
     RemoteStore store(caller);
     ProblemFile file = files[task];
     start_from(starts[task], file.variables);
-    DesignProblem design(file, available_threads(), has_store ? &store : nullptr);
+    SizedDesign best = search_with_sizes(file, options, has_store ? &store : nullptr);
+    DesignProblem& design = *best.problem;
     FrontEnd end;
-    end.result = solve_design(design, options);
+    end.result = std::move(best.result);
     if (end.result.evaluation.has_gradients()) {
       for (std::size_t i = 0; i < 2; ++i) {
         const std::size_t response = design.response_index(file.pareto->goals[i].response);

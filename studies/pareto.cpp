@@ -1,7 +1,6 @@
 #include "studies/pareto.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -10,192 +9,14 @@
 #include "core/base/error.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/stop.hpp"
-#include "core/base/tasks.hpp"
 #include "core/scene/case_goals.hpp"
-#include "core/scene/packed_problem.hpp"
 #include "optimization/design/design_problem.hpp"
-#include "optimization/design/design_solve.hpp"
-#include "optimization/packed_options.hpp"
-#include "optimization/packed_result.hpp"
+#include "optimization/design/size_choice.hpp"
+#include "studies/choice_front.hpp"
 #include "studies/front_ends.hpp"
+#include "studies/varied_limit.hpp"
 
 namespace pleuel {
-
-namespace {
-
-/// Of a limit that holds in several load cases all its constraints, else one.
-std::vector<std::size_t> varied_rows(const ProblemFile& problem) {
-  std::vector<std::size_t> rows = constraints_of_limit(problem, problem.pareto->constraint);
-  if (rows.empty()) throw InputError("/pareto/constraint names no constraint");
-  return rows;
-}
-
-void set_limit(ProblemFile& problem, double limit) {
-  for (const std::size_t row : varied_rows(problem)) {
-    ConstraintSettings& constraint = problem.constraints[row];
-    (constraint.upper ? constraint.upper : constraint.lower) = limit;
-  }
-}
-
-/// The value that is the nearest to the limit, or the furthest beyond.
-double limited_value(const ProblemFile& problem, const Eigen::VectorXd& constraints) {
-  std::optional<double> worst;
-  for (const std::size_t row : varied_rows(problem)) {
-    const double value = constraints(static_cast<Eigen::Index>(row));
-    const bool is_upper = problem.constraints[row].upper.has_value();
-    if (!worst || (is_upper ? value > *worst : value < *worst)) worst = value;
-  }
-  return *worst;
-}
-
-/// Of all constraints of the limit together, which moves in all of them.
-double multiplier_of_limit(const ProblemFile& problem, const Eigen::VectorXd& multipliers) {
-  double sum = 0.0;
-  for (const std::size_t row : varied_rows(problem)) {
-    sum += multipliers(static_cast<Eigen::Index>(row));
-  }
-  return sum;
-}
-
-bool dominates(const ParetoPoint& one, const ParetoPoint& other, GoodSide side) {
-  const double sign = side == GoodSide::low ? 1.0 : -1.0;
-  const double gain = other.result.evaluation.objective - one.result.evaluation.objective;
-  const double limited_gain = sign * (other.limited_value - one.limited_value);
-  const double least = optimum_resolution * std::abs(one.result.evaluation.objective);
-  const double least_limited = optimum_resolution * std::abs(one.limited_value);
-  return gain >= -least && limited_gain >= -least_limited &&
-         (gain > least || limited_gain > least_limited);
-}
-
-/// A point as an answer of a task, with the design that its search began at.
-struct FoundPoint {
-  Eigen::VectorXd start;
-  ParetoPoint point;
-
-  /// Where the search for a neighbour begins.
-  const Eigen::VectorXd& next_start() const {
-    return point.keeps_limits() ? point.result.x : start;
-  }
-};
-
-template <class Archive>
-void transfer(Archive& archive, FoundPoint& found) {
-  auto& [start, point] = found;
-  auto& [limit, limited_value, multiplier, is_dominated, is_end, result] = point;
-  archive(start, limit, limited_value, multiplier, is_dominated, is_end, result);
-}
-
-/// A point a task.
-struct PointWork : TaskWork {
-  ProblemFile problem;
-  std::vector<FoundPoint> ends;  ///< that are known, or none
-  std::vector<double> limits;    ///< in the order of tasks
-  SolveOptions options;
-  bool has_store = false;
-
-  std::string run(int task, const std::string& needed, TaskCaller& caller) override {
-    if (static_cast<std::size_t>(task) < ends.size()) return packed(ends[task]);
-    RemoteStore store(caller);
-    FoundPoint found;
-    found.start =
-        needed.empty() ? start_design(problem) : unpacked<FoundPoint>(needed).next_start();
-    ProblemFile varied = problem;
-    set_limit(varied, limits[task]);
-    start_from(found.start, varied.variables);
-    DesignProblem design(varied, available_threads(), has_store ? &store : nullptr);
-    found.point.limit = limits[task];
-    found.point.result = solve_design(design, options);
-    if (found.point.has_design()) {
-      const Result& result = found.point.result;
-      found.point.limited_value = limited_value(varied, result.evaluation.constraints);
-      found.point.multiplier = multiplier_of_limit(varied, result.constraint_multipliers);
-    }
-    return packed(found);
-  }
-};
-
-class Front : public Tasks {
- public:
-  /// @param ends  that are known, or none
-  Front(const ProblemFile& problem, std::vector<FoundPoint> ends, const SolveOptions& options,
-        const Execution& execution, const ParetoObserver& observer)
-      : execution_(execution),
-        observer_(observer),
-        order_(pareto_order(problem.pareto->points)),
-        points_(order_.points.size()) {
-    work_.problem = problem;
-    work_.ends = std::move(ends);
-    for (int task = 0; task < count(); ++task) work_.limits.push_back(limit(task));
-    work_.options = options;
-    work_.has_store = execution.store != nullptr;
-  }
-
-  int count() const override { return static_cast<int>(order_.points.size()); }
-
-  std::optional<int> needed_by(int task) const override { return order_.from[task]; }
-
-  PackedWork packed_work() const override {
-    return {point_work_name,
-            packed(work_.problem, work_.ends, work_.limits, work_.options, work_.has_store)};
-  }
-
-  std::string run(int task, const std::string& needed, TaskCaller& caller) override {
-    return work_.run(task, needed, caller);
-  }
-
-  std::string reply(int /*task*/, const std::string& question) override {
-    return reply_of(*execution_.store, question);
-  }
-
-  void take(int task, const std::string& answer) override {
-    add(task, unpacked<FoundPoint>(answer).point);
-  }
-
-  void fail(int task, const std::string& failure) override {
-    ParetoPoint point;
-    point.limit = limit(task);
-    point.result.message = "the search was lost: " + failure;
-    point.result.x = start_design(work_.problem);
-    add(task, std::move(point));
-  }
-
-  /// Those that were found, in the order of limits.
-  std::vector<ParetoPoint> take_points() {
-    std::vector<ParetoPoint> found;
-    for (std::optional<ParetoPoint>& point : points_) {
-      if (point) found.push_back(std::move(*point));
-    }
-    return found;
-  }
-
- private:
-  std::size_t number(int task) const { return static_cast<std::size_t>(order_.points[task]); }
-
-  double limit(int task) const {
-    const ParetoSettings& settings = *work_.problem.pareto;
-    return std::lerp(settings.from, settings.to,
-                     static_cast<double>(number(task)) / std::max(settings.points - 1, 1));
-  }
-
-  void add(int task, ParetoPoint point) {
-    if (observer_) observer_(point);
-    points_[number(task)] = std::move(point);
-  }
-
-  PointWork work_;
-  const Execution& execution_;
-  const ParetoObserver& observer_;
-  ParetoOrder order_;
-  std::vector<std::optional<ParetoPoint>> points_;  ///< by their number on the front
-};
-
-}  // namespace
-
-std::unique_ptr<TaskWork> make_point_work(const std::string& content) {
-  auto work = std::make_unique<PointWork>();
-  unpack(content, work->problem, work->ends, work->limits, work->options, work->has_store);
-  return work;
-}
 
 ParetoOrder pareto_order(int points) {
   ParetoOrder order;
@@ -219,21 +40,6 @@ ParetoOrder pareto_order(int points) {
     }
   }
   return order;
-}
-
-bool ParetoPoint::keeps_limits() const {
-  if (result.max_violation > Tolerances().violation) return false;
-  return result.status == Status::verified || result.status == Status::unresolved ||
-         result.status == Status::stalled;
-}
-
-void mark_dominated(std::vector<ParetoPoint>& points, GoodSide side) {
-  for (ParetoPoint& point : points) {
-    if (!point.keeps_limits()) continue;
-    point.is_dominated = std::any_of(points.begin(), points.end(), [&](const ParetoPoint& other) {
-      return other.keeps_limits() && dominates(other, point, side);
-    });
-  }
 }
 
 namespace {
@@ -270,6 +76,7 @@ FoundPoint point_of(const FrontEnd& end, const ProblemFile& problem, const Execu
   found.start = end.result.x;
   ParetoPoint& point = found.point;
   point.is_end = true;
+  point.is_choice = has_choices(problem);
   point.result = end.result;
   point.limit = point.limited_value = end.values[1];
   if (!point.has_design()) return found;
@@ -283,20 +90,98 @@ FoundPoint point_of(const FrontEnd& end, const ProblemFile& problem, const Execu
   return found;
 }
 
-std::vector<ParetoPoint> points_of(Front& front, const Execution& execution) {
-  try {
-    run_tasks(front, execution.tasks);
-    return front.take_points();
-  } catch (const Stopped&) {
-    std::vector<ParetoPoint> points = front.take_points();
-    if (points.empty()) throw;
+/// The front as it grows.
+class Front {
+ public:
+  Front(const ProblemFile& problem, const SolveOptions& options, const Execution& execution,
+        const ParetoObserver& observer)
+      : problem_(problem),
+        settings_(*problem.pareto),
+        side_(good_side(problem)),
+        options_(options),
+        execution_(execution),
+        observer_(observer) {}
+
+  /// @param ends  that are known, or none
+  ParetoFront run(std::vector<FoundPoint> ends) {
+    bool is_whole = search(first_searches(std::move(ends)));
+    ParetoFront front;
+    while (is_whole && settings_.gap > 0.0) {
+      const int room = settings_.most_points - static_cast<int>(found_.size());
+      front.gaps = find_front_gaps(points(), side_, settings_.gap, std::max(room, 0));
+      if (front.gaps.probes.empty()) break;
+      is_whole = search(next_searches(front.gaps.probes));
+    }
+    front.points = points();
+    front.is_whole = is_whole;
+    return front;
+  }
+
+ private:
+  /// At equal steps of the limit.
+  std::vector<PointSearch> first_searches(std::vector<FoundPoint> ends) const {
+    const ParetoOrder order = pareto_order(settings_.points);
+    std::vector<PointSearch> searches;
+    for (std::size_t i = 0; i < order.points.size(); ++i) {
+      const double share = static_cast<double>(order.points[i]) / std::max(settings_.points - 1, 1);
+      searches.push_back({std::lerp(settings_.from, settings_.to, share), order.from[i]});
+      if (i < ends.size()) searches[i].known = std::move(ends[i]);
+    }
+    return searches;
+  }
+
+  std::vector<PointSearch> next_searches(const std::vector<FrontProbe>& probes) const {
+    std::vector<PointSearch> searches;
+    for (const FrontProbe& probe : probes) {
+      searches.push_back({probe.limit, std::nullopt, found_[probe.from].next_start(),
+                          found_[probe.other].next_start()});
+    }
+    return searches;
+  }
+
+  /// Keeps the order of limits.
+  /// @returns whether no stop was asked for
+  bool search(const std::vector<PointSearch>& searches) {
+    FoundPoints news = search_points(problem_, searches, options_, execution_, observer_);
+    for (FoundPoint& one : news.points) found_.push_back(std::move(one));
+    const bool is_falling = settings_.to < settings_.from;
+    std::stable_sort(found_.begin(), found_.end(), [&](const FoundPoint& a, const FoundPoint& b) {
+      return is_falling ? a.point.limit > b.point.limit : a.point.limit < b.point.limit;
+    });
+    if (found_.empty()) throw Stopped();
+    return news.is_whole;
+  }
+
+  std::vector<ParetoPoint> points() const {
+    std::vector<ParetoPoint> points;
+    for (const FoundPoint& one : found_) points.push_back(one.point);
+    mark_dominated(points, side_);
     return points;
   }
+
+  const ProblemFile& problem_;
+  const ParetoSettings& settings_;
+  const GoodSide side_;
+  const SolveOptions& options_;
+  const Execution& execution_;
+  const ParetoObserver& observer_;
+  std::vector<FoundPoint> found_;  ///< by limit
+};
+
+/// What there is where nothing is to be traded, or an end was not found.
+ParetoFront front_of_ends(std::vector<FoundPoint> ends, const ParetoObserver& observer) {
+  if (ends[0].point.has_design() && ends[1].point.has_design()) ends.pop_back();
+  ParetoFront front;
+  for (FoundPoint& end : ends) {
+    if (observer) observer(end.point);
+    front.points.push_back(std::move(end.point));
+  }
+  return front;
 }
 
 /// Between two responses; one point if there is nothing to trade.
-std::vector<ParetoPoint> front_between(ProblemFile problem, const SolveOptions& options,
-                                       const Execution& execution, const ParetoObserver& observer) {
+ParetoFront front_between(ProblemFile problem, const SolveOptions& options,
+                          const Execution& execution, const ParetoObserver& observer) {
   ProblemFile file = problem;
   remove_limit(file, file.pareto->constraint);
   std::vector<FoundPoint> ends;
@@ -309,34 +194,26 @@ std::vector<ParetoPoint> front_between(ProblemFile problem, const SolveOptions& 
   const bool has_ends = ends[0].point.has_design() && ends[1].point.has_design();
   const double length = std::abs(settings.to - settings.from);
   if (!has_ends || length <= optimum_resolution * std::abs(settings.from)) {
-    if (has_ends) ends.pop_back();
-    std::vector<ParetoPoint> points;
-    for (FoundPoint& end : ends) {
-      if (observer) observer(end.point);
-      points.push_back(std::move(end.point));
-    }
-    return points;
+    return front_of_ends(std::move(ends), observer);
   }
-  Front front(problem, std::move(ends), options, execution, observer);
-  return points_of(front, execution);
+  return Front(problem, options, execution, observer).run(std::move(ends));
 }
 
 }  // namespace
 
-std::vector<ParetoPoint> pareto_front(const ProblemFile& problem, const SolveOptions& options,
-                                      const Execution& execution, const ParetoObserver& observer) {
+ParetoFront pareto_front(const ProblemFile& problem, const SolveOptions& options,
+                         const Execution& execution, const ParetoObserver& observer) {
   if (!problem.pareto) throw InputError("/pareto is missing: it says which limit to vary");
   DesignProblem{problem};  // says what is missing
-  std::vector<ParetoPoint> points;
-  if (problem.pareto->goals.empty()) {
-    Front front(problem, {}, options, execution, observer);
-    points = points_of(front, execution);
-  } else {
-    points = front_between(problem, options, execution, observer);
+  if (is_enumerable(problem)) return choice_front(problem, options, execution, observer);
+  if (has_choices(problem) && problem.pareto->gap > 0.0) {
+    throw InputError(
+        "/pareto/gap: a front of sizes from lists has only the points that \"points\" asks for, "
+        "unless "
+        "all choices can be simulated (at most 300 of them, and no other variables)");
   }
-  const ConstraintSettings& varied = problem.constraints[varied_rows(problem).front()];
-  mark_dominated(points, varied.upper ? GoodSide::low : GoodSide::high);
-  return points;
+  if (!problem.pareto->goals.empty()) return front_between(problem, options, execution, observer);
+  return Front(problem, options, execution, observer).run({});
 }
 
 }  // namespace pleuel

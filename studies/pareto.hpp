@@ -1,45 +1,29 @@
 #pragma once
 
-#include <functional>
-#include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/scene/problem_file.hpp"
 #include "optimization/evaluation_store.hpp"
-#include "optimization/prices.hpp"
 #include "optimization/solve.hpp"
+#include "studies/front_gaps.hpp"
+#include "studies/pareto_point.hpp"
+#include "studies/point_searches.hpp"
 
 namespace pleuel {
 
-/// The best design for one value of the limit that is varied.
-struct ParetoPoint {
-  double limit = 0.0;  ///< [SI]
-  /// Of the constraint whose limit is varied [SI]; of several load cases the worst.
-  double limited_value = 0.0;
-  /// Of that constraint: d(objective)/d(limit) = −multiplier. Only where has_prices(result).
-  double multiplier = 0.0;
-  bool is_dominated = false;  ///< another point is better in one goal and no worse in the other
-  bool is_end = false;        ///< the best design for one of two responses; it has no multiplier
-  Result result;
-
-  bool has_design() const { return result.evaluation.has_gradients(); }
-  /// Whether its search came to a design within the limits.
-  bool keeps_limits() const;
-  bool has_multiplier() const { return !is_end && has_prices(result); }
+/// Of sizes from lists, where all choices were simulated.
+struct ChoiceCounts {
+  int all = 0, failed = 0;  ///< failed: could not be simulated
+  int feasible = 0;         ///< keep the limits other than the one that is varied
 };
 
-/// Which limited values are good: those below an upper limit, or above a lower one.
-enum class GoodSide { low, high };
-
-/// Marks each point for which another one is better in one goal, by more than 1e-4 relative, and
-/// not worse in the other. Points that break limits or have no design neither dominate nor are
-/// dominated.
-void mark_dominated(std::vector<ParetoPoint>& points, GoodSide side);
-
-/// Sees each point as it is found; dominance is known only at the end.
-using ParetoObserver = std::function<void(const ParetoPoint&)>;
+struct ParetoFront {
+  std::vector<ParetoPoint> points;  ///< in the order of limits
+  FrontGaps gaps;                   ///< of a front that was asked for a gap
+  std::optional<ChoiceCounts> choices;
+  bool is_whole = true;  ///< no stop was asked for before its end
+};
 
 /// The order in which points are found, and the one that each begins at: ends first, then the middle
 /// of each gap from the nearer end of it.
@@ -63,16 +47,16 @@ ProblemFile trade_off_problem(ProblemFile problem);
 /// like any optimum. Between two responses the ends are found first: the best design for each of
 /// them, and of equally good ones (to 10⁻⁴ of their value) the best for the other; the limit on the second
 /// goes from one to the other. Where both ends are the same there is one point: nothing is to be traded.
+/// With a `gap` more points come between neighbours that are further apart (front_gaps.hpp), in rounds: where
+/// they come follows from the points before alone.
+/// Where sizes come from lists, each point is a choice of them (choose_sizes()); where nothing else is free
+/// and the choices are few, the front is that of all choices (choice_front.hpp).
 /// @param problem  of two responses: that of trade_off_problem()
-/// @returns the points that were found before a stop, if one was asked for, in the order of limits
+/// @returns what was found before a stop, if one was asked for
 /// @throws Stopped before the first
-/// @throws InputError if the problem has no pareto settings, variables or objective
-std::vector<ParetoPoint> pareto_front(const ProblemFile& problem, const SolveOptions& options,
-                                      const Execution& execution = {},
-                                      const ParetoObserver& observer = {});
-
-/// The searches for points, made again on another rank (PackedWork).
-inline constexpr const char* point_work_name = "points";
-std::unique_ptr<TaskWork> make_point_work(const std::string& content);
+/// @throws InputError if the problem has no pareto settings, variables or objective, or a gap of a front of
+///         sizes that cannot all be simulated
+ParetoFront pareto_front(const ProblemFile& problem, const SolveOptions& options,
+                         const Execution& execution = {}, const ParetoObserver& observer = {});
 
 }  // namespace pleuel

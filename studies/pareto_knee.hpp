@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "studies/pareto.hpp"
+#include "studies/pareto_point.hpp"
 
 namespace pleuel {
 

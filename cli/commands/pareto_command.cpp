@@ -11,6 +11,8 @@
 #include "cli/files/run_store.hpp"
 #include "cli/input/solve_settings.hpp"
 #include "cli/reports/error_report.hpp"
+#include "cli/reports/gaps_report.hpp"
+#include "cli/reports/sizes_report.hpp"
 #include "cli/reports/warnings.hpp"
 #include "cli/text/console.hpp"
 #include "cli/text/table.hpp"
@@ -22,26 +24,21 @@
 #include "core/scene/shown_unit.hpp"
 #include "optimization/prices.hpp"
 #include "studies/pareto_knee.hpp"
+#include "studies/varied_limit.hpp"
 
 namespace pleuel {
 
 namespace {
 
-std::vector<std::size_t> varied_constraints(const ProblemFile& problem) {
-  std::vector<std::size_t> all = constraints_of_limit(problem, problem.pareto->constraint);
-  if (all.empty()) throw InputError("/pareto/constraint names no constraint");
-  return all;
-}
-
 /// Of a limit that holds in several load cases the first.
 const ConstraintSettings& varied_constraint(const ProblemFile& problem) {
-  return problem.constraints[varied_constraints(problem).front()];
+  return problem.constraints[varied_rows(problem).front()];
 }
 
 /// What the front trades against the objective: a response, that of the worst of several cases, or a
 /// sum of variables by its name.
 std::string limited_name(const ProblemFile& problem) {
-  const std::vector<std::size_t> varied = varied_constraints(problem);
+  const std::vector<std::size_t> varied = varied_rows(problem);
   const ConstraintSettings& first = problem.constraints[varied.front()];
   if (first.response.empty()) return first.name;
   if (varied.size() == 1) return first.response;
@@ -97,7 +94,7 @@ void write_in_order(RunRecord& record, const ProblemFile& problem,
 /// The index of the knee, if the front has one.
 std::optional<std::size_t> knee_of(const ProblemFile& problem,
                                    const std::vector<ParetoPoint>& points) {
-  return find_knee(points, varied_constraint(problem).upper ? GoodSide::low : GoodSide::high);
+  return find_knee(points, good_side(problem));
 }
 
 Json point_document(const ProblemFile& problem, const ParetoPoint& point) {
@@ -117,21 +114,16 @@ Json point_document(const ProblemFile& problem, const ParetoPoint& point) {
     if (point.has_multiplier()) document["multiplier"] = sign * point.multiplier;
   }
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    document["variables"][problem.variables[i].name] = point.result.x(i);
+    const DesignVariable& variable = problem.variables[i];
+    document["variables"][variable.name] = point.result.x(i);
+    if (const auto size = size_text(variable, point.result.x(i))) {
+      document["sizes"][variable.name] = *size;
+    }
   }
   document["kkt_residual"] = point.result.kkt_residual;
   document["evaluations"] = point.result.evaluations;
   document["seconds"] = point.result.seconds;
   return document;
-}
-
-/// All points; or the ends, where nothing is to be traded or one of them was not found.
-bool is_whole_front(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
-  if (points.size() == static_cast<std::size_t>(problem.pareto->points)) return true;
-  const bool has_lost_end = std::any_of(points.begin(), points.end(), [](const ParetoPoint& point) {
-    return point.is_end && !point.has_design();
-  });
-  return has_lost_end || (points.size() == 1 && points.front().is_end);
 }
 
 /// "mass against the limit of bow", or "mass against sag" between two responses.
@@ -142,32 +134,43 @@ std::string front_text(const ProblemFile& problem) {
                                                    : problem.pareto->goals[1].response);
 }
 
-std::string single_point_text(const std::vector<ParetoPoint>& points) {
-  if (points.size() != 1 || !points.front().is_end) return "";
+std::string single_point_text(const ProblemFile& problem, const ParetoFront& front) {
+  const bool is_of_both = !problem.pareto->goals.empty() && front.points.size() == 1;
+  if (!is_of_both || !(front.choices || front.points.front().is_end)) return "";
   return "One design is best for both responses: there is nothing to trade.\n";
 }
 
-/// Designs of a front lie between sizes, if there are any.
-void refuse_choices(const ProblemFile& problem) {
-  for (const DesignVariable& variable : problem.variables) {
-    if (!variable.has_choices()) continue;
-    throw InputError(fmt::format(
-        "/variables/{}/choices: pareto takes no sizes from lists; give \"start\", \"lower\" and "
-        "\"upper\" in place of them, or a limit at a time to optimize",
-        variable.name));
-  }
+/// What all choices of sizes came to, where they were simulated; empty of other fronts.
+std::string choices_message(const ParetoFront& front) {
+  if (!front.choices) return "";
+  const ChoiceCounts& counts = *front.choices;
+  const std::string failed =
+      counts.failed > 0 ? fmt::format("; {} could not be simulated", counts.failed) : "";
+  return fmt::format(
+      "all {} choices of sizes were simulated; the other limits are kept by {}, and the points are "
+      "those of them that no other one dominates{}",
+      counts.all, counts.feasible, failed);
 }
 
-Json make_document(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
+Json make_document(const ProblemFile& problem, const ParetoFront& front) {
   const ConstraintSettings& constraint = varied_constraint(problem);
-  const bool is_whole = is_whole_front(problem, points);
-  Json document = {{"status", study_status(is_whole)},
+  const std::vector<ParetoPoint>& points = front.points;
+  Json document = {{"status", study_status(front.is_whole)},
                    {"constraint", problem.pareto->constraint},
                    {"units",
                     {{problem.objective->response,
                       unit_of(find_response(problem, problem.objective->response)).si},
                      {limited_name(problem), unit_of(problem, constraint).si}}},
                    {"points", Json::array()}};
+  if (front.choices) {
+    document["message"] = choices_message(front);
+    document["choices"] = {{"combinations", front.choices->all},
+                           {"feasible", front.choices->feasible},
+                           {"failed", front.choices->failed}};
+  } else if (problem.pareto->gap > 0.0 && front.is_whole) {
+    document["message"] = gaps_message(problem, front, limited_name(problem));
+    document["gaps"] = gaps_document(problem, front);
+  }
   const std::optional<std::size_t> knee = knee_of(problem, points);
   for (std::size_t i = 0; i < points.size(); ++i) {
     document["points"].push_back(point_document(problem, points[i]));
@@ -189,7 +192,10 @@ std::vector<Table::Column> design_columns(const ProblemFile& problem) {
       {fmt::format("± [{}]", goal.name)},
       {fmt::format("multiplier [{}/{}]", goal.name, limited.name)}};
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    columns.push_back({fmt::format("{} [{}]", problem.variables[i].name, units[i].name)});
+    const DesignVariable& variable = problem.variables[i];
+    columns.push_back({variable.has_choices()
+                           ? variable.name
+                           : fmt::format("{} [{}]", variable.name, units[i].name)});
   }
   columns.push_back({"status", Table::Align::left});
   return columns;
@@ -214,7 +220,8 @@ std::string points_text(const ProblemFile& problem, const std::vector<ParetoPoin
         cells[4] = significant(goal.shown(sign * point.multiplier) * limited.factor, 3);
     }
     for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-      cells.push_back(significant(units[i].shown(point.result.x(i))));
+      const auto size = size_text(problem.variables[i], point.result.x(i));
+      cells.push_back(size.value_or(significant(units[i].shown(point.result.x(i)))));
     }
     const bool is_knee = knee && &point == &points[*knee];
     cells.push_back(to_string(point.result.status) + (point.is_dominated ? ", dominated" : "") +
@@ -224,10 +231,34 @@ std::string points_text(const ProblemFile& problem, const std::vector<ParetoPoin
   return table.text();
 }
 
+/// A line on all choices of sizes, or on the gaps that were asked for.
+std::string spacing_text(const ProblemFile& problem, const ParetoFront& front) {
+  const std::string message = front.choices ? "Sizes: " + choices_message(front)
+                                            : gaps_message(problem, front, limited_name(problem));
+  if (message.empty()) return "";
+  return "\n" + wrapped((front.choices ? "" : "Gaps: ") + message + ".", "  ") + "\n";
+}
+
+/// With a gap, or of all choices of sizes, nobody knows how many points there would have been.
+std::string interruption_text(const ProblemFile& problem, const ParetoFront& front) {
+  if (front.is_whole) return "";
+  const std::size_t found = front.points.size();
+  if (problem.pareto->gap > 0.0 || front.choices) {
+    return fmt::format("INTERRUPTED: {} points were done, more would have come\n\n", found);
+  }
+  return interrupted_text(found, static_cast<std::size_t>(problem.pareto->points), "points");
+}
+
 std::size_t verified_points(const std::vector<ParetoPoint>& points) {
   return static_cast<std::size_t>(std::count_if(
       points.begin(), points.end(),
       [](const ParetoPoint& point) { return point.result.status == Status::verified; }));
+}
+
+/// That there are, or would be as far as that is known.
+std::size_t all_points(const ProblemFile& problem, const ParetoFront& front) {
+  if (front.is_whole || front.choices || problem.pareto->gap > 0.0) return front.points.size();
+  return static_cast<std::size_t>(problem.pareto->points);
 }
 
 /// Why the others are not verified; one sentence each.
@@ -276,7 +307,6 @@ void show_progress(std::FILE* out, const ProblemFile& problem, const ParetoPoint
 
 Outcome run_pareto(const Arguments& arguments) {
   const ProblemInput input = read_input_with_accuracy(arguments);
-  refuse_choices(input.problem);
   const ProblemFile problem = trade_off_problem(input.problem);
   if (!problem.pareto) throw InputError("/pareto is missing: it says which limit to vary");
   const SolveOptions options = solve_options(problem, arguments);
@@ -291,23 +321,21 @@ Outcome run_pareto(const Arguments& arguments) {
     csv->add(point);
     show_progress(stderr, problem, point);
   };
-  const auto points = pareto_front(problem, options, {arguments.tasks(), &store}, observer);
+  const ParetoFront front = pareto_front(problem, options, {arguments.tasks(), &store}, observer);
+  const std::vector<ParetoPoint>& points = front.points;
   write_in_order(record, problem, points);
-  const bool is_whole = is_whole_front(problem, points);
-  const bool is_verified = is_whole && verified_points(points) == points.size();
+  const bool is_verified =
+      front.is_whole && !points.empty() && verified_points(points) == points.size();
   Outcome outcome{
-      is_verified ? ExitCode::done : ExitCode::not_verified, make_document(problem, points),
+      is_verified ? ExitCode::done : ExitCode::not_verified, make_document(problem, front),
       fmt::format(
-          "{}{}: {}; {} of {} points verified\n\n{}{}{}\n"
+          "{}{}: {}; {} of {} points verified\n\n{}{}{}{}\n"
           "{}{}Written to {}: pareto.csv, result.json, run_card.json, run.sqlite\n",
-          is_whole ? ""
-                   : interrupted_text(points.size(),
-                                      static_cast<std::size_t>(problem.pareto->points), "points"),
-          problem.name, front_text(problem), verified_points(points),
-          is_whole ? static_cast<int>(points.size()) : problem.pareto->points,
-          points_text(problem, points), single_point_text(points),
+          interruption_text(problem, front), problem.name, front_text(problem),
+          verified_points(points), all_points(problem, front), points_text(problem, points),
+          spacing_text(problem, front), single_point_text(problem, front),
           doubts_text(problem, points) + warnings_of_points(problem, points),
-          is_whole ? "" : resume_text(arguments, record.folder(), Status::interrupted),
+          front.is_whole ? "" : resume_text(arguments, record.folder(), Status::interrupted),
           store.text(), record.folder().string())};
   store.finish(outcome);
   record.show_picture([&] { return front_picture(problem, points); });

@@ -360,6 +360,11 @@ void add_commands(CLI::App& app, Arguments& arguments) {
                                       "the best designs for a row of values of one limit");
   add_output(pareto, arguments);
   add_resume(pareto, arguments);
+  pareto
+      ->add_option("--gap", arguments.gap,
+                   "more points, until no neighbours are further apart, both goals over their "
+                   "ranges: such as 0.05 or 5%")
+      ->type_name("NUMBER");
   add_accuracy(pareto, arguments);
   add_backend(pareto, arguments);
   add_method(pareto, arguments);
@@ -469,6 +474,7 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
     check_accuracy(*arguments.accuracy);
     arguments.overrides.push_back("/accuracy/target=" + *arguments.accuracy);
   }
+  if (arguments.gap) arguments.overrides.push_back("/pareto/gap=" + *arguments.gap);
   return arguments;
 }
 

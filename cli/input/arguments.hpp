@@ -27,6 +27,7 @@ struct Arguments {
   std::optional<std::filesystem::path> output;  ///< run folder
   std::optional<std::filesystem::path> design;  ///< file with another design than the start
   std::optional<std::string> accuracy;          ///< target; one of the overrides, too
+  std::optional<std::string> gap;               ///< of a front; one of the overrides, too
   std::optional<std::string> backend;
   std::optional<int> starts;        ///< designs that an optimization begins at
   std::optional<std::string> body;  ///< whose invariants are written; by default of all

@@ -433,8 +433,8 @@ void transfer(Archive& archive, OptimizerSettings& settings) {
 
 template <class Archive>
 void transfer(Archive& archive, ParetoSettings& settings) {
-  auto& [constraint, from, to, points, goals] = settings;
-  archive(constraint, from, to, points, goals);
+  auto& [constraint, from, to, points, gap, most_points, goals] = settings;
+  archive(constraint, from, to, points, gap, most_points, goals);
 }
 
 template <class Archive>

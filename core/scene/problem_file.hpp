@@ -243,7 +243,11 @@ struct OptimizerSettings {
 struct ParetoSettings {
   std::string constraint;       ///< whose limit is varied; empty between two responses
   double from = 0.0, to = 0.0;  ///< first and last limit, SI
-  int points = 7;
+  int points = 7;               ///< at equal steps of the limit
+  /// The largest distance of neighbours that is left, both goals over their ranges: more points come
+  /// between those of larger ones (front_gaps.hpp). 0: none come.
+  double gap = 0.0;
+  int most_points = 100;  ///< with a gap; those at equal steps among them
   /// Two of them: the front is that between these responses, from the best of one to the best of
   /// the other. None: between objective and constraint.
   std::vector<Objective> goals = {};

@@ -20,8 +20,8 @@ namespace pleuel {
 
 namespace {
 
-/// Choices that are all tried: each costs a simulation, or an optimization.
-constexpr double most_simulated = 300.0, most_optimized = 16.0;
+/// Choices that are all tried where each costs an optimization.
+constexpr double most_optimized = 16.0;
 /// That a linear model proposes at a time.
 constexpr std::size_t proposals = 8, optimized_proposals = 3;
 constexpr int most_rounds_of_choice = 25;
@@ -55,7 +55,7 @@ class SizeSearch {
     const DesignProblem& problem = *solution_.problem;
     scales_ = constraint_scales(problem, solution_.result.evaluation,
                                 variable_scales(problem, solution_.result.x));
-    const double most = is_optimized_ ? most_optimized : most_simulated;
+    const double most = is_optimized_ ? most_optimized : most_simulated_choices;
     report_.is_exhaustive = report_.combinations <= most;
     notify(fmt::format(
         "the optimum between the sizes has {} = {} ({})", problem.file().objective->response,

@@ -20,6 +20,9 @@ struct SizeChoiceReport {
   double penalty(double objective) const;
 };
 
+/// Choices that are all tried where each costs a simulation.
+inline constexpr double most_simulated_choices = 300.0;
+
 /// Whether some variables are chosen from lists.
 bool has_choices(const ProblemFile& file);
 

@@ -84,6 +84,15 @@ TEST_F(Mpi, DoesNotChangeTheFront) {
   }
 }
 
+TEST_F(Mpi, DoesNotChangeWhatComesIntoTheGapsOfAFront) {
+  const std::string words = "pareto " + problem("slider_crank_round") + quick_line() +
+                            " --no-report --set /pareto/points=3 --gap 25%";
+  run_alone(words);
+  const ProgramRun run = run_ranks(2, words + " -o with2");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  expect_same("with2", "alone", "pareto.csv");
+}
+
 TEST_F(Mpi, DoesNotChangeSamples) {
   const std::string words =
       "uncertainty " + problem("slider_crank_round") + quick_line() + samples + " --no-report";

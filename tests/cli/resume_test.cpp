@@ -58,16 +58,20 @@ TEST_F(Resumed, SeveralStartsEndAsIfTheyHadNotBeenKilled) {
   expect_same("killed", "whole", "history.csv");
 }
 
-/// Between the objective and a limit, and between two responses: searches with other objectives, which
+/// Between the objective and a limit, and between two responses, with points in the gaps, and of sizes from lists: searches with other objectives, which
 /// must not take each other's evaluations from the record.
 struct AskedFront {
   std::string words;
   int exit_code;
 };
-const std::array<AskedFront, 2> fronts = {
+const std::array<AskedFront, 4> fronts = {
     AskedFront{" --set /pareto/points=4", 0},
     // 4: the stiffest rod is too stubby to be verified.
-    AskedFront{R"( --set '/pareto={"responses": ["crank_and_rod", "rod_bow"], "points": 4}')", 4}};
+    AskedFront{R"( --set '/pareto={"responses": ["crank_and_rod", "rod_bow"], "points": 4}')", 4},
+    AskedFront{" --gap 40%", 0},
+    AskedFront{R"( --set '/variables/crank_diameter={"choices": ["18 mm", "22 mm", "26 mm"]}')"
+               R"( --set '/variables/rod_diameter={"choices": ["16 mm", "20 mm", "24 mm"]}')",
+               0}};
 
 TEST_F(Resumed, FrontEndsAsIfItHadNotBeenKilled) {
   for (std::size_t i = 0; i < fronts.size(); ++i) {
@@ -271,7 +275,7 @@ TEST_F(Jobs, DoNotChangeTheFront) {
                    fmt::format("pareto {}{}{} --jobs {} -o with{} --overwrite",
                                problem("slider_crank_round"), quick_line(), front, jobs, jobs));
       ASSERT_EQ(run.exit_code, exit_code) << run.out << run.err;
-      EXPECT_THAT(run.out, HasSubstr("of 4 points verified"));
+      EXPECT_THAT(run.out, HasSubstr(" points verified"));
     }
     expect_same("with2", "with1", "pareto.csv");
     expect_same("with3", "with1", "pareto.csv");

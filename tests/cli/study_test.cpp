@@ -11,6 +11,8 @@
 namespace pleuel::test {
 namespace {
 
+using testing::HasSubstr;
+
 TEST(ParetoCommand, ReportsEveryPointAndWritesThem) {
   const TemporaryFolder folder;
   const ProgramRun run =
@@ -42,6 +44,53 @@ TEST(ParetoCommand, ReportsEveryPointAndWritesThem) {
     EXPECT_EQ(std::stod(cell("variable:crank_diameter")),
               point.at("variables").at("crank_diameter"));
     EXPECT_EQ(std::stod(cell("variable:rod_diameter")), point.at("variables").at("rod_diameter"));
+  }
+}
+
+TEST(ParetoCommand, PutsPointsIntoTheGaps) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> words =
+      joined({"pareto", problem("slider_crank_round"), "-o", "front", "--set", "/pareto/points=3"},
+             quick());
+  const ProgramRun run = run_program(folder.path(), joined(words, {"--gap", "20%"}));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("Gaps: neighbours are at most "));
+  const nlohmann::json document =
+      nlohmann::json::parse(read_file(folder.path() / "front/result.json"));
+  EXPECT_EQ(document.at("gaps").at("asked"), 0.2);
+  EXPECT_LE(document.at("gaps").at("largest"), 0.2);
+  EXPECT_TRUE(document.at("gaps").at("left").empty());
+  EXPECT_GT(document.at("points").size(), 5u);  // a front of 1.2 or more has six gaps
+  const ProgramRun few = run_program(
+      folder.path(),
+      joined(words, {"--overwrite", "--gap", "0.05", "--set", "/pareto/most_points=5"}));
+  EXPECT_THAT(few.out, HasSubstr("no more than 5 points were allowed (\"most_points\")"));
+  EXPECT_THAT(run_program(folder.path(), joined(words, {"--overwrite", "--gap", "5"})).err,
+              HasSubstr("/pareto/gap must be at least 0.001 and less than 1, got 5"));
+}
+
+TEST(ParetoCommand, ShowsAllChoicesOfSizesThatNoOtherDominates) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(
+      folder.path(),
+      joined({"pareto", problem("slider_crank_round"), "-o", "front", "--set",
+              R"(/pareto={"responses": ["crank_and_rod", "rod_bow"]})", "--set",
+              R"(/variables/crank_diameter={"choices": ["20 mm", "24 mm", "28 mm"]})", "--set",
+              R"(/variables/rod_diameter={"choices": ["18 mm", "22 mm", "26 mm"]})"},
+             quick()));
+  EXPECT_THAT(run.out, HasSubstr("Sizes: all 9 choices of sizes were simulated"));
+  const nlohmann::json document =
+      nlohmann::json::parse(read_file(folder.path() / "front/result.json"));
+  EXPECT_EQ(document.at("choices").at("combinations"), 9);
+  const auto& points = document.at("points");
+  ASSERT_GE(points.size(), 2u) << run.out;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_TRUE(points[i].at("sizes").contains("rod_diameter")) << points[i];
+    EXPECT_FALSE(points[i].contains("multiplier"));
+    if (i == 0) continue;
+    const auto &one = points[i - 1].at("objectives"), &next = points[i].at("objectives");
+    EXPECT_GT(next.at("rod_bow"), one.at("rod_bow"));
+    EXPECT_LT(next.at("crank_and_rod"), one.at("crank_and_rod"));
   }
 }
 

@@ -233,6 +233,18 @@ TEST(GoodProblem, HasItsResponses) {
   EXPECT_EQ(quantity_of(responses[4]).unit, "N m s");
 }
 
+TEST(GoodProblem, MayAskForAGapOfTheFront) {
+  EXPECT_EQ(read(good_json()).pareto->gap, 0.0);
+  const ProblemFile with_points = read(edited("/pareto/gap", R"("5 %")"));
+  EXPECT_DOUBLE_EQ(with_points.pareto->gap, 0.05);
+  EXPECT_EQ(with_points.pareto->points, 5);
+  EXPECT_EQ(with_points.pareto->most_points, 100);
+  const ProblemFile without = read(edited("/pareto", R"({"constraint": "stiffness",
+    "from": "0.1 mm", "to": "0.4 mm", "gap": 0.1, "most_points": 12})"));
+  EXPECT_EQ(without.pareto->points, 3);
+  EXPECT_EQ(without.pareto->most_points, 12);
+}
+
 TEST(GoodProblem, MayOmitWhatHasADefault) {
   Json document = good_json();
   for (const char* key : {"$schema", "name", "description", "effects", "objective", "constraints",

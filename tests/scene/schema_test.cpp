@@ -326,6 +326,8 @@ TEST_F(ProblemSchema, RefusesWhatTheReaderRefuses) {
       {"/sensitivity/memory", "\"much\""},
       {"/optimizer/tolerance", "0"},
       {"/pareto/points", "1"},
+      {"/pareto/gap", "0"},
+      {"/pareto/most_points", "9"},
       {"/accuracy/steps", "[]"}};
   for (const auto& [pointer, value] : edits) {
     EXPECT_NE(complaints_about_edit(pointer, value), "") << pointer << " = " << value;

@@ -41,7 +41,7 @@ Json distances(const std::string& pareto) {
 std::vector<ParetoPoint> front(const Json& document, int jobs = 1,
                                EvaluationStore* store = nullptr) {
   const ProblemFile file = read_problem_text(document.dump(), "cases.json");
-  return pareto_front(trade_off_problem(file), {}, {{.jobs = jobs}, store});
+  return pareto_front(trade_off_problem(file), {}, {{.jobs = jobs}, store}).points;
 }
 
 TEST(ParetoOverCases, MovesALimitInAllOfThem) {

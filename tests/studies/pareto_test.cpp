@@ -19,7 +19,7 @@ const std::vector<std::string> four_points = {"/pareto/points=4"};
 std::vector<ParetoPoint> front(const ProblemFile& problem) {
   SolveOptions options;
   options.backend = problem.optimizer.backend;
-  return pareto_front(problem, options);
+  return pareto_front(problem, options).points;
 }
 
 TEST(Pareto, MoreRoomNeverCostsMass) {
@@ -144,9 +144,9 @@ TEST(Pareto, DoesNotDependOnTheNumberOfJobs) {
   options.backend = problem.optimizer.backend;
   std::vector<double> limits;
   const ParetoObserver note = [&](const ParetoPoint& point) { limits.push_back(point.limit); };
-  const std::vector<ParetoPoint> one = pareto_front(problem, options, {{.jobs = 1}}, note);
+  const std::vector<ParetoPoint> one = pareto_front(problem, options, {{.jobs = 1}}, note).points;
   const std::vector<double> in_order = std::exchange(limits, {});
-  const std::vector<ParetoPoint> three = pareto_front(problem, options, {{.jobs = 3}}, note);
+  const std::vector<ParetoPoint> three = pareto_front(problem, options, {{.jobs = 3}}, note).points;
   EXPECT_EQ(limits, in_order);
   ASSERT_EQ(three.size(), one.size());
   for (std::size_t i = 0; i < one.size(); ++i) {

@@ -14,7 +14,8 @@ namespace {
 
 /// A square bar of 1 m and side a: its mass is ρ a². The response "slack" is (60 mm/a)² · 1 kg + k·b, with
 /// a variable b that nothing else depends on.
-ProblemFile bar(const std::string& responses, int points, const std::string& more = "") {
+ProblemFile bar(const std::string& responses, int points, const std::string& more = "",
+                const std::string& others = "") {
   return read_problem_text(
       R"({"scene": {"bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
     "rigid": true, "material": "steel", "elements": 1,
@@ -23,9 +24,11 @@ ProblemFile bar(const std::string& responses, int points, const std::string& mor
   "simulation": {"end_time": "2 ms", "step": "1 ms", "resolution_check": false},
   "variables": {"side": {"start": "40 mm", "lower": "20 mm", "upper": "60 mm"},
                 "extra": {"start": "0.7 m", "lower": "0.2 m", "upper": "1 m"}},
-  "responses": {"mass": {"type": "mass"},
+  )" +
+          (others.empty() ? R"("responses": {"mass": {"type": "mass"},
     "slack": {"type": "expression", "value": "(1 kg) * ((60 mm) / (side))^2 + (1 kg/m) * extra"},
-    "goodness": {"type": "expression", "value": "0 - slack"}},)" +
+    "goodness": {"type": "expression", "value": "0 - slack"}},)"
+                          : others) +
           more + R"("pareto": {"responses": [)" + responses + R"(], "points": )" +
           std::to_string(points) + "}}",
       "bar.json");
@@ -40,7 +43,7 @@ double slack(double a, double b) {
 }
 
 std::vector<ParetoPoint> front(const ProblemFile& file, int jobs = 1) {
-  return pareto_front(trade_off_problem(file), {}, {{.jobs = jobs}, nullptr});
+  return pareto_front(trade_off_problem(file), {}, {{.jobs = jobs}, nullptr}).points;
 }
 
 TEST(TradeOff, GoesFromTheBestForOneToTheBestForTheOther) {
@@ -106,6 +109,86 @@ TEST(TradeOff, IsTheSameForAnyNumberOfJobs) {
   const auto one = front(file, 1), two = front(file, 2);
   ASSERT_EQ(one.size(), two.size());
   for (std::size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].result.x, two[i].result.x);
+}
+
+/// Distance of neighbours on the front, both goals over their ranges.
+double largest_distance(const std::vector<ParetoPoint>& points) {
+  const auto objective = [&](std::size_t i) { return points[i].result.evaluation.objective; };
+  const std::size_t last = points.size() - 1;
+  const double width = points[last].limited_value - points[0].limited_value;
+  const double height = objective(last) - objective(0);
+  double largest = 0.0;
+  for (std::size_t i = 1; i <= last; ++i) {
+    largest = std::max(largest,
+                       std::hypot((points[i].limited_value - points[i - 1].limited_value) / width,
+                                  (objective(i) - objective(i - 1)) / height));
+  }
+  return largest;
+}
+
+ProblemFile with_gap(ProblemFile file, double gap) {
+  file.pareto->gap = gap;
+  return file;
+}
+
+TEST(TradeOff, HasNoGapsLargerThanAsked) {
+  const ParetoFront found =
+      pareto_front(trade_off_problem(with_gap(bar(R"("mass", "slack")", 3), 0.1)), {});
+  EXPECT_LE(largest_distance(found.points), 0.1);
+  EXPECT_NEAR(found.gaps.largest, largest_distance(found.points), 1e-6);
+  EXPECT_TRUE(found.gaps.gaps.empty());
+  // (slack − 0.2)·mass is constant; its length is below 2, and so at most 2·20 points are needed.
+  EXPECT_LE(found.points.size(), 30u);
+  for (const ParetoPoint& point : found.points) {
+    EXPECT_EQ(point.result.status, Status::verified) << point.result.message;
+    const double mass_there = density * 0.06 * 0.06 / (point.limited_value - 0.2);
+    EXPECT_NEAR(point.result.evaluation.objective, mass_there, 3e-4 * mass_there);
+  }
+}
+
+TEST(TradeOff, HasTheSamePointsForAnyNumberOfJobsAlsoInGaps) {
+  const ProblemFile file = with_gap(bar(R"("mass", "slack")", 3), 0.15);
+  const auto one = front(file, 1), three = front(file, 3);
+  ASSERT_EQ(one.size(), three.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].limit, three[i].limit);
+    EXPECT_EQ(one[i].result.x, three[i].result.x);
+  }
+}
+
+TEST(TradeOff, StopsAtTheMostPoints) {
+  ProblemFile file = with_gap(bar(R"("mass", "slack")", 3), 0.02);
+  file.pareto->most_points = 6;
+  const ParetoFront found = pareto_front(trade_off_problem(file), {});
+  EXPECT_EQ(found.points.size(), 6u);
+  ASSERT_FALSE(found.gaps.gaps.empty());
+  EXPECT_EQ(found.gaps.gaps.front().cause, FrontGap::Cause::open);
+}
+
+TEST(TradeOff, WithAGapIsOnePointWhereNothingIsToBeTraded) {
+  const auto points = front(with_gap(bar(R"("slack", {"maximize": "goodness"})", 3), 0.05));
+  EXPECT_EQ(points.size(), 1u);
+}
+
+/// With s = side/20 mm − 1 the wave is 2/3 − s/3 + sin(3.6 s + 2)/4. It falls to 0.148 at s = 0.858, rises to
+/// 0.392, and is below 0.148 again from s = 1.92 on: bars in between are dominated.
+TEST(TradeOff, JumpsWhereAllThatIsBetweenIsDominated) {
+  const std::string wave =
+      R"json("responses": {"mass": {"type": "mass"}, "wave": {"type": "expression",
+             "value": "1 - side/(60 mm) + 0.25*sin(3.6*(side/(20 mm) - 1) + 2)"}},)json";
+  const ProblemFile file = with_gap(bar(R"("mass", "wave")", 5, "", wave), 0.05);
+  const ParetoFront found = pareto_front(trade_off_problem(file), {});
+  std::string text;
+  for (const ParetoPoint& point : found.points) {
+    text += std::to_string(point.limit) + " " + std::to_string(point.limited_value) + " " +
+            std::to_string(point.result.x(0)) + " " + to_string(point.result.status) +
+            (point.is_dominated ? " dominated\n" : "\n");
+  }
+  for (const FrontGap& gap : found.gaps.gaps) {
+    text += std::to_string(gap.tight) + " " + std::to_string(gap.loose) + " " +
+            std::to_string(gap.size) + " " + std::to_string(static_cast<int>(gap.cause)) + "\n";
+  }
+  FAIL() << text;
 }
 
 TEST(TradeOff, IsBetweenTwoResponses) {

@@ -217,9 +217,29 @@ Objective read_goal(const JsonNode& node, const ProblemFile& problem) {
   return goal;
 }
 
+constexpr int points_before_gaps = 3;
+
+/// How many points, and where more of them come.
+void read_spacing(const JsonNode& node, const NumberReader& numbers, ParetoSettings& pareto) {
+  const auto gap = node.find("gap");
+  if (gap) {
+    pareto.gap = numbers.fixed(*gap, quantities::pure_number);
+    if (pareto.gap < 0.001 || pareto.gap >= 1.0) {
+      gap->fail_with_value("must be at least 0.001 and less than 1");
+    }
+    pareto.points = points_before_gaps;
+  }
+  if (const auto points = node.find("points")) pareto.points = points->whole_number(2, 10000);
+  pareto.most_points = std::max(pareto.most_points, pareto.points);
+  if (const auto most = node.find("most_points")) {
+    if (!gap) most->fail("is for points that \"gap\" asks for");
+    pareto.most_points = most->whole_number(pareto.points, 10000);
+  }
+}
+
 ParetoSettings read_front_between(const JsonNode& node, const JsonNode& responses,
-                                  const ProblemFile& problem) {
-  node.allow_keys({"responses", "points"});
+                                  const ProblemFile& problem, const NumberReader& numbers) {
+  node.allow_keys({"responses", "points", "gap", "most_points"});
   ParetoSettings pareto;
   for (const JsonNode& goal : responses.items(2)) {
     pareto.goals.push_back(read_goal(goal, problem));
@@ -228,7 +248,7 @@ ParetoSettings read_front_between(const JsonNode& node, const JsonNode& response
   if (first.response == second.response && first.over_cases == second.over_cases) {
     responses.fail("must be two different responses");
   }
-  if (const auto points = node.find("points")) pareto.points = points->whole_number(2, 10000);
+  read_spacing(node, numbers, pareto);
   return pareto;
 }
 
@@ -237,9 +257,9 @@ ParetoSettings read_front_between(const JsonNode& node, const JsonNode& response
 ParetoSettings read_pareto(const JsonNode& node, const ProblemFile& problem,
                            const NumberReader& numbers) {
   if (const auto responses = node.find("responses")) {
-    return read_front_between(node, *responses, problem);
+    return read_front_between(node, *responses, problem, numbers);
   }
-  node.allow_keys({"constraint", "from", "to", "points"});
+  node.allow_keys({"constraint", "from", "to", "points", "gap", "most_points"});
   if (!problem.objective) node.fail("needs an objective, and the problem has none");
   ParetoSettings pareto;
   const ConstraintSettings& constraint =
@@ -248,7 +268,7 @@ ParetoSettings read_pareto(const JsonNode& node, const ProblemFile& problem,
   pareto.from = numbers.fixed(node.at("from"), quantity);
   pareto.to = numbers.fixed(node.at("to"), quantity);
   if (pareto.from == pareto.to) node.at("to").fail_with_value("must differ from \"from\"");
-  if (const auto points = node.find("points")) pareto.points = points->whole_number(2, 10000);
+  read_spacing(node, numbers, pareto);
   return pareto;
 }
 

@@ -1,0 +1,79 @@
+#include "cli/reports/gaps_report.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/number_text.hpp"
+#include "core/scene/shown_unit.hpp"
+#include "studies/varied_limit.hpp"
+
+namespace pleuel {
+
+namespace {
+
+const char* cause_text(FrontGap::Cause cause) {
+  switch (cause) {
+    case FrontGap::Cause::open:
+      return "open";
+    case FrontGap::Cause::jump:
+      return "jump";
+    case FrontGap::Cause::failure:
+      return "failure";
+  }
+  return "";
+}
+
+/// Of a gap that more points do not close.
+const char* reason(FrontGap::Cause cause) {
+  return cause == FrontGap::Cause::jump
+             ? "the front jumps: no design was found there"
+             : "searches failed, or came to designs that others dominate";
+}
+
+bool is_of_gap(const ProblemFile& problem, const ParetoFront& front) {
+  return problem.pareto->gap > 0.0 && front.is_whole && !front.choices;
+}
+
+}  // namespace
+
+std::string gaps_message(const ProblemFile& problem, const ParetoFront& front,
+                         const std::string& limited) {
+  if (!is_of_gap(problem, front)) return "";
+  const double asked = problem.pareto->gap;
+  std::string text = fmt::format("neighbours are at most {} apart, both goals over their ranges",
+                                 percent(front.gaps.largest));
+  if (front.gaps.gaps.empty()) return fmt::format("{} ({} asked)", text, percent(asked));
+  text += fmt::format("; asked was {}", percent(asked));
+  const ShownUnit unit = unit_of(problem, problem.constraints[varied_rows(problem).front()]);
+  bool is_open = false;
+  for (const FrontGap& gap : front.gaps.gaps) {
+    is_open = is_open || gap.cause == FrontGap::Cause::open;
+    if (gap.cause == FrontGap::Cause::open) continue;
+    const auto value = [&](std::size_t i) {
+      return significant(unit.shown(front.points[i].limited_value));
+    };
+    text += fmt::format("; between {} = {} and {} {} ({}) {}", limited, value(gap.tight),
+                        value(gap.loose), unit.name, percent(gap.size), reason(gap.cause));
+  }
+  if (is_open) {
+    text += fmt::format("; no more than {} points were allowed (\"most_points\")",
+                        problem.pareto->most_points);
+  }
+  return text;
+}
+
+Json gaps_document(const ProblemFile& problem, const ParetoFront& front) {
+  if (!is_of_gap(problem, front)) return nullptr;
+  Json document = {
+      {"asked", problem.pareto->gap}, {"largest", front.gaps.largest}, {"left", Json::array()}};
+  for (const FrontGap& gap : front.gaps.gaps) {
+    document["left"].push_back(
+        {{"points", {gap.tight + 1, gap.loose + 1}},
+         {"limited",
+          {front.points[gap.tight].limited_value, front.points[gap.loose].limited_value}},
+         {"size", gap.size},
+         {"cause", cause_text(gap.cause)}});
+  }
+  return document;
+}
+
+}  // namespace pleuel

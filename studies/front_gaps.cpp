@@ -1,0 +1,242 @@
+#include "studies/front_gaps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "studies/front_ends.hpp"
+
+namespace pleuel {
+
+namespace {
+
+constexpr int most_failures = 3;
+constexpr int most_parts = 4;  ///< of a gap at a time
+constexpr double same_place = 0.1, short_interval = 0.25, slope_share = 0.5;  ///< of the gap asked
+constexpr double end_share = 0.02;  ///< of an interval of limits: no probe is nearer to its ends
+constexpr int segments = 64;        ///< of the curve that is measured
+
+/// A point in the plane of both goals over their ranges; the limit is looser at the larger number.
+struct Place {
+  std::size_t index = 0;
+  double limit = 0.0, limited = 0.0, objective = 0.0;
+  std::optional<double> slope;  ///< of the objective by the limit
+  bool is_on_front = false;
+};
+
+double distance(const Place& one, const Place& other) {
+  return std::hypot(one.limited - other.limited, one.objective - other.objective);
+}
+
+/// Two neighbours, and the limits that points between them may have.
+struct Neighbours {
+  const Place *tight, *loose;
+  double lower, upper;           ///< limits below and above lead to either of them
+  std::vector<double> failures;  ///< limits between these that did not lead between, ascending
+
+  double interval() const { return upper - lower; }
+};
+
+class GapFinder {
+ public:
+  GapFinder(const std::vector<ParetoPoint>& points, GoodSide side, double gap)
+      : gap_(gap), sign_(side == GoodSide::low ? 1.0 : -1.0) {
+    measure(points);
+    for (std::size_t i = 0; i < points.size(); ++i) places_.push_back(place_of(points[i], i));
+    for (const Place& place : places_) {
+      if (place.is_on_front) front_.push_back(&place);
+    }
+    std::stable_sort(front_.begin(), front_.end(), [](const Place* one, const Place* other) {
+      return one->limited < other->limited;
+    });
+  }
+
+  FrontGaps run(int room) {
+    FrontGaps found;
+    std::vector<std::pair<double, Neighbours>> open;
+    for (std::size_t i = 1; i < front_.size(); ++i) {
+      const Place &tight = *front_[i - 1], &loose = *front_[i];
+      const double size = distance(tight, loose);
+      found.largest = std::max(found.largest, size);
+      if (size <= gap_) continue;
+      Neighbours between = neighbours(tight, loose);
+      const FrontGap::Cause cause = cause_of(between);
+      found.gaps.push_back({tight.index, loose.index, size, cause});
+      if (cause == FrontGap::Cause::open) open.emplace_back(size, std::move(between));
+    }
+    found.probes = probes(std::move(open), room);
+    return found;
+  }
+
+ private:
+  /// Ranges of both goals; one that is no larger than the accuracy of optima plays no part.
+  void measure(const std::vector<ParetoPoint>& points) {
+    bool is_first = true;
+    double low = 0.0, high = 0.0, least = 0.0, most = 0.0;
+    for (const ParetoPoint& point : points) {
+      if (!is_on_front(point)) continue;
+      const double limited = sign_ * point.limited_value;
+      const double objective = point.result.evaluation.objective;
+      low = is_first ? limited : std::min(low, limited);
+      high = is_first ? limited : std::max(high, limited);
+      least = is_first ? objective : std::min(least, objective);
+      most = is_first ? objective : std::max(most, objective);
+      is_first = false;
+    }
+    const auto scale = [](double from, double to) {
+      const double accuracy = optimum_resolution * std::max(std::abs(from), std::abs(to));
+      return to - from > accuracy ? 1.0 / (to - from) : 0.0;
+    };
+    limited_scale_ = scale(low, high);
+    objective_scale_ = scale(least, most);
+  }
+
+  static bool is_on_front(const ParetoPoint& point) {
+    return point.has_design() && point.keeps_limits() && !point.is_dominated;
+  }
+
+  Place place_of(const ParetoPoint& point, std::size_t index) const {
+    Place place;
+    place.index = index;
+    place.limit = sign_ * point.limit * limited_scale_;
+    place.is_on_front = is_on_front(point);
+    if (!point.has_design()) return place;
+    place.limited = sign_ * point.limited_value * limited_scale_;
+    place.objective = point.result.evaluation.objective * objective_scale_;
+    if (point.has_multiplier() && limited_scale_ > 0.0) {
+      place.slope = -sign_ * point.multiplier * objective_scale_ / limited_scale_;
+    }
+    return place;
+  }
+
+  Neighbours neighbours(const Place& tight, const Place& loose) const {
+    Neighbours between{&tight, &loose, tight.limited, std::min(loose.limited, loose.limit), {}};
+    for (const Place& place : places_) {
+      // Where the limit is not active, more of it changes nothing.
+      const bool is_tight = place.is_on_front && distance(place, tight) <= same_place * gap_;
+      if (is_tight && place.limit < between.upper) {
+        between.lower = std::max(between.lower, place.limit);
+      }
+    }
+    for (const Place& place : places_) {
+      const bool is_loose = place.is_on_front && distance(place, loose) <= same_place * gap_;
+      if (is_loose && place.limit > between.lower) {
+        between.upper = std::min(between.upper, place.limit);
+      }
+    }
+    for (const Place& place : places_) {
+      if (between.lower < place.limit && place.limit < between.upper) {
+        between.failures.push_back(place.limit);
+      }
+    }
+    std::sort(between.failures.begin(), between.failures.end());
+    return between;
+  }
+
+  FrontGap::Cause cause_of(const Neighbours& between) const {
+    const double interval = between.interval();
+    if (interval <= optimum_resolution) return FrontGap::Cause::jump;
+    const auto &tight = between.tight->slope, &loose = between.loose->slope;
+    if (interval <= short_interval * gap_ && tight && loose &&
+        (std::abs(*tight) + std::abs(*loose)) * interval <= slope_share * gap_) {
+      return FrontGap::Cause::jump;
+    }
+    return between.failures.size() < most_failures ? FrontGap::Cause::open
+                                                   : FrontGap::Cause::failure;
+  }
+
+  // ---- probes
+
+  /// The largest gaps first, and no gap of less than half the largest before that is divided.
+  std::vector<FrontProbe> probes(std::vector<std::pair<double, Neighbours>> open, int room) const {
+    std::stable_sort(open.begin(), open.end(),
+                     [](const auto& one, const auto& other) { return one.first > other.first; });
+    std::vector<FrontProbe> all;
+    for (const auto& [size, between] : open) {
+      if (size < 0.5 * open.front().first) break;
+      for (const double limit : limits_between(between)) {
+        if (static_cast<int>(all.size()) == room) return all;
+        const bool is_nearer_to_tight = limit - between.lower <= between.upper - limit;
+        const std::size_t tight = between.tight->index, loose = between.loose->index;
+        all.push_back({sign_ * limit / limited_scale_, is_nearer_to_tight ? tight : loose,
+                       is_nearer_to_tight ? loose : tight});
+      }
+    }
+    return all;
+  }
+
+  std::vector<double> limits_between(const Neighbours& between) const {
+    const bool is_inactive = between.lower - between.tight->limited > same_place * gap_;
+    if (is_inactive || !between.failures.empty()) return {middle_of_largest(between)};
+    return limits_along_curve(between);
+  }
+
+  /// Of the intervals between limits that were tried.
+  static double middle_of_largest(const Neighbours& between) {
+    std::vector<double> bounds = between.failures;
+    bounds.insert(bounds.begin(), between.lower);
+    bounds.push_back(between.upper);
+    std::size_t largest = 1;
+    for (std::size_t i = 2; i < bounds.size(); ++i) {
+      if (bounds[i] - bounds[i - 1] > bounds[largest] - bounds[largest - 1]) largest = i;
+    }
+    return std::midpoint(bounds[largest - 1], bounds[largest]);
+  }
+
+  /// Limits that divide the curve into equal lengths.
+  std::vector<double> limits_along_curve(const Neighbours& between) const {
+    const std::vector<double> lengths = lengths_of_curve(between);
+    const double whole = lengths.back();
+    const int parts = std::clamp(static_cast<int>(std::ceil(whole / gap_)), 2, most_parts);
+    std::vector<double> limits;
+    for (int k = 1; k < parts; ++k) {
+      const auto next = std::lower_bound(lengths.begin(), lengths.end(), whole * k / parts);
+      const auto i = static_cast<double>(next - lengths.begin());
+      const double before = *(next - 1), after = *next;
+      const double share = (i - 1.0 + (whole * k / parts - before) / (after - before)) / segments;
+      const double inside =
+          std::clamp(share, end_share * k, 1.0 - end_share * static_cast<double>(parts - k));
+      limits.push_back(std::lerp(between.lower, between.upper, inside));
+    }
+    return limits;
+  }
+
+  /// Of the cubic of Hermite from one neighbour to the other, up to each of its segments.
+  static std::vector<double> lengths_of_curve(const Neighbours& between) {
+    const double from = between.tight->objective, to = between.loose->objective;
+    const double interval = between.interval();
+    // Times the interval; within three times the rise of the chord it is monotone.
+    const double rise = to - from;
+    const auto kept = [&](const std::optional<double>& slope) {
+      const double own = slope ? *slope * interval : rise;
+      return std::clamp(own, std::min(3.0 * rise, 0.0), std::max(3.0 * rise, 0.0));
+    };
+    const double first = kept(between.tight->slope), last = kept(between.loose->slope);
+    std::vector<double> lengths = {0.0};
+    double before = from;
+    for (int i = 1; i <= segments; ++i) {
+      const double t = static_cast<double>(i) / segments;
+      const double s = 1.0 - t;
+      const double at = from * (1.0 + 2.0 * t) * s * s + to * (3.0 - 2.0 * t) * t * t +
+                        first * t * s * s - last * t * t * s;
+      lengths.push_back(lengths.back() + std::hypot(interval / segments, at - before));
+      before = at;
+    }
+    return lengths;
+  }
+
+  double gap_, sign_;
+  double limited_scale_ = 0.0, objective_scale_ = 0.0;  ///< 1 / range
+  std::vector<Place> places_;                           ///< of all points
+  std::vector<const Place*> front_;                     ///< by their limited value
+};
+
+}  // namespace
+
+FrontGaps find_front_gaps(const std::vector<ParetoPoint>& points, GoodSide side, double gap,
+                          int room) {
+  return GapFinder(points, side, gap).run(room);
+}
+
+}  // namespace pleuel

@@ -1,0 +1,45 @@
+#include "studies/varied_limit.hpp"
+
+#include <optional>
+
+#include "core/base/error.hpp"
+#include "core/scene/case_goals.hpp"
+
+namespace pleuel {
+
+std::vector<std::size_t> varied_rows(const ProblemFile& problem) {
+  std::vector<std::size_t> rows = constraints_of_limit(problem, problem.pareto->constraint);
+  if (rows.empty()) throw InputError("/pareto/constraint names no constraint");
+  return rows;
+}
+
+GoodSide good_side(const ProblemFile& problem) {
+  return problem.constraints[varied_rows(problem).front()].upper ? GoodSide::low : GoodSide::high;
+}
+
+void set_limit(ProblemFile& problem, double limit) {
+  for (const std::size_t row : varied_rows(problem)) {
+    ConstraintSettings& constraint = problem.constraints[row];
+    (constraint.upper ? constraint.upper : constraint.lower) = limit;
+  }
+}
+
+double limited_value(const ProblemFile& problem, const Eigen::VectorXd& constraints) {
+  std::optional<double> worst;
+  for (const std::size_t row : varied_rows(problem)) {
+    const double value = constraints(static_cast<Eigen::Index>(row));
+    const bool is_upper = problem.constraints[row].upper.has_value();
+    if (!worst || (is_upper ? value > *worst : value < *worst)) worst = value;
+  }
+  return *worst;
+}
+
+double multiplier_of_limit(const ProblemFile& problem, const Eigen::VectorXd& multipliers) {
+  double sum = 0.0;
+  for (const std::size_t row : varied_rows(problem)) {
+    sum += multipliers(static_cast<Eigen::Index>(row));
+  }
+  return sum;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,249 @@
+#include "studies/front_gaps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace pleuel::test {
+namespace {
+
+/// What a search for the best design below a limit comes to.
+using Search = std::function<ParetoPoint(double limit)>;
+
+ParetoPoint point_at(double limit, double limited, double objective) {
+  ParetoPoint point;
+  point.limit = limit;
+  point.limited_value = limited;
+  point.result.status = Status::verified;
+  point.result.evaluation.objective = objective;
+  point.result.evaluation.objective_gradient = Eigen::VectorXd::Zero(1);
+  return point;
+}
+
+ParetoPoint failed_at(double limit) {
+  ParetoPoint point;
+  point.limit = limit;
+  return point;
+}
+
+/// A front whose limit is active: objective(limit), and its slope.
+Search smooth(const std::function<double(double)>& objective,
+              const std::function<double(double)>& slope) {
+  return [=](double limit) {
+    ParetoPoint point = point_at(limit, limit, objective(limit));
+    point.multiplier = -slope(limit);
+    return point;
+  };
+}
+
+struct Closed {
+  std::vector<ParetoPoint> points;
+  FrontGaps gaps;
+};
+
+/// Adds points until none is asked for.
+Closed close(const Search& search, const std::vector<double>& limits, double gap,
+             int most_points = 100, GoodSide side = GoodSide::low) {
+  Closed closed;
+  for (const double limit : limits) closed.points.push_back(search(limit));
+  while (true) {
+    mark_dominated(closed.points, side);
+    const int room = most_points - static_cast<int>(closed.points.size());
+    closed.gaps = find_front_gaps(closed.points, side, gap, std::max(room, 0));
+    if (closed.gaps.probes.empty()) return closed;
+    for (const FrontProbe& probe : closed.gaps.probes) {
+      closed.points.push_back(search(probe.limit));
+    }
+  }
+}
+
+/// Of points that all are on the front, over the ranges of both goals.
+double largest_distance(std::vector<ParetoPoint> points) {
+  const auto limited = [](const ParetoPoint& point) { return point.limited_value; };
+  const auto objective = [](const ParetoPoint& p) { return p.result.evaluation.objective; };
+  std::sort(points.begin(), points.end(),
+            [&](const auto& one, const auto& other) { return limited(one) < limited(other); });
+  const double width = limited(points.back()) - limited(points.front());
+  const double height = objective(points.front()) - objective(points.back());
+  double largest = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    largest =
+        std::max(largest, std::hypot((limited(points[i]) - limited(points[i - 1])) / width,
+                                     (objective(points[i]) - objective(points[i - 1])) / height));
+  }
+  return largest;
+}
+
+/// The quarter of a circle around (1, 1) that is good for both, in units of 50 and 3.
+Search circle() {
+  const auto at = [](double limit) { return 1.0 - limit / 50.0; };
+  return smooth([=](double limit) { return 3.0 - 3.0 * std::sqrt(1.0 - at(limit) * at(limit)); },
+                [=](double limit) {
+                  const double y = std::max(std::sqrt(1.0 - at(limit) * at(limit)), 1e-9);
+                  return -3.0 / 50.0 * at(limit) / y;
+                });
+}
+
+TEST(FrontGaps, OfASmoothFrontAreClosedWithFewPoints) {
+  for (const double gap : {0.4, 0.1, 0.05, 0.02}) {
+    const Closed closed = close(circle(), {0.0, 25.0, 50.0}, gap);
+    EXPECT_LE(largest_distance(closed.points), gap * (1 + 1e-9));
+    EXPECT_NEAR(closed.gaps.largest, largest_distance(closed.points), 1e-9);
+    EXPECT_TRUE(closed.gaps.gaps.empty());
+    // Equal distances on the arc of length π/2 need so many; a rounded number of parts of each gap
+    // makes at most half as many more.
+    const double least = 1.0 + std::ceil(0.5 * std::numbers::pi / gap);
+    EXPECT_LE(static_cast<double>(closed.points.size()), 1.5 * least + 1.0) << gap;
+  }
+}
+
+/// 1/c from 0.01 to 1: in equal steps of the limit 0.02 of the range would take 5000 points.
+TEST(FrontGaps, OfASteepFrontAreClosedWhereItIsSteep) {
+  const Search hyperbola =
+      smooth([](double c) { return 1.0 / c; }, [](double c) { return -1.0 / (c * c); });
+  const Closed closed = close(hyperbola, {0.01, 0.505, 1.0}, 0.05);
+  EXPECT_LE(largest_distance(closed.points), 0.05);
+  EXPECT_TRUE(closed.gaps.gaps.empty());
+  // Both legs have about the length 1: 40 at the least.
+  EXPECT_LE(closed.points.size(), 70u);
+}
+
+TEST(FrontGaps, OverALowerLimitAreThoseOfTheMirroredFront) {
+  const Search mirrored = [](double limit) {
+    ParetoPoint point = circle()(50.0 - limit);
+    point.limit = limit;
+    point.limited_value = limit;
+    point.multiplier = -point.multiplier;
+    return point;
+  };
+  const Closed low = close(circle(), {0.0, 25.0, 50.0}, 0.05);
+  const Closed high = close(mirrored, {50.0, 25.0, 0.0}, 0.05, 100, GoodSide::high);
+  ASSERT_EQ(high.points.size(), low.points.size());
+  for (std::size_t i = 0; i < low.points.size(); ++i) {
+    EXPECT_NEAR(high.points[i].limit, 50.0 - low.points[i].limit, 1e-9);
+  }
+}
+
+/// 2 − c below 0.6, and 0.8 − c from there on: the objective jumps by 0.6 of its range of 1.6.
+Search falling_by_a_jump(double jump_at) {
+  return smooth([=](double c) { return c < jump_at ? 2.0 - c : 1.4 - c; },
+                [](double) { return -1.0; });
+}
+
+TEST(FrontGaps, EndAtAJumpOfTheObjective) {
+  const double jump_at = 0.6180339887;
+  const Closed closed = close(falling_by_a_jump(jump_at), {0.0, 0.5, 1.0}, 0.05);
+  ASSERT_EQ(closed.gaps.gaps.size(), 1u);
+  const FrontGap& gap = closed.gaps.gaps.front();
+  EXPECT_EQ(gap.cause, FrontGap::Cause::jump);
+  EXPECT_LT(closed.points[gap.tight].limit, jump_at);
+  EXPECT_GE(closed.points[gap.loose].limit, jump_at);
+  // A quarter of the gap asked.
+  EXPECT_LE(closed.points[gap.loose].limit - closed.points[gap.tight].limit, 0.0125);
+  EXPECT_NEAR(gap.size, 0.6 / 1.6, 0.02);
+}
+
+/// Up to a limit of 0.7 the same design at 0.2 is best; then a better island begins.
+TEST(FrontGaps, EndWhereTheLimitIsNotActiveBetweenTwoIslands) {
+  const Search islands = [](double limit) {
+    if (limit < 0.2)
+      return smooth([](double c) { return 2.0 - c; }, [](double) { return -1.0; })(limit);
+    if (limit < 0.7) return point_at(limit, 0.2, 1.8);
+    return smooth([](double c) { return 1.7 - c; }, [](double) { return -1.0; })(limit);
+  };
+  const Closed closed = close(islands, {0.0, 0.5, 1.0}, 0.05);
+  ASSERT_EQ(closed.gaps.gaps.size(), 1u);
+  const FrontGap& gap = closed.gaps.gaps.front();
+  EXPECT_EQ(gap.cause, FrontGap::Cause::jump);
+  EXPECT_NEAR(closed.points[gap.tight].limited_value, 0.2, 0.05);
+  EXPECT_NEAR(closed.points[gap.loose].limited_value, 0.7, 0.0125);
+  EXPECT_LE(closed.points.size(), 45u);
+}
+
+/// A slope of 1000 over a width of 2e-3 is steep, but no jump.
+TEST(FrontGaps, OfASteepPlaceAreClosed) {
+  const auto objective = [](double c) { return -std::atan(1000.0 * (c - 0.4)); };
+  const auto slope = [](double c) { return -1000.0 / (1.0 + std::pow(1000.0 * (c - 0.4), 2)); };
+  const Closed closed = close(smooth(objective, slope), {0.0, 0.25, 0.5, 0.75, 1.0}, 0.05, 200);
+  EXPECT_TRUE(closed.gaps.gaps.empty());
+  EXPECT_LE(largest_distance(closed.points), 0.05);
+}
+
+TEST(FrontGaps, EndWhereSearchesFail) {
+  const Search failing = [](double limit) {
+    return limit > 0.3 && limit < 0.6 ? failed_at(limit) : circle()(50.0 * limit);
+  };
+  const Closed closed = close(
+      [&](double limit) {
+        ParetoPoint point = failing(limit / 50.0);
+        point.limit = limit;
+        return point;
+      },
+      {0.0, 25.0, 50.0}, 0.05);
+  ASSERT_EQ(closed.gaps.gaps.size(), 1u);
+  EXPECT_EQ(closed.gaps.gaps.front().cause, FrontGap::Cause::failure);
+  const auto failures = std::count_if(closed.points.begin(), closed.points.end(),
+                                      [](const ParetoPoint& point) { return !point.has_design(); });
+  EXPECT_LE(failures, 8);
+}
+
+/// Searches that come to designs which others dominate lead nowhere either.
+TEST(FrontGaps, EndWhereSearchesComeToWorseDesigns) {
+  const Search lost = [](double limit) {
+    if (limit > 10.0 && limit < 40.0) return point_at(limit, limit, 10.0);
+    return circle()(limit);
+  };
+  const Closed closed = close(lost, {0.0, 25.0, 50.0}, 0.05, 1000);
+  ASSERT_EQ(closed.gaps.gaps.size(), 1u);
+  EXPECT_EQ(closed.gaps.gaps.front().cause, FrontGap::Cause::failure);
+}
+
+/// Searches that all end in the same two designs, whatever the limit.
+TEST(FrontGaps, EndWhereSearchesDoNotHeedTheirLimit) {
+  const Search deaf = [](double limit) {
+    return limit < 0.9 ? point_at(limit, 0.0, 1.0) : point_at(limit, 1.0, 0.0);
+  };
+  const Closed closed = close(deaf, {0.0, 0.5, 1.0}, 0.01, 1000);
+  ASSERT_EQ(closed.gaps.gaps.size(), 1u);
+  EXPECT_EQ(closed.gaps.gaps.front().cause, FrontGap::Cause::jump);
+  EXPECT_LE(closed.points.size(), 40u);
+  const Search elsewhere = [](double limit) {
+    if (limit <= 0.0) return point_at(limit, 0.0, 1.0);
+    return point_at(limit, limit < 1.0 ? -1.0 : 1.0, limit < 1.0 ? 2.0 : 0.0);
+  };
+  EXPECT_LE(close(elsewhere, {0.0, 0.5, 1.0}, 0.01, 1000).points.size(), 40u);
+}
+
+TEST(FrontGaps, AreNoneWhereNothingIsTraded) {
+  // The same design for all limits; one point; none.
+  const Search flat = [](double limit) { return point_at(limit, 0.3, 2.0); };
+  EXPECT_TRUE(close(flat, {1.0, 2.0, 3.0}, 0.05).gaps.gaps.empty());
+  EXPECT_TRUE(close(flat, {1.0}, 0.05).gaps.probes.empty());
+  EXPECT_TRUE(close(failed_at, {1.0, 2.0, 3.0}, 0.05).gaps.probes.empty());
+  EXPECT_TRUE(find_front_gaps({}, GoodSide::low, 0.05, 10).probes.empty());
+  // An objective that does not change: the tightest dominates all others.
+  const Search level = [](double limit) { return point_at(limit, limit, 2.0); };
+  EXPECT_TRUE(close(level, {1.0, 2.0, 3.0}, 0.05).gaps.probes.empty());
+}
+
+TEST(FrontGaps, AreLeftWhereThereAreAsManyPointsAsThereMayBe) {
+  const Closed closed = close(circle(), {0.0, 25.0, 50.0}, 0.02, 20);
+  EXPECT_EQ(closed.points.size(), 20u);
+  ASSERT_FALSE(closed.gaps.gaps.empty());
+  for (const FrontGap& gap : closed.gaps.gaps) EXPECT_EQ(gap.cause, FrontGap::Cause::open);
+  // The largest are closed first: 19 equal ones would have π/38.
+  EXPECT_LE(closed.gaps.largest, 2.5 * std::numbers::pi / 38.0);
+}
+
+TEST(FrontGaps, BeginSearchesAtTheNearerNeighbour) {
+  std::vector<ParetoPoint> points = {circle()(0.0), circle()(50.0)};
+  const FrontGaps gaps = find_front_gaps(points, GoodSide::low, 0.05, 10);
+  ASSERT_EQ(gaps.probes.size(), 3u);
+  for (const FrontProbe& probe : gaps.probes) EXPECT_EQ(probe.from, probe.limit <= 25.0 ? 0u : 1u);
+}
+
+}  // namespace
+}  // namespace pleuel::test
