@@ -41,7 +41,7 @@ struct Neighbours {
 class GapFinder {
  public:
   GapFinder(const std::vector<ParetoPoint>& points, GoodSide side, double gap)
-      : gap_(gap), sign_(side == GoodSide::low ? 1.0 : -1.0) {
+      : points_(points), gap_(gap), sign_(side == GoodSide::low ? 1.0 : -1.0) {
     measure(points);
     for (std::size_t i = 0; i < points.size(); ++i) places_.push_back(place_of(points[i], i));
     for (const Place& place : places_) {
@@ -134,12 +134,29 @@ class GapFinder {
     return between;
   }
 
+  /// Whether the slopes account for less than half of a change of the objective.
+  static bool is_unexplained(const Neighbours& between, double change) {
+    const auto &tight = between.tight->slope, &loose = between.loose->slope;
+    return tight && loose &&
+           (std::abs(*tight) + std::abs(*loose)) * between.interval() <= slope_share * change;
+  }
+
+  /// Beyond a jump the designs of the loose side may go on, better than those that were found.
+  bool asks_for_look_back(const Neighbours& between) const {
+    const Place& tight = *between.tight;
+    const bool is_active = tight.limit - tight.limited <= same_place * gap_;
+    if (!is_active || tight.limit > between.upper) return false;
+    if (!is_unexplained(between, tight.objective - between.loose->objective)) return false;
+    const double limit = points_[tight.index].limit;
+    return 1 == std::count_if(points_.begin(), points_.end(),
+                              [&](const ParetoPoint& point) { return point.limit == limit; });
+  }
+
   FrontGap::Cause cause_of(const Neighbours& between) const {
+    if (asks_for_look_back(between)) return FrontGap::Cause::open;
     const double interval = between.interval();
     if (interval <= optimum_resolution) return FrontGap::Cause::jump;
-    const auto &tight = between.tight->slope, &loose = between.loose->slope;
-    if (interval <= short_interval * gap_ && tight && loose &&
-        (std::abs(*tight) + std::abs(*loose)) * interval <= slope_share * gap_) {
+    if (interval <= short_interval * gap_ && is_unexplained(between, gap_)) {
       return FrontGap::Cause::jump;
     }
     return between.failures.size() < most_failures ? FrontGap::Cause::open
@@ -155,13 +172,22 @@ class GapFinder {
     std::vector<FrontProbe> all;
     for (const auto& [size, between] : open) {
       if (size < 0.5 * open.front().first) break;
-      for (const double limit : limits_between(between)) {
+      for (const FrontProbe& probe : probes_of(between)) {
         if (static_cast<int>(all.size()) == room) return all;
-        const bool is_nearer_to_tight = limit - between.lower <= between.upper - limit;
-        const std::size_t tight = between.tight->index, loose = between.loose->index;
-        all.push_back({sign_ * limit / limited_scale_, is_nearer_to_tight ? tight : loose,
-                       is_nearer_to_tight ? loose : tight});
+        all.push_back(probe);
       }
+    }
+    return all;
+  }
+
+  std::vector<FrontProbe> probes_of(const Neighbours& between) const {
+    const std::size_t tight = between.tight->index, loose = between.loose->index;
+    if (asks_for_look_back(between)) return {{points_[tight].limit, loose, tight}};
+    std::vector<FrontProbe> all;
+    for (const double limit : limits_between(between)) {
+      const bool is_nearer_to_tight = limit - between.lower <= between.upper - limit;
+      all.push_back({sign_ * limit / limited_scale_, is_nearer_to_tight ? tight : loose,
+                     is_nearer_to_tight ? loose : tight});
     }
     return all;
   }
@@ -226,6 +252,7 @@ class GapFinder {
     return lengths;
   }
 
+  const std::vector<ParetoPoint>& points_;
   double gap_, sign_;
   double limited_scale_ = 0.0, objective_scale_ = 0.0;  ///< 1 / range
   std::vector<Place> places_;                           ///< of all points

@@ -40,6 +40,8 @@ struct FrontGaps {
 
 /// What follows from the points so far, and from nothing else.
 ///
+/// Where the slopes account for less than half of what the objective changes, the tighter limit is solved
+/// once more from the loose side: designs of that side may be better there than those that were found.
 /// A jump has no point within. It is told from a steep part of a front by limits on either side that are
 /// nearer than a quarter of the gap asked, where the slopes account for less than half of it, or that
 /// are nearer than optima can be told apart (10⁻⁴ of the range). Limits at which a search led nowhere

@@ -69,8 +69,8 @@ const std::array<AskedFront, 4> fronts = {
     // 4: the stiffest rod is too stubby to be verified.
     AskedFront{R"( --set '/pareto={"responses": ["crank_and_rod", "rod_bow"], "points": 4}')", 4},
     AskedFront{" --gap 40%", 0},
-    AskedFront{R"( --set '/variables/crank_diameter={"choices": ["18 mm", "22 mm", "26 mm"]}')"
-               R"( --set '/variables/rod_diameter={"choices": ["16 mm", "20 mm", "24 mm"]}')",
+    AskedFront{R"( --set '/variables/crank_diameter={"choices": ["24 mm", "26 mm", "28 mm"]}')"
+               R"( --set '/variables/rod_diameter={"choices": ["12 mm", "15 mm", "18 mm"]}')",
                0}};
 
 TEST_F(Resumed, FrontEndsAsIfItHadNotBeenKilled) {

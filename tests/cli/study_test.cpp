@@ -75,8 +75,8 @@ TEST(ParetoCommand, ShowsAllChoicesOfSizesThatNoOtherDominates) {
       folder.path(),
       joined({"pareto", problem("slider_crank_round"), "-o", "front", "--set",
               R"(/pareto={"responses": ["crank_and_rod", "rod_bow"]})", "--set",
-              R"(/variables/crank_diameter={"choices": ["20 mm", "24 mm", "28 mm"]})", "--set",
-              R"(/variables/rod_diameter={"choices": ["18 mm", "22 mm", "26 mm"]})"},
+              R"(/variables/crank_diameter={"choices": ["24 mm", "26 mm", "28 mm"]})", "--set",
+              R"(/variables/rod_diameter={"choices": ["12 mm", "15 mm", "18 mm"]})"},
              quick()));
   EXPECT_THAT(run.out, HasSubstr("Sizes: all 9 choices of sizes were simulated"));
   const nlohmann::json document =

@@ -42,7 +42,7 @@ ProblemFile bar(const std::string& pareto, const std::string& extra = R"({"start
   "simulation": {{"end_time": "2 ms", "step": "1 ms", "resolution_check": false}},
   "variables": {{"b": {{"choices": [{}]}}, "h": {{"choices": [{}]}}, "extra": {}}},
   "responses": {{"mass": {{"type": "mass"}},
-    "slack": {{"type": "expression", "value": "(1e-5 m^3)/(b*h^2) + (0.1 1/m)*extra"}},
+    "slack": {{"type": "expression", "value": "extra/(10 m) + 1e-5*(1 m)/b*((1 m)/h)^2"}},
     "goodness": {{"type": "expression", "value": "0 - slack"}}}},
   {} "pareto": {}}})",
                   mm_list(widths), mm_list(heights), extra, more, pareto),

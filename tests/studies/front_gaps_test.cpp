@@ -163,6 +163,40 @@ TEST(FrontGaps, EndWhereTheLimitIsNotActiveBetweenTwoIslands) {
   EXPECT_LE(closed.points.size(), 45u);
 }
 
+/// Two branches, 2 − c and 1.4 − c from c = 0.314 on. A search stays on the branch that it begins on,
+/// as long as that is there: the points of the worse one are optima, but not of the front.
+TEST(FrontGaps, AreLookedAtFromBothSides) {
+  const double end = 0.3141592654;
+  std::vector<ParetoPoint> points;
+  const auto add = [&](double limit, bool is_on_better) {
+    const bool stays = is_on_better && limit >= end;
+    points.push_back(smooth([=](double c) { return stays ? 1.4 - c : 2.0 - c; },
+                            [](double) { return -1.0; })(limit));
+  };
+  for (const double limit : {0.0, 0.25, 0.5, 0.75}) add(limit, false);
+  add(1.0, true);
+  FrontGaps gaps;
+  while (true) {
+    mark_dominated(points, GoodSide::low);
+    gaps = find_front_gaps(points, GoodSide::low, 0.05, 200 - static_cast<int>(points.size()));
+    if (gaps.probes.empty()) break;
+    for (const FrontProbe& probe : gaps.probes) {
+      const ParetoPoint& from = points[probe.from];
+      add(probe.limit, from.result.evaluation.objective < 1.7 - from.limit);
+    }
+  }
+  ASSERT_EQ(gaps.gaps.size(), 1u);
+  EXPECT_EQ(gaps.gaps.front().cause, FrontGap::Cause::jump);
+  EXPECT_NEAR(points[gaps.gaps.front().loose].limit, end, 0.0125);
+  for (const ParetoPoint& point : points) {
+    const bool is_at_jump = point.limit >= end && point.limit < end + 0.0125;
+    if (point.is_dominated || is_at_jump) continue;
+    const double best = point.limit >= end ? 1.4 - point.limit : 2.0 - point.limit;
+    EXPECT_NEAR(point.result.evaluation.objective, best, 1e-12) << point.limit;
+  }
+  EXPECT_LE(points.size(), 80u);
+}
+
 /// A slope of 1000 over a width of 2e-3 is steep, but no jump.
 TEST(FrontGaps, OfASteepPlaceAreClosed) {
   const auto objective = [](double c) { return -std::atan(1000.0 * (c - 0.4)); };
