@@ -9,8 +9,9 @@ namespace pleuel {
 bool is_enumerable(const ProblemFile& problem);
 
 /// Simulates every choice of sizes. The front is all of them that keep the limits and that no other
-/// dominates, to round-off: that of the problem itself, not of searches. Of a limit that goes from one
-/// value to another it is what is best at some limit between. Each point is judged like any optimum.
+/// dominates, to round-off: that of the problem itself, not of searches. Of a limit that goes from
+/// one value to another it is what is best at some limit between. Each point is judged like any
+/// optimum.
 /// @param problem  of two responses: that of trade_off_problem()
 /// @throws Stopped before the first point
 ParetoFront choice_front(const ProblemFile& problem, const SolveOptions& options,

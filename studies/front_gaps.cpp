@@ -55,6 +55,7 @@ class GapFinder {
   FrontGaps run(int room) {
     FrontGaps found;
     std::vector<std::pair<double, Neighbours>> open;
+    add_end(found, open);
     for (std::size_t i = 1; i < front_.size(); ++i) {
       const Place &tight = *front_[i - 1], &loose = *front_[i];
       const double size = distance(tight, loose);
@@ -134,6 +135,25 @@ class GapFinder {
     return between;
   }
 
+  /// Where tighter limits led to no design, the front may go on from its tightest point as far as
+  /// these: at most by the length that its slope predicts.
+  void add_end(FrontGaps& found, std::vector<std::pair<double, Neighbours>>& open) const {
+    if (front_.empty() || limited_scale_ == 0.0) return;
+    const Place& first = *front_.front();
+    const Place* failed = nullptr;
+    for (const Place& place : places_) {
+      const bool is_nearer = failed == nullptr || place.limit > failed->limit;
+      const bool is_failed = !points_[place.index].keeps_limits();
+      if (is_failed && place.limit < first.limited && is_nearer) failed = &place;
+    }
+    if (failed == nullptr) return;
+    Neighbours between{failed, &first, failed->limit, std::min(first.limit, first.limited), {}};
+    const double size = between.interval() * std::hypot(1.0, first.slope.value_or(0.0));
+    if (size <= gap_ || between.interval() <= optimum_resolution) return;
+    found.gaps.push_back({failed->index, first.index, size, FrontGap::Cause::open});
+    open.emplace_back(size, std::move(between));
+  }
+
   /// Whether the slopes account for less than half of a change of the objective.
   static bool is_unexplained(const Neighbours& between, double change) {
     const auto &tight = between.tight->slope, &loose = between.loose->slope;
@@ -144,6 +164,7 @@ class GapFinder {
   /// Beyond a jump the designs of the loose side may go on, better than those that were found.
   bool asks_for_look_back(const Neighbours& between) const {
     const Place& tight = *between.tight;
+    if (!tight.is_on_front) return false;
     const bool is_active = tight.limit - tight.limited <= same_place * gap_;
     if (!is_active || tight.limit > between.upper) return false;
     if (!is_unexplained(between, tight.objective - between.loose->objective)) return false;
@@ -186,15 +207,22 @@ class GapFinder {
     std::vector<FrontProbe> all;
     for (const double limit : limits_between(between)) {
       const bool is_nearer_to_tight = limit - between.lower <= between.upper - limit;
-      all.push_back({sign_ * limit / limited_scale_, is_nearer_to_tight ? tight : loose,
-                     is_nearer_to_tight ? loose : tight});
+      const std::size_t nearer = is_nearer_to_tight ? tight : loose;
+      const std::size_t other = is_nearer_to_tight ? loose : tight;
+      const double at = sign_ * limit / limited_scale_;
+      if (between.tight->is_on_front) {
+        all.push_back({at, nearer, other});
+      } else {
+        all.push_back({at, loose, loose});
+      }
     }
     return all;
   }
 
   std::vector<double> limits_between(const Neighbours& between) const {
     const bool is_inactive = between.lower - between.tight->limited > same_place * gap_;
-    if (is_inactive || !between.failures.empty()) return {middle_of_largest(between)};
+    const bool is_end = !between.tight->is_on_front;
+    if (is_end || is_inactive || !between.failures.empty()) return {middle_of_largest(between)};
     return limits_along_curve(between);
   }
 

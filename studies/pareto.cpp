@@ -133,8 +133,9 @@ class Front {
   std::vector<PointSearch> next_searches(const std::vector<FrontProbe>& probes) const {
     std::vector<PointSearch> searches;
     for (const FrontProbe& probe : probes) {
-      searches.push_back({probe.limit, std::nullopt, found_[probe.from].next_start(),
-                          found_[probe.other].next_start()});
+      PointSearch search{probe.limit, std::nullopt, found_[probe.from].next_start()};
+      if (probe.other != probe.from) search.other = found_[probe.other].next_start();
+      searches.push_back(std::move(search));
     }
     return searches;
   }

@@ -25,8 +25,8 @@ struct ParetoFront {
   bool is_whole = true;  ///< no stop was asked for before its end
 };
 
-/// The order in which points are found, and the one that each begins at: ends first, then the middle
-/// of each gap from the nearer end of it.
+/// The order in which points are found, and the one that each begins at: ends first, then the
+/// middle of each gap from the nearer end of it.
 struct ParetoOrder {
   std::vector<int> points;               ///< by their number on the front, from 0
   std::vector<std::optional<int>> from;  ///< place in `points`, before this one; none: the start
@@ -45,12 +45,12 @@ ProblemFile trade_off_problem(ProblemFile problem);
 /// where that broke its limits from where that began. Each is a task of its own
 /// (core/base/tasks.hpp); the points do not depend on the number of jobs. Every point is audited
 /// like any optimum. Between two responses the ends are found first: the best design for each of
-/// them, and of equally good ones (to 10⁻⁴ of their value) the best for the other; the limit on the second
-/// goes from one to the other. Where both ends are the same there is one point: nothing is to be traded.
-/// With a `gap` more points come between neighbours that are further apart (front_gaps.hpp), in rounds: where
-/// they come follows from the points before alone.
-/// Where sizes come from lists, each point is a choice of them (choose_sizes()); where nothing else is free
-/// and the choices are few, the front is that of all choices (choice_front.hpp).
+/// them, and of equally good ones (to 10⁻⁴ of their value) the best for the other; the limit on the
+/// second goes from one to the other. Where both ends are the same there is one point: nothing is
+/// to be traded. With a `gap` more points come between neighbours that are further apart
+/// (front_gaps.hpp), in rounds: where they come follows from the points before alone. Where sizes
+/// come from lists, each point is a choice of them (choose_sizes()); where nothing else is free and
+/// the choices are few, the front is that of all choices (choice_front.hpp).
 /// @param problem  of two responses: that of trade_off_problem()
 /// @returns what was found before a stop, if one was asked for
 /// @throws Stopped before the first

@@ -14,8 +14,8 @@ struct SizedDesign {
   Eigen::VectorXd between;  ///< the optimum between the sizes, where some come from lists [SI]
 };
 
-/// solve_design(), and choose_sizes() after it where sizes are chosen from lists. Where no choice could
-/// be simulated the result has no design.
+/// solve_design(), and choose_sizes() after it where sizes are chosen from lists. Where no choice
+/// could be simulated the result has no design.
 /// @param file  with the design that the search begins at
 /// @throws as solve()
 SizedDesign search_with_sizes(const ProblemFile& file, const SolveOptions& options,

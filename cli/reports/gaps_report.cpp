@@ -51,8 +51,9 @@ std::string gaps_message(const ProblemFile& problem, const ParetoFront& front,
     const auto value = [&](std::size_t i) {
       return significant(unit.shown(front.points[i].limited_value));
     };
-    text += fmt::format("; between {} = {} and {} {} ({}) {}", limited, value(gap.tight),
-                        value(gap.loose), unit.name, percent(gap.size), reason(gap.cause));
+    text += fmt::format("; between {} = {} and {}{} ({}) {}", limited, value(gap.tight),
+                        value(gap.loose), unit.name == "1" ? "" : " " + unit.name,
+                        percent(gap.size), reason(gap.cause));
   }
   if (is_open) {
     text += fmt::format("; no more than {} points were allowed (\"most_points\")",
@@ -65,13 +66,15 @@ Json gaps_document(const ProblemFile& problem, const ParetoFront& front) {
   if (!is_of_gap(problem, front)) return nullptr;
   Json document = {
       {"asked", problem.pareto->gap}, {"largest", front.gaps.largest}, {"left", Json::array()}};
+  const auto limited = [&](std::size_t i) {
+    const ParetoPoint& point = front.points[i];
+    return point.has_design() && point.keeps_limits() ? Json(point.limited_value) : Json(nullptr);
+  };
   for (const FrontGap& gap : front.gaps.gaps) {
-    document["left"].push_back(
-        {{"points", {gap.tight + 1, gap.loose + 1}},
-         {"limited",
-          {front.points[gap.tight].limited_value, front.points[gap.loose].limited_value}},
-         {"size", gap.size},
-         {"cause", cause_text(gap.cause)}});
+    document["left"].push_back({{"points", {gap.tight + 1, gap.loose + 1}},
+                                {"limited", {limited(gap.tight), limited(gap.loose)}},
+                                {"size", gap.size},
+                                {"cause", cause_text(gap.cause)}});
   }
   return document;
 }

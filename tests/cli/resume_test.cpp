@@ -58,8 +58,9 @@ TEST_F(Resumed, SeveralStartsEndAsIfTheyHadNotBeenKilled) {
   expect_same("killed", "whole", "history.csv");
 }
 
-/// Between the objective and a limit, and between two responses, with points in the gaps, and of sizes from lists: searches with other objectives, which
-/// must not take each other's evaluations from the record.
+/// Between the objective and a limit, and between two responses, with points in the gaps, and of
+/// sizes from lists: searches with other objectives, which must not take each other's evaluations
+/// from the record.
 struct AskedFront {
   std::string words;
   int exit_code;
@@ -97,7 +98,8 @@ TEST_F(Resumed, SamplesEndAsIfTheyHadNotBeenKilled) {
   EXPECT_EQ(count_evaluations(folder_.path() / "whole"), 40);
 }
 
-/// Times are measured: only those of parts that were kept come back. Values and errors are the same.
+/// Times are measured: only those of parts that were kept come back. Values and errors are the
+/// same.
 TEST_F(Resumed, AccuracyStudyEndsAsIfItHadNotBeenKilled) {
   const std::string words =
       "accuracy " + problem("slider_crank_round") + quick_line() +

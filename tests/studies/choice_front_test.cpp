@@ -29,8 +29,8 @@ std::string mm_list(const std::vector<double>& sizes) {
   return text;
 }
 
-/// A bar of 1 m, width b and height h from lists: its mass is ρ b h. The response "slack" is 1/(b h²) with
-/// 10⁻⁵ m³, and a tenth of a length that may be designed, too.
+/// A bar of 1 m, width b and height h from lists: its mass is ρ b h. The response "slack" is 1/(b
+/// h²) with 10⁻⁵ m³, and a tenth of a length that may be designed, too.
 ProblemFile bar(const std::string& pareto, const std::string& extra = R"({"start": "0.5 m",
                 "lower": "0.5 m", "upper": "0.5 m"})",
                 const std::string& more = "") {
@@ -161,7 +161,8 @@ TEST(ChoiceFront, HasNoPointWhereNoChoiceKeepsTheLimits) {
   EXPECT_EQ(front.choices->feasible, 0);
 }
 
-/// With another variable every point is a search: the best bar for each limit, with the least extra.
+/// With another variable every point is a search: the best bar for each limit, with the least
+/// extra.
 TEST(ChoiceFront, WithOtherVariablesChoosesAtEachLimit) {
   const ParetoFront front =
       front_of(bar(R"({"constraint": "loose", "from": 0.15, "to": 0.45, "points": 4})",

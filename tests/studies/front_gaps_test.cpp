@@ -163,8 +163,8 @@ TEST(FrontGaps, EndWhereTheLimitIsNotActiveBetweenTwoIslands) {
   EXPECT_LE(closed.points.size(), 45u);
 }
 
-/// Two branches, 2 − c and 1.4 − c from c = 0.314 on. A search stays on the branch that it begins on,
-/// as long as that is there: the points of the worse one are optima, but not of the front.
+/// Two branches, 2 − c and 1.4 − c from c = 0.314 on. A search stays on the branch that it begins
+/// on, as long as that is there: the points of the worse one are optima, but not of the front.
 TEST(FrontGaps, AreLookedAtFromBothSides) {
   const double end = 0.3141592654;
   std::vector<ParetoPoint> points;
@@ -222,6 +222,23 @@ TEST(FrontGaps, EndWhereSearchesFail) {
   const auto failures = std::count_if(closed.points.begin(), closed.points.end(),
                                       [](const ParetoPoint& point) { return !point.has_design(); });
   EXPECT_LE(failures, 8);
+}
+
+/// 1/c from c = 0.1 on; below that no design keeps the limits.
+TEST(FrontGaps, LookForTheEndWhereTighterLimitsLeadToNoDesign) {
+  const Search cut = [](double limit) {
+    if (limit < 0.1) return failed_at(limit);
+    return smooth([](double c) { return 1.0 / c; }, [](double c) { return -1.0 / (c * c); })(limit);
+  };
+  const Closed closed = close(cut, {0.0, 0.5, 1.0}, 0.05);
+  EXPECT_TRUE(closed.gaps.gaps.empty());
+  double first = 1.0;
+  for (const ParetoPoint& point : closed.points) {
+    if (point.has_design()) first = std::min(first, point.limit);
+  }
+  // Ranges of 0.9 and 9: at the end the slope is 100/10, and 0.05 of the length 0.005 of the width.
+  EXPECT_NEAR(first, 0.1, 0.005);
+  EXPECT_LE(closed.points.size(), 70u);
 }
 
 /// Searches that come to designs which others dominate lead nowhere either.

@@ -12,8 +12,8 @@
 namespace pleuel::test {
 namespace {
 
-/// A square bar of 1 m and side a: its mass is ρ a². The response "slack" is (60 mm/a)² · 1 kg + k·b, with
-/// a variable b that nothing else depends on.
+/// A square bar of 1 m and side a: its mass is ρ a². The response "slack" is (60 mm/a)² · 1 kg +
+/// k·b, with a variable b that nothing else depends on.
 ProblemFile bar(const std::string& responses, int points, const std::string& more = "",
                 const std::string& others = "") {
   return read_problem_text(
@@ -170,7 +170,8 @@ TEST(TradeOff, WithAGapIsOnePointWhereNothingIsToBeTraded) {
   EXPECT_EQ(points.size(), 1u);
 }
 
-/// The thinnest bar whose wave is not above a value, by going through all of them in steps of 10⁻⁷ m.
+/// The thinnest bar whose wave is not above a value, by going through all of them in steps of 10⁻⁷
+/// m.
 double thinnest_below(double value) {
   double side = 0.02;
   while (side < 0.06 &&
