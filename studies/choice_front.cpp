@@ -122,7 +122,10 @@ ParetoFront choice_front(const ProblemFile& problem, const SolveOptions& options
   ParetoFront front;
   front.choices = ChoiceCounts{.all = static_cast<int>(designs.size())};
   const auto scales = scales_at(any, designs, execution);
-  if (!scales) return front;
+  if (!scales) {
+    front.choices->failed = front.choices->all;
+    return front;
+  }
   std::vector<TriedChoice> choices;
   for (const SizeTrial& trial : try_sizes(any, designs, *scales, options, execution)) {
     if (trial.has_failed()) ++front.choices->failed;

@@ -145,11 +145,13 @@ std::string choices_message(const ParetoFront& front) {
   if (!front.choices) return "";
   const ChoiceCounts& counts = *front.choices;
   const std::string failed =
-      counts.failed > 0 ? fmt::format("; {} could not be simulated", counts.failed) : "";
+      counts.failed > 0 ? fmt::format(", and {} could not be simulated", counts.failed) : "";
+  const std::string tried = fmt::format("all {} choices of sizes were tried{}", counts.all, failed);
+  if (counts.feasible == 0) return tried + "; none keeps the limits other than the one that varies";
   return fmt::format(
-      "all {} choices of sizes were simulated; the other limits are kept by {}, and the points are "
-      "those of them that no other one dominates{}",
-      counts.all, counts.feasible, failed);
+      "{}; the limits other than the one that varies are kept by {}, and the points are those of "
+      "them that no other one dominates{}",
+      tried, counts.feasible, front.points.empty() ? ": none of them is between the limits" : "");
 }
 
 Json make_document(const ProblemFile& problem, const ParetoFront& front) {

@@ -78,7 +78,7 @@ TEST(ParetoCommand, ShowsAllChoicesOfSizesThatNoOtherDominates) {
               R"(/variables/crank_diameter={"choices": ["24 mm", "26 mm", "28 mm"]})", "--set",
               R"(/variables/rod_diameter={"choices": ["12 mm", "15 mm", "18 mm"]})"},
              quick()));
-  EXPECT_THAT(run.out, HasSubstr("Sizes: all 9 choices of sizes were simulated"));
+  EXPECT_THAT(run.out, HasSubstr("Sizes: all 9 choices of sizes were tried; "));
   const nlohmann::json document =
       nlohmann::json::parse(read_file(folder.path() / "front/result.json"));
   EXPECT_EQ(document.at("choices").at("combinations"), 9);

@@ -161,6 +161,30 @@ TEST(ChoiceFront, HasNoPointWhereNoChoiceKeepsTheLimits) {
   EXPECT_EQ(front.choices->feasible, 0);
 }
 
+/// Bars of 32 mm to 38 mm have no value of the square root.
+TEST(ChoiceFront, LeavesOutWhatCannotBeSimulated) {
+  const std::string begin = R"json({"scene": {"bodies": {"bar": {"type": "beam",
+    "from": [0, 0, 0], "to": [1, 0, 0], "rigid": true, "material": "steel", "elements": 1,
+    "section": {"type": "rectangle", "width": {"variable": "a"}, "height": {"variable": "a"}}}},
+    "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}},
+    "simulation": {"end_time": "2 ms", "step": "1 ms", "resolution_check": false},
+    "variables": {"a": {"choices": [)json";
+  const std::string end = R"json(]}}, "responses": {"mass": {"type": "mass"}, "slack": {
+    "type": "expression", "value": "((60 mm)/a)^2 + 0*sqrt((a/(1 mm) - 35)^2 - 9)"}},
+    "pareto": {"responses": ["mass", "slack"]}})json";
+  const auto front_with = [&](const char* sizes) {
+    return front_of(read_problem_text(begin + sizes + end, "bar.json"));
+  };
+  const ParetoFront front = front_with(R"("30 mm", "34 mm", "35 mm", "40 mm")");
+  EXPECT_EQ(front.choices->failed, 2);
+  ASSERT_EQ(front.points.size(), 2u);
+  EXPECT_DOUBLE_EQ(front.points[0].result.x(0), 0.04);
+  EXPECT_DOUBLE_EQ(front.points[1].result.x(0), 0.03);
+  const ParetoFront none = front_with(R"("34 mm", "35 mm")");
+  EXPECT_EQ(none.choices->failed, 2);
+  EXPECT_TRUE(none.points.empty());
+}
+
 /// With another variable every point is a search: the best bar for each limit, with the least
 /// extra.
 TEST(ChoiceFront, WithOtherVariablesChoosesAtEachLimit) {
