@@ -1,6 +1,11 @@
 #pragma once
 
-#include "studies/pareto.hpp"
+#include <array>
+#include <vector>
+
+#include "core/scene/problem_file.hpp"
+#include "studies/pareto_front.hpp"
+#include "studies/point_searches.hpp"
 
 /// Fronts of sizes that are chosen from lists, where all choices can be simulated.
 namespace pleuel {

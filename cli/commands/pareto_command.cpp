@@ -23,6 +23,7 @@
 #include "core/scene/load_cases.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "optimization/prices.hpp"
+#include "studies/pareto.hpp"
 #include "studies/pareto_knee.hpp"
 #include "studies/varied_limit.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "cli/text/json.hpp"
 #include "core/scene/problem_file.hpp"
-#include "studies/pareto.hpp"
+#include "studies/pareto_front.hpp"
 
 namespace pleuel {
 
