@@ -156,12 +156,25 @@ TEST(LateralBucklingResponse, OfAColumnIsNotChangedByWhatItsTipCarries) {
   EXPECT_NEAR(share_of(bar), 0.4, 1e-4);
 }
 
-/// A line across both axes of the section holds neither alone: the tip is free to go along it.
-TEST(LateralBucklingResponse, OfAColumnOnALineAcrossItIsThatOfAFreeTip) {
-  const Bar bar{clamp + R"(, "l": {"type": "point-on-line", "bodies": ["ground", "bar"],
-                                   "at": [1.2, 0, 0], "axis": [0, 1, 1]})",
-                force(0.1 * euler, "[-1, 0, 0]"), space};
-  EXPECT_NEAR(share_of(bar), 0.4, 1e-4);
+/// A square bar whose end slides across it goes along its line, be it along an axis of the section or
+/// between both.
+TEST(LateralBucklingResponse, OfASquareBarOnALineIsTheSameHoweverTheLineIsTurned) {
+  const auto share_on_line = [&](const char* axis) {
+    const std::string line = fmt::format(
+        R"(, "l": {{"type": "point-on-line", "bodies": ["ground", "bar"], "at": [1.2, 0, 0],
+                   "axis": {}}})",
+        axis);
+    // Half of the force presses the first half of the bar, the other half pulls at the second.
+    const std::string middle =
+        R"("f": {"type": "force", "body": "bar", "at": [0.6, 0, 0], "direction": [-1, 0, 0],
+                 "value": 1000})";
+    const ProblemFile problem = problem_of({clamp + line, middle, space});
+    return analyze(problem, Eigen::Vector2d(0.01, 0.01))->reductions[0].value;
+  };
+  const double along_axis = share_on_line("[0, 0, 1]");
+  EXPECT_GT(along_axis, 0.1);
+  EXPECT_NEAR(share_on_line("[0, 1, 1]") / along_axis, 1.0, 1e-6);
+  EXPECT_NEAR(share_on_line("[0, 1, 2]") / along_axis, 1.0, 1e-6);
 }
 
 /// The gradient of nothing is nothing.
