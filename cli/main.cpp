@@ -48,16 +48,20 @@ Outcome run(const Arguments& arguments) {
       {"uncertainty", run_uncertainty},
   };
   const auto command = commands.at(arguments.command);
-  return asks_for_each_case(arguments) ? run_each_case(arguments, command) : command(arguments);
+  if (asks_for_each_case(arguments)) return run_each_case(arguments, command);
+  Outcome outcome = command(arguments);
+  outcome.text += limits_left_out_text(arguments);
+  return outcome;
 }
 
-/// Errors of the lower floors begin with the JSON pointer; only we know the file.
+/// Errors of the lower floors begin with the JSON pointer, or with the load case that they are of;
+/// only we know the file.
 std::string with_file(const std::string& message, const Arguments& arguments) {
   const auto begins_with = [&](const fs::path& file) { return message.starts_with(file.string()); };
   const bool names_file = arguments.file.empty() || begins_with(arguments.file) ||
                           (arguments.design && begins_with(*arguments.design));
-  return message.starts_with("/") && !names_file ? arguments.file.string() + ": " + message
-                                                 : message;
+  const bool is_of_file = message.starts_with("/") || message.starts_with("in the case \"");
+  return is_of_file && !names_file ? arguments.file.string() + ": " + message : message;
 }
 
 /// "/tmp/aaaa…: File name too long": long names are told by their beginnings.
@@ -131,7 +135,7 @@ int guarded_main(int argc, const char* const* argv) {
   } catch (const InputError& error) {
     return report(ExitCode::bad_input, with_file(error.what(), arguments));
   } catch (const SimulationError& error) {
-    return report(ExitCode::simulation_failed, error.what());
+    return report(ExitCode::simulation_failed, with_file(error.what(), arguments));
   } catch (const fs::filesystem_error& error) {  // of a path that the user gave
     return report(ExitCode::bad_input, path_text(error));
   } catch (const Stopped&) {

@@ -12,8 +12,10 @@
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/over_cases_report.hpp"
 #include "cli/text/console.hpp"
+#include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stop.hpp"
+#include "core/scene/load_cases.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/scene/reading/document_reader.hpp"
 #include "core/scene/reading/text_file.hpp"
@@ -33,6 +35,23 @@ std::vector<std::string> case_names(const Arguments& arguments) {
     names.push_back(one.name);
   }
   return names;
+}
+
+/// Tells errors by the case that they are of; those of the file are of all.
+Outcome run_case(const Arguments& arguments, Outcome (*command)(const Arguments&)) {
+  const auto of_case = [&](const std::string& message) {
+    return fmt::format("in the case \"{}\": {}", *arguments.load_case, message);
+  };
+  try {
+    return command(arguments);
+  } catch (const SimulationError& error) {
+    throw SimulationError(of_case(error.what()));
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    const bool names_file = message.starts_with(arguments.file.string());
+    if (names_file || !message.starts_with("/")) throw;
+    throw InputError(of_case(message));
+  }
 }
 
 /// What is made from several cases: no case has it.
@@ -56,6 +75,22 @@ void add_numbers_over_cases(const Arguments& arguments, Outcome& all) {
 
 }  // namespace
 
+std::string limits_left_out_text(const Arguments& arguments) {
+  constexpr std::array with_limits = {"simulate", "optimize", "prices"};
+  const bool has_limits =
+      std::find(with_limits.begin(), with_limits.end(), arguments.command) != with_limits.end();
+  if (!has_limits || !arguments.load_case) return "";
+  const ProblemFile joined = read_problem(arguments.file, arguments.overrides);
+  std::vector<std::string> names;
+  for (std::size_t i = 0; joined.has_cases() && i < joined.constraints.size(); ++i) {
+    if (is_of_several(joined.case_constraints[i])) names.push_back(joined.constraints[i].name);
+  }
+  if (names.empty()) return "";
+  return wrapped(fmt::format("Not looked at, as it takes several cases: the {} {}.\n",
+                             names.size() == 1 ? "limit" : "limits", fmt::join(names, ", ")),
+                 "  ");
+}
+
 bool asks_for_each_case(const Arguments& arguments) {
   const bool is_such =
       std::find(commands.begin(), commands.end(), arguments.command) != commands.end();
@@ -72,7 +107,7 @@ Outcome run_each_case(const Arguments& arguments, Outcome (*command)(const Argum
     if (arguments.output) one.output = *arguments.output / plain_file_name(name);
     Outcome outcome;
     try {
-      outcome = command(one);
+      outcome = run_case(one, command);
     } catch (const Stopped&) {
       if (all.text.empty()) throw;
       all.exit_code = std::max(all.exit_code, ExitCode::not_verified);

@@ -38,6 +38,7 @@
 #include "core/scene/load_cases.hpp"
 #include "core/trust/case_doubts.hpp"
 #include "core/trust/doubts.hpp"
+#include "core/trust/far_limits.hpp"
 #include "core/trust/nested_runs.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/design/design_solve.hpp"
@@ -195,6 +196,23 @@ Examined examine_cases(Optimum& optimum, std::vector<CaseDesigns>& designs) {
   return examined;
 }
 
+/// Of all cases; that which decides is shown first.
+Json picture_of(const Optimum& optimum, const std::vector<CaseDesigns>& designs) {
+  const Eigen::VectorXd& start = first_design(optimum.result.history).x;
+  const std::string end = name_of_end(to_string(optimum.result.status));
+  std::vector<Json> cases;
+  for (const CaseDesigns& one : designs) {
+    cases.push_back(run_picture(*one.problem,
+                                {{"start", start, one.start.get()},
+                                 {end, optimum.result.x, one.end.get(), one.bands,
+                                  one.influence ? &*one.influence : nullptr}},
+                                designs.size()));
+  }
+  if (!optimum.problem.has_cases()) return cases.front();
+  return picture_of_cases(optimum.problem, std::move(cases),
+                          deciding_case(optimum.problem, optimum.result));
+}
+
 /// Simulates both for their trajectory files and for what is reported of them.
 Examined examine_designs(RunRecord& record, Optimum& optimum) {
   std::vector<CaseDesigns> designs = simulate_designs(record, optimum);
@@ -207,14 +225,7 @@ Examined examine_designs(RunRecord& record, Optimum& optimum) {
   record.begin_phase("influence");
   Examined examined = examine_cases(optimum, designs);
   optimum.influence = joined_influence(optimum, designs);
-  const CaseDesigns& shown =
-      designs[optimum.problem.has_cases() ? deciding_case(optimum.problem, optimum.result) : 0];
-  record.show_picture([&] {
-    return run_picture(*shown.problem, {{"start", first.x, shown.start.get()},
-                                        {name_of_end(to_string(optimum.result.status)),
-                                         optimum.result.x, shown.end.get(), shown.bands,
-                                         shown.influence ? &*shown.influence : nullptr}});
-  });
+  record.show_picture([&] { return picture_of(optimum, designs); });
   record.begin_phase("trajectories");
   return examined;
 }
@@ -289,6 +300,18 @@ Result interrupted_result(const DesignProblem& problem, const SolveOptions& opti
   return result;
 }
 
+/// A missing unit is told when the first design is known, not after a search for nothing.
+std::vector<std::string> far_limits_of(const ProblemFile& problem, const EvaluationRecord& record) {
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < problem.constraints.size(); ++i) {
+    const double value = record.constraints(static_cast<Eigen::Index>(i));
+    if (const auto text = far_limit_text(problem, problem.constraints[i], value)) {
+      warnings.push_back("at the start " + *text);
+    }
+  }
+  return warnings;
+}
+
 struct Solved {
   MultiStart all;
   std::optional<SizeChoiceReport> sizes;  ///< where some are chosen from lists
@@ -309,10 +332,14 @@ Solved solve_visibly(const ProblemInput& input, const SolveOptions& options, Run
   std::optional<HistoryCsv> history;  // with the first evaluation
   IterationLines lines(out, problem.file());
   History seen;
+  bool is_first = true;
   const Observer observer = [&](const EvaluationRecord& record) {
     if (!history) history.emplace(run_record.result("history.csv"), problem);
     history->add(record);
     store.add(record);
+    if (!record.has_failed() && std::exchange(is_first, false)) {
+      show(stderr, warnings_text(far_limits_of(problem.file(), record)));
+    }
     lines.see(record);
     if (record.has_failed()) {
       write_failed_design(run_record, arguments, problem.file(), record);

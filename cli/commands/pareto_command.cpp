@@ -182,6 +182,12 @@ Json make_document(const ProblemFile& problem, const ParetoFront& front) {
   return document;
 }
 
+/// What the limit of a point is called: of a front between two responses there is none in the file.
+std::string limit_title(const ProblemFile& problem) {
+  if (problem.pareto->goals.empty()) return "limit";
+  return limited_name(problem) + (varied_constraint(problem).upper ? " at most" : " at least");
+}
+
 std::vector<Table::Column> design_columns(const ProblemFile& problem) {
   const ConstraintSettings& constraint = varied_constraint(problem);
   const std::string& objective = problem.objective->response;
@@ -189,7 +195,7 @@ std::vector<Table::Column> design_columns(const ProblemFile& problem) {
   const ShownUnit limited = unit_of(problem, constraint);
   const ShownUnit goal = unit_of(find_response(problem, objective));
   std::vector<Table::Column> columns = {
-      {fmt::format("limit [{}]", limited.name)},
+      {fmt::format("{} [{}]", limit_title(problem), limited.name)},
       {fmt::format("{} [{}]", limited_name(problem), limited.name)},
       {fmt::format("{} [{}]", objective, goal.name)},
       {fmt::format("± [{}]", goal.name)},

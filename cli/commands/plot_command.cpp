@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "cli/commands/commands.hpp"
+#include "cli/files/history_meaning.hpp"
 #include "cli/files/older_run.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/files/run_folder.hpp"
@@ -131,17 +132,15 @@ bool has_response(const ProblemFile& problem, const std::string& name) {
 /// On the history of a response, both signs where its magnitude is limited [SI].
 std::vector<double> limits_on(const ProblemFile& problem, const std::string& name) {
   std::vector<double> limits;
-  const OverTime kind = find_response(problem, name).over_time;
-  const bool is_of_curve =
-      kind == OverTime::max || kind == OverTime::min || kind == OverTime::max_abs;
+  const ResponseSettings& response = find_response(problem, name);
+  if (!limits_each_instant(response)) return limits;
+  const bool has_signs =
+      response.over_time == OverTime::max_abs && response.type != ResponseType::stress;
   for (const ConstraintSettings& constraint : problem.constraints) {
-    if (constraint.response != name || !is_of_curve) continue;
+    if (constraint.response != name) continue;
     if (constraint.lower) limits.push_back(*constraint.lower);
     if (constraint.upper) limits.push_back(*constraint.upper);
-    const bool has_signs = find_response(problem, name).type != ResponseType::stress;
-    if (constraint.upper && kind == OverTime::max_abs && has_signs) {
-      limits.push_back(-*constraint.upper);
-    }
+    if (constraint.upper && has_signs) limits.push_back(-*constraint.upper);
   }
   return limits;
 }
@@ -152,7 +151,7 @@ HistoryChart chart_of(const std::vector<RunHistories>& histories,
   chart.title = name;
   ShownUnit unit{"", "1", 1.0};
   if (problem && has_response(*problem, name)) {
-    unit = unit_of(find_response(*problem, name));
+    unit = history_unit(find_response(*problem, name));
     for (const double limit : limits_on(*problem, name)) chart.limits.push_back(unit.shown(limit));
   }
   chart.unit = problem ? unit.name : "SI";

@@ -69,6 +69,7 @@ const char* kind_name(NumberPrice::Kind kind) {
 Json price_document(const NumberPrice& price) {
   Json document = {{"value", price.value},
                    {"unit", price.unit.si},
+                   {"shown_unit", {{"name", price.unit.name}, {"factor", price.unit.factor}}},
                    {"per_unit", price.per_unit},
                    {"per_percent", price.per_percent()},
                    {"kind", kind_name(price.kind)}};

@@ -49,7 +49,8 @@ struct Redone {
 /// What is told of files that cannot be used.
 using Notes = std::vector<std::string>;
 
-Json picture_of(const ProblemFile& problem, const std::vector<Redone>& designs, Notes& notes) {
+Json picture_of(const ProblemFile& problem, const std::vector<Redone>& designs, Notes& notes,
+                std::size_t pictures = 1) {
   std::vector<ShownDesign> shown;
   for (const Redone& design : designs) {
     shown.push_back({design.name, design.x, design.analysis.get()});
@@ -60,11 +61,11 @@ Json picture_of(const ProblemFile& problem, const std::vector<Redone>& designs, 
     }
     if (design.influence) shown.back().influence = &*design.influence;
   }
-  return run_picture(problem, shown);
+  return run_picture(problem, shown, pictures);
 }
 
 Json optimum_picture(const ProblemFile& problem, const Json& result, const fs::path& folder,
-                     Notes& notes) {
+                     Notes& notes, std::size_t pictures) {
   std::vector<Redone> designs;
   const auto add = [&](const std::string& name, const char* key, const char* trajectory) {
     const auto x = design_in(result, problem, key);
@@ -77,7 +78,22 @@ Json optimum_picture(const ProblemFile& problem, const Json& result, const fs::p
   if (!designs.empty()) {
     designs.back().influence = design_influence(problem, *designs.back().analysis);
   }
-  return picture_of(problem, designs, notes);
+  return picture_of(problem, designs, notes, pictures);
+}
+
+/// Of all load cases, of which the page shows one first.
+Json optimum_pictures(const Json& card, const Json& result, const fs::path& folder, Notes& notes) {
+  const std::string shown = shown_case(result);
+  if (shown.empty()) return optimum_picture(problem_of(card, result), result, folder, notes, 1);
+  const Json& names = result.at("cases").at("names");
+  std::vector<Json> cases;
+  std::size_t first = 0;
+  for (const Json& name : names) {
+    if (name == shown) first = cases.size();
+    const ProblemFile problem = problem_of(card, result, name.get<std::string>());
+    cases.push_back(optimum_picture(problem, result, folder, notes, names.size()));
+  }
+  return picture_of_cases(problem_of(card, result, ""), std::move(cases), first);
 }
 
 Json front_picture(const ProblemFile& problem, const Json& result, Notes& notes) {
@@ -114,9 +130,9 @@ Json single_picture(const ProblemFile& problem, const Json& card, const Json& re
 
 Json picture_of_run(const Json& card, const Json& result, const fs::path& folder, Notes& notes) {
   if (!card.contains("problem")) return nullptr;  // of several files
-  const ProblemFile problem = problem_of(card, result);
   const std::string command = card.at("command").get<std::string>();
-  if (command == "optimize") return optimum_picture(problem, result, folder, notes);
+  if (command == "optimize") return optimum_pictures(card, result, folder, notes);
+  const ProblemFile problem = problem_of(card, result);
   if (command == "pareto") return front_picture(problem, result, notes);
   const bool has_motion = command == "simulate" || command == "gradient";
   return single_picture(problem, card, result, has_motion ? folder / "trajectory.csv" : fs::path(),

@@ -9,20 +9,18 @@
 
 namespace pleuel {
 
-namespace {
-
-/// The load case whose mechanism a page shows; empty without cases.
 std::string shown_case(const Json& result) {
   if (!result.contains("cases") || !result["cases"].is_object()) return "";
   const Json name = result["cases"].value("shown", Json());
   return name.is_string() ? name.get<std::string>() : "";
 }
 
-}  // namespace
-
 ProblemFile problem_of(const Json& card, const Json& result) {
+  return problem_of(card, result, shown_case(result));
+}
+
+ProblemFile problem_of(const Json& card, const Json& result, const std::string& load_case) {
   const std::string file = card.at("input").at("file").get<std::string>();
-  const std::string load_case = shown_case(result);
   Json document = card.at("problem"), setting = result.value("setting", Json::object());
   if (!load_case.empty()) {
     document = document_in_case(document, load_case, file);

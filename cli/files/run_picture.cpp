@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "cli/files/history_meaning.hpp"
 #include "cli/files/scene_picture.hpp"
 #include "cli/text/packed_numbers.hpp"
 #include "core/response/shown_history.hpp"
@@ -21,10 +22,25 @@ namespace pleuel {
 namespace {
 
 constexpr int most_frames = 720;        ///< of a moving picture
-constexpr int most_points = 1600;       ///< of a curve
-constexpr int most_slope_points = 700;  ///< of a derivative over time
 constexpr std::size_t most_slopes = 6;  ///< of a response: by the variables that matter most
-constexpr double most_numbers = 1.2e6;  ///< of the motion of all designs together
+
+/// What one picture takes of a page.
+struct Room {
+  int points = 1600;       ///< of a curve
+  int slope_points = 700;  ///< of a derivative over time
+  double numbers = 1.2e6;  ///< of the motion of all designs together
+};
+
+/// Curves of up to four pictures are whole; those of more have the points of four.
+Room room_of_one(std::size_t pictures) {
+  constexpr double whole = 4.0, least = 0.2;
+  const double share = std::clamp(whole / static_cast<double>(pictures), least, 1.0);
+  Room room;
+  room.points = static_cast<int>(share * room.points);
+  room.slope_points = static_cast<int>(share * room.slope_points);
+  room.numbers /= static_cast<double>(pictures);
+  return room;
+}
 
 Json unit_document(const ShownUnit& unit) {
   return {{"si", unit.si}, {"name", unit.name}, {"factor", unit.factor}};
@@ -34,7 +50,9 @@ Json meaning_document(const ResponseSettings& response) {
   Json document = {{"type", word_of(response_types, response.type)},
                    {"over_time", word_of(over_time_kinds, response.over_time)},
                    {"bodies", response.bodies},
-                   {"unit", unit_document(unit_of(response))}};
+                   {"unit", unit_document(unit_of(response))},
+                   {"history_unit", unit_document(history_unit(response))},
+                   {"limits_history", limits_each_instant(response)}};
   if (!response.joint.empty()) document["joint"] = response.joint;
   if (response.station) {
     document["at"] = *response.station;
@@ -61,8 +79,7 @@ Json limits_picture(const ProblemFile& problem) {
 /// Times and values of the points of a curve that are drawn, and the half-width of its band if it
 /// has one.
 Json curve_document(const Eigen::VectorXd& time, const Eigen::VectorXd& values,
-                    const std::vector<int>& kept, const Eigen::VectorXd& band = {},
-                    int most = most_points) {
+                    const std::vector<int>& kept, int most, const Eigen::VectorXd& band = {}) {
   const std::vector<int> points = thinned(values, most, kept);
   const bool has_band = band.size() == values.size();
   Eigen::MatrixXd curve(has_band ? 3 : 2, static_cast<Eigen::Index>(points.size()));
@@ -76,7 +93,7 @@ Json curve_document(const Eigen::VectorXd& time, const Eigen::VectorXd& values,
 
 /// {VARIABLE: curve} of the derivatives of a history, of the variables that change most of it.
 Json slopes_document(const ProblemFile& problem, const ShownDesign& design,
-                     const HistoryGradients& history) {
+                     const HistoryGradients& history, const Room& room) {
   std::vector<std::pair<double, Eigen::Index>> sizes;
   for (Eigen::Index j = 0; j < design.x.size(); ++j) {
     sizes.push_back(
@@ -87,26 +104,27 @@ Json slopes_document(const ProblemFile& problem, const ShownDesign& design,
   for (std::size_t k = 0; k < std::min(most_slopes, sizes.size()); ++k) {
     const Eigen::Index j = sizes[k].second;
     document[problem.variables[j].name] = curve_document(
-        design.analysis->trajectory.time, history.gradients.col(j), {}, {}, most_slope_points);
+        design.analysis->trajectory.time, history.gradients.col(j), {}, room.slope_points);
   }
   return document;
 }
 
 void add_influence(const ProblemFile& problem, const ShownDesign& design, std::size_t i,
-                   Json& document) {
+                   const Room& room, Json& document) {
   if (design.influence == nullptr) return;
   document["gradients"] = influence_document(problem, *design.influence, i);
   for (const HistoryGradients& history : design.influence->histories) {
-    if (history.response == i) document["slopes"] = slopes_document(problem, design, history);
+    if (history.response == i) document["slopes"] = slopes_document(problem, design, history, room);
   }
 }
 
-Json response_document(const ProblemFile& problem, const ShownDesign& design, std::size_t i) {
+Json response_document(const ProblemFile& problem, const ShownDesign& design, std::size_t i,
+                       const Room& room) {
   const Analysis& analysis = *design.analysis;
   const Response& response = analysis.responses[i];
   const Reduction& reduction = analysis.reductions[i];
   Json document = {{"name", response.name}, {"value", reduction.value}};
-  add_influence(problem, design, i, document);
+  add_influence(problem, design, i, room, document);
   if (!response.history()) return document;
   std::vector<int> kept;
   if (response.is_peak_over_time() && !reduction.samples.empty()) {
@@ -124,11 +142,11 @@ Json response_document(const ProblemFile& problem, const ShownDesign& design, st
   }
   document["history"] =
       curve_document(analysis.trajectory.time, shown_history(response, analysis.histories[i]), kept,
-                     i < design.bands.size() ? design.bands[i] : Eigen::VectorXd());
+                     room.points, i < design.bands.size() ? design.bands[i] : Eigen::VectorXd());
   return document;
 }
 
-Json companions_document(const ProblemFile& problem, const Analysis& analysis) {
+Json companions_document(const ProblemFile& problem, const Analysis& analysis, const Room& room) {
   const Companions companions = find_companions(problem, analysis);
   Json document = Json::array();
   for (const Companion& one : companions.all) {
@@ -136,25 +154,26 @@ Json companions_document(const ProblemFile& problem, const Analysis& analysis) {
     entry["name"] = one.settings.name;
     entry["value"] = one.value;
     entry["peak_time"] = companions.time(one.peak);
-    entry["history"] = curve_document(companions.time, one.history, {one.peak});
+    entry["history"] = curve_document(companions.time, one.history, {one.peak}, room.points);
     document.push_back(std::move(entry));
   }
   return document;
 }
 
 /// So many frames that all designs together stay small.
-int frames_for(const Motion& first, std::size_t designs) {
+int frames_for(const Motion& first, std::size_t designs, const Room& room) {
   double numbers = 0.0;
   for (const BodyMotion& body : first.bodies) {
     numbers +=
         static_cast<double>(body.positions.rows() + body.rotations.rows() + body.stress.rows());
   }
-  const double frames = most_numbers / std::max(1.0, numbers * static_cast<double>(designs));
+  const double frames = room.numbers / std::max(1.0, numbers * static_cast<double>(designs));
   return static_cast<int>(std::clamp(frames, 60.0, static_cast<double>(most_frames)));
 }
 
-Json motion_document(const Scene& scene, const Analysis& analysis, std::size_t designs) {
-  const int frames = frames_for(sample_motion(scene, analysis, {0}), designs);
+Json motion_document(const Scene& scene, const Analysis& analysis, std::size_t designs,
+                     const Room& room) {
+  const int frames = frames_for(sample_motion(scene, analysis, {0}), designs, room);
   const Motion motion = sample_motion(scene, analysis, frames_of_motion(analysis, frames));
   Json document = {{"time", packed(motion.time.transpose())}, {"bodies", Json::array()}};
   for (const BodyMotion& body : motion.bodies) {
@@ -168,7 +187,8 @@ Json motion_document(const Scene& scene, const Analysis& analysis, std::size_t d
   return document;
 }
 
-Json design_document(const ProblemFile& problem, const ShownDesign& design, std::size_t designs) {
+Json design_document(const ProblemFile& problem, const ShownDesign& design, std::size_t designs,
+                     const Room& room) {
   Json document = {{"name", design.name}};
   document["variables"] = std::vector<double>(design.x.begin(), design.x.end());
   document["geometry"] = geometry_picture(problem, design.x);
@@ -178,18 +198,19 @@ Json design_document(const ProblemFile& problem, const ShownDesign& design, std:
   for (const BodyModel& body : analysis.model.bodies) {
     document["masses"][body.name] = document["masses"].value(body.name, 0.0) + body.mass;
   }
-  document["motion"] = motion_document(problem.scene, analysis, designs);
+  document["motion"] = motion_document(problem.scene, analysis, designs, room);
   document["responses"] = Json::array();
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
-    document["responses"].push_back(response_document(problem, design, i));
+    document["responses"].push_back(response_document(problem, design, i, room));
   }
-  document["companions"] = companions_document(problem, analysis);
+  document["companions"] = companions_document(problem, analysis, room);
   return document;
 }
 
 }  // namespace
 
-Json run_picture(const ProblemFile& problem, const std::vector<ShownDesign>& designs) {
+Json run_picture(const ProblemFile& problem, const std::vector<ShownDesign>& designs,
+                 std::size_t pictures) {
   Json document = {{"name", problem.name},
                    {"description", problem.description},
                    {"scene", scene_picture(problem)},
@@ -209,10 +230,26 @@ Json run_picture(const ProblemFile& problem, const std::vector<ShownDesign>& des
     document["responses"][response.name] = meaning_document(response);
   }
   if (problem.objective) document["objective"] = problem.objective->response;
+  if (!problem.load_case.empty()) document["case"] = problem.load_case;
+  const Room room = room_of_one(pictures);
   for (const ShownDesign& design : designs) {
-    document["designs"].push_back(design_document(problem, design, designs.size()));
+    document["designs"].push_back(design_document(problem, design, designs.size(), room));
   }
   return document;
+}
+
+Json picture_of_cases(const ProblemFile& joined, std::vector<Json> cases, std::size_t shown) {
+  Json picture = std::move(cases[shown]);
+  for (const ResponseSettings& response : joined.responses) {
+    picture["units"]["responses"][response.name] = unit_document(unit_of(response));
+  }
+  for (const ConstraintSettings& constraint : joined.constraints) {
+    picture["units"]["limits"][constraint.name] = unit_document(unit_of(joined, constraint));
+  }
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (i != shown) picture["other_cases"].push_back(std::move(cases[i]));
+  }
+  return picture;
 }
 
 }  // namespace pleuel

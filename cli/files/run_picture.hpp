@@ -22,6 +22,14 @@ struct ShownDesign {
 
 /// The mechanism of a problem at some designs: its geometry and, of simulated ones, motion, stress,
 /// histories and what else is known of them; units and meaning of all numbers.
-Json run_picture(const ProblemFile& problem, const std::vector<ShownDesign>& designs);
+/// @param pictures  that share one page, and with it its room: more of them have fewer frames and
+///                  points each
+Json run_picture(const ProblemFile& problem, const std::vector<ShownDesign>& designs,
+                 std::size_t pictures = 1);
+
+/// One picture of the pictures of all load cases (none empty): that of `shown`, with the others
+/// under "other_cases" in the order of the file, and under "units" those of the responses and limits
+/// of all cases, by their names in result.json.
+Json picture_of_cases(const ProblemFile& joined, std::vector<Json> cases, std::size_t shown);
 
 }  // namespace pleuel

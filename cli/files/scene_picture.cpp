@@ -1,6 +1,8 @@
 #include "cli/files/scene_picture.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
@@ -116,6 +118,16 @@ std::optional<double> stress_limit(const ProblemFile& problem, const std::string
   return limit;
 }
 
+/// The largest ones of an elastic body.
+Json bent_start(const Body& body, const Values& start) {
+  double displacement = 0.0, rate = 0.0;
+  for (const InitialDeflection& one : body.initial_deflections) {
+    displacement = std::max(displacement, std::abs(resolve(one.displacement, start)));
+    rate = std::max(rate, std::abs(resolve(one.rate, start)));
+  }
+  return {{"displacement", displacement}, {"rate", rate}};
+}
+
 Json body_document(const ProblemFile& problem, const Body& body, const Values& start) {
   Json document = {{"name", body.name}, {"type", type_of(body)}};
   if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
@@ -126,6 +138,7 @@ Json body_document(const ProblemFile& problem, const Body& body, const Values& s
     if (material.strength) document["strength"] = resolve(*material.strength, start);
   }
   if (const auto limit = stress_limit(problem, body.name)) document["stress_limit"] = *limit;
+  if (!body.initial_deflections.empty()) document["starts_bent"] = bent_start(body, start);
   return document;
 }
 

@@ -397,6 +397,26 @@ void check_command_name(const CLI::App& app, const std::vector<std::string>& wor
       fmt::format("there is no command \"{}\"{}", words.front(), hint(words.front(), known)));
 }
 
+/// "; did you mean --accuracy?" of the first option that the command does not have.
+std::string option_hint(const CLI::App& app, const std::vector<std::string>& words) {
+  const CLI::App* command = nullptr;
+  for (const CLI::App* one : app.get_subcommands({})) {
+    if (!words.empty() && one->get_name() == words.front()) command = one;
+  }
+  if (command == nullptr) return "";
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command->get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  }
+  for (const std::string& word : words) {
+    const std::string name = word.substr(0, word.find('='));
+    if (!name.starts_with("--") || command->get_option_no_throw(name) != nullptr) continue;
+    const std::string meant = closest(name, known);
+    return meant.empty() ? "" : fmt::format("; did you mean {}?", meant);
+  }
+  return "";
+}
+
 /// What the environment says in place of --jobs.
 void take_jobs_of_environment(Arguments& arguments) {
   const char* text = std::getenv("PLEUEL_JOBS");
@@ -459,7 +479,9 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
     const bool has_command = !arguments.words.empty() && !arguments.words.front().starts_with("-");
-    throw InputError(fmt::format("{}; see {}{} --help", error.what(), arguments.program,
+    const bool is_unknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+    const std::string meant = is_unknown ? option_hint(app, arguments.words) : "";
+    throw InputError(fmt::format("{}{}; see {}{} --help", error.what(), meant, arguments.program,
                                  has_command ? " " + arguments.words.front() : ""));
   }
   const double step = arguments.difference_step.value_or(0.5);

@@ -1,5 +1,8 @@
 #include "cli/reports/analysis_report.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "cli/text/table.hpp"
@@ -18,6 +21,17 @@ Json responses_document(const Analysis& analysis, const ErrorBars& errors) {
   return document;
 }
 
+double without_round_off(const Analysis& analysis, std::size_t response) {
+  constexpr double round_off = 1e-14, least_length = 1e-13;
+  const Response& of = analysis.responses[response];
+  const double value = analysis.reductions[response].value;
+  if (!of.history()) return value;
+  double least = round_off * analysis.histories[response].lpNorm<Eigen::Infinity>();
+  if (of.is_reduced_by(OverTime::integral)) least *= analysis.trajectory.time.maxCoeff();
+  if (of.unit == "m") least = std::max(least, least_length);
+  return std::abs(value) < least ? 0.0 : value;
+}
+
 std::string responses_text(const ProblemFile& problem, const Analysis& analysis,
                            const ErrorBars& errors) {
   std::vector<Table::Column> columns = {
@@ -27,7 +41,7 @@ std::string responses_text(const ProblemFile& problem, const Analysis& analysis,
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     const ShownUnit unit = unit_of(problem.responses[i]);
     table.add_row({analysis.responses[i].name,
-                   significant(unit.shown(analysis.reductions[i].value)), unit.name,
+                   significant(unit.shown(without_round_off(analysis, i))), unit.name,
                    errors.empty() ? "" : error_text(error_of(errors, i), unit)});
   }
   return table.is_empty() ? "  The file asks for no responses.\n" : table.text();

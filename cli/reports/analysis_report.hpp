@@ -12,6 +12,10 @@ namespace pleuel {
 /// {NAME: {"value", "unit", "error"}} [SI]; without "error" where none are known
 Json responses_document(const Analysis& analysis, const ErrorBars& errors = {});
 
+/// The value of a response for people: 0 where it is round-off of its history (1e-14 of the largest
+/// number in it), or a length below a thousandth of an atom (1e-13 m).
+double without_round_off(const Analysis& analysis, std::size_t response);
+
 /// Table of values in engineering units.
 std::string responses_text(const ProblemFile& problem, const Analysis& analysis,
                            const ErrorBars& errors = {});

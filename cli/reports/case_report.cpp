@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -32,19 +34,14 @@ double excess(const ConstraintSettings& constraint, double value) {
   return most;
 }
 
-std::size_t worst_case(const ProblemFile& problem, const Eigen::VectorXd& objectives) {
-  std::size_t worst = 0;
-  double highest = -std::numeric_limits<double>::infinity();
+/// What an objective over cases takes from each of them: the largest one decides.
+Eigen::VectorXd weighted_objectives(const ProblemFile& problem, const Eigen::VectorXd& objectives) {
+  Eigen::VectorXd weighted = problem.objective->sign() * objectives;
+  if (problem.objective->over_cases != OverCases::weighted) return weighted;
   for (std::size_t c = 0; c < problem.cases.size(); ++c) {
-    const double weight =
-        problem.objective->over_cases == OverCases::weighted ? problem.case_weights[c] : 1.0;
-    const double value =
-        weight * problem.objective->sign() * objectives(static_cast<Eigen::Index>(c));
-    if (value <= highest) continue;
-    highest = value;
-    worst = c;
+    weighted(static_cast<Eigen::Index>(c)) *= problem.case_weights[c];
   }
-  return worst;
+  return weighted;
 }
 
 /// What one percent more of the limit would be worth.
@@ -53,6 +50,66 @@ double worth(const ProblemFile& problem, const Result& result, std::size_t const
   const double multiplier = result.constraint_multipliers(static_cast<Eigen::Index>(constraint));
   const std::optional<double>& limit = multiplier > 0.0 ? limits.upper : limits.lower;
   return std::abs(multiplier * limit.value_or(0.0));
+}
+
+/// The largest of a number of each limit, case by case. @returns empty if no limit is of one case
+template <class NumberOfLimit>
+Eigen::VectorXd largest_in_cases(const ProblemFile& problem, const NumberOfLimit& number_of) {
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  Eigen::VectorXd largest =
+      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(problem.cases.size()), none);
+  for (std::size_t i = 0; i < problem.constraints.size(); ++i) {
+    if (case_of(problem, i).empty()) continue;
+    double& here = largest(static_cast<Eigen::Index>(problem.case_constraints[i].load_case));
+    here = std::max(here, number_of(i));
+  }
+  return largest.maxCoeff() > none ? largest : Eigen::VectorXd();
+}
+
+/// By what a case decides, the weightiest first: its share in an objective over cases or its value
+/// of it, what its limits cost, how far they are used. Those that are not known are empty.
+std::vector<Eigen::VectorXd> measures_of_cases(const ProblemFile& problem, const Result& result) {
+  std::vector<Eigen::VectorXd> measures;
+  if (result.case_shares.size() > 0) {
+    measures.push_back(result.case_shares);
+  } else if (result.case_objectives.size() > 0) {
+    measures.push_back(weighted_objectives(problem, result.case_objectives));
+  }
+  if (has_prices(result)) {
+    measures.push_back(largest_in_cases(
+        problem, [&](std::size_t limit) { return worth(problem, result, limit); }));
+  }
+  const Eigen::VectorXd& values = result.evaluation.constraints;
+  if (values.size() == std::ssize(problem.constraints)) {
+    measures.push_back(largest_in_cases(problem, [&](std::size_t limit) {
+      return excess(problem.constraints[limit], values(static_cast<Eigen::Index>(limit)));
+    }));
+  }
+  return measures;
+}
+
+/// Leaves those whose number is the largest, within what round-off makes of equal ones.
+void keep_largest(const Eigen::VectorXd& numbers, std::vector<std::size_t>& cases) {
+  if (numbers.size() == 0) return;
+  const auto number_of = [&](std::size_t c) { return numbers(static_cast<Eigen::Index>(c)); };
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const std::size_t c : cases) largest = std::max(largest, number_of(c));
+  if (!std::isfinite(largest)) return;
+  const double least = largest - least_share * std::abs(largest);
+  std::erase_if(cases, [&](std::size_t c) { return number_of(c) < least; });
+}
+
+/// The one that a sentence names first by the name of one of its limits; the first if it names none.
+std::size_t first_named(const ProblemFile& problem, const std::vector<std::size_t>& cases,
+                        const std::string& sentence) {
+  std::size_t first = cases.front(), place = std::string::npos;
+  for (const std::size_t c : cases) {
+    const std::size_t here = sentence.find("[" + problem.cases[c].load_case + "]");
+    if (here >= place) continue;
+    place = here;
+    first = c;
+  }
+  return first;
 }
 
 }  // namespace
@@ -91,22 +148,12 @@ std::vector<bool> deciding_constraints(const ProblemFile& problem, const Eigen::
 }
 
 std::size_t deciding_case(const ProblemFile& problem, const Result& result) {
-  Eigen::Index most = 0;
-  if (result.case_shares.size() > 0) {
-    result.case_shares.maxCoeff(&most);
-    return static_cast<std::size_t>(most);
+  std::vector<std::size_t> cases(problem.cases.size());
+  std::iota(cases.begin(), cases.end(), std::size_t{0});
+  for (const Eigen::VectorXd& measure : measures_of_cases(problem, result)) {
+    keep_largest(measure, cases);
   }
-  if (result.case_objectives.size() > 0) return worst_case(problem, result.case_objectives);
-  std::size_t deciding = 0;
-  double highest = 0.0;
-  if (!has_prices(result)) return deciding;
-  for (std::size_t i = 0; i < problem.constraints.size(); ++i) {
-    const double here = case_of(problem, i).empty() ? 0.0 : worth(problem, result, i);
-    if (here <= highest) continue;
-    highest = here;
-    deciding = problem.case_constraints[i].load_case;
-  }
-  return deciding;
+  return first_named(problem, cases, result.message);
 }
 
 Json cases_document(const ProblemFile& problem, const Result& result) {

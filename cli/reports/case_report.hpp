@@ -24,7 +24,9 @@ std::string cases_of_limit(const ProblemFile& problem, std::size_t constraint);
 /// values in all cases.
 std::vector<bool> deciding_constraints(const ProblemFile& problem, const Eigen::VectorXd& values);
 
-/// Of the objective over cases, or of the limit that costs most: the case whose mechanism is shown.
+/// The case whose mechanism is shown first: that with the largest share in an objective over cases;
+/// of equal ones that whose limit costs most, then that whose limit is used most, then the one that
+/// the verdict names.
 std::size_t deciding_case(const ProblemFile& problem, const Result& result);
 
 /// {"names", "shown", "objective": {CASE: value}, "shares": {CASE: share}}: the last two of an

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/reports/analysis_report.hpp"
 #include "cli/reports/optimum.hpp"
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
@@ -23,7 +24,8 @@ double value_of(const ConstraintSettings& constraint, const ProblemFile& problem
   for (const auto& [variable, coefficient] : constraint.linear) value += coefficient * x(variable);
   if (!constraint.linear.empty()) return value;
   const ResponseSettings& response = find_response(problem, constraint.response);
-  return analysis.reductions[&response - problem.responses.data()].value;
+  return without_round_off(analysis,
+                           static_cast<std::size_t>(&response - problem.responses.data()));
 }
 
 /// As exactly as a verified optimum keeps its limits.
@@ -45,6 +47,7 @@ std::string sum_text(const ProblemFile& problem, const Eigen::VectorXd& x,
   const std::size_t all = problem.constraints.size();
   if (broken.empty() && all == 1) return "The limit is kept.\n";
   if (broken.empty()) return fmt::format("All {} limits are kept.\n", all);
+  if (all == 1) return fmt::format("The limit is broken: {}.\n", broken.front());
   return wrapped(fmt::format("{} of {} limits {} broken: {}.", broken.size(), all,
                              broken.size() == 1 ? "is" : "are", fmt::join(broken, ", ")),
                  "  ") +

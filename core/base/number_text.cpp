@@ -20,7 +20,10 @@ std::string magnitude(double value) {
 }
 
 std::string percent(double fraction) {
-  return fmt::format("{:.1f} %", 100.0 * fraction);
+  constexpr double longest = 1e7;  // more digits would tear a table
+  const double value = 100.0 * fraction;
+  return std::abs(value) < longest ? fmt::format("{:.1f} %", value)
+                                   : fmt::format("{:.1e} %", value);
 }
 
 std::string signed_percent(double fraction) {

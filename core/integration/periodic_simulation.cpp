@@ -95,8 +95,9 @@ class PeriodicSearch {
     const double growth = map_->growth();
     if (growth > unstable) {
       throw SimulationError(
-          fmt::format("the motion that repeats itself after {:.6g} s is unstable: disturbances "
-                      "grow by a factor of {:.4g} in each period, so that no machine would run so",
+          fmt::format("/simulation/initial_state: the motion that repeats itself after {:.6g} s is "
+                      "unstable: disturbances grow by a factor of {:.4g} in each period, so that "
+                      "no machine would run so",
                       one_.period, growth));
     }
     return {one_.period,  attempt.trajectory.steps(), map_,
@@ -180,8 +181,8 @@ class PeriodicSearch {
     map_ = std::make_shared<PeriodMap>(mechanism_, trajectory, trajectory.steps());
     if (map_->reciprocal_condition() >= least_condition) return;
     throw SimulationError(fmt::format(
-        "no motion that repeats itself after {:.6g} s can be found, as "
-        "/simulation/initial_state asks for: after a period nothing has brought back a motion{} "
+        "/simulation/initial_state: no motion that repeats itself after {:.6g} s can be found: "
+        "after a period nothing has brought back a motion{} "
         "that was given a push. Where a motion is free, a spring, a damper or a motor has to hold "
         "it to what repeats itself; without damping no motion forgets how it began, nor does a "
         "/simulation/spectral_radius of 1 forget round-off",
@@ -192,8 +193,8 @@ class PeriodicSearch {
     Eigen::Index worst = 0;
     attempt.change.cwiseAbs().maxCoeff(&worst);
     throw SimulationError(fmt::format(
-        "no motion was found that repeats itself after {:.6g} s, as /simulation/initial_state "
-        "asks for: in {} simulated periods the closest ends off its start by {:.2g} of the scale "
+        "/simulation/initial_state: no motion was found that repeats itself after {:.6g} s: in {} "
+        "simulated periods the closest ends off its start by {:.2g} of the scale "
         "of a coordinate{}. Look whether the mechanism has a motion of this period at all; "
         "otherwise try more damping, a smaller /simulation/step, or simulate the run-up",
         one_.period, simulations_, attempt.gap,

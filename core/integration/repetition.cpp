@@ -124,8 +124,8 @@ std::string complaint_about_repetition(Mechanism& mechanism, const Trajectory& t
                                      Compared::residual, most_samples);
   if (term == nullptr) return "";
   return fmt::format(
-      "the motion cannot repeat itself after {:.6g} s, as /simulation/initial_state asks for: "
-      "{} does not. Laws of time must repeat with the period, drives make whole turns in it "
+      "/simulation/initial_state: the motion cannot repeat itself after {:.6g} s: {} does not. "
+      "Laws of time must repeat with the period, drives make whole turns in it "
       "(a constant speed of 2 pi over the period), and what counts turns act alike in each",
       period, term->name());
 }
@@ -136,8 +136,8 @@ std::string complaint_about_repeated_derivatives(Mechanism& mechanism, const Tra
                                      Compared::design_derivatives, most_samples_of_derivatives);
   if (term == nullptr) return "";
   return fmt::format(
-      "a motion that repeats itself after {:.6g} s, as /simulation/initial_state asks for, has no "
-      "derivatives: at other values of the design variables {} no longer repeats itself with this "
+      "/simulation/initial_state: a motion that repeats itself after {:.6g} s has no derivatives: "
+      "at other values of the design variables {} no longer repeats itself with this "
       "period. A speed, a frequency or a duration that sets the period cannot be a design variable",
       period, term->name());
 }

@@ -191,7 +191,7 @@ class InitialShape {
   }
 
   [[noreturn]] void fail(std::size_t i, const char* why) const {
-    throw InputError(fmt::format("body \"{}\": the initial deflection {} {}", body_.name, i, why));
+    throw InputError(fmt::format("/scene/bodies/{}/initial_deflections/{} {}", body_.name, i, why));
   }
 
   /// By Newton's method from the linear shape: a bent beam is shorter, without axial force.
@@ -218,7 +218,8 @@ class InitialShape {
       before = moved;
     }
     throw InputError(fmt::format(
-        "body \"{}\": no shape with the initial deflections was found; are they too large?",
+        "/scene/bodies/{}/initial_deflections: no shape with these deflections was found; are they "
+        "too large?",
         body_.name));
   }
 

@@ -14,6 +14,7 @@
 
 #include "core/scene/common_units.hpp"
 #include "core/scene/dimension.hpp"
+#include "core/scene/reading/suggestion.hpp"
 
 namespace pleuel {
 namespace {
@@ -137,6 +138,26 @@ double proportional_factor(const std::string& name, ut_unit* from, ut_unit* to) 
   return scale;
 }
 
+std::string in_small_letters(std::string_view text) {
+  std::string small(text);
+  for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return small;
+}
+
+/// @param si  of the quantity that is asked for; empty: of any
+UnitError unknown_unit(const std::string& name, std::string_view si) {
+  std::vector<std::string> known;
+  std::string meant;
+  for (const CommonUnit& common : common_units()) {
+    if (!si.empty() && common.si != si) continue;
+    known.emplace_back(common.unit);
+    if (in_small_letters(common.unit) == in_small_letters(name)) meant = common.unit;
+  }
+  if (meant.empty()) meant = pleuel::closest(name, known);
+  return UnitError(fmt::format("\"{}\" is not a known unit{}", name,
+                               meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant)));
+}
+
 /// Takes a unit apart; callbacks of the library. Its status tells what is no product of base units:
 /// logarithms, dates, and temperatures that do not count from zero.
 struct UnitTaker {
@@ -209,7 +230,7 @@ double UnitSystem::scale(const std::string& unit, const Quantity& quantity) cons
 double UnitSystem::scale_by_database(const std::string& unit, const Quantity& quantity) const {
   const std::string name = trim(unit);
   const UnitHandle from = has_stray_number(name) ? nullptr : parse_unit(database(), name);
-  if (!from) throw UnitError(fmt::format("\"{}\" is not a known unit", name));
+  if (!from) throw unknown_unit(name, quantity.unit);
   const UnitHandle to = parse_unit(database(), std::string(quantity.unit));
   const double cycles = cycles_factor(name, quantity, from.get());
   if (cycles == 1.0 || ut_are_convertible(from.get(), to.get()) == 0) {
@@ -221,7 +242,7 @@ double UnitSystem::scale_by_database(const std::string& unit, const Quantity& qu
 MeasuredUnit UnitSystem::measure(const std::string& unit) const {
   const std::string name = trim(unit);
   const UnitHandle handle = has_stray_number(name) ? nullptr : parse_unit(database(), name);
-  if (!handle && name != "1") throw UnitError(fmt::format("\"{}\" is not a known unit", name));
+  if (!handle && name != "1") throw unknown_unit(name, "");
   UnitTaker taker;
   if (handle && !taker.take(handle.get())) {
     throw UnitError(fmt::format("\"{}\" does not count from zero", name));

@@ -27,25 +27,27 @@ std::optional<double> far_limit(const ConstraintSettings& constraint, double val
 
 }  // namespace
 
+std::optional<std::string> far_limit_text(const ProblemFile& problem,
+                                          const ConstraintSettings& constraint, double value) {
+  if (constraint.response.empty() || !std::isfinite(value)) return std::nullopt;
+  const std::optional<double> limit = far_limit(constraint, value);
+  // A limit of zero is meant: any value is beyond it by far.
+  if (!limit || *limit == 0.0 || value == 0.0) return std::nullopt;
+  const std::string unit = unit_of(problem, constraint).si;
+  return fmt::format(
+      "the limit of \"{}\" is {:.4g} {}, and the value {:.4g} {}: {:.1g} times as much. Is a unit "
+      "missing, or another one meant?",
+      constraint.name, *limit, unit, value, unit, std::abs(value / *limit));
+}
+
 std::vector<Doubt> doubt_far_limits(const TrustedRun& run) {
   std::vector<Doubt> doubts;
   const Eigen::VectorXd values = values_of(run.analysis);
   for (const ConstraintSettings& constraint : run.problem.constraints) {
     for (std::size_t i = 0; i < run.problem.responses.size(); ++i) {
-      if (run.problem.responses[i].name != constraint.response || !std::isfinite(values(i))) {
-        continue;
-      }
-      const std::optional<double> limit = far_limit(constraint, values(i));
-      // A limit of zero is meant: any value is beyond it by far.
-      if (!limit || *limit == 0.0 || values(i) == 0.0) continue;
-      const std::string unit = unit_of(run.problem, constraint).si;
-      doubts.push_back({fmt::format("the limit of \"{}\" is {:.4g} {}, and the value {:.4g} {}: "
-                                    "{:.1g} times as much. Is "
-                                    "a unit missing, or another one meant?",
-                                    constraint.name, *limit, unit, values(i), unit,
-                                    std::abs(values(i) / *limit)),
-                        false,
-                        {constraint.response}});
+      if (run.problem.responses[i].name != constraint.response) continue;
+      const auto text = far_limit_text(run.problem, constraint, values(i));
+      if (text) doubts.push_back({*text, false, {constraint.response}});
     }
   }
   return doubts;

@@ -20,6 +20,10 @@ export interface Meaning {
   joint?: string;
   at?: number;
   unit: Unit;
+  /** Of its history: another one where the number is an integral. */
+  history_unit?: Unit;
+  /** Whether a limit on the number is one on each instant of its history. */
+  limits_history?: boolean;
 }
 
 export interface Shown {
@@ -91,6 +95,8 @@ export interface SceneBody {
   frames?: number;
   strength?: number;
   stress_limit?: number;
+  /** Largest initial deflection and rate of an elastic body. */
+  starts_bent?: { displacement: number; rate: number };
 }
 
 export interface SceneJoint {
@@ -132,6 +138,12 @@ export interface Picture {
   limits: Record<string, { unit: Unit; response?: string; lower?: number; upper?: number }>;
   objective?: string;
   designs: Design[];
+  /** Load case that it is of. */
+  case?: string;
+  /** Pictures of the other load cases of the run. */
+  other_cases?: Picture[];
+  /** Of the numbers of all load cases, by their names in the result. */
+  units?: { responses: Record<string, Unit>; limits: Record<string, Unit> };
 }
 
 export interface ErrorBar {

@@ -36,6 +36,7 @@ export function percent(share: number, digits = 3): string {
 
 /** A share without sign: "48.5 %". */
 export function share(value: number): string {
+  if (value >= 1e4) return `${number(100 * value, 2)} %`;
   return `${(100 * value).toFixed(value < 0.0995 ? 2 : 1)} %`;
 }
 

@@ -2,7 +2,7 @@ import { h } from "./dom";
 
 export type Scheme = "light" | "dark";
 
-const listeners: (() => void)[] = [];
+const listeners = new Set<() => void>();
 const system = window.matchMedia("(prefers-color-scheme: dark)");
 const printing = window.matchMedia("print");
 let chosen: Scheme | null = null;
@@ -17,9 +17,10 @@ export function color(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }
 
-/** Calls again whenever the colours change. */
-export function onTheme(listener: () => void): void {
-  listeners.push(listener);
+/** Calls again whenever the colours change, until the returned function is called. */
+export function onTheme(listener: () => void): () => void {
+  listeners.add(listener);
+  return () => listeners.delete(listener);
 }
 
 function apply(): void {

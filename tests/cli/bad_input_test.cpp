@@ -60,6 +60,13 @@ TEST(BadInput, UnknownOptionIsNamed) {
   expect_complaint({"simulate", problem("slider_crank_round"), "--fast"}, "--fast");
 }
 
+TEST(BadInput, MisspeltOptionIsGuessed) {
+  expect_complaint({"simulate", problem("slider_crank_round"), "--accurcy", "1%"},
+                   "--accurcy 1%; did you mean --accuracy?");
+  expect_complaint({"simulate", problem("slider_crank_round"), "--overwrit"},
+                   "did you mean --overwrite?");
+}
+
 TEST(BadInput, NoCommandAtAllIsBadInput) {
   expect_complaint({}, " --help");
 }

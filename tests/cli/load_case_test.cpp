@@ -124,6 +124,39 @@ TEST(LoadCases, TellADesignThatBreaksALimitOnSeveral) {
   EXPECT_THAT(run_with("1 m").out, Not(HasSubstr("made from several cases is broken")));
 }
 
+TEST(LoadCases, TakenAloneSayWhichLimitsTheyLeaveOut) {
+  const TemporaryFolder folder;
+  const std::string file = with_spread(folder);
+  const ProgramRun alone =
+      run_program(folder.path(), {"simulate", file, "--no-report", "--case", "heavy"});
+  EXPECT_THAT(alone.out,
+              HasSubstr("Not looked at, as it takes several cases: the limit evenness."));
+  const ProgramRun all = run_program(folder.path(), {"simulate", file, "--no-report"});
+  EXPECT_THAT(all.out, Not(HasSubstr("Not looked at")));
+}
+
+/// What is found in the mechanism, after the file has been read: file, place and case.
+TEST(LoadCases, AreNamedWhereOneOfThemCannotBe) {
+  const TemporaryFolder folder;
+  nlohmann::ordered_json document = nlohmann::ordered_json::parse(read_file(problem("two_loads")));
+  document["cases"]["heavy"]["/scene/bodies/rod/initial_deflections"] = nlohmann::json::parse(
+      R"([{"at": ["120 mm", 0, 0], "direction": [0, 1, 0], "displacement": "1 mm"}])");
+  document["cases"]["fast"]["/simulation/initial_state"] = "periodic";
+  const std::filesystem::path file = folder.path() / "bent.json";
+  std::ofstream(file) << document.dump(2);
+  const auto complaint_of = [&](const std::string& load_case) {
+    nlohmann::ordered_json one = document;
+    if (load_case == "heavy") one["cases"]["fast"].erase("/simulation/initial_state");
+    std::ofstream(file) << one.dump(2);
+    return run_program(folder.path(), {"simulate", file.string(), "--no-report"}).err;
+  };
+  EXPECT_THAT(complaint_of("heavy"),
+              HasSubstr("bent.json: in the case \"heavy\": /scene/bodies/rod/"
+                        "initial_deflections/0 cannot be"));
+  EXPECT_THAT(complaint_of("fast"),
+              HasSubstr("bent.json: in the case \"fast\": /simulation/initial_state"));
+}
+
 TEST(LoadCases, AreLimitedTogether) {
   const TemporaryFolder folder;
   const ProgramRun run = run_program(folder.path(), {"optimize", with_spread(folder), "-o", "run"});

@@ -131,6 +131,66 @@ TEST_F(OptimizationReport, SummarySaysWhatTheDriveNeeds) {
   EXPECT_NEAR(after, torque.at("value").get<double>(), 2e-3 * after);
 }
 
+/// Peaks of each case's own history, as in the result.
+TEST(Report, OfLoadCasesHasThePicturesOfAll) {
+  const TemporaryFolder folder;
+  const ProgramRun run =
+      run_program(folder.path(), {"optimize", problem("two_loads"), "-o", "run"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const fs::path page = folder.path() / "run/report.html";
+  const json data = data_of(page);
+  const json& picture = data.at("picture");
+  EXPECT_EQ(picture.at("case"), data.at("result").at("cases").at("shown"));
+  std::vector<json> pictures = {picture};
+  for (const json& other : picture.at("other_cases")) pictures.push_back(other);
+  ASSERT_EQ(pictures.size(), 2u);
+  for (const json& one : pictures) {
+    const std::string name = one.at("case");
+    const json& optimum = named(one.at("designs"), "optimum");
+    const json& stress = named(optimum.at("responses"), "rod_stress");
+    EXPECT_EQ(stress.at("value"),
+              data.at("result").at("responses").at("rod_stress [" + name + "]").at("value"));
+    EXPECT_GT(unpacked(stress.at("history")).size(), 300u) << name;
+    EXPECT_TRUE(optimum.contains("motion")) << name;
+  }
+  EXPECT_FALSE(pictures[1].at("limits").contains("rod_strength")) << "it is one of \"heavy\"";
+  EXPECT_EQ(picture.at("units").at("responses").at("rod_bow [fast]").at("name"), "mm");
+  EXPECT_EQ(picture.at("units").at("limits").at("rod_strength [heavy]").at("name"), "MPa");
+  fs::remove(page);
+  const ProgramRun again = run_program(folder.path(), {"report", "run"});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(data_of(page).at("picture"), picture);
+}
+
+/// Damage is a sum over cycles, an integral has the unit of its history times seconds.
+TEST(Report, DrawsLimitsOnlyIntoHistoriesThatTheyAreOf) {
+  const TemporaryFolder folder;
+  json file = json::parse(read_file(problem("slider_crank_round")));
+  file["responses"]["swept"] = {
+      {"type", "deflection"}, {"body", "rod"}, {"at", 0.5}, {"over_time", "integral"}};
+  file["constraints"]["swept_limit"] = {{"response", "swept"}, {"upper", 1}};
+  json& steel = file["scene"]["materials"]["steel"];
+  steel["ultimate_strength"] = "600 MPa";
+  steel["fatigue_strength"] = "900 MPa";
+  steel["fatigue_exponent"] = 8;
+  file["responses"]["damage"] = {{"type", "fatigue-damage"}, {"body", "rod"}};
+  file["constraints"]["life"] = {{"response", "damage"}, {"upper", 1e-6}};
+  std::ofstream(folder.path() / "swept.json") << file;
+  const ProgramRun run =
+      run_program(folder.path(), joined({"simulate", "swept.json", "-o", "one"}, quick()));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json responses = data_of(folder.path() / "one/report.html").at("picture").at("responses");
+  EXPECT_EQ(responses.at("swept").at("limits_history"), false);
+  EXPECT_EQ(responses.at("swept").at("unit").at("name"), "mm s");
+  EXPECT_EQ(responses.at("swept").at("history_unit").at("name"), "mm");
+  EXPECT_EQ(responses.at("damage").at("limits_history"), false);
+  EXPECT_EQ(responses.at("rod_stress").at("limits_history"), true);
+  const ProgramRun drawn = run_program(folder.path(), {"plot", "one", "swept"});
+  EXPECT_THAT(read_file(folder.path() / "one/plot-swept.svg"),
+              ::testing::Not(HasSubstr("class=\"limit\"")))
+      << drawn.out << drawn.err;
+}
+
 /// The command makes from the card what the run made from its own numbers.
 TEST_F(OptimizationReport, CanBeMadeLater) {
   const fs::path page = folder() / "one/report.html";

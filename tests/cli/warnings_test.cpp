@@ -40,6 +40,19 @@ TEST(Warnings, OfADesignThatBendsTooFarAreShownByEveryCommandWithNumbers) {
   expect_warned("accuracy", {"--set", R"(/accuracy={"steps": ["1 ms"], "elements": [2]})"});
 }
 
+/// A limit of 150 where 150 MPa are meant: told with the first design, before the search.
+TEST(Warnings, OfALimitWithoutItsUnitComeBeforeTheSearch) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(
+      folder.path(),
+      joined({"optimize", problem("slider_crank_round"), "-o", "run", "--no-report", "--set",
+              "/constraints/crank_strength/upper=150", "--set", "/optimizer/max_iterations=1"},
+             {}));
+  const std::string text = unwrapped(run.err);
+  EXPECT_THAT(text, HasSubstr("Warning: at the start the limit of \"crank_strength\" is 150 Pa"));
+  EXPECT_THAT(text, HasSubstr("Is a unit missing"));
+}
+
 /// A sentence that is true of many runs is said once, with all of them behind it.
 TEST(Warnings, ThatManyRunsShareNameAllOfThem) {
   const TemporaryFolder folder;

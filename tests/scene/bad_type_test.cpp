@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
             R"(/scene/bodies/crank/to/0 must be a length [m], got "120 kg": "kg" measures something else)"},
         BadEdit{
             "/scene/bodies/crank/to/0", R"("120 mmm")",
-            R"(/scene/bodies/crank/to/0 must be a length [m], got "120 mmm": "mmm" is not a known unit)"},
+            R"(/scene/bodies/crank/to/0 must be a length [m], got "120 mmm": "mmm" is not a known unit; did you mean "mm"?)"},
         BadEdit{
             "/scene/bodies/crank/to/0", R"("120")",
             R"(/scene/bodies/crank/to/0 must be a length [m], got "120": a number in quotes needs its unit)"},

@@ -1,5 +1,6 @@
 #include <string>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/scene/response_quantity.hpp"
@@ -69,6 +70,29 @@ TEST(Formula, HasTheUnitOfItsPlace) {
             "which is a number without unit; give it its unit, as in \"5 mm\"");
 }
 
+/// A cycle is 2 pi rad: what to write for 10 Hz where an angular speed stands.
+TEST(Formula, SaysHowCyclesBecomeAngles) {
+  Json document = with_constants();
+  document["constants"]["beat"] = "10 Hz";
+  const Json::json_pointer speed("/scene/joints/bearing/drive/speed");
+  ASSERT_TRUE(document.contains(speed));
+  for (const char* formula : {"= beat", "= 2*pi*beat"}) {
+    document[speed] = formula;
+    EXPECT_THAT(complaint(document), testing::HasSubstr("write \"= f*1 rev\"")) << formula;
+    EXPECT_THAT(complaint(document), testing::HasSubstr("\"= 2*pi*f*1 rad\"")) << formula;
+  }
+  for (const char* formula : {"= beat*1 rev", "= 2*pi*beat*1 rad"}) {
+    document[speed] = formula;
+    EXPECT_NO_THROW(read(document)) << formula;
+  }
+}
+
+TEST(Formula, OfALoadCaseHasItsBracketClosed) {
+  EXPECT_THAT(complaint_with(section, "= 2*width[slow"),
+              testing::HasSubstr("at column 10 of \"= 2*width[slow\": the bracket [ of a load case "
+                                 "is not closed; write \"name[case]\""));
+}
+
 TEST(Formula, KeepsToTheRangeOfItsPlaceAtAllBounds) {
   EXPECT_EQ(complaint_with(section, "= width - 1 cm"),
             "bad.json: /scene/bodies/crank/section/height must be positive [m], got "
@@ -120,7 +144,7 @@ TEST(Constant, MayNotHaveANameThatIsTaken) {
   document["constants"] = {{"stroke", "80 mmx"}};
   EXPECT_EQ(complaint(document),
             "bad.json: /constants/stroke must be a number, a text with unit, or a formula \"= …\", "
-            "got \"80 mmx\": \"mmx\" is not a known unit");
+            "got \"80 mmx\": \"mmx\" is not a known unit; did you mean \"mm\"?");
 }
 
 Json with_response(const std::string& value) {

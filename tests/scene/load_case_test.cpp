@@ -196,6 +196,8 @@ TEST(LoadCase, HasToBeThereWhereALimitNamesIt) {
 TEST(LoadCase, AsksHowAnObjectiveThatDiffersIsMeant) {
   EXPECT_THAT(complaint(with(rail(), "/objective", R"({"minimize": "stress"})")),
               HasSubstr("/objective needs \"over_cases\""));
+  EXPECT_THAT(complaint(with(rail(), "/objective", R"({"minimize": "stress"})")),
+              HasSubstr("or take the number of one case, as in \"stress["));
   EXPECT_THAT(
       complaint(with(rail(), "/objective", R"({"minimize": "weight", "over_cases": "worst"})")),
       HasSubstr("\"weight\" is the same in all"));

@@ -117,7 +117,10 @@ TEST(Units, WithoutAnAngleAreNoAngularSpeed) {  // 1500 1/min may be 25 rad/s or
 }
 
 TEST(Units, ThatAreUnknownAreRefused) {
-  EXPECT_EQ(complaint("12 mmm", length), "\"mmm\" is not a known unit");
+  EXPECT_EQ(complaint("12 mmm", length), "\"mmm\" is not a known unit; did you mean \"mm\"?");
+  EXPECT_EQ(complaint("12 Mpa", stress), "\"Mpa\" is not a known unit; did you mean \"MPa\"?");
+  EXPECT_EQ(complaint("12 KG", mass), "\"KG\" is not a known unit; did you mean \"kg\"?");
+  EXPECT_EQ(complaint("12 parrots", mass), "\"parrots\" is not a known unit");
   EXPECT_EQ(complaint("1,5 mm", length), "numbers have a decimal point, no comma; write 1.5 mm");
   EXPECT_EQ(complaint("0x10 mm", length), "\"x10 mm\" is not a known unit");
 }

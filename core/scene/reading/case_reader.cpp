@@ -260,10 +260,11 @@ void check_objective(const JsonNode& root, const ProblemFile& problem,
             objective.response));
   }
   if (!is_same[index] && objective.over_cases == OverCases::same) {
-    node.fail(
-        fmt::format("needs \"over_cases\", as \"{}\" may differ from case to case: "
-                    "\"worst\", \"sum\", or weights such as {{\"{}\": 1}}",
-                    objective.response, problem.load_case));
+    node.fail(fmt::format(
+        "needs \"over_cases\", as \"{}\" may differ from case to case: "
+        "\"worst\", \"sum\", or weights such as {{\"{}\": 1}}; or take the number of one "
+        "case, as in \"{}[{}]\"",
+        objective.response, problem.load_case, objective.response, problem.load_case));
   }
 }
 

@@ -183,7 +183,9 @@ Dimension ExpressionBuilder::common(std::size_t position, int first, int second,
   const bool differs_by_angle = ratio.is_angle() || (Dimension{} / ratio).is_angle();
   std::string more;
   if (differs_by_angle) {
-    more = "; angles never come or go silently: multiply or divide by 1 rad (a cycle is 1 rev)";
+    more =
+        "; angles never come or go silently: multiply or divide by 1 rad (a cycle is 1 rev, and Hz "
+        "counts cycles)";
   } else if (is_plain) {
     more = "; here a number needs its unit, as in \"5 mm\"";
   }

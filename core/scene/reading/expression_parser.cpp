@@ -247,7 +247,11 @@ void check_characters(const ExpressionBuilder& builder, std::string_view text) {
     if (text[i] == '\'') is_quoted = !is_quoted;
     if (is_quoted) continue;
     if (is_behind_name && text[i] == '[') {
-      if (const auto suffix = case_suffix(text, i)) i = suffix->end;
+      const auto suffix = case_suffix(text, i);
+      if (!suffix) {
+        builder.fail(i, "the bracket [ of a load case is not closed; write \"name[case]\"");
+      }
+      i = suffix->end;
       if (i >= text.size()) return;
     }
     is_behind_name =

@@ -113,7 +113,10 @@ void NumberReader::check_quantity(const JsonNode& node, const ReadExpression& re
   if (is_zero || asked == read.dimension) return;
   std::string more = fmt::format(", which is {}", describe(read.dimension, *units_));
   if (asked / Dimension::angle() == read.dimension) {
-    more += "; angles never come or go silently: multiply by 1 rad, or take \"rev/s\" for cycles";
+    more +=
+        "; angles never come or go silently: write \"= f*1 rev\" for f cycles per second, as of "
+        "\"10 "
+        "Hz\", and \"= 2*pi*f*1 rad\" where the factor 2*pi is written out";
   } else if (read.dimension.is_number()) {
     more += "; give it its unit, as in \"5 mm\"";
   }

@@ -27,6 +27,8 @@ export interface Player {
   onTime(listener: (time: number) => void): void;
   /** Design that is coloured. */
   setMain?(design: number): void;
+  /** Ends it: another one takes its place. */
+  dispose(): void;
   state(): { time: number; isPlaying: boolean; scale: number; hasDrawing: boolean };
   stage: Stage | null;
 }
@@ -116,6 +118,7 @@ export function makePlayer(options: PlayerOptions): Player {
   slider.addEventListener("input", () => goTo((Number(slider.value) / 1000) * end));
   new IntersectionObserver((entries) => (isVisible = entries[0].isIntersecting)).observe(host);
 
+  const life = new AbortController();
   document.addEventListener("keydown", (event) => {
     const target = event.target as HTMLElement;
     if (!isMoving || /^(INPUT|SELECT|TEXTAREA|SUMMARY)$/.test(target.tagName)) return;
@@ -127,7 +130,7 @@ export function makePlayer(options: PlayerOptions): Player {
     else if (event.key === "Home") goTo(0);
     else return;
     event.preventDefault();
-  });
+  }, { signal: life.signal });
 
   const element = h("div.player", {}, host);
   if (stage) {
@@ -255,7 +258,7 @@ export function makePlayer(options: PlayerOptions): Player {
   if (legend && stage) element.append(legend);
   show();
   if (isMoving && stage && !window.matchMedia("(prefers-reduced-motion: reduce)").matches) setPlaying(true);
-  onTheme(() => stage?.show(time, scale));
+  const stopTheme = onTheme(() => stage?.show(time, scale));
   return {
     element,
     goTo,
@@ -264,6 +267,12 @@ export function makePlayer(options: PlayerOptions): Player {
     onTime: (listener) => {
       listeners.push(listener);
       listener(time);
+    },
+    dispose() {
+      setPlaying(false);
+      life.abort();
+      stopTheme();
+      stage?.dispose();
     },
     state: () => ({ time, isPlaying, scale, hasDrawing: !!stage }),
   };

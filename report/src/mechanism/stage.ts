@@ -83,6 +83,9 @@ export class Stage {
   private visible: boolean[];
   private isStressShown = true;
   private isDue = false;
+  private isDisposed = false;
+  private readonly sizes = new ResizeObserver(() => this.resize());
+  private readonly stopTheme: () => void;
 
   constructor(
     private readonly host: HTMLElement,
@@ -114,12 +117,22 @@ export class Stage {
     host.append(this.canvas);
     this.listenForPicks();
     this.resetCamera();
-    new ResizeObserver(() => this.resize()).observe(host);
-    onTheme(() => {
+    this.sizes.observe(host);
+    this.stopTheme = onTheme(() => {
       repaint(this.space);
       this.relook();
     });
     this.relook();
+  }
+
+  /** Gives the graphics card back: browsers have few contexts. */
+  dispose(): void {
+    this.isDisposed = true;
+    this.sizes.disconnect();
+    this.stopTheme();
+    this.controls.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
   }
 
   show(time: number, scale: number): void {
@@ -194,11 +207,11 @@ export class Stage {
 
   /** Draws with the next frame of the browser, once whatever has changed. */
   render(): void {
-    if (this.isDue) return;
+    if (this.isDue || this.isDisposed) return;
     this.isDue = true;
     requestAnimationFrame(() => {
       this.isDue = false;
-      this.draw();
+      if (!this.isDisposed) this.draw();
     });
   }
 

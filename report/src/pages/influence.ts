@@ -137,7 +137,8 @@ class Slopes {
       const step = onePercent(this.picture, variable, this.x[names.indexOf(variable)]).change;
       return { variable, step, packed };
     });
-    const meant = this.picture.responses[name]?.unit ?? fallbackUnit;
+    const meaning = this.picture.responses[name];
+    const meant = meaning?.history_unit ?? meaning?.unit ?? fallbackUnit;
     const unit = inThousands(meant, 0);
     const chart = lineChart({
       title: `change of ${words(name)}`,

@@ -28,7 +28,7 @@ export function makeInspector(picture: Picture, main: number, goTo: (time: numbe
 
   const chartOf = (quantity: Quantity): HTMLElement | null => {
     const largest = Math.max(...quantity.shown.map((one) => Math.abs(one.value.value)));
-    const meaning = { ...quantity.meaning, unit: inThousands(quantity.meaning.unit, largest / quantity.meaning.unit.factor) };
+    const meaning = curveMeaning(quantity.meaning, largest);
     const curves = quantity.shown.filter((one) => one.value.history);
     if (!curves.length) return null;
     const limits = limitsOn(picture, quantity.name);
@@ -50,7 +50,7 @@ export function makeInspector(picture: Picture, main: number, goTo: (time: numbe
         label: `${limit.side} ${withUnit(limit.value, meaning.unit, 3)}`,
       })),
       peaks:
-        peak.peak_time === undefined
+        peak.peak_time === undefined || quantity.meaning.limits_history === false
           ? []
           : [
               {
@@ -88,6 +88,12 @@ export function makeInspector(picture: Picture, main: number, goTo: (time: numbe
       for (const chart of charts) chart.setCursor(time / unit.factor);
     },
   };
+}
+
+/** What a history shows: in the unit of its instants, not in that of the number made from it. */
+export function curveMeaning(meaning: Meaning, largest: number): Meaning {
+  const unit = meaning.history_unit ?? meaning.unit;
+  return { ...meaning, unit: inThousands(unit, largest / unit.factor) };
 }
 
 /** The list of members and joints, for the keyboard and for readers of screens. */
@@ -134,6 +140,7 @@ function peakLine(quantity: Quantity, peak: Shown, goTo: (time: number) => void)
 
 export function limitsOn(picture: Picture, response: string): { value: number; side: string }[] {
   const limits: { value: number; side: string }[] = [];
+  if (picture.responses[response]?.limits_history === false) return limits;
   for (const limit of Object.values(picture.limits)) {
     if (limit.response !== response) continue;
     if (limit.upper !== undefined) {

@@ -2,12 +2,12 @@
 import { lineChart } from "../charts";
 import { type Companion, type Document, type Picture, parseCsv, type ReportData, type Shown, type Unit } from "../data";
 import { h, section, table } from "../dom";
-import { errorText, number, pair, percent, placeText, seconds, share, withUnit, words } from "../format";
+import { engineering, errorText, number, pair, percent, placeText, seconds, share, withUnit, words } from "../format";
 import { influenceSection } from "./influence";
 import { type Inspector, makeInspector } from "./inspector";
 import { addMarks, type Mark } from "../mechanism/marks";
 import { makePlayer, type Pick as Picked, type Player } from "../mechanism/player";
-import { change, effectsSection, endName, fact, filesSection, monitorsText, responsesTable, sentenceCase, verdict, warnings } from "./parts";
+import { change, effectsSection, endName, fact, filesSection, monitorsText, responsesTable, sentenceCase, unitOf, unitOfLimit, verdict, warnings } from "./parts";
 import { conflictSection, partsNote, startsSection } from "./search";
 
 export interface Viewing {
@@ -53,26 +53,54 @@ export function viewing(picture: Picture, main: number, showsNames = false, show
   };
 }
 
+/** Shows another load case; of a limit also its instant. */
+type ChooseCase = (name: string, limit?: string) => void;
+
+/** Of several load cases one is shown at a time: a choice changes all that is of a case. */
 export function optimizePage(data: ReportData): HTMLElement[] {
-  const { picture, result } = data;
+  const pictures = [data.picture, ...(data.picture?.other_cases ?? [])];
+  if (pictures.length === 1) return contentsOf(data).elements;
+  const units = data.picture!.units;
+  const page = h("div.contents", {});
+  let shown: Viewing | null = null;
+  const show: ChooseCase = (name, limit) => {
+    const picture = pictures.find((one) => one!.case === name)!;
+    const ofCase = { ...data, picture: { ...picture, units } };
+    shown?.player.dispose();
+    const contents = contentsOf(ofCase, choose);
+    shown = contents.shown;
+    page.replaceChildren(...contents.elements);
+    const row = limitRows(ofCase).find((one) => one.name === limit);
+    if (row && shown) goToLimit(shown, row, ofCase.picture);
+  };
+  const choose: ChooseCase = (name, limit) => {
+    const place = () => page.querySelector(".case-choice")!.getBoundingClientRect().top;
+    const before = place();
+    show(name, limit);
+    window.scrollBy(0, place() - before);
+    page.querySelector<HTMLSelectElement>(".case-choice select")!.focus({ preventScroll: true });
+  };
+  show(data.picture!.case!);
+  return [page];
+}
+
+function contentsOf(data: ReportData, chooseCase?: ChooseCase): { elements: HTMLElement[]; shown: Viewing | null } {
+  const { picture } = data;
   const parts: (HTMLElement | null)[] = [headline(data), conflictSection(data)];
   let shown: Viewing | null = null;
   if (picture && picture.designs.length) {
     const main = picture.designs.length - 1;
     shown = viewing(picture, main);
+    if (chooseCase) parts.push(caseChoice(data, chooseCase));
     parts.push(shown.element);
-    if (result.cases) {
-      const names = (result.cases.names as string[]).map(words).join(", ");
-      parts.push(h("p.note", {}, `The design is for the load cases ${names}. The mechanism is shown in ${words(result.cases.shown)}, which decides most.`));
-    }
     markLimits(data, shown);
-    shown.pickBody(mostUsedBody(picture, result));
+    shown.pickBody(mostUsedBody(data));
   }
   parts.push(
     h(
       "div.columns",
       {},
-      h("div.stack", {}, limitsSection(data, shown), pricesSection(data)),
+      h("div.stack", {}, limitsSection(data, shown, chooseCase), pricesSection(data)),
       h("div.stack", {}, variablesSection(data), savingsSection(data)),
     ),
     startsSection(data),
@@ -82,13 +110,50 @@ export function optimizePage(data: ReportData): HTMLElement[] {
     effectsSection(data),
     filesSection(data),
   );
-  return parts.filter((part): part is HTMLElement => !!part);
+  return { elements: parts.filter((part): part is HTMLElement => !!part), shown };
+}
+
+/** Shares and multipliers below this are round-off. */
+const leastShare = 1e-3;
+
+/** Cases that an objective over cases, or a limit that costs something or is broken, makes decide. */
+function decidingCases(result: Document): string[] {
+  const constraints = Object.values(result.constraints ?? {}) as Document[];
+  return (result.cases.names as string[]).filter(
+    (name) =>
+      (result.cases.shares?.[name] ?? 0) > leastShare ||
+      constraints.some((one) => one.case === name && ((one.multiplier ?? 0) !== 0 || one.utilisation > 1 + leastShare)),
+  );
+}
+
+function caseChoice(data: ReportData, choose: ChooseCase): HTMLElement {
+  const { cases } = data.result;
+  const names = cases.names as string[];
+  const deciding = decidingCases(data.result);
+  const select = h(
+    "select",
+    { "aria-label": "load case" },
+    names.map((name) => h("option", { value: name, selected: name === data.picture!.case }, words(name), deciding.includes(name) ? " (decides)" : "")),
+  ) as HTMLSelectElement;
+  select.addEventListener("change", () => choose(select.value));
+  const sentence =
+    deciding.length === 1
+      ? `${words(deciding[0])} decides it.`
+      : deciding.length
+        ? `${deciding.slice(0, -1).map(words).join(", ")} and ${words(deciding[deciding.length - 1])} decide it together.`
+        : "";
+  return h(
+    "div.case-choice",
+    {},
+    h("label.choice.bordered", {}, h("span.soft", {}, "load case"), select),
+    h("p.note", {}, `One design for ${names.length} load cases. ${sentence} Motion, histories and numbers in the drawing are those of the case that is chosen.`),
+  );
 }
 
 function headline(data: ReportData): HTMLElement {
   const { result, picture } = data;
   const objective = result.objective ?? {};
-  const unit = picture?.responses[objective.name]?.unit ?? { si: objective.unit, name: objective.unit, factor: 1 };
+  const unit = unitOf(picture, objective.name, objective.unit);
   const hasDesign = objective.value !== undefined;
   const gain = hasDesign ? objective.value / objective.start - 1 : NaN;
   const time = result.seconds ?? 0;
@@ -202,13 +267,15 @@ function savingsSection(data: ReportData): HTMLElement | null {
   );
 }
 
-function mostUsedBody(picture: Picture, result: Document): string | undefined {
+/** The body whose limit is used most, of the load case that is shown. */
+function mostUsedBody(data: ReportData): string | undefined {
+  const picture = data.picture!;
+  const rows = limitRows(data).filter((row) => row.response);
   let best: string | undefined;
   let most = -1;
-  for (const [name, limit] of Object.entries(picture.limits)) {
-    const used = result.constraints?.[name]?.utilisation ?? 0;
-    const body = limit.response ? picture.responses[limit.response]?.bodies[0] : undefined;
-    if (body && used > most + 1e-4) [most, best] = [used, body];
+  for (const row of rows) {
+    const body = picture.responses[row.response!.name]?.bodies[0];
+    if (body && (row.used ?? 0) > most + 1e-4) [most, best] = [row.used ?? 0, body];
   }
   return best ?? picture.scene.bodies[0]?.name;
 }
@@ -234,10 +301,9 @@ function limitRows(data: ReportData): LimitRow[] {
   const rows = Object.keys(constraints).map((name): LimitRow => {
     const one = constraints[name];
     // The picture shows one load case: limits of others have no place in it.
-    const isShown = one.case === undefined || one.case === data.result.cases?.shown;
-    const inPicture = picture?.limits[one.limit_name ?? name];
-    const limit = isShown ? inPicture : inPicture && { ...inPicture, response: undefined };
-    const unit = limit?.unit ?? { si: one.unit, name: one.unit, factor: 1 };
+    const isShown = one.case === undefined || one.case === picture?.case;
+    const limit = isShown ? picture?.limits[one.limit_name ?? name] : undefined;
+    const unit = unitOfLimit(picture, name, one.unit);
     const response = limit?.response ? optimum?.responses?.find((r) => r.name === limit.response) : undefined;
     const before = limit?.response ? start?.responses?.find((r) => r.name === limit.response)?.value : undefined;
     const used: number | undefined = one.utilisation;
@@ -283,7 +349,7 @@ function markLimits(data: ReportData, shown: Viewing): void {
   addMarks(shown.player, picture, marks);
 }
 
-function limitsSection(data: ReportData, shown: Viewing | null): HTMLElement | null {
+function limitsSection(data: ReportData, shown: Viewing | null, chooseCase?: ChooseCase): HTMLElement | null {
   const { picture } = data;
   const rows = limitRows(data);
   if (!rows.length) return null;
@@ -334,6 +400,8 @@ function limitsSection(data: ReportData, shown: Viewing | null): HTMLElement | n
                 ),
                 place ? `, ${place}` : "",
               )
+            : chooseCase && one.case !== undefined && one.case !== picture?.case
+            ? h("p.note", {}, "in the case ", h("button.link", { onclick: () => chooseCase(one.case, name) }, words(one.case)))
             : !used && isActive
               ? h("p.note", {}, "binds: a linear constraint of variables")
               : null,
@@ -384,7 +452,7 @@ function variablesSection(data: ReportData): HTMLElement | null {
       {},
       names.map((name) => {
         const one = variables[name];
-        const unit = data.picture?.variables[name]?.unit ?? { si: one.unit, name: one.unit, factor: 1 };
+        const unit = data.picture?.variables[name]?.unit ?? engineering(one.unit);
         const range = one.upper - one.lower || 1;
         const at = (x: number) => (100 * (x - one.lower)) / range;
         const [from, to] = [at(one.start), at(one.value)];
@@ -420,7 +488,7 @@ function convergenceSection(data: ReportData): HTMLElement | null {
   const search = rows.filter((row) => row[column("request")] === "gradients" && row[column("purpose")] !== "audit" && row[column("objective")] !== "");
   if (search.length < 2) return null;
   const objective = data.result.objective;
-  const unit = data.picture?.responses[objective.name]?.unit ?? { si: "", name: objective.unit, factor: 1 };
+  const unit = unitOf(data.picture, objective.name, objective.unit);
   const x = search.map((_, i) => i + 1);
   const numbers = (name: string, factor = 1) => search.map((row) => Number(row[column(name)]) / factor);
   const violation = numbers("max_violation").map((v) => (v > 1e-12 ? 100 * v : null));

@@ -1,5 +1,5 @@
 // Parts that several pages have: headline, warnings, evidence, effects, files.
-import type { Document, Picture, ReportData, Unit } from "../data";
+import { curveOf, type Document, type Picture, type ReportData, type Unit } from "../data";
 import { details, download, h, section, table } from "../dom";
 import { count, engineering, errorText, number, percent, seconds, withUnit, words } from "../format";
 
@@ -44,7 +44,26 @@ export function warnings(result: Document): HTMLElement | null {
 
 /** Units of responses; those that no picture tells, by their SI unit. */
 export function unitOf(picture: Picture | null, name: string, si: string): Unit {
-  return picture?.responses[name]?.unit ?? engineering(si);
+  return picture?.units?.responses[name] ?? picture?.responses[name]?.unit ?? engineering(si);
+}
+
+/** Units of limits, likewise. */
+export function unitOfLimit(picture: Picture | null, name: string, si: string): Unit {
+  return picture?.units?.limits[name] ?? picture?.limits[name]?.unit ?? engineering(si);
+}
+
+/** Round-off of 64 bits, and of drawn histories of 32 bits; a thousandth of an atom [m]. */
+const roundOff = 1e-14;
+const leastLength = 1e-13;
+
+/** A number that is round-off of its history is 0. */
+export function withoutRoundOff(picture: Picture | null, name: string, value: number, si: string): number {
+  const meaning = picture?.responses[name];
+  if (si === "m" && meaning && Math.abs(value) < leastLength) return 0;
+  if (!meaning || meaning.over_time === "integral") return value;
+  const histories = picture!.designs.flatMap((design) => design.responses?.find((one) => one.name === name)?.history ?? []);
+  const largest = Math.max(0, ...histories.flatMap((history) => curveOf(history).y.map(Math.abs)));
+  return Math.abs(value) < roundOff * largest ? 0 : value;
 }
 
 /** All responses with values and what their numbers are known to. */
@@ -59,9 +78,10 @@ export function responsesTable(data: ReportData): HTMLElement | null {
     const unit = unitOf(data.picture, name, one.unit);
     const total = one.error?.total;
     const row: (Node | string)[] = [words(name)];
-    if (hasStart) row.push(number(one.start / unit.factor));
-    row.push(number(one.value / unit.factor));
-    if (hasStart) row.push(change(one.start, one.value));
+    const [start, value] = [one.start, one.value].map((raw) => withoutRoundOff(data.picture, name, raw, one.unit));
+    if (hasStart) row.push(number(start / unit.factor));
+    row.push(number(value / unit.factor));
+    if (hasStart) row.push(change(start, value));
     row.push(unit.name);
     if (hasErrors) {
       row.push(

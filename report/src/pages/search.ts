@@ -1,12 +1,8 @@
 // How an optimization was searched: limits that contradict each other, several starts, several methods.
-import type { Document, ReportData, Unit } from "../data";
+import type { Document, ReportData } from "../data";
 import { h, section, table } from "../dom";
 import { engineering, number, withUnit, words } from "../format";
-import { sentenceCase } from "./parts";
-
-function unitOfLimit(data: ReportData, name: string, one: Document): Unit {
-  return data.picture?.limits[name]?.unit ?? engineering(one.unit);
-}
+import { sentenceCase, unitOf as unitOfResponse, unitOfLimit } from "./parts";
 
 /** Of a problem that no design solves: what its limits would have to be. */
 export function conflictSection(data: ReportData): HTMLElement | null {
@@ -17,7 +13,7 @@ export function conflictSection(data: ReportData): HTMLElement | null {
   const hasAlone = names.some((name) => least.limits[name].alone !== undefined);
   const rows = names.map((name) => {
     const one: Document = least.limits[name];
-    const unit = unitOfLimit(data, name, one);
+    const unit = unitOfLimit(data.picture, name, one.unit);
     const sign = one.side === "upper" ? "≤" : "≥";
     const row: (Node | string)[] = [one.in_conflict ? h("b", {}, words(name)) : words(name), `${sign} ${withUnit(one.limit, unit)}`];
     if (hasAlone) row.push(one.alone === undefined ? "–" : `${sign} ${withUnit(one.alone, unit)}`);
@@ -38,7 +34,7 @@ export function conflictSection(data: ReportData): HTMLElement | null {
 /** Distinct local optima of several starts. */
 function optimaTable(data: ReportData, optima: Document[], runs: Document[]): HTMLElement {
   const { picture, result } = data;
-  const objective = picture?.responses[result.objective.name]?.unit ?? engineering(result.objective.unit);
+  const objective = unitOfResponse(picture, result.objective.name, result.objective.unit);
   const variables = Object.keys(optima[0].variables);
   const unitOf = (name: string) => picture?.variables[name]?.unit ?? engineering(result.variables?.[name]?.unit ?? "1");
   return table(

@@ -1,11 +1,11 @@
 // Of one simulation, and of a mechanism that is only drawn.
 import { lineChart } from "../charts";
-import { curveOf, type Document, type Packed, type Picture, type ReportData, valueAt } from "../data";
+import { curveOf, type Document, type Packed, type Picture, type ReportData, type SceneBody, valueAt } from "../data";
 import { h, section, table } from "../dom";
-import { count, inThousands, number, seconds, share, timeUnit, withUnit, words } from "../format";
-import { limitsOn, profiles, signed } from "./inspector";
+import { count, engineering, number, seconds, share, timeUnit, withUnit, words } from "../format";
+import { curveMeaning, limitsOn, profiles, signed } from "./inspector";
 import { type Viewing, viewing } from "./optimize";
-import { effectsSection, fact, filesSection, monitorsText, responsesTable, warnings } from "./parts";
+import { effectsSection, fact, filesSection, monitorsText, responsesTable, unitOfLimit, warnings, withoutRoundOff } from "./parts";
 
 export function simulatePage(data: ReportData): HTMLElement[] {
   const { picture, result } = data;
@@ -40,9 +40,10 @@ function limitsSentence(result: Document): HTMLElement | null {
   const limits = Object.values((result.constraints ?? {}) as Record<string, Document>);
   if (!limits.length) return null;
   const broken = Object.entries(result.constraints as Record<string, Document>).filter(([, one]) => one.holds === false || one.utilisation > 1 + 1e-6);
+  const of = limits.length === 1 ? "the limit is" : `${broken.length} of ${limits.length} limits`;
   return broken.length
-    ? h("p.verdict", {}, h("span.badge.warn", {}, `! ${broken.length} of ${limits.length} limits exceeded`), ` ${broken.map(([name]) => words(name)).join(", ")}`)
-    : h("p.verdict", {}, h("span.badge.good", {}, `✓ all ${limits.length} limits hold`));
+    ? h("p.verdict", {}, h("span.badge.warn", {}, `! ${of} exceeded`), ` ${broken.map(([name]) => words(name)).join(", ")}`)
+    : h("p.verdict", {}, h("span.badge.good", {}, limits.length === 1 ? "✓ the limit holds" : `✓ all ${limits.length} limits hold`));
 }
 
 function limitsTable(data: ReportData): HTMLElement | null {
@@ -57,11 +58,11 @@ function limitsTable(data: ReportData): HTMLElement | null {
       [{ title: "limit", left: true }, { title: "value" }, { title: "limit" }, { title: "used" }],
       names.map((name) => {
         const one = constraints[name];
-        const unit = data.picture?.limits[name]?.unit ?? { si: one.unit, name: one.unit, factor: 1 };
+        const unit = unitOfLimit(data.picture, name, one.unit);
         const used: number | undefined = one.utilisation;
         return [
           words(name),
-          withUnit(one.value, unit),
+          withUnit(withoutRoundOff(data.picture, data.picture?.limits[name]?.response ?? "", one.value, one.unit), unit),
           `${one.side === "lower" ? "≥" : "≤"} ${withUnit(one.limit, unit)}`,
           used === undefined ? "–" : h(used > 1 + 1e-6 ? "span.bad" : "span", {}, share(used)),
         ];
@@ -84,7 +85,7 @@ export function historiesSection(picture: Picture, shown: Viewing | null): HTMLE
   const hasMany = all.length > mostCharts;
   const drawn = hasMany ? all.filter(({ meaning }) => meaning.type !== "reaction-force") : all;
   const charts = drawn.map(({ one, meaning: given }) => {
-    const meaning = { ...given, unit: inThousands(given.unit, Math.abs(one.value) / given.unit.factor) };
+    const meaning = curveMeaning(given, Math.abs(one.value));
     const chart = lineChart({
       title: words(one.name),
       yTitle: meaning.unit.name,
@@ -96,7 +97,7 @@ export function historiesSection(picture: Picture, shown: Viewing | null): HTMLE
         label: `${limit.side} ${withUnit(limit.value, meaning.unit, 3)}`,
       })),
       peaks:
-        one.peak_time === undefined
+        one.peak_time === undefined || given.limits_history === false
           ? []
           : [{ x: one.peak_time / unit.factor, y: valueAt(one.history!, one.peak_time) / meaning.unit.factor, label: signed(one, meaning.unit.factor), color: "accent" }],
     });
@@ -233,18 +234,28 @@ function lawsSection(picture: Picture): HTMLElement | null {
   return charts.length ? section("Drives and loads over time", "", h("div.grid", {}, charts)) : null;
 }
 
+/** How an elastic body starts that does not start straight and at rest; it is drawn straight. */
+function startText(body: SceneBody): string {
+  const start = body.starts_bent;
+  if (!start) return "";
+  const bent = start.displacement ? [`bent by ${withUnit(start.displacement, engineering("m"), 3)}`] : [];
+  const moving = start.rate ? [`moving at ${withUnit(start.rate, engineering("m/s"), 3)}`] : [];
+  return [...bent, ...moving].length ? `; starts ${[...bent, ...moving].join(", ")}` : "";
+}
+
 export function bodiesSection(picture: Picture, result: Document, unheld: string[]): HTMLElement {
   const { scene } = picture;
   return section(
     "Bodies",
-    "Axes in the drawing: x red along the beam, y green, z blue. Sections are drawn with y up and z to the right.",
+    "Axes in the drawing: x red along the beam, y green, z blue. Sections are drawn with y up and z to the right." +
+      (scene.bodies.some((body) => startText(body)) ? " What starts bent is drawn straight: a simulation shows its start." : ""),
     table(
       [{ title: "body", left: true }, { title: "kind", left: true }, { title: "section", left: true }, { title: "mass [kg]" }, { title: "coordinates" }],
       scene.bodies.map((body, i) => {
         const known = (result.bodies ?? []).find((one: Document) => one.name === body.name) ?? {};
         return [
           unheld.includes(body.name) ? h("span.bad", { title: "nothing holds or moves it" }, `${words(body.name)}: free`) : words(body.name),
-          `${body.is_rigid ? "rigid " : ""}${body.type}${body.material ? `, ${body.material}` : ""}`,
+          `${body.is_rigid ? "rigid " : ""}${body.type}${body.material ? `, ${body.material}` : ""}${startText(body)}`,
           profiles(picture, i, 0) ?? "–",
           number(known.mass),
           count(known.coordinates),

@@ -38,6 +38,10 @@ export function paretoPage(data: ReportData): HTMLElement[] {
   const [objective, limited] = Object.keys(result.units ?? {});
   const unit = (name: string): Unit =>
     picture?.responses[name]?.unit ?? picture?.limits[name]?.unit ?? engineering(result.units[name]);
+  // Between two responses no limit of the file is varied: the search allows the second one so much.
+  const isOfResponses = !!data.card.problem?.pareto?.responses;
+  const limitTitle = isOfResponses ? `${words(limited ?? "")} allowed` : "limit";
+  const marks = (point: Document) => `${point.status}${point.dominated ? ", dominated" : ""}${point.knee ? ", knee" : ""}`;
   const known = points.map((point, i) => ({ point, number: i + 1 })).filter(({ point }) => point.objectives?.[objective] !== undefined);
   const verified = points.filter((point) => point.status === "verified").length;
   const drawing = h("div.front-drawing", {});
@@ -51,7 +55,7 @@ export function paretoPage(data: ReportData): HTMLElement[] {
       players.set(index, h("div", {}, makePlayer({ picture: one, main: 0, onPick: () => undefined }).element, sectionsOf(one)));
     }
     drawing.replaceChildren(
-      h("h3", {}, `Point ${chosen.number}: `, withUnit(chosen.point.objectives[objective], unit(objective)), h("span.soft", {}, ` at ${withUnit(chosen.point.objectives[limited], unit(limited))}`)),
+      h("h3", {}, `Point ${chosen.number}${chosen.point.knee ? ", the knee" : ""}: `, withUnit(chosen.point.objectives[objective], unit(objective)), h("span.soft", {}, ` at ${withUnit(chosen.point.objectives[limited], unit(limited))}`)),
       h("p.note", {}, sentenceCase(chosen.point.message ?? "")),
       ...(players.has(index) ? [players.get(index)!] : []),
     );
@@ -59,6 +63,7 @@ export function paretoPage(data: ReportData): HTMLElement[] {
   };
   const x = known.map(({ point }) => point.objectives[limited] / unit(limited).factor);
   const y = known.map(({ point }) => point.objectives[objective] / unit(objective).factor);
+  const knee = known.findIndex(({ point }) => point.knee);
   const front = lineChart({
     title: `${words(objective)} against ${words(limited)}`,
     xTitle: `${words(limited)} [${unit(limited).name}]`,
@@ -71,31 +76,33 @@ export function paretoPage(data: ReportData): HTMLElement[] {
         y,
         color: "accent",
         dots: true,
-        labels: known.map(({ point, number: n }) => `point ${n}: ${point.status}${point.dominated ? ", dominated" : ""}`),
+        labels: known.map(({ point, number: n }) => `point ${n}: ${marks(point)}`),
       },
+      ...(knee >= 0 ? [{ name: "knee", x: [x[knee]], y: [y[knee]], color: "good", dots: true, silent: true }] : []),
       ...slopesOf(known.map(({ point }) => -point.multiplier * (unit(limited).factor / unit(objective).factor)), x, y),
     ],
     legend: known.some(({ point }) => Number.isFinite(point.multiplier)),
     onPick: (series, index) => series === 0 && show(index),
     onHover: (series, index) => series === 0 && show(index),
   });
-  show(Math.floor(known.length / 2));
+  show(knee >= 0 ? knee : Math.floor(known.length / 2));
   return [
-    hero(data, `${words(objective ?? "")} against the limit of ${words(result.constraint ?? "")}: ${verified} of ${points.length} points verified.`),
-    h("section.card.front", { "aria-label": "front" }, h("div", {}, h("p.note", {}, "Point at a mark to see its mechanism."), front.element), drawing),
+    hero(data, `${words(objective ?? "")} against ${isOfResponses ? words(limited ?? "") : `the limit of ${words(result.constraint ?? "")}`}: ${verified} of ${points.length} points verified.`),
+    h("section.card.front", { "aria-label": "front" }, h("div", {}, h("p.note", {}, "Point at a mark to see its mechanism.", knee >= 0 ? ` The knee is point ${known[knee].number}: on either side a gain costs more.` : ""), front.element), drawing),
     section(
       "Points",
       "",
       table(
-        [{ title: "" }, { title: `limit [${unit(limited).name}]` }, { title: `${words(objective)} [${unit(objective).name}]` }, { title: "±" }, { title: `slope [${unit(objective).name}/${unit(limited).name}]` }, ...Object.keys(picture?.variables ?? {}).map((name) => ({ title: `${words(name)} [${picture!.variables[name].unit.name}]` })), { title: "status", left: true }],
+        [{ title: "" }, { title: `${limitTitle} [${unit(limited).name}]` }, ...(isOfResponses ? [{ title: `${words(limited)} [${unit(limited).name}]` }] : []), { title: `${words(objective)} [${unit(objective).name}]` }, { title: "±" }, { title: `slope [${unit(objective).name}/${unit(limited).name}]` }, ...Object.keys(picture?.variables ?? {}).map((name) => ({ title: `${words(name)} [${picture!.variables[name].unit.name}]` })), { title: "status", left: true }],
         points.map((point, i) => [
           String(i + 1),
           number(point.limit / unit(limited).factor),
+          ...(isOfResponses ? [number(point.objectives?.[limited] / unit(limited).factor)] : []),
           number(point.objectives?.[objective] / unit(objective).factor),
           point.error?.total ? number(point.error.total / unit(objective).factor, 2) : "–",
           point.multiplier !== undefined ? number((-point.multiplier / unit(objective).factor) * unit(limited).factor, 3) : "–",
           ...Object.entries(picture?.variables ?? {}).map(([name, variable]) => number(point.variables[name] / variable.unit.factor)),
-          `${point.status}${point.dominated ? ", dominated" : ""}`,
+          marks(point),
         ]),
       ),
     ),

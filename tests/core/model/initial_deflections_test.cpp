@@ -222,9 +222,9 @@ TEST(InitialDeflections, MustBePossible) {
   };
   EXPECT_THAT(
       message({along_y(length, bow), along_y(0.0, bow)}),
-      HasSubstr("\"beam\": the initial deflection 1 cannot be: the frame of the body holds"));
+      HasSubstr("/scene/bodies/beam/initial_deflections/1 cannot be: the frame of the body holds"));
   EXPECT_THAT(message({along_y(length, bow), along_y(length, 2 * bow)}),
-              HasSubstr("the initial deflection 1 says the same as those before it"));
+              HasSubstr("initial_deflections/1 says the same as those before it"));
 }
 
 }  // namespace
