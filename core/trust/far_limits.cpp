@@ -33,9 +33,9 @@ std::optional<std::string> far_limit_text(const ProblemFile& problem,
   const std::optional<double> limit = far_limit(constraint, value);
   // A limit of zero is meant: any value is beyond it by far.
   if (!limit || *limit == 0.0 || value == 0.0) return std::nullopt;
-  const std::string unit = unit_of(problem, constraint).si;
+  const std::string si = unit_of(problem, constraint).si, unit = si == "1" ? "" : " " + si;
   return fmt::format(
-      "the limit of \"{}\" is {:.4g} {}, and the value {:.4g} {}: {:.1g} times as much. Is a unit "
+      "the limit of \"{}\" is {:.4g}{}, and the value {:.4g}{}: {:.1g} times as much. Is a unit "
       "missing, or another one meant?",
       constraint.name, *limit, unit, value, unit, std::abs(value / *limit));
 }

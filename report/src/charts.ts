@@ -133,6 +133,8 @@ function seriesOption(options: ChartOptions, s: Series, i: number) {
                 position: `inside${isPeakEarly ? "End" : "Start"}${isLowest(limit, options) ? "Bottom" : "Top"}` as const,
                 color: color("limit"),
                 fontSize: 11,
+                textBorderColor: color("card"), // readable where it lies on a curve
+                textBorderWidth: 3,
               },
               lineStyle: { color: color("limit"), type: "dashed" as const, width: 1.2 },
             })),
@@ -280,16 +282,23 @@ function tooltip(options: ChartOptions) {
   };
 }
 
+const legendHeight = 30;
+const axisHeight = 42;
+
+function hasLegend(options: ChartOptions): boolean {
+  return options.legend ?? options.series.length > 1;
+}
+
 function optionOf(options: ChartOptions): echarts.EChartsCoreOption {
-  const hasLegend = options.legend ?? options.series.length > 1;
+  const isNamed = hasLegend(options);
   const range = rangeOf(options);
   return {
     animation: false,
     // By its name: widths of texts are measured with it.
     textStyle: { fontFamily: getComputedStyle(document.documentElement).fontFamily },
     aria: { enabled: true },
-    grid: { left: 6, right: 14, top: hasLegend ? 30 : 12, bottom: 26, containLabel: true },
-    legend: hasLegend
+    grid: { left: 6, right: 14, top: isNamed ? legendHeight : 12, bottom: 26, containLabel: true },
+    legend: isNamed
       ? {
           top: 0,
           left: 0,
@@ -347,7 +356,8 @@ function savePng(element: HTMLElement, name: string): void {
 
 export function lineChart(options: ChartOptions): Chart {
   const plot = h("div.plot", { style: `height:${options.height ?? 190}px` });
-  const cursor = h("div.cursor", { hidden: true });
+  // Between the legend and the numbers of the axis.
+  const cursor = h("div.cursor", { hidden: true, style: `top:${hasLegend(options) ? legendHeight : 12}px;bottom:${axisHeight}px` });
   const file = options.title.replace(/[^A-Za-z0-9]+/g, "-").toLowerCase();
   const element = h(
     "figure.chart",

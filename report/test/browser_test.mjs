@@ -49,7 +49,7 @@ Object.assign(runs, {
 });
 // Of a round bar whose strength lost its M: damage that no table is wide enough for, in digits.
 Object.assign(runs, {
-  fatigue: ["simulate", problem("slider_crank_round"), ...quick, "--set", "/scene/materials/steel/ultimate_strength=600 MPa", "--set", "/scene/materials/steel/fatigue_strength=900", "--set", "/scene/materials/steel/fatigue_exponent=8", "--set", '/responses/damage={"type": "fatigue-damage", "body": "rod"}', "--set", '/constraints={"life": {"response": "damage", "upper": 1}}'],
+  fatigue: ["simulate", problem("slider_crank_round"), ...quick, "--set", "/scene/materials/steel/ultimate_strength=600 MPa", "--set", "/scene/materials/steel/fatigue_strength=900", "--set", "/scene/materials/steel/fatigue_exponent=8", "--set", '/responses/damage={"type": "fatigue-damage", "body": "rod", "criterion": "goodman"}', "--set", '/pareto={"responses": ["crank_and_rod", "rod_bow"]}', "--set", '/constraints={"life": {"response": "damage", "upper": 1}}'],
   prices: ["prices", problem("slider_crank_round"), ...quicker],
   front: ["pareto", problem("slider_crank_round"), ...quicker, "--set", '/pareto={"responses": ["crank_and_rod", "rod_bow"], "points": 4}'],
 });
@@ -68,6 +68,8 @@ before(async () => {
     }
   }
   execFileSync(program, ["show", problem("robot_arm"), "-o", pageOf("show")], { stdio: "pipe" });
+  mkdirSync(join(folder, "bent"));
+  execFileSync(program, ["show", problem("slider_crank_round"), "-o", pageOf("bent"), "--set", '/scene/bodies/rod/initial_deflections=[{"at": ["210 mm", 0, 0], "direction": [0, 1, 0], "displacement": "2 mm"}]'], { stdio: "pipe" });
   browser = await chromium.launch({ executablePath, args: drawing });
 });
 
@@ -400,6 +402,14 @@ test("a limit on what cycles add up to is no line in the history of stress", asy
   await of("damage").locator("svg").waitFor();
   assert.doesNotMatch(await of("damage").locator("svg").innerHTML(), /≤/);
   assert.match(await tab.locator(".hero").innerText(), /the limit is exceeded/);
+  await tab.close();
+});
+
+test("a drawing says what starts bent", async () => {
+  const { tab } = await open("bent");
+  const bodies = tab.locator("section", { has: tab.getByRole("heading", { name: "Bodies" }) });
+  assert.match(await bodies.locator("tbody tr", { hasText: "rod" }).innerText(), /starts bent by 2(\.00)? mm/);
+  assert.match(await bodies.innerText(), /drawn straight/);
   await tab.close();
 });
 

@@ -173,7 +173,8 @@ TEST(Report, DrawsLimitsOnlyIntoHistoriesThatTheyAreOf) {
   steel["ultimate_strength"] = "600 MPa";
   steel["fatigue_strength"] = "900 MPa";
   steel["fatigue_exponent"] = 8;
-  file["responses"]["damage"] = {{"type", "fatigue-damage"}, {"body", "rod"}};
+  file["responses"]["damage"] = {
+      {"type", "fatigue-damage"}, {"body", "rod"}, {"criterion", "goodman"}};
   file["constraints"]["life"] = {{"response", "damage"}, {"upper", 1e-6}};
   std::ofstream(folder.path() / "swept.json") << file;
   const ProgramRun run =
@@ -387,6 +388,18 @@ TEST(GradientReport, ComparesAllMethods) {
   const json result = data_of(folder.path() / "one/report.html").at("result");
   // Two exact ones, and two differences with seven steps each.
   EXPECT_EQ(result.at("comparison").size(), 2u + 2u * 7u);
+}
+
+TEST(Show, SaysWhatStartsBent) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(
+      folder.path(), {"show", problem("slider_crank_round"), "-o", "bent.html", "--set",
+                      R"(/scene/bodies/rod/initial_deflections=[{"at": ["210 mm", 0, 0], )"
+                      R"("direction": [0, 1, 0], "displacement": "2 mm"}])"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json bodies = data_of(folder.path() / "bent.html").at("picture").at("scene").at("bodies");
+  EXPECT_EQ(named(bodies, "rod").at("starts_bent").at("displacement"), 0.002);
+  EXPECT_FALSE(named(bodies, "crank").contains("starts_bent"));
 }
 
 TEST(Show, DrawsTheMechanismBeforeAnythingIsSimulated) {

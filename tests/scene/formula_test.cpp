@@ -93,6 +93,16 @@ TEST(Formula, OfALoadCaseHasItsBracketClosed) {
                                  "is not closed; write \"name[case]\""));
 }
 
+TEST(Formula, WithoutItsSignIsGuessed) {
+  EXPECT_THAT(complaint_with(section, "2*width"),
+              testing::HasSubstr("with the sign at column 2 it looks like a formula, which begins "
+                                 "with \"=\": \"= 2*width\""));
+  EXPECT_THAT(complaint_with(section, "width + 1 mm"), testing::HasSubstr("at column 7"));
+  EXPECT_THAT(complaint_with(section, "stroke"),
+              testing::HasSubstr("a formula begins with \"=\": \"= stroke\""));
+  EXPECT_THAT(complaint_with(section, "strike"), testing::Not(testing::HasSubstr("formula")));
+}
+
 TEST(Formula, KeepsToTheRangeOfItsPlaceAtAllBounds) {
   EXPECT_EQ(complaint_with(section, "= width - 1 cm"),
             "bad.json: /scene/bodies/crank/section/height must be positive [m], got "

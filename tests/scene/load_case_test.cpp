@@ -199,6 +199,9 @@ TEST(LoadCase, AsksHowAnObjectiveThatDiffersIsMeant) {
   EXPECT_THAT(complaint(with(rail(), "/objective", R"({"minimize": "stress"})")),
               HasSubstr("or take the number of one case, as in \"stress["));
   EXPECT_THAT(
+      complaint(with(rail(), "/objective", R"({"minimize": "stress[slow"})")),
+      HasSubstr("at column 7 of \"stress[slow\": the bracket [ of a load case is not closed"));
+  EXPECT_THAT(
       complaint(with(rail(), "/objective", R"({"minimize": "weight", "over_cases": "worst"})")),
       HasSubstr("\"weight\" is the same in all"));
   EXPECT_THAT(complaint(with(rail(), "/objective",
@@ -307,7 +310,7 @@ TEST(AcrossCases, SayWhatIsWrongWithNamesAndUnits) {
   EXPECT_THAT(complaint_of("weight[fast]*tip[slow]"),
               HasSubstr("\"weight\" is no number of one load case: leave \"[fast]\" out"));
   EXPECT_THAT(complaint_of("tip[fast] - stress[slow]"), HasSubstr("units differ"));
-  EXPECT_THAT(complaint_of("tip[fast"), HasSubstr("\"[\" means nothing"));
+  EXPECT_THAT(complaint_of("tip[fast"), HasSubstr("the bracket [ of a load case is not closed"));
 }
 
 TEST(AcrossCases, NameTheCasesOfConstantsThatDiffer) {

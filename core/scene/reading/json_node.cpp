@@ -125,6 +125,14 @@ void fail_choice(const JsonNode& node, const std::vector<std::string>& words) {
 
 void fail_unknown_name(const JsonNode& node, std::string_view kind, const std::string& name,
                        const std::vector<std::string>& known) {
+  const std::size_t open = name.rfind('[');
+  if (kind == "response" && open != std::string::npos &&
+      name.find(']', open) == std::string::npos) {
+    node.fail(fmt::format(
+        "has an error at column {} of \"{}\": the bracket [ of a load case is not closed; write "
+        "\"name[case]\"",
+        open + 1, name));
+  }
   node.fail(fmt::format("names the unknown {} \"{}\"{}", kind, name, hint(name, known)));
 }
 

@@ -49,7 +49,9 @@ double NumberReader::fixed(const JsonNode& node, const Quantity& quantity, Range
     try {
       value = units_->read(node.value().get<std::string>(), quantity);
     } catch (const UnitError& error) {
-      node.fail_with_value(expected, fmt::format(": {}", error.what()));
+      const std::string text = node.value().get<std::string>();
+      node.fail_with_value(expected,
+                           fmt::format(": {}{}", error.what(), formula_hint(text, symbols_)));
     }
   } else {
     node.fail_with_value(expected + ": a number in SI units, a text with unit or a formula");

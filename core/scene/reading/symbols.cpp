@@ -38,7 +38,8 @@ Symbol read_constant(const std::string& name, const JsonNode& node,
     return {name, written.dimension, written.value};
   } catch (const UnitError& error) {
     node.fail_with_value("must be a number, a text with unit, or a formula \"= …\"",
-                         fmt::format(": {}", error.what()));
+                         fmt::format(": {}{}", error.what(),
+                                     formula_hint(node.value().get<std::string>(), symbols)));
   }
 }
 
@@ -66,6 +67,18 @@ Dimension dimension_of_variable(const JsonNode& node, const std::vector<Symbol>&
 }
 
 }  // namespace
+
+std::string formula_hint(const std::string& text, const std::vector<Symbol>& symbols) {
+  const bool is_name = std::any_of(symbols.begin(), symbols.end(),
+                                   [&](const Symbol& symbol) { return symbol.name == text; });
+  const std::size_t sign = std::min({text.find_first_of("*("), text.find(" + "), text.find(" - ")});
+  if (is_name) return fmt::format("; a formula begins with \"=\": \"= {}\"", text);
+  if (sign == std::string::npos) return "";
+  return fmt::format(
+      "; with the sign at column {} it looks like a formula, which begins with \"=\": "
+      "\"= {}\"",
+      text.find_first_not_of(' ', sign) + 1, text);
+}
 
 bool is_formula(const JsonNode& node) {
   if (!node.value().is_string()) return false;

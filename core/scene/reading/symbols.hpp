@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/scene/reading/expression_parser.hpp"
@@ -9,6 +10,10 @@ namespace pleuel {
 
 /// Whether the value is a text that begins with "=": a formula where a number could stand.
 bool is_formula(const JsonNode& node);
+
+/// The end of a message about a text that is no number: `; a formula begins with "=": …` with the
+/// column of its first sign, where the text looks like one; else empty.
+std::string formula_hint(const std::string& text, const std::vector<Symbol>& symbols);
 
 /// A formula of the document, or another text that is one. @throws InputError with its column
 ReadExpression read_formula(const JsonNode& node, const std::vector<Symbol>& symbols,

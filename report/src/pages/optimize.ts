@@ -247,7 +247,7 @@ function savingsSection(data: ReportData): HTMLElement | null {
   const largest = Math.max(...all.map((one) => Math.min(Math.abs(one.after / one.before - 1), 2)), 0.01);
   return section(
     "What else changed",
-    `Nobody asked for it: the largest values over time, start → ${endName(data.result)}.`,
+    `Nobody asked for it: the largest values over time, start → ${endName(data.result)}${data.result.cases ? `, in the load case ${words(data.picture!.case ?? "")}` : ""}.`,
     h(
       "ul.bars",
       {},

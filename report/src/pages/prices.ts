@@ -7,6 +7,10 @@ import { hero } from "./studies";
 
 const most = 30;
 
+function inBrackets(unit: string): string {
+  return /[/ ]/.test(unit) ? `(${unit})` : unit;
+}
+
 function signedNumber(value: number): string {
   return `${value > 0 ? "+" : ""}${number(value, 3)}`;
 }
@@ -27,7 +31,7 @@ export function pricesPage(data: ReportData): HTMLElement[] {
       "li",
       { title: one.next_limit ? `holds until ${words(String(one.next_limit))} decides, too` : "" },
       h("span.bar-name", {}, words(pointer.replace(/^\//, "").replace(/\//g, " › "))),
-      h("span.bar-numbers", {}, withUnit(one.value, unit), h("span.soft", {}, ` · ${signedNumber((one.per_unit * unit.factor) / goal.factor)} ${goal.name}/${unit.name}`)),
+      h("span.bar-numbers", {}, withUnit(one.value, unit), h("span.soft", {}, ` · ${signedNumber((one.per_unit * unit.factor) / goal.factor)} ${goal.name}/${inBrackets(unit.name)}`)),
       h("span.bar-track", {}, h(gain < 0 ? "span.bar.is-less" : "span.bar.is-more", { style: width })),
       h("span.bar-value", {}, percent(gain, 2)),
     );
