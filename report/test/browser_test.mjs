@@ -303,7 +303,7 @@ test("each load case can be chosen, with its own motion, histories and limits", 
     const value = responses[`rod_stress [${name}]`].value / 1e6;
     // Between steps the peak is that of a parabola.
     assert.ok(Math.abs(highest - value) < 3e-3 * value, `${name}: ${highest} is not ${value}`);
-    const end = { fast: "100 ms", heavy: "200 ms" }[name]; // as the file sets them
+    const end = { fast: "100.0 ms", heavy: "200.0 ms" }[name]; // as the file sets them
     assert.ok((await tab.locator(".clock").innerText()).endsWith(end));
     const rows = await tab.locator(".limits li").allInnerTexts();
     for (const row of rows) assert.equal(/in the case/.test(row), !row.includes(`[${name}]`), row);
