@@ -93,6 +93,8 @@ export function makeInspector(picture: Picture, main: number, goTo: (time: numbe
 /** What a history shows: in the unit of its instants, not in that of the number made from it. */
 export function curveMeaning(meaning: Meaning, largest: number): Meaning {
   const unit = meaning.history_unit ?? meaning.unit;
+  // What cycles are counted in, whatever they add up to.
+  if (meaning.type.startsWith("fatigue")) return { ...meaning, unit: { ...unit, name: "stress / strength" } };
   return { ...meaning, unit: inThousands(unit, largest / unit.factor) };
 }
 
