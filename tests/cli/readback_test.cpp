@@ -27,6 +27,23 @@ TEST(ReadBack, OfBandsAroundHistories) {
   }
 }
 
+/// The end of the rod is held on the x axis: what is left beside it is round-off.
+TEST(ReadBack, OfRoundOffIsZero) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(
+      folder.path(),
+      joined({"simulate", problem("slider_crank_round"), "-o", "run", "--no-report", "--set",
+              R"(/responses/beside={"type": "position", "body": "rod", "at": 1, "direction": "y",
+                                    "over_time": "max-abs"})"},
+             quick()));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json document = json::parse(read_file(folder.path() / "run/result.json"));
+  EXPECT_GT(document.at("responses").at("beside").at("value"), 0.0);
+  const TextTable table(run.out, "response");
+  EXPECT_EQ(table.text(table.row_of("beside"), "value"), "0");
+  EXPECT_NE(table.text(table.row_of("rod_bow"), "value"), "0");
+}
+
 TEST(ReadBack, OfSimulate) {
   const Report report = run({"simulate", file});
   const TextTable table(report.text, "response");

@@ -273,9 +273,10 @@ function mostUsedBody(data: ReportData): string | undefined {
   const rows = limitRows(data).filter((row) => row.response);
   let best: string | undefined;
   let most = -1;
-  for (const row of rows) {
-    const body = picture.responses[row.response!.name]?.bodies[0];
-    if (body && (row.used ?? 0) > most + 1e-4) [most, best] = [row.used ?? 0, body];
+  for (const limit of Object.values(picture.limits)) {  // of equal ones the first of the file
+    const body = limit.response ? picture.responses[limit.response]?.bodies[0] : undefined;
+    const used = Math.max(0, ...rows.filter((row) => row.response!.name === limit.response).map((row) => row.used ?? 0));
+    if (body && used > most + 1e-4) [most, best] = [used, body];
   }
   return best ?? picture.scene.bodies[0]?.name;
 }
