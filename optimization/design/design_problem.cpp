@@ -160,9 +160,6 @@ std::vector<DesignCase::Answer> DesignProblem::answers_of(const Eigen::VectorXd&
     } catch (const SimulationError& error) {
       throw SimulationError(
           fmt::format("in the case \"{}\": {}", cases_[c]->file().load_case, error.what()));
-    } catch (const InputError& error) {
-      throw InputError(
-          fmt::format("in the case \"{}\": {}", cases_[c]->file().load_case, error.what()));
     }
   }
   return answers;
