@@ -184,16 +184,6 @@ std::string objective_in_cases(const ProblemFile& problem, const Result& result)
   return fmt::format("  in the cases [{}]: {}\n", unit.name, text);
 }
 
-std::string plain_file_name(const std::string& text) {
-  std::string name = text;
-  for (char& c : name) {
-    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                          (c >= '0' && c <= '9') || c == '-' || c == '.' || (c & 0x80) != 0;
-    if (!is_plain) c = '_';
-  }
-  return name;
-}
-
 std::string name_of_case_file(const std::string& stem, const ProblemFile& load_case) {
   const std::string name = load_case.load_case;
   return fmt::format("{}{}.csv", stem, name.empty() ? "" : "-" + plain_file_name(name));

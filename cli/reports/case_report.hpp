@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/text/json.hpp"
+#include "core/base/plain_file_name.hpp"
 #include "core/scene/problem_file.hpp"
 #include "optimization/result.hpp"
 
@@ -38,8 +39,5 @@ std::string objective_in_cases(const ProblemFile& problem, const Result& result)
 
 /// "trajectory-optimum-slow.csv": of a case in the file names of a run; unchanged without cases.
 std::string name_of_case_file(const std::string& stem, const ProblemFile& load_case);
-
-/// Characters that a file name may have anywhere; others become "_".
-std::string plain_file_name(const std::string& text);
 
 }  // namespace pleuel

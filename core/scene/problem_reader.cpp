@@ -10,6 +10,7 @@
 #include "core/scene/reading/case_reader.hpp"
 #include "core/scene/reading/catalogue.hpp"
 #include "core/scene/reading/document_reader.hpp"
+#include "core/scene/reading/shared_by_cases.hpp"
 #include "core/scene/reading/text_file.hpp"
 
 namespace pleuel {
@@ -72,7 +73,8 @@ ProblemFile read_problem_text(const std::string& text, const std::string& file,
     cases.push_back(read_case_problem(document, one, file, units));
     documents.push_back(document_of_case(document, one, file));
   }
-  ProblemFile joined = join_cases(root, changes, std::move(cases));
+  check_shared_documents(root, changes, documents, units);
+  ProblemFile joined = join_cases(root, changes, std::move(cases), units);
   read_across_cases(root, documents, units, joined);
   return joined;
 }

@@ -224,7 +224,7 @@ TEST(LoadCase, KeepsVariablesTheSameWhereTheyFollowFromConstants) {
   Json document = with(rail(), "/variables/thick/upper", "\"= reach\"");
   EXPECT_EQ(complaint(document), "");
   EXPECT_THAT(complaint(with(document, "/cases/fast", R"({"/constants/reach": "20 mm"})")),
-              HasSubstr("/variables/thick must be the same in all cases"));
+              HasSubstr("/variables/thick/upper must be the same in all cases"));
 }
 
 TEST(LoadCase, ChangesConstantsThatThereAre) {

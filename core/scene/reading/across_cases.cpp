@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include "core/scene/reading/expression_response_reader.hpp"
 #include "core/scene/reading/goal_reader.hpp"
 #include "core/scene/reading/number_reader.hpp"
+#include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/symbols.hpp"
 #include "core/scene/reading/unit_scanner.hpp"
 #include "core/scene/reading/variable_reader.hpp"
@@ -22,11 +24,23 @@ namespace pleuel {
 
 namespace {
 
-/// A name as a formula has it, and whether the formula gives it a case: `bow[fast]`, 'bow [fast]'.
+/// A name as a formula has it, and the case that the formula gives it: `bow[fast]`.
 struct MentionedName {
   std::string name;
-  bool has_case = false;
+  std::optional<std::string> load_case;
 };
+
+bool is_number(const std::string& word) {
+  return is_digit_character(word.front()) && std::all_of(word.begin(), word.end(), [](char c) {
+           return is_digit_character(c) || c == 'e' || c == 'E';
+         });
+}
+
+/// Behind the words that follow a number, which are its unit.
+std::size_t behind_unit(const std::string& formula, std::size_t at) {
+  return at + unit_length(std::string_view(formula).substr(at),
+                          [](const std::string&) { return false; });
+}
 
 /// All words that could be names. Whatever is wrong with the formula is for the parser to say.
 std::vector<MentionedName> names_in(const std::string& formula) {
@@ -43,10 +57,15 @@ std::vector<MentionedName> names_in(const std::string& formula) {
       while (end < formula.size() && is_name_character(formula[end])) ++end;
       name = formula.substr(at, end - at);
     }
-    if (!name.empty()) {
+    if (!name.empty() && is_number(name)) {
+      end = behind_unit(formula, end);
+    } else if (!name.empty()) {
       const auto suffix = case_suffix(formula, end);
-      if (suffix) end = suffix->end;
-      names.push_back({name, suffix.has_value()});
+      names.push_back({name, std::nullopt});
+      if (suffix) {
+        end = suffix->end;
+        names.back().load_case = suffix->load_case;
+      }
     }
     at = end;
   }
@@ -108,7 +127,7 @@ class Finder {
   bool is_across_formula(const std::string& formula) const {
     const std::vector<MentionedName> names = names_in(formula);
     return std::any_of(names.begin(), names.end(), [&](const MentionedName& one) {
-      return one.has_case || is_across_name(one.name);
+      return one.load_case || is_across_name(one.name);
     });
   }
 
@@ -156,11 +175,73 @@ bool names_across(const Json& pareto, const AcrossCases& across) {
 }
 
 /// Of one case there is nothing to be put together.
-void forget_over_cases(Json& pareto) {
+void forget_over_cases(Json& document) {
+  Json& pareto = document["pareto"];
   if (!pareto.is_object() || !pareto.contains("responses")) return;
+  std::vector<Json> names;
+  bool is_over_cases = false;
   for (Json& goal : pareto["responses"]) {
-    if (goal.is_object()) goal.erase("over_cases");
+    if (!goal.is_object()) continue;
+    is_over_cases = goal.erase("over_cases") > 0 || is_over_cases;
+    names.push_back(goal.value("minimize", goal.value("maximize", Json())));
   }
+  // Two ways to put one response together: a single case has no such front.
+  const bool is_one = names.size() == 2 && names[0] == names[1];
+  if (is_over_cases && is_one) document.erase("pareto");
+}
+
+/// What an accuracy is asked for, as one case has it: of a number over cases its parts there.
+class AccurateParts {
+ public:
+  AccurateParts(const Json& responses, const AcrossCases& across, const std::string& load_case)
+      : responses_(responses), across_(across), load_case_(load_case) {}
+
+  void add(const std::string& name) {
+    if (across_.responses.contains(name)) {
+      for (const MentionedName& one : names_in(responses_[name]["value"].get<std::string>())) {
+        add_mention(one);
+      }
+    } else if (const auto split = split_case(name)) {
+      if (split->load_case == load_case_) add_once(split->name);
+    } else {
+      add_once(name);
+    }
+  }
+
+  Json take() { return std::move(parts_); }
+
+ private:
+  /// Constants, variables and functions are no responses.
+  void add_mention(const MentionedName& one) {
+    if (one.load_case) {
+      if (*one.load_case == load_case_ && responses_.contains(one.name)) add_once(one.name);
+    } else if (responses_.contains(one.name) || split_case(one.name)) {
+      add(one.name);
+    }
+  }
+
+  void add_once(const std::string& name) {
+    if (std::find(parts_.begin(), parts_.end(), name) == parts_.end()) parts_.push_back(name);
+  }
+
+  const Json& responses_;
+  const AcrossCases& across_;
+  const std::string& load_case_;
+  Json parts_ = Json::array();
+};
+
+/// Names of the list that are no texts are for its reader to complain about.
+void ask_for_parts(Json& document, const AcrossCases& across, const std::string& load_case) {
+  const Json *accuracy = member(document, "accuracy"), *responses = member(document, "responses");
+  const Json* listed = accuracy == nullptr ? nullptr : member(*accuracy, "responses");
+  if (listed == nullptr || !listed->is_array() || responses == nullptr) return;
+  if (!responses->is_object()) return;
+  AccurateParts parts(*responses, across, load_case);
+  for (const Json& name : *listed) {
+    if (!name.is_string()) return;
+    parts.add(name.get<std::string>());
+  }
+  document["accuracy"]["responses"] = parts.take();
 }
 
 void add_variables(const Json& document, const std::string& formula, std::set<std::string>& names) {
@@ -256,6 +337,18 @@ void check_mentions(const NumberReader& numbers, const std::vector<Symbol>& symb
   }
 }
 
+/// Those of cases are known by the documents of these only.
+void check_accurate_names(const JsonNode& root, const ProblemFile& joined) {
+  const auto accuracy = root.find("accuracy");
+  const auto listed = accuracy ? accuracy->find("responses") : std::nullopt;
+  if (!listed) return;
+  for (const JsonNode& name : listed->items()) {
+    if (!split_case(name.text())) continue;
+    if (find_named(joined.responses, spaced_case(name.text())) != nullptr) continue;
+    fail_unknown_name(name, "response", name.text(), names_of(joined.responses));
+  }
+}
+
 /// What is minimized or limited over several cases has to be accurate in each of them.
 void ask_for_goals(ProblemFile& joined, const AcrossCases& across) {
   const auto ask = [&](const std::string& name) {
@@ -274,8 +367,9 @@ AcrossCases across_cases(const Json& document) {
   return Finder(document).find();
 }
 
-Json without_across_cases(Json document) {
+Json without_across_cases(Json document, const std::string& load_case) {
   const AcrossCases across = across_cases(document);
+  ask_for_parts(document, across, load_case);
   const std::set<std::string> variables = variables_in(document, across);
   if (!variables.empty()) document["mentioned"] = variables;
   for (const std::string& name : across.responses) document["responses"].erase(name);
@@ -285,23 +379,11 @@ Json without_across_cases(Json document) {
     if (names_across(*pareto, across)) {
       document.erase("pareto");
     } else {
-      forget_over_cases(document["pareto"]);
-    }
-  }
-  const Json* accuracy = member(document, "accuracy");
-  if (accuracy == nullptr || !accuracy->is_object() || !accuracy->contains("responses")) {
-    return document;
-  }
-  Json& listed = document["accuracy"]["responses"];
-  if (!listed.is_array()) return document;
-  for (std::size_t i = listed.size(); i-- > 0;) {
-    if (listed[i].is_string() && across.responses.contains(listed[i].get<std::string>())) {
-      listed.erase(i);
+      forget_over_cases(document);
     }
   }
   return document;
 }
-
 void read_across_cases(const JsonNode& root, const std::vector<Json>& documents,
                        const UnitSystem& units, ProblemFile& joined) {
   const AcrossCases across = across_cases(root.value());
@@ -319,6 +401,7 @@ void read_across_cases(const JsonNode& root, const std::vector<Json>& documents,
   joined.pareto.reset();
   if (const auto pareto = root.find("pareto"))
     joined.pareto = read_pareto(*pareto, joined, numbers);
+  check_accurate_names(root, joined);
   ask_for_goals(joined, across);
 }
 

@@ -22,8 +22,9 @@ struct AcrossCases {
 AcrossCases across_cases(const Json& document);
 
 /// The document without them, as it is for each case. The design variables that they name are listed
-/// under "mentioned", so that they count as used.
-Json without_across_cases(Json document);
+/// under "mentioned", so that they count as used. Where an accuracy is asked for them, it is asked for
+/// their parts in this case.
+Json without_across_cases(Json document, const std::string& load_case);
 
 /// Reads them: responses and limits stand behind those of the joined problem. So does the study of a
 /// front, which may name them.

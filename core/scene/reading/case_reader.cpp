@@ -9,10 +9,13 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/plain_file_name.hpp"
 #include "core/scene/joined_cases.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/reading/across_cases.hpp"
+#include "core/scene/reading/case_suffix.hpp"
 #include "core/scene/reading/override.hpp"
+#include "core/scene/reading/shared_by_cases.hpp"
 #include "core/scene/reading/suggestion.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/scene/units.hpp"
@@ -113,18 +116,45 @@ std::vector<CaseChanges> read_ranges(const JsonNode& node, const CaseChanges& co
   return cases;
 }
 
-std::vector<CaseChanges> read_case(const std::string& name, const JsonNode& node) {
+void check_case_name(const std::string& name, const JsonNode& node) {
   if (name == "worst" || name == "sum" || name == "weighted") {
     node.fail(fmt::format("must have another name: \"{}\" stands for all cases", name));
   }
+  if (name.find_first_of("[]") != std::string::npos || name.front() == ' ' || name.back() == ' ') {
+    node.fail(
+        "must have another name, without brackets and without blanks at its ends: formulas name "
+        "cases as in \"bow[fast]\"");
+  }
+  if (name == "." || name == "..") {
+    node.fail("must have another name: folders of runs are named after cases");
+  }
+}
+
+/// What replaces a place would undo what an earlier pointer has changed in it.
+void check_order(const JsonNode& node, const CaseChanges& changes) {
+  for (auto later = changes.values.begin(); later != changes.values.end(); ++later) {
+    for (auto earlier = changes.values.begin(); earlier != later; ++earlier) {
+      if (!leads_into(earlier->first, later->first)) continue;
+      node.fail(fmt::format(
+          "replaces \"{}\" with what \"{}\" has changed in it: put the longer pointer last, or "
+          "keep one of them",
+          later->first, earlier->first));
+    }
+  }
+}
+
+std::vector<CaseChanges> read_case(const std::string& name, const JsonNode& node) {
+  check_case_name(name, node);
   CaseChanges changes{name, "", {}};
   for (const auto& [pointer, value] : node.members()) {
     if (pointer == "range") continue;
     check_pointer(pointer, value);
     changes.values.emplace_back(pointer, value.value());
   }
-  if (const auto range = node.find("range")) return read_ranges(*range, changes);
-  return {changes};
+  std::vector<CaseChanges> cases = {changes};
+  if (const auto range = node.find("range")) cases = read_ranges(*range, changes);
+  check_order(node, cases.front());
+  return cases;
 }
 
 /// What names of limits and weights may stand for.
@@ -153,17 +183,40 @@ void check_limit_names(const JsonNode& root, const std::vector<ProblemFile>& cas
 std::vector<double> read_weights(const JsonNode& root, const std::vector<ProblemFile>& cases) {
   const Objective& objective = *cases.front().objective;
   std::vector<double> weights(cases.size(), objective.weights.empty() ? 1.0 : 0.0);
-  const std::vector<std::string> known = known_names(cases);
+  if (objective.weights.empty()) return weights;
+  check_weights(root.at("objective").at("over_cases"), objective.weights, cases);
   for (const auto& [name, weight] : objective.weights) {
-    const JsonNode node = root.at("objective").at("over_cases").at(name);
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-      fail_unknown_name(node, "case", name, known);
-    }
     for (std::size_t i = 0; i < cases.size(); ++i) {
       if (is_in_case({name}, cases[i])) weights[i] = weight;
     }
   }
   return weights;
+}
+
+/// Names with a case behind them are those of numbers of single cases.
+void forbid_names_in_cases(const JsonNode& root) {
+  for (const char* block : {"constants", "variables", "responses", "constraints"}) {
+    const auto node = root.find(block);
+    if (!node || !node->value().is_object()) continue;
+    for (const auto& [name, member] : node->members()) {
+      if (!split_case(name)) continue;
+      member.fail(
+          "must have another name, without brackets at its end, as the file has load cases: "
+          "\"bow [fast]\" is the bow in the case \"fast\"");
+    }
+  }
+}
+
+/// Each has files and a folder of its own.
+void check_file_name(const JsonNode& node, const std::string& name,
+                     const std::vector<CaseChanges>& others) {
+  for (const CaseChanges& other : others) {
+    if (plain_file_name(other.name) != plain_file_name(name)) continue;
+    node.fail(fmt::format(
+        "must have another name: files of the case \"{}\" would be named as those of \"{}\", "
+        "\"{}\"",
+        name, other.name, plain_file_name(name)));
+  }
 }
 
 /// Whether a limit holds in a case: those without names hold in all.
@@ -182,26 +235,6 @@ void forget_missing_limit(Json& document) {
   if (!pareto.contains("constraint") || !pareto["constraint"].is_string()) return;
   if (!document["constraints"].contains(pareto["constraint"].get<std::string>())) {
     document.erase("pareto");
-  }
-}
-
-/// Variables whose bounds follow from constants could differ.
-void check_variables(const JsonNode& root, const std::vector<ProblemFile>& cases) {
-  const std::vector<DesignVariable>& first = cases.front().variables;
-  for (const ProblemFile& one : cases) {
-    for (std::size_t i = 0; i < first.size(); ++i) {
-      const DesignVariable& variable = one.variables[i];
-      if (variable.start == first[i].start && variable.lower == first[i].lower &&
-          variable.upper == first[i].upper) {
-        continue;
-      }
-      root.at("variables")
-          .at(variable.name)
-          .fail(fmt::format(
-              "must be the same in all cases, but follows from a constant that the case "
-              "\"{}\" changes",
-              one.load_case));
-    }
   }
 }
 
@@ -270,7 +303,34 @@ void check_objective(const JsonNode& root, const ProblemFile& problem,
 
 }  // namespace
 
-std::vector<CaseChanges> read_cases(const JsonNode& node) {
+void check_weights(const JsonNode& node, const CaseWeights& weights,
+                   const std::vector<ProblemFile>& cases) {
+  const std::vector<std::string> known = known_names(cases);
+  for (const auto& [name, weight] : weights) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      fail_unknown_name(node.at(name), "case", name, known);
+    }
+  }
+  for (const ProblemFile& one : cases) {
+    std::string before;
+    for (const auto& [name, weight] : weights) {
+      if (!is_in_case({name}, one)) continue;
+      if (!before.empty()) {
+        node.at(name).fail(fmt::format(
+            "gives the case \"{}\" a second weight, beside that of \"{}\": give weights to a "
+            "range or to its cases, not to both",
+            one.load_case, before));
+      }
+      before = name;
+    }
+  }
+}
+
+std::vector<CaseChanges> read_cases(const JsonNode& root) {
+  const auto found = root.find("cases");
+  if (!found) return {};
+  forbid_names_in_cases(root);
+  const JsonNode& node = *found;
   std::vector<CaseChanges> cases;
   for (const auto& [name, one] : node.members()) {
     for (CaseChanges& changes : read_case(name, one)) {
@@ -278,6 +338,7 @@ std::vector<CaseChanges> read_cases(const JsonNode& node) {
         return other.name == changes.name || other.range == changes.name;
       });
       if (is_known) one.fail(fmt::format("gives the case \"{}\" a second time", changes.name));
+      check_file_name(one, changes.name, cases);
       cases.push_back(std::move(changes));
     }
   }
@@ -311,7 +372,7 @@ Json document_of_case(Json document, const CaseChanges& changes, const std::stri
     replace_at(document, pointer, value, child_pointer(place, pointer), file);
   }
   document.erase("cases");
-  return without_across_cases(std::move(document));
+  return without_across_cases(std::move(document), changes.name);
 }
 
 Json lone_document(Json document, const CaseChanges& changes, const std::string& file) {
@@ -332,15 +393,15 @@ Json lone_document(Json document, const CaseChanges& changes, const std::string&
 }
 
 ProblemFile join_cases(const JsonNode& root, const std::vector<CaseChanges>& changes,
-                       std::vector<ProblemFile> cases) {
+                       std::vector<ProblemFile> cases, const UnitSystem& units) {
   for (std::size_t i = 0; i < cases.size(); ++i) {
     cases[i].load_case = changes[i].name;
     cases[i].case_range = changes[i].range;
   }
-  check_variables(root, cases);
   check_limit_names(root, cases);
   const ProblemFile& first = cases.front();
   const std::vector<bool> is_same = same_responses(first, changes);
+  check_shared_numbers(root, cases, is_same, units);
   std::vector<double> weights;
   if (first.objective) {
     check_objective(root, first, is_same);

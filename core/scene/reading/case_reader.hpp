@@ -6,6 +6,7 @@
 
 #include "core/scene/problem_file.hpp"
 #include "core/scene/reading/json_node.hpp"
+#include "core/scene/units.hpp"
 
 /// Reads the block "cases": what load cases change in the rest of the file.
 namespace pleuel {
@@ -17,8 +18,17 @@ struct CaseChanges {
   std::vector<std::pair<std::string, Json>> values;  ///< pointer and what stands there instead
 };
 
-/// The load cases of a document, those of ranges one by one. @throws InputError
-std::vector<CaseChanges> read_cases(const JsonNode& node);
+/// The load cases of a document, those of ranges one by one; none if it has no such block.
+/// @throws InputError
+std::vector<CaseChanges> read_cases(const JsonNode& root);
+
+/// Weights by names of cases and of ranges.
+using CaseWeights = std::vector<std::pair<std::string, double>>;
+
+/// @param node  of the weights
+/// @throws InputError  if a name is unknown, or a case has two weights
+void check_weights(const JsonNode& node, const CaseWeights& weights,
+                   const std::vector<ProblemFile>& cases);
 
 /// The document with what the case changes. Limits and objective may still name cases.
 /// @throws InputError
@@ -33,7 +43,7 @@ Json lone_document(Json document, const CaseChanges& changes, const std::string&
 /// @param changes  likewise
 /// @throws InputError at places of `root` that name cases
 ProblemFile join_cases(const JsonNode& root, const std::vector<CaseChanges>& changes,
-                       std::vector<ProblemFile> cases);
+                       std::vector<ProblemFile> cases, const UnitSystem& units);
 
 /// @throws InputError where a file without cases names some
 void forbid_case_names(const JsonNode& root, const ProblemFile& problem);

@@ -101,4 +101,16 @@ void expand_catalogue(Json& document, const std::string& file, const UnitSystem&
                          units);
 }
 
+std::vector<std::string> section_variables(const Json& document) {
+  if (!document.is_object() || !document.contains("scene")) return {};
+  Json scene = document["scene"];
+  if (!scene.is_object()) return {};
+  std::vector<std::string> names;
+  for (const SectionReference& reference : ReferenceSearch().find(scene, "variable")) {
+    const Json& name = (*reference.section)["variable"];
+    if (name.is_string()) names.push_back(name.get<std::string>());
+  }
+  return names;
+}
+
 }  // namespace pleuel

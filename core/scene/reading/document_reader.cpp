@@ -77,9 +77,7 @@ Json overridden_document(const ProblemText& text) {
 }
 
 std::vector<CaseChanges> cases_of(const Json& document, const std::string& file) {
-  const JsonNode root(document, file);
-  const auto cases = root.find("cases");
-  return cases ? read_cases(*cases) : std::vector<CaseChanges>();
+  return read_cases(JsonNode(document, file));
 }
 
 Json whole_document(const ProblemText& text, const UnitSystem& units) {

@@ -209,8 +209,9 @@ const ResponseSettings& read_response_or_formula(const JsonNode& node,
                                                  std::vector<ResponseSettings>& responses,
                                                  NumberReader& numbers) {
   if (!is_formula(node)) {
-    const ResponseSettings* in_case = find_named(responses, spaced_case(node.text()));
-    if (in_case != nullptr) return *in_case;
+    for (const std::string& name : {node.text(), spaced_case(node.text())}) {
+      if (const ResponseSettings* known = find_named(responses, name)) return *known;
+    }
     return *find_named(responses, read_known_name(node, "response", names_of(responses)));
   }
   const std::string name = formula_name(node);

@@ -7,6 +7,7 @@
 #include "core/base/find_named.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
+#include "core/scene/reading/case_reader.hpp"
 #include "core/scene/reading/case_suffix.hpp"
 #include "core/scene/reading/expression_response_reader.hpp"
 #include "core/scene/reading/scene_reader.hpp"
@@ -31,6 +32,13 @@ Quantity read_linear(const JsonNode& node, ConstraintSettings& constraint, Numbe
     constraint.linear.emplace_back(numbers.variable(coefficient, name), coefficient.number());
   }
   if (members.empty()) node.fail("must have at least one variable");
+  const bool is_used =
+      std::any_of(constraint.linear.begin(), constraint.linear.end(),
+                  [&](const auto& term) { return numbers.quantity_of(term.first).has_value(); });
+  // The scene of one load case may not use what that of another does: their units tell.
+  for (const auto& [variable, coefficient] : constraint.linear) {
+    if (!is_used) numbers.count_as_used(variable);
+  }
   const Quantity quantity = quantity_of(constraint.linear, numbers);
   for (std::size_t i = 0; i < members.size(); ++i) {
     const auto& [variable, coefficient] = constraint.linear[i];
@@ -81,8 +89,12 @@ void read_over_cases(const JsonNode& node, Objective& objective) {
 /// Of a limit that holds in several cases the first of them.
 const ConstraintSettings& read_varied_constraint(const JsonNode& node, const ProblemFile& problem,
                                                  std::string& name) {
-  name = spaced_case(node.text());
-  const std::vector<std::size_t> rows = constraints_of_limit(problem, name);
+  name = node.text();
+  std::vector<std::size_t> rows = constraints_of_limit(problem, name);
+  if (rows.empty() && problem.has_cases()) {
+    name = spaced_case(name);
+    rows = constraints_of_limit(problem, name);
+  }
   if (rows.empty()) {
     std::vector<std::string> known = names_of(problem.constraints);
     for (const ProblemFile& one : problem.cases) {
@@ -158,25 +170,13 @@ std::vector<ConstraintSettings> read_constraints(const JsonNode& node,
 
 namespace {
 
-/// Weights must be of cases that there are.
-void check_weights(const JsonNode& node, const Objective& goal, const ProblemFile& problem) {
-  std::vector<std::string> known;
-  for (const ProblemFile& one : problem.cases) known.push_back(one.load_case);
-  for (const auto& [name, weight] : goal.weights) {
-    const bool is_known =
-        std::any_of(problem.cases.begin(), problem.cases.end(),
-                    [&](const ProblemFile& one) { return is_in_case({name}, one); });
-    if (!is_known) fail_unknown_name(node.at(name), "case", name, known);
-  }
-}
-
 /// A response that each case has by itself: the worst, unless the goal or the objective says more.
 void read_goal_over_cases(const std::optional<JsonNode>& node, const ProblemFile& problem,
                           Objective& goal) {
   goal.over_cases = OverCases::worst;
   if (node) {
     read_over_cases(*node, goal);
-    return check_weights(*node, goal, problem);
+    return check_weights(*node, goal.weights, problem.cases);
   }
   const auto& objective = problem.cases.front().objective;
   if (!objective || objective->response != goal.response || !problem.objective ||
@@ -202,12 +202,13 @@ Objective read_goal(const JsonNode& node, const ProblemFile& problem) {
     if (largest) aim = Aim::maximize;
     over_cases = node.find("over_cases");
   }
-  if (find_named(problem.responses, spaced_case(name.text())) != nullptr) {
+  const std::string written = problem.has_cases() ? spaced_case(name.text()) : name.text();
+  if (find_named(problem.responses, written) != nullptr) {
     if (over_cases) {
       over_cases->fail(problem.has_cases() ? "is for a response that differs from case to case"
                                            : "names cases, and the problem has none (\"cases\")");
     }
-    return {spaced_case(name.text()), aim};
+    return {written, aim};
   }
   if (problem.has_cases()) {
     for (const std::string& one : names_of(problem.cases.front().responses)) known.push_back(one);
@@ -245,7 +246,8 @@ ParetoSettings read_front_between(const JsonNode& node, const JsonNode& response
     pareto.goals.push_back(read_goal(goal, problem));
   }
   const Objective &first = pareto.goals[0], &second = pareto.goals[1];
-  if (first.response == second.response && first.over_cases == second.over_cases) {
+  if (first.response == second.response && first.over_cases == second.over_cases &&
+      first.weights == second.weights) {
     responses.fail("must be two different responses");
   }
   read_spacing(node, numbers, pareto);
