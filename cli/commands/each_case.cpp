@@ -68,9 +68,19 @@ void add_numbers_over_cases(const Arguments& arguments, Outcome& all) {
   if (document.is_null()) return;
   all.document["over_cases"] = document;
   all.text += over_cases_text(joined, document);
+  if (lacks_numbers(document)) {
+    all.exit_code = std::max(all.exit_code, ExitCode::simulation_failed);
+  }
   if (arguments.command == "simulate" && tries_a_design(arguments) && breaks_limits(document)) {
     all.exit_code = std::max(all.exit_code, ExitCode::not_verified);
   }
+}
+
+/// The others are simulated all the same.
+Outcome failed_case(const std::string& name, const std::string& reason) {
+  return {ExitCode::simulation_failed,
+          {{"status", "failed"}, {"error", reason}},
+          wrapped(fmt::format("The case \"{}\" cannot be simulated: {}", name, reason)) + "\n"};
 }
 
 }  // namespace
@@ -108,6 +118,8 @@ Outcome run_each_case(const Arguments& arguments, Outcome (*command)(const Argum
     Outcome outcome;
     try {
       outcome = run_case(one, command);
+    } catch (const SimulationError& error) {
+      outcome = failed_case(name, error.what());
     } catch (const Stopped&) {
       if (all.text.empty()) throw;
       all.exit_code = std::max(all.exit_code, ExitCode::not_verified);

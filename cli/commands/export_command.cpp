@@ -13,6 +13,7 @@
 #include "cli/files/vtk_series.hpp"
 #include "cli/text/json.hpp"
 #include "core/base/error.hpp"
+#include "core/base/plain_file_name.hpp"
 #include "core/response/analysis.hpp"
 
 /// What a record of evaluations holds, as tables for other programs.
@@ -130,7 +131,12 @@ void export_evaluations(const fs::path& file, const fs::path& target, Exported& 
                   count, target.string());
 }
 
-/// Of an optimization, which has a design at its start and at its end.
+/// "start-heavy": of a load case; "start" without cases.
+std::string series_name(const std::string& design, const std::string& load_case) {
+  return load_case.empty() ? design : design + "-" + plain_file_name(load_case);
+}
+
+/// Of an optimization, which has a design at its start and at its end: of the load case that decides.
 void export_motion(const OlderRun& run, const fs::path& target, Exported& exported) {
   constexpr int most_instants = 120;
   if (run.command() != "optimize" || !run.result.is_object()) {
@@ -142,12 +148,16 @@ void export_motion(const OlderRun& run, const fs::path& target, Exported& export
   for (const auto& [name, key] : {std::pair{"start", "start"}, std::pair{"optimum", "value"}}) {
     const auto x = design_in(run.result, problem, key);
     if (!x) continue;
+    const std::string shown = series_name(name, problem.load_case);
     const auto analysis = analyze(problem, *x);
-    const int instants = write_vtk_series(target / "vtk", name, problem, *x, *analysis,
+    const int instants = write_vtk_series(target / "vtk", shown, problem, *x, *analysis,
                                           most_instants, exported.failures);
-    const fs::path series = target / "vtk" / (std::string(name) + ".pvd");
+    const fs::path series = target / "vtk" / (shown + ".pvd");
     exported.files.push_back(series.string());
-    exported.text += fmt::format("{} instants written to {}\n", instants, series.string());
+    exported.text += fmt::format(
+        "{} instants{} written to {}\n", instants,
+        problem.load_case.empty() ? "" : fmt::format(" of the case \"{}\"", problem.load_case),
+        series.string());
   }
 }
 

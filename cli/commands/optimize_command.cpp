@@ -56,6 +56,7 @@ namespace {
 struct Examined {
   Json effects = Json::array();  ///< that are simulated
   std::string drives;            ///< what they need at both designs, for people
+  bool is_whole = true;          ///< no interrupt has ended it
 };
 
 /// Both designs as one load case simulates them.
@@ -245,6 +246,24 @@ std::vector<EffectInfluence> influences_at(const Optimum& optimum) {
   return influences;
 }
 
+/// Trajectories and what is reported of them. An interrupt ends that, but not what was found.
+Examined examine_optimum(RunRecord& record, Optimum& optimum) {
+  try {
+    record.begin_phase("effects");
+    optimum.influences = influences_at(optimum);
+    record.begin_phase("trajectories");
+    return examine_designs(record, optimum);
+  } catch (const Stopped&) {
+    Examined cut;
+    cut.is_whole = false;
+    return cut;
+  }
+}
+
+const char* const cut_message =
+    "interrupted after the search had ended: its result stands, but trajectories, influences and "
+    "effects were not all computed";
+
 ExitCode exit_code(const Optimum& optimum) {
   if (optimum.result.status == Status::interrupted) return ExitCode::not_verified;
   if (!optimum.has_design()) return ExitCode::simulation_failed;
@@ -410,9 +429,14 @@ Outcome run_optimize(const Arguments& arguments) {
   if (answer.sizes) optimum.sizes = &*answer.sizes;
   // What has been found is told and written first: the rest is made from it at any time.
   Json effects = Json::array();
+  bool is_whole = true;
   const auto result_document = [&] {
     Json document = optimum_document(optimum);
     document["effects"] = effects;
+    if (!is_whole) {
+      document["interrupted"] = cut_message;
+      document.erase("monitors");
+    }
     if (all.runs.size() > 1) document["starts"] = starts_document(solved, all);
     if (answer.sizes) document["choices"] = sizes_document(solved, *answer.sizes, result);
     if (solution.stages.empty()) return document;  // interrupted
@@ -424,11 +448,10 @@ Outcome run_optimize(const Arguments& arguments) {
                                  (answer.sizes ? sizes_text(solved, *answer.sizes, result) : "") +
                                  starts_text(solved, all) + stages_text(solution.stages));
   record.write("result.json", result_document());
-  if (optimum.has_design()) {
-    record.begin_phase("effects");
-    optimum.influences = influences_at(optimum);
-    record.begin_phase("trajectories");
-    Examined examined = examine_designs(record, optimum);
+  Examined examined;
+  if (optimum.has_design()) examined = examine_optimum(record, optimum);
+  is_whole = examined.is_whole;
+  if (optimum.has_design() && is_whole) {
     effects = std::move(examined.effects);
     const MeasuredEffects measured = {solved, optimum.responses, optimum.influences,
                                       [&](const Eigen::VectorXd& changes) {
@@ -438,10 +461,12 @@ Outcome run_optimize(const Arguments& arguments) {
     show(arguments.progress(),
          examined.drives + influences_text(measured, arguments.wants_effects) + "\n");
   }
-  Outcome outcome{exit_code(optimum), result_document(),
-                  failed_design_text(record, arguments, input.problem, result.history) +
-                      resume_text(arguments, record.folder(), result.status) + store.text() +
-                      files_text(record, optimum)};
+  const std::string cut = is_whole ? "" : wrapped(fmt::format("{}\n", cut_message));
+  Outcome outcome{
+      is_whole ? exit_code(optimum) : ExitCode::not_verified, result_document(),
+      failed_design_text(record, arguments, input.problem, result.history) + cut +
+          resume_text(arguments, record.folder(), is_whole ? result.status : Status::interrupted) +
+          store.text() + (is_whole ? files_text(record, optimum) : "")};
   store.finish(outcome);
   record.finish(outcome);
   return outcome;

@@ -25,13 +25,15 @@ void check_names(const JsonNode& variables, const ProblemFile& problem) {
   }
 }
 
-/// A number in the unit that stands beside it, by default SI; or a text with unit.
+/// A number in the unit that stands beside it, by default SI ("1" of a pure number); or a text with
+/// unit.
 double read_number(const std::optional<JsonNode>& unit, const JsonNode& value,
                    const UnitSystem& units, const Quantity& quantity) {
   const JsonNode& written = value.value().is_string() || !unit ? value : *unit;
   try {
     if (value.value().is_string()) return units.read(value.text(), quantity);
-    return value.number() * (unit ? units.scale(unit->text(), quantity) : 1.0);
+    const bool is_si = !unit || unit->text() == quantity.unit;
+    return value.number() * (is_si ? 1.0 : units.scale(unit->text(), quantity));
   } catch (const UnitError& error) {
     written.fail_with_value("must be " + describe(quantity), fmt::format(": {}", error.what()));
   }

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/reading/document_reader.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -23,6 +25,16 @@ void add_files(const Json& document, const std::filesystem::path& folder, Json& 
   }
   if (!document.is_structured()) return;
   for (const Json& part : document) add_files(part, folder, fingerprints);
+}
+
+void add_files_of_scene(const Json& problem, const std::filesystem::path& folder,
+                        Json& fingerprints) {
+  const Json scene = problem.value("scene", Json::object());
+  if (!scene.is_object()) return;
+  if (scene.contains("catalogue")) add_file(scene["catalogue"], folder, fingerprints);
+  for (const char* part : {"bodies", "joints", "loads"}) {
+    add_files(scene.value(part, Json::object()), folder, fingerprints);
+  }
 }
 
 }  // namespace
@@ -47,12 +59,10 @@ std::string whole_text(const std::filesystem::path& path) {
 
 Json fingerprints_of_files(const Json& problem, const std::filesystem::path& file) {
   Json fingerprints = Json::object();
-  const Json scene = problem.value("scene", Json::object());
-  if (!scene.is_object()) return fingerprints;
-  const std::filesystem::path folder = file.parent_path();
-  if (scene.contains("catalogue")) add_file(scene["catalogue"], folder, fingerprints);
-  for (const char* part : {"bodies", "joints", "loads"}) {
-    add_files(scene.value(part, Json::object()), folder, fingerprints);
+  add_files_of_scene(problem, file.parent_path(), fingerprints);
+  for (const CaseChanges& changes : cases_of(problem, file.string())) {
+    const Json of_case = document_of_case(problem, changes, file.string());
+    add_files_of_scene(of_case, file.parent_path(), fingerprints);
   }
   return fingerprints;
 }

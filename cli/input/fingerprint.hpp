@@ -23,7 +23,8 @@ class Fingerprint {
 /// The bytes of a file; empty if it cannot be read.
 std::string whole_text(const std::filesystem::path& path);
 
-/// {NAME: fingerprint} of the files that a problem names: its catalogue, and those of bodies.
+/// {NAME: fingerprint} of the files that a problem or one of its load cases names: catalogues, tables
+/// and those of bodies.
 /// @param problem  with all overrides
 /// @param file     that it was read from: names are relative to its folder
 Json fingerprints_of_files(const Json& problem, const std::filesystem::path& file);

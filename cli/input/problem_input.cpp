@@ -91,7 +91,10 @@ ProblemInput read_file(const std::filesystem::path& file, const Arguments& argum
     input.effective = document_in_case(input.effective, *arguments.load_case, file.string());
     fingerprint.add(*arguments.load_case);
   }
-  if (arguments.design) fingerprint.add(whole_text(*arguments.design));
+  if (arguments.design) {
+    const bool is_folder = std::filesystem::is_directory(*arguments.design);
+    fingerprint.add(whole_text(is_folder ? *arguments.design / "result.json" : *arguments.design));
+  }
   input.hash = fingerprint.text();
   note_unstable_scheme(input);
   return input;

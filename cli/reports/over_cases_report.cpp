@@ -10,6 +10,7 @@
 
 #include "cli/reports/limits_report.hpp"
 #include "cli/text/table.hpp"
+#include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
 #include "core/response/value_over_cases.hpp"
@@ -119,7 +120,8 @@ Json over_cases_document(const ProblemFile& joined, const Eigen::VectorXd& x, co
       } else {
         add_gradients(joined, cases, linear, entry);
       }
-    } catch (const SimulationError&) {  // it has no value there, or no derivative
+    } catch (const SimulationError& error) {  // it has no value there, or no derivative
+      entry["error"] = error.what();
     }
   }
   for (std::size_t i = 0; i < joined.constraints.size(); ++i) {
@@ -130,7 +132,7 @@ Json over_cases_document(const ProblemFile& joined, const Eigen::VectorXd& x, co
     try {
       document["constraints"][constraint.name] =
           limit_document(joined, constraint, value_over_cases(joined, response, x, value_of));
-    } catch (const SimulationError&) {
+    } catch (const SimulationError&) {  // its response says so
     }
   }
   return document;
@@ -158,6 +160,9 @@ std::string over_cases_text(const ProblemFile& joined, const Json& document) {
     responses.add_row(std::move(row));
   }
   if (!responses.is_empty()) text += responses.text();
+  for (const Json& entry : all) {
+    if (entry.contains("error")) text += "\n" + wrapped(entry["error"].get<std::string>()) + "\n";
+  }
   const Json limited = document.value("constraints", Json::object());
   Table limits({{"constraint", Table::Align::left},
                 {"value"},
@@ -176,6 +181,12 @@ std::string over_cases_text(const ProblemFile& joined, const Json& document) {
   if (!limits.is_empty()) text += "\n" + limits.text();
   if (breaks_limits(document)) text += "\nA limit that is made from several cases is broken.\n";
   return text;
+}
+
+bool lacks_numbers(const Json& document) {
+  const Json all = document.value("responses", Json::object());
+  return std::any_of(all.begin(), all.end(),
+                     [](const Json& entry) { return entry.contains("error"); });
 }
 
 bool breaks_limits(const Json& document) {

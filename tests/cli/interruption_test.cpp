@@ -146,6 +146,19 @@ TEST_F(Interrupted, OptimizationKeepsItsBestDesignNotItsLast) {
   }
 }
 
+/// The answer is there before what is simulated for its report.
+TEST_F(Interrupted, OptimizationKeepsItsVerdictAfterItsSearch) {
+  const ProgramRun run =
+      run_until("run/result.json", "optimize " + problem("slider_crank_round") +
+                                       " --set /optimizer/max_iterations=1 --set "
+                                       "'/simulation/step=20 us'");
+  EXPECT_EQ(run.out, "4\n");
+  EXPECT_NE(result().at("status"), "interrupted");
+  EXPECT_THAT(result().at("interrupted").get<std::string>(), HasSubstr("its result stands"));
+  EXPECT_FALSE(result().contains("monitors"));
+  EXPECT_THAT(unwrapped(out()), HasSubstr("its result stands"));
+}
+
 /// A coarse stage has errors that a fine one has not: the best is that of the last one.
 TEST_F(Interrupted, OptimizationInStagesKeepsTheBestOfItsLastSetting) {
   const std::string path = folder_.path().string();

@@ -216,8 +216,98 @@ TEST(LoadCases, SayWhichOfThemDecidesALimit) {
             result.at("variables"));
   const ProgramRun motion = run_program(folder.path(), {"export", "run", "--vtk"});
   EXPECT_EQ(motion.exit_code, 0) << motion.err;
+  EXPECT_THAT(unwrapped(motion.out), HasSubstr("instants of the case \"heavy\" written to"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "run" / "vtk" / "optimum-heavy.pvd"));
   const ProgramRun drawn = run_program(folder.path(), {"plot", "run", "torque"});
   EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+}
+
+/// A cantilever that a force bends at once, in two cases.
+class BentCantilever : public testing::Test {
+ protected:
+  BentCantilever() {
+    document_ = nlohmann::ordered_json::parse(R"json({
+      "scene": {
+        "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": ["300 mm", 0, 0],
+                           "material": "steel",
+                           "section": {"type": "rectangle", "width": {"variable": "width"},
+                                       "height": "= share*(1 mm)"},
+                           "elements": 2, "damping": {"stiffness": "0.1 ms"}}},
+        "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}},
+        "loads": {"weight": {"type": "force", "body": "bar", "at": ["300 mm", 0, 0],
+                             "direction": [0, -1, 0], "value": "200 N"}}
+      },
+      "simulation": {"end_time": "1 ms", "step": "0.1 ms", "initial_state": "quasi-static",
+                     "resolution_check": false},
+      "variables": {"width": {"start": "20 mm", "lower": "4 mm", "upper": "40 mm"},
+                    "share": {"start": 28, "lower": 10, "upper": 60}},
+      "responses": {"mass": {"type": "mass"},
+                    "sag": {"type": "deflection", "body": "bar", "at": 1, "over_time": "max-abs"}},
+      "objective": {"minimize": "mass"},
+      "constraints": {"stiffness": {"response": "sag", "upper": "2 mm"}},
+      "cases": {"down": {}, "other": {}}
+    })json");
+  }
+
+  ProgramRun run(const std::vector<std::string>& words) const {
+    std::ofstream(folder_.path() / "bar.json") << document_.dump(2);
+    return run_program(folder_.path(), words);
+  }
+
+  void write_table(const std::string& force) const {
+    std::ofstream(folder_.path() / "table.csv")
+        << "time [s],force [N]\n0," << force << "\n1," << force << "\n";
+  }
+
+  nlohmann::ordered_json document_;
+  const TemporaryFolder folder_;
+};
+
+TEST_F(BentCantilever, SaysWhatHasNoNumberOverItsCases) {
+  document_["cases"]["other"]["/scene/loads/weight/value"] = "0 N";
+  document_["responses"]["ratio"] = {{"type", "expression"}, {"value", "sag[down]/sag[other]"}};
+  const ProgramRun simulated = run({"simulate", "bar.json", "--json"});
+  EXPECT_EQ(simulated.exit_code, 3);
+  const nlohmann::json ratio = simulated.document().at("over_cases").at("responses").at("ratio");
+  EXPECT_TRUE(ratio.at("value").is_null());
+  EXPECT_THAT(ratio.at("error").get<std::string>(), HasSubstr("has no finite value there"));
+  EXPECT_EQ(run({"gradient", "bar.json", "--json"}).exit_code, 3);
+  EXPECT_THAT(unwrapped(run({"simulate", "bar.json"}).out), HasSubstr("has no finite value there"));
+}
+
+TEST_F(BentCantilever, KeepsTheOtherCasesWhereOneCannotBeSimulated) {
+  // Far above the critical load of the column, about 1 MN.
+  document_["cases"]["other"] = {{"/scene/loads/weight/direction", {-1, 0, 0}},
+                                 {"/scene/loads/weight/value", "50 MN"}};
+  const ProgramRun simulated = run({"simulate", "bar.json", "--json"});
+  EXPECT_EQ(simulated.exit_code, 3);
+  const nlohmann::json cases = simulated.document().at("cases");
+  EXPECT_GT(cases.at("down").at("responses").at("sag").at("value"), 0.0);
+  EXPECT_FALSE(cases.at("other").at("error").get<std::string>().empty());
+  EXPECT_THAT(unwrapped(run({"simulate", "bar.json"}).out),
+              HasSubstr("The case \"other\" cannot be simulated: "));
+}
+
+TEST_F(BentCantilever, IsAnotherOneWithAnotherFileOfACase) {
+  write_table("100");
+  document_["cases"]["other"]["/scene/loads/weight/value"] = {
+      {"type", "table"}, {"file", "table.csv"}, {"columns", {"time", "force"}}};
+  const std::vector<std::string> words = {"optimize", "bar.json", "-o", "run", "--resume"};
+  ASSERT_EQ(run(words).exit_code, 0);
+  EXPECT_EQ(run(words).exit_code, 0);
+  write_table("150");
+  const ProgramRun changed = run(words);
+  EXPECT_EQ(changed.exit_code, 2);
+  EXPECT_THAT(changed.err, HasSubstr("another file that the problem names"));
+}
+
+TEST_F(BentCantilever, IsADesignWithAVariableWithoutUnit) {
+  ASSERT_EQ(run({"optimize", "bar.json", "-o", "run"}).exit_code, 0);
+  const ProgramRun again = run({"simulate", "bar.json", "--design", "run", "--json"});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  const nlohmann::json best = nlohmann::json::parse(read_file(folder_.path() / "run/result.json"));
+  EXPECT_EQ(again.document().at("cases").at("down").at("variables").at("share").at("value"),
+            best.at("variables").at("share").at("value"));
 }
 
 }  // namespace
