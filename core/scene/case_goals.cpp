@@ -96,8 +96,13 @@ bool is_same(const Expression& one, const Expression& other) {
     return a.operation == b.operation && a.constant == b.constant && a.first == b.first &&
            a.second == b.second;
   };
+  const auto same_argument = [](const ExpressionArgument& a, const ExpressionArgument& b) {
+    return a.kind == b.kind && a.index == b.index;
+  };
   return std::equal(one.steps.begin(), one.steps.end(), other.steps.begin(), other.steps.end(),
-                    same_step);
+                    same_step) &&
+         std::equal(one.arguments.begin(), one.arguments.end(), other.arguments.begin(),
+                    other.arguments.end(), same_argument);
 }
 
 ConstraintSettings limit_on(const Objective& goal, double value, const std::string& name,

@@ -71,10 +71,14 @@ ProblemFile read_problem_text(const std::string& text, const std::string& file,
   std::vector<Json> documents;
   for (const CaseChanges& one : changes) {
     cases.push_back(read_case_problem(document, one, file, units));
+    cases.back().load_case = one.name;
+    cases.back().case_range = one.range;
     documents.push_back(document_of_case(document, one, file));
   }
   check_shared_documents(root, changes, documents, units);
-  ProblemFile joined = join_cases(root, changes, std::move(cases), units);
+  check_shared_numbers(root, cases, units);
+  ProblemFile joined = join_cases(root, changes, std::move(cases));
+  check_shared_limits(root, joined);
   read_across_cases(root, documents, units, joined);
   return joined;
 }

@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
+#include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "tests/scene/good_problem.hpp"
@@ -240,7 +241,9 @@ TEST(FrontsOverCases, MayBeBetweenTwoWaysToPutOneResponseTogether) {
   EXPECT_EQ(read(document).pareto->goals.size(), 2u);
   document["pareto"]["responses"] = {{{"minimize", "tip"}, {"over_cases", {{"light", 1}}}},
                                      {{"minimize", "tip"}, {"over_cases", {{"heavy", 1}}}}};
-  EXPECT_EQ(read(document).pareto->goals.size(), 2u);
+  ProblemFile problem = read(document);
+  const Objective light = goal_of_problem(problem, problem.pareto->goals[0]);
+  EXPECT_NE(goal_of_problem(problem, problem.pareto->goals[1]).response, light.response);
   document["pareto"]["responses"][1] = document["pareto"]["responses"][0];
   EXPECT_THAT(complaint(document), HasSubstr("must be two different responses"));
 }

@@ -14,8 +14,8 @@
 #include "core/scene/load_cases.hpp"
 #include "core/scene/reading/across_cases.hpp"
 #include "core/scene/reading/case_suffix.hpp"
+#include "core/scene/reading/goal_reader.hpp"
 #include "core/scene/reading/override.hpp"
-#include "core/scene/reading/shared_by_cases.hpp"
 #include "core/scene/reading/suggestion.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/scene/units.hpp"
@@ -157,21 +157,8 @@ std::vector<CaseChanges> read_case(const std::string& name, const JsonNode& node
   return cases;
 }
 
-/// What names of limits and weights may stand for.
-std::vector<std::string> known_names(const std::vector<ProblemFile>& cases) {
-  std::vector<std::string> names;
-  for (const ProblemFile& one : cases) {
-    if (!one.case_range.empty() && (names.empty() || names.back() != one.case_range)) {
-      const bool is_new = std::find(names.begin(), names.end(), one.case_range) == names.end();
-      if (is_new) names.push_back(one.case_range);
-    }
-  }
-  for (const ProblemFile& one : cases) names.push_back(one.load_case);
-  return names;
-}
-
 void check_limit_names(const JsonNode& root, const std::vector<ProblemFile>& cases) {
-  const std::vector<std::string> known = known_names(cases);
+  const std::vector<std::string> known = names_of_cases(cases);
   for (const ConstraintSettings& constraint : cases.front().constraints) {
     if (constraint.cases.empty()) continue;
     const JsonNode names = root.at("constraints").at(constraint.name).at("cases");
@@ -303,29 +290,6 @@ void check_objective(const JsonNode& root, const ProblemFile& problem,
 
 }  // namespace
 
-void check_weights(const JsonNode& node, const CaseWeights& weights,
-                   const std::vector<ProblemFile>& cases) {
-  const std::vector<std::string> known = known_names(cases);
-  for (const auto& [name, weight] : weights) {
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-      fail_unknown_name(node.at(name), "case", name, known);
-    }
-  }
-  for (const ProblemFile& one : cases) {
-    std::string before;
-    for (const auto& [name, weight] : weights) {
-      if (!is_in_case({name}, one)) continue;
-      if (!before.empty()) {
-        node.at(name).fail(fmt::format(
-            "gives the case \"{}\" a second weight, beside that of \"{}\": give weights to a "
-            "range or to its cases, not to both",
-            one.load_case, before));
-      }
-      before = name;
-    }
-  }
-}
-
 std::vector<CaseChanges> read_cases(const JsonNode& root) {
   const auto found = root.find("cases");
   if (!found) return {};
@@ -393,15 +357,10 @@ Json lone_document(Json document, const CaseChanges& changes, const std::string&
 }
 
 ProblemFile join_cases(const JsonNode& root, const std::vector<CaseChanges>& changes,
-                       std::vector<ProblemFile> cases, const UnitSystem& units) {
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    cases[i].load_case = changes[i].name;
-    cases[i].case_range = changes[i].range;
-  }
+                       std::vector<ProblemFile> cases) {
   check_limit_names(root, cases);
   const ProblemFile& first = cases.front();
   const std::vector<bool> is_same = same_responses(first, changes);
-  check_shared_numbers(root, cases, is_same, units);
   std::vector<double> weights;
   if (first.objective) {
     check_objective(root, first, is_same);

@@ -6,7 +6,6 @@
 
 #include "core/scene/problem_file.hpp"
 #include "core/scene/reading/json_node.hpp"
-#include "core/scene/units.hpp"
 
 /// Reads the block "cases": what load cases change in the rest of the file.
 namespace pleuel {
@@ -22,14 +21,6 @@ struct CaseChanges {
 /// @throws InputError
 std::vector<CaseChanges> read_cases(const JsonNode& root);
 
-/// Weights by names of cases and of ranges.
-using CaseWeights = std::vector<std::pair<std::string, double>>;
-
-/// @param node  of the weights
-/// @throws InputError  if a name is unknown, or a case has two weights
-void check_weights(const JsonNode& node, const CaseWeights& weights,
-                   const std::vector<ProblemFile>& cases);
-
 /// The document with what the case changes. Limits and objective may still name cases.
 /// @throws InputError
 Json document_of_case(Json document, const CaseChanges& changes, const std::string& file);
@@ -39,11 +30,11 @@ Json document_of_case(Json document, const CaseChanges& changes, const std::stri
 Json lone_document(Json document, const CaseChanges& changes, const std::string& file);
 
 /// What the cases share, with the responses and constraints of all (ProblemFile::cases).
-/// @param cases    problems of the cases, one each
+/// @param cases    problems of the cases with their names, one each
 /// @param changes  likewise
 /// @throws InputError at places of `root` that name cases
 ProblemFile join_cases(const JsonNode& root, const std::vector<CaseChanges>& changes,
-                       std::vector<ProblemFile> cases, const UnitSystem& units);
+                       std::vector<ProblemFile> cases);
 
 /// @throws InputError where a file without cases names some
 void forbid_case_names(const JsonNode& root, const ProblemFile& problem);

@@ -7,7 +7,6 @@
 #include "core/base/find_named.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
-#include "core/scene/reading/case_reader.hpp"
 #include "core/scene/reading/case_suffix.hpp"
 #include "core/scene/reading/expression_response_reader.hpp"
 #include "core/scene/reading/scene_reader.hpp"
@@ -166,6 +165,41 @@ std::vector<ConstraintSettings> read_constraints(const JsonNode& node,
     constraints.push_back(read_constraint(name, constraint, responses, numbers));
   }
   return constraints;
+}
+
+std::vector<std::string> names_of_cases(const std::vector<ProblemFile>& cases) {
+  std::vector<std::string> names;
+  for (const ProblemFile& one : cases) {
+    if (!one.case_range.empty() && (names.empty() || names.back() != one.case_range)) {
+      const bool is_new = std::find(names.begin(), names.end(), one.case_range) == names.end();
+      if (is_new) names.push_back(one.case_range);
+    }
+  }
+  for (const ProblemFile& one : cases) names.push_back(one.load_case);
+  return names;
+}
+
+void check_weights(const JsonNode& node, const CaseWeights& weights,
+                   const std::vector<ProblemFile>& cases) {
+  const std::vector<std::string> known = names_of_cases(cases);
+  for (const auto& [name, weight] : weights) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      fail_unknown_name(node.at(name), "case", name, known);
+    }
+  }
+  for (const ProblemFile& one : cases) {
+    std::string before;
+    for (const auto& [name, weight] : weights) {
+      if (!is_in_case({name}, one)) continue;
+      if (!before.empty()) {
+        node.at(name).fail(fmt::format(
+            "gives the case \"{}\" a second weight, beside that of \"{}\": give weights to a "
+            "range or to its cases, not to both",
+            one.load_case, before));
+      }
+      before = name;
+    }
+  }
 }
 
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/scene/problem_file.hpp"
@@ -30,5 +31,16 @@ ConstraintSettings read_constraint(const std::string& name, const JsonNode& node
 /// `problem` has its constraints already. @throws InputError
 ParetoSettings read_pareto(const JsonNode& node, const ProblemFile& problem,
                            const NumberReader& numbers);
+
+/// What names of limits and weights may stand for: ranges, then cases.
+std::vector<std::string> names_of_cases(const std::vector<ProblemFile>& cases);
+
+/// Weights by names of cases and of ranges.
+using CaseWeights = std::vector<std::pair<std::string, double>>;
+
+/// @param node  of the weights
+/// @throws InputError  if a name is unknown, or a case has two weights
+void check_weights(const JsonNode& node, const CaseWeights& weights,
+                   const std::vector<ProblemFile>& cases);
 
 }  // namespace pleuel

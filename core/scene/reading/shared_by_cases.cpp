@@ -108,13 +108,12 @@ void check_variables(const JsonNode& root, const ProblemFile& first, const Probl
 }
 
 /// Those that stand once: of variables only, or of a response that is the same in all cases.
-void check_limits(const JsonNode& root, const ProblemFile& first, const ProblemFile& other,
-                  const std::vector<bool>& is_same) {
+void check_limits(const JsonNode& root, const ProblemFile& joined, const ProblemFile& other) {
+  const ProblemFile& first = joined.cases.front();
   for (const ConstraintSettings& one : first.constraints) {
-    if (!one.response.empty()) {
-      const auto* response = find_named(first.responses, one.response);
-      if (!is_same[static_cast<std::size_t>(response - first.responses.data())]) continue;
-    }
+    const bool is_once =
+        one.response.empty() || find_named(joined.responses, one.response) != nullptr;
+    if (!is_once) continue;
     const ConstraintSettings* two = find_named(other.constraints, one.name);
     const JsonNode node = root.at("constraints").at(one.name);
     if (one.lower != two->lower) fail_changed(node.at("lower"), other);
@@ -183,15 +182,18 @@ void check_shared_documents(const JsonNode& root, const std::vector<CaseChanges>
 }
 
 void check_shared_numbers(const JsonNode& root, const std::vector<ProblemFile>& cases,
-                          const std::vector<bool>& is_same, const UnitSystem& units) {
+                          const UnitSystem& units) {
   const ProblemFile& first = cases.front();
   for (const ProblemFile& other : cases) {
     check_variables(root, first, other);
-    check_limits(root, first, other, is_same);
     check_uncertainty(root, first, other);
     check_starts(root, first, other);
     check_quantities(root, first, other, units);
   }
+}
+
+void check_shared_limits(const JsonNode& root, const ProblemFile& joined) {
+  for (const ProblemFile& other : joined.cases) check_limits(root, joined, other);
 }
 
 }  // namespace pleuel

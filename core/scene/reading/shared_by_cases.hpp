@@ -15,11 +15,15 @@ namespace pleuel {
 void check_shared_documents(const JsonNode& root, const std::vector<CaseChanges>& changes,
                             const std::vector<Json>& documents, const UnitSystem& units);
 
-/// @param cases    problems of the cases, one each
-/// @param is_same  one a response: whether it is the same in all cases
+/// @param cases  problems of the cases with their names, one each
 /// @throws InputError  if a number that stands once follows from a constant that a case changes, or
 ///                     a response measures something else in another case
 void check_shared_numbers(const JsonNode& root, const std::vector<ProblemFile>& cases,
-                          const std::vector<bool>& is_same, const UnitSystem& units);
+                          const UnitSystem& units);
+
+/// Of limits that stand once: of variables, or of a response that is the same in all cases.
+/// @param joined  the problem of all cases
+/// @throws InputError  if one follows from a constant that a case changes
+void check_shared_limits(const JsonNode& root, const ProblemFile& joined);
 
 }  // namespace pleuel
