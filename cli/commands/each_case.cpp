@@ -37,20 +37,15 @@ std::vector<std::string> case_names(const Arguments& arguments) {
   return names;
 }
 
-/// Tells errors by the case that they are of; those of the file are of all.
+/// Tells errors of the input by the case that they are of; those of the file are of all.
 Outcome run_case(const Arguments& arguments, Outcome (*command)(const Arguments&)) {
-  const auto of_case = [&](const std::string& message) {
-    return fmt::format("in the case \"{}\": {}", *arguments.load_case, message);
-  };
   try {
     return command(arguments);
-  } catch (const SimulationError& error) {
-    throw SimulationError(of_case(error.what()));
   } catch (const InputError& error) {
     const std::string message = error.what();
     const bool names_file = message.starts_with(arguments.file.string());
     if (names_file || !message.starts_with("/")) throw;
-    throw InputError(of_case(message));
+    throw InputError(fmt::format("in the case \"{}\": {}", *arguments.load_case, message));
   }
 }
 
