@@ -21,14 +21,25 @@ Json responses_document(const Analysis& analysis, const ErrorBars& errors) {
   return document;
 }
 
+namespace {
+
+/// [m]
+double size_of(const Model& model) {
+  const auto moves = [](const BodyModel& body) { return body.frame.translations() > 0; };
+  const auto body = std::find_if(model.bodies.begin(), model.bodies.end(), moves);
+  return body == model.bodies.end() ? 0.0 : model.mechanism.scale(body->frame.offset);
+}
+
+}  // namespace
+
 double without_round_off(const Analysis& analysis, std::size_t response) {
-  constexpr double round_off = 1e-14, least_length = 1e-13;
+  constexpr double round_off = 1e-14;
   const Response& of = analysis.responses[response];
   const double value = analysis.reductions[response].value;
   if (!of.history()) return value;
   double least = round_off * analysis.histories[response].lpNorm<Eigen::Infinity>();
   if (of.is_reduced_by(OverTime::integral)) least *= analysis.trajectory.time.maxCoeff();
-  if (of.unit == "m") least = std::max(least, least_length);
+  if (of.unit == "m") least = std::max(least, round_off * size_of(analysis.model));
   return std::abs(value) < least ? 0.0 : value;
 }
 

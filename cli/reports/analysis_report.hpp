@@ -13,7 +13,7 @@ namespace pleuel {
 Json responses_document(const Analysis& analysis, const ErrorBars& errors = {});
 
 /// The value of a response for people: 0 where it is round-off of its history (1e-14 of the largest
-/// number in it), or a length below a thousandth of an atom (1e-13 m).
+/// number in it), or a length that is round-off of the size of the mechanism.
 double without_round_off(const Analysis& analysis, std::size_t response);
 
 /// Table of values in engineering units.
