@@ -6,6 +6,7 @@
 
 #include "cli/files/history_meaning.hpp"
 #include "cli/files/scene_picture.hpp"
+#include "cli/reports/analysis_report.hpp"
 #include "cli/text/packed_numbers.hpp"
 #include "core/response/shown_history.hpp"
 #include "core/scene/response_names.hpp"
@@ -231,6 +232,9 @@ Json run_picture(const ProblemFile& problem, const std::vector<ShownDesign>& des
   }
   if (problem.objective) document["objective"] = problem.objective->response;
   if (!problem.load_case.empty()) document["case"] = problem.load_case;
+  for (const ShownDesign& design : designs) {
+    if (design.analysis != nullptr) document["size"] = size_of(design.analysis->model);
+  }
   const Room room = room_of_one(pictures);
   for (const ShownDesign& design : designs) {
     document["designs"].push_back(design_document(problem, design, designs.size(), room));

@@ -21,16 +21,11 @@ Json responses_document(const Analysis& analysis, const ErrorBars& errors) {
   return document;
 }
 
-namespace {
-
-/// [m]
 double size_of(const Model& model) {
   const auto moves = [](const BodyModel& body) { return body.frame.translations() > 0; };
   const auto body = std::find_if(model.bodies.begin(), model.bodies.end(), moves);
   return body == model.bodies.end() ? 0.0 : model.mechanism.scale(body->frame.offset);
 }
-
-}  // namespace
 
 double without_round_off(const Analysis& analysis, std::size_t response) {
   constexpr double round_off = 1e-14;

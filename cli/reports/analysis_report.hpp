@@ -12,6 +12,9 @@ namespace pleuel {
 /// {NAME: {"value", "unit", "error"}} [SI]; without "error" where none are known
 Json responses_document(const Analysis& analysis, const ErrorBars& errors = {});
 
+/// Of the mechanism as it is drawn; 0 if nothing in it moves [m].
+double size_of(const Model& model);
+
 /// The value of a response for people: 0 where it is round-off of its history (1e-14 of the largest
 /// number in it), or a length that is round-off of the size of the mechanism.
 double without_round_off(const Analysis& analysis, std::size_t response);

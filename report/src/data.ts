@@ -136,6 +136,7 @@ export interface Picture {
   variables: Record<string, { start: number; lower: number; upper: number; unit: Unit }>;
   responses: Record<string, Meaning>;
   limits: Record<string, { unit: Unit; response?: string; lower?: number; upper?: number }>;
+  size?: number; // of the mechanism [m]
   objective?: string;
   designs: Design[];
   /** Load case that it is of. */

@@ -52,14 +52,12 @@ export function unitOfLimit(picture: Picture | null, name: string, si: string): 
   return picture?.units?.limits[name] ?? picture?.limits[name]?.unit ?? engineering(si);
 }
 
-/** Round-off of 64 bits, and of drawn histories of 32 bits; a thousandth of an atom [m]. */
 const roundOff = 1e-14;
-const leastLength = 1e-13;
 
-/** A number that is round-off of its history is 0. */
+/** A number that is round-off of its history, or a length that is round-off of the mechanism, is 0. */
 export function withoutRoundOff(picture: Picture | null, name: string, value: number, si: string): number {
   const meaning = picture?.responses[name];
-  if (si === "m" && meaning && Math.abs(value) < leastLength) return 0;
+  if (si === "m" && meaning && Math.abs(value) < roundOff * (picture?.size ?? 0)) return 0;
   if (!meaning || meaning.over_time === "integral") return value;
   const histories = picture!.designs.flatMap((design) => design.responses?.find((one) => one.name === name)?.history ?? []);
   const largest = Math.max(0, ...histories.flatMap((history) => curveOf(history).y.map(Math.abs)));
