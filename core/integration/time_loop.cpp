@@ -32,7 +32,7 @@ TimeLoop::TimeLoop(Mechanism& mechanism, const SimulationOptions& options, Insta
       equations_(mechanism, scheme_, options.formulation),
       state_(make_start(start)),
       old_(state_),
-      predictor_(equations_, mechanism.scale),
+      predictor_(equations_),
       corrector_(mechanism, equations_, options),
       control_(mechanism, options),
       is_continued_(start != nullptr),
@@ -98,13 +98,7 @@ std::vector<LinearSolver*> TimeLoop::solvers() {
 TimeLoop::Checkpoint TimeLoop::checkpoint(int unit) {
   const std::vector<LinearSolver*> all = solvers();
   pivot_records_.resize(all.size());
-  Checkpoint checkpoint{.instant = instant(),
-                        .unit = unit,
-                        .state = state_,
-                        .past = predictor_.past(),
-                        .experience = corrector_.experience(),
-                        .level = control_.level(),
-                        .pivots = {}};
+  Checkpoint checkpoint{instant(), unit, state_, corrector_.experience(), control_.level(), {}};
   for (std::size_t i = 0; i < all.size(); ++i) {
     checkpoint.pivots.push_back(pivot_records_[i].of(*all[i]));
   }
@@ -113,7 +107,6 @@ TimeLoop::Checkpoint TimeLoop::checkpoint(int unit) {
 
 void TimeLoop::restore(const Checkpoint& checkpoint) {
   state_ = checkpoint.state;
-  predictor_.set_past(checkpoint.past);
   corrector_.set_experience(checkpoint.experience);
   control_.set_level(checkpoint.level);
   const std::vector<LinearSolver*> all = solvers();
@@ -204,9 +197,6 @@ void TimeLoop::correct_start() {
 
 void TimeLoop::accept() {
   check_drift();
-  // The search for a motion that repeats itself ends where round-off of accelerations is all that is
-  // left: it keeps the steps that it is tested with.
-  if (options_.period == 0.0) predictor_.remember(old_, state_);
   store();
 }
 

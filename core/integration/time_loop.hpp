@@ -49,7 +49,6 @@ class TimeLoop {
     Eigen::Index instant;
     int unit;
     StepState state;
-    Predictor::Past past;
     NewtonCorrector::Experience experience;
     int level;                                ///< of the control of the local error
     std::vector<PivotRecord::Pivots> pivots;  ///< one a solver
