@@ -72,7 +72,10 @@ void add_numbers_over_cases(const Arguments& arguments, Outcome& all) {
 }
 
 /// The others are simulated all the same.
-Outcome failed_case(const std::string& name, const std::string& reason) {
+Outcome failed_case(const Arguments& arguments, const std::string& name,
+                    const std::string& reason) {
+  show(stderr,
+       fmt::format("pleuel: {}: in the case \"{}\": {}\n", arguments.file.string(), name, reason));
   return {ExitCode::simulation_failed,
           {{"status", "failed"}, {"error", reason}},
           wrapped(fmt::format("The case \"{}\" cannot be simulated: {}", name, reason)) + "\n"};
@@ -114,7 +117,7 @@ Outcome run_each_case(const Arguments& arguments, Outcome (*command)(const Argum
     try {
       outcome = run_case(one, command);
     } catch (const SimulationError& error) {
-      outcome = failed_case(name, error.what());
+      outcome = failed_case(arguments, name, error.what());
     } catch (const Stopped&) {
       if (all.text.empty()) throw;
       all.exit_code = std::max(all.exit_code, ExitCode::not_verified);
