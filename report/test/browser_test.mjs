@@ -429,6 +429,8 @@ test("a front between two responses names what each point allows, and its knee",
   const { points } = result("front");
   const header = await tab.locator("thead").first().innerText();
   assert.match(header, /rod bow allowed \[mm\]/);
+  const areAllVerified = points.every((one) => one.status === "verified");
+  assert.equal(await tab.locator(".badge").first().innerText(), areAllVerified ? "✓ Done" : "! Not all points verified");
   const knee = points.findIndex((one) => one.knee);
   const row = knee < 0 ? null : tab.locator("section", { has: tab.getByRole("heading", { name: "Points" }) }).locator("tbody tr").nth(knee);
   if (row) assert.match(await row.innerText(), /knee/);

@@ -8,6 +8,7 @@ const verdicts: Record<string, { text: string; tone: string }> = {
   done: { text: "Done", tone: "good" },
   unresolved: { text: "Optimum of numbers that are not resolved", tone: "warn" },
   interrupted: { text: "Interrupted", tone: "warn" },
+  partly: { text: "Not all points verified", tone: "warn" }, // of a front
 };
 
 /** A choice from lists is no local optimum: it is the best of those that were tried. */

@@ -86,9 +86,10 @@ export function paretoPage(data: ReportData): HTMLElement[] {
     onHover: (series, index) => series === 0 && show(index),
   });
   show(knee >= 0 ? knee : Math.floor(known.length / 2));
+  const isPartly = result.status === "done" && verified < points.length;
   return [
-    hero(data, `${words(objective ?? "")} against ${isOfResponses ? words(limited ?? "") : `the limit of ${words(result.constraint ?? "")}`}: ${verified} of ${points.length} points verified.`),
-    h("section.card.front", { "aria-label": "front" }, h("div", {}, h("p.note", {}, "Point at a mark to see its mechanism.", knee >= 0 ? ` The knee is point ${known[knee].number}: on either side a gain costs more.` : ""), front.element), drawing),
+    hero({ ...data, result: { ...result, status: isPartly ? "partly" : result.status } }, `${words(objective ?? "")} against ${isOfResponses ? words(limited ?? "") : `the limit of ${words(result.constraint ?? "")}`}: ${verified} of ${points.length} points verified.`),
+    h("section.card.front", { "aria-label": "front" }, h("div", {}, h("p.note", {}, "Point at a mark to see its mechanism.", knee >= 0 ? ` The knee is point ${known[knee].number}: a further gain of either goal costs more of the other.` : ""), front.element), drawing),
     section(
       "Points",
       "",
