@@ -116,8 +116,8 @@ void check_limits(const JsonNode& root, const ProblemFile& joined, const Problem
     if (!is_once) continue;
     const ConstraintSettings* two = find_named(other.constraints, one.name);
     const JsonNode node = root.at("constraints").at(one.name);
-    if (one.lower != two->lower) fail_changed(node.at("lower"), other);
-    if (one.upper != two->upper) fail_changed(node.at("upper"), other);
+    if (one.lower != two->lower) fail_changed(member_or_self(node, "lower"), other);
+    if (one.upper != two->upper) fail_changed(member_or_self(node, "upper"), other);
   }
 }
 
@@ -128,8 +128,8 @@ void check_uncertainty(const JsonNode& root, const ProblemFile& first, const Pro
     const UncertainParameter& one = first.uncertainty->parameters[i];
     const UncertainParameter& two = other.uncertainty->parameters[i];
     const JsonNode node = parameters.at(first.variables[one.variable].name);
-    if (one.deviation != two.deviation) fail_changed(node.at("deviation"), other);
-    if (one.interval != two.interval) fail_changed(node.at("interval"), other);
+    if (one.deviation != two.deviation) fail_changed(member_or_self(node, "deviation"), other);
+    if (one.interval != two.interval) fail_changed(member_or_self(node, "interval"), other);
   }
 }
 
