@@ -87,16 +87,8 @@ class BucklingQuantity {
   std::vector<Plane> planes_;
 };
 
-class CompressionQuantity {
+class CompressionQuantity : public OneASection {
  public:
-  using Point = WholeSection;
-
-  std::vector<Point> points(const BodyModel&, const SectionProperties<double>&) const {
-    return {{}};
-  }
-
-  std::string name(const SectionProperties<double>&, Point) const { return ""; }
-
   template <class Scalar, class Force>
   StressOf<Scalar, Force> evaluate(const Beam<Scalar>&, const SectionProperties<Scalar>&,
                                    const SectionForces<Force>& forces, Point) const {

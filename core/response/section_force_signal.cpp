@@ -6,17 +6,9 @@ namespace pleuel {
 
 namespace {
 
-class SectionForceQuantity {
+class SectionForceQuantity : public OneASection {
  public:
-  using Point = WholeSection;
-
   explicit SectionForceQuantity(SectionForcePart part) : part_(part) {}
-
-  std::vector<Point> points(const BodyModel&, const SectionProperties<double>&) const {
-    return {{}};
-  }
-
-  std::string name(const SectionProperties<double>&, Point) const { return ""; }
 
   template <class Scalar, class Force>
   StressOf<Scalar, Force> evaluate(const Beam<Scalar>&, const SectionProperties<Scalar>&,

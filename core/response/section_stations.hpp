@@ -12,8 +12,16 @@
 
 namespace pleuel {
 
-/// The section as a whole, of quantities that have one number a section.
-struct WholeSection {};
+/// What quantities have in common that have one number a section.
+struct OneASection {
+  struct Point {};
+
+  std::vector<Point> points(const BodyModel&, const SectionProperties<double>&) const {
+    return {{}};
+  }
+
+  std::string name(const SectionProperties<double>&, Point) const { return ""; }
+};
 
 /// ", y = 0.005 m, z = 0 m": where a stress point of a section is, by its number.
 inline std::string stress_point_name(const SectionProperties<double>& section, int point) {

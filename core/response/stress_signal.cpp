@@ -56,16 +56,8 @@ StressOf<Scalar, Force> von_mises(const SectionProperties<Scalar>& section,
                               : most_stressed_point(section, forces, place.is_tension_side()));
 }
 
-class AxialStress {
+class AxialStress : public OneASection {
  public:
-  using Point = WholeSection;
-
-  std::vector<Point> points(const BodyModel&, const SectionProperties<double>&) const {
-    return {{}};
-  }
-
-  std::string name(const SectionProperties<double>&, Point) const { return ""; }
-
   template <class Scalar, class Force>
   StressOf<Scalar, Force> evaluate(const Beam<Scalar>&, const SectionProperties<Scalar>& section,
                                    const SectionForces<Force>& forces, Point) const {
