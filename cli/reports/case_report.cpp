@@ -99,17 +99,16 @@ void keep_largest(const Eigen::VectorXd& numbers, std::vector<std::size_t>& case
   std::erase_if(cases, [&](std::size_t c) { return number_of(c) < least; });
 }
 
-/// The one that a sentence names first by the name of one of its limits; the first if it names none.
-std::size_t first_named(const ProblemFile& problem, const std::vector<std::size_t>& cases,
-                        const std::string& sentence) {
-  std::size_t first = cases.front(), place = std::string::npos;
-  for (const std::size_t c : cases) {
-    const std::size_t here = sentence.find("[" + problem.cases[c].load_case + "]");
-    if (here >= place) continue;
-    place = here;
-    first = c;
+/// Of equal ones that of the first limit in conflict, where limits are; else the first.
+std::size_t first_in_conflict(const ProblemFile& problem, const std::vector<std::size_t>& cases,
+                              const Result& result) {
+  if (!result.least_violation) return cases.front();
+  for (const ExceededLimit& limit : result.least_violation->limits) {
+    if (case_of(problem, limit.constraint).empty()) continue;
+    const std::size_t here = problem.case_constraints[limit.constraint].load_case;
+    if (std::find(cases.begin(), cases.end(), here) != cases.end()) return here;
   }
-  return first;
+  return cases.front();
 }
 
 }  // namespace
@@ -153,7 +152,7 @@ std::size_t deciding_case(const ProblemFile& problem, const Result& result) {
   for (const Eigen::VectorXd& measure : measures_of_cases(problem, result)) {
     keep_largest(measure, cases);
   }
-  return first_named(problem, cases, result.message);
+  return first_in_conflict(problem, cases, result);
 }
 
 Json cases_document(const ProblemFile& problem, const Result& result) {
