@@ -9,6 +9,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/each_case.hpp"
+#include "cli/input/parse_arguments.hpp"
 #include "cli/interruption.hpp"
 #include "cli/rank_of_job.hpp"
 #include "cli/ranks.hpp"

@@ -6,6 +6,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/files/starters.hpp"
+#include "cli/input/parse_arguments.hpp"
 #include "core/base/error.hpp"
 #include "core/scene/sensitivity_settings.hpp"
 #include "optimization/backends.hpp"

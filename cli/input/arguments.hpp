@@ -9,10 +9,6 @@
 #include "core/base/parallel.hpp"
 #include "core/base/tasks.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace pleuel {
 
 /// What the user typed.
@@ -55,12 +51,5 @@ struct Arguments {
   /// Where lines appear while the work goes on: standard output belongs to JSON if that is wanted.
   std::FILE* progress() const { return wants_json ? stderr : stdout; }
 };
-
-/// @returns nothing if help or the version was asked for and printed
-/// @throws InputError for anything that is not a command line of pleuel
-std::optional<Arguments> parse_arguments(int argc, const char* const* argv);
-
-/// Declares the commands and their options, which will be written into the arguments.
-void add_commands(CLI::App& app, Arguments& arguments);
 
 }  // namespace pleuel

@@ -1,4 +1,4 @@
-#include "cli/input/arguments.hpp"
+#include "cli/input/parse_arguments.hpp"
 
 #include <algorithm>
 #include <charconv>
