@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "optimization/elastic_problem.hpp"
-#include "optimization/nonnegative_least_squares.hpp"
 #include "optimization/scaling.hpp"
+#include "optimization/violation_step.hpp"
 
 namespace pleuel {
 
@@ -24,10 +24,6 @@ constexpr double least_share = 0.1, good_share = 0.7;
 /// Decrease of the sum, relative, below which a step is none.
 constexpr double least_decrease = 1e-2;
 constexpr int most_idle_steps = 3;
-/// Of the squares of the step: makes it unique.
-constexpr double regularization = 1e-4;
-/// Of the sides of the box: hard enough that little is cut off.
-constexpr double box_weight = 30.0;
 
 /// x as coordinates u in which steps of order one are sensible: ln x for positive bounds, else x/s.
 class Coordinates {
@@ -83,44 +79,6 @@ class Coordinates {
   Eigen::VectorXd scales_;
 };
 
-/// r + A d ≤ 0 as well as can be, in a box.
-struct Linearized {
-  Eigen::VectorXd residuals;  ///< r = ψ + margin
-  Eigen::MatrixXd slopes;     ///< A = dψ/du
-
-  double sum(const Eigen::VectorXd& step) const {
-    return (residuals + slopes * step).cwiseMax(0.0).squaredNorm();
-  }
-};
-
-/// argmin Σ max(0, r + A d)² + λ‖d‖² within −down ≤ d ≤ up. Its dual is a least-squares problem of
-/// the multipliers μ ≥ 0, with the sides of the box as heavy rows:
-///
-///     d = −Aᵀ μ / λ,   μ = argmin ‖[Aᵀ/√λ; 1] μ − [0; r]‖²
-Eigen::VectorXd step_in_box(const Linearized& model, const Eigen::VectorXd& down,
-                            const Eigen::VectorXd& up) {
-  const Eigen::Index n = down.size();
-  const Eigen::VectorXd reach = model.slopes.cwiseAbs() * down.cwiseMax(up);
-  std::vector<Eigen::Index> near;  // rows that may be violated somewhere in the box
-  for (Eigen::Index k = 0; k < reach.size(); ++k) {
-    if (model.residuals[k] + reach[k] > 0.0) near.push_back(k);
-  }
-  const auto count = static_cast<Eigen::Index>(near.size());
-  Eigen::MatrixXd a(count + 2 * n, n);
-  a << model.slopes(near, Eigen::all), box_weight * Eigen::MatrixXd::Identity(n, n),
-      -box_weight * Eigen::MatrixXd::Identity(n, n);
-  Eigen::VectorXd r(a.rows());
-  r << model.residuals(near), -box_weight * up, -box_weight * down;
-  Eigen::MatrixXd matrix(n + a.rows(), a.rows());
-  matrix << a.transpose() / std::sqrt(regularization),
-      Eigen::MatrixXd::Identity(a.rows(), a.rows());
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(matrix.rows());
-  right.tail(a.rows()) = r;
-  const Eigen::VectorXd multipliers = nonnegative_least_squares(matrix, right);
-  const Eigen::VectorXd step = -a.transpose() * multipliers / regularization;
-  return step.cwiseMin(up).cwiseMax(-down);
-}
-
 class Restoration {
  public:
   Restoration(Problem& problem, const RestorationBudget& budget, EvaluatedDesign start)
@@ -172,9 +130,10 @@ class Restoration {
     return sum;
   }
 
-  Linearized linearized() const {
+  /// r = ψ + margin, A = dψ/du
+  LinearizedLimits linearized() const {
     const auto count = static_cast<Eigen::Index>(sides_.size());
-    Linearized model{Eigen::VectorXd(count), Eigen::MatrixXd(count, design_.x.size())};
+    LinearizedLimits model{Eigen::VectorXd(count), Eigen::MatrixXd(count, design_.x.size())};
     const Eigen::VectorXd slopes = coordinates_.slopes(design_.x);
     for (Eigen::Index k = 0; k < count; ++k) {
       const LimitSide& side = sides_[k];
@@ -190,10 +149,10 @@ class Restoration {
   /// Goes there if it helps. @returns the decrease, relative to that of the model; −1 if the design
   /// cannot be evaluated
   double try_step(double radius) {
-    const Linearized model = linearized();
+    const LinearizedLimits model = linearized();
     const Eigen::VectorXd u = coordinates_.of(design_.x);
     const auto [down, up] = coordinates_.room(u, radius);
-    const Eigen::VectorXd step = step_in_box(model, down, up);
+    const Eigen::VectorXd step = violation_step(model, down, up);
     const double before = sum(design_.evaluation);
     const double promised = before - model.sum(step);
     const Eigen::VectorXd x = coordinates_.design(u + step);

@@ -20,6 +20,10 @@ namespace {
 
 using Gradients = Eigen::MatrixXd;  // values × variables
 
+/// Of the parameter adjoints that are kept on the way back. More functions than fit into it take
+/// the way several times; its linear systems are cheap beside their many right-hand sides.
+constexpr Eigen::Index most_adjoint_bytes = 48 << 20;
+
 /// Part of a value: samples of one response that is no expression.
 struct Part {
   std::size_t response;
@@ -62,9 +66,10 @@ class SampledGradients {
   Gradients direct() {
     if (uses_.empty() || gradients_.cols() == 0) return gradients_;
     const int last_step = uses_.rbegin()->first;
+    const auto is_any = [](const Use&) { return true; };
     differentiate_until(last_step, mechanism_, analysis_.trajectory,
                         [&](int step, const State& state, const StateSensitivity& s) {
-                          for_each_use(step, state, [&](const Use& use) {
+                          for_each_use(step, state, is_any, [&](const Use& use) {
                             gradients_.row(use.value) +=
                                 part_.q.transpose() * s.q + part_.v.transpose() * s.v +
                                 part_.a.transpose() * s.a + part_.lambda.transpose() * s.lambda +
@@ -77,33 +82,50 @@ class SampledGradients {
   Gradients adjoint() {
     if (uses_.empty() || gradients_.cols() == 0) return gradients_;
     const std::vector<Eigen::Index> order = latest_first();
-    std::vector<Eigen::Index> column(static_cast<std::size_t>(gradients_.rows()), -1);
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      column[order[i]] = static_cast<Eigen::Index>(i);
-    }
-    Eigen::Index active = 0;
-    const auto functions = static_cast<int>(order.size());
-    const Eigen::MatrixXd found =
-        adjoint_gradients(mechanism_, analysis_.trajectory, functions,
-                          [&](int step, const State& state, StateAdjoint& adjoint) {
-                            for_each_use(step, state, [&](const Use& use) {
-                              const Eigen::Index j = column[use.value];
-                              active = std::max(active, j + 1);
-                              adjoint.q.col(j) += part_.q;
-                              adjoint.v.col(j) += part_.v;
-                              adjoint.a.col(j) += part_.a;
-                              adjoint.lambda.col(j) += part_.lambda;
-                              gradients_.row(use.value) += part_.design.transpose();
-                            });
-                            return static_cast<int>(active);
-                          });
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      gradients_.row(order[i]) += found.col(i).transpose();
+    const auto count = static_cast<Eigen::Index>(order.size());
+    const Eigen::Index most = most_functions_at_once();
+    for (Eigen::Index first = 0; first < count; first += most) {
+      add_adjoint({order.begin() + first, order.begin() + std::min(first + most, count)});
     }
     return gradients_;
   }
 
  private:
+  /// The parameter adjoints of each function wait for the end of the way back.
+  Eigen::Index most_functions_at_once() const {
+    const Eigen::Index numbers = mechanism_.system->parameter_adjoint_count();
+    const auto most = most_adjoint_bytes / static_cast<Eigen::Index>(sizeof(double));
+    return std::max<Eigen::Index>(1, most / std::max<Eigen::Index>(1, numbers));
+  }
+
+  /// @param order  values, those of which the last sample comes latest first
+  void add_adjoint(const std::vector<Eigen::Index>& order) {
+    std::vector<Eigen::Index> column(static_cast<std::size_t>(gradients_.rows()), -1);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      column[order[i]] = static_cast<Eigen::Index>(i);
+    }
+    Eigen::Index active = 0;
+    const auto set = [&](int step, const State& state, StateAdjoint& adjoint) {
+      for_each_use(
+          step, state, [&](const Use& use) { return column[use.value] >= 0; },
+          [&](const Use& use) {
+            const Eigen::Index j = column[use.value];
+            active = std::max(active, j + 1);
+            adjoint.q.col(j) += part_.q;
+            adjoint.v.col(j) += part_.v;
+            adjoint.a.col(j) += part_.a;
+            adjoint.lambda.col(j) += part_.lambda;
+            gradients_.row(use.value) += part_.design.transpose();
+          });
+      return static_cast<int>(active);
+    };
+    const Eigen::MatrixXd found =
+        adjoint_gradients(mechanism_, analysis_.trajectory, static_cast<int>(order.size()), set);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      gradients_.row(order[i]) += found.col(i).transpose();
+    }
+  }
+
   void add_value(std::size_t i, const SampledValue& value) {
     const auto row = static_cast<Eigen::Index>(i);
     if (analysis_.responses[value.response].expression()) {
@@ -137,12 +159,13 @@ class SampledGradients {
     return frequency_sensitivity(mechanism, start_->state, start_sensitivity_, mode).transpose();
   }
 
-  /// Calls visit(use) for what is sampled at a step, with its derivatives in part_.
-  template <class Visit>
-  void for_each_use(int step, const State& state, Visit visit) {
+  /// Calls visit(use) for what is sampled at a step and wanted, with its derivatives in part_.
+  template <class Wanted, class Visit>
+  void for_each_use(int step, const State& state, const Wanted& is_wanted, const Visit& visit) {
     const auto found = uses_.find(step);
     if (found == uses_.end()) return;
     for (const Use& use : found->second) {
+      if (!is_wanted(use)) continue;
       part_.set_zero();
       use.signal->add_gradient(state, use.channel, use.weight, part_);
       visit(use);

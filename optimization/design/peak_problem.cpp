@@ -20,8 +20,9 @@ double excess(const Constraint& constraint, double value) {
 
 /// By how much of its peak the objective is taken to depend on the design at least.
 constexpr double least_dependence = 1e-2;
-/// Of one limit. Where places alone are more, each has two windows still.
-constexpr int most_rows = 192, least_windows = 2;
+/// Of one limit, and of all limits together. Where places or limits alone are more, each has two
+/// windows still.
+constexpr int most_rows = 192, most_rows_of_all = 2048, least_windows = 2;
 
 /// Whether the response is the largest, or the smallest, of its windows of time: a limit on it is one
 /// on each of them.
@@ -149,9 +150,11 @@ PeakDivision PeakProblem::division_of(std::size_t load_case,
   const int places = place_count(file, response);
   if (is_fatigue(response)) return {1, places};
   const int windows = std::min(windows_, step_count(file.simulation) + 1);
-  if (places == 1) return {windows, 1};
   const int fewest = std::min(least_windows, windows);
-  return {std::clamp(most_rows / places, fewest, windows), places};
+  const auto limits = static_cast<int>(problem_.file().constraints.size());
+  const int rows = most_rows_of_all / std::max(1, limits);
+  if (places == 1) return {std::clamp(rows, fewest, windows), 1};
+  return {std::clamp(std::min(most_rows, rows) / places, fewest, windows), places};
 }
 
 void PeakProblem::add_rows(const Split& split, const Constraint& limits) {

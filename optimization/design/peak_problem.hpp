@@ -26,7 +26,7 @@ namespace pleuel {
 ///
 /// The same holds for the place where a peak is: the largest stress of a whole beam has a kink
 /// wherever it moves from one segment to another. A limit on it stands once for each window at each
-/// place (place_count()), with fewer windows where there are many places.
+/// place (place_count()), with fewer windows where there are many places, or many limits.
 ///
 /// A response that is made from several cases stands as one row, unless it is such a largest one:
 /// max(a[slow], b[fast]) is split into rows of these cases.
