@@ -83,9 +83,15 @@ if(PLEUEL_PCH AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     -Wno-maybe-uninitialized)
 endif()
 
-# ccache takes files with precompiled headers only if told that no macro reaches into them.
-if(PLEUEL_PCH AND CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache$")
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
-      CCACHE_SLOPPINESS=pch_defines,time_macros ${CMAKE_CXX_COMPILER_LAUNCHER})
-  add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+# Where ccache is the launcher: what one checkout has compiled serves all others, wherever they stand (of
+# which messages and debuggers see paths relative to the build); and files with precompiled headers
+# are taken, since no macro reaches into them.
+if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache$")
+  set(pleuel_ccache CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1)
+  if(PLEUEL_PCH)
+    list(APPEND pleuel_ccache CCACHE_SLOPPINESS=pch_defines,time_macros)
+    add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+  endif()
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+      ${CMAKE_COMMAND} -E env ${pleuel_ccache} ${CMAKE_CXX_COMPILER_LAUNCHER})
 endif()

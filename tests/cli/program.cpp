@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include "tests/support/source_folder.hpp"
+
 namespace pleuel::test {
 
 namespace fs = std::filesystem;
@@ -16,7 +18,9 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The page is that of the tests, whether the real one is built or not.
-constexpr const char* report_template = PLEUEL_SOURCE_DIR "/tests/cli/report_template.html";
+std::string report_template() {
+  return source_folder() + "/tests/cli/report_template.html";
+}
 
 /// For the shell; no word of these tests has a single quote.
 std::string quoted(const std::string& word) {
@@ -42,14 +46,14 @@ ProgramRun run_line(const fs::path& folder, const std::string& line) {
   const fs::path out = streams.path() / "out", err = streams.path() / "err";
   const std::string command =
       fmt::format("cd {} && export PLEUEL_REPORT_TEMPLATE={} && {{ {} {}\n}} >{} 2>{}",
-                  quoted(folder.string()), quoted(report_template), quoted(PLEUEL_PROGRAM), line,
+                  quoted(folder.string()), quoted(report_template()), quoted(PLEUEL_PROGRAM), line,
                   quoted(out.string()), quoted(err.string()));
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
 }
 
 std::string problem(const std::string& name) {
-  return std::string(PLEUEL_SOURCE_DIR) + "/problems/" + name + ".json";
+  return source_folder() + "/problems/" + name + ".json";
 }
 
 std::vector<std::string> quick() {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/cli/program.hpp"
+#include "tests/support/source_folder.hpp"
 
 /// Problem files that `new` writes to begin with, and the schema beside them.
 namespace pleuel::test {
@@ -47,7 +48,7 @@ TEST_P(Starter, IsCheckedWithoutWarning) {
 TEST_P(Starter, NamesTheSchemaThatLiesBesideIt) {
   const auto problem = nlohmann::json::parse(read_file(folder_.path() / "begin.json"));
   const fs::path schema = folder_.path() / problem.at("$schema").get<std::string>();
-  EXPECT_EQ(read_file(schema), read_file(PLEUEL_SOURCE_DIR "/problems/problem.schema.json"));
+  EXPECT_EQ(read_file(schema), read_file(source_folder() + "/problems/problem.schema.json"));
 }
 
 INSTANTIATE_TEST_SUITE_P(OfEachKind, Starter, testing::ValuesIn(kinds), [](const auto& kind) {
@@ -121,7 +122,7 @@ TEST(Show, IsInWordsWhereNoPageIsBuilt) {
 
 TEST(Schema, IsThatOfTheProblems) {
   const TemporaryFolder folder;
-  const std::string schema = read_file(PLEUEL_SOURCE_DIR "/problems/problem.schema.json");
+  const std::string schema = read_file(source_folder() + "/problems/problem.schema.json");
   EXPECT_EQ(run_program(folder.path(), {"schema"}).out, schema);
   EXPECT_EQ(run_program(folder.path(), {"schema", "my.schema.json"}).exit_code, 0);
   EXPECT_EQ(read_file(folder.path() / "my.schema.json"), schema);

@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/problem_reader.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace pleuel::test {
 namespace {
 
 TEST(HardFiles, AreReadAndSayWhyTheyAreHard) {
-  const std::filesystem::path folder =
-      std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems" / "hard";
+  const std::filesystem::path folder = std::filesystem::path(source_folder()) / "problems" / "hard";
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     EXPECT_GE(read_problem(entry.path()).description.size(), 80U) << entry.path();
   }

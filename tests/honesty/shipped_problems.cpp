@@ -1,6 +1,7 @@
 #include "tests/honesty/shipped_problems.hpp"
 
 #include "core/scene/problem_reader.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace pleuel::test {
 
@@ -18,7 +19,7 @@ const std::vector<ShippedProblem>& shipped_problems() {
 }
 
 ProblemFile read_shipped(const ShippedProblem& problem) {
-  return read_problem(std::string(PLEUEL_SOURCE_DIR) + "/problems/" + problem.name + ".json", {});
+  return read_problem(source_folder() + "/problems/" + problem.name + ".json", {});
 }
 
 Eigen::VectorXd optimum_of(const ShippedProblem& problem) {

@@ -13,6 +13,7 @@
 #include "optimization/backends.hpp"
 #include "optimization/design/peak_problem.hpp"
 #include "tests/optimization/backend_names.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace pleuel::test {
 namespace {
@@ -184,7 +185,7 @@ TEST(SolveDesign, NamesThePeaksThatTieWhereNothingIsVerified) {
 
 /// 6.78248 N m by all three backends; what makes it an optimum is the audit.
 TEST(SolveDesign, MinimizesTheDriveTorqueOfTheFourBar) {
-  const auto path = std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems" / "four_bar.json";
+  const auto path = std::filesystem::path(source_folder()) / "problems" / "four_bar.json";
   DesignProblem problem(read_problem(path, {"/objective/minimize=torque_peak"}));
   const Result result = solve_design(problem, {.backend = "nlopt-slsqp"});
   EXPECT_EQ(to_string(result.status), "verified") << result.message;

@@ -9,6 +9,7 @@
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/design/design_solve.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace {
 
@@ -27,8 +28,7 @@ ProblemFile tube_problem(const std::vector<std::string>& more = {}) {
       "/constraints/rod_stiffness/upper=2 mm",
       "/constraints/rod_strength/upper=1 GPa"};
   overrides.insert(overrides.end(), more.begin(), more.end());
-  return read_problem(std::string(PLEUEL_SOURCE_DIR) + "/problems/slider_crank_round.json",
-                      overrides);
+  return read_problem(source_folder() + "/problems/slider_crank_round.json", overrides);
 }
 
 Result optimum_of(ProblemFile file, const std::string& backend) {

@@ -7,14 +7,14 @@
 
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_solve.hpp"
+#include "tests/support/source_folder.hpp"
 
 /// How far optima are from those of finer simulations, against optimizing with these.
 namespace pleuel::test {
 namespace {
 
 Result optimum(const std::string& name, const std::vector<std::string>& overrides) {
-  DesignProblem design(
-      read_problem(std::string(PLEUEL_SOURCE_DIR) + "/problems/" + name + ".json", overrides));
+  DesignProblem design(read_problem(source_folder() + "/problems/" + name + ".json", overrides));
   return solve_design(design, {});
 }
 
@@ -61,9 +61,8 @@ TEST(OptimumError, IsComparedWithTheTargetOfTheFile) {
 /// Changes of the objective count as they are, those of a limited response by what a limit that is
 /// tighter by as much makes of the optimum.
 TEST(OptimumError, IsTheSumOfChangesByTheirPrices) {
-  DesignProblem design(
-      read_problem(std::string(PLEUEL_SOURCE_DIR) + "/problems/slider_crank_round.json",
-                   {"/simulation/step=0.2 ms"}));
+  DesignProblem design(read_problem(source_folder() + "/problems/slider_crank_round.json",
+                                    {"/simulation/step=0.2 ms"}));
   const Result result = solve_design(design, {});
   Eigen::VectorXd changes = Eigen::VectorXd::Zero(Eigen::Index(design.file().responses.size()));
   const auto index_of = [&](const std::string& name) {

@@ -13,6 +13,7 @@
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/design/design_solve.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace {
 
@@ -73,7 +74,7 @@ class OptimumOfProblem : public testing::TestWithParam<Case> {};
 TEST_P(OptimumOfProblem, IsFoundByEveryBackendFromEveryStart) {
   const KnownProblem& known = known_problems()[GetParam().problem];
   const auto path =
-      std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems" / (std::string(known.name) + ".json");
+      std::filesystem::path(source_folder()) / "problems" / (std::string(known.name) + ".json");
   ProblemFile file = read_problem(path);
   const std::vector<double>& start = known.starts[GetParam().start];
   ASSERT_EQ(start.size(), file.variables.size());
@@ -97,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(SliderCranks, OptimumOfProblem, testing::ValuesIn(all_c
 /// fail to find the optimum, but must not call anything else one; the others find it.
 TEST(OptimumFromAHeavyStart, IsFoundOrNotCalledOne) {
   for (const char* backend : {"nlopt-mma", "nlopt-slsqp", "ipopt"}) {
-    ProblemFile file = read_problem(std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems" /
+    ProblemFile file = read_problem(std::filesystem::path(source_folder()) / "problems" /
                                     "slider_crank_round.json");
     file.variables[0].start = 0.045;
     file.variables[1].start = 0.020;

@@ -7,6 +7,7 @@
 
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_solve.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace {
 
@@ -15,7 +16,7 @@ using namespace pleuel;
 /// A quick variant of a problem file: coarse, and over in 20 ms.
 ProblemFile quick_problem(const char* name) {
   const auto path =
-      std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems" / (std::string(name) + ".json");
+      std::filesystem::path(source_folder()) / "problems" / (std::string(name) + ".json");
   return read_problem(path, {"/simulation/step=0.2 ms", "/simulation/end_time=20 ms",
                              "/scene/joints/bearing/drive/ramp=20 ms"});
 }

@@ -4,6 +4,7 @@
 #include "optimization/design/design_problem.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "studies/uncertainty.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace {
 
@@ -13,7 +14,7 @@ using namespace pleuel;
 /// and over in 20 ms.
 ProblemFile robust_problem() {
   return read_problem(
-      PLEUEL_SOURCE_DIR "/problems/slider_crank_round.json",
+      source_folder() + "/problems/slider_crank_round.json",
       {"/simulation/step=0.2 ms", "/simulation/end_time=20 ms",
        "/scene/joints/bearing/drive/ramp=20 ms", "/constraints/crank_strength/deviations=3",
        "/constraints/rod_strength/deviations=3", "/constraints/rod_stiffness/deviations=3",

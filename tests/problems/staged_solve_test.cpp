@@ -9,6 +9,7 @@
 
 #include "core/response/effect_measurement.hpp"
 #include "core/scene/problem_reader.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace pleuel {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 constexpr double known_optimum = 0.319445;
 
 ProblemFile slider_crank(const std::vector<std::string>& overrides) {
-  return read_problem(std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems" / "slider_crank.json",
+  return read_problem(std::filesystem::path(source_folder()) / "problems" / "slider_crank.json",
                       overrides);
 }
 

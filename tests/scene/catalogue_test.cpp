@@ -5,6 +5,7 @@
 
 #include "core/scene/problem_reader.hpp"
 #include "tests/scene/good_problem.hpp"
+#include "tests/support/source_folder.hpp"
 
 /// The shipped catalogue against the geometry of its shapes.
 namespace pleuel::test {
@@ -18,7 +19,7 @@ Shape find_section(const std::string& name) {
   document["scene"]["bodies"]["crank"]["section"]["catalogue"] = name;
   document["scene"]["catalogue"] = "catalogue.json";
   const ProblemFile problem =
-      read_problem_text(document.dump(), std::string(PLEUEL_SOURCE_DIR) + "/problems/any.json");
+      read_problem_text(document.dump(), source_folder() + "/problems/any.json");
   return std::get<Shape>(std::get<BeamBody>(problem.scene.bodies[0].shape).segments[0].section);
 }
 

@@ -5,6 +5,7 @@
 #include "core/base/error.hpp"
 #include "core/base/value_path.hpp"
 #include "core/scene/problem_reader.hpp"
+#include "tests/support/source_folder.hpp"
 
 /// Sizes and sections that are chosen from lists.
 namespace pleuel::test {
@@ -16,7 +17,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const std::string file = std::string(PLEUEL_SOURCE_DIR) + "/problems/any.json";
+const std::string file = source_folder() + "/problems/any.json";
 
 /// A beam with a section, and a variable.
 Json beam_document(const std::string& section, const std::string& variable) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/problem_reader.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace pleuel::test {
 namespace {
@@ -15,7 +16,7 @@ namespace fs = std::filesystem;
 /// struct are named, the compiler sees.
 TEST(PackedProblem, IsTheSameWhenItIsUnpacked) {
   int files = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(PLEUEL_SOURCE_DIR "/problems")) {
+  for (const auto& entry : fs::recursive_directory_iterator(source_folder() + "/problems")) {
     const fs::path& path = entry.path();
     if (path.extension() != ".json" || path.string().find("schema") != std::string::npos) continue;
     ProblemFile problem;
@@ -32,7 +33,7 @@ TEST(PackedProblem, IsTheSameWhenItIsUnpacked) {
 }
 
 TEST(PackedProblem, KeepsWhatNoFileSays) {
-  ProblemFile problem = read_problem(PLEUEL_SOURCE_DIR "/problems/slider_crank_round.json");
+  ProblemFile problem = read_problem(source_folder() + "/problems/slider_crank_round.json");
   problem.effects.decisions.emplace();
   problem.effects.decisions->measured[{"rod", "elasticity"}] = {false, 1e-3, "rod_bow"};
   problem.simulation.checks_resolution = false;

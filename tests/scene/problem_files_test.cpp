@@ -8,6 +8,7 @@
 #include "core/scene/problem_reader.hpp"
 #include "core/scene/response_quantity.hpp"
 #include "tests/scene/good_problem.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace pleuel::test {
 namespace {
@@ -16,7 +17,7 @@ using std::numbers::pi;
 using testing::ElementsAre;
 
 ProblemFile read_file(const std::string& name) {
-  return read_problem(std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems" / name);
+  return read_problem(std::filesystem::path(source_folder()) / "problems" / name);
 }
 
 const BeamBody& beam_of(const ProblemFile& problem, std::size_t body) {
@@ -184,7 +185,7 @@ TEST(ExudynSliderCrank, HasTheDataOfTheReference) {
 
 TEST(ExudynSliderCrank, TakesTheOtherRodByAnOverride) {
   const ProblemFile problem =
-      read_problem(std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems/slider_crank_exudyn.json",
+      read_problem(std::filesystem::path(source_folder()) / "problems/slider_crank_exudyn.json",
                    {"/scene/bodies/rod/section/diameter=30 mm"});
   EXPECT_EQ(std::get<CircleSection>(beam_of(problem, 1).segments[0].section).diameter.constant,
             0.03);

@@ -12,11 +12,12 @@
 
 #include "core/scene/problem_reader.hpp"
 #include "tests/scene/good_problem.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace pleuel::test {
 namespace {
 
-const std::filesystem::path problems = std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems";
+const std::filesystem::path problems = std::filesystem::path(source_folder()) / "problems";
 
 nlohmann::json load(const std::filesystem::path& path) {
   std::ifstream stream(path);

@@ -6,6 +6,7 @@
 #include "core/scene/material_library.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "tests/scene/good_problem.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace pleuel::test {
 namespace {
@@ -76,7 +77,7 @@ TEST(SectionReading, KnowsTheGeneralSection) {
 /// The good problem in the folder of the shipped catalogue.
 ProblemFile read_beside_catalogue(Json document) {
   document["scene"]["catalogue"] = "catalogue.json";
-  return read_problem_text(document.dump(), std::string(PLEUEL_SOURCE_DIR) + "/problems/any.json");
+  return read_problem_text(document.dump(), source_folder() + "/problems/any.json");
 }
 
 TEST(Catalogue, StandsForTheSectionOfThatName) {
@@ -92,7 +93,7 @@ TEST(Catalogue, NameCanBeOverridden) {
   Json document = edited("/scene/bodies/rod/segments/1/section", R"({"catalogue": "round 20"})");
   document["scene"]["catalogue"] = "catalogue.json";
   const ProblemFile problem =
-      read_problem_text(document.dump(), std::string(PLEUEL_SOURCE_DIR) + "/problems/any.json",
+      read_problem_text(document.dump(), source_folder() + "/problems/any.json",
                         {"/scene/bodies/rod/segments/1/section/catalogue=round 25"});
   const auto circle = std::get<CircleSection>(
       std::get<BeamBody>(problem.scene.bodies[1].shape).segments[1].section);

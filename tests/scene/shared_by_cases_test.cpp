@@ -9,6 +9,7 @@
 #include "core/scene/load_cases.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "tests/scene/good_problem.hpp"
+#include "tests/support/source_folder.hpp"
 
 /// What load cases must have in common, and names that would stand for two things.
 namespace pleuel::test {
@@ -91,7 +92,7 @@ TEST(SharedByCases, AreTheChoicesOfVariables) {
 /// Read in the folder of the shipped problems.
 std::string complaint_with_catalogue(const Json& document) {
   try {
-    read_problem_text(document.dump(), std::string(PLEUEL_SOURCE_DIR) + "/problems/any.json");
+    read_problem_text(document.dump(), source_folder() + "/problems/any.json");
   } catch (const InputError& error) {
     return error.what();
   }

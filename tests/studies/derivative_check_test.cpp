@@ -11,6 +11,7 @@
 #include "sensitivity/sampled_gradients.hpp"
 #include "studies/noise.hpp"
 #include "tests/studies/quick_problem.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace pleuel {
 namespace {
@@ -117,7 +118,7 @@ TEST(DerivativeCheck, DoesNotBlameResponsesThatAreNoise) {
 /// is smooth in the design, and part of the differences but not of the gradient.
 ProblemFile loose_problem() {
   return read_problem(
-      PLEUEL_SOURCE_DIR "/problems/four_bar.json",
+      source_folder() + "/problems/four_bar.json",
       {"/simulation/step=1 ms", "/simulation/end_time=30 ms", "/simulation/newton_tolerance=1e-3"});
 }
 

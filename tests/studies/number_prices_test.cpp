@@ -10,6 +10,7 @@
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "studies/priced_numbers.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace pleuel::test {
 namespace {
@@ -153,7 +154,7 @@ TEST(PricedNumbers, LeaveOutPointsThatFormulasMove) {
 
 /// Binding a number to a variable that is fixed at its value changes no response.
 TEST(PricedNumbers, LeaveTheMechanismAsItIsWhenTheyAreBound) {
-  const std::string path = std::string(PLEUEL_SOURCE_DIR) + "/problems/slider_crank.json";
+  const std::string path = source_folder() + "/problems/slider_crank.json";
   const ProblemFile problem = read_problem(path);
   std::ifstream stream(path);
   const ProblemText text{{std::istreambuf_iterator<char>(stream), {}}, path};
@@ -173,7 +174,7 @@ TEST(PricedNumbers, LeaveTheMechanismAsItIsWhenTheyAreBound) {
 /// Re-optimized with a little more and less of each number: the optimum of the flexible
 /// slider-crank, two limits and two proportions decide it.
 TEST(NumberPrices, AreThoseOfOptimizingAnew) {
-  const std::string path = std::string(PLEUEL_SOURCE_DIR) + "/problems/slider_crank.json";
+  const std::string path = source_folder() + "/problems/slider_crank.json";
   std::ifstream stream(path);
   const std::string file{std::istreambuf_iterator<char>(stream), {}};
   const std::string coarse = "/simulation/step=0.2 ms";

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/scene/problem_reader.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace pleuel::test {
 
@@ -15,8 +16,7 @@ inline ProblemFile quick_problem(const std::vector<std::string>& more = {}) {
                                         "/scene/joints/bearing/drive/ramp=20 ms",
                                         "/optimizer/backend=nlopt-mma"};
   overrides.insert(overrides.end(), more.begin(), more.end());
-  return read_problem(std::string(PLEUEL_SOURCE_DIR) + "/problems/slider_crank_round.json",
-                      overrides);
+  return read_problem(source_folder() + "/problems/slider_crank_round.json", overrides);
 }
 
 /// What the command accuracy tries.

@@ -5,12 +5,13 @@
 #include <gmock/gmock.h>
 
 #include "core/base/error.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace pleuel {
 namespace {
 
 std::filesystem::path hard(const std::string& name) {
-  return std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems/hard" / (name + ".json");
+  return std::filesystem::path(source_folder()) / "problems/hard" / (name + ".json");
 }
 
 TEST(Stability, RunsEveryFileWithEveryFormulationAndScheme) {

@@ -3,12 +3,12 @@
 #include <Eigen/Core>
 
 #include "core/scene/problem_reader.hpp"
+#include "tests/support/source_folder.hpp"
 
 /// A problem file of the repository, with overrides.
 inline pleuel::ProblemFile sample_problem(const std::string& name,
                                           const std::vector<std::string>& overrides = {}) {
-  return pleuel::read_problem(std::string(PLEUEL_SOURCE_DIR "/problems/") + name + ".json",
-                              overrides);
+  return pleuel::read_problem(pleuel::source_folder() + "/problems/" + name + ".json", overrides);
 }
 
 inline Eigen::Index response_index(const pleuel::ProblemFile& problem, const std::string& name) {

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/source_folder.hpp"
 namespace {
 
 namespace fs = std::filesystem;
@@ -20,7 +21,7 @@ struct Include {
 /// All includes of the sources outside tests/.
 std::vector<Include> read_includes() {
   std::vector<Include> includes;
-  const fs::path root = PLEUEL_SOURCE_DIR;
+  const fs::path root = pleuel::source_folder();
   for (const char* top :
        {"core", "sensitivity", "optimization", "record", "studies", "picture", "mpi", "cli"}) {
     if (!fs::exists(root / top)) continue;
@@ -180,7 +181,8 @@ TEST(Rooms, OfTheCommandKnowOnlyThoseBefore) {
            rooms.begin();
   };
   for (const auto& [file, folder, header] : read_includes()) {
-    if (!file.starts_with("cli/") || !fs::exists(fs::path(PLEUEL_SOURCE_DIR) / header)) continue;
+    if (!file.starts_with("cli/") || !fs::exists(fs::path(pleuel::source_folder()) / header))
+      continue;
     if (!header.starts_with("cli/")) continue;
     ASSERT_LT(number(file), std::ssize(rooms)) << file << " is in no room";
     EXPECT_LE(number(header), number(file)) << file << " includes " << header;

@@ -5,6 +5,7 @@
 
 #include "core/response/analysis.hpp"
 #include "tests/support/problem_runs.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace {
 
@@ -12,7 +13,7 @@ using namespace pleuel;
 
 /// Columns of tests/data/…: time, angle, slider x, slider v, deflection, chord, torque.
 Eigen::MatrixXd read_reference(int rod_diameter) {
-  std::ifstream stream(PLEUEL_SOURCE_DIR "/tests/data/slider_crank_exudyn_rod" +
+  std::ifstream stream(source_folder() + "/tests/data/slider_crank_exudyn_rod" +
                        std::to_string(rod_diameter) + "mm.csv");
   std::vector<double> numbers;
   std::string line;

@@ -10,6 +10,7 @@
 #include "core/scene/invariants_file.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/support/problem_runs.hpp"
+#include "tests/support/source_folder.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 /// A member that is taken out of a problem by its invariants and put back as a body that is known
@@ -48,7 +49,7 @@ constexpr const char* responses = R"({
 /// The slider-crank for 8 ms of a ramp to 200 rad/s, steps of 0.1 ms; with everything that
 /// responses can ask of its rod, and a weight on a place between nodes.
 Json slider_crank() {
-  std::ifstream stream(PLEUEL_SOURCE_DIR "/problems/slider_crank.json");
+  std::ifstream stream(source_folder() + "/problems/slider_crank.json");
   Json document = Json::parse(stream);
   document["simulation"]["end_time"] = 8e-3;
   document["simulation"]["step"] = 1e-4;
@@ -403,9 +404,8 @@ TEST_F(Exchange, SaysWhatAFileCannotDo) {
 
 /// Runs docs/invariants/planar_rod.py.
 void write_rod_of_another_program(const std::filesystem::path& path) {
-  const std::string command = PLEUEL_PYTHON " '" PLEUEL_SOURCE_DIR
-                                            "/docs/invariants/planar_rod.py' '" +
-                              path.string() + "'";
+  const std::string command = PLEUEL_PYTHON " '" + source_folder() +
+                              "/docs/invariants/planar_rod.py' '" + path.string() + "'";
   ASSERT_EQ(std::system(command.c_str()), 0) << command;
 }
 
@@ -442,7 +442,7 @@ TEST_F(Exchange, TakesTheRodOfAnotherProgram) {
 /// The example of the documentation against the problem it was made from; tolerances as above.
 TEST_F(Exchange, ExampleOfTheDocumentationIsTheSliderCrank) {
   write_rod_of_another_program(folder_.path() / "rod.json");
-  std::filesystem::copy(PLEUEL_SOURCE_DIR "/docs/invariants/slider_crank.json",
+  std::filesystem::copy(source_folder() + "/docs/invariants/slider_crank.json",
                         folder_.path() / "example.json");
   const std::vector<std::string> quick = {"/simulation/end_time=10 ms", "/simulation/step=0.1 ms",
                                           "/scene/joints/bearing/drive/ramp=10 ms"};

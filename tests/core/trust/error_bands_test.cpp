@@ -9,6 +9,7 @@
 #include "core/response/shown_history.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/doubts.hpp"
+#include "tests/support/source_folder.hpp"
 
 /// Bands around histories against runs at an eighth of the step with four times the elements.
 namespace pleuel {
@@ -26,7 +27,7 @@ struct Coverage {
 /// Of all histories of a problem.
 Coverage coverage(const std::string& name, const std::vector<std::string>& overrides) {
   const ProblemFile problem =
-      read_problem(std::string(PLEUEL_SOURCE_DIR) + "/problems/" + name + ".json", overrides);
+      read_problem(source_folder() + "/problems/" + name + ".json", overrides);
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
@@ -76,7 +77,7 @@ TEST(ErrorBands, HoldTheTrueHistories) {
 
 TEST(ErrorBands, AreNotMadeWhereNothingIsChecked) {
   const ProblemFile problem =
-      read_problem(std::string(PLEUEL_SOURCE_DIR) + "/problems/robot_arm.json",
+      read_problem(source_folder() + "/problems/robot_arm.json",
                    {"/simulation/step=4 ms", "/simulation/resolution_check=false"});
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
