@@ -59,7 +59,7 @@ bool Relay::take_messages() {
     MPI_Iprobe(MPI_ANY_SOURCE, tag, MPI_COMM_WORLD, &is_there, &status);
     if (is_there == 0) return !is_first;
     MPI_Get_count(&status, MPI_BYTE, &size);
-    std::string bytes(static_cast<std::size_t>(size), '\0');
+    std::string bytes(size, '\0');
     MPI_Recv(bytes.data(), size, MPI_BYTE, status.MPI_SOURCE, tag, MPI_COMM_WORLD,
              MPI_STATUS_IGNORE);
     Pipe& pipe = pipe_to(status.MPI_SOURCE);
@@ -116,7 +116,7 @@ void Relay::write(Pipe& pipe) {
     if (count <= 0) {
       pipe.socket_listens = false;
     } else {
-      pipe.to_socket.erase(0, static_cast<std::size_t>(count));
+      pipe.to_socket.erase(0, count);
     }
   }
   if (!pipe.socket_listens) pipe.to_socket.clear();

@@ -28,11 +28,11 @@ std::string broken_limits(const Problem& problem, const Eigen::VectorXd& constra
                           const Eigen::VectorXd& scales, double allowed) {
   std::vector<BrokenLimit> broken;
   for (std::size_t row = 0; row < problem.constraints().size(); ++row) {
-    const auto j = static_cast<Eigen::Index>(row);
     const Constraint& limits = problem.constraints()[row];
-    const double excess = std::max(constraints[j] - limits.upper, limits.lower - constraints[j]);
-    if (excess <= allowed * scales[j]) continue;
-    broken.push_back({limits.name, describe(problem, row, constraints[j]), excess / scales[j]});
+    const double excess =
+        std::max(constraints[row] - limits.upper, limits.lower - constraints[row]);
+    if (excess <= allowed * scales[row]) continue;
+    broken.push_back({limits.name, describe(problem, row, constraints[row]), excess / scales[row]});
   }
   std::stable_sort(broken.begin(), broken.end(),
                    [](const BrokenLimit& one, const BrokenLimit& other) {

@@ -69,7 +69,7 @@ Evaluation ElasticProblem::evaluate(const Eigen::VectorXd& xz, Request request) 
   }
   for (std::size_t k = 0; k < sides_.size(); ++k) {
     const LimitSide& side = sides_[k];
-    const auto row = static_cast<Eigen::Index>(k);
+    const Eigen::Index row = k;
     const double violation = side.violation(inner.constraints);
     evaluation.constraints[row] =
         1.0 + damped_violation(violation) - (is_elastic_[k] ? evaluation.objective : 0.0);

@@ -33,8 +33,8 @@ std::string find_not_finite(const Problem& problem, const Evaluation& evaluation
 
 [[maybe_unused]] bool has_right_shape(const Problem& problem, const Evaluation& evaluation,
                                       Request request) {
-  const auto variables = static_cast<Eigen::Index>(problem.variables().size());
-  const auto constraints = static_cast<Eigen::Index>(problem.constraints().size());
+  const Eigen::Index variables = problem.variables().size();
+  const Eigen::Index constraints = problem.constraints().size();
   if (evaluation.constraints.size() != constraints) return false;
   if (request == Request::values) return true;
   return evaluation.objective_gradient.size() == variables &&

@@ -81,7 +81,7 @@ class MultiplierSystem {
 
   /// λ of the system [W (s ∘ ∇g); diag(slack ‖W (s ∘ ∇g)‖ / ‖s ∘ ∇g‖)] λ = [−W (s ∘ ∇f); 0].
   Eigen::VectorXd solve(const Eigen::VectorXd& weights) const {
-    const auto count = static_cast<Eigen::Index>(limits_.size());
+    const Eigen::Index count = limits_.size();
     const Eigen::Index variables = right_.size();
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(variables + count, count);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(variables + count);

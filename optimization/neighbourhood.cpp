@@ -80,7 +80,7 @@ class Rows {
       const double length = row.norm();
       if (length == 0.0) continue;
       indices_.push_back(j);
-      const auto count = static_cast<Eigen::Index>(indices_.size());
+      const Eigen::Index count = indices_.size();
       matrix_.conservativeResize(count, s.size());
       lengths_.conservativeResize(count);
       matrix_.row(count - 1) = row.transpose() / length;
@@ -108,8 +108,8 @@ Eigen::MatrixXd tangent_basis(const Eigen::MatrixXd& rows, const Holding& holdin
   for (std::size_t i = 0; i < holding.variables.size(); ++i) {
     if (!holding.variables[i]) free.push_back(i);
   }
-  const auto variables = static_cast<Eigen::Index>(holding.variables.size());
-  const auto count = static_cast<Eigen::Index>(free.size());
+  const Eigen::Index variables = holding.variables.size();
+  const Eigen::Index count = free.size();
   Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(variables, count);
   for (Eigen::Index k = 0; k < count; ++k) basis(free[k], k) = 1.0;
   if (rows.rows() == 0 || count == 0) return basis;

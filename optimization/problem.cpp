@@ -66,9 +66,8 @@ Eigen::VectorXd checked_start(const Problem& problem) {
 std::string describe_design(const Problem& problem, const Eigen::VectorXd& x) {
   std::string text;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const auto variable = static_cast<std::size_t>(i);
-    text += fmt::format("{}{} = {}", i == 0 ? "" : ", ", problem.variables()[variable].name,
-                        problem.variable_text(variable, x[i]));
+    text += fmt::format("{}{} = {}", i == 0 ? "" : ", ", problem.variables()[i].name,
+                        problem.variable_text(i, x[i]));
   }
   return text;
 }

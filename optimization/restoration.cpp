@@ -132,7 +132,7 @@ class Restoration {
 
   /// r = ψ + margin, A = dψ/du
   LinearizedLimits linearized() const {
-    const auto count = static_cast<Eigen::Index>(sides_.size());
+    const Eigen::Index count = sides_.size();
     LinearizedLimits model{Eigen::VectorXd(count), Eigen::MatrixXd(count, design_.x.size())};
     const Eigen::VectorXd slopes = coordinates_.slopes(design_.x);
     for (Eigen::Index k = 0; k < count; ++k) {

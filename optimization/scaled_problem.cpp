@@ -35,7 +35,7 @@ ScaledProblem::ScaledProblem(EvaluationCache& cache, const EvaluatedDesign& arou
   }
   const std::vector<Constraint>& constraints = cache.problem().constraints();
   for (std::size_t j = 0; j < constraints.size(); ++j) {
-    add_rows(static_cast<Eigen::Index>(j), constraints[j]);
+    add_rows(j, constraints[j]);
   }
   update_stop();
 }
@@ -140,7 +140,7 @@ Eigen::VectorXd ScaledProblem::values(const std::vector<Row>& rows,
 
 Eigen::MatrixXd ScaledProblem::jacobian(const std::vector<Row>& rows,
                                         const Evaluation& evaluation) const {
-  Eigen::MatrixXd result(static_cast<Eigen::Index>(rows.size()), variables());
+  Eigen::MatrixXd result(rows.size(), variables());
   for (Eigen::Index k = 0; k < result.rows(); ++k) {
     const auto& [j, sign, limit] = rows[k];
     const Eigen::VectorXd gradient =

@@ -36,7 +36,7 @@ double uniform(std::mt19937& engine) {
 }
 
 std::vector<int> shuffled(int count, std::mt19937& engine) {
-  std::vector<int> order(static_cast<std::size_t>(count));
+  std::vector<int> order(count);
   std::iota(order.begin(), order.end(), 0);
   for (int i = count - 1; i > 0; --i) {
     std::swap(order[i], order[static_cast<std::size_t>(uniform(engine) * (i + 1))]);
@@ -49,8 +49,8 @@ std::vector<int> shuffled(int count, std::mt19937& engine) {
 std::vector<Eigen::VectorXd> latin_hypercube(const std::vector<Variable>& variables, int count,
                                              unsigned seed) {
   std::mt19937 engine(seed);
-  const auto n = static_cast<Eigen::Index>(variables.size());
-  std::vector<Eigen::VectorXd> designs(static_cast<std::size_t>(count), Eigen::VectorXd(n));
+  const Eigen::Index n = variables.size();
+  std::vector<Eigen::VectorXd> designs(count, Eigen::VectorXd(n));
   for (Eigen::Index i = 0; i < n; ++i) {
     const Variable& variable = variables[i];
     const auto [lower, upper] = range_of(variable);

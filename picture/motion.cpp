@@ -102,12 +102,12 @@ class BodySampler {
   void see(const State& state, Eigen::Index instant) {
     for (std::size_t i = 0; i < positions_.size(); ++i) {
       positions_[i]->observe(state, number_);
-      motion_.positions(static_cast<Eigen::Index>(i), instant) = number_(0);
+      motion_.positions(i, instant) = number_(0);
     }
     for (std::size_t i = 0; i < stresses_.size(); ++i) {
       points_.resize(stresses_[i]->channels());
       stresses_[i]->observe(state, points_);
-      motion_.stress(static_cast<Eigen::Index>(i), instant) = points_.maxCoeff();
+      motion_.stress(i, instant) = points_.maxCoeff();
     }
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       motion_.rotations.block<4, 1>(4 * static_cast<Eigen::Index>(i), instant) =
@@ -146,7 +146,7 @@ class BodySampler {
 
   void add_imported_places(const Model& model) {
     const BodyPlaces& places = parts_.front()->places;
-    std::vector<int> order(static_cast<std::size_t>(places.size()));
+    std::vector<int> order(places.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(),
                      [&](int a, int b) { return places.positions(0, a) < places.positions(0, b); });
@@ -177,7 +177,7 @@ class BodySampler {
 }  // namespace
 
 Motion sample_motion(const Scene& scene, const Analysis& analysis, const std::vector<int>& steps) {
-  const auto instants = static_cast<Eigen::Index>(steps.size());
+  const Eigen::Index instants = steps.size();
   std::vector<BodySampler> samplers;
   for (const Body& body : scene.bodies) samplers.emplace_back(body, analysis.model, instants);
   Motion motion;

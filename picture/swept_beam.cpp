@@ -98,13 +98,12 @@ class Sweep {
   }
 
   SweptSurface take() {
-    const auto count = static_cast<Eigen::Index>(points_.size());
+    const Eigen::Index count = points_.size();
     surface_.points.resize(3, count);
     for (Eigen::Index i = 0; i < count; ++i) {
       surface_.points.col(i) = points_[i];
     }
-    surface_.stress = Eigen::Map<const Eigen::VectorXd>(stress_.data(),
-                                                        static_cast<Eigen::Index>(stress_.size()));
+    surface_.stress = Eigen::Map<const Eigen::VectorXd>(stress_.data(), stress_.size());
     return std::move(surface_);
   }
 

@@ -9,7 +9,7 @@ namespace pleuel {
 std::vector<int> thinned(const Eigen::VectorXd& values, int most, const std::vector<int>& kept) {
   const int points = static_cast<int>(values.size());
   if (points <= most) {
-    std::vector<int> all(static_cast<std::size_t>(points));
+    std::vector<int> all(points);
     std::iota(all.begin(), all.end(), 0);
     return all;
   }
@@ -19,8 +19,8 @@ std::vector<int> thinned(const Eigen::VectorXd& values, int most, const std::vec
   }
   const long stretches = std::max(1, most / 2);
   for (long i = 0; i < stretches; ++i) {
-    const auto begin = static_cast<Eigen::Index>(i * points / stretches);
-    const auto end = static_cast<Eigen::Index>((i + 1) * points / stretches);
+    const Eigen::Index begin = i * points / stretches;
+    const Eigen::Index end = (i + 1) * points / stretches;
     Eigen::Index lowest = 0, highest = 0;
     values.segment(begin, end - begin).minCoeff(&lowest);
     values.segment(begin, end - begin).maxCoeff(&highest);

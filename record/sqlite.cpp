@@ -96,8 +96,7 @@ std::string Statement::text(int column) const {
 std::string Statement::blob(int column) const {
   const void* data = ::sqlite3_column_blob(handle_, column);
   const int size = ::sqlite3_column_bytes(handle_, column);
-  return data ? std::string(static_cast<const char*>(data), static_cast<std::size_t>(size))
-              : std::string();
+  return data ? std::string(static_cast<const char*>(data), size) : std::string();
 }
 
 void Statement::check(int code) const {

@@ -23,7 +23,7 @@ const DesignVariable& variable(const ProblemFile& problem, Eigen::Index j) {
 /// One column a variable. @param column  called in several threads
 Eigen::MatrixXd collect(Eigen::Index variables, int threads,
                         const std::function<Eigen::VectorXd(Eigen::Index)>& column) {
-  std::vector<Eigen::VectorXd> columns(static_cast<std::size_t>(variables));
+  std::vector<Eigen::VectorXd> columns(variables);
   for_each_in_parallel(static_cast<int>(variables), threads,
                        [&](int j) { columns[j] = column(j); });
   Eigen::MatrixXd result(columns.empty() ? 0 : columns.front().size(), variables);

@@ -51,11 +51,10 @@ class FrequencySensitivity {
     std::vector<Eigen::MatrixXcd> changes = changes_by_design();
     Eigen::VectorXd result(changes.size());
     for (std::size_t j = 0; j < changes.size(); ++j) {
-      const auto column = static_cast<Eigen::Index>(j);
-      changes[j] += change_along({sensitivity.q.col(column), sensitivity.v.col(column),
-                                  sensitivity.a.col(column), sensitivity.lambda.col(column)});
+      changes[j] += change_along({sensitivity.q.col(j), sensitivity.v.col(j), sensitivity.a.col(j),
+                                  sensitivity.lambda.col(j)});
       const Complex change = -solver.solve(changes[j]).trace() / static_cast<double>(count);
-      result(column) = frequency_of(s) > 0.0 ? change.imag() : -change.real();
+      result(j) = frequency_of(s) > 0.0 ? change.imag() : -change.real();
     }
     return result;
   }
@@ -145,7 +144,7 @@ class FrequencySensitivity {
   std::vector<Eigen::MatrixXcd> changes_by_design() const {
     const Complex s = vectors_.s;
     const Eigen::Index count = vectors_.right.cols();
-    std::vector<Eigen::MatrixXcd> changes(static_cast<std::size_t>(mechanism_.system->variables()),
+    std::vector<Eigen::MatrixXcd> changes(mechanism_.system->variables(),
                                           Eigen::MatrixXcd::Zero(count, count));
     if (changes.empty()) return changes;
     std::vector<Eigen::MatrixXcd> damping_of_left;

@@ -28,7 +28,7 @@ Eigen::MatrixXd balance_gradients(const Response& response, const Eigen::VectorX
 /// @returns gradients of those and of the histories
 ResponseDerivatives differentiate(Analysis& analysis, std::vector<SampledValue> values) {
   const Eigen::VectorXd& time = analysis.trajectory.time;
-  const auto asked = static_cast<Eigen::Index>(values.size());
+  const Eigen::Index asked = values.size();
   std::vector<HistoryGradients> histories;
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     const Response& response = analysis.responses[i];

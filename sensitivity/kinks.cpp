@@ -54,11 +54,10 @@ std::vector<Eigen::Index> tied_responses(const Analysis& analysis) {
 std::vector<Kink> find_kinks(Analysis& analysis) {
   std::vector<SampledValue> values;
   for (const Eigen::Index i : tied_responses(analysis)) {
-    const auto response = static_cast<std::size_t>(i);
-    values.push_back({response, analysis.reductions[response].samples});
+    values.push_back({i, analysis.reductions[i].samples});
   }
   if (values.empty()) return {};
-  const auto own = static_cast<Eigen::Index>(values.size());
+  const Eigen::Index own = values.size();
   const std::vector<SampledValue> others = other_peaks(analysis);
   values.insert(values.end(), others.begin(), others.end());
   const Eigen::MatrixXd gradients =
@@ -68,7 +67,7 @@ std::vector<Kink> find_kinks(Analysis& analysis) {
 
 GradientsAndKinks gradients_and_kinks(Analysis& analysis, ExactMethod method) {
   std::vector<SampledValue> values = response_values(analysis);
-  const auto responses = static_cast<Eigen::Index>(values.size());
+  const Eigen::Index responses = values.size();
   const std::vector<SampledValue> others = other_peaks(analysis);
   values.insert(values.end(), others.begin(), others.end());
   const Eigen::MatrixXd all = sampled_gradients(analysis, values, method);

@@ -56,8 +56,7 @@ class SampledGradients {
   SampledGradients(Analysis& analysis, const std::vector<SampledValue>& values)
       : analysis_(analysis),
         mechanism_(analysis.model.mechanism),
-        gradients_(Gradients::Zero(static_cast<Eigen::Index>(values.size()),
-                                   mechanism_.system->variables())),
+        gradients_(Gradients::Zero(values.size(), mechanism_.system->variables())),
         part_(mechanism_.system->coordinates(), mechanism_.system->multipliers(),
               mechanism_.system->variables()) {
     for (std::size_t i = 0; i < values.size(); ++i) add_value(i, values[i]);
@@ -82,7 +81,7 @@ class SampledGradients {
   Gradients adjoint() {
     if (uses_.empty() || gradients_.cols() == 0) return gradients_;
     const std::vector<Eigen::Index> order = latest_first();
-    const auto count = static_cast<Eigen::Index>(order.size());
+    const Eigen::Index count = order.size();
     const Eigen::Index most = most_functions_at_once();
     for (Eigen::Index first = 0; first < count; first += most) {
       add_adjoint({order.begin() + first, order.begin() + std::min(first + most, count)});
@@ -100,7 +99,7 @@ class SampledGradients {
 
   /// @param order  values, those of which the last sample comes latest first
   void add_adjoint(const std::vector<Eigen::Index>& order) {
-    std::vector<Eigen::Index> column(static_cast<std::size_t>(gradients_.rows()), -1);
+    std::vector<Eigen::Index> column(gradients_.rows(), -1);
     for (std::size_t i = 0; i < order.size(); ++i) {
       column[order[i]] = static_cast<Eigen::Index>(i);
     }
@@ -127,7 +126,7 @@ class SampledGradients {
   }
 
   void add_value(std::size_t i, const SampledValue& value) {
-    const auto row = static_cast<Eigen::Index>(i);
+    const Eigen::Index row = i;
     if (analysis_.responses[value.response].expression()) {
       require_derivatives(analysis_, value.response);
       gradients_.row(row) += linearized(analysis_, value.response).design.transpose();

@@ -153,7 +153,7 @@ class RefinementStudy {
     Eigen::VectorXd differences = Eigen::VectorXd::Zero(values.size());
     for (Eigen::Index i = 0; i < values.size(); ++i) {
       // Errors of the integration are not the same in two formulations, however short the steps are.
-      if (is_monitor(problem_, static_cast<std::size_t>(i))) continue;
+      if (is_monitor(problem_, i)) continue;
       differences(i) = value_error(values(i), reference.values(i), reference.magnitudes(i));
     }
     return differences;

@@ -156,7 +156,7 @@ void excuse_loose_newton(std::vector<DerivativeCheck>& checks, const ProblemFile
       const JudgedDerivative& judged = tight[i].variables[j];
       if (loose.verdict != DerivativeVerdict::differs) continue;
       if (judged.verdict == DerivativeVerdict::differs) continue;
-      const double repeated = again(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      const double repeated = again(i, j);
       const double change = std::abs(repeated - loose.derivative);
       if (change > same_derivative * std::abs(loose.derivative)) continue;
       loose.verdict = DerivativeVerdict::noise;

@@ -56,7 +56,7 @@ Eigen::VectorXd values_at(const ProblemFile& problem, const Eigen::VectorXd& x) 
   try {
     return values_of(*analyze(problem, x));
   } catch (const SimulationError&) {
-    return Eigen::VectorXd::Constant(static_cast<Eigen::Index>(problem.responses.size()),
+    return Eigen::VectorXd::Constant(problem.responses.size(),
                                      std::numeric_limits<double>::quiet_NaN());
   }
 }
@@ -65,7 +65,7 @@ Eigen::VectorXd values_at(const ProblemFile& problem, const Eigen::VectorXd& x) 
 Eigen::MatrixXd values_on_line(const ProblemFile& problem, const Eigen::VectorXd& x, double spacing,
                                int threads) {
   const Eigen::VectorXd direction = generic_direction(problem, x);
-  Eigen::MatrixXd values(static_cast<Eigen::Index>(problem.responses.size()), line_points);
+  Eigen::MatrixXd values(problem.responses.size(), line_points);
   for_each_in_parallel(line_points, threads, [&](int i) {
     const double place = spacing * (i - 0.5 * (line_points - 1));
     values.col(i) = values_at(problem, x + place * direction);
@@ -78,7 +78,7 @@ Eigen::MatrixXd values_of_tolerances(const ProblemFile& problem, const Eigen::Ve
                                      int threads) {
   ProblemFile tight = problem;
   tight.simulation.newton_tolerance *= 1e-3;
-  Eigen::MatrixXd values(static_cast<Eigen::Index>(problem.responses.size()), 2);
+  Eigen::MatrixXd values(problem.responses.size(), 2);
   for_each_in_parallel(2, threads,
                        [&](int i) { values.col(i) = values_at(i == 0 ? problem : tight, x); });
   return values;
@@ -99,7 +99,7 @@ double noise_of(const Eigen::VectorXd& values) {
 }
 
 ResponseNoise response_noise(const ProblemFile& problem, const Eigen::VectorXd& x, int threads) {
-  const auto responses = static_cast<Eigen::Index>(problem.responses.size());
+  const Eigen::Index responses = problem.responses.size();
   ResponseNoise noise{Eigen::VectorXd::Zero(responses), Eigen::VectorXd::Zero(responses)};
   bool is_known = false;
   for (const double spacing : spacings) {

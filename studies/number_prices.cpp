@@ -162,16 +162,15 @@ void add_variables(const ProblemFile& problem, const RowPrices& optimum, const P
   const std::vector<ShownUnit> units = variable_units(problem);
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     const DesignVariable& variable = problem.variables[i];
-    const auto index = static_cast<Eigen::Index>(i);
     NumberPrice price;
     price.unit = units[i];
     if (variable.lower == variable.upper) {
       price.kind = NumberPrice::Kind::variable;
       price.name = variable.name;
       price.value = variable.lower;
-      pricing.set(index, price);
+      pricing.set(i, price);
     } else {
-      const double multiplier = optimum.bound_multipliers()(index);
+      const double multiplier = optimum.bound_multipliers()(i);
       if (multiplier == 0.0) continue;
       const bool is_upper = multiplier > 0.0;
       price.kind = NumberPrice::Kind::bound;

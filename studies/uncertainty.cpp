@@ -25,7 +25,7 @@ namespace {
 /// Derivatives with respect to the uncertain parameters, from those with respect to all variables.
 Eigen::MatrixXd columns_of(const Eigen::MatrixXd& gradients,
                            const std::vector<UncertainParameter>& parameters) {
-  Eigen::MatrixXd columns(gradients.rows(), static_cast<Eigen::Index>(parameters.size()));
+  Eigen::MatrixXd columns(gradients.rows(), parameters.size());
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     columns.col(i) = gradients.col(parameters[i].variable);
   }
@@ -111,7 +111,7 @@ class SampleWork : public TaskWork {
   /// From the store, or for it: values and histories one behind the other.
   Sample known(const Eigen::VectorXd& design, EvaluationStore& store) const {
     const EvaluationKey key = {setting_text(problem), "sample", "", Request::values, design};
-    const auto values = static_cast<Eigen::Index>(problem.responses.size());
+    const Eigen::Index values = problem.responses.size();
     if (const auto stored = store.find(key)) {
       if (!stored->failure.empty()) return {};
       const Eigen::VectorXd& numbers = stored->evaluation.constraints;
@@ -286,7 +286,7 @@ class Study {
   /// All samples at once, so that they do not depend on who simulates them.
   std::vector<Eigen::VectorXd> draw() const {
     RandomNumbers numbers(settings_.seed);
-    std::vector<Eigen::VectorXd> designs(static_cast<std::size_t>(settings_.samples), x_);
+    std::vector<Eigen::VectorXd> designs(settings_.samples, x_);
     for (Eigen::VectorXd& design : designs) {
       for (const UncertainParameter& parameter : settings_.parameters) {
         double change = 0.0;

@@ -27,7 +27,7 @@ void set_limit(ProblemFile& problem, double limit) {
 double limited_value(const ProblemFile& problem, const Eigen::VectorXd& constraints) {
   std::optional<double> worst;
   for (const std::size_t row : varied_rows(problem)) {
-    const double value = constraints(static_cast<Eigen::Index>(row));
+    const double value = constraints(row);
     const bool is_upper = problem.constraints[row].upper.has_value();
     if (!worst || (is_upper ? value > *worst : value < *worst)) worst = value;
   }
@@ -37,7 +37,7 @@ double limited_value(const ProblemFile& problem, const Eigen::VectorXd& constrai
 double multiplier_of_limit(const ProblemFile& problem, const Eigen::VectorXd& multipliers) {
   double sum = 0.0;
   for (const std::size_t row : varied_rows(problem)) {
-    sum += multipliers(static_cast<Eigen::Index>(row));
+    sum += multipliers(row);
   }
   return sum;
 }

@@ -77,9 +77,9 @@ Eigen::VectorXd joined_values(const ProblemFile& joined, const std::vector<CaseD
   Eigen::VectorXd all(std::ssize(joined.responses));
   for (std::size_t i = 0; i < joined.responses.size(); ++i) {
     try {
-      all(static_cast<Eigen::Index>(i)) = value_over_cases(joined, i, x, value_of);
+      all(i) = value_over_cases(joined, i, x, value_of);
     } catch (const SimulationError&) {  // of one that is only looked at
-      all(static_cast<Eigen::Index>(i)) = std::numeric_limits<double>::quiet_NaN();
+      all(i) = std::numeric_limits<double>::quiet_NaN();
     }
   }
   return all;
@@ -100,9 +100,7 @@ void add_monitors(Monitors& all, const Monitors& one) {
 template <class GradientInCase>
 Eigen::VectorXd gradient_over_cases(const Optimum& optimum, std::size_t response,
                                     const GradientInCase& gradient_in_case) {
-  const ValueInCase value_of = [&](std::size_t part) {
-    return optimum.responses(static_cast<Eigen::Index>(part));
-  };
+  const ValueInCase value_of = [&](std::size_t part) { return optimum.responses(part); };
   try {
     const LinearizedResponse linear =
         linearized_over_cases(optimum.problem, response, optimum.result.x, value_of);
@@ -129,12 +127,12 @@ std::optional<DesignInfluence> joined_influence(const Optimum& optimum,
   all.gradients.resize(std::ssize(joined.responses), std::ssize(joined.variables));
   const auto gradient_in_case = [&](std::size_t response) -> Eigen::VectorXd {
     const auto [load_case, index] = joined.case_responses[response];
-    return designs[load_case].influence->gradients.row(static_cast<Eigen::Index>(index));
+    return designs[load_case].influence->gradients.row(index);
   };
   for (std::size_t i = 0; i < joined.responses.size(); ++i) {
-    all.gradients.row(static_cast<Eigen::Index>(i)) =
-        is_over_cases(joined, i) ? gradient_over_cases(optimum, i, gradient_in_case)
-                                 : gradient_in_case(i);
+    all.gradients.row(i) = is_over_cases(joined, i)
+                               ? gradient_over_cases(optimum, i, gradient_in_case)
+                               : gradient_in_case(i);
   }
   return all;
 }

@@ -102,7 +102,7 @@ Json gradients_document(const ProblemFile& problem, const std::vector<MethodResu
   for (const MethodResult& result : results) {
     Json& row = document[to_string(result.method)] = Json::object();
     for (std::size_t j = 0; j < problem.variables.size(); ++j) {
-      row[problem.variables[j].name] = result.gradients(response, static_cast<Eigen::Index>(j));
+      row[problem.variables[j].name] = result.gradients(response, j);
     }
   }
   return document;
@@ -169,8 +169,7 @@ Json gradient_document(const ProblemFile& problem, const MethodFindings& finding
                    {"seconds", {{"simulate", findings.simulation_seconds}}}};
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     Json& response = document["responses"][analysis.responses[i].name];
-    response["gradients"] =
-        gradients_document(problem, findings.results, static_cast<Eigen::Index>(i));
+    response["gradients"] = gradients_document(problem, findings.results, i);
     if (findings.ties[i]) response["tie"] = tie_document(*findings.ties[i], analysis.responses[i]);
   }
   if (!findings.compared.empty()) {

@@ -105,7 +105,7 @@ Result interrupted_result(const DesignProblem& problem, const SolveOptions& opti
 std::vector<std::string> far_limits_of(const ProblemFile& problem, const EvaluationRecord& record) {
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < problem.constraints.size(); ++i) {
-    const double value = record.constraints(static_cast<Eigen::Index>(i));
+    const double value = record.constraints(i);
     if (const auto text = far_limit_text(problem, problem.constraints[i], value)) {
       warnings.push_back("at the start " + *text);
     }

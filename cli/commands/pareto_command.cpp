@@ -255,7 +255,7 @@ std::string interruption_text(const ProblemFile& problem, const ParetoFront& fro
   if (problem.pareto->gap > 0.0 || front.choices) {
     return fmt::format("INTERRUPTED: {} points were done, more would have come\n\n", found);
   }
-  return interrupted_text(found, static_cast<std::size_t>(problem.pareto->points), "points");
+  return interrupted_text(found, problem.pareto->points, "points");
 }
 
 std::size_t verified_points(const std::vector<ParetoPoint>& points) {

@@ -105,7 +105,7 @@ std::string parameters_text(const ProblemFile& problem) {
                {"unit", Table::Align::left},
                {"sampled as", Table::Align::left}});
   for (const UncertainParameter& parameter : problem.uncertainty->parameters) {
-    const auto index = static_cast<std::size_t>(parameter.variable);
+    const std::size_t index = parameter.variable;
     const ShownUnit& unit = units[index];
     table.add_row({name_of(problem, parameter),
                    significant(unit.shown(problem.variables[index].start)),
@@ -171,8 +171,8 @@ std::string responses_text(const ProblemFile& problem, const UncertaintyStudy& s
 }
 
 std::string study_text(const ProblemFile& problem, const UncertaintyStudy& study) {
-  const auto samples = static_cast<std::size_t>(study.samples + study.failures);
-  const auto all = static_cast<std::size_t>(problem.uncertainty->samples);
+  const std::size_t samples = study.samples + study.failures;
+  const std::size_t all = problem.uncertainty->samples;
   std::string text = study.is_interrupted ? interrupted_text(samples, all, "samples") : "";
   text += fmt::format(
       "{}: what uncertain parameters make of the responses, to first order\n\n{}\n{}\n"

@@ -83,11 +83,10 @@ Json curve_document(const Eigen::VectorXd& time, const Eigen::VectorXd& values,
                     const std::vector<int>& kept, int most, const Eigen::VectorXd& band = {}) {
   const std::vector<int> points = thinned(values, most, kept);
   const bool has_band = band.size() == values.size();
-  Eigen::MatrixXd curve(has_band ? 3 : 2, static_cast<Eigen::Index>(points.size()));
+  Eigen::MatrixXd curve(has_band ? 3 : 2, points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto column = static_cast<Eigen::Index>(i);
-    curve.col(column).head<2>() << time(points[i]), values(points[i]);
-    if (has_band) curve(2, column) = band(points[i]);
+    curve.col(i).head<2>() << time(points[i]), values(points[i]);
+    if (has_band) curve(2, i) = band(points[i]);
   }
   return packed(curve);
 }

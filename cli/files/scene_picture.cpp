@@ -184,7 +184,7 @@ struct LoadDescription {
 Json law_document(const TimeFunction& function, double end_time, const Values& design,
                   LawOf purpose) {
   const LawPoints points = law_points(function, end_time, design, purpose);
-  Eigen::MatrixXd curve(2, static_cast<Eigen::Index>(points.times.size()));
+  Eigen::MatrixXd curve(2, points.times.size());
   curve.row(0) = Eigen::Map<const Eigen::RowVectorXd>(points.times.data(), curve.cols());
   curve.row(1) = Eigen::Map<const Eigen::RowVectorXd>(points.values.data(), curve.cols());
   return packed(curve);

@@ -135,10 +135,9 @@ std::string worst_change(const ProblemFile& problem, const AccuracyStudy& study,
   std::size_t worst = 0;
   double share = 0.0;
   for (const std::size_t i : study.counted) {
-    const auto index = static_cast<Eigen::Index>(i);
     const double size =
-        std::max(std::abs(study.reference.values(index)), 1e-3 * study.reference.magnitudes(index));
-    const double change = size > 0.0 ? varied.influence(index) / size : 0.0;
+        std::max(std::abs(study.reference.values(i)), 1e-3 * study.reference.magnitudes(i));
+    const double change = size > 0.0 ? varied.influence(i) / size : 0.0;
     if (std::abs(change) > std::abs(share)) share = change, worst = i;
   }
   if (std::abs(share) < no_change) return "no change";

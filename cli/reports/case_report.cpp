@@ -39,7 +39,7 @@ Eigen::VectorXd weighted_objectives(const ProblemFile& problem, const Eigen::Vec
   Eigen::VectorXd weighted = problem.objective->sign() * objectives;
   if (problem.objective->over_cases != OverCases::weighted) return weighted;
   for (std::size_t c = 0; c < problem.cases.size(); ++c) {
-    weighted(static_cast<Eigen::Index>(c)) *= problem.case_weights[c];
+    weighted(c) *= problem.case_weights[c];
   }
   return weighted;
 }
@@ -47,7 +47,7 @@ Eigen::VectorXd weighted_objectives(const ProblemFile& problem, const Eigen::Vec
 /// What one percent more of the limit would be worth.
 double worth(const ProblemFile& problem, const Result& result, std::size_t constraint) {
   const ConstraintSettings& limits = problem.constraints[constraint];
-  const double multiplier = result.constraint_multipliers(static_cast<Eigen::Index>(constraint));
+  const double multiplier = result.constraint_multipliers(constraint);
   const std::optional<double>& limit = multiplier > 0.0 ? limits.upper : limits.lower;
   return std::abs(multiplier * limit.value_or(0.0));
 }
@@ -56,11 +56,10 @@ double worth(const ProblemFile& problem, const Result& result, std::size_t const
 template <class NumberOfLimit>
 Eigen::VectorXd largest_in_cases(const ProblemFile& problem, const NumberOfLimit& number_of) {
   constexpr double none = -std::numeric_limits<double>::infinity();
-  Eigen::VectorXd largest =
-      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(problem.cases.size()), none);
+  Eigen::VectorXd largest = Eigen::VectorXd::Constant(problem.cases.size(), none);
   for (std::size_t i = 0; i < problem.constraints.size(); ++i) {
     if (case_of(problem, i).empty()) continue;
-    double& here = largest(static_cast<Eigen::Index>(problem.case_constraints[i].load_case));
+    double& here = largest(problem.case_constraints[i].load_case);
     here = std::max(here, number_of(i));
   }
   return largest.maxCoeff() > none ? largest : Eigen::VectorXd();
@@ -82,7 +81,7 @@ std::vector<Eigen::VectorXd> measures_of_cases(const ProblemFile& problem, const
   const Eigen::VectorXd& values = result.evaluation.constraints;
   if (values.size() == std::ssize(problem.constraints)) {
     measures.push_back(largest_in_cases(problem, [&](std::size_t limit) {
-      return excess(problem.constraints[limit], values(static_cast<Eigen::Index>(limit)));
+      return excess(problem.constraints[limit], values(limit));
     }));
   }
   return measures;
@@ -91,7 +90,7 @@ std::vector<Eigen::VectorXd> measures_of_cases(const ProblemFile& problem, const
 /// Leaves those whose number is the largest, within what round-off makes of equal ones.
 void keep_largest(const Eigen::VectorXd& numbers, std::vector<std::size_t>& cases) {
   if (numbers.size() == 0) return;
-  const auto number_of = [&](std::size_t c) { return numbers(static_cast<Eigen::Index>(c)); };
+  const auto number_of = [&](std::size_t c) { return numbers(c); };
   double largest = -std::numeric_limits<double>::infinity();
   for (const std::size_t c : cases) largest = std::max(largest, number_of(c));
   if (!std::isfinite(largest)) return;
@@ -134,9 +133,7 @@ std::string cases_of_limit(const ProblemFile& problem, std::size_t constraint) {
 
 std::vector<bool> deciding_constraints(const ProblemFile& problem, const Eigen::VectorXd& values) {
   std::map<std::string, std::size_t> deciding;
-  const auto excess_of = [&](std::size_t i) {
-    return excess(problem.constraints[i], values(static_cast<Eigen::Index>(i)));
-  };
+  const auto excess_of = [&](std::size_t i) { return excess(problem.constraints[i], values(i)); };
   for (std::size_t i = 0; i < problem.constraints.size(); ++i) {
     const auto [known, is_new] = deciding.emplace(limit_of(problem, i), i);
     if (!is_new && excess_of(i) > excess_of(known->second)) known->second = i;
@@ -161,10 +158,8 @@ Json cases_document(const ProblemFile& problem, const Result& result) {
   document["shown"] = problem.cases[deciding_case(problem, result)].load_case;
   for (std::size_t c = 0; c < problem.cases.size(); ++c) {
     const std::string& name = problem.cases[c].load_case;
-    const auto row = static_cast<Eigen::Index>(c);
-    if (result.case_objectives.size() > 0)
-      document["objective"][name] = result.case_objectives(row);
-    if (result.case_shares.size() > 0) document["shares"][name] = result.case_shares(row);
+    if (result.case_objectives.size() > 0) document["objective"][name] = result.case_objectives(c);
+    if (result.case_shares.size() > 0) document["shares"][name] = result.case_shares(c);
   }
   return document;
 }
@@ -174,10 +169,9 @@ std::string objective_in_cases(const ProblemFile& problem, const Result& result)
   const ShownUnit unit = unit_of(find_response(problem, problem.objective->response));
   std::string text;
   for (std::size_t c = 0; c < problem.cases.size(); ++c) {
-    const auto row = static_cast<Eigen::Index>(c);
-    const bool has_share = result.case_shares.size() > 0 && result.case_shares(row) > least_share;
+    const bool has_share = result.case_shares.size() > 0 && result.case_shares(c) > least_share;
     text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", problem.cases[c].load_case,
-                        significant(unit.shown(result.case_objectives(row))),
+                        significant(unit.shown(result.case_objectives(c))),
                         has_share ? " (decides)" : "");
   }
   return fmt::format("  in the cases [{}]: {}\n", unit.name, text);

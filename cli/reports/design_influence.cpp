@@ -41,8 +41,7 @@ Json influence_document(const ProblemFile& problem, const DesignInfluence& influ
                         std::size_t response) {
   Json document = Json::object();
   for (std::size_t j = 0; j < problem.variables.size(); ++j) {
-    document[problem.variables[j].name] =
-        influence.gradients(static_cast<Eigen::Index>(response), static_cast<Eigen::Index>(j));
+    document[problem.variables[j].name] = influence.gradients(response, j);
   }
   return document;
 }

@@ -66,7 +66,7 @@ double most_changed(const MeasuredEffects& effects, const EffectInfluence& influ
   double objective = 0.0;
   for (std::size_t i = 0; i < effects.problem.responses.size(); ++i) {
     if (effects.problem.responses[i].name != effects.problem.objective->response) continue;
-    objective = std::abs(effects.values(static_cast<Eigen::Index>(i)));
+    objective = std::abs(effects.values(i));
   }
   const double worth = std::abs(effects.price(influence.changes));
   return objective > 0.0 ? std::max(change, worth / objective) : change;

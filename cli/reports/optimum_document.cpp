@@ -25,8 +25,7 @@ Json objective_document(const Optimum& optimum) {
 
 Json constraint_document(const Optimum& optimum, std::size_t i) {
   const ConstraintSettings& constraint = optimum.problem.constraints[i];
-  const auto row = static_cast<Eigen::Index>(i);
-  const double value = optimum.result.evaluation.constraints(row);
+  const double value = optimum.result.evaluation.constraints(i);
   const UsedLimit used = used_limit(constraint, value);
   Json document = {{"value", value},
                    {"limit", used.limit},
@@ -34,7 +33,7 @@ Json constraint_document(const Optimum& optimum, std::size_t i) {
                    {"unit", unit_of(optimum.problem, constraint).si}};
   if (has_prices(optimum.result)) {
     document["multiplier"] =
-        optimum.problem.objective->sign() * optimum.result.constraint_multipliers(row);
+        optimum.problem.objective->sign() * optimum.result.constraint_multipliers(i);
   }
   if (used.utilisation) document["utilisation"] = *used.utilisation;
   if (constraint.deviations > 0.0) document["deviations"] = constraint.deviations;
@@ -51,11 +50,10 @@ Json constraint_document(const Optimum& optimum, std::size_t i) {
 Json responses_document(const Optimum& optimum) {
   Json document = Json::object();
   for (std::size_t i = 0; i < optimum.problem.responses.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
     const ResponseSettings& response = optimum.problem.responses[i];
-    document[response.name] = {{"value", optimum.responses(row)},
+    document[response.name] = {{"value", optimum.responses(i)},
                                {"unit", quantity_of(response).unit},
-                               {"start", optimum.start_responses(row)}};
+                               {"start", optimum.start_responses(i)}};
     const ErrorBars& errors = optimum.result.response_errors;
     if (!errors.empty()) document[response.name]["error"] = error_document(error_of(errors, i));
     if (optimum.influence) {

@@ -107,11 +107,10 @@ std::string limited_text(double shown) {
 
 std::vector<std::string> constraint_row(const Optimum& optimum, std::size_t i) {
   const ConstraintSettings& constraint = optimum.problem.constraints[i];
-  const auto row = static_cast<Eigen::Index>(i);
-  const double value = optimum.result.evaluation.constraints(row);
+  const double value = optimum.result.evaluation.constraints(i);
   std::optional<double> multiplier;
   if (has_prices(optimum.result)) {
-    multiplier = optimum.problem.objective->sign() * optimum.result.constraint_multipliers(row);
+    multiplier = optimum.problem.objective->sign() * optimum.result.constraint_multipliers(i);
   }
   const UsedLimit used = used_limit(constraint, value);
   const ShownUnit unit = unit_of(optimum.problem, constraint);
@@ -136,8 +135,7 @@ std::vector<std::string> constraint_row(const Optimum& optimum, std::size_t i) {
 bool is_shown(const Optimum& optimum, std::size_t constraint, const std::vector<bool>& decides) {
   const bool is_of_case = !case_of(optimum.problem, constraint).empty();
   const bool has_price =
-      has_prices(optimum.result) &&
-      optimum.result.constraint_multipliers(static_cast<Eigen::Index>(constraint)) != 0.0;
+      has_prices(optimum.result) && optimum.result.constraint_multipliers(constraint) != 0.0;
   return !is_of_case || decides[constraint] || has_price;
 }
 

@@ -51,7 +51,7 @@ std::vector<std::string> common_methods(const ProblemFile& joined, const Json& c
 template <class GradientOf>
 double slope_of(const ProblemFile& joined, const Json& cases, const LinearizedResponse& linear,
                 std::size_t variable, const GradientOf& gradient_of) {
-  double slope = linear.design(static_cast<Eigen::Index>(variable));
+  double slope = linear.design(variable);
   for (const WeightedResponse& part : linear.parts) {
     const Json& gradient = gradient_of(entry_of(joined, cases, part.response));
     slope += part.weight * gradient.at(joined.variables[variable].name).template get<double>();
@@ -76,7 +76,7 @@ void add_uncertainty(const ProblemFile& joined, const Json& cases, const Lineari
   double variance = 0.0, bound = 0.0;
   Json shares = Json::object();
   for (const UncertainParameter& parameter : joined.uncertainty->parameters) {
-    const auto variable = static_cast<std::size_t>(parameter.variable);
+    const std::size_t variable = parameter.variable;
     const std::string& name = joined.variables[variable].name;
     const double slope =
         slope_of(joined, cases, linear, variable,
@@ -128,7 +128,7 @@ Json over_cases_document(const ProblemFile& joined, const Eigen::VectorXd& x, co
     if (!is_of_several(case_of_constraint(joined, i))) continue;
     const ConstraintSettings& constraint = joined.constraints[i];
     const ResponseSettings& limited = find_response(joined, constraint.response);
-    const auto response = static_cast<std::size_t>(&limited - joined.responses.data());
+    const std::size_t response = &limited - joined.responses.data();
     try {
       document["constraints"][constraint.name] =
           limit_document(joined, constraint, value_over_cases(joined, response, x, value_of));

@@ -74,8 +74,7 @@ CsvTable read_csv(const std::filesystem::path& file) {
     }
   }
   for (const std::vector<double>& column : columns) {
-    table.columns.emplace_back(
-        Eigen::Map<const Eigen::VectorXd>(column.data(), static_cast<Eigen::Index>(column.size())));
+    table.columns.emplace_back(Eigen::Map<const Eigen::VectorXd>(column.data(), column.size()));
   }
   return table;
 }

@@ -114,7 +114,7 @@ ExpressionValue evaluate(const Expression& expression, const std::vector<double>
   slopes.back() = 1.0;
   for (std::size_t i = steps.size(); i-- > 0;) {
     if (slopes[i] == 0.0 || steps[i].operation == Operation::constant) continue;
-    const auto first = static_cast<std::size_t>(steps[i].first);
+    const std::size_t first = steps[i].first;
     if (steps[i].operation == Operation::argument) {
       found.derivatives[first] += slopes[i];
       continue;

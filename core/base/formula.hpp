@@ -26,7 +26,7 @@ class Formula {
   static Value constant(double value) { return {Scalar(value), Scalar(0), Scalar(0)}; }
 
   Value at(int index) const {
-    const ExpressionStep& step = expression_.steps[static_cast<std::size_t>(index)];
+    const ExpressionStep& step = expression_.steps[index];
     if (step.operation == Operation::constant) return constant(step.constant);
     if (step.operation == Operation::argument) return argument_(step.first);
     if (step.operation == Operation::power) return power_of(step);
@@ -102,11 +102,10 @@ class Formula {
 
   /// Whether it depends on anything but the design.
   bool changes(int index) const {
-    const ExpressionStep& step = expression_.steps[static_cast<std::size_t>(index)];
+    const ExpressionStep& step = expression_.steps[index];
     if (step.operation == Operation::constant) return false;
     if (step.operation == Operation::argument) {
-      return expression_.arguments[static_cast<std::size_t>(step.first)].kind !=
-             ExpressionArgument::Kind::variable;
+      return expression_.arguments[step.first].kind != ExpressionArgument::Kind::variable;
     }
     return changes(step.first) || (step.second >= 0 && changes(step.second));
   }

@@ -133,8 +133,8 @@ class Unpacker {
   }
   template <int Rows, int Columns>
   friend void transfer(Unpacker& archive, Eigen::Matrix<double, Rows, Columns>& matrix) {
-    const auto rows = static_cast<Eigen::Index>(archive.size());
-    const auto columns = static_cast<Eigen::Index>(archive.size());
+    const Eigen::Index rows = archive.size();
+    const Eigen::Index columns = archive.size();
     matrix.resize(rows, columns);
     archive.raw(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(double));
   }

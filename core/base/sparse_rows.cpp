@@ -140,7 +140,7 @@ class SparseFactors {
       pattern.clear();
       seen[k] = k;
       for (Eigen::SparseMatrix<double>::InnerIterator entry(products, order_[k]); entry; ++entry) {
-        auto i = static_cast<std::size_t>(place_[entry.row()]);
+        std::size_t i = place_[entry.row()];
         if (i > k) continue;
         y[i] += entry.value();
         path.clear();
@@ -186,7 +186,7 @@ class SparseFactors {
     for (std::size_t k = size; k-- > 0;) {
       for (const auto& [row, factor] : columns_[k]) z[k] -= factor * z[row];
     }
-    VectorXd solution(static_cast<Index>(size));
+    VectorXd solution(size);
     for (std::size_t k = 0; k < size; ++k) solution(order_[k]) = z[k];
     return solution;
   }
@@ -220,9 +220,7 @@ Index sparse_rank(SparseRows rows, double threshold) {
 /// Union of sets, with the smallest member as the name of each.
 class Sets {
  public:
-  explicit Sets(Index size) : parent_(static_cast<std::size_t>(size)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
+  explicit Sets(Index size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
   int find(int i) {
     while (parent(i) != i) i = parent(i) = parent(parent(i));
     return i;
@@ -264,7 +262,7 @@ BlockRank rank_block(const SparseRows& rows, double negligible) {
 
 std::vector<RowBlock> connected_blocks(const SparseRows& matrix) {
   Sets sets(matrix.rows());
-  std::vector<int> row_of_column(static_cast<std::size_t>(matrix.cols()), -1);
+  std::vector<int> row_of_column(matrix.cols(), -1);
   for (int row = 0; row < static_cast<int>(matrix.rows()); ++row) {
     for (SparseRows::InnerIterator entry(matrix, row); entry; ++entry) {
       int& first = row_of_column[entry.col()];
@@ -273,7 +271,7 @@ std::vector<RowBlock> connected_blocks(const SparseRows& matrix) {
     }
   }
   std::vector<RowBlock> blocks;
-  std::vector<std::size_t> place(static_cast<std::size_t>(matrix.rows()));
+  std::vector<std::size_t> place(matrix.rows());
   for (int row = 0; row < static_cast<int>(matrix.rows()); ++row) {
     const int name = sets.find(row);
     if (name == row) {
@@ -301,7 +299,7 @@ SparseRows select_rows(const SparseRows& matrix, const std::vector<int>& rows) {
       entries.emplace_back(i, entry.col(), entry.value());
     }
   }
-  SparseRows selected(static_cast<Index>(rows.size()), matrix.cols());
+  SparseRows selected(rows.size(), matrix.cols());
   selected.setFromTriplets(entries.begin(), entries.end());
   return selected;
 }
@@ -314,8 +312,7 @@ SparseRows select_block(const SparseRows& matrix, const RowBlock& block) {
       entries.emplace_back(i, column - block.columns.begin(), entry.value());
     }
   }
-  SparseRows selected(static_cast<Index>(block.rows.size()),
-                      static_cast<Index>(block.columns.size()));
+  SparseRows selected(block.rows.size(), block.columns.size());
   selected.setFromTriplets(entries.begin(), entries.end());
   return selected;
 }
@@ -326,7 +323,7 @@ RankedRows rank_rows(SparseRows rows, double negligible) {
   for (const RowBlock& block : connected_blocks(rows)) {
     const BlockRank of_block = rank_block(select_block(rows, block), negligible);
     for (std::size_t i = 0; i < block.rows.size(); ++i) {
-      ranked.emplace_back(of_block.pivots(static_cast<Index>(i)), block.rows[of_block.order[i]]);
+      ranked.emplace_back(of_block.pivots(i), block.rows[of_block.order[i]]);
     }
   }
   std::stable_sort(ranked.begin(), ranked.end(),
@@ -335,7 +332,7 @@ RankedRows rank_rows(SparseRows rows, double negligible) {
   for (std::size_t i = 0; i < ranked.size(); ++i) {
     result.order.push_back(ranked[i].second);
     if (ranked[0].first > 0.0) {
-      result.pivots(static_cast<Index>(i)) = ranked[i].first / ranked[0].first;
+      result.pivots(i) = ranked[i].first / ranked[0].first;
     }
   }
   return result;
@@ -356,7 +353,7 @@ MatrixXd null_space_of_rows(SparseRows rows, double threshold) {
   normalize(rows);
   std::vector<MatrixXd> spaces;
   std::vector<std::vector<int>> columns;
-  std::vector<bool> is_free(static_cast<std::size_t>(rows.cols()), true);
+  std::vector<bool> is_free(rows.cols(), true);
   for (const RowBlock& block : connected_blocks(rows)) {
     for (const int column : block.columns) is_free[column] = false;
     if (block.columns.empty()) continue;

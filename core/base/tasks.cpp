@@ -51,10 +51,7 @@ class Places {
 class TaskRun {
  public:
   TaskRun(Tasks& tasks, const TaskOptions& options)
-      : tasks_(tasks),
-        options_(options),
-        places_(tasks, options),
-        states_(static_cast<std::size_t>(tasks.count())) {}
+      : tasks_(tasks), options_(options), places_(tasks, options), states_(tasks.count()) {}
 
   ~TaskRun() {
     for (const Running& one : running_) one.place->kill(static_cast<int>(one.task));
@@ -172,7 +169,7 @@ class TaskRun {
   }
 
   void see(TaskEvent& event, TaskPlace& place) {
-    State& state = states_[static_cast<std::size_t>(event.task)];
+    State& state = states_[event.task];
     if (event.kind == TaskEvent::Kind::ended) {
       std::erase_if(running_, [&](const Running& one) {
         return one.task == static_cast<std::size_t>(event.task);

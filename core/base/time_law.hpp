@@ -101,7 +101,7 @@ struct TimeLaw {
                                const Scalar& s_dot) const {
     const auto value_of_argument = [&](int i) -> TimeValue<Scalar> {
       using ArgumentKind = ExpressionArgument::Kind;
-      switch (expression->arguments[static_cast<std::size_t>(i)].kind) {
+      switch (expression->arguments[i].kind) {
         case ArgumentKind::time:
           return t;
         case ArgumentKind::coordinate:
@@ -109,7 +109,7 @@ struct TimeLaw {
         case ArgumentKind::rate:
           return {s_dot, Scalar(0), Scalar(0)};
         default:
-          return {parameters[static_cast<std::size_t>(i)], Scalar(0), Scalar(0)};
+          return {parameters[i], Scalar(0), Scalar(0)};
       }
     };
     return evaluate_formula<Scalar>(*expression, value_of_argument);
@@ -198,7 +198,7 @@ struct TimeLaw {
     const double rounding =
         period > 0.0 ? 4.0 * std::numeric_limits<double>::epsilon() * std::abs(original) : 0.0;
     const auto above = std::upper_bound(knots.begin(), knots.end(), time + rounding);
-    const auto after = static_cast<std::size_t>(std::max<std::ptrdiff_t>(above - knots.begin(), 1));
+    const std::size_t after = std::max<std::ptrdiff_t>(above - knots.begin(), 1);
     std::size_t now = after - 1;
     const bool is_at_knot = std::abs(knots[now] - time) <= rounding;
     if (period > 0.0 && now == last) now = 0;  // the last knot is the first of the next period

@@ -72,7 +72,7 @@ BasisWithDerivatives craig_bampton_basis(const NodalMatrices& matrices,
                                          const KeptCoordinates& kept) {
   const std::vector<int>& b = kept.boundary;
   const std::vector<int> i = interior_of(matrices.mass.rows(), b);
-  const auto boundary = static_cast<Eigen::Index>(b.size());
+  const Eigen::Index boundary = b.size();
   Eigen::Index size = boundary;
   for (const ModeFamily& family : kept.families) size += family.modes;
   const Eigen::LLT<MatrixXd> factors(MatrixXd(matrices.stiffness(i, i)));
@@ -146,7 +146,7 @@ MatrixXd dense_matrix(const ElasticPattern& pattern, const VectorXd& entries) {
 namespace {
 
 ElasticPattern dense_pattern(Eigen::Index size) {
-  std::vector<int> all(static_cast<std::size_t>(size));
+  std::vector<int> all(size);
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
   return pattern_of_groups(static_cast<int>(size), {all});
 }
@@ -169,9 +169,8 @@ Invariants<double> transform(const Invariants<double>& nodal, Eigen::Index size,
   const auto matrix = [&](auto entries) { return entries_of(bilinear(entries)); };
   result.moments.resize(result.pattern.nonzeros(), static_cast<int>(nodal.pairs.size()));
   for (std::size_t p = 0; p < nodal.pairs.size(); ++p) {
-    const auto column = static_cast<Eigen::Index>(p);
-    result.moments.col(column) =
-        matrix([column](const Invariants<double>& i) { return VectorXd(i.moments.col(column)); });
+    result.moments.col(p) =
+        matrix([p](const Invariants<double>& i) { return VectorXd(i.moments.col(p)); });
   }
   result.mass_matrix = matrix([](const Invariants<double>& i) { return i.mass_matrix; });
   result.stiffness = matrix([](const Invariants<double>& i) { return i.stiffness; });

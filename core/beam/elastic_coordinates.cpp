@@ -3,7 +3,7 @@
 namespace pleuel {
 
 ElasticCoordinates::ElasticCoordinates(int node_count, const NodalFlags& active)
-    : index_(static_cast<std::size_t>(node_count)) {
+    : index_(node_count) {
   for (auto& node : index_) {
     for (std::size_t i = 0; i < 6; ++i) node[i] = active[i] ? 0 : -1;
   }

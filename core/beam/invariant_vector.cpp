@@ -75,9 +75,8 @@ PartialInvariants without_zeros(const Invariants<double>& invariants) {
   data.pattern.row_start.assign(1, 0);
   std::vector<int> entries;
   for (int row : partial.coordinates) {
-    const auto index = static_cast<std::size_t>(row);
-    for (int entry = invariants.pattern.row_start[index];
-         entry < invariants.pattern.row_start[index + 1]; ++entry) {
+    for (int entry = invariants.pattern.row_start[row];
+         entry < invariants.pattern.row_start[row + 1]; ++entry) {
       const int col = invariants.pattern.column[entry];
       if (place[col] < 0) continue;
       data.pattern.column.push_back(place[col]);

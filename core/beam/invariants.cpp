@@ -13,7 +13,7 @@ int ElasticPattern::find(int row, int col) const {
 }
 
 ElasticPattern pattern_of_groups(int size, const std::vector<std::vector<int>>& groups) {
-  std::vector<std::set<int>> rows(static_cast<std::size_t>(size));
+  std::vector<std::set<int>> rows(size);
   for (const auto& group : groups) {
     for (int row : group) {
       if (row < 0) continue;

@@ -142,8 +142,7 @@ bool LateralBuckling::hold(const std::vector<Matrix6>& elastic) {
     for_free(e, [&](Eigen::Index row, Eigen::Index column, Eigen::Index i, Eigen::Index j) {
       BandEntry entry{static_cast<Eigen::Index>(e), row, column, {}};
       for (std::size_t k = 0; k < 4; ++k) {
-        entry.of_load(static_cast<Eigen::Index>(k)) =
-            -geometric_[e][k](i, j) * scale_(row) * scale_(column);
+        entry.of_load(k) = -geometric_[e][k](i, j) * scale_(row) * scale_(column);
       }
       if (!entry.of_load.isZero(0.0)) entries_.push_back(entry);
     });
@@ -180,20 +179,20 @@ LateralModes LateralBuckling::modes(const PlaneLoad& load) {
   modes.share = share(load);
   if (!(modes.share > 0.0)) return modes;
   const Eigen::MatrixXd free = scale_.asDiagonal() * largest_.vectors();
-  modes.shapes.setZero(static_cast<Eigen::Index>(rows_.size()), free.cols());
+  modes.shapes.setZero(rows_.size(), free.cols());
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (rows_[i] >= 0) modes.shapes.row(static_cast<Eigen::Index>(i)) = free.row(rows_[i]);
+    if (rows_[i] >= 0) modes.shapes.row(i) = free.row(rows_[i]);
   }
   return modes;
 }
 
 PlaneLoad LateralBuckling::load_slopes(const LateralModes& modes) const {
-  PlaneLoad slopes = PlaneLoad::Zero(4, static_cast<Eigen::Index>(geometric_.size()));
+  PlaneLoad slopes = PlaneLoad::Zero(4, geometric_.size());
   for (Eigen::Index e = 0; e < slopes.cols(); ++e) {
     for (const auto& shape : modes.shapes.colwise()) {
       const Eigen::Matrix<double, 6, 1> moved = shape.segment<6>(first_row(e));
       for (Eigen::Index k = 0; k < 4; ++k) {
-        const Matrix6& unit = geometric_[static_cast<std::size_t>(e)][static_cast<std::size_t>(k)];
+        const Matrix6& unit = geometric_[e][k];
         slopes(k, e) -= moved.dot(unit * moved) / static_cast<double>(modes.shapes.cols());
       }
     }
@@ -205,10 +204,10 @@ double LateralBuckling::design_slope(const Beam<Dual>& beam, const PlaneLoad& lo
                                      const LateralModes& modes) const {
   double slope = 0.0;
   for (Eigen::Index e = 0; e < load.cols(); ++e) {
-    const ElementMatrices<Dual> matrices(beam.elements[static_cast<std::size_t>(e)], plane_);
+    const ElementMatrices<Dual> matrices(beam.elements[e], plane_);
     Matrix6 change = modes.share * derivative_matrix(matrices.elastic);
     for (Eigen::Index k = 0; k < 4; ++k) {
-      change += load(k, e) * derivative_matrix(matrices.geometric[static_cast<std::size_t>(k)]);
+      change += load(k, e) * derivative_matrix(matrices.geometric[k]);
     }
     for (const auto& shape : modes.shapes.colwise()) {
       const Eigen::Matrix<double, 6, 1> moved = shape.segment<6>(first_row(e));

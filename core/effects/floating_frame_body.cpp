@@ -68,7 +68,7 @@ FloatingFrameBody::FloatingFrameBody(
     elastic_ << invariants_.stiffness, invariants_.damping, invariants_.mass_matrix,
         invariants_.moments;
   }
-  flat_derivatives_.resize(layout_.size(), static_cast<Eigen::Index>(derivatives.size()));
+  flat_derivatives_.resize(layout_.size(), derivatives.size());
   derivatives_.reserve(derivatives.size());
   for (const auto& [variable, data] : derivatives) {
     flat_derivatives_.col(variables_.size()) = layout_.flatten(data).sparseView();

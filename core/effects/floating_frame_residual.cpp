@@ -41,7 +41,7 @@ template <int Pairs, class Visit>
 ElasticSums multiply_elastic(const Invariants<double>& body, const ElasticMotion& elastic,
                              const Visit& visit) {
   using Column = Eigen::Matrix<double, Pairs, 1, 0, Pairs == Eigen::Dynamic ? 9 : Pairs, 1>;
-  const auto pairs = static_cast<Eigen::Index>(body.pairs.size());
+  const Eigen::Index pairs = body.pairs.size();
   ElasticSums sums;
   Column q_of_q = Column::Zero(pairs), v_of_q = q_of_q, a_of_q = q_of_q;
   for (int row = 0; row < body.size(); ++row) {
@@ -101,7 +101,7 @@ auto with_known_pairs(const Invariants<double>& body, const Function& function) 
 template <int Pairs>
 ElasticSums multiply_elastic(const Invariants<double>& body, BodyProducts& out) {
   const CouplingRows rows(body);
-  const auto pairs = static_cast<Eigen::Index>(body.pairs.size());
+  const Eigen::Index pairs = body.pairs.size();
   const std::array<int, 9> transposed = transposed_pairs(body);
   out.coupling.resize(rows.count, body.size());
   out.forces.resize(body.size());
@@ -125,10 +125,10 @@ template <int Pairs>
 ElasticSums multiply_elastic(const Invariants<double>& body, const ElasticMotion& elastic,
                              const BodyProducts& products, double* forces) {
   using Column = Eigen::Matrix<double, Pairs, 1, 0, Pairs == Eigen::Dynamic ? 9 : Pairs, 1>;
-  const auto pairs = static_cast<Eigen::Index>(body.pairs.size());
+  const Eigen::Index pairs = body.pairs.size();
   Column x(pairs), y(pairs);
   for (Eigen::Index p = 0; p < pairs; ++p) {
-    const auto [r, c] = body.pairs[static_cast<std::size_t>(p)];
+    const auto [r, c] = body.pairs[p];
     x(p) = products.X(r, c);
     y(p) = products.Y(r, c);
   }

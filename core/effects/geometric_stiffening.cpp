@@ -264,7 +264,7 @@ void GeometricStiffening::add_parameter_adjoints(const State& state, ConstraintL
   Eigen::Index first = 0;
   for (const PaddedElement& element : elements_) {
     evaluate(element, state);
-    const auto size = static_cast<Eigen::Index>(element.coordinates.size());
+    const Eigen::Index size = element.coordinates.size();
     const double kappa = element.axial_stiffness;
     const double total = strain_.total + damping_ * strain_.total_rate;
     const double linear = strain_.linear + damping_ * strain_.linear_rate;

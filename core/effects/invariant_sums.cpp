@@ -27,7 +27,7 @@ void add_sums(const Invariants<double>& body, const InvariantLayout& layout, con
               const BodyMultipliers& mu, double* sums) {
   using Row = Eigen::Matrix<double, Pairs, 1, 0, Pairs == Eigen::Dynamic ? 9 : Pairs, 1>;
   const BodyAdjoint of(p, mu);
-  const auto pairs = static_cast<Eigen::Index>(body.pairs.size());
+  const Eigen::Index pairs = body.pairs.size();
   Row of_moment_q(pairs), of_moment_v(pairs);
   double* of_shape = layout.shape(sums).data();
   double* of_mixed = layout.mixed(sums).data();
@@ -46,9 +46,7 @@ void add_sums(const Invariants<double>& body, const InvariantLayout& layout, con
       of_moment_q(pair) = of_W(k, l);
       of_moment_v(pair) = e * p.Y(k, l);
     }
-    const auto row = static_cast<std::size_t>(i);
-    for (int entry = body.pattern.row_start[row]; entry < body.pattern.row_start[row + 1];
-         ++entry) {
+    for (int entry = body.pattern.row_start[i]; entry < body.pattern.row_start[i + 1]; ++entry) {
       const int j = body.pattern.column[entry];
       Eigen::Map<Row>(layout.moments(sums, entry), pairs) +=
           p.q(j) * of_moment_q + p.v(j) * of_moment_v;

@@ -8,8 +8,7 @@ void add_matrix(const std::vector<int>& coordinates, const Eigen::MatrixXd& matr
                 std::vector<Eigen::Triplet<double>>& entries) {
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     for (std::size_t j = 0; j < coordinates.size(); ++j) {
-      entries.emplace_back(coordinates[i], coordinates[j],
-                           matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+      entries.emplace_back(coordinates[i], coordinates[j], matrix(i, j));
     }
   }
 }

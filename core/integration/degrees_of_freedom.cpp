@@ -19,7 +19,7 @@ constexpr double clearly_independent = 1e-4;
 constexpr double meets = 1e-6;
 
 std::vector<int> rigid_coordinates(const Mechanism& mechanism) {
-  std::vector<bool> is_elastic(static_cast<std::size_t>(mechanism.system->coordinates()), false);
+  std::vector<bool> is_elastic(mechanism.system->coordinates(), false);
   for (const int i : mechanism.elastic) is_elastic[i] = true;
   std::vector<int> rigid;
   for (int i = 0; i < mechanism.system->coordinates(); ++i) {
@@ -34,7 +34,7 @@ SparseRows rigid_jacobian(const Mechanism& mechanism, const State& state,
   const System& system = *mechanism.system;
   System::Matrix matrix = system.make_matrix();
   projection_matrix(mechanism, state, matrix);
-  std::vector<bool> is_left_out(static_cast<std::size_t>(system.multipliers()), false);
+  std::vector<bool> is_left_out(system.multipliers(), false);
   for (const int row : system.left_out()) is_left_out[row] = true;
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t j = 0; j < rigid.size(); ++j) {
@@ -44,7 +44,7 @@ SparseRows rigid_jacobian(const Mechanism& mechanism, const State& state,
       entries.emplace_back(row, j, mechanism.scale(rigid[j]) * entry.value());
     }
   }
-  SparseRows jacobian(system.multipliers(), static_cast<Eigen::Index>(rigid.size()));
+  SparseRows jacobian(system.multipliers(), rigid.size());
   jacobian.setFromTriplets(entries.begin(), entries.end());
   return jacobian;
 }
@@ -107,7 +107,7 @@ int blocked_drives(const Mechanism& mechanism, const State& state, const std::ve
 
 Eigen::MatrixXd free_motions(const Mechanism& mechanism, const State& state) {
   const std::vector<int> rigid = rigid_coordinates(mechanism);
-  const auto size = static_cast<Eigen::Index>(rigid.size());
+  const Eigen::Index size = rigid.size();
   Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(size, size);
   if (mechanism.system->multipliers() > 0) {
     basis = null_space_of_rows(rigid_jacobian(mechanism, state, rigid), independent);

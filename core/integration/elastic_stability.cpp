@@ -54,8 +54,7 @@ bool has_gyroscopic_forces(Mechanism& mechanism, const State& state, const Eigen
 std::string owner(const Mechanism& mechanism, const Eigen::VectorXd& deformation) {
   Eigen::Index largest = 0;
   deformation.cwiseAbs().maxCoeff(&largest);
-  const auto k = static_cast<std::size_t>(largest);
-  return k < mechanism.equation_names.size() ? mechanism.equation_names[k] : "a member";
+  return largest < mechanism.equation_names.size() ? mechanism.equation_names[largest] : "a member";
 }
 
 int count_negative(const Eigen::VectorXcd& eigenvalues) {
@@ -78,14 +77,13 @@ Eigen::MatrixXd free_deformations(Mechanism& mechanism, const State& state) {
   for (Eigen::Index i = 0; i < phi.rows(); ++i) {
     if (phi.row(i).norm() > 0.0) phi.row(i).normalize();
   }
-  std::vector<bool> is_elastic(static_cast<std::size_t>(n), false);
+  std::vector<bool> is_elastic(n, false);
   for (int i : mechanism.elastic) is_elastic[i] = true;
   std::vector<Eigen::Index> rigid;
   for (Eigen::Index i = 0; i < n; ++i) {
     if (!is_elastic[i]) rigid.push_back(i);
   }
-  const Eigen::MatrixXd motions =
-      null_space(phi(Eigen::all, rigid), static_cast<Eigen::Index>(rigid.size()));
+  const Eigen::MatrixXd motions = null_space(phi(Eigen::all, rigid), rigid.size());
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(phi.rows() + motions.cols(), n);
   rows.topRows(phi.rows()) = phi;
   rows.bottomRows(motions.cols())(Eigen::all, rigid) = motions.transpose();

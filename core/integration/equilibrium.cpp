@@ -57,13 +57,13 @@ void add_block(const System::Matrix& matrix, const PlacedBlock& block, Triplets&
 std::vector<bool> closed_by_deformation(Mechanism& mechanism) {
   System& system = *mechanism.system;
   const int n = system.coordinates(), m = system.multipliers();
-  std::vector<bool> is_closed(static_cast<std::size_t>(m), false);
+  std::vector<bool> is_closed(m, false);
   if (m == 0) return is_closed;
   System::Matrix matrix = system.make_matrix();
   system.tangent(mechanism.guess, {.q = 1.0}, ConstraintLevel::position, matrix);
   const Eigen::MatrixXd phi =
       Eigen::MatrixXd(matrix).bottomLeftCorner(m, n) * mechanism.scale.asDiagonal();
-  std::vector<bool> is_left_out(static_cast<std::size_t>(m), false);
+  std::vector<bool> is_left_out(m, false);
   for (int i : system.left_out()) is_left_out[i] = true;
   std::vector<int> rows;
   for (int i = 0; i < m; ++i) {
@@ -77,7 +77,7 @@ std::vector<bool> closed_by_deformation(Mechanism& mechanism) {
   const PivotedQr choice(qr.normal_space().transpose() * elastic.asDiagonal());
   const std::vector<int> order = choice.order();
   for (Eigen::Index i = 0; i < choice.rank(); ++i) {
-    const auto row = static_cast<std::size_t>(order[i]);
+    const std::size_t row = order[i];
     is_closed[rows[row]] = true;
   }
   return is_closed;
@@ -192,7 +192,7 @@ Eigen::SparseMatrix<double> Equilibrium::jacobian(const InitialState& at) const 
 
   // W δ(q ⊖ q̂)
   const Eigen::VectorXd d = difference(mechanism_.rotations, state.q, mechanism_.guess.q);
-  std::vector<bool> is_plain(static_cast<std::size_t>(n), true);
+  std::vector<bool> is_plain(n, true);
   for (int i : mechanism_.rotations) {
     const Eigen::Matrix3d pull = inverse_tangent_operator(d.segment<3>(i));
     for (int row = 0; row < 3; ++row) {
@@ -208,7 +208,7 @@ Eigen::SparseMatrix<double> Equilibrium::jacobian(const InitialState& at) const 
 
   // Φ_qᵀ μ: in the rows of frames that of the constraints which frames meet, in those of elastic
   // coordinates, which say a_e + Φ_qᵀ μ = 0 instead, that of the others.
-  std::vector<bool> is_elastic(static_cast<std::size_t>(n), false);
+  std::vector<bool> is_elastic(n, false);
   for (int i : mechanism_.elastic) is_elastic[i] = true;
   const auto drop_rows = [&](bool elastic, Triplets& from) {
     std::erase_if(from, [&](const auto& entry) {

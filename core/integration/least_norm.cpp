@@ -13,7 +13,7 @@ LeastNorm::LeastNorm(const Mechanism& mechanism)
       matrix_(system_.make_matrix()),
       solver_(matrix_, mechanism.elastic),
       position_(system_.coordinates(), system_.multipliers()),
-      forceless_(system_.multipliers(), static_cast<Eigen::Index>(system_.left_out().size())) {}
+      forceless_(system_.multipliers(), system_.left_out().size()) {}
 
 // With S the weights of the assembly, S p + Φ_qᵀ c = φ and Φ_q p = 0 have p = 0 for a row φ that
 // follows from the others. The rows of those that are left out say c_i = 0; their columns are φ_i.
@@ -33,13 +33,12 @@ void LeastNorm::set(const State& state) {
   const std::vector<int>& left_out = system_.left_out();
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(n + m, forceless_.cols());
   for (std::size_t i = 0; i < left_out.size(); ++i) {
-    const auto column = static_cast<Eigen::Index>(i);
-    rows.col(column).head(n) = Eigen::VectorXd(matrix_.col(n + left_out[i])).head(n);
+    rows.col(i).head(n) = Eigen::VectorXd(matrix_.col(n + left_out[i])).head(n);
   }
   solver_.solve(rows);
   forceless_ = -rows.bottomRows(m);
   for (std::size_t i = 0; i < left_out.size(); ++i) {
-    forceless_(left_out[i], static_cast<Eigen::Index>(i)) = 1.0;
+    forceless_(left_out[i], i) = 1.0;
   }
   weights_.compute(forceless_.transpose() * mechanism_.reaction_weight.asDiagonal() * forceless_);
   is_set_ = true;

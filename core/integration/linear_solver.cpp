@@ -33,7 +33,7 @@ double inverse_power(double x) {
 /// Orders unknowns by minimum degree of A + Aᵀ, those of `first` before the others.
 std::vector<int> elimination_order(LinearSolver::Matrix& pattern, const std::vector<int>& first) {
   const int size = static_cast<int>(pattern.rows());
-  std::vector<int> order(static_cast<std::size_t>(size)), sets(order.size(), 1);
+  std::vector<int> order(size), sets(order.size(), 1);
   for (const int unknown : first) sets[unknown] = 0;
   [[maybe_unused]] const int status =
       camd_order(size, pattern.outerIndexPtr(), pattern.innerIndexPtr(), order.data(), nullptr,

@@ -11,7 +11,7 @@ template <class Visit>
 void for_each_entry(const System::Matrix& matrix, Visit visit) {
   for (int col = 0; col < matrix.cols(); ++col) {
     for (int k = matrix.outerIndexPtr()[col]; k < matrix.outerIndexPtr()[col + 1]; ++k) {
-      visit(static_cast<std::size_t>(k), matrix.innerIndexPtr()[k], col);
+      visit(k, matrix.innerIndexPtr()[k], col);
     }
   }
 }

@@ -32,7 +32,7 @@ void PositionShift::build_pattern() {
   pattern_.resize(2 * size, 2 * size);
   pattern_.setFromTriplets(entries.begin(), entries.end());
   pattern_.makeCompressed();
-  slots_.resize(static_cast<std::size_t>(block.nonZeros()));
+  slots_.resize(block.nonZeros());
   for_each_entry(block, [&](std::size_t k, int row, int col) {
     slots_[k].in_11 = slot_of(pattern_, row, col);
     if (is_in_12(col)) slots_[k].in_12 = slot_of(pattern_, row, size + col);

@@ -198,8 +198,7 @@ std::vector<int> redundant_constraints(Mechanism& mechanism, const std::vector<i
   MovedMechanism moved(mechanism, mechanism.guess,
                        local_scale(mechanism, mechanism.guess, mechanism.scale));
   const RankedRows ranked = rank_rows(moved.jacobian(), alignment_tolerance);
-  const auto independent =
-      static_cast<std::size_t>((ranked.pivots.array() > alignment_tolerance).count());
+  const std::size_t independent = (ranked.pivots.array() > alignment_tolerance).count();
   std::vector<int> kept = first_rows(ranked, independent);
   std::vector<int> candidates(ranked.order.begin() + static_cast<std::ptrdiff_t>(independent),
                               ranked.order.end());

@@ -48,10 +48,9 @@ class RepetitionCheck {
     for (std::size_t i = 0; i < before.size(); ++i) {
       const Eigen::MatrixXd after = evaluate(*system_.terms()[i], state);
       for (std::size_t k = 0; k < changes_[i].size(); ++k) {
-        const auto column = static_cast<Eigen::Index>(k);
-        changes_[i][k].include(size_of(after.col(column) - before[i].col(column)));
-        largest_[i][k].include(size_of(before[i].col(column)));
-        largest_[i][k].include(size_of(after.col(column)));
+        changes_[i][k].include(size_of(after.col(k) - before[i].col(k)));
+        largest_[i][k].include(size_of(before[i].col(k)));
+        largest_[i][k].include(size_of(after.col(k)));
       }
     }
   }

@@ -15,8 +15,7 @@ std::string place_text(const StepPlace& place) {
 }  // namespace
 
 std::string equation_text(Eigen::Index equation, const std::vector<std::string>& names) {
-  const auto index = static_cast<std::size_t>(equation);
-  return index < names.size() ? " of " + names[index] : "";
+  return equation < names.size() ? " of " + names[equation] : "";
 }
 
 std::string worst_equation(const Eigen::Ref<const Eigen::VectorXd>& residual,

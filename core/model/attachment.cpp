@@ -65,7 +65,7 @@ Marker Attachment::marker() const {
   if (!is_direct()) return marker;
   for (int i = 0; i < 6; ++i) {
     for (std::size_t k = 0; k < rows_.coordinates.size(); ++k) {
-      if (rows_.values(i, static_cast<Eigen::Index>(k)) == 0.0) continue;
+      if (rows_.values(i, k) == 0.0) continue;
       marker.elastic[i] = rows_.coordinates[k];
     }
   }
@@ -113,11 +113,9 @@ class LocalNumbering {
       if (is_zero(rows, i)) continue;
       local = size_++;
       for (std::size_t k = 0; k < rows.coordinates.size(); ++k) {
-        const auto column_of_row = static_cast<Eigen::Index>(k);
-        set(local, column(rows.coordinates[k]), rows.values(i, column_of_row));
+        set(local, column(rows.coordinates[k]), rows.values(i, k));
         for (const auto& [variable, change] : rows.derivatives) {
-          changes_[variable].push_back(
-              {local, column(rows.coordinates[k]), change(i, column_of_row)});
+          changes_[variable].push_back({local, column(rows.coordinates[k]), change(i, k)});
         }
       }
     }
@@ -155,8 +153,7 @@ class LocalNumbering {
   void set(int row, int column, double value) { entries_.push_back({row, column, value}); }
 
   Eigen::MatrixXd matrix(const std::vector<Entry>& entries) const {
-    Eigen::MatrixXd result =
-        Eigen::MatrixXd::Zero(size_, static_cast<Eigen::Index>(coordinates_.size()));
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(size_, coordinates_.size());
     for (const Entry& entry : entries) result(entry.row, entry.column) += entry.value;
     return result;
   }

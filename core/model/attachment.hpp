@@ -74,8 +74,7 @@ class Attachment {
   Vector3<Scalar> point_at(const Design<Scalar>& design) const {
     Vector3<Scalar> point = point_->position.template cast<Scalar>();
     for (const auto& [variable, change] : point_->derivatives) {
-      const auto i = static_cast<std::size_t>(variable);
-      const Scalar distance = design[i] - context_.design[i];
+      const Scalar distance = design[variable] - context_.design[variable];
       for (int k = 0; k < 3; ++k) point(k) += distance * change.position(k);
     }
     return point;

@@ -148,7 +148,7 @@ class BasisBuilder {
   BasisWithDerivatives deformations_of(const NodalMatrices& matrices,
                                        const std::vector<NodalMatrices>& changes) const {
     const std::vector<int> free = free_coordinates();
-    const auto size = static_cast<Eigen::Index>(free.size());
+    const Eigen::Index size = free.size();
     BasisWithDerivatives reduced;
     if (beam_.reduction) {
       std::vector<NodalMatrices> clamped_changes;

@@ -43,7 +43,7 @@ class ElasticForms {
   template <int Pairs, class Vector>
   void add(const Invariants<double>& body, const Vector& q, const Vector& v) {
     using Column = Eigen::Matrix<double, Pairs, 1, 0, Pairs == Eigen::Dynamic ? 9 : Pairs, 1>;
-    const auto pairs = static_cast<Eigen::Index>(body.pairs.size());
+    const Eigen::Index pairs = body.pairs.size();
     Column qq = Column::Zero(pairs), qv = qq;
     for (int row = 0; row < body.size(); ++row) {
       for (int i = body.pattern.row_start[row];
@@ -158,7 +158,7 @@ class ElasticGradient {
     double qq = 0.5 * weights_.elastic * body_.stiffness(entry), qv = 0.0;
     for (std::size_t p = 0; p < body_.pairs.size(); ++p) {
       const auto [k, l] = body_.pairs[p];
-      const double moment = body_.moments(entry, static_cast<Eigen::Index>(p));
+      const double moment = body_.moments(entry, p);
       qq += slopes_.second(k, l) * moment;
       qv += slopes_.second_rate(k, l) * moment;
     }

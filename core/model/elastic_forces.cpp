@@ -47,13 +47,12 @@ Eigen::VectorXd ElasticForces::forces() {
 
 Eigen::SparseMatrix<double> ElasticForces::tangent() {
   if (!stiffening_) return linear_;
-  Eigen::VectorXd values(static_cast<Eigen::Index>(places_.size()));
+  Eigen::VectorXd values(places_.size());
   stiffening_->write_tangent(state_, {.q = 1.0}, ConstraintLevel::position, values.data());
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t k = 0; k < places_.size(); ++k) {
     entries.emplace_back(places_[k].first - model_.elastic_offset(),
-                         places_[k].second - model_.elastic_offset(),
-                         values(static_cast<Eigen::Index>(k)));
+                         places_[k].second - model_.elastic_offset(), values(k));
   }
   Eigen::SparseMatrix<double> matrix(linear_.rows(), linear_.cols());
   matrix.setFromTriplets(entries.begin(), entries.end());

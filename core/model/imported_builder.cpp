@@ -20,7 +20,7 @@ struct Arrangement {
 
 class ArrangementFinder {
  public:
-  explicit ArrangementFinder(int size) : size_(size), groups_(static_cast<std::size_t>(size)) {
+  explicit ArrangementFinder(int size) : size_(size), groups_(size) {
     for (std::size_t i = 0; i < groups_.size(); ++i) groups_[i] = {static_cast<int>(i)};
   }
 
@@ -105,7 +105,7 @@ Invariants<double> invariants_of(const BodyConstants& constants, const Arrangeme
 }
 
 BodyPlaces places_of(const BodyConstants& constants, bool is_elastic) {
-  const auto count = static_cast<Eigen::Index>(constants.places.size());
+  const Eigen::Index count = constants.places.size();
   BodyPlaces places;
   places.positions.resize(3, count);
   std::vector<Eigen::Triplet<double>> entries;

@@ -128,14 +128,13 @@ class InitialShape {
   MatrixXd widened(const Attachment::Rows& rows, const MatrixXd& values) const {
     MatrixXd wide = MatrixXd::Zero(3, model_.elastic_size());
     for (std::size_t k = 0; k < rows.coordinates.size(); ++k) {
-      wide.col(rows.coordinates[k] - model_.elastic_offset()) =
-          values.col(static_cast<Eigen::Index>(k)).head<3>();
+      wide.col(rows.coordinates[k] - model_.elastic_offset()) = values.col(k).head<3>();
     }
     return wide;
   }
 
   Given none() const {
-    const auto count = static_cast<Eigen::Index>(places_.size());
+    const Eigen::Index count = places_.size();
     return {MatrixXd::Zero(count, model_.elastic_size()), MatrixXd::Zero(count, 2)};
   }
 
@@ -143,7 +142,7 @@ class InitialShape {
     Given result = none();
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const InitialDeflection& one = body_.initial_deflections[i];
-      const auto row = static_cast<Eigen::Index>(i);
+      const Eigen::Index row = i;
       const Attachment::Rows& rows = places_[i].displacement_rows();
       const Eigen::Vector3d local = places_[i].local_direction(direction_of(one), context_.design);
       result.rows.row(row) = local.transpose() * widened(rows, rows.values);
@@ -158,7 +157,7 @@ class InitialShape {
     const Design<Dual> seeded = context_.seeded(variable);
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const InitialDeflection& one = body_.initial_deflections[i];
-      const auto row = static_cast<Eigen::Index>(i);
+      const Eigen::Index row = i;
       const Attachment::Rows& rows = places_[i].displacement_rows();
       const Vector3<Dual> turning = places_[i].local_direction(direction_of(one), seeded);
       const Eigen::Vector3d local = places_[i].local_direction(direction_of(one), context_.design);
@@ -177,7 +176,7 @@ class InitialShape {
     const VectorXd own = compliance.diagonal();
     for (Eigen::Index i = 0; i < own.size(); ++i) {
       if (own(i) > 1e-12 * own.maxCoeff() && own(i) > 0.0) continue;
-      fail(static_cast<std::size_t>(i),
+      fail(i,
            "cannot be: the frame of the body holds the place in this direction, or effects left "
            "out keep it from moving");
     }
@@ -186,7 +185,7 @@ class InitialShape {
     for (Eigen::Index i = 1; i < own.size(); ++i) {
       const Eigen::LDLT<MatrixXd> factors(correlation.topLeftCorner(i + 1, i + 1));
       if (factors.vectorD().minCoeff() > 1e-10) continue;
-      fail(static_cast<std::size_t>(i), "says the same as those before it, or contradicts them");
+      fail(i, "says the same as those before it, or contradicts them");
     }
   }
 

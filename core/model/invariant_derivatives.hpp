@@ -27,25 +27,25 @@ template <class Function>
 Invariants<double> differentiate_invariants(const BuildContext& context, int variable,
                                             const Function& invariants_at) {
   const InvariantDifferentiation& how = context.differentiation;
-  const auto j = static_cast<std::size_t>(variable);
   if (how.derivatives == InvariantDerivatives::exact) {
     return derivative_of(invariants_at(context.seeded(variable)));
   }
   if (how.derivatives == InvariantDerivatives::complex_step) {
     constexpr double tiny = 1e-40;
     Design<std::complex<double>> design(context.design.begin(), context.design.end());
-    design[j] += std::complex<double>(0.0, tiny);
+    design[variable] += std::complex<double>(0.0, tiny);
     return transform_invariants<double>(
         invariants_at(design),
         [](const std::complex<double>& number) { return number.imag() / tiny; });
   }
-  const double x = context.design[j];
+  const double x = context.design[variable];
   const double change = relative_step(how) * (x == 0.0 ? 1.0 : std::abs(x));
   const bool is_central = how.derivatives == InvariantDerivatives::central;
   Design<double> upper = context.design, lower = context.design;
-  upper[j] += change;
-  if (is_central) lower[j] -= change;
-  return difference_quotient(invariants_at(upper), invariants_at(lower), upper[j] - lower[j]);
+  upper[variable] += change;
+  if (is_central) lower[variable] -= change;
+  return difference_quotient(invariants_at(upper), invariants_at(lower),
+                             upper[variable] - lower[variable]);
 }
 
 }  // namespace pleuel

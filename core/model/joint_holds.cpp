@@ -39,9 +39,8 @@ JointHold JointHolds::hold_of(const PlacedJoint& joint, const std::string& beam)
   JointHold hold;
   hold.at = std::clamp((point - pose.origin).dot(pose.rotation.col(0)) / length, 0.0, 1.0);
   for (int i = 0; i < 3; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    hold.displacements[k] = is_held(pose.rotation.col(i), 0);
-    hold.rotations[k] = is_held(pose.rotation.col(i), 3);
+    hold.displacements[i] = is_held(pose.rotation.col(i), 0);
+    hold.rotations[i] = is_held(pose.rotation.col(i), 3);
   }
   return hold;
 }

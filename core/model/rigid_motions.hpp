@@ -37,7 +37,7 @@ class RigidMotions {
 
   /// Indices into joint().
   const std::vector<int>& joints_of(const std::string& body) const;
-  const PlacedJoint& joint(int index) const { return joints_[static_cast<std::size_t>(index)]; }
+  const PlacedJoint& joint(int index) const { return joints_[index]; }
 
   /// What a body can do at a joint, without its other joints: the motions that the joint leaves, and
   /// those of the body on the other side.

@@ -48,12 +48,10 @@ class MemberRows {
   }
 
   MatrixXd dense(const SparseMatrix& displacements) const {
-    MatrixXd part(static_cast<Eigen::Index>(rows_.size()),
-                  static_cast<Eigen::Index>(columns_.size()));
+    MatrixXd part(rows_.size(), columns_.size());
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       for (std::size_t k = 0; k < columns_.size(); ++k) {
-        part(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
-            displacements.coeff(rows_[i], columns_[k]);
+        part(i, k) = displacements.coeff(rows_[i], columns_[k]);
       }
     }
     return part;

@@ -95,7 +95,7 @@ class BeamExport {
 
 std::vector<std::string> coordinate_names(const BodyModel& body) {
   constexpr std::array<const char*, 6> displacements = {"u", "v", "w", "θx", "θy", "θz"};
-  std::vector<std::string> names(static_cast<std::size_t>(body.elastic_size()));
+  std::vector<std::string> names(body.elastic_size());
   if (body.has_basis) {
     for (std::size_t i = 0; i < names.size(); ++i) names[i] = fmt::format("mode {}", i + 1);
     return names;
@@ -140,7 +140,7 @@ InvariantsFile export_body(const ProblemFile& problem, const Model& model, const
   file.coordinates = coordinate_names(body);
   file.constants = beam.constants();
   for (std::size_t k = 0; k < body.beam_x.size(); ++k) {
-    const auto variable = static_cast<std::size_t>(body.beam_x[k].first);
+    const std::size_t variable = body.beam_x[k].first;
     file.design.push_back({problem.variables[variable].name, problem.variables[variable].start,
                            units[variable], beam.derivative(k)});
   }

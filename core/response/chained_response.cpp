@@ -31,7 +31,7 @@ void ChainedResponse::add(std::size_t response, double weight) {
     if (argument.kind == ExpressionArgument::Kind::response) {
       add(argument.index, share);
     } else {
-      design_(static_cast<Eigen::Index>(argument.index)) += share;
+      design_(argument.index) += share;
     }
   }
 }

@@ -93,10 +93,9 @@ std::vector<EffectInfluence> effect_influences(const ProblemFile& problem,
   std::vector<Timed> runs(turned.size() + 1);  // the last as it is
   const auto run_all = [&] {
     for_each_in_parallel(static_cast<int>(runs.size()), available_threads(), [&](int i) {
-      const auto index = static_cast<std::size_t>(i);
-      Timed run = simulate(index < turned.size() ? turned[index].problem : fixed, x);
-      if (runs[index].seconds > 0.0) run.seconds = std::min(run.seconds, runs[index].seconds);
-      runs[index] = std::move(run);
+      Timed run = simulate(i < turned.size() ? turned[i].problem : fixed, x);
+      if (runs[i].seconds > 0.0) run.seconds = std::min(run.seconds, runs[i].seconds);
+      runs[i] = std::move(run);
     });
   };
   run_all();

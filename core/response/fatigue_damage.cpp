@@ -78,7 +78,7 @@ class PointDamage {
  private:
   bool is_broken(int step) const {
     if (breaks_.empty()) return false;
-    const auto broken = [&](int at) { return breaks_[static_cast<std::size_t>(at)]; };
+    const auto broken = [&](int at) { return breaks_[at]; };
     return broken(step) || broken(before(step)) || broken(after(step));
   }
 
@@ -131,7 +131,7 @@ class PointDamage {
     const Reduction vertex = reduce(value > previous ? OverTime::max : OverTime::min, times, three);
     TurningPoint point{step, {}};
     for (const Sample& sample : vertex.samples) {
-      point.samples.emplace_back(steps[static_cast<std::size_t>(sample.step)], sample.weight);
+      point.samples.emplace_back(steps[sample.step], sample.weight);
     }
     return point;
   }

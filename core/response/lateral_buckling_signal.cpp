@@ -33,7 +33,7 @@ class PlaneForces final : public Stations {
   int channels() const override { return 2 * static_cast<int>(stations_.size()); }
   int station(int channel) const override { return channel / 4 * 2 + channel % 2; }
   std::string describe(int channel) const override {
-    return pleuel::describe(stations_[static_cast<std::size_t>(station(channel))], body_);
+    return pleuel::describe(stations_[station(channel)], body_);
   }
   double value(int channel, const double* numbers) const override { return numbers[part(channel)]; }
   Numbers slopes(int channel, const double*) override {
@@ -75,7 +75,7 @@ std::vector<LateralSupport> lateral_supports(const Beam<double>& beam, BendingPl
                                              const std::vector<JointHold>& holds) {
   const bool is_xy = plane == BendingPlane::xy;
   const std::size_t lateral = is_xy ? 2 : 1, transverse = is_xy ? 1 : 2;
-  std::vector<LateralSupport> supports(static_cast<std::size_t>(beam.node_count()));
+  std::vector<LateralSupport> supports(beam.node_count());
   for (const JointHold& hold : holds) {
     LateralSupport& at = supports[static_cast<std::size_t>(find_place(beam, hold.at).node())];
     at.deflection = at.deflection || hold.displacements[lateral];
@@ -125,7 +125,7 @@ LateralMember::LateralMember(const std::string& name, const Model& model, Bendin
       parts_(model.parts(name)),
       beam_(whole_beam(parts_)),
       forces_(plane_forces(parts_, model, plane)),
-      load_(4, static_cast<Eigen::Index>(beam_.elements.size())) {}
+      load_(4, beam_.elements.size()) {}
 
 LateralBuckling& LateralMember::buckling() {
   if (!buckling_) {

@@ -31,7 +31,7 @@ class FreeMotions {
       const auto& without = frozen.left_out;
       if (std::find(without.begin(), without.end(), i) == without.end()) rows.push_back(i);
     }
-    const auto m = static_cast<Eigen::Index>(rows.size());
+    const Eigen::Index m = rows.size();
     null_space_ = Eigen::MatrixXd::Identity(n_, n_).rightCols(n_ - m);
     if (m > 0) {
       const Eigen::MatrixXd phi = frozen.phi(rows, Eigen::all);
@@ -157,7 +157,7 @@ Eigen::VectorXcd modes_of(const FrozenMechanism& frozen) {
   }
   std::sort(modes.begin(), modes.end(),
             [](const auto& a, const auto& b) { return frequency_of(a) < frequency_of(b); });
-  return Eigen::Map<Eigen::VectorXcd>(modes.data(), static_cast<Eigen::Index>(modes.size()));
+  return Eigen::Map<Eigen::VectorXcd>(modes.data(), modes.size());
 }
 
 double frequency_of(std::complex<double> s) {

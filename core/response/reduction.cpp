@@ -50,8 +50,8 @@ struct Search {
   /// Whether something breaks at a step or beside it.
   bool is_broken(int step) const {
     if (breaks.empty()) return false;
-    const auto i = static_cast<std::size_t>(step);
-    return breaks[i] || (i > 0 && breaks[i - 1]) || (i + 1 < breaks.size() && breaks[i + 1]);
+    return breaks[step] || (step > 0 && breaks[step - 1]) ||
+           (step + 1 < breaks.size() && breaks[step + 1]);
   }
 };
 
@@ -264,7 +264,7 @@ bool is_peak(OverTime kind) {
 
 BrokenInstants instants_at(const std::vector<double>& breaks, const Eigen::VectorXd& time) {
   if (breaks.empty()) return {};
-  BrokenInstants broken(static_cast<std::size_t>(time.size()), false);
+  BrokenInstants broken(time.size(), false);
   for (const double at : breaks) {
     const auto found = std::find(time.begin(), time.end(), at);
     if (found != time.end()) broken[found - time.begin()] = true;

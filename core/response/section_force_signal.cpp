@@ -44,7 +44,7 @@ class ShearStations final : public Stations {
   int channels() const override { return static_cast<int>(stations_.size()); }
   int station(int channel) const override { return channel; }
   std::string describe(int channel) const override {
-    return pleuel::describe(stations_[static_cast<std::size_t>(channel)], body_);
+    return pleuel::describe(stations_[channel], body_);
   }
   double value(int, const double* numbers) const override { return numbers[0]; }
   Numbers slopes(int, const double*) override { return Numbers::Ones(1); }

@@ -177,8 +177,7 @@ Recovery derivative_rows(const BodyModel& body, const std::vector<Station>& stat
     const NodalRows rows = nodal_rows(body.beam, stations, count, of, value);
     of_coordinates += SparseMatrix(rows.of_displacements * shape_x);
   }
-  SparseMatrix of_stretching(of_coordinates.rows(),
-                             static_cast<Eigen::Index>(body.stretching.elements.size()));
+  SparseMatrix of_stretching(of_coordinates.rows(), body.stretching.elements.size());
   return {std::move(of_coordinates), std::move(change.of_accelerations), std::move(of_stretching)};
 }
 
@@ -187,8 +186,7 @@ template <class OfElement>
 Recovery bending_recovery(const BodyModel& body, const std::vector<Station>& stations, int count,
                           const OfElement& of) {
   NodalRows rows = nodal_rows(body.beam, stations, count, of, value);
-  SparseMatrix of_stretching(rows.of_displacements.rows(),
-                             static_cast<Eigen::Index>(body.stretching.elements.size()));
+  SparseMatrix of_stretching(rows.of_displacements.rows(), body.stretching.elements.size());
   return {rows.of_displacements * body.places.shape, std::move(rows.of_accelerations),
           std::move(of_stretching)};
 }
@@ -197,8 +195,7 @@ Recovery bending_recovery(const BodyModel& body, const std::vector<Station>& sta
 
 Recovery section_force_recovery(const BodyModel& body, const std::vector<Station>& stations) {
   NodalRows rows = nodal_rows(body.beam, stations, section_force_count, forces_of, value);
-  RowWriter stretching(rows.of_displacements.rows(),
-                       static_cast<Eigen::Index>(body.stretching.elements.size()));
+  RowWriter stretching(rows.of_displacements.rows(), body.stretching.elements.size());
   for (std::size_t s = 0; body.has_stiffening && s < stations.size(); ++s) {
     const double share = 1.0 / static_cast<double>(stations[s].elements.size());
     for (int e : stations[s].elements) {

@@ -55,7 +55,7 @@ class ShearPlaces final : public Stations {
   int station(int channel) const override { return at(channel).first; }
   std::string describe(int channel) const override {
     const auto& [station, point] = at(channel);
-    const std::string place = pleuel::describe(stations_[static_cast<std::size_t>(station)], body_);
+    const std::string place = pleuel::describe(stations_[station], body_);
     const std::size_t count = section(body_.beam, station).shear_points.size();
     const bool is_one = count == 1 || body_.frame.rotation == RotationCoordinates::angle;
     return is_one ? place : fmt::format("{}, place {} of {}", place, point + 1, count);
@@ -97,13 +97,11 @@ class ShearPlaces final : public Stations {
     return {static_cast<int>(largest - points.begin())};
   }
 
-  const std::pair<int, int>& at(int channel) const {
-    return channels_[static_cast<std::size_t>(channel)];
-  }
+  const std::pair<int, int>& at(int channel) const { return channels_[channel]; }
 
   template <class Scalar>
   const SectionProperties<Scalar>& section(const Beam<Scalar>& beam, int station) const {
-    return beam.elements[stations_[static_cast<std::size_t>(station)].elements.front()].section;
+    return beam.elements[stations_[station].elements.front()].section;
   }
 
   template <class Scalar>

@@ -369,7 +369,7 @@ std::unique_ptr<Signal> make_along(ResponseSettings settings, const Model& model
   std::vector<SignalSum::Part> parts;
   for (int i = 0; i < 3; ++i) {
     settings.direction = i;
-    parts.push_back({along[static_cast<std::size_t>(i)], make_signal_of_body(settings, model)});
+    parts.push_back({along[i], make_signal_of_body(settings, model)});
   }
   return std::make_unique<SignalSum>(std::move(parts), fmt::format("along ({:.3g}, {:.3g}, {:.3g})",
                                                                    along[0], along[1], along[2]));

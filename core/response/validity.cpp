@@ -66,7 +66,7 @@ void ConstraintGuard::see(int step, const State& state) {
   const auto drift = residual_.tail(state.lambda.size()).cwiseAbs();
   Eigen::Index worst = 0;
   if (drift.maxCoeff(&worst) <= largest_drift_) return;
-  const auto equation = static_cast<std::size_t>(state.q.size() + worst);
+  const std::size_t equation = state.q.size() + worst;
   const auto& names = model_.mechanism.equation_names;
   throw SimulationError(
       fmt::format("at t = {:.6g} s (step {}) {} is apart by {:.3g} m or rad, which equations of "

@@ -46,9 +46,8 @@ class OverCasesValue {
     const Expression& expression = *joined_.responses[response].expression;
     std::vector<double> arguments;
     for (const ExpressionArgument& argument : expression.arguments) {
-      arguments.push_back(argument.kind == Kind::response
-                              ? value(argument.index)
-                              : x_(static_cast<Eigen::Index>(argument.index)));
+      arguments.push_back(argument.kind == Kind::response ? value(argument.index)
+                                                          : x_(argument.index));
     }
     ExpressionValue found = evaluate(expression, arguments);
     if (!std::isfinite(found.value)) refuse(response, "value");

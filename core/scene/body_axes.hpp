@@ -19,8 +19,7 @@ Eigen::Matrix<Scalar, 3, 3> beam_axes(const Point& from, const Point& to,
   using Vector = Eigen::Matrix<Scalar, 3, 1>;
   Vector x, y;
   for (int i = 0; i < 3; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    x(i) = resolve(to[k], design) - resolve(from[k], design);
+    x(i) = resolve(to[i], design) - resolve(from[i], design);
   }
   x.normalize();
   if (reference) {

@@ -180,13 +180,12 @@ void remove_limit(ProblemFile& problem, const std::string& name) {
   std::vector<std::size_t> rows = constraints_of_limit(problem, name);
   std::reverse(rows.begin(), rows.end());
   for (const std::size_t row : rows) {
-    const auto place = static_cast<std::ptrdiff_t>(row);
     if (problem.has_cases()) {
       const OfCase of_case = problem.case_constraints[row];
       if (!is_of_several(of_case)) problem.cases[of_case.load_case].constraints.pop_back();
-      problem.case_constraints.erase(problem.case_constraints.begin() + place);
+      problem.case_constraints.erase(problem.case_constraints.begin() + row);
     }
-    problem.constraints.erase(problem.constraints.begin() + place);
+    problem.constraints.erase(problem.constraints.begin() + row);
   }
 }
 

@@ -19,11 +19,10 @@ class KinkSearch {
   /// Whether a result depends on nothing but time.
   bool is_of_time(int index) const {
     if (index < 0) return true;
-    const ExpressionStep& step = expression_.steps[static_cast<std::size_t>(index)];
+    const ExpressionStep& step = expression_.steps[index];
     if (step.operation == Operation::constant) return true;
     if (step.operation == Operation::argument) {
-      return expression_.arguments[static_cast<std::size_t>(step.first)].kind ==
-             ExpressionArgument::Kind::time;
+      return expression_.arguments[step.first].kind == ExpressionArgument::Kind::time;
     }
     return is_of_time(step.first) && is_of_time(step.second);
   }

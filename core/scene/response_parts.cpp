@@ -35,13 +35,12 @@ bool add_extreme_parts(const Expression& expression, std::size_t step, Operation
                        std::set<std::size_t>& parts) {
   const ExpressionStep& one = expression.steps[step];
   if (one.operation == Operation::argument) {
-    const ExpressionArgument& argument = expression.arguments[static_cast<std::size_t>(one.first)];
+    const ExpressionArgument& argument = expression.arguments[one.first];
     parts.insert(argument.index);
     return argument.kind == ExpressionArgument::Kind::response;
   }
-  return one.operation == extreme &&
-         add_extreme_parts(expression, static_cast<std::size_t>(one.first), extreme, parts) &&
-         add_extreme_parts(expression, static_cast<std::size_t>(one.second), extreme, parts);
+  return one.operation == extreme && add_extreme_parts(expression, one.first, extreme, parts) &&
+         add_extreme_parts(expression, one.second, extreme, parts);
 }
 
 }  // namespace

@@ -96,8 +96,7 @@ bool has_angle(const ut_unit* unit) {
   char definition[256];
   const int length = ut_format(unit, definition, sizeof definition, UT_ASCII | UT_DEFINITION);
   if (length < 0 || length >= static_cast<int>(sizeof definition)) return false;
-  return std::string_view(definition, static_cast<std::size_t>(length)).find("rad") !=
-         std::string_view::npos;
+  return std::string_view(definition, length).find("rad") != std::string_view::npos;
 }
 
 /// Of a frequency both cycles and radians are units; "1/s" could be either of them.
@@ -293,7 +292,7 @@ WrittenQuantity split_quantity(const std::string& text) {
     throw UnitError("it does not begin with a number");
   }
   refuse_decimal_comma(begin, rest, end);
-  written.unit = trim(std::string_view(rest, static_cast<std::size_t>(end - rest)));
+  written.unit = trim(std::string_view(rest, end - rest));
   return written;
 }
 

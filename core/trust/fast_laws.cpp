@@ -200,8 +200,7 @@ std::vector<Doubt> doubt_fast_laws_before(const ProblemFile& problem) {
   const std::vector<double> instants = regular_instants(options);
   const Eigen::VectorXd x = start_design(problem);
   return find_fast_laws(problem.scene, Design<double>(x.begin(), x.end()),
-                        Eigen::Map<const Eigen::VectorXd>(
-                            instants.data(), static_cast<Eigen::Index>(instants.size())));
+                        Eigen::Map<const Eigen::VectorXd>(instants.data(), instants.size()));
 }
 
 }  // namespace pleuel

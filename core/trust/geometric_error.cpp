@@ -206,7 +206,7 @@ class ExactBeam {
     double sideways = 0.0, sideways_error = 0.0, along_error = 0.0, turned = 0.0,
            turned_error = 0.0, x = 0.0;
     for (Eigen::Index node = 0; node <= last; ++node) {
-      const auto i = static_cast<std::size_t>(pieces * node);
+      const std::size_t i = pieces * node;
       const Vector3d displacement = exact.position[i] - x * Vector3d::UnitX();
       const Vector3d change = displacement - nodal_.col(node).head<3>();
       // Twist displaces the edges of the sections.

@@ -86,10 +86,8 @@ NestedRun make_nested_run(const ProblemFile& problem, const Eigen::VectorXd& x,
 std::vector<NestedRun> make_nested_runs(const ProblemFile& problem, const Eigen::VectorXd& x,
                                         const std::vector<Refinement>& refinements) {
   std::vector<NestedRun> runs(refinements.size());
-  for_each_in_parallel(static_cast<int>(runs.size()), available_threads(), [&](int i) {
-    const auto index = static_cast<std::size_t>(i);
-    runs[index] = make_nested_run(problem, x, refinements[index]);
-  });
+  for_each_in_parallel(static_cast<int>(runs.size()), available_threads(),
+                       [&](int i) { runs[i] = make_nested_run(problem, x, refinements[i]); });
   return runs;
 }
 

@@ -133,8 +133,7 @@ class Judgement {
 
   /// Of the value of a response, relative to the second run.
   double change(const NestedRun& run, const NestedRun& reference, std::size_t i) const {
-    const auto index = static_cast<Eigen::Index>(i);
-    return value_error(run.values(index), reference.values(index), magnitude(reference, i));
+    return value_error(run.values(i), reference.values(i), magnitude(reference, i));
   }
 
   void suspect() {

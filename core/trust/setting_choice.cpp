@@ -172,10 +172,9 @@ class Search {
       trial.magnitudes = fine.magnitudes;
       trial.bars = fine.bars;
       for (const std::size_t i : asked_) {
-        const auto index = static_cast<Eigen::Index>(i);
         ErrorPart& part = (*trial.bars[i]).*cause;
         const double known = part.bound - std::abs(part.change);
-        part.change += fine.values(index) - trial.values(index);
+        part.change += fine.values(i) - trial.values(i);
         part.bound = std::abs(part.change) + known;
       }
       rate(trial);
@@ -260,9 +259,8 @@ class Search {
   }
 
   static double relative(const Trial& trial, std::size_t response, const ErrorPart& part) {
-    const auto index = static_cast<Eigen::Index>(response);
-    const double value = trial.values(index);
-    return part.is_resolved ? value_error(value + part.bound, value, trial.magnitudes(index))
+    const double value = trial.values(response);
+    return part.is_resolved ? value_error(value + part.bound, value, trial.magnitudes(response))
                             : infinite;
   }
 
@@ -288,9 +286,8 @@ class Search {
       return;
     }
     for (const std::size_t i : asked_) {
-      const auto index = static_cast<Eigen::Index>(i);
       ErrorPart& step = trial.bars[i]->step;
-      step.change = run.values(index) - trial.values(index);
+      step.change = run.values(i) - trial.values(i);
       step.bound = (1.0 + left_of(*trial.bars[i])) * std::abs(step.change);
     }
     rate(trial);

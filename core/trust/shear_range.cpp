@@ -105,12 +105,11 @@ class BendingReader {
     BeamBending elements;
     for (std::size_t e = 0; e < body.beam.elements.size(); ++e) {
       const BeamElement<double>& element = body.beam.elements[e];
-      const auto node = static_cast<Eigen::Index>(e);
-      const auto segment = static_cast<std::size_t>(body.mesh.elements[e].segment);
+      const std::size_t segment = body.mesh.elements[e].segment;
       const double nu = element.young / (2.0 * element.shear) - 1.0;
       const auto kappa = std::visit(Coefficients{design_, nu}, beam_->segments[segment].section);
       Eigen::Matrix<double, 12, 1> q;
-      q << nodal.col(node), nodal.col(node + 1);
+      q << nodal.col(e), nodal.col(e + 1);
       ElementBending bending;
       bending.length = element.length;
       bending.stiffness =
@@ -121,7 +120,7 @@ class BendingReader {
         const auto row = plane == 0 ? deflection_y_row(xi, element.length, 2)
                                     : deflection_z_row(xi, element.length, 2);
         bending.curvature[end] = row.dot(q);
-        bending.deflection[end] = nodal(1 + plane, node + static_cast<Eigen::Index>(end));
+        bending.deflection[end] = nodal(1 + plane, e + static_cast<Eigen::Index>(end));
       }
       elements.push_back(bending);
     }
@@ -269,7 +268,7 @@ class ShearDoubts {
     System& system = *mechanism.system;
     const int n = system.coordinates(), m = system.multipliers();
     if (m == 0) return std::nullopt;
-    std::vector<int> place(static_cast<std::size_t>(m), 0), rows;
+    std::vector<int> place(m, 0), rows;
     for (const int row : system.left_out()) place[row] = -1;
     for (int row = 0; row < m; ++row) {
       int& of_row = place[row];
@@ -277,7 +276,7 @@ class ShearDoubts {
       of_row = static_cast<int>(rows.size());
       rows.push_back(row);
     }
-    std::vector<bool> is_elastic(static_cast<std::size_t>(n), false);
+    std::vector<bool> is_elastic(n, false);
     for (const int i : mechanism.elastic) is_elastic[i] = true;
     System::Matrix matrix = system.make_matrix();
     system.tangent(state, {.q = 1.0}, ConstraintLevel::position, matrix);
@@ -289,7 +288,7 @@ class ShearDoubts {
         entries.emplace_back(i, place[entry.row() - n], mechanism.scale(i) * entry.value());
       }
     }
-    SparseRows of_frames(n, static_cast<Eigen::Index>(rows.size()));
+    SparseRows of_frames(n, rows.size());
     of_frames.setFromTriplets(entries.begin(), entries.end());
     const Eigen::MatrixXd beyond = null_space_of_rows(of_frames, 1e-9);
     if (beyond.cols() == 0) return std::nullopt;

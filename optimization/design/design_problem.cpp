@@ -130,7 +130,7 @@ Evaluation DesignProblem::evaluate(const Eigen::VectorXd& x, Request request) {
       continue;
     }
     rows.cases[of_case.load_case].of.push_back({of_case.index});
-    rows.cases[of_case.load_case].places.push_back(static_cast<Eigen::Index>(i));
+    rows.cases[of_case.load_case].places.push_back(i);
   }
   return evaluate_rows(x, request, rows);
 }
@@ -199,7 +199,7 @@ Evaluation DesignProblem::evaluate_rows(const Eigen::VectorXd& x, Request reques
   const PartRows parts(file_, responses_over_cases(rows));
   const std::vector<DesignCase::Answer> answers = answers_of(x, request, parts.added_to(rows));
   const bool has_gradients = request == Request::values_and_gradients;
-  auto count = static_cast<Eigen::Index>(rows.over_cases.size());
+  Eigen::Index count = rows.over_cases.size();
   for (const CaseRows& one : rows.cases) count += std::ssize(one.places);
   Evaluation evaluation;
   evaluation.constraints.resize(count);
@@ -208,7 +208,7 @@ Evaluation DesignProblem::evaluate_rows(const Eigen::VectorXd& x, Request reques
     const Evaluation& of_case = answers[c].evaluation;
     const std::vector<Eigen::Index>& places = rows.cases[c].places;
     for (std::size_t i = 0; i < places.size(); ++i) {
-      const auto row = static_cast<Eigen::Index>(i);
+      const Eigen::Index row = i;
       evaluation.constraints(places[i]) = of_case.constraints(row);
       if (has_gradients) {
         evaluation.constraint_jacobian.row(places[i]) = of_case.constraint_jacobian.row(row);

@@ -361,11 +361,10 @@ void return_to_best(DesignProblem& design, const Tolerances& tolerances, Result&
 /// The response of an objective over cases in each of them; empty elsewhere.
 Eigen::VectorXd objectives_in_cases(DesignProblem& design, const Eigen::VectorXd& x) {
   if (design.file().objective->over_cases == OverCases::same) return {};
-  Eigen::VectorXd values(static_cast<Eigen::Index>(design.case_count()));
+  Eigen::VectorXd values(design.case_count());
   for (std::size_t c = 0; c < design.case_count(); ++c) {
     DesignCase& one = design.load_case(c);
-    values(static_cast<Eigen::Index>(c)) =
-        one.analysis_at(x).reductions[*one.response_of({})].value;
+    values(c) = one.analysis_at(x).reductions[*one.response_of({})].value;
   }
   return values;
 }

@@ -248,8 +248,7 @@ std::vector<Eigen::VectorXd> starts_of(const ProblemFile& file, const Eigen::Vec
                                        int count) {
   std::vector<Eigen::VectorXd> starts = {first};
   for (const std::vector<double>& given : file.optimizer.given_starts) {
-    starts.push_back(
-        Eigen::Map<const Eigen::VectorXd>(given.data(), static_cast<Eigen::Index>(given.size())));
+    starts.push_back(Eigen::Map<const Eigen::VectorXd>(given.data(), given.size()));
   }
   if (starts.size() > 1 || count <= 1) return starts;
   std::vector<Variable> variables;

@@ -66,8 +66,7 @@ void for_each_objective(DesignProblem& design, const Result& result, const Add& 
   const std::size_t of_case = file.case_responses[objective].index;
   for (std::size_t c = 0; c < design.case_count(); ++c) {
     const bool has_shares = result.case_shares.size() > 0;
-    const double factor =
-        has_shares ? result.case_shares(static_cast<Eigen::Index>(c)) : design.objective_weight(c);
+    const double factor = has_shares ? result.case_shares(c) : design.objective_weight(c);
     if (factor != 0.0) add(joined_response(file, {c, of_case}), factor);
   }
 }

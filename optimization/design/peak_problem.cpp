@@ -158,7 +158,7 @@ PeakDivision PeakProblem::division_of(std::size_t load_case,
 }
 
 void PeakProblem::add_rows(const Split& split, const Constraint& limits) {
-  const auto count = static_cast<std::size_t>(split.rows());
+  const std::size_t count = split.rows();
   rows_.insert(rows_.end(), count, limits);
   constraint_of_row_.insert(constraint_of_row_.end(), count, split.constraint);
 }
@@ -206,7 +206,7 @@ void PeakProblem::add_bound(Bound bound) {
 
 /// Each t begins at what it bounds.
 void PeakProblem::start_bounds() {
-  const auto count = static_cast<Eigen::Index>(variables_.size());
+  const Eigen::Index count = variables_.size();
   Eigen::VectorXd start(count);
   for (Eigen::Index i = 0; i < count; ++i) start(i) = variables_[i].start;
   const Evaluation at_start = problem_.evaluate(start, Request::values_and_gradients);
@@ -267,7 +267,7 @@ std::string PeakProblem::constraint_text(std::size_t constraint, double value) c
 Evaluation PeakProblem::evaluate(const Eigen::VectorXd& x, Request request) {
   Evaluation evaluation = problem_.evaluate_rows(design_of(x), request, named_rows_);
   if (bounds_.empty()) return evaluation;
-  const auto designed = static_cast<Eigen::Index>(problem_.variables().size());
+  const Eigen::Index designed = problem_.variables().size();
   const bool has_gradients = request == Request::values_and_gradients;
   evaluation.objective = 0.0;
   if (has_gradients) {
@@ -291,11 +291,10 @@ Evaluation PeakProblem::evaluate(const Eigen::VectorXd& x, Request request) {
 
 Eigen::VectorXd PeakProblem::objective_shares(const Eigen::VectorXd& multipliers) const {
   if (!problem_.minimizes_worst() || bounds_.empty()) return {};
-  Eigen::VectorXd shares = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem_.case_count()));
+  Eigen::VectorXd shares = Eigen::VectorXd::Zero(problem_.case_count());
   Eigen::Index row = bounds_.front().first_row;
   for (const Split& split : bounds_.front().splits) {
-    shares(static_cast<Eigen::Index>(split.load_case)) +=
-        multipliers.segment(row, split.rows()).sum();
+    shares(split.load_case) += multipliers.segment(row, split.rows()).sum();
     row += split.rows();
   }
   return shares;

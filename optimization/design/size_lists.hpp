@@ -20,9 +20,7 @@ class SizeLists {
   /// Index of the k-th chosen variable among all.
   Eigen::Index variable(std::size_t k) const { return lists_[k].variable; }
   int sizes(std::size_t k) const { return static_cast<int>(lists_[k].values.size()); }
-  double value(std::size_t k, int size) const {
-    return lists_[k].values[static_cast<std::size_t>(size)];
-  }
+  double value(std::size_t k, int size) const { return lists_[k].values[size]; }
   /// Mean distance of the sizes in a list; zero of one.
   double mean_gap(std::size_t k) const;
 

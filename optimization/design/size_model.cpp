@@ -30,8 +30,8 @@ LinearChoiceModel model_at(const Problem& problem, const Evaluation& at, Eigen::
   model.upper.resize(rows);
   model.scales = scales.head(rows);
   for (Eigen::Index j = 0; j < rows; ++j) {
-    model.lower(j) = problem.constraints()[static_cast<std::size_t>(j)].lower;
-    model.upper(j) = problem.constraints()[static_cast<std::size_t>(j)].upper;
+    model.lower(j) = problem.constraints()[j].lower;
+    model.upper(j) = problem.constraints()[j].upper;
   }
   return model;
 }

@@ -32,7 +32,7 @@ Eigen::VectorXd read_vector(const JsonNode& node, std::size_t size) {
 }
 
 Eigen::MatrixXd read_rows(const JsonNode& node, std::size_t size) {
-  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(size), static_cast<Eigen::Index>(size));
+  Eigen::MatrixXd matrix(size, size);
   Eigen::Index i = 0;
   for (const JsonNode& row : node.items(size)) matrix.row(i++) = read_vector(row, size);
   return matrix;
@@ -146,7 +146,7 @@ void read_stress(const JsonNode& node, BodyConstants& constants) {
   stress.of_coordinates = empty_matrix(rows, constants.size());
   stress.of_accelerations =
       empty_matrix(rows, 3 * static_cast<Eigen::Index>(constants.places.size()));
-  stress.of_stretching = empty_matrix(rows, static_cast<Eigen::Index>(elements));
+  stress.of_stretching = empty_matrix(rows, elements);
   if (node.find("of_stretching") && !constants.stretching) {
     node.at("of_stretching").fail("needs the block \"stiffening\"");
   }

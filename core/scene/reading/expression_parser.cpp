@@ -54,8 +54,8 @@ class BinaryOperator : public mup::IOprtBin {
       : IOprtBin(name, precedence, associativity), builder_(&builder), operation_(operation) {}
 
   void Eval(mup::ptr_val_type& result, const mup::ptr_val_type* operands, int) override {
-    *result = value_of_step(builder_->apply(static_cast<std::size_t>(GetExprPos()), operation_,
-                                            index_of(operands[0]), index_of(operands[1])));
+    *result = value_of_step(
+        builder_->apply(GetExprPos(), operation_, index_of(operands[0]), index_of(operands[1])));
   }
   const mup::char_type* GetDesc() const override { return ""; }
   mup::IToken* Clone() const override { return new BinaryOperator(*this); }
@@ -72,7 +72,7 @@ class SignOperator : public mup::IOprtInfix {
 
   void Eval(mup::ptr_val_type& result, const mup::ptr_val_type* operands, int) override {
     const int of = index_of(operands[0]);
-    const auto position = static_cast<std::size_t>(GetExprPos());
+    const std::size_t position = GetExprPos();
     *result = value_of_step(is_minus_ ? builder_->apply(position, Operation::negated, of) : of);
   }
   const mup::char_type* GetDesc() const override { return ""; }
@@ -91,7 +91,7 @@ class FunctionCall : public mup::ICallback {
         function_(&function) {}
 
   void Eval(mup::ptr_val_type& result, const mup::ptr_val_type* operands, int count) override {
-    const auto position = static_cast<std::size_t>(GetExprPos());
+    const std::size_t position = GetExprPos();
     if (function_->arguments < 0 && count < 2) {
       builder_->fail(position, fmt::format("{} needs two numbers at least", function_->name));
     }
@@ -119,9 +119,8 @@ class OperandReader : public mup::IValueReader {
 
   bool IsValue(const mup::char_type* whole, int& position, mup::Value& value) override {
     const std::string_view text(whole);
-    const auto at = static_cast<std::size_t>(position);
-    std::size_t end = at;
-    const std::optional<int> step = read(text, at, end);
+    std::size_t end = position;
+    const std::optional<int> step = read(text, position, end);
     if (!step) return false;
     value = value_of_step(*step);
     position = static_cast<int>(end);
@@ -149,7 +148,7 @@ class OperandReader : public mup::IValueReader {
     if (status != std::errc() || !std::isfinite(value)) {
       builder_->fail(at, "the number is out of range");
     }
-    return read_unit(text, static_cast<std::size_t>(rest - text.data()), value, end);
+    return read_unit(text, rest - text.data(), value, end);
   }
 
   int read_unit(std::string_view text, std::size_t at, double value, std::size_t& end) {

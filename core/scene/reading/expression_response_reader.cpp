@@ -61,7 +61,7 @@ ResponseSettings make_response(const std::string& name, const JsonNode& value,
 
 /// The steps that the extreme of a formula is taken of, from the left to the right.
 void add_leaves(const Expression& whole, int step, Operation extreme, std::vector<int>& leaves) {
-  const ExpressionStep& one = whole.steps[static_cast<std::size_t>(step)];
+  const ExpressionStep& one = whole.steps[step];
   if (one.operation != extreme) {
     leaves.push_back(step);
     return;
@@ -86,9 +86,9 @@ class Extract {
 
  private:
   int add(int step) {
-    ExpressionStep copy = whole_.steps[static_cast<std::size_t>(step)];
+    ExpressionStep copy = whole_.steps[step];
     if (copy.operation == Operation::argument) {
-      copy.first = argument(whole_.arguments[static_cast<std::size_t>(copy.first)]);
+      copy.first = argument(whole_.arguments[copy.first]);
     } else {
       if (copy.first >= 0) copy.first = add(copy.first);
       if (copy.second >= 0) copy.second = add(copy.second);
@@ -131,9 +131,9 @@ std::vector<std::string> operand_texts(const std::string& formula) {
 }
 
 bool is_response(const Expression& expression, int step) {
-  const ExpressionStep& one = expression.steps[static_cast<std::size_t>(step)];
+  const ExpressionStep& one = expression.steps[step];
   return one.operation == Operation::argument &&
-         expression.arguments[static_cast<std::size_t>(one.first)].kind == Kind::response;
+         expression.arguments[one.first].kind == Kind::response;
 }
 
 /// A formula max(…) or min(…) as that of responses: parts that are formulas themselves become responses
@@ -153,8 +153,8 @@ void split_extreme(ResponseSettings& whole, std::vector<ResponseSettings>& respo
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     ExpressionArgument argument{Kind::response, responses.size() + parts.size()};
     if (is_response(expression, leaves[i])) {
-      const auto& step = expression.steps[static_cast<std::size_t>(leaves[i])];
-      argument = expression.arguments[static_cast<std::size_t>(step.first)];
+      const auto& step = expression.steps[leaves[i]];
+      argument = expression.arguments[step.first];
     } else {
       ResponseSettings part;
       part.name = has_texts ? texts[i] : fmt::format("{} [{}]", whole.name, i + 1);

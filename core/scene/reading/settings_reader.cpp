@@ -215,7 +215,7 @@ std::vector<double> read_start(const JsonNode& node, const std::vector<DesignVar
   std::vector<double> start;
   for (const DesignVariable& variable : variables) start.push_back(variable.start);
   for (const auto& [name, value] : node.members()) {
-    const auto i = static_cast<std::size_t>(numbers.variable(value, name));
+    const std::size_t i = numbers.variable(value, name);
     const Quantity quantity = *numbers.quantity_of(static_cast<int>(i));
     start[i] = numbers.fixed(value, quantity);
     if (start[i] < variables[i].lower || start[i] > variables[i].upper) {
