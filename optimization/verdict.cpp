@@ -126,7 +126,7 @@ void judge_neighbourhood(Verdict& verdict, EvaluationCache& cache, const Evaluat
 std::string to_string(Status status) {
   constexpr std::array<const char*, 6> names = {"verified",   "unresolved", "stalled",
                                                 "infeasible", "failed",     "interrupted"};
-  return names[status];
+  return names[static_cast<std::size_t>(status)];
 }
 
 Verdict judge(EvaluationCache& cache, const EvaluatedDesign& design, const Evaluation& start,

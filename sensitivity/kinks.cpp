@@ -53,7 +53,7 @@ std::vector<Eigen::Index> tied_responses(const Analysis& analysis) {
 
 std::vector<Kink> find_kinks(Analysis& analysis) {
   std::vector<SampledValue> values;
-  for (const Eigen::Index i : tied_responses(analysis)) {
+  for (const std::size_t i : tied_responses(analysis)) {
     values.push_back({i, analysis.reductions[i].samples});
   }
   if (values.empty()) return {};

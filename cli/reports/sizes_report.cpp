@@ -19,7 +19,7 @@ std::string relaxed_text(const DesignVariable& variable, const ShownUnit& unit, 
                        unit.name == "1" ? "" : " " + unit.name);
   }
   const double whole = std::floor(value);
-  const std::string name = variable.choices[whole].text;
+  const std::string name = variable.choices[static_cast<std::size_t>(whole)].text;
   return value == whole ? name : fmt::format("{} + {:.2f}", name, value - whole);
 }
 

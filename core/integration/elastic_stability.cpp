@@ -54,7 +54,7 @@ bool has_gyroscopic_forces(Mechanism& mechanism, const State& state, const Eigen
 std::string owner(const Mechanism& mechanism, const Eigen::VectorXd& deformation) {
   Eigen::Index largest = 0;
   deformation.cwiseAbs().maxCoeff(&largest);
-  return largest < mechanism.equation_names.size() ? mechanism.equation_names[largest] : "a member";
+  return largest < std::ssize(mechanism.equation_names) ? mechanism.equation_names[largest] : "a member";
 }
 
 int count_negative(const Eigen::VectorXcd& eigenvalues) {

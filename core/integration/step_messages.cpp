@@ -15,7 +15,7 @@ std::string place_text(const StepPlace& place) {
 }  // namespace
 
 std::string equation_text(Eigen::Index equation, const std::vector<std::string>& names) {
-  return equation < names.size() ? " of " + names[equation] : "";
+  return equation < std::ssize(names) ? " of " + names[equation] : "";
 }
 
 std::string worst_equation(const Eigen::Ref<const Eigen::VectorXd>& residual,

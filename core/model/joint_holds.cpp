@@ -22,27 +22,26 @@ JointHolds::JointHolds(const Scene& scene, const Design<double>& start) : motion
 }
 
 std::vector<JointHold> JointHolds::of(const std::string& beam) const {
+  const auto& [pose, length] = beams_.at(beam);
+  const Eigen::Vector3d direction = pose.rotation.col(0);
+  const std::vector<MotionSpace> motions =
+      motions_.end_motions(beam, {pose.origin + 0.5 * length * direction, direction, length});
   std::vector<JointHold> holds;
-  for (const int joint : motions_.joints_of(beam)) {
-    holds.push_back(hold_of(motions_.joint(joint), beam));
+  for (const int index : motions_.joints_of(beam)) {
+    const PlacedJoint& joint = motions_.joint(index);
+    const Eigen::Vector3d& point = joint.bodies[1] == beam ? joint.to : joint.at;
+    const MotionSpace& left = motions[holds.size()];
+    const auto is_held = [&](const Eigen::Vector3d& along, Eigen::Index first) {
+      return (along.transpose() * left.middleRows(first, 3)).norm() <= held_share;
+    };
+    JointHold& hold = holds.emplace_back();
+    hold.at = std::clamp((point - pose.origin).dot(direction) / length, 0.0, 1.0);
+    for (int i = 0; i < 3; ++i) {
+      hold.displacements[i] = is_held(pose.rotation.col(i), 0);
+      hold.rotations[i] = is_held(pose.rotation.col(i), 3);
+    }
   }
   return holds;
-}
-
-JointHold JointHolds::hold_of(const PlacedJoint& joint, const std::string& beam) const {
-  const auto& [pose, length] = beams_.at(beam);
-  const Eigen::Vector3d& point = joint.bodies[1] == beam ? joint.to : joint.at;
-  const MotionSpace left = motions_.left_by(joint, beam, point, length);
-  const auto is_held = [&](const Eigen::Vector3d& direction, Eigen::Index first) {
-    return (direction.transpose() * left.middleRows(first, 3)).norm() <= held_share;
-  };
-  JointHold hold;
-  hold.at = std::clamp((point - pose.origin).dot(pose.rotation.col(0)) / length, 0.0, 1.0);
-  for (int i = 0; i < 3; ++i) {
-    hold.displacements[i] = is_held(pose.rotation.col(i), 0);
-    hold.rotations[i] = is_held(pose.rotation.col(i), 3);
-  }
-  return hold;
 }
 
 }  // namespace pleuel

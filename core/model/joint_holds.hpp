@@ -16,9 +16,10 @@ struct JointHold {
   std::array<bool, 3> rotations = {};      ///< about local x, y, z
 };
 
-/// What the joints of a scene hold of its beams: the directions in which neither the joint nor the
-/// rest of the mechanism, without the beam, lets its place move (RigidMotions). Motions within 6° of
-/// a right angle to a direction do not count.
+/// What the joints of a scene hold of its beams where these bend: the directions in which the
+/// mechanism does not let the place of a joint move, apart from motions in which the beam stays
+/// straight (RigidMotions::end_motions). Motions within 6° of a right angle to a direction do not
+/// count.
 class JointHolds {
  public:
   JointHolds() = default;
@@ -34,8 +35,6 @@ class JointHolds {
     Pose<double> pose;
     double length;
   };
-
-  JointHold hold_of(const PlacedJoint& joint, const std::string& beam) const;
 
   RigidMotions motions_;
   std::unordered_map<std::string, Axis> beams_;

@@ -9,13 +9,13 @@ namespace pleuel {
 
 namespace {
 
+/// Motions that differ by less are the same.
 constexpr double same_motion = 1e-4;
-/// Joints that one search goes through; behind them everything may move.
-constexpr int most_steps = 2000;
+constexpr std::size_t most_bodies = 60;
+/// What a turn counts beside a displacement where motions of the mechanism are taken off.
+constexpr double turn_weight = 1e-3;
 
-MotionSpace all_motions() {
-  return MotionSpace::Identity(6, 6);
-}
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 /// An orthonormal basis of what the columns span.
 MotionSpace basis_of(MotionSpace motions) {
@@ -27,18 +27,21 @@ MotionSpace basis_of(MotionSpace motions) {
 
 /// What is normal to all columns.
 MotionSpace normal_to(const MotionSpace& motions) {
-  if (motions.cols() == 0) return all_motions();
+  if (motions.cols() == 0) return MotionSpace::Identity(6, 6);
   return PivotedQr(motions, same_motion).normal_space();
 }
 
-MotionSpace sum(const MotionSpace& one, const MotionSpace& other) {
-  MotionSpace both(6, one.cols() + other.cols());
-  both << one, other;
-  return basis_of(std::move(both));
+/// An orthonormal basis of {x : rows x = 0}.
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& rows) {
+  if (rows.rows() == 0) return Eigen::MatrixXd::Identity(rows.cols(), rows.cols());
+  return PivotedQr(rows.transpose(), same_motion).normal_space();
 }
 
-MotionSpace common(const MotionSpace& one, const MotionSpace& other) {
-  return normal_to(sum(normal_to(one), normal_to(other)));
+/// An orthonormal basis of what columns of at most unit size span.
+MotionSpace space_of(const Eigen::MatrixXd& columns) {
+  if (columns.cols() == 0 || columns.cwiseAbs().maxCoeff() < same_motion) return MotionSpace(6, 0);
+  const PivotedQr qr(columns, same_motion);
+  return qr.q().leftCols(qr.rank());
 }
 
 bool is_driven(const Joint& joint, DrivenCoordinate coordinate) {
@@ -130,42 +133,130 @@ class JointMotions {
   MotionSpace left_ = MotionSpace(6, 0);
 };
 
-}  // namespace
-
-/// From body to body, by joints to those that it has not come through.
-class RigidMotions::Search {
+/// The small motions of a beam's ends and of the bodies around it, and the equations of the joints
+/// between them. Unknowns: (v/L, ω) of each body at the middle of the beam, then of the beam's
+/// material at each of its joints.
+class EndMotions {
  public:
-  Search(const RigidMotions& motions, const Eigen::Vector3d& point, double length)
-      : motions_(motions), point_(point), length_(length) {}
+  EndMotions(const RigidMotions& motions, const std::string& beam, const BeamAxis& axis,
+             const std::vector<std::string>& bodies)
+      : motions_(motions), beam_(beam), axis_(axis), own_(motions.joints_of(beam)) {
+    for (const std::string& body : bodies) place_[body] = static_cast<int>(place_.size());
+    first_end_ = 6 * std::ssize(bodies);
+    size_ = first_end_ + 6 * std::ssize(own_);
+  }
 
-  MotionSpace left_by(const PlacedJoint& joint, const std::string& body) {
-    path_.push_back(body);
-    const MotionSpace left =
-        sum(JointMotions(joint, point_, length_).find(), of_body(other_body(joint, body)));
-    path_.pop_back();
-    return left;
+  /// 6 rows an end × motions.
+  Eigen::MatrixXd find() {
+    add_joints_of_others();
+    for (std::size_t j = 0; j < own_.size(); ++j) add_own_joint(j);
+    keep_length();
+    const Eigen::MatrixXd ends = null_space(rows_).bottomRows(size_ - first_end_);
+    return without_motions_as_a_whole(ends);
   }
 
  private:
-  MotionSpace of_body(const std::string& body) {
-    if (body == ground_name) return MotionSpace(6, 0);
-    MotionSpace left = all_motions();
-    for (const int index : motions_.joints_of(body)) {
-      const PlacedJoint& joint = motions_.joint(index);
-      const std::string& other = other_body(joint, body);
-      if (std::find(path_.begin(), path_.end(), other) != path_.end()) continue;
-      if (left.cols() == 0 || ++steps_ > most_steps) break;
-      left = common(left, left_by(joint, body));
+  const PlacedJoint& own(std::size_t j) const { return motions_.joint(own_[j]); }
+  const Eigen::Vector3d& point(std::size_t j) const {
+    return own(j).bodies[1] == beam_ ? own(j).to : own(j).at;
+  }
+
+  /// From the motion at the middle of the beam to that at a point.
+  Matrix6 moved_to(const Eigen::Vector3d& point) const {
+    const Eigen::Vector3d arm = (point - axis_.middle) / axis_.length;
+    Matrix6 moved = Matrix6::Identity();
+    moved.topRightCorner<3, 3>() << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(),
+        0;
+    return moved;
+  }
+
+  MotionSpace held_by(const PlacedJoint& joint, const Eigen::Vector3d& point) const {
+    return normal_to(JointMotions(joint, point, axis_.length).find());
+  }
+
+  Eigen::MatrixXd zero_rows(Eigen::Index count) const {
+    return Eigen::MatrixXd::Zero(count, size_);
+  }
+
+  void add(const Eigen::MatrixXd& rows) {
+    const Eigen::Index before = rows_.rows();
+    rows_.conservativeResize(before + rows.rows(), size_);
+    rows_.bottomRows(rows.rows()) = rows;
+  }
+
+  /// Of a body in the rows of a joint; the ground does not move.
+  void set(const std::string& body, const Eigen::MatrixXd& of_body, Eigen::MatrixXd& rows) const {
+    const auto found = place_.find(body);
+    if (found != place_.end()) rows.middleCols(6 * found->second, 6) += of_body;
+  }
+
+  bool is_known(const std::string& body) const {
+    return body == ground_name || place_.contains(body);
+  }
+
+  void add_joints_of_others() {
+    for (const auto& [body, place] : place_) {
+      for (const int index : motions_.joints_of(body)) {
+        const PlacedJoint& joint = motions_.joint(index);
+        const std::string& other = other_body(joint, body);
+        const bool is_other_turn = place_.contains(other) && joint.bodies[0] != body;
+        if (other == beam_ || !is_known(other) || is_other_turn) continue;
+        const Eigen::MatrixXd held = held_by(joint, joint.at).transpose() * moved_to(joint.at);
+        Eigen::MatrixXd rows = zero_rows(held.rows());
+        set(body, held, rows);
+        set(other, -held, rows);
+        add(rows);
+      }
     }
-    return left;
+  }
+
+  void add_own_joint(std::size_t j) {
+    const std::string& other = other_body(own(j), beam_);
+    if (!is_known(other)) return;
+    const Eigen::MatrixXd held = held_by(own(j), point(j)).transpose();
+    Eigen::MatrixXd rows = zero_rows(held.rows());
+    rows.middleCols(first_end_ + 6 * static_cast<Eigen::Index>(j), 6) = held;
+    set(other, -held * moved_to(point(j)), rows);
+    add(rows);
+  }
+
+  void keep_length() {
+    for (std::size_t j = 1; j < own_.size(); ++j) {
+      Eigen::MatrixXd row = zero_rows(1);
+      row.middleCols<3>(first_end_) = -axis_.direction.transpose();
+      row.middleCols<3>(first_end_ + 6 * static_cast<Eigen::Index>(j)) =
+          axis_.direction.transpose();
+      add(row);
+    }
+  }
+
+  Eigen::MatrixXd without_motions_as_a_whole(const Eigen::MatrixXd& ends) const {
+    Eigen::MatrixXd straight(ends.rows(), 6);
+    for (std::size_t j = 0; j < own_.size(); ++j) {
+      straight.middleRows<6>(6 * static_cast<Eigen::Index>(j)) = moved_to(point(j));
+    }
+    Eigen::MatrixXd both(ends.rows(), ends.cols() + 6);
+    both << ends, -straight;
+    const Eigen::MatrixXd common = null_space(both).bottomRows<6>();
+    Eigen::MatrixXd whole = straight * space_of(common);
+    for (Eigen::Index row = 0; row < whole.rows(); ++row) {
+      if (row % 6 >= 3) whole.row(row) *= turn_weight;
+    }
+    const std::vector<int> order = PivotedQr(whole.transpose()).order();
+    const std::vector<int> zero(order.begin(), order.begin() + whole.cols());
+    return ends * null_space(ends(zero, Eigen::all));
   }
 
   const RigidMotions& motions_;
-  Eigen::Vector3d point_;
-  double length_;
-  std::vector<std::string> path_;
-  int steps_ = 0;
+  const std::string& beam_;
+  const BeamAxis& axis_;
+  const std::vector<int>& own_;
+  std::unordered_map<std::string, int> place_;
+  Eigen::Index first_end_ = 0, size_ = 0;
+  Eigen::MatrixXd rows_;
 };
+
+}  // namespace
 
 RigidMotions::RigidMotions(const Scene& scene, const Design<double>& start) {
   for (const Joint& joint : scene.joints) {
@@ -189,9 +280,30 @@ const std::vector<int>& RigidMotions::joints_of(const std::string& body) const {
   return found == of_body_.end() ? none : found->second;
 }
 
-MotionSpace RigidMotions::left_by(const PlacedJoint& joint, const std::string& body,
-                                  const Eigen::Vector3d& point, double length) const {
-  return Search(*this, point, length).left_by(joint, body);
+/// Those that joints lead to, the nearest first.
+std::vector<std::string> RigidMotions::bodies_around(const std::string& beam) const {
+  std::vector<std::string> bodies;
+  std::vector<std::string> reached = {beam};
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    for (const int index : joints_of(reached[i])) {
+      const std::string& other = other_body(joints_[index], reached[i]);
+      if (bodies.size() == most_bodies) return bodies;
+      if (other == ground_name || std::ranges::find(reached, other) != reached.end()) continue;
+      reached.push_back(other);
+      bodies.push_back(other);
+    }
+  }
+  return bodies;
+}
+
+std::vector<MotionSpace> RigidMotions::end_motions(const std::string& beam,
+                                                   const BeamAxis& axis) const {
+  const Eigen::MatrixXd ends = EndMotions(*this, beam, axis, bodies_around(beam)).find();
+  std::vector<MotionSpace> spaces;
+  for (Eigen::Index row = 0; row < ends.rows(); row += 6) {
+    spaces.push_back(space_of(ends.middleRows<6>(row)));
+  }
+  return spaces;
 }
 
 }  // namespace pleuel

@@ -25,10 +25,14 @@ struct PlacedJoint {
   bool has_point_mass;  ///< on one of its sides: it has no rotation
 };
 
-/// Small motions about the drawn pose that joints leave bodies, as if all were rigid: motions in
-/// series add up, joints in parallel leave what each of them leaves. Drives hold what they drive;
-/// springs, loads and inertia hold nothing. Bodies that meet again behind different joints count as
-/// different ones, and motions that differ by less than 1e-4 as the same: both can only leave more.
+/// A beam among rigid bodies.
+struct BeamAxis {
+  Eigen::Vector3d middle, direction;  ///< [m], of length 1
+  double length = 1.0;                ///< [m]
+};
+
+/// Small motions about the drawn pose, as if all bodies but one beam were rigid. Drives hold what
+/// they drive; springs, loads and inertia hold nothing.
 class RigidMotions {
  public:
   RigidMotions() = default;
@@ -39,15 +43,15 @@ class RigidMotions {
   const std::vector<int>& joints_of(const std::string& body) const;
   const PlacedJoint& joint(int index) const { return joints_[index]; }
 
-  /// What a body can do at a joint, without its other joints: the motions that the joint leaves, and
-  /// those of the body on the other side.
-  /// @param point   whose velocity v is [m]
-  /// @param length  L [m]
-  MotionSpace left_by(const PlacedJoint& joint, const std::string& body,
-                      const Eigen::Vector3d& point, double length) const;
+  /// How a beam can move where its joints are while it bends and twists, one space a joint of
+  /// joints_of(beam): what the joints and all other bodies, in loops, too, leave to a beam that keeps
+  /// its length. Motions of the mechanism in which the beam stays straight are taken off: of one end, so
+  /// that the other moves against it, or, where no end moves, of its turning. Bodies beyond the 60
+  /// nearest move as they like.
+  std::vector<MotionSpace> end_motions(const std::string& beam, const BeamAxis& axis) const;
 
  private:
-  class Search;
+  std::vector<std::string> bodies_around(const std::string& beam) const;
 
   std::vector<PlacedJoint> joints_;
   std::unordered_map<std::string, std::vector<int>> of_body_;

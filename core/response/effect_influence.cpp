@@ -93,7 +93,7 @@ std::vector<EffectInfluence> effect_influences(const ProblemFile& problem,
   std::vector<Timed> runs(turned.size() + 1);  // the last as it is
   const auto run_all = [&] {
     for_each_in_parallel(static_cast<int>(runs.size()), available_threads(), [&](int i) {
-      Timed run = simulate(i < turned.size() ? turned[i].problem : fixed, x);
+      Timed run = simulate(i < std::ssize(turned) ? turned[i].problem : fixed, x);
       if (runs[i].seconds > 0.0) run.seconds = std::min(run.seconds, runs[i].seconds);
       runs[i] = std::move(run);
     });

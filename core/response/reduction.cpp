@@ -51,7 +51,7 @@ struct Search {
   bool is_broken(int step) const {
     if (breaks.empty()) return false;
     return breaks[step] || (step > 0 && breaks[step - 1]) ||
-           (step + 1 < breaks.size() && breaks[step + 1]);
+           (step + 1 < std::ssize(breaks) && breaks[step + 1]);
   }
 };
 
