@@ -24,7 +24,8 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& rows, Eigen::Index columns) {
 }
 
 /// S R_q S and Φ_q S, dense.
-Eigen::MatrixXd scaled_tangent(Mechanism& mechanism, const State& state, const Weights& weights) {
+Eigen::MatrixXd scaled_tangent(const Mechanism& mechanism, const State& state,
+                               const Weights& weights) {
   System& system = *mechanism.system;
   System::Matrix matrix = system.make_matrix();
   system.tangent(state, weights, ConstraintLevel::position, matrix);
@@ -42,7 +43,8 @@ bool is_symmetric(const Eigen::MatrixXd& matrix) {
   return (matrix - matrix.transpose()).norm() <= asymmetry * matrix.norm();
 }
 
-bool has_gyroscopic_forces(Mechanism& mechanism, const State& state, const Eigen::MatrixXd& z) {
+bool has_gyroscopic_forces(const Mechanism& mechanism, const State& state,
+                           const Eigen::MatrixXd& z) {
   if (state.v.isZero(0.0)) return false;
   const int n = mechanism.system->coordinates();
   const Eigen::MatrixXd rates =
@@ -54,7 +56,8 @@ bool has_gyroscopic_forces(Mechanism& mechanism, const State& state, const Eigen
 std::string owner(const Mechanism& mechanism, const Eigen::VectorXd& deformation) {
   Eigen::Index largest = 0;
   deformation.cwiseAbs().maxCoeff(&largest);
-  return largest < std::ssize(mechanism.equation_names) ? mechanism.equation_names[largest] : "a member";
+  return largest < std::ssize(mechanism.equation_names) ? mechanism.equation_names[largest]
+                                                        : "a member";
 }
 
 int count_negative(const Eigen::VectorXcd& eigenvalues) {
@@ -67,7 +70,7 @@ int count_negative(const Eigen::VectorXcd& eigenvalues) {
 
 }  // namespace
 
-Eigen::MatrixXd free_deformations(Mechanism& mechanism, const State& state) {
+Eigen::MatrixXd free_deformations(const Mechanism& mechanism, const State& state) {
   const System& system = *mechanism.system;
   const Eigen::Index n = system.coordinates();
   Eigen::MatrixXd phi =
@@ -90,7 +93,7 @@ Eigen::MatrixXd free_deformations(Mechanism& mechanism, const State& state) {
   return null_space(rows, n);
 }
 
-Eigen::MatrixXd deformation_stiffness(Mechanism& mechanism, const State& state,
+Eigen::MatrixXd deformation_stiffness(const Mechanism& mechanism, const State& state,
                                       const Eigen::MatrixXd& deformations) {
   const int n = mechanism.system->coordinates();
   const Eigen::MatrixXd half =
@@ -98,7 +101,7 @@ Eigen::MatrixXd deformation_stiffness(Mechanism& mechanism, const State& state,
   return deformations.transpose() * half;
 }
 
-ElasticStability elastic_stability(Mechanism& mechanism, const State& state) {
+ElasticStability elastic_stability(const Mechanism& mechanism, const State& state) {
   const Eigen::MatrixXd z = free_deformations(mechanism, state);
   if (z.cols() == 0) return {};
   const Eigen::MatrixXd stiffness = deformation_stiffness(mechanism, state, z);
@@ -116,7 +119,7 @@ ElasticStability elastic_stability(Mechanism& mechanism, const State& state) {
   return result;
 }
 
-double buckling_load_factor(Mechanism& mechanism, const State& unloaded, const State& loaded,
+double buckling_load_factor(const Mechanism& mechanism, const State& unloaded, const State& loaded,
                             double share) {
   constexpr double none = std::numeric_limits<double>::infinity();
   const Eigen::MatrixXd z = free_deformations(mechanism, unloaded);

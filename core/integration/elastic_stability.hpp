@@ -10,11 +10,11 @@ namespace pleuel {
 
 /// Deformations that joints and drives allow, normal to the motions of the mechanism as rigid
 /// bodies: columns Z in coordinates relative to Mechanism::scale, Φ_q S Z = 0.
-Eigen::MatrixXd free_deformations(Mechanism& mechanism, const State& state);
+Eigen::MatrixXd free_deformations(const Mechanism& mechanism, const State& state);
 
 /// The stiffness R_q of the deformations at a state, Zᵀ S R_q S Z; loads, weight, inertia forces
 /// and multipliers take part.
-Eigen::MatrixXd deformation_stiffness(Mechanism& mechanism, const State& state,
+Eigen::MatrixXd deformation_stiffness(const Mechanism& mechanism, const State& state,
                                       const Eigen::MatrixXd& deformations);
 
 struct ElasticStability {
@@ -26,7 +26,7 @@ struct ElasticStability {
 /// Counts the negative eigenvalues of the stiffness at a state. One is a deformation that grows.
 /// Where gyroscopic forces act, or where the stiffness is not symmetric (loads that follow), an
 /// even number may be stable (Thomson & Tait); an odd one is not.
-ElasticStability elastic_stability(Mechanism& mechanism, const State& state);
+ElasticStability elastic_stability(const Mechanism& mechanism, const State& state);
 
 /// By what factor the loads of a state buckle the members, from how they change the stiffness:
 ///     (K₀ + s (K₁ − K₀)) φ = 0,   the smallest s > 0; infinite if there is none
@@ -34,7 +34,7 @@ ElasticStability elastic_stability(Mechanism& mechanism, const State& state);
 /// stretching by deflection, which is of second order in both.
 /// @param unloaded  a state without deformation
 /// @param loaded    in equilibrium with `share` of the loads
-double buckling_load_factor(Mechanism& mechanism, const State& unloaded, const State& loaded,
+double buckling_load_factor(const Mechanism& mechanism, const State& unloaded, const State& loaded,
                             double share);
 
 }  // namespace pleuel

@@ -21,6 +21,7 @@
 #include "core/trust/shear_range.hpp"
 #include "core/trust/sideways_buckling.hpp"
 #include "core/trust/sliding_contact.hpp"
+#include "core/trust/unstable_members.hpp"
 
 namespace pleuel {
 
@@ -68,6 +69,7 @@ Trust judge_run(const TrustedRun& run) {
            doubt_sideways_buckling,
            doubt_sliding_contacts,
            doubt_unconnected_bodies,
+           doubt_unstable_members,
        }) {
     add(find(run));
   }

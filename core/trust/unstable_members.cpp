@@ -1,0 +1,90 @@
+#include "core/trust/unstable_members.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/integration/elastic_stability.hpp"
+#include "core/response/lateral_buckling_signal.hpp"
+
+namespace pleuel {
+
+namespace {
+
+constexpr double harmless_press = 0.05;
+constexpr Eigen::Index most_coordinates = 600;
+
+/// Of two pins, about the weakest axis of the weakest element.
+double euler_load(const Beam<double>& beam) {
+  const double wave = std::numbers::pi / beam.node_position(beam.node_count() - 1);
+  double weakest = std::numeric_limits<double>::infinity();
+  for (const BeamElement<double>& element : beam.elements) {
+    const auto& [y, z] = std::pair(element.section.inertia_y, element.section.inertia_z);
+    weakest = std::min(weakest, element.young * std::min(y, z));
+  }
+  return wave * wave * weakest;
+}
+
+/// A beam, and when it was pressed most.
+struct PressedBeam {
+  LateralMember member;
+  double most = 0.0;
+  int instant = -1;
+
+  PressedBeam(const std::string& name, const Model& model)
+      : member(name, model, BendingPlane::xy), most(harmless_press * euler_load(member.beam())) {}
+
+  void see(const State& state, int now) {
+    const double press = -member.observe(state).topRows<2>().minCoeff();
+    if (!(press > most)) return;
+    most = press;
+    instant = now;
+  }
+};
+
+std::vector<PressedBeam> beams_of(const TrustedRun& run) {
+  const Model& model = run.analysis.model;
+  std::vector<PressedBeam> beams;
+  for (const Body& body : run.problem.scene.bodies) {
+    if (!std::holds_alternative<BeamBody>(body.shape)) continue;
+    const BodyModel& part = *model.parts(body.name).front();
+    const bool is_planar = part.frame.rotation == RotationCoordinates::angle;
+    if (part.is_elastic && part.has_stiffening && !is_planar) beams.emplace_back(body.name, model);
+  }
+  return beams;
+}
+
+}  // namespace
+
+std::vector<Doubt> doubt_unstable_members(const TrustedRun& run) {
+  const Mechanism& mechanism = run.analysis.model.mechanism;
+  if (mechanism.system->coordinates() > most_coordinates) return {};
+  std::vector<PressedBeam> beams = beams_of(run);
+  if (beams.empty()) return {};
+  const Trajectory& trajectory = run.analysis.trajectory;
+  State state;
+  for (int i = 0; i < static_cast<int>(trajectory.time.size()); ++i) {
+    trajectory.states->load(i, state);
+    for (PressedBeam& beam : beams) beam.see(state, i);
+  }
+  std::set<int> instants;
+  for (const PressedBeam& beam : beams) {
+    if (beam.instant >= 0) instants.insert(beam.instant);
+  }
+  for (const int i : instants) {
+    trajectory.states->load(i, state);
+    const ElasticStability stability = elastic_stability(mechanism, state);
+    if (stability.is_stable) continue;
+    return {{fmt::format("At t = {:.4g} s the mechanism is not in stable equilibrium with its "
+                         "loads: {} buckles. In the motion a member that is exactly straight stays "
+                         "so. Make it stiffer, or hold it.",
+                         trajectory.time(i), stability.where),
+             true}};
+  }
+  return {};
+}
+
+}  // namespace pleuel
