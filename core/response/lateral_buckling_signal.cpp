@@ -169,10 +169,9 @@ std::unique_ptr<Signal> make_lateral_buckling_signal(const std::string& name, co
   std::vector<std::unique_ptr<Signal>> signals;
   for (const BendingPlane plane : bending_planes(*model.parts(name).front())) {
     LateralMember member(name, model, plane);
-    if (!member.buckling().is_held()) continue;
+    if (!member.buckling().is_held()) return nullptr;
     signals.push_back(std::make_unique<LateralBucklingSignal>(std::move(member), plane));
   }
-  if (signals.empty()) return nullptr;
   return std::make_unique<SignalList>(std::move(signals));
 }
 

@@ -162,8 +162,8 @@ class BodySignalMaker {
     auto signal = make_lateral_buckling_signal(body_.name, model_);
     if (!signal) {
       fail(
-          fmt::format("the joints of \"{}\" let it move as a whole out of the plane in which it "
-                      "bends; springs, loads and bodies that it carries hold nothing",
+          fmt::format("no joint holds \"{}\" where it would buckle; springs, loads and bodies that "
+                      "it carries hold nothing",
                       body_.name));
     }
     return signal;

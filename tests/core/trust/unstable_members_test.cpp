@@ -21,7 +21,7 @@ std::vector<Doubt> doubts_of_column(const std::string& bodies, const std::string
         "materials": {{"light": {{"young": 2.1e11, "poisson": 0.3, "density": 1}}}},
         "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "elements": 6,
                             "material": "light", "damping": {{"stiffness": 1e-4}},
-                            "section": {{"type": "square", "side": 0.01}}}}{}}},
+                            "section": {{"type": "rectangle", "width": 0.01, "height": 0.01}}}}{}}},
         "joints": {{{}}},
         "loads": {{"press": {{"type": "force", "body": "{}", "at": [{}, 0, 0],
                              "direction": [-1, 0, 0],
