@@ -231,6 +231,7 @@ Outcome run_optimize(const Arguments& arguments) {
                                  starts_text(solved, all) + stages_text(solution.stages));
   record.write("result.json", result_document());
   Examined examined;
+  solution.problem->forget_analyses();
   if (optimum.has_design()) examined = examine_optimum(record, optimum);
   is_whole = examined.is_whole;
   if (optimum.has_design() && is_whole) {

@@ -50,6 +50,8 @@ class DesignCase {
   /// The simulation of a design; kept until another one is asked for.
   /// @throws SimulationError
   Analysis& analysis_at(const Eigen::VectorXd& x);
+  /// Gives the memory of the simulation back.
+  void forget_analysis() { analysis_.reset(); }
 
   /// Index of the response of rows; none for a sum of variables.
   std::optional<std::size_t> response_of(const ConstraintRows& rows) const;

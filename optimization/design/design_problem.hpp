@@ -54,6 +54,10 @@ class DesignProblem : public Problem {
   std::size_t case_count() const { return cases_.size(); }
   DesignCase& load_case(std::size_t index) { return *cases_[index]; }
   const DesignCase& load_case(std::size_t index) const { return *cases_[index]; }
+  /// Gives the memory of the simulations back that are kept for the next question.
+  void forget_analyses() {
+    for (const auto& one : cases_) one->forget_analysis();
+  }
 
   /// How gradients are computed; none before the first one. Of several cases that of the first.
   const std::optional<GradientChoice>& method() const { return cases_.front()->method(); }
