@@ -43,13 +43,26 @@ bool is_symmetric(const Eigen::MatrixXd& matrix) {
   return (matrix - matrix.transpose()).norm() <= asymmetry * matrix.norm();
 }
 
-bool has_gyroscopic_forces(const Mechanism& mechanism, const State& state,
-                           const Eigen::MatrixXd& z) {
-  if (state.v.isZero(0.0)) return false;
+/// Whether small motions in the given deformations grow:
+///     det(s² M + s G + K) = 0 with an s of positive real part,
+/// G the gyroscopic part of the forces of velocity. Forces that damp are left out: they only delay.
+bool grows(const Mechanism& mechanism, const State& state, const Eigen::MatrixXd& deformations,
+           const Eigen::MatrixXd& stiffness) {
+  constexpr double round_off = 1e-7;
   const int n = mechanism.system->coordinates();
-  const Eigen::MatrixXd rates =
-      z.transpose() * scaled_tangent(mechanism, state, {.v = 1.0}).topRows(n) * z;
-  return !(rates - rates.transpose()).isZero(0.0);
+  const Eigen::Index size = deformations.cols();
+  const auto reduced = [&](const Weights& weights) -> Eigen::MatrixXd {
+    return deformations.transpose() * scaled_tangent(mechanism, state, weights).topRows(n) *
+           deformations;
+  };
+  const Eigen::MatrixXd rates = reduced({.v = 1.0});
+  const DenseLu mass(symmetric_part(reduced({.a = 1.0})));
+  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(2 * size, 2 * size);
+  companion.topRightCorner(size, size).setIdentity();
+  companion.bottomLeftCorner(size, size) = -mass.solve(stiffness);
+  companion.bottomRightCorner(size, size) = -mass.solve(0.5 * (rates - rates.transpose()));
+  const Eigen::VectorXcd roots = eigenvalues_of(companion);
+  return roots.real().maxCoeff() > round_off * roots.cwiseAbs().maxCoeff();
 }
 
 /// What the largest entry of a deformation belongs to.
@@ -112,9 +125,13 @@ ElasticStability elastic_stability(const Mechanism& mechanism, const State& stat
   const bool is_conservative = is_symmetric(stiffness);
   result.negative = is_conservative ? count_negative(modes.values.cast<std::complex<double>>())
                                     : count_negative(eigenvalues_of(stiffness));
-  const bool may_be_held =
-      result.negative % 2 == 0 && (!is_conservative || has_gyroscopic_forces(mechanism, state, z));
-  result.is_stable = result.negative == 0 || may_be_held;
+  const double round_off = eigenvalue_round_off * modes.values.cwiseAbs().maxCoeff();
+  const Eigen::Index lowest = (modes.values.array() < -round_off).count();
+  const Eigen::MatrixXd shapes = modes.vectors.leftCols(lowest);
+  const bool may_be_held = result.negative % 2 == 0 && (!is_conservative || !state.v.isZero(0.0));
+  result.is_stable =
+      result.negative == 0 || (may_be_held && !grows(mechanism, state, z * shapes,
+                                                     shapes.transpose() * stiffness * shapes));
   if (!result.is_stable) result.where = owner(mechanism, z * modes.vectors.col(0));
   return result;
 }

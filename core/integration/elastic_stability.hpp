@@ -24,8 +24,9 @@ struct ElasticStability {
 };
 
 /// Counts the negative eigenvalues of the stiffness at a state. One is a deformation that grows.
-/// Where gyroscopic forces act, or where the stiffness is not symmetric (loads that follow), an
-/// even number may be stable (Thomson & Tait); an odd one is not.
+/// Gyroscopic forces may hold an even number, and so may a stiffness that is not symmetric (loads
+/// that follow); an odd one grows (Thomson & Tait). Whether they do is asked of the deformations of
+/// these eigenvalues alone, with their mass.
 ElasticStability elastic_stability(const Mechanism& mechanism, const State& state);
 
 /// By what factor the loads of a state buckle the members, from how they change the stiffness:

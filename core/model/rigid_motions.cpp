@@ -148,6 +148,7 @@ class EndMotions {
 
   /// 6 rows an end × motions.
   Eigen::MatrixXd find() {
+    if (own_.empty()) return Eigen::MatrixXd(0, 0);
     add_joints_of_others();
     for (std::size_t j = 0; j < own_.size(); ++j) add_own_joint(j);
     keep_length();

@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<bool, 3> all = {true, true, true}, none = {false, false, false};
 
 std::string beam(const std::string& from, const std::string& to) {
-  return fmt::format(R"({{"type": "beam", "from": {}, "to": {}, "material": "steel",
+  return fmt::format(R"({{"type": "beam", "from": {}, "to": {}, "material": "steel", "elements": 2,
                          "section": {{"type": "circle", "diameter": "10 mm"}}}})",
                      from, to);
 }
