@@ -96,12 +96,13 @@ TEST(JointHolds, OfTheRodOfASliderCrankAreThoseOfPins) {
     ASSERT_EQ(holds.size(), 2);
     for (const JointHold& hold : holds) {
       EXPECT_EQ(hold.displacements, all) << drive;
-      EXPECT_EQ(hold.rotations, none) << drive;
+      EXPECT_FALSE(hold.rotations[1] || hold.rotations[2]) << drive;
     }
   }
 }
 
-/// Between two lugs of an arm, whatever carries the arm.
+/// Between two lugs of an arm, whatever carries the arm. The bar may spin about its axis: as one of its
+/// ends counts against the other, that spin is held at one of them.
 TEST(JointHolds, OfAnArmAreTheSameHoweverTheArmMoves) {
   const std::string lugs = joint("a", "spherical", "arm", "bar", zero) + ", " +
                            joint("b", "spherical", "arm", "bar", tip);
@@ -114,7 +115,7 @@ TEST(JointHolds, OfAnArmAreTheSameHoweverTheArmMoves) {
     ASSERT_EQ(holds.size(), 2) << type;
     for (const JointHold& hold : holds) {
       EXPECT_EQ(hold.displacements, all) << type;
-      EXPECT_EQ(hold.rotations, none) << type;
+      EXPECT_FALSE(hold.rotations[1] || hold.rotations[2]) << type;
     }
   }
 }
