@@ -76,7 +76,31 @@ struct ElementMatrices {
       geometric[3] += point.xi * of_moment;
     }
   }
+
+  /// The nodal values of an end become those of the support of its rigid body, which carries N.
+  /// @param end  0 or 1: the first or the last node
+  void extend(int end, const RigidEnd& rigid) {
+    const Eigen::Index w = 3 * end, slope = w + 1;
+    const double moved = end == 0 ? rigid.pivot : -rigid.pivot;  // w = w_support + moved · w'
+    const auto transform = [&](MatrixOf<Scalar>& matrix) {
+      matrix.col(slope) += moved * matrix.col(w);
+      matrix.row(slope) += moved * matrix.row(w);
+    };
+    transform(elastic);
+    for (MatrixOf<Scalar>& matrix : geometric) transform(matrix);
+    geometric[end](slope, slope) += rigid.reach;
+  }
 };
+
+/// Those of an element of a beam with what its ends carry on with.
+template <class Scalar>
+ElementMatrices<Scalar> matrices_of(const Beam<Scalar>& beam, Eigen::Index element,
+                                    BendingPlane plane, const RigidEnds& ends) {
+  ElementMatrices<Scalar> matrices(beam.elements[element], plane);
+  if (element == 0) matrices.extend(0, ends[0]);
+  if (element + 1 == std::ssize(beam.elements)) matrices.extend(1, ends[1]);
+  return matrices;
+}
 
 Eigen::Index first_row(Eigen::Index element) {
   return 3 * element;
@@ -85,13 +109,12 @@ Eigen::Index first_row(Eigen::Index element) {
 }  // namespace
 
 LateralBuckling::LateralBuckling(const Beam<double>& beam, BendingPlane plane,
-                                 std::vector<LateralSupport> supports)
-    : plane_(plane), supports_(std::move(supports)) {
-  std::vector<Matrix6> elastic;
+                                 std::vector<LateralSupport> supports, const RigidEnds& ends)
+    : plane_(plane), supports_(std::move(supports)), ends_(ends) {
   double lateral = std::numeric_limits<double>::infinity(), twisting = lateral;
   for (const BeamElement<double>& element : beam.elements) {
-    const ElementMatrices<double> matrices(element, plane);
-    elastic.push_back(matrices.elastic);
+    const auto matrices = matrices_of(beam, std::ssize(elastic_), plane, ends);
+    elastic_.push_back(matrices.elastic);
     geometric_.push_back(matrices.geometric);
     const SectionProperties<double>& s = element.section;
     const double inertia = plane == BendingPlane::xy ? s.inertia_y : s.inertia_z;
@@ -101,14 +124,14 @@ LateralBuckling::LateralBuckling(const Beam<double>& beam, BendingPlane plane,
   const double wave = std::numbers::pi / beam.node_position(beam.node_count() - 1);
   critical_press_ = wave * wave * lateral;
   critical_moment_ = wave * std::sqrt(lateral * twisting);
-  is_held_ = hold(elastic);
+  is_held_ = hold();
   if (is_held_) return;
   supports_.front().twist = true;
-  is_held_ = hold(elastic);
+  is_held_ = hold();
 }
 
 /// @returns whether the supports do
-bool LateralBuckling::hold(const std::vector<Matrix6>& elastic) {
+bool LateralBuckling::hold() {
   rows_.clear();
   Eigen::Index size = 0;
   for (const LateralSupport& support : supports_) {
@@ -126,9 +149,9 @@ bool LateralBuckling::hold(const std::vector<Matrix6>& elastic) {
     }
   };
   Band stiffness = Band::Zero(6, size);
-  for (std::size_t e = 0; e < elastic.size(); ++e) {
+  for (std::size_t e = 0; e < elastic_.size(); ++e) {
     for_free(e, [&](Eigen::Index row, Eigen::Index column, Eigen::Index i, Eigen::Index j) {
-      stiffness(row - column, column) += elastic[e](i, j);
+      stiffness(row - column, column) += elastic_[e](i, j);
     });
   }
   scale_ = stiffness.row(0).cwiseSqrt().cwiseInverse().transpose();
@@ -204,7 +227,7 @@ double LateralBuckling::design_slope(const Beam<Dual>& beam, const PlaneLoad& lo
                                      const LateralModes& modes) const {
   double slope = 0.0;
   for (Eigen::Index e = 0; e < load.cols(); ++e) {
-    const ElementMatrices<Dual> matrices(beam.elements[e], plane_);
+    const auto matrices = matrices_of(beam, e, plane_, ends_);
     Matrix6 change = modes.share * derivative_matrix(matrices.elastic);
     for (Eigen::Index k = 0; k < 4; ++k) {
       change += load(k, e) * derivative_matrix(matrices.geometric[k]);
@@ -215,6 +238,24 @@ double LateralBuckling::design_slope(const Beam<Dual>& beam, const PlaneLoad& lo
     }
   }
   return slope;
+}
+
+/// With A = share K + G of the element: ∂A/∂reach has N at the slope alone; as ∂T/∂pivot = T E with
+/// E² = 0, ∂A/∂pivot = Eᵀ A + A E, where E makes a deflection of the slope.
+RigidEnds LateralBuckling::end_slopes(const PlaneLoad& load, const LateralModes& modes) const {
+  RigidEnds slopes;
+  for (Eigen::Index end = 0; end < 2; ++end) {
+    const Eigen::Index e = end == 0 ? 0 : load.cols() - 1, w = 3 * end;
+    Matrix6 change = modes.share * elastic_[e];
+    for (Eigen::Index k = 0; k < 4; ++k) change += load(k, e) * geometric_[e][k];
+    for (const auto& shape : modes.shapes.colwise()) {
+      const Eigen::Matrix<double, 6, 1> moved = shape.segment<6>(first_row(e));
+      const double weight = moved(w + 1) / static_cast<double>(modes.shapes.cols());
+      slopes[end].reach -= weight * load(end, e) * moved(w + 1);
+      slopes[end].pivot -= (end == 0 ? 2.0 : -2.0) * weight * change.row(w).dot(moved);
+    }
+  }
+  return slopes;
 }
 
 }  // namespace pleuel

@@ -17,6 +17,14 @@ struct LateralSupport {
   bool deflection = false, slope = false, twist = false;
 };
 
+/// A rigid body that is welded to an end of a beam and goes on along its axis.
+struct RigidEnd {
+  double reach = 0.0;  ///< how far beyond the end the axial force acts [m]
+  double pivot = 0.0;  ///< how far beyond the end the support of its node holds the deflection [m]
+};
+/// At the first and the last node.
+using RigidEnds = std::array<RigidEnd, 2>;
+
 /// Section forces in the plane of bending, linear in each element: N at its start and its end (pull
 /// is positive) [N], M at its start and its end [N m]. A column an element.
 using PlaneLoad = Eigen::Matrix4Xd;
@@ -37,7 +45,10 @@ struct LateralModes {
 /// 0 if there is none. It has columns (Euler's loads), beams whose moment twists them sideways
 /// (M = π √(EI GJ)/L for a constant one), and both together. m² = 1 − EI/EI_bending, as bending in
 /// the plane holds the beam straighter out of it (Kirby & Nethercot 1979); a beam that is as stiff
-/// sideways has m = 0. Warping of sections is free, transverse loads act at the centroid.
+/// sideways has m = 0. A rigid body that carries the axial force N of an end over the reach d has
+/// the slope w' of the end: it adds ½ s N d w'² to Π. Where it is held at the distance p beyond the
+/// end, w ± p w' (of the last and the first node) takes the place of the deflection of the end.
+/// Warping of sections is free, transverse loads act at the centroid.
 class LateralBuckling {
  public:
   /// Shares up to this one are none.
@@ -45,7 +56,7 @@ class LateralBuckling {
 
   /// @param supports  one a node. If they let the beam turn about its axis, its first node is held.
   LateralBuckling(const Beam<double>& beam, BendingPlane plane,
-                  std::vector<LateralSupport> supports);
+                  std::vector<LateralSupport> supports, const RigidEnds& ends = {});
 
   /// Whether the supports hold the beam: it cannot move out of the plane without strain. Else there
   /// is nothing to ask for.
@@ -63,6 +74,8 @@ class LateralBuckling {
   /// @param beam  with the variable seeded
   double design_slope(const Beam<Dual>& beam, const PlaneLoad& load,
                       const LateralModes& modes) const;
+  /// ∂share/∂(reach, pivot) of both ends [1/m].
+  RigidEnds end_slopes(const PlaneLoad& load, const LateralModes& modes) const;
 
  private:
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
@@ -73,12 +86,14 @@ class LateralBuckling {
     Eigen::Vector4d of_load;
   };
 
-  bool hold(const std::vector<Matrix6>& elastic);
+  bool hold();
   void set_destabilizing(const PlaneLoad& load);
   double size_of(const PlaneLoad& load) const;
 
   BendingPlane plane_;
   std::vector<LateralSupport> supports_;
+  RigidEnds ends_;
+  std::vector<Matrix6> elastic_;         ///< K of each element
   std::vector<UnitMatrices> geometric_;  ///< G of each element, of unit entries of the load
   double critical_press_ = 0.0, critical_moment_ = 0.0;  ///< of simple supports [N], [N m]
   bool is_held_ = false;

@@ -105,6 +105,7 @@ class ModelBuilder {
     }
     add_undivided();
     model_.holds = JointHolds(scene_, context_.start);
+    add_fittings();
     if (context_.plane) model_.effects.front().coordinates_saved = out_of_plane_coordinates();
     add_body_terms();
     add_joints();
@@ -151,6 +152,16 @@ class ModelBuilder {
     for (const Body& body : scene_.bodies) {
       if (model_.parts(body.name).size() < 2) continue;
       model_.undivided.push_back(make_body_model(body, whole, 0));
+    }
+  }
+
+  void add_fittings() {
+    for (const Body& body : scene_.bodies) {
+      if (!std::holds_alternative<BeamBody>(body.shape)) continue;
+      if (!model_.parts(body.name).front()->is_elastic) continue;
+      if (auto fittings = EndFittings::of(body, scene_, context_)) {
+        model_.fittings.emplace(body.name, std::move(*fittings));
+      }
     }
   }
 

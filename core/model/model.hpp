@@ -14,6 +14,7 @@
 #include "core/joints/joint.hpp"
 #include "core/model/beam_mesh.hpp"
 #include "core/model/elastic_body.hpp"
+#include "core/model/end_fittings.hpp"
 #include "core/model/joint_holds.hpp"
 #include "core/model/motion_plane.hpp"
 #include "core/model/stretched_members.hpp"
@@ -138,6 +139,7 @@ struct Model {
   std::vector<BodyModel> undivided;
   /// What joints hold of beams: for judgements on beams out of the plane of motion, too.
   JointHolds holds;
+  std::unordered_map<std::string, EndFittings> fittings;  ///< of the beams that have some
   std::vector<JointModel> joints;
   std::vector<LoadModel> loads;
   std::vector<EffectRecord> effects;

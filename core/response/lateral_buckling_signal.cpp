@@ -1,5 +1,6 @@
 #include "core/response/lateral_buckling_signal.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -71,18 +72,57 @@ Beam<double> whole_beam(const Parts& parts) {
   return beam;
 }
 
+/// Which local axes are across a plane of bending: along which the beam buckles out of it, and about
+/// which it turns then.
+struct AcrossPlane {
+  std::size_t along, about;
+};
+AcrossPlane across(BendingPlane plane) {
+  if (plane == BendingPlane::xy) return {2, 1};
+  return {1, 2};
+}
+
+LateralSupport support_of(const JointHold& hold, BendingPlane plane) {
+  const auto [along, about] = across(plane);
+  return {hold.displacements[along], hold.rotations[about], hold.rotations[0]};
+}
+
 std::vector<LateralSupport> lateral_supports(const Beam<double>& beam, BendingPlane plane,
                                              const std::vector<JointHold>& holds) {
-  const bool is_xy = plane == BendingPlane::xy;
-  const std::size_t lateral = is_xy ? 2 : 1, transverse = is_xy ? 1 : 2;
   std::vector<LateralSupport> supports(beam.node_count());
   for (const JointHold& hold : holds) {
     LateralSupport& at = supports[static_cast<std::size_t>(find_place(beam, hold.at).node())];
-    at.deflection = at.deflection || hold.displacements[lateral];
-    at.slope = at.slope || hold.rotations[transverse];
-    at.twist = at.twist || hold.rotations[0];
+    const LateralSupport more = support_of(hold, plane);
+    at.deflection = at.deflection || more.deflection;
+    at.slope = at.slope || more.slope;
+    at.twist = at.twist || more.twist;
   }
   return supports;
+}
+
+/// How an end goes on in its fitting. A single joint holds it as it holds both as one. Of several
+/// the deflection is held where they are; slope and twist as they hold the weld together, and the
+/// slope where deflections are held at two distances.
+/// @param support  of the node, by all joints of the beam; changed
+FittedEnd fitted_end(const EndFittings& fittings, int end, BendingPlane plane, double length,
+                     LateralSupport& support) {
+  constexpr double same_distance = 1e-9;
+  FittedEnd fitted{fittings.reach(end), {}};
+  std::vector<EndHold> holds = fittings.holds();
+  std::erase_if(holds, [end](const EndHold& hold) { return hold.end != end; });
+  if (holds.size() == 1) support = support_of(holds[0].hold, plane);
+  const EndHold* pivot = nullptr;
+  for (const EndHold& hold : holds) {
+    if (!hold.is_of_fitting && hold.hold.displacements[0]) fitted.reach = {};
+    if (!support_of(hold.hold, plane).deflection) continue;
+    if (pivot == nullptr) pivot = &hold;
+    const double apart = std::abs(hold.distance.value - pivot->distance.value);
+    support.slope = support.slope || apart > same_distance * length;
+  }
+  if (pivot == nullptr) return fitted;
+  support.deflection = true;
+  fitted.pivot = pivot->distance;
+  return fitted;
 }
 
 /// One plane of a member.
@@ -109,6 +149,7 @@ class LateralBucklingSignal final : public Signal {
       gradient.design(variable) += weight * buckling.design_slope(beam, load, modes);
     }
     member_.add_gradient(state, weight * buckling.load_slopes(modes), gradient);
+    member_.add_gradient(buckling.end_slopes(load, modes), weight, gradient);
   }
 
  private:
@@ -124,14 +165,32 @@ LateralMember::LateralMember(const std::string& name, const Model& model, Bendin
       plane_(plane),
       parts_(model.parts(name)),
       beam_(whole_beam(parts_)),
+      length_(beam_.node_position(beam_.node_count() - 1)),
       forces_(plane_forces(parts_, model, plane)),
       load_(4, beam_.elements.size()) {}
 
 LateralBuckling& LateralMember::buckling() {
-  if (!buckling_) {
-    buckling_.emplace(beam_, plane_, lateral_supports(beam_, plane_, model_.holds.of(name_)));
+  if (buckling_) return *buckling_;
+  std::vector<LateralSupport> supports = lateral_supports(beam_, plane_, model_.holds.of(name_));
+  RigidEnds ends;
+  const auto fittings = model_.fittings.find(name_);
+  for (int end = 0; fittings != model_.fittings.end() && end < 2; ++end) {
+    if (!fittings->second.is_fitted(end)) continue;
+    LateralSupport& support = end == 0 ? supports.front() : supports.back();
+    ends_[end] = fitted_end(fittings->second, end, plane_, length_, support);
+    ends[end] = {ends_[end].reach.value, ends_[end].pivot.value};
   }
-  return *buckling_;
+  return buckling_.emplace(beam_, plane_, std::move(supports), ends);
+}
+
+double LateralMember::full_length() const {
+  double length = length_;
+  const auto fittings = model_.fittings.find(name_);
+  for (int end = 0; fittings != model_.fittings.end() && end < 2; ++end) {
+    if (!fittings->second.is_fitted(end)) continue;
+    length += std::max(0.0, fittings->second.reach(end).value);
+  }
+  return length;
 }
 
 const PlaneLoad& LateralMember::observe(const State& state) {
@@ -144,6 +203,18 @@ void LateralMember::add_gradient(const State& state, const PlaneLoad& weights,
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
     const double weight = weights.reshaped()(i);
     if (weight != 0.0) forces_->add_gradient(state, static_cast<int>(i), weight, gradient);
+  }
+}
+
+void LateralMember::add_gradient(const RigidEnds& slopes, double weight,
+                                 SignalGradient& gradient) const {
+  for (std::size_t end = 0; end < 2; ++end) {
+    for (const auto& [variable, slope] : ends_[end].reach.slopes) {
+      gradient.design(variable) += weight * slopes[end].reach * slope;
+    }
+    for (const auto& [variable, slope] : ends_[end].pivot.slopes) {
+      gradient.design(variable) += weight * slopes[end].pivot * slope;
+    }
   }
 }
 

@@ -11,6 +11,11 @@
 
 namespace pleuel {
 
+/// How an end of a beam goes on in a rigid body that is welded to it (RigidEnd).
+struct FittedEnd {
+  EndDistance reach, pivot;
+};
+
 /// A beam of the scene with all that its lateral buckling is made of.
 class LateralMember {
  public:
@@ -19,13 +24,17 @@ class LateralMember {
   LateralMember(const std::string& name, const Model& model, BendingPlane plane);
 
   const Beam<double>& beam() const { return beam_; }
-  /// By the joints of the beam, whose neighbours are taken to be rigid.
+  /// Of the beam with what its fittings add at its ends [m].
+  double full_length() const;
+  /// By the joints of the beam, whose neighbours are taken to be rigid, and those of its fittings.
   LateralBuckling& buckling();
 
   /// N and M in the plane, at both ends of each element, as stress is made from them.
   const PlaneLoad& observe(const State& state);
   /// gradient += Σ weights · ∂load/∂(…)
   void add_gradient(const State& state, const PlaneLoad& weights, SignalGradient& gradient);
+  /// gradient += weight Σ slopes · ∂(reach, pivot)/∂x
+  void add_gradient(const RigidEnds& slopes, double weight, SignalGradient& gradient) const;
   /// The beam with a design variable seeded, for each that it depends on.
   const std::vector<std::pair<int, Beam<Dual>>>& beam_x();
 
@@ -35,8 +44,10 @@ class LateralMember {
   BendingPlane plane_;
   std::vector<const BodyModel*> parts_;
   Beam<double> beam_;
+  double length_;
   std::vector<std::pair<int, Beam<Dual>>> beam_x_;  ///< once it is needed
   std::optional<LateralBuckling> buckling_;         ///< once it is needed
+  std::array<FittedEnd, 2> ends_;                   ///< with it
   std::unique_ptr<Signal> forces_;
   PlaneLoad load_;
 };

@@ -47,6 +47,7 @@ class SidewaysBuckling {
         judged_(name_, run.analysis.model, plane_) {
     const Beam<double>& beam = judged_.beam();
     length_ = beam.node_position(beam.node_count() - 1);
+    full_length_ = judged_.full_length();
     lateral_ = twisting_ = std::numeric_limits<double>::infinity();
     bool is_equal = true;
     for (const BeamElement<double>& element : beam.elements) {
@@ -64,17 +65,19 @@ class SidewaysBuckling {
     moments_matter_ = way == Way::out_of_plane && !is_equal;
   }
 
-  /// Looks at an instant: keeps that of the largest share, if it is worth a word.
+  /// Looks at an instant: keeps that of the largest share, if it is worth a word; in its plane of
+  /// those until the member bends.
   void see(const State& state, double time) {
-    if (!may_buckle_) return;
+    if (is_over_) return;
     PlaneLoad load = observed_.observe(state);
     if (way_ == Way::in_plane) {
-      may_buckle_ = largest_moment(load) <= straight_offset * length_ * euler_load();
+      is_over_ = largest_moment(load) > straight_offset * length_ * euler_load();
       load.bottomRows<2>().setZero();
     }
-    if (!may_buckle_ || most_share(load) <= share_) return;
-    may_buckle_ = judged_.buckling().is_held();
-    const double share = may_buckle_ ? judged_.buckling().share(load, share_) : 0.0;
+    if (is_over_ || most_share(load) <= share_) return;
+    is_over_ = !judged_.buckling().is_held();
+    if (is_over_) return;
+    const double share = judged_.buckling().share(load, share_);
     if (share <= share_) return;
     share_ = share;
     load_ = load;
@@ -82,7 +85,7 @@ class SidewaysBuckling {
   }
 
   /// 0: nothing is worth a word.
-  double share() const { return may_buckle_ && share_ > near_critical ? share_ : 0.0; }
+  double share() const { return share_ > near_critical ? share_ : 0.0; }
 
   /// @pre share() > 0
   Doubt doubt() {
@@ -93,11 +96,12 @@ class SidewaysBuckling {
 
  private:
   /// No share is larger: 1/s of b² s² + p s = harmless_load.
+  /// A rigid fitting bears more than the same length of the beam would.
   double most_share(const PlaneLoad& load) const {
-    const double pi = std::numbers::pi;
-    const double moment = pi * std::sqrt(lateral_ * twisting_) / length_;
+    const double pi = std::numbers::pi, longer = full_length_ / length_;
+    const double moment = pi * std::sqrt(lateral_ * twisting_) / full_length_;
     const double b = moments_matter_ ? largest_moment(load) / moment : 0.0;
-    const double p = largest_press(load) / euler_load();
+    const double p = largest_press(load) / euler_load() * longer * longer;
     return (p + std::sqrt(p * p + 4.0 * b * b * harmless_load)) / (2.0 * harmless_load);
   }
 
@@ -149,8 +153,8 @@ class SidewaysBuckling {
   BendingPlane plane_;  ///< out of which it buckles
   LateralMember observed_, judged_;
   bool moments_matter_ = true;
-  bool may_buckle_ = true;  ///< it is held, and in its plane it stays straight
-  double length_ = 0.0, lateral_ = 0.0, twisting_ = 0.0, depth_ = 0.0;
+  bool is_over_ = false;  ///< nothing holds it, or it bends in its plane, as the motion shows
+  double length_ = 0.0, full_length_ = 0.0, lateral_ = 0.0, twisting_ = 0.0, depth_ = 0.0;
   double share_ = near_critical, time_ = 0.0;
   PlaneLoad load_;
 };

@@ -161,6 +161,81 @@ TEST(LateralStability, OfAForceAndAMomentIsTheirInteraction) {
   }
 }
 
+/// The root of a function that rises between two numbers.
+template <class Function>
+double root(double low, double high, const Function& f) {
+  for (int i = 0; i < 200; ++i) {
+    const double middle = (low + high) / 2;
+    (f(middle) < 0.0 ? low : high) = middle;
+  }
+  return low;
+}
+
+double factor_with(const Ends& ends, const RigidEnds& rigid) {
+  std::vector<LateralSupport> supports(count + 1);
+  supports.front() = ends.first;
+  supports.back() = ends.last;
+  LateralBuckling buckling(thin_beam(), BendingPlane::xy, supports, rigid);
+  return 1.0 / buckling.share(load_of(-1.0, none));
+}
+
+/// A strut with rigid eyes of the length d at both ends, pinned at their tips: w = A cos kx from the
+/// middle, w + d w' = 0 at x = L/2, so u tan u = L/2d with u = kL/2. Eyes that reach back have d < 0.
+TEST(LateralStability, OfAStrutBetweenRigidEyesIsTheRootOfItsEquation) {
+  for (const double share : {1e-4, 0.05, 0.09, 0.12, 0.5, 3.0, -0.1}) {
+    const double d = share * length;
+    const double low = d > 0.0 ? 0.0 : pi / 2;
+    const double u = root(low, low + pi / 2, [&](double at) {
+      return 2 * d * at * std::sin(at) - length * std::cos(at);
+    });
+    const double critical = std::pow(2 * u / length, 2) * lateral_stiffness();
+    EXPECT_NEAR(factor_with({forked, forked}, {{{d, d}, {d, d}}}) / critical, 1.0, 1e-4) << share;
+  }
+}
+
+/// A clamped column with a rigid body on top, the force at the distance d above the tip:
+/// w = δ (1 − cos kx) and w + d w' = δ at x = L, so u tan u = L/d with u = kL.
+TEST(LateralStability, OfAColumnUnderARigidBodyIsTheRootOfItsEquation) {
+  for (const double share : {1e-4, 0.5, 1.0, 10.0}) {
+    const double d = share * length;
+    const double u =
+        root(0.0, pi / 2, [&](double at) { return d * at * std::sin(at) - length * std::cos(at); });
+    const double critical = std::pow(u / length, 2) * lateral_stiffness();
+    EXPECT_NEAR(factor_with({clamped, open}, {{{}, {d, 0.0}}}) / critical, 1.0, 1e-4) << share;
+    EXPECT_NEAR(factor_with({open, clamped}, {{{d, 0.0}, {}}}) / critical, 1.0, 1e-4) << share;
+    EXPECT_NEAR(factor_with({clamped, open}, {{{}, {d, 0.3}}}) / critical, 1.0, 1e-4)
+        << "what nothing holds has no pivot";
+  }
+}
+
+/// A force across and a press at the tip of a rigid body on a cantilever: as of a beam whose last
+/// elements are 1e5 times as stiff.
+TEST(LateralStability, OfARigidEndIsThatOfAVeryStiffOne) {
+  constexpr int stiff = 4;
+  const double d = stiff * length / count;
+  Beam<double> longer = thin_beam();
+  for (int i = 0; i < stiff; ++i) {
+    longer.elements.push_back(longer.elements.front());
+    longer.elements.back().young *= 1e5;
+    longer.elements.back().shear *= 1e5;
+  }
+  PlaneLoad load(4, count + stiff);
+  for (int e = 0; e < count + stiff; ++e) {
+    const double begin = length / count * e, end = begin + length / count;
+    load.col(e) << -2.0, -2.0, length + d - begin, length + d - end;
+  }
+  for (const LateralSupport& last : {open, LateralSupport{true, false, false}}) {
+    std::vector<LateralSupport> supports(count + stiff + 1);
+    supports.front() = clamped;
+    supports.back() = last;
+    const double expected = LateralBuckling(longer, BendingPlane::xy, supports).share(load);
+    supports.resize(count + 1);
+    supports.back() = last;
+    LateralBuckling rigid(thin_beam(), BendingPlane::xy, supports, {{{}, {d, d}}});
+    EXPECT_NEAR(rigid.share(load.leftCols(count)) / expected, 1.0, 1e-4);
+  }
+}
+
 /// Of unequal sections, any section forces and supports.
 class AnyBeam : public testing::TestWithParam<int> {
  protected:
@@ -188,8 +263,8 @@ class AnyBeam : public testing::TestWithParam<int> {
     }
     return made;
   }
-  LateralBuckling buckling(double size = 1.0) const {
-    return {beam<double>(size), BendingPlane::xy, supports};
+  LateralBuckling buckling(double size = 1.0, const RigidEnds& ends = {}) const {
+    return {beam<double>(size), BendingPlane::xy, supports, ends};
   }
 
   static constexpr int elements = 7;
@@ -230,6 +305,31 @@ TEST_P(AnyBeam, HasTheSlopesOfDifferences) {
                [&](double h) { return buckling(1.0 + h).share(load); });
   // The share is linear in the load, as a whole (Euler's theorem).
   EXPECT_NEAR(slopes.cwiseProduct(load).sum(), modes.share, 1e-10 * modes.share);
+}
+
+TEST_P(AnyBeam, HasTheSlopesOfDifferencesOfItsRigidEnds) {
+  const RigidEnds ends = {{{0.15, 0.04}, {0.2, 0.07}}};
+  LateralBuckling at = buckling(1.0, ends);
+  const LateralModes modes = at.modes(load);
+  ASSERT_GT(modes.share, 1e-3);
+  ASSERT_EQ(modes.shapes.cols(), 1);
+  const RigidEnds slopes = at.end_slopes(load, modes);
+  for (std::size_t end = 0; end < 2; ++end) {
+    SCOPED_TRACE(end);
+    const auto share_moved = [&](double RigidEnd::*distance) {
+      return [&, distance](double h) {
+        RigidEnds moved = ends;
+        moved[end].*distance += 0.1 * h;
+        return buckling(1.0, moved).share(load);
+      };
+    };
+    expect_slope(0.1 * slopes[end].reach, modes.share, share_moved(&RigidEnd::reach));
+    expect_slope(0.1 * slopes[end].pivot, modes.share, share_moved(&RigidEnd::pivot));
+  }
+  const Dual seeded(1.0, Dual::Derivatives::Ones());
+  expect_slope(at.design_slope(beam<Dual>(seeded), load, modes), modes.share,
+               [&](double h) { return buckling(1.0 + h, ends).share(load); });
+  EXPECT_NEAR(at.load_slopes(modes).cwiseProduct(load).sum(), modes.share, 1e-10 * modes.share);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, AnyBeam, testing::Range(0, 12));
