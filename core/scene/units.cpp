@@ -328,8 +328,8 @@ const std::vector<DerivedQuantity>& time_integrals() {
   using namespace quantities;
   static const std::vector<DerivedQuantity> table = [] {
     std::vector<DerivedQuantity> rows = {{"1", "a time", "s"}, {"W", "an energy", "J"}};
-    for (const Quantity& quantity :
-         {length, speed, acceleration, mass, stress, force, torque, energy, angle, angular_speed}) {
+    for (const Quantity& quantity : {length, speed, acceleration, mass, stress, force, torque,
+                                     energy, angle, angular_speed, per_time(angular_speed)}) {
       rows.push_back({std::string(quantity.unit), fmt::format("{} times a time", quantity.name),
                       fmt::format("{} s", quantity.unit)});
     }

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/common_units.hpp"
+#include "core/scene/response_names.hpp"
+#include "core/scene/response_quantity.hpp"
 
 namespace pleuel {
 namespace {
@@ -123,6 +125,19 @@ TEST(Units, ThatAreUnknownAreRefused) {
   EXPECT_EQ(complaint("12 parrots", mass), "\"parrots\" is not a known unit");
   EXPECT_EQ(complaint("1,5 mm", length), "numbers have a decimal point, no comma; write 1.5 mm");
   EXPECT_EQ(complaint("0x10 mm", length), "\"x10 mm\" is not a known unit");
+}
+
+TEST(Integrals, HaveAUnitForEveryResponse) {
+  for (const auto& [word, type] : response_types) {
+    if (type == ResponseType::expression) continue;  // has the unit of its formula
+    ResponseSettings response;
+    response.type = type;
+    response.over_time = OverTime::integral;
+    for (const auto along : {DrivenCoordinate::angle, DrivenCoordinate::displacement}) {
+      response.coordinate = along;
+      EXPECT_NO_THROW(quantity_of(response)) << word;
+    }
+  }
 }
 
 TEST(Units, MayNotHideASecondNumber) {  // the library would read 30 mm, 0 m, −20 mm, …
