@@ -121,11 +121,12 @@ TEST(LateralBucklingResponse, OfColumnsIsTheirEulerLoad) {
   EXPECT_EQ(pressed(clamp, -0.8 * euler), 0.0) << "pull";
 }
 
+const std::string welds =
+    R"("a": {"type": "fixed", "bodies": ["left", "bar"], "at": [0, 0, 0]},
+       "b": {"type": "fixed", "bodies": ["bar", "right"], "at": [1.2, 0, 0]},)";
+
 /// Blocks at both ends turn with the bar: on a universal joint and a line it is a column on two pins.
 TEST(LateralBucklingResponse, OfAColumnBetweenBlocksIsByWhatHoldsTheBlocks) {
-  const std::string welds =
-      R"("a": {"type": "fixed", "bodies": ["left", "bar"], "at": [0, 0, 0]},
-         "b": {"type": "fixed", "bodies": ["bar", "right"], "at": [1.2, 0, 0]},)";
   const std::string blocks = rigid("left", "[0, 0, 0]") + rigid("right", "[1.2, 0, 0]");
   const auto pressed = [&](const std::string& joints) {
     Bar bar{welds + joints, force(0.5 * euler, "[-1, 0, 0]"), space};
@@ -142,6 +143,107 @@ TEST(LateralBucklingResponse, OfAColumnBetweenBlocksIsByWhatHoldsTheBlocks) {
   EXPECT_NEAR(
       pressed(R"("u": {"type": "fixed", "bodies": ["ground", "left"], "at": [0, 0, 0]},)" + line),
       0.5 * pi * pi / 20.1907, 1e-4);
+}
+
+/// The root of u tan u = ratio below a right angle.
+double angle_of(double ratio) {
+  double low = 0.0, high = pi / 2;
+  for (int i = 0; i < 200; ++i) {
+    const double middle = (low + high) / 2;
+    (middle * std::sin(middle) < ratio * std::cos(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+/// A strut in rigid eyes, pressed from eye to eye.
+/// @param before, after  x of the eyes
+Bar strut_in_eyes(const std::string& before, const std::string& after, double press) {
+  const std::string joints = fmt::format(
+      R"("u": {{"type": "universal", "bodies": ["ground", "left"], "at": [{}, 0, 0],
+               "axis": [0, 0, 1], "second_axis": [0, 1, 0]}},
+         "l": {{"type": "point-on-line", "bodies": ["ground", "right"], "at": [{}, 0, 0],
+               "axis": [1, 0, 0]}})",
+      before, after);
+  const std::string loads = fmt::format(
+      R"("f": {{"type": "force", "body": "right", "at": [{}, 0, 0], "direction": [-1, 0, 0],
+               "value": {}}})",
+      after, press);
+  Bar bar{welds + joints, loads, space};
+  bar.bodies = rigid("left", fmt::format("[{}, 0, 0]", before)) +
+               rigid("right", fmt::format("[{}, 0, 0]", after));
+  return bar;
+}
+
+/// P = (2u/L)² EI with u tan u = L/2d (tests/core/beam/lateral_buckling_test.cpp).
+TEST(LateralBucklingResponse, OfAStrutInRigidEyesIsTheRootOfItsEquation) {
+  for (const double share : {0.05, 0.09, 0.12, 0.5}) {
+    const double d = share * length, u = angle_of(length / (2 * d));
+    const double critical = std::pow(2 * u / length, 2) * lateral;
+    const Bar bar =
+        strut_in_eyes(fmt::format("{}", -d), fmt::format("{}", length + d), 0.5 * critical);
+    EXPECT_NEAR(share_of(bar), 0.5, 1e-4) << share;
+  }
+}
+
+/// P = (u/L)² EI with u tan u = L/d: a force on a rigid body on top, on a body that is welded to it,
+/// on a rigid beam, and the weight of the body.
+TEST(LateralBucklingResponse, OfAColumnUnderARigidBodyIsTheRootOfItsEquation) {
+  const double d = 0.8 * length, u = angle_of(length / d);
+  const double press = 0.5 * std::pow(u / length, 2) * lateral;
+  const std::string on_top =
+      R"(, "b": {"type": "fixed", "bodies": ["bar", "top"], "at": [1.2, 0, 0]})";
+  const auto force_on = [&](const char* body) {
+    return fmt::format(R"("f": {{"type": "force", "body": "{}", "at": [{}, 0, 0],
+                                 "direction": [-1, 0, 0], "value": {}}})",
+                       body, length + d, press);
+  };
+  Bar bar{clamp + on_top, force_on("top"), space};
+  bar.bodies = rigid("top", "[1.5, 0, 0]");
+  EXPECT_NEAR(share_of(bar), 0.5, 1e-4);
+
+  Bar upon = bar;
+  upon.joints += R"(, "c": {"type": "fixed", "bodies": ["upon", "top"], "at": [1.6, 0.1, 0]})";
+  upon.loads = force_on("upon");
+  upon.bodies += rigid("upon", "[1.7, 0, 0]");
+  EXPECT_NEAR(share_of(upon), 0.5, 1e-4);
+
+  Bar beam = bar;
+  beam.bodies = R"(, "top": {"type": "beam", "from": [1.2, 0, 0], "to": [1.9, 0, 0],
+    "material": "light", "rigid": true, "section": {"type": "circle", "diameter": 0.01}})";
+  EXPECT_NEAR(share_of(beam), 0.5, 1e-4);
+
+  Bar weight = bar;
+  weight.loads = "";
+  weight.bodies = fmt::format(R"(, "top": {{"type": "rigid", "at": [{}, 0, 0], "mass": {},
+                                  "inertia": [1, 1, 1, 0, 0, 0]}})",
+                              length + d, press / 10.0);
+  ProblemFile problem = problem_of(weight);
+  problem.scene.gravity = {-10.0, 0.0, 0.0};
+  EXPECT_NEAR(analyze(problem, start_design(problem))->reductions[0].value, 0.5, 1e-4);
+}
+
+/// An end that a joint of the bar holds along its axis has its force there, whatever else is on it.
+TEST(LateralBucklingResponse, OfAPinnedEndIsNotChangedByABodyOnIt) {
+  const std::string joints =
+      R"("u": {"type": "universal", "bodies": ["ground", "bar"], "at": [0, 0, 0],
+               "axis": [0, 0, 1], "second_axis": [0, 1, 0]},
+         "l": {"type": "point-on-line", "bodies": ["ground", "bar"], "at": [1.2, 0, 0],
+               "axis": [1, 0, 0]})";
+  Bar bar{joints, force(0.5 * euler, "[-1, 0, 0]"), space};
+  EXPECT_NEAR(share_of(bar), 0.5, 1e-4);
+  bar.joints += R"(, "w": {"type": "fixed", "bodies": ["bar", "weight"], "at": [0, 0, 0]})";
+  bar.bodies = rigid("weight", "[-0.3, 0, 0]");
+  EXPECT_NEAR(share_of(bar), 0.5, 1e-4);
+}
+
+/// Two joints of an eye at different distances hold its slope: two clamped ends, 4π² EI/L².
+TEST(LateralBucklingResponse, OfEyesThatAreHeldTwiceIsThatOfClampedEnds) {
+  Bar bar = strut_in_eyes("-0.12", "1.32", 2.0 * euler);
+  bar.joints += R"(, "m": {"type": "point-on-line", "bodies": ["ground", "left"],
+                           "at": [-0.4, 0, 0], "axis": [1, 0, 0]},
+                     "n": {"type": "point-on-line", "bodies": ["ground", "right"],
+                           "at": [1.6, 0, 0], "axis": [1, 0, 0]})";
+  EXPECT_NEAR(share_of(bar), 0.5, 1e-4);
 }
 
 /// What hangs on the tip of a column holds nothing, however it hangs there.
@@ -258,6 +360,32 @@ INSTANTIATE_TEST_SUITE_P(Bodies, GradientsOfLateralBuckling,
                                          std::pair(R"("spatial_motion": "on")", ""),
                                          std::pair("", R"(, "frames": 2)"),
                                          std::pair("", R"(, "reduction": {"modes": 2})")));
+
+/// Eyes, and a body on a mast, whose lengths are variables as the section is.
+TEST(GradientsOfFittings, OfBothMethodsAndOfDifferencesAgree) {
+  const Bar strut = strut_in_eyes("\"= -40*b\"", "\"= 1.2 m + 60*b\"", 0.3 * euler);
+  Bar mast{clamp + R"(, "b": {"type": "fixed", "bodies": ["bar", "top"], "at": [1.2, 0, 0]})",
+           R"("f": {"type": "force", "body": "top", "at": ["= 1.2 m + 10*h", 0, 0],
+                    "direction": [-1, 1, 0], "value": 3})"};
+  mast.bodies = rigid("top", "[1.5, 0, 0]");
+  for (const Bar& bar : {strut, mast}) {
+    const ProblemFile problem = problem_of(bar);
+    const Eigen::VectorXd x = start_design(problem);
+    const auto analysis = analyze(problem, x);
+    EXPECT_GT(analysis->reductions[0].value, 0.1);
+    const auto scaled = [&](const Eigen::MatrixXd& slopes) {
+      return Eigen::MatrixXd(slopes * x.asDiagonal());
+    };
+    const Eigen::MatrixXd direct = scaled(gradients(problem, x, *analysis, GradientMethod::direct));
+    const Eigen::MatrixXd adjoint =
+        scaled(gradients(problem, x, *analysis, GradientMethod::adjoint));
+    const Eigen::MatrixXd wide = scaled(central_differences(problem, x, 2e-3));
+    const Eigen::MatrixXd narrow = scaled(central_differences(problem, x, 1e-3));
+    const double scale = direct.lpNorm<Eigen::Infinity>();
+    EXPECT_LT((adjoint - direct).lpNorm<Eigen::Infinity>(), 1e-10 * scale);
+    EXPECT_LT(((4.0 * narrow - wide) / 3.0 - direct).lpNorm<Eigen::Infinity>(), 1e-6 * scale);
+  }
+}
 
 /// The pendulum swings about its ball without bending: against its own motion it is clamped there.
 TEST(LateralBucklingResponse, OfAPendulumIsThatOfACantilever) {

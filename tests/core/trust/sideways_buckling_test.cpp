@@ -174,6 +174,55 @@ TEST(SidewaysBuckling, OfAStraightStrutInThePlaneOfItsHingesIsTold) {
   }
 }
 
+/// A straight cantilever, pressed far beyond its Euler load and free again before anything bends it.
+TEST(SidewaysBuckling, OfAStraightMemberIsToldThoughItBendsLater) {
+  const double critical = pi * pi * young * 0.03 * std::pow(0.01, 3) / 12 / (4 * 1.2 * 1.2);
+  const auto told = [&](double across) {
+    std::string text =
+        cantilever(1.0, R"({"type": "rectangle", "width": 0.03, "height": 0.01})", "{}");
+    const auto put = [&](const std::string& old, const std::string& with) {
+      text.replace(text.find(old), old.size(), with);
+    };
+    put(R"("direction": [0, -1, 0],)", R"("direction": [-1, 0, 0],)");
+    put(R"("value": 1})", fmt::format(R"("value": {{"type": "table", "interpolation": "monotone",
+          "times": [0, 0.01, 0.02, 0.03, 0.06], "values": [0, {0}, {0}, 0, 0]}}}},
+        "late": {{"type": "force", "body": "arm", "at": [1.2, 0, 0], "direction": [0, 1, 0],
+          "value": {{"type": "table", "interpolation": "monotone",
+            "times": [0, 0.04, 0.05, 0.06], "values": [0, 0, {1}, {1}]}}}})",
+                                      2.5 * critical, across));
+    put(R"("initial_state": "quasi-static")", R"("initial_state": "consistent")");
+    put("\"end_time\": 0.002, \"step\": 0.001", "\"end_time\": 0.06, \"step\": 0.001");
+    return sideways_doubts_of(text);
+  };
+  const std::vector<Doubt> alone = told(0.0), later = told(1.0);
+  ASSERT_EQ(alone.size(), 1u);
+  ASSERT_EQ(later.size(), 1u);
+  EXPECT_TRUE(later[0].is_serious);
+  EXPECT_EQ(later[0].text, alone[0].text);
+}
+
+/// A column under a rigid body ten times as high as itself: P = (u/L)² EI with u tan u = 1/10.
+TEST(SidewaysBuckling, OfAColumnUnderAHighBodyIsTold) {
+  const double u = 0.311053;
+  ASSERT_NEAR(u * std::tan(u), 0.1, 1e-6);
+  const double critical = u * u * young * 0.04 * std::pow(0.002, 3) / 12 / (1.2 * 1.2);
+  const auto pressed = [&](double share) {
+    std::string text = cantilever(share * critical, thin, R"({"spatial_motion": "on"})");
+    const auto put = [&](const std::string& old, const std::string& with) {
+      text.replace(text.find(old), old.size(), with);
+    };
+    put(R"("bodies": {)", R"("bodies": {"top": {"type": "rigid", "at": [1.3, 0, 0], "mass": 1e-3,
+      "inertia": [1e-6, 1e-6, 1e-6, 0, 0, 0]},)");
+    put(R"("joints": {)", R"("joints": {"t": {"type": "fixed", "bodies": ["arm", "top"],
+      "at": [1.2, 0, 0]},)");
+    put(R"("body": "arm", "at": [1.2, 0, 0], "direction": [0, -1, 0])",
+        R"("body": "top", "at": [13.2, 0, 0], "direction": [-1, 0, 0])");
+    return sideways_doubts_of(text);
+  };
+  EXPECT_TRUE(pressed(0.7).empty());
+  EXPECT_EQ(pressed(0.9).size(), 1u);
+}
+
 /// However many frames it has, and whether their stretches share its elements or divide them.
 TEST(SidewaysBuckling, OfADividedBeamIsThatOfTheWhole) {
   for (const char* frames : {R"(, "frames": 2)", R"(, "frames": 12)"}) {
