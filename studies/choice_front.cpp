@@ -1,7 +1,6 @@
 #include "studies/choice_front.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -11,18 +10,12 @@
 #include "optimization/design/size_lists.hpp"
 #include "optimization/design/size_trials.hpp"
 #include "optimization/scaling.hpp"
+#include "studies/front_scale.hpp"
 #include "studies/varied_limit.hpp"
 
 namespace pleuel {
 
 namespace {
-
-constexpr double equal_numbers = 1e-9;  ///< relative
-
-/// No smaller by more than round-off.
-bool is_no_better(double one, double other) {
-  return one >= other - equal_numbers * std::max(std::abs(one), std::abs(other));
-}
 
 /// The problem with any value of what is limited.
 ProblemFile without_limit(ProblemFile problem, GoodSide side) {
@@ -53,7 +46,7 @@ struct TriedChoice {
 std::vector<TriedChoice> front_of(std::vector<TriedChoice> choices, const ParetoSettings& settings,
                                   GoodSide side) {
   const double sign = side == GoodSide::low ? 1.0 : -1.0;
-  std::vector<std::array<double, 2>> goals;
+  std::vector<Goals> goals;
   for (const TriedChoice& one : choices) goals.push_back({one.objective, sign * one.limited});
   const std::vector<bool> is_kept = non_dominated(goals);
   std::vector<TriedChoice> front;
@@ -94,20 +87,6 @@ std::vector<PointSearch> judgements(const std::vector<TriedChoice>& front) {
 bool is_enumerable(const ProblemFile& problem) {
   return has_choices(problem) && !needs_optimization(problem) &&
          SizeLists(problem.variables).combinations() <= most_simulated_choices;
-}
-
-std::vector<bool> non_dominated(const std::vector<std::array<double, 2>>& goals) {
-  std::vector<bool> marks;
-  for (const auto& one : goals) {
-    marks.push_back(std::none_of(goals.begin(), goals.end(), [&](const auto& other) {
-      const bool is_nowhere_worse =
-          is_no_better(one[0], other[0]) && is_no_better(one[1], other[1]);
-      const bool is_somewhere_better =
-          !is_no_better(other[0], one[0]) || !is_no_better(other[1], one[1]);
-      return is_nowhere_worse && is_somewhere_better;
-    }));
-  }
-  return marks;
 }
 
 ParetoFront choice_front(const ProblemFile& problem, const SolveOptions& options,

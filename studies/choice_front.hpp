@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <vector>
-
 #include "core/scene/problem_file.hpp"
 #include "studies/pareto_front.hpp"
 #include "studies/point_searches.hpp"
@@ -21,9 +18,5 @@ bool is_enumerable(const ProblemFile& problem);
 /// @throws Stopped before the first point
 ParetoFront choice_front(const ProblemFile& problem, const SolveOptions& options,
                          const Execution& execution, const ParetoObserver& observer);
-
-/// Of designs with two numbers each, both good where they are small, those that no other dominates:
-/// better in one by more than round-off, and no worse in the other.
-std::vector<bool> non_dominated(const std::vector<std::array<double, 2>>& goals);
 
 }  // namespace pleuel

@@ -17,8 +17,8 @@ namespace pleuel {
 
 template <class Archive>
 void transfer(Archive& archive, FrontEnd& end) {
-  auto& [result, values] = end;
-  archive(result, values[0], values[1]);
+  auto& [result, values, sizes, start_value] = end;
+  archive(result, values[0], values[1], sizes, start_value);
 }
 
 namespace {
@@ -39,6 +39,13 @@ ProblemFile with_goal(ProblemFile file, const Objective& goal,
   return file;
 }
 
+/// Of the objective; 0 if no design could be simulated.
+double first_value(const History& history) {
+  const auto first = std::find_if_not(history.begin(), history.end(),
+                                      [](const auto& record) { return record.has_failed(); });
+  return first == history.end() ? 0.0 : first->objective;
+}
+
 /// Searches that each are a file and a start.
 struct EndWork : TaskWork {
   std::vector<ProblemFile> files;
@@ -54,6 +61,8 @@ struct EndWork : TaskWork {
     DesignProblem& design = *best.problem;
     FrontEnd end;
     end.result = std::move(best.result);
+    end.sizes = best.sizes;
+    end.start_value = first_value(end.result.history);
     if (end.result.evaluation.has_gradients()) {
       for (std::size_t i = 0; i < 2; ++i) {
         const std::size_t response = design.response_index(file.pareto->goals[i].response);
@@ -109,18 +118,23 @@ bool keeps_limits(const Result& result) {
 }
 
 /// What the best of a response may lose for the good of the other one: a share of its value, which may
-/// be much smaller than the front is long, but no less than round-off of the front.
-double end_slack(double value, double length) {
-  return end_tolerance * std::clamp(std::abs(value), 1e-4 * length, length);
+/// be much smaller than the front is long, but no less than round-off of the front. Of a response
+/// that is the same at both ends all that cannot be told apart.
+double end_slack(double value, const GoalScale& scale) {
+  if (!scale.is_traded()) return scale.accuracy;
+  return end_tolerance * std::clamp(std::abs(value), 1e-4 * scale.range(), scale.range());
 }
 
 /// An end whose other response is better, if there is one that is as good.
 void refine(FrontEnd& end, const FrontEnd& refined, const Objective& other, std::size_t index,
-            double length) {
+            const GoalScale& scale) {
   if (!keeps_limits(refined.result)) return;
   const double gain =
       signed_value(other, end.values[index]) - signed_value(other, refined.values[index]);
-  if (gain > 10.0 * end_tolerance * length) end = refined;
+  if (gain <= (scale.is_traded() ? 10.0 * end_tolerance * scale.range() : scale.accuracy)) return;
+  end.result = refined.result;
+  end.values = refined.values;
+  end.sizes = refined.sizes;
 }
 
 }  // namespace
@@ -129,6 +143,17 @@ void start_from(const Eigen::VectorXd& x, std::vector<DesignVariable>& variables
   for (std::size_t i = 0; i < variables.size(); ++i) {
     variables[i].start = std::clamp(x(i), variables[i].lower, variables[i].upper);
   }
+}
+
+GoalScale end_scale(const std::vector<FrontEnd>& ends, std::size_t goal) {
+  GoalScale scale;
+  const double first = ends[0].values[goal], second = ends[1].values[goal];
+  scale.low = std::min(first, second);
+  scale.high = std::max(first, second);
+  scale.accuracy =
+      std::max({optimum_accuracy * std::abs(scale.low), optimum_accuracy * std::abs(scale.high),
+                equal_numbers * std::abs(ends[goal].start_value)});
+  return scale;
 }
 
 std::unique_ptr<TaskWork> make_end_work(const std::string& content) {
@@ -148,21 +173,18 @@ std::vector<FrontEnd> find_front_ends(const ProblemFile& file, const SolveOption
   std::vector<FrontEnd> ends = first.take_ends();
   if (!keeps_limits(ends[0].result) || !keeps_limits(ends[1].result)) return ends;
   std::vector<ProblemFile> files;
-  std::array<double, 2> lengths{};
+  const std::array<GoalScale, 2> scales = {end_scale(ends, 0), end_scale(ends, 1)};
+  if (!scales[0].is_traded() && !scales[1].is_traded()) return ends;
   for (std::size_t i = 0; i < 2; ++i) {
-    lengths[i] = std::abs(ends[0].values[i] - ends[1].values[i]);
-    const double slack = end_slack(ends[i].values[i], lengths[i]);
+    const double slack = end_slack(ends[i].values[i], scales[i]);
     const double limit = ends[i].values[i] + goals[i].sign() * slack;
     files.push_back(with_goal(file, goals[1 - i], std::pair(goals[i], limit)));
   }
-  const bool is_point = lengths[0] <= optimum_resolution * std::abs(ends[0].values[0]) ||
-                        lengths[1] <= optimum_resolution * std::abs(ends[0].values[1]);
-  if (is_point) return ends;
   EndSearches second(files, {ends[0].result.x, ends[1].result.x}, options, execution);
   run_tasks(second, execution.tasks);
   const std::vector<FrontEnd> refined = second.take_ends();
   for (std::size_t i = 0; i < 2; ++i)
-    refine(ends[i], refined[i], goals[1 - i], 1 - i, lengths[1 - i]);
+    refine(ends[i], refined[i], goals[1 - i], 1 - i, scales[1 - i]);
   return ends;
 }
 

@@ -2,24 +2,30 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/scene/problem_file.hpp"
 #include "optimization/evaluation_store.hpp"
 #include "optimization/solve.hpp"
+#include "studies/front_scale.hpp"
+#include "studies/sized_search.hpp"
 
 /// The ends of a front between two responses.
 namespace pleuel {
-
-/// Optima agree to about this, relative: what differs by less is the same.
-inline constexpr double optimum_resolution = 1e-4;
 
 /// The best design for one of two responses.
 struct FrontEnd {
   Result result;
   std::array<double, 2> values{};  ///< of both responses
+  std::optional<TriedSizes> sizes = {};
+  double start_value = 0.0;  ///< of the response that it is best for, where the search began
 };
+
+/// One of the responses between both ends. Where it is 0 at both, round-off of what it was at the
+/// start is its accuracy.
+GoalScale end_scale(const std::vector<FrontEnd>& ends, std::size_t goal);
 
 /// The best designs for both responses (ParetoSettings::goals), and of equally good ones the best for
 /// the other. Each search is a task of its own.

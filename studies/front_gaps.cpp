@@ -5,14 +5,17 @@
 #include <numeric>
 #include <optional>
 
-#include "studies/front_ends.hpp"
+#include "studies/front_scale.hpp"
 
 namespace pleuel {
 
 namespace {
 
 constexpr int most_failures = 3;
-constexpr int most_parts = 4;  ///< of a gap at a time
+constexpr double shortest_end = 1e-4;      ///< of the range: no end is looked for in less
+constexpr std::size_t most_crossings = 2;  ///< limits on the objective in one gap
+constexpr double near_gap = 0.9;           ///< of the gap asked
+constexpr int most_parts = 4;              ///< of a gap at a time
 constexpr double same_place = 0.1, short_interval = 0.25, slope_share = 0.5;  ///< of the gap asked
 constexpr double end_share = 0.02;  ///< of an interval of limits: no probe is nearer to its ends
 constexpr int segments = 64;        ///< of the curve that is measured
@@ -21,7 +24,8 @@ constexpr int segments = 64;        ///< of the curve that is measured
 struct Place {
   std::size_t index = 0;
   double limit = 0.0, limited = 0.0, objective = 0.0;
-  std::optional<double> slope;  ///< of the objective by the limit
+  std::optional<double> slope;            ///< of the objective by the limit
+  std::optional<double> objective_limit;  ///< that it was found with
   bool is_on_front = false;
 };
 
@@ -40,9 +44,13 @@ struct Neighbours {
 
 class GapFinder {
  public:
-  GapFinder(const std::vector<ParetoPoint>& points, GoodSide side, double gap)
-      : points_(points), gap_(gap), sign_(side == GoodSide::low ? 1.0 : -1.0) {
-    measure(points);
+  GapFinder(const std::vector<ParetoPoint>& points, GoodSide side, double gap,
+            ObjectiveLimits objective_limits)
+      : points_(points),
+        gap_(gap),
+        sign_(side == GoodSide::low ? 1.0 : -1.0),
+        takes_objective_limits_(objective_limits == ObjectiveLimits::possible) {
+    measure(side);
     for (std::size_t i = 0; i < points.size(); ++i) places_.push_back(place_of(points[i], i));
     for (const Place& place : places_) {
       if (place.is_on_front) front_.push_back(&place);
@@ -59,7 +67,7 @@ class GapFinder {
     for (std::size_t i = 1; i < front_.size(); ++i) {
       const Place &tight = *front_[i - 1], &loose = *front_[i];
       const double size = distance(tight, loose);
-      found.largest = std::max(found.largest, size);
+      found.largest = std::max(found.largest.value_or(0.0), size);
       if (size <= gap_) continue;
       Neighbours between = neighbours(tight, loose);
       const FrontGap::Cause cause = cause_of(between);
@@ -71,26 +79,15 @@ class GapFinder {
   }
 
  private:
-  /// Ranges of both goals; one that is no larger than the accuracy of optima plays no part.
-  void measure(const std::vector<ParetoPoint>& points) {
-    bool is_first = true;
-    double low = 0.0, high = 0.0, least = 0.0, most = 0.0;
-    for (const ParetoPoint& point : points) {
-      if (!is_on_front(point)) continue;
-      const double limited = sign_ * point.limited_value;
-      const double objective = point.result.evaluation.objective;
-      low = is_first ? limited : std::min(low, limited);
-      high = is_first ? limited : std::max(high, limited);
-      least = is_first ? objective : std::min(least, objective);
-      most = is_first ? objective : std::max(most, objective);
-      is_first = false;
+  /// Ranges of both goals; one that is not traded plays no part.
+  void measure(GoodSide side) {
+    std::vector<Goals> goals;
+    for (const ParetoPoint& point : points_) {
+      if (is_on_front(point)) goals.push_back(goals_of(point, side));
     }
-    const auto scale = [](double from, double to) {
-      const double accuracy = optimum_resolution * std::max(std::abs(from), std::abs(to));
-      return to - from > accuracy ? 1.0 / (to - from) : 0.0;
-    };
-    limited_scale_ = scale(low, high);
-    objective_scale_ = scale(least, most);
+    const FrontScale scale(goals);
+    objective_scale_ = scale.objective().per_range();
+    limited_scale_ = scale.limited().per_range();
   }
 
   static bool is_on_front(const ParetoPoint& point) {
@@ -102,6 +99,7 @@ class GapFinder {
     place.index = index;
     place.limit = sign_ * point.limit * limited_scale_;
     place.is_on_front = is_on_front(point);
+    if (point.objective_limit) place.objective_limit = *point.objective_limit * objective_scale_;
     if (!point.has_design()) return place;
     place.limited = sign_ * point.limited_value * limited_scale_;
     place.objective = point.result.evaluation.objective * objective_scale_;
@@ -149,7 +147,7 @@ class GapFinder {
     if (failed == nullptr) return;
     Neighbours between{failed, &first, failed->limit, std::min(first.limit, first.limited), {}};
     const double size = between.interval() * std::hypot(1.0, first.slope.value_or(0.0));
-    if (size <= gap_ || between.interval() <= optimum_resolution) return;
+    if (size <= gap_ || between.interval() <= shortest_end) return;
     found.gaps.push_back({failed->index, first.index, size, FrontGap::Cause::open});
     open.emplace_back(size, std::move(between));
   }
@@ -175,13 +173,64 @@ class GapFinder {
 
   FrontGap::Cause cause_of(const Neighbours& between) const {
     if (asks_for_look_back(between)) return FrontGap::Cause::open;
-    const double interval = between.interval();
-    if (interval <= optimum_resolution) return FrontGap::Cause::jump;
-    if (interval <= short_interval * gap_ && is_unexplained(between, gap_)) {
-      return FrontGap::Cause::jump;
-    }
+    if (is_narrow(between)) return cause_of_narrow(between);
     return between.failures.size() < most_failures ? FrontGap::Cause::open
                                                    : FrontGap::Cause::failure;
+  }
+
+  /// Whether limits between do not divide it: they would be nearer to each other than optima can be
+  /// told apart, or lead to one side or the other as far as the slopes tell.
+  bool is_narrow(const Neighbours& between) const {
+    if (objective_scale_ == 0.0 || !between.tight->is_on_front) return false;
+    const double size = std::max(std::abs(between.lower), std::abs(between.upper));
+    if (between.interval() <= optimum_accuracy * size) return true;
+    if (between.interval() > short_interval * gap_) return false;
+    const bool knows_slopes = between.tight->slope && between.loose->slope;
+    return knows_slopes ? is_unexplained(between, gap_) : takes_objective_limits_;
+  }
+
+  // ---- limits on the objective
+
+  /// What such limits between two neighbours led to.
+  struct Crossings {
+    double cleared = 0.0;  ///< up to here the loose neighbour is best
+    std::size_t tried = 0;
+  };
+
+  Crossings crossings(const Neighbours& between) const {
+    Crossings found{between.loose->objective, 0};
+    for (const Place& place : places_) {
+      if (!place.objective_limit) continue;
+      const double limit = *place.objective_limit;
+      const double margin = same_place * gap_;
+      const bool is_between =
+          limit > between.loose->objective + margin && limit < between.tight->objective - margin;
+      if (!is_between) continue;
+      ++found.tried;
+      const bool is_loose = place.is_on_front && place.limited >= between.loose->limited - margin;
+      if (is_loose) found.cleared = std::max(found.cleared, limit);
+    }
+    return found;
+  }
+
+  FrontGap::Cause cause_of_narrow(const Neighbours& between) const {
+    if (!takes_objective_limits_) return FrontGap::Cause::narrow;
+    const auto [cleared, tried] = crossings(between);
+    if (tried > 0 && between.tight->objective - cleared <= gap_) return FrontGap::Cause::jump;
+    return tried < most_crossings ? FrontGap::Cause::open : FrontGap::Cause::failure;
+  }
+
+  /// First the middle of a gap, then what is nearly as near to its tight side as the gap asked.
+  double next_objective_limit(const Neighbours& between) const {
+    const double tight = between.tight->objective, loose = between.loose->objective;
+    const double middle = std::midpoint(tight, loose);
+    return crossings(between).tried == 0 ? middle : std::max(middle, tight - near_gap * gap_);
+  }
+
+  FrontProbe crossing_of(const Neighbours& between) const {
+    return {sign_ * std::midpoint(between.lower, between.upper) / limited_scale_,
+            between.loose->index, between.tight->index,
+            next_objective_limit(between) / objective_scale_};
   }
 
   // ---- probes
@@ -204,6 +253,7 @@ class GapFinder {
   std::vector<FrontProbe> probes_of(const Neighbours& between) const {
     const std::size_t tight = between.tight->index, loose = between.loose->index;
     if (asks_for_look_back(between)) return {{points_[tight].limit, loose, tight}};
+    if (is_narrow(between)) return {crossing_of(between)};
     std::vector<FrontProbe> all;
     for (const double limit : limits_between(between)) {
       const bool is_nearer_to_tight = limit - between.lower <= between.upper - limit;
@@ -282,6 +332,7 @@ class GapFinder {
 
   const std::vector<ParetoPoint>& points_;
   double gap_, sign_;
+  bool takes_objective_limits_;
   double limited_scale_ = 0.0, objective_scale_ = 0.0;  ///< 1 / range
   std::vector<Place> places_;                           ///< of all points
   std::vector<const Place*> front_;                     ///< by their limited value
@@ -290,8 +341,8 @@ class GapFinder {
 }  // namespace
 
 FrontGaps find_front_gaps(const std::vector<ParetoPoint>& points, GoodSide side, double gap,
-                          int room) {
-  return GapFinder(points, side, gap).run(room);
+                          int room, ObjectiveLimits objective_limits) {
+  return GapFinder(points, side, gap, objective_limits).run(room);
 }
 
 }  // namespace pleuel

@@ -78,15 +78,9 @@ FoundPoint point_of(const FrontEnd& end, const ProblemFile& problem, const Execu
   point.is_end = true;
   point.is_choice = has_choices(problem);
   point.result = end.result;
+  point.sizes = end.sizes;
   point.limit = point.limited_value = end.values[1];
-  if (!point.has_design()) return found;
-  ProblemFile limited = problem;
-  set_limit(limited, point.limit);
-  DesignProblem design(std::move(limited), available_threads(), execution.store);
-  Result& result = point.result;
-  result.evaluation = design.evaluate(result.x, Request::values_and_gradients);
-  result.constraint_multipliers = Eigen::VectorXd::Zero(result.evaluation.constraints.size());
-  result.error.reset();  // of the response that it is best for
+  take_as_point(point, problem, execution.store);
   return found;
 }
 
@@ -108,7 +102,9 @@ class Front {
     ParetoFront front;
     while (is_whole && settings_.gap > 0.0) {
       const int room = settings_.most_points - static_cast<int>(found_.size());
-      front.gaps = find_front_gaps(points(), side_, settings_.gap, std::max(room, 0));
+      front.gaps = find_front_gaps(
+          points(), side_, settings_.gap, std::max(room, 0),
+          can_exchange_goals(problem_) ? ObjectiveLimits::possible : ObjectiveLimits::impossible);
       if (front.gaps.probes.empty()) break;
       is_whole = search(next_searches(front.gaps.probes));
     }
@@ -135,6 +131,7 @@ class Front {
     for (const FrontProbe& probe : probes) {
       PointSearch search{probe.limit, std::nullopt, found_[probe.from].next_start()};
       if (probe.other != probe.from) search.other = found_[probe.other].next_start();
+      search.objective_limit = probe.objective_limit;
       searches.push_back(std::move(search));
     }
     return searches;
@@ -169,9 +166,8 @@ class Front {
   std::vector<FoundPoint> found_;  ///< by limit
 };
 
-/// What there is where nothing is to be traded, or an end was not found.
+/// What there is where an end was not found, or nothing is to be traded and one end is left.
 ParetoFront front_of_ends(std::vector<FoundPoint> ends, const ParetoObserver& observer) {
-  if (ends[0].point.has_design() && ends[1].point.has_design()) ends.pop_back();
   ParetoFront front;
   for (FoundPoint& end : ends) {
     if (observer) observer(end.point);
@@ -186,15 +182,17 @@ ParetoFront front_between(ProblemFile problem, const SolveOptions& options,
   ProblemFile file = problem;
   remove_limit(file, file.pareto->constraint);
   std::vector<FoundPoint> ends;
-  for (const FrontEnd& end : find_front_ends(file, options, execution)) {
-    ends.push_back(point_of(end, problem, execution));
-  }
+  const std::vector<FrontEnd> found = find_front_ends(file, options, execution);
+  for (const FrontEnd& end : found) ends.push_back(point_of(end, problem, execution));
   ParetoSettings& settings = *problem.pareto;
   settings.from = ends[0].point.limit;
   settings.to = ends[1].point.limit;
   const bool has_ends = ends[0].point.has_design() && ends[1].point.has_design();
-  const double length = std::abs(settings.to - settings.from);
-  if (!has_ends || length <= optimum_resolution * std::abs(settings.from)) {
+  if (!has_ends) return front_of_ends(std::move(ends), observer);
+  const bool trades_limited = end_scale(found, 1).is_traded();
+  if (!trades_limited || !end_scale(found, 0).is_traded()) {
+    // The end that is better in what the other one is as good as.
+    ends.erase(ends.begin() + (trades_limited ? 0 : 1));
     return front_of_ends(std::move(ends), observer);
   }
   return Front(problem, options, execution, observer).run(std::move(ends));

@@ -1,6 +1,5 @@
 #include "studies/pareto_knee.hpp"
 
-#include <cmath>
 #include <numbers>
 
 namespace pleuel {
@@ -8,16 +7,6 @@ namespace pleuel {
 namespace {
 
 constexpr double straight = 0.05;  ///< distance from the line, both goals over their ranges
-
-/// Both goals so that small is good.
-struct Goals {
-  double objective, limited;
-};
-
-Goals goals_of(const ParetoPoint& point, GoodSide side) {
-  const double sign = side == GoodSide::low ? 1.0 : -1.0;
-  return {point.result.evaluation.objective, sign * point.limited_value};
-}
 
 }  // namespace
 
@@ -27,23 +16,20 @@ std::optional<std::size_t> find_knee(const std::vector<ParetoPoint>& points, Goo
     if (points[i].keeps_limits() && !points[i].is_dominated) counted.push_back(i);
   }
   if (counted.size() < 3) return std::nullopt;
-  const Goals first = goals_of(points[counted.front()], side);
-  const Goals last = goals_of(points[counted.back()], side);
-  const double objectives = last.objective - first.objective;
-  const double limits = last.limited - first.limited;
-  if (objectives * limits >= 0.0) return std::nullopt;  // nothing is traded
+  std::vector<Goals> goals;
+  for (const std::size_t i : counted) goals.push_back(goals_of(points[i], side));
+  const FrontScale scale(goals);
+  if (!scale.is_traded()) return std::nullopt;
   std::optional<std::size_t> knee;
   double furthest = straight;
-  for (const std::size_t i : counted) {
-    const Goals at = goals_of(points[i], side);
+  for (std::size_t k = 0; k < counted.size(); ++k) {
     // 0 at the end where a goal is small, 1 at the other.
-    const double u =
-        (at.objective - std::min(first.objective, last.objective)) / std::abs(objectives);
-    const double v = (at.limited - std::min(first.limited, last.limited)) / std::abs(limits);
+    const double u = (goals[k][0] - scale.objective().low) * scale.objective().per_range();
+    const double v = (goals[k][1] - scale.limited().low) * scale.limited().per_range();
     const double distance = (1.0 - u - v) / std::numbers::sqrt2;
     if (distance <= furthest) continue;
     furthest = distance;
-    knee = i;
+    knee = counted[k];
   }
   return knee;
 }

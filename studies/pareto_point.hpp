@@ -1,9 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "optimization/prices.hpp"
 #include "optimization/result.hpp"
+#include "studies/front_scale.hpp"
+#include "studies/sized_search.hpp"
 
 namespace pleuel {
 
@@ -14,23 +17,30 @@ struct ParetoPoint {
   double limited_value = 0.0;
   /// Of that constraint: d(objective)/d(limit) = −multiplier. Only where has_prices(result).
   double multiplier = 0.0;
+  /// It was found with this limit on the objective, in place of one on what is limited [SI; of what
+  /// is maximized the negative]; it has no multiplier.
+  std::optional<double> objective_limit;
   bool is_dominated = false;  ///< another point is better in one goal and no worse in the other
   bool is_end = false;        ///< the best design for one of two responses; it has no multiplier
   bool is_choice = false;     ///< sizes of it come from lists: it has no multiplier either
+  std::optional<TriedSizes> sizes;  ///< how they were chosen for it alone
   Result result;
 
   bool has_design() const { return result.evaluation.has_gradients(); }
   /// Whether its search came to a design within the limits.
   bool keeps_limits() const;
-  bool has_multiplier() const { return !is_end && !is_choice && has_prices(result); }
+  bool has_multiplier() const {
+    return !is_end && !is_choice && !objective_limit && has_prices(result);
+  }
 };
 
 /// Which limited values are good: those below an upper limit, or above a lower one.
 enum class GoodSide { low, high };
 
-/// Marks each point for which another one is better in one goal, by more than 1e-4 relative, and
-/// not worse in the other. Points that break limits or have no design neither dominate nor are
-/// dominated.
+Goals goals_of(const ParetoPoint& point, GoodSide side);
+
+/// Marks each point for which another one is better in one goal and not worse in the other
+/// (FrontScale). Points that break limits or have no design neither dominate nor are dominated.
 void mark_dominated(std::vector<ParetoPoint>& points, GoodSide side);
 
 }  // namespace pleuel

@@ -21,15 +21,16 @@ namespace pleuel {
 template <class Archive>
 void transfer(Archive& archive, FoundPoint& found) {
   auto& [start, between, point] = found;
-  auto& [limit, limited_value, multiplier, is_dominated, is_end, is_choice, result] = point;
-  archive(start, between, limit, limited_value, multiplier, is_dominated, is_end, is_choice,
-          result);
+  auto& [limit, limited_value, multiplier, objective_limit, is_dominated, is_end, is_choice, sizes,
+         result] = point;
+  archive(start, between, limit, limited_value, multiplier, objective_limit, is_dominated, is_end,
+          is_choice, sizes, result);
 }
 
 template <class Archive>
 void transfer(Archive& archive, PointSearch& search) {
-  auto& [limit, from, start, other, known, keeps_sizes] = search;
-  archive(limit, from, start, other, known, keeps_sizes);
+  auto& [limit, from, start, other, known, objective_limit, keeps_sizes] = search;
+  archive(limit, from, start, other, known, objective_limit, keeps_sizes);
 }
 
 namespace {
@@ -61,6 +62,7 @@ struct PointWork : TaskWork {
 
   FoundPoint point_from(const Eigen::VectorXd& start, const PointSearch& search,
                         EvaluationStore* known) const {
+    if (search.objective_limit) return exchanged(start, search, known);
     FoundPoint found;
     found.start = start;
     ProblemFile varied = problem;
@@ -74,11 +76,26 @@ struct PointWork : TaskWork {
       start_from(start, varied.variables);
       SizedDesign best = search_with_sizes(varied, options, known);
       found.between = std::move(best.between);
+      point.sizes = best.sizes;
       point.result = std::move(best.result);
     }
     if (!point.has_design()) return found;
     point.limited_value = limited_value(varied, point.result.evaluation.constraints);
     point.multiplier = multiplier_of_limit(varied, point.result.constraint_multipliers);
+    return found;
+  }
+
+  /// With the limit on the objective.
+  FoundPoint exchanged(const Eigen::VectorXd& start, const PointSearch& search,
+                       EvaluationStore* known) const {
+    FoundPoint found;
+    found.start = start;
+    found.point.limit = search.limit;
+    found.point.objective_limit = search.objective_limit;
+    ProblemFile file = with_exchanged_goals(problem, *search.objective_limit);
+    start_from(start, file.variables);
+    found.point.result = search_with_sizes(file, options, known).result;
+    take_as_point(found.point, problem, known);
     return found;
   }
 
@@ -149,6 +166,16 @@ class PointSearches : public Tasks {
 };
 
 }  // namespace
+
+void take_as_point(ParetoPoint& point, const ProblemFile& problem, EvaluationStore* store) {
+  if (!point.has_design()) return;
+  DesignProblem design(problem, available_threads(), store);
+  Result& result = point.result;
+  result.evaluation = design.evaluate(result.x, Request::values_and_gradients);
+  result.constraint_multipliers = Eigen::VectorXd::Zero(result.evaluation.constraints.size());
+  result.error.reset();  // of the response that it is best for
+  point.limit = point.limited_value = limited_value(problem, result.evaluation.constraints);
+}
 
 std::unique_ptr<TaskWork> make_point_work(const std::string& content) {
   auto work = std::make_unique<PointWork>();

@@ -35,6 +35,8 @@ struct PointSearch {
   std::optional<Eigen::VectorXd> other =
       {};  ///< start where the other one leads to no design within limits
   std::optional<FoundPoint> known = {};  ///< nothing has to be looked for
+  /// In place of the limit one on the objective (ParetoPoint::objective_limit).
+  std::optional<double> objective_limit = {};
   bool keeps_sizes = false;  ///< those of the start are judged, and no others looked for
 };
 
@@ -42,6 +44,10 @@ struct FoundPoints {
   std::vector<FoundPoint> points;  ///< in the order of the searches; those that were found
   bool is_whole = true;            ///< no stop was asked for before their end
 };
+
+/// The design of a result of another problem as a point: judged by that, with its own value as the limit.
+/// @param problem  of the front
+void take_as_point(ParetoPoint& point, const ProblemFile& problem, EvaluationStore* store);
 
 /// Sees each point as it is found; dominance is known only at the end.
 using ParetoObserver = std::function<void(const ParetoPoint&)>;

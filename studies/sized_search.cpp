@@ -14,7 +14,7 @@ SizedDesign search_with_sizes(const ProblemFile& file, const SolveOptions& optio
   StagedSolution solution;
   solution.problem = std::make_unique<DesignProblem>(file, available_threads(), store);
   solution.result = solve_design(*solution.problem, options);
-  if (!has_choices(file)) return {std::move(solution.result), std::move(solution.problem), {}};
+  if (!has_choices(file)) return {std::move(solution.result), std::move(solution.problem), {}, {}};
   const Execution here = {{.jobs = available_threads()}, store};
   const SizeChoiceReport report = choose_sizes(solution, options, here);
   if (!report.is_choice && solution.result.evaluation.has_gradients()) {
@@ -22,7 +22,9 @@ SizedDesign search_with_sizes(const ProblemFile& file, const SolveOptions& optio
     solution.result.message = "no choice of sizes could be simulated";
     solution.result.evaluation = {};
   }
-  return {std::move(solution.result), std::move(solution.problem), report.relaxed_x};
+  const TriedSizes sizes = {report.combinations, report.tried, report.is_exhaustive,
+                            report.penalty(solution.result.evaluation.objective)};
+  return {std::move(solution.result), std::move(solution.problem), report.relaxed_x, sizes};
 }
 
 }  // namespace pleuel

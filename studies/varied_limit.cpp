@@ -42,4 +42,28 @@ double multiplier_of_limit(const ProblemFile& problem, const Eigen::VectorXd& mu
   return sum;
 }
 
+bool can_exchange_goals(const ProblemFile& problem) {
+  if (!problem.pareto->goals.empty()) return true;
+  if (problem.has_cases()) return false;
+  const ConstraintSettings& limited = problem.constraints[varied_rows(problem).front()];
+  return !limited.response.empty() && limited.deviations == 0.0;
+}
+
+ProblemFile with_exchanged_goals(ProblemFile problem, double objective_limit) {
+  const std::vector<Objective> goals = problem.pareto->goals;
+  const Objective objective = goals.empty() ? *problem.objective : goals[0];
+  Objective limited;
+  if (goals.empty()) {
+    const ConstraintSettings& limit = problem.constraints[varied_rows(problem).front()];
+    limited = {limit.response, limit.upper ? Aim::minimize : Aim::maximize};
+  } else {
+    limited = goals[1];
+  }
+  const std::string name = problem.pareto->constraint;
+  remove_limit(problem, name);
+  set_objective(problem, limited);
+  add_limit(problem, objective, objective.sign() * objective_limit, name);
+  return problem;
+}
+
 }  // namespace pleuel

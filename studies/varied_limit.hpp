@@ -27,4 +27,12 @@ double limited_value(const ProblemFile& problem, const Eigen::VectorXd& constrai
 /// Of all constraints of the limit together, which moves in all of them.
 double multiplier_of_limit(const ProblemFile& problem, const Eigen::VectorXd& multipliers);
 
+/// Whether the goals can be exchanged: between two responses, or of one problem without load cases
+/// whose limit is on a response, not on a sum of variables, and is kept free of no deviations.
+bool can_exchange_goals(const ProblemFile& problem);
+
+/// The problem that improves what is limited, with a limit on the objective.
+/// @param objective_limit  [SI], of what is maximized the negative
+ProblemFile with_exchanged_goals(ProblemFile problem, double objective_limit);
+
 }  // namespace pleuel

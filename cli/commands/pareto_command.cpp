@@ -112,6 +112,7 @@ Json point_document(const ProblemFile& problem, const ParetoPoint& point) {
     document["objectives"] = {
         {problem.objective->response, sign * point.result.evaluation.objective},
         {limited_name(problem), point.limited_value}};
+    if (point.objective_limit) document["objective_limit"] = sign * *point.objective_limit;
     if (point.has_multiplier()) document["multiplier"] = sign * point.multiplier;
   }
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
@@ -120,6 +121,12 @@ Json point_document(const ProblemFile& problem, const ParetoPoint& point) {
     if (const auto size = size_text(variable, point.result.x(i))) {
       document["sizes"][variable.name] = *size;
     }
+  }
+  if (point.sizes) {
+    document["choices"] = {{"combinations", point.sizes->combinations},
+                           {"tried", point.sizes->tried},
+                           {"exhaustive", point.sizes->is_exhaustive},
+                           {"penalty", point.sizes->penalty}};
   }
   document["kkt_residual"] = point.result.kkt_residual;
   document["evaluations"] = point.result.evaluations;
@@ -137,7 +144,8 @@ std::string front_text(const ProblemFile& problem) {
 
 std::string single_point_text(const ProblemFile& problem, const ParetoFront& front) {
   const bool is_of_both = !problem.pareto->goals.empty() && front.points.size() == 1;
-  if (!is_of_both || !(front.choices || front.points.front().is_end)) return "";
+  if (!is_of_both || !front.points.front().keeps_limits()) return "";
+  if (!front.choices && !front.points.front().is_end) return "";
   return "One design is best for both responses: there is nothing to trade.\n";
 }
 
@@ -155,6 +163,33 @@ std::string choices_message(const ParetoFront& front) {
       tried, counts.feasible, front.points.empty() ? ": none of them is between the limits" : "");
 }
 
+bool is_not_proven_best(const ParetoPoint& point) {
+  return point.has_design() && point.sizes && !point.sizes->is_exhaustive;
+}
+
+/// Of sizes that were chosen at each limit, where not all were tried; empty of other fronts.
+std::string sizes_message(const ParetoFront& front) {
+  int points = 0, least = 0, most = 0;
+  double combinations = 0.0, penalty = 0.0;
+  for (const ParetoPoint& point : front.points) {
+    if (!is_not_proven_best(point)) continue;
+    const TriedSizes& sizes = *point.sizes;
+    least = points == 0 ? sizes.tried : std::min(least, sizes.tried);
+    most = std::max(most, sizes.tried);
+    combinations = sizes.combinations;
+    penalty = std::max(penalty, sizes.penalty);
+    ++points;
+  }
+  if (points == 0) return "";
+  const std::string tried =
+      least == most ? fmt::format("{}", most) : fmt::format("{} to {}", least, most);
+  return fmt::format(
+      "at {} of {} points the choice of sizes is the best that was found, not proven the best of "
+      "all: {} of {} choices were tried for a point; the objective is up to {} worse than the "
+      "optimum between the sizes, and a better choice may be between",
+      points, front.points.size(), tried, combinations, percent(penalty));
+}
+
 Json make_document(const ProblemFile& problem, const ParetoFront& front) {
   const ConstraintSettings& constraint = varied_constraint(problem);
   const std::vector<ParetoPoint>& points = front.points;
@@ -170,6 +205,8 @@ Json make_document(const ProblemFile& problem, const ParetoFront& front) {
     document["choices"] = {{"combinations", front.choices->all},
                            {"feasible", front.choices->feasible},
                            {"failed", front.choices->failed}};
+  } else if (const std::string sizes = sizes_message(front); !sizes.empty()) {
+    document["message"] = sizes;
   } else if (problem.pareto->gap > 0.0 && front.is_whole) {
     document["message"] = gaps_message(problem, front, limited_name(problem));
     document["gaps"] = gaps_document(problem, front);
@@ -234,7 +271,7 @@ std::string points_text(const ProblemFile& problem, const std::vector<ParetoPoin
     }
     const bool is_knee = knee && &point == &points[*knee];
     cells.push_back(to_string(point.result.status) + (point.is_dominated ? ", dominated" : "") +
-                    (is_knee ? ", knee" : ""));
+                    (is_knee ? ", knee" : "") + (is_not_proven_best(point) ? ", best found" : ""));
     table.add_row(std::move(cells));
   }
   return table.text();
@@ -242,10 +279,10 @@ std::string points_text(const ProblemFile& problem, const std::vector<ParetoPoin
 
 /// A line on all choices of sizes, or on the gaps that were asked for.
 std::string spacing_text(const ProblemFile& problem, const ParetoFront& front) {
-  const std::string message = front.choices ? "Sizes: " + choices_message(front)
-                                            : gaps_message(problem, front, limited_name(problem));
-  if (message.empty()) return "";
-  return "\n" + wrapped((front.choices ? "" : "Gaps: ") + message + ".", "  ") + "\n";
+  const std::string sizes = front.choices ? choices_message(front) : sizes_message(front);
+  const std::string gaps = gaps_message(problem, front, limited_name(problem));
+  if (sizes.empty() && gaps.empty()) return "";
+  return "\n" + wrapped((sizes.empty() ? "Gaps: " + gaps : "Sizes: " + sizes) + ".", "  ") + "\n";
 }
 
 /// With a gap, or of all choices of sizes, nobody knows how many points there would have been.
@@ -268,6 +305,14 @@ std::size_t verified_points(const std::vector<ParetoPoint>& points) {
 std::size_t all_points(const ProblemFile& problem, const ParetoFront& front) {
   if (front.is_whole || front.choices || problem.pareto->gap > 0.0) return front.points.size();
   return static_cast<std::size_t>(problem.pareto->points);
+}
+
+/// "7 of 7 points verified"
+std::string count_text(const ProblemFile& problem, const ParetoFront& front) {
+  const auto unproven = std::count_if(front.points.begin(), front.points.end(), is_not_proven_best);
+  return fmt::format("{} of {} points verified{}", verified_points(front.points),
+                     all_points(problem, front),
+                     unproven > 0 ? fmt::format(", at {} not all sizes tried", unproven) : "");
 }
 
 /// Why the others are not verified; one sentence each.
@@ -338,11 +383,11 @@ Outcome run_pareto(const Arguments& arguments) {
   Outcome outcome{
       is_verified ? ExitCode::done : ExitCode::not_verified, make_document(problem, front),
       fmt::format(
-          "{}{}: {}; {} of {} points verified\n\n{}{}{}{}\n"
+          "{}{}: {}; {}\n\n{}{}{}{}\n"
           "{}{}Written to {}: pareto.csv, result.json, run_card.json, run.sqlite\n",
           interruption_text(problem, front), problem.name, front_text(problem),
-          verified_points(points), all_points(problem, front), points_text(problem, points),
-          spacing_text(problem, front), single_point_text(problem, front),
+          count_text(problem, front), points_text(problem, points), spacing_text(problem, front),
+          single_point_text(problem, front),
           doubts_text(problem, points) + warnings_of_points(problem, points),
           front.is_whole ? "" : resume_text(arguments, record.folder(), Status::interrupted),
           store.text(), record.folder().string())};

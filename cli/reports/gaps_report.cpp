@@ -18,15 +18,20 @@ const char* cause_text(FrontGap::Cause cause) {
       return "jump";
     case FrontGap::Cause::failure:
       return "failure";
+    case FrontGap::Cause::narrow:
+      return "narrow";
   }
   return "";
 }
 
 /// Of a gap that more points do not close.
 const char* reason(FrontGap::Cause cause) {
-  return cause == FrontGap::Cause::jump
-             ? "the front jumps: no design was found there"
-             : "searches failed, or came to designs that others dominate";
+  if (cause == FrontGap::Cause::jump) return "the front jumps: searches found no design there";
+  if (cause == FrontGap::Cause::narrow) {
+    return "nothing was looked for: limits there are too near to each other, and the objective "
+           "cannot be limited in their place";
+  }
+  return "searches failed, or came to designs that others dominate";
 }
 
 bool is_of_gap(const ProblemFile& problem, const ParetoFront& front) {
@@ -39,8 +44,11 @@ std::string gaps_message(const ProblemFile& problem, const ParetoFront& front,
                          const std::string& limited) {
   if (!is_of_gap(problem, front)) return "";
   const double asked = problem.pareto->gap;
+  if (!front.gaps.largest && front.gaps.gaps.empty()) {
+    return "there are no neighbours: fewer than two points keep the limits and are not dominated";
+  }
   std::string text = fmt::format("neighbours are at most {} apart, both goals over their ranges",
-                                 percent(front.gaps.largest));
+                                 percent(front.gaps.largest.value_or(0.0)));
   if (front.gaps.gaps.empty()) return fmt::format("{} ({} asked)", text, percent(asked));
   text += fmt::format("; asked was {}", percent(asked));
   const ShownUnit unit = unit_of(problem, problem.constraints[varied_rows(problem).front()]);
@@ -64,8 +72,8 @@ std::string gaps_message(const ProblemFile& problem, const ParetoFront& front,
 
 Json gaps_document(const ProblemFile& problem, const ParetoFront& front) {
   if (!is_of_gap(problem, front)) return nullptr;
-  Json document = {
-      {"asked", problem.pareto->gap}, {"largest", front.gaps.largest}, {"left", Json::array()}};
+  Json document = {{"asked", problem.pareto->gap}, {"largest", nullptr}, {"left", Json::array()}};
+  if (front.gaps.largest) document["largest"] = *front.gaps.largest;
   const auto limited = [&](std::size_t i) {
     const ParetoPoint& point = front.points[i];
     return point.has_design() && point.keeps_limits() ? Json(point.limited_value) : Json(nullptr);

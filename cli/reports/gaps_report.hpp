@@ -14,6 +14,7 @@ namespace pleuel {
 std::string gaps_message(const ProblemFile& problem, const ParetoFront& front,
                          const std::string& limited);
 
+/// `largest` is null of fewer than two points.
 /// {"asked", "largest", "left": [{"points": [i, j], "limited": [a, b], "size", "cause"}]}; null of
 /// other fronts. Points are counted from 1.
 Json gaps_document(const ProblemFile& problem, const ParetoFront& front);

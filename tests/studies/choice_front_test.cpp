@@ -10,6 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/scene/problem_reader.hpp"
+#include "studies/front_scale.hpp"
 #include "studies/pareto.hpp"
 
 /// Fronts of sizes from lists.
@@ -214,6 +215,33 @@ TEST(ChoiceFront, BetweenResponsesWithOtherVariablesGoesFromBestToBest) {
   ASSERT_EQ(front.points.size(), 3u);
   EXPECT_NEAR(front.points.front().result.evaluation.objective, density * 0.02 * 0.025, 1e-6);
   EXPECT_NEAR(front.points.back().limited_value, slack(0.045, 0.06), 1e-4);
+}
+
+/// 12 choices are all tried beside another variable; of 18 · 18, more than can be simulated, some are.
+TEST(ChoiceFront, SaysWhetherAllChoicesWereTriedForAPoint) {
+  const ParetoFront few = front_of(bar(R"({"responses": ["mass", "slack"], "points": 3})",
+                                       R"({"start": "0.7 m", "lower": "0.5 m", "upper": "1 m"})"));
+  for (const ParetoPoint& point : few.points) {
+    ASSERT_TRUE(point.sizes);
+    EXPECT_TRUE(point.sizes->is_exhaustive);
+    EXPECT_EQ(point.sizes->tried, 12);
+  }
+  ProblemFile many = bar(R"({"responses": ["mass", "slack"], "points": 3})");
+  for (std::size_t i = 0; i < 2; ++i) {
+    std::vector<SizeChoice>& choices = many.variables[i].choices;
+    const SizeChoice last = choices.back();
+    while (choices.size() < 18) {
+      choices.push_back(last);
+      choices.back().value = last.value * (1.0 + 0.05 * static_cast<double>(choices.size()));
+    }
+    many.variables[i].upper = choices.back().value;
+  }
+  for (const ParetoPoint& point : front_of(many).points) {
+    ASSERT_TRUE(point.sizes);
+    EXPECT_EQ(point.sizes->combinations, 324.0);
+    EXPECT_FALSE(point.sizes->is_exhaustive);
+    EXPECT_LT(point.sizes->tried, 324);
+  }
 }
 
 TEST(ChoiceFront, TakesNoGapWhereNotAllChoicesAreSimulated) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <numeric>
 
 #include <gtest/gtest.h>
 
@@ -39,6 +40,21 @@ Search smooth(const std::function<double(double)>& objective,
   };
 }
 
+/// The tightest limit whose best design has at most this objective, by bisection from the loosest.
+ParetoPoint exchanged(const Search& search, double tight, double loose, double objective_limit) {
+  for (int i = 0; i < 80; ++i) {
+    const double middle = std::midpoint(tight, loose);
+    const ParetoPoint point = search(middle);
+    const bool keeps_it =
+        point.has_design() && point.result.evaluation.objective <= objective_limit;
+    (keeps_it ? loose : tight) = middle;
+  }
+  ParetoPoint point = search(loose);
+  point.limit = point.limited_value;
+  point.objective_limit = objective_limit;
+  return point;
+}
+
 struct Closed {
   std::vector<ParetoPoint> points;
   FrontGaps gaps;
@@ -46,16 +62,20 @@ struct Closed {
 
 /// Adds points until none is asked for.
 Closed close(const Search& search, const std::vector<double>& limits, double gap,
-             int most_points = 100, GoodSide side = GoodSide::low) {
+             int most_points = 100, GoodSide side = GoodSide::low,
+             ObjectiveLimits objective_limits = ObjectiveLimits::possible) {
   Closed closed;
   for (const double limit : limits) closed.points.push_back(search(limit));
   while (true) {
     mark_dominated(closed.points, side);
     const int room = most_points - static_cast<int>(closed.points.size());
-    closed.gaps = find_front_gaps(closed.points, side, gap, std::max(room, 0));
+    closed.gaps = find_front_gaps(closed.points, side, gap, std::max(room, 0), objective_limits);
     if (closed.gaps.probes.empty()) return closed;
     for (const FrontProbe& probe : closed.gaps.probes) {
-      closed.points.push_back(search(probe.limit));
+      closed.points.push_back(
+          probe.objective_limit
+              ? exchanged(search, limits.front(), limits.back(), *probe.objective_limit)
+              : search(probe.limit));
     }
   }
 }
@@ -91,7 +111,7 @@ TEST(FrontGaps, OfASmoothFrontAreClosedWithFewPoints) {
   for (const double gap : {0.4, 0.1, 0.05, 0.02}) {
     const Closed closed = close(circle(), {0.0, 25.0, 50.0}, gap);
     EXPECT_LE(largest_distance(closed.points), gap * (1 + 1e-9));
-    EXPECT_NEAR(closed.gaps.largest, largest_distance(closed.points), 1e-9);
+    EXPECT_NEAR(closed.gaps.largest.value(), largest_distance(closed.points), 1e-9);
     EXPECT_TRUE(closed.gaps.gaps.empty());
     // Equal distances on the arc of length π/2 need so many; a rounded number of parts of each gap
     // makes at most half as many more.
@@ -181,7 +201,13 @@ TEST(FrontGaps, AreLookedAtFromBothSides) {
     gaps = find_front_gaps(points, GoodSide::low, 0.05, 200 - static_cast<int>(points.size()));
     if (gaps.probes.empty()) break;
     for (const FrontProbe& probe : gaps.probes) {
-      const ParetoPoint& from = points[probe.from];
+      const ParetoPoint from = points[probe.from];
+      if (probe.objective_limit) {
+        // Down the branch that it begins on, which ends.
+        add(std::max(end, 1.4 - *probe.objective_limit), true);
+        points.back().objective_limit = probe.objective_limit;
+        continue;
+      }
       add(probe.limit, from.result.evaluation.objective < 1.7 - from.limit);
     }
   }
@@ -204,6 +230,59 @@ TEST(FrontGaps, OfASteepPlaceAreClosed) {
   const Closed closed = close(smooth(objective, slope), {0.0, 0.25, 0.5, 0.75, 1.0}, 0.05, 200);
   EXPECT_TRUE(closed.gaps.gaps.empty());
   EXPECT_LE(largest_distance(closed.points), 0.05);
+}
+
+/// A step of 0.001 of the width of the front, flat on both sides: slopes say nothing, and no limits
+/// on either side of it are known to lead into it.
+TEST(FrontGaps, OfAStepThatIsSteepButSmoothAreClosed) {
+  const auto objective = [](double c) { return -std::tanh((c - 0.53) / 5e-4) - 0.02 * c; };
+  const auto slope = [](double c) {
+    return -1.0 / std::pow(std::cosh((c - 0.53) / 5e-4), 2) / 5e-4 - 0.02;
+  };
+  const Closed closed = close(smooth(objective, slope), {0.0, 0.5, 1.0}, 0.2);
+  EXPECT_TRUE(closed.gaps.gaps.empty());
+  EXPECT_LE(largest_distance(closed.points), 0.2);
+  EXPECT_LE(closed.points.size(), 25u);
+}
+
+/// exp(−20 x) from 1e-8 to 1, x² as the objective: 0.7 of it lies in 1e-4 of the limits.
+TEST(FrontGaps, OfAFrontThatCoversDecadesOfItsLimitAreClosed) {
+  const Search decades = smooth([](double c) { return std::pow(std::log(c) / 20.0, 2); },
+                                [](double c) { return std::log(c) / 200.0 / c; });
+  const Closed closed = close(decades, {1e-8, 0.5, 1.0}, 0.2);
+  EXPECT_TRUE(closed.gaps.gaps.empty());
+  EXPECT_LE(largest_distance(closed.points), 0.2);
+  for (const ParetoPoint& point : closed.points) EXPECT_FALSE(point.is_dominated);
+}
+
+/// A jump is said after searches between both sides, and of no other gap.
+TEST(FrontGaps, AreJumpsOnlyWhereSearchesBetweenCameToTheLooseSide) {
+  const Closed closed = close(falling_by_a_jump(0.6180339887), {0.0, 0.5, 1.0}, 0.05);
+  ASSERT_EQ(closed.gaps.gaps.size(), 1u);
+  const FrontGap& gap = closed.gaps.gaps.front();
+  const double loose = closed.points[gap.loose].result.evaluation.objective;
+  const double tight = closed.points[gap.tight].result.evaluation.objective;
+  double highest = loose;
+  for (const ParetoPoint& point : closed.points) {
+    if (point.objective_limit && *point.objective_limit < tight) {
+      highest = std::max(highest, *point.objective_limit);
+    }
+  }
+  // Of the range of 1.6 that is left over less than the gap asked.
+  EXPECT_LE(tight - highest, 0.05 * 1.6);
+}
+
+TEST(FrontGaps, AreNoJumpsWhereTheObjectiveTakesNoLimits) {
+  const Closed closed = close(falling_by_a_jump(0.6180339887), {0.0, 0.5, 1.0}, 0.05, 100,
+                              GoodSide::low, ObjectiveLimits::impossible);
+  ASSERT_EQ(closed.gaps.gaps.size(), 1u);
+  EXPECT_EQ(closed.gaps.gaps.front().cause, FrontGap::Cause::narrow);
+}
+
+TEST(FrontGaps, OfFewerThanTwoPointsHaveNoSize) {
+  EXPECT_FALSE(find_front_gaps({}, GoodSide::low, 0.05, 10).largest);
+  EXPECT_FALSE(close(circle(), {25.0}, 0.05).gaps.largest);
+  EXPECT_FALSE(close(failed_at, {1.0, 2.0}, 0.05).gaps.largest);
 }
 
 TEST(FrontGaps, EndWhereSearchesFail) {
@@ -286,7 +365,7 @@ TEST(FrontGaps, AreLeftWhereThereAreAsManyPointsAsThereMayBe) {
   ASSERT_FALSE(closed.gaps.gaps.empty());
   for (const FrontGap& gap : closed.gaps.gaps) EXPECT_EQ(gap.cause, FrontGap::Cause::open);
   // The largest are closed first: 19 equal ones would have π/38.
-  EXPECT_LE(closed.gaps.largest, 2.5 * std::numbers::pi / 38.0);
+  EXPECT_LE(closed.gaps.largest.value(), 2.5 * std::numbers::pi / 38.0);
 }
 
 TEST(FrontGaps, BeginSearchesAtTheNearerNeighbour) {

@@ -105,14 +105,55 @@ TEST(Dominance, MarksPointsThatAreWorseInOneGoalAndBetterInNone) {
   EXPECT_EQ(dominated(points, GoodSide::high), (std::vector{false, true, true}));
 }
 
-/// Optima agree to 1e-4: half of that is no difference, twice that is one.
+/// Searches end within 1e-6: half of that is no difference, twice that is one.
 TEST(Dominance, NeedsMoreThanTheAccuracyOfOptima) {
-  EXPECT_EQ(dominated({point(1.0, 2.0), point(1.00005, 2.0)}, GoodSide::low),
+  EXPECT_EQ(dominated({point(1.0, 2.0), point(1.0000005, 2.0)}, GoodSide::low),
             (std::vector{false, false}));
-  EXPECT_EQ(dominated({point(1.0, 2.0), point(1.0002, 2.0)}, GoodSide::low),
+  EXPECT_EQ(dominated({point(1.0, 2.0), point(1.000002, 2.0)}, GoodSide::low),
             (std::vector{false, true}));
-  EXPECT_EQ(dominated({point(1.0, 2.0), point(1.0, 2.0004)}, GoodSide::low),
+  EXPECT_EQ(dominated({point(1.0, 2.0), point(1.0, 2.000004)}, GoodSide::low),
             (std::vector{false, true}));
+}
+
+/// On a front from (0, 10) to (10, 0), 1e-4 of its length is 1e-3 in both goals.
+TEST(Dominance, NeedsMoreThanASmallPartOfTheFront) {
+  const auto marks = [](double more) {
+    return dominated({point(0.0, 10.0), point(10.0, 0.0), point(5.0, 5.0), point(5.0 + more, 5.0)},
+                     GoodSide::low)[3];
+  };
+  EXPECT_FALSE(marks(5e-4));
+  EXPECT_TRUE(marks(2e-3));
+}
+
+/// Neighbours on a quarter of a circle, ever nearer to both ends, where one goal hardly changes: 1e-6
+/// of its range, and more than its round-off where it is large.
+TEST(Dominance, DoesNotDependOnHowLargeGoalsAreBesideTheirRange) {
+  for (const double offset : {0.0, 1.0, 1e2, -1e3}) {
+    std::vector<ParetoPoint> points;
+    for (const double angle : {0.0, 2e-3, 0.01, 0.1, 0.5, 1.0, 1.4, 1.56, 1.5688, 1.5707963}) {
+      points.push_back(point(offset + 1.0 - std::sin(angle), offset + 1.0 - std::cos(angle)));
+    }
+    points.push_back(point(offset + 0.6, offset + 0.6));  // the circle is at 0.29
+    std::vector<bool> expected(points.size(), false);
+    expected.back() = true;
+    EXPECT_EQ(dominated(points, GoodSide::low), expected) << offset;
+  }
+}
+
+/// A limited goal that falls by decades buys much of the objective for little of its range.
+TEST(Dominance, TellsSmallValuesApartByTheirOwnSize) {
+  EXPECT_EQ(dominated({point(0.0, 1.0), point(0.24, 5e-5), point(0.48, 1e-6), point(0.85, 1e-8)},
+                      GoodSide::low),
+            (std::vector{false, false, false, false}));
+}
+
+/// Of two searches with one limit, which both miss by 1e-7, the better one counts.
+TEST(Dominance, TakesDesignsWithTheSameLimitAsKeepingItAlike) {
+  ParetoPoint better = point(1.0, 2.0000002), worse = point(1.5, 2.0000001);
+  better.limit = worse.limit = 2.0;
+  EXPECT_EQ(dominated({better, worse}, GoodSide::low), (std::vector{false, true}));
+  better.limit = 2.1;
+  EXPECT_EQ(dominated({better, worse}, GoodSide::low), (std::vector{false, false}));
 }
 
 TEST(Dominance, IsOnlyAmongDesignsWithinTheirLimits) {

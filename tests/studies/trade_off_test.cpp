@@ -135,7 +135,7 @@ TEST(TradeOff, HasNoGapsLargerThanAsked) {
   const ParetoFront found =
       pareto_front(trade_off_problem(with_gap(bar(R"("mass", "slack")", 3), 0.1)), {});
   EXPECT_LE(largest_distance(found.points), 0.1);
-  EXPECT_NEAR(found.gaps.largest, largest_distance(found.points), 1e-6);
+  EXPECT_NEAR(found.gaps.largest.value(), largest_distance(found.points), 1e-6);
   EXPECT_TRUE(found.gaps.gaps.empty());
   // (slack − 0.2)·mass is constant; its length is below 2, and so at most 2·20 points are needed.
   EXPECT_LE(found.points.size(), 30u);
@@ -203,6 +203,93 @@ TEST(TradeOff, JumpsWhereAllThatIsBetweenIsDominated) {
     const double side = thinnest_below(point.limited_value);
     EXPECT_NEAR(point.result.x(0), side, 1e-3 * side) << point.limited_value;
   }
+}
+
+/// Two formulas of x and y, from −2 to 2, beside a mechanism that plays no part.
+ProblemFile formulas(const std::string& first, const std::string& second,
+                     const std::string& more = "", double gap = 0.2) {
+  const ProblemFile file = read_problem_text(
+      R"({"scene": {"bodies": {"m": {"type": "point-mass", "at": [0, 0, 0], "mass": "1 kg"}},
+    "joints": {}, "gravity": [0, 0, 0], "loads": {"f": {"type": "force", "body": "m",
+    "at": [0, 0, 0], "direction": [1, 0, 0], "value": "1 N"}}},
+  "simulation": {"end_time": 0.01, "step": 0.005},
+  "variables": {"x": {"start": 0.5, "lower": -2, "upper": 2},
+                "y": {"start": 0.5, "lower": -2, "upper": 2}},
+  "responses": {"f": {"type": "expression", "value": ")" +
+          first + R"("}, "g": {"type": "expression", "value": ")" + second + R"("}},)" + more +
+          R"("pareto": {"responses": ["f", "g"], "points": 3}})",
+      "formulas.json");
+  return with_gap(file, gap);
+}
+
+/// f = x² + y² and g = (x − 1)² + y² trade along √f + √g = 1. Constants added to them change nothing.
+TEST(TradeOff, DoesNotDependOnHowLargeResponsesAreBesideTheirRange) {
+  for (const auto& [first, second] : std::vector<std::pair<double, double>>{
+           {0.0, 0.0}, {1000.0, 0.0}, {100.0, 100.0}, {0.0, 1e5}}) {
+    const ParetoFront found =
+        pareto_front(trade_off_problem(formulas(std::to_string(first) + " + x^2 + y^2",
+                                                std::to_string(second) + " + (x - 1)^2 + y^2")),
+                     {});
+    EXPECT_GE(found.points.size(), 7u) << first << ' ' << second;
+    EXPECT_LE(found.points.size(), 25u);
+    EXPECT_TRUE(found.gaps.gaps.empty());
+    double low = 1.0, high = 0.0;
+    for (const ParetoPoint& point : found.points) {
+      EXPECT_EQ(point.result.status, Status::verified) << point.result.message;
+      EXPECT_FALSE(point.is_dominated) << first << ' ' << second << ": " << point.limit;
+      const double f = point.result.evaluation.objective - first;
+      const double g = point.limited_value - second;
+      // 1e-6 of 1e5 is 0.1; searches come much nearer.
+      EXPECT_NEAR(std::sqrt(std::max(f, 0.0)) + std::sqrt(std::max(g, 0.0)), 1.0, 1e-3);
+      low = std::min(low, f);
+      high = std::max(high, f);
+    }
+    // Each end may miss its best by 1e-4 of the range, which is 0.02 of the other one.
+    EXPECT_NEAR(low, 0.0, 1e-3);
+    EXPECT_NEAR(high, 1.0, 0.025);
+  }
+}
+
+/// g = exp(−20 x): f = (ln g / 20)². Seven tenths of f lie in 1e-4 of the range of g.
+TEST(TradeOff, HasNoJumpWhereOneGoalCoversDecades) {
+  const ParetoFront found =
+      pareto_front(trade_off_problem(formulas("x^2 + y^2", "exp(-20*x) + y^2", "", 0.25)), {});
+  EXPECT_TRUE(found.gaps.gaps.empty());
+  ASSERT_TRUE(found.gaps.largest);
+  EXPECT_LE(*found.gaps.largest, 0.25);
+  bool has_middle = false;
+  for (const ParetoPoint& point : found.points) {
+    EXPECT_FALSE(point.is_dominated);
+    const double f = std::pow(std::log(point.limited_value) / 20.0, 2);
+    EXPECT_NEAR(point.result.evaluation.objective, f, 1e-5);
+    has_middle = has_middle || (f > 0.3 && f < 0.7);
+  }
+  EXPECT_TRUE(has_middle);
+}
+
+/// One design is best for both, or the second response is 0 at both ends.
+TEST(TradeOff, IsOneVerifiedPointWhereOneDesignIsBestForBoth) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"x^2 + y^2", "3*(x^2 + y^2) + 7"},
+      {"(x - 0.3)^2 + y^2", "(x - 0.3)^2 + 2*y^2"},
+      {"x^2 + y^2 + 1", "abs(x - y)"},
+      {"x^2 + y^2", "1 + 0*x"}};
+  for (const auto& [first, second] : cases) {
+    const ParetoFront found = pareto_front(trade_off_problem(formulas(first, second)), {});
+    ASSERT_EQ(found.points.size(), 1u) << first << ", " << second;
+    EXPECT_EQ(found.points[0].result.status, Status::verified)
+        << first << ", " << second << ": " << found.points[0].result.message;
+    EXPECT_FALSE(found.gaps.largest);
+  }
+}
+
+TEST(TradeOff, HasNoGapWhereNoDesignKeepsTheLimits) {
+  const ParetoFront found = pareto_front(
+      trade_off_problem(formulas("x^2 + y^2", "(x - 1)^2 + y^2",
+                                 R"("constraints": {"c": {"response": "f", "upper": -1}},)")),
+      {});
+  EXPECT_FALSE(found.gaps.largest);
+  for (const ParetoPoint& point : found.points) EXPECT_FALSE(point.keeps_limits());
 }
 
 TEST(TradeOff, IsBetweenTwoResponses) {
