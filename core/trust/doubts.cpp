@@ -51,24 +51,12 @@ Trust judge_run(const TrustedRun& run) {
     doubts.insert(doubts.end(), found.begin(), found.end());
   };
   for (const auto find : {
-           doubt_bending_range,
-           doubt_blocked_drives,
-           doubt_energy_balance,
-           doubt_extrapolation,
-           doubt_far_limits,
-           doubt_fast_laws,
-           doubt_frequencies,
-           doubt_idle_freedoms,
-           doubt_initial_motion,
-           doubt_joint_turns,
-           doubt_left_out_effects,
-           doubt_lost_stiffening,
-           doubt_misaligned_joints,
-           doubt_proportions,
-           doubt_shear_range,
-           doubt_sideways_buckling,
-           doubt_sliding_contacts,
-           doubt_unconnected_bodies,
+           doubt_bending_range,     doubt_blocked_drives,   doubt_energy_balance,
+           doubt_extrapolation,     doubt_far_limits,       doubt_fast_laws,
+           doubt_frequencies,       doubt_idle_freedoms,    doubt_initial_motion,
+           doubt_joint_turns,       doubt_left_out_effects, doubt_lost_stiffening,
+           doubt_misaligned_joints, doubt_proportions,      doubt_shear_range,
+           doubt_sideways_buckling, doubt_sliding_contacts, doubt_unconnected_bodies,
            doubt_unstable_members,
        }) {
     add(find(run));
