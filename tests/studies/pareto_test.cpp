@@ -85,7 +85,7 @@ TEST(Pareto, EqualDesignsDoNotDominateEachOther) {
 /// A point with this objective and limited value that ended so.
 ParetoPoint point(double objective, double limited, Status status = Status::verified) {
   ParetoPoint point;
-  point.limited_value = limited;
+  point.limit = point.limited_value = limited;
   point.result.status = status;
   point.result.evaluation.objective = objective;
   return point;
@@ -117,7 +117,7 @@ TEST(Dominance, NeedsMoreThanTheAccuracyOfOptima) {
 
 /// On a front from (0, 10) to (10, 0), 1e-4 of its length is 1e-3 in both goals.
 TEST(Dominance, NeedsMoreThanASmallPartOfTheFront) {
-  const auto marks = [](double more) {
+  const auto marks = [](double more) -> bool {
     return dominated({point(0.0, 10.0), point(10.0, 0.0), point(5.0, 5.0), point(5.0 + more, 5.0)},
                      GoodSide::low)[3];
   };
