@@ -154,12 +154,9 @@ class EndFittings::Builder {
     if (furthest != places.end()) built_.reaches_[end] = differentiated(end, *furthest);
   }
 
-  void add_mass(const Body& body, std::vector<Place>& places) const {
-    if (const auto* rigid = std::get_if<RigidBody>(&body.shape)) {
-      if (resolve(rigid->mass, context_.design) > 0.0) places.push_back({&rigid->at});
-    } else {
-      places.push_back({nullptr, &body});
-    }
+  static void add_mass(const Body& body, std::vector<Place>& places) {
+    const auto* rigid = std::get_if<RigidBody>(&body.shape);
+    places.push_back(rigid ? Place{&rigid->at} : Place{nullptr, &body});
   }
 
   void add_loads(const std::set<std::string>& bodies, std::vector<Place>& places) const {

@@ -32,7 +32,7 @@ struct EndHold {
 class EndFittings {
  public:
   /// @param scene  with the beam undivided
-  /// @returns      nothing where no end has a fitting on which something acts
+  /// @returns      nothing where no end has a fitting
   static std::optional<EndFittings> of(const Body& beam, const Scene& scene,
                                        const BuildContext& context);
 

@@ -209,7 +209,8 @@ TEST(LateralBucklingResponse, OfAColumnUnderARigidBodyIsTheRootOfItsEquation) {
 
   Bar beam = bar;
   beam.bodies = R"(, "top": {"type": "beam", "from": [1.2, 0, 0], "to": [1.9, 0, 0],
-    "material": "light", "elements": 2, "rigid": true, "section": {"type": "circle", "diameter": 0.01}})";
+    "material": "light", "elements": 2, "rigid": true,
+    "section": {"type": "circle", "diameter": 0.01}})";
   EXPECT_NEAR(share_of(beam), 0.5, 1e-4);
 
   Bar weight = bar;
