@@ -236,7 +236,8 @@ TEST(TradeOff, DoesNotDependOnHowLargeResponsesAreBesideTheirRange) {
     EXPECT_TRUE(found.gaps.gaps.empty());
     double low = 1.0, high = 0.0;
     for (const ParetoPoint& point : found.points) {
-      EXPECT_EQ(point.result.status, Status::verified) << point.result.message;
+      EXPECT_EQ(point.result.status, Status::verified)
+          << first << ' ' << second << ": " << point.result.message;
       EXPECT_FALSE(point.is_dominated) << first << ' ' << second << ": " << point.limit;
       const double f = point.result.evaluation.objective - first;
       const double g = point.limited_value - second;
