@@ -8,12 +8,12 @@ namespace pleuel {
 namespace {
 
 /// Places that are closer than this share of a length are one, as in fitting_builder.cpp.
-constexpr double same_place = 1e-9;
+constexpr double same_position = 1e-9;
 
 }  // namespace
 
 std::vector<EndHold> EndFittings::holds() const {
-  const double least = same_place * total_;
+  const double least = same_position * total_;
   std::vector<Joined> left = joints_;
   std::vector<EndHold> holds;
   for (const JointHold& hold : as_one_.of(beam_)) {
