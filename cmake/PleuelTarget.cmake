@@ -83,9 +83,9 @@ if(PLEUEL_PCH AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     -Wno-maybe-uninitialized)
 endif()
 
-# Where ccache is the launcher: what one checkout has compiled serves all others, wherever they stand (of
-# which messages and debuggers see paths relative to the build); and files with precompiled headers
-# are taken, since no macro reaches into them.
+# Where ccache is the launcher: single files that one checkout has compiled serve all others, wherever they
+# stand (files that are compiled together do not: CMake names them by absolute paths); and files with
+# precompiled headers are taken, since no macro reaches into them.
 if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache$")
   set(pleuel_ccache CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1)
   if(PLEUEL_PCH)
