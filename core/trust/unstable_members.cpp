@@ -17,9 +17,11 @@ namespace {
 constexpr double harmless_press = 0.05;
 constexpr Eigen::Index most_coordinates = 600;
 
-/// Of two pins, about the weakest axis of the weakest element.
-double euler_load(const Beam<double>& beam) {
-  const double wave = std::numbers::pi / beam.node_position(beam.node_count() - 1);
+/// Of two pins at the ends of the beam with its fittings, about the weakest axis of the weakest
+/// element.
+double euler_load(const LateralMember& member) {
+  const Beam<double>& beam = member.beam();
+  const double wave = std::numbers::pi / member.full_length();
   double weakest = std::numeric_limits<double>::infinity();
   for (const BeamElement<double>& element : beam.elements) {
     const auto& [y, z] = std::pair(element.section.inertia_y, element.section.inertia_z);
@@ -35,7 +37,7 @@ struct PressedBeam {
   int instant = -1;
 
   PressedBeam(const std::string& name, const Model& model)
-      : member(name, model, BendingPlane::xy), most(harmless_press * euler_load(member.beam())) {}
+      : member(name, model, BendingPlane::xy), most(harmless_press * euler_load(member)) {}
 
   void see(const State& state, int now) {
     const double press = -member.observe(state).topRows<2>().minCoeff();
