@@ -70,13 +70,15 @@ TEST(UnstableMembers, AreToldFromTheEulerLoadOfACantileverOn) {
 /// A rigid mast of d on the tip, pressed at its top: P = EI u²/L² with u tan u = L/d (the moment at the
 /// tip is P times the way of the top).
 TEST(UnstableMembers, IncludeTheWayOfALoadAboveTheTip) {
-  const double u = root(1.0);
-  expect_critical(stiffness * u * u, [](double force) {
-    return doubts_of_column(rigid("mast", 2),
-                            clamp + R"(, "weld": {"type": "fixed", "bodies": ["bar", "mast"],
+  for (const double height : {1.0, 10.0}) {
+    const double u = root(1.0 / height);
+    expect_critical(stiffness * u * u, [height](double force) {
+      return doubts_of_column(rigid("mast", 1 + height),
+                              clamp + R"(, "weld": {"type": "fixed", "bodies": ["bar", "mast"],
                                                 "at": [1, 0, 0]})",
-                            "mast", 2, force);
-  });
+                              "mast", 1 + height, force);
+    });
+  }
 }
 
 /// Rigid eyes of d at both ends on pins: P = EI (2u/L)² with u tan u = L/(2d).
