@@ -13,6 +13,7 @@
 #include "core/base/number_text.hpp"
 #include "core/model/motion_plane.hpp"
 #include "core/response/analysis.hpp"
+#include "core/scene/joint_kind.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "picture/drawn_place.hpp"
 #include "picture/section_outline.hpp"
@@ -143,11 +144,11 @@ Json body_document(const ProblemFile& problem, const Body& body, const Values& s
 }
 
 Json joint_document(const Joint& joint) {
-  const JointWords words = words_of(joint.type);
-  Json document = {{"name", joint.name},       {"type", words.type},
-                   {"freedom", words.freedom}, {"freedoms", words.freedoms},
-                   {"bodies", joint.bodies},   {"axis", vector_document(joint.axis)}};
-  if (joint.type == JointType::universal) {
+  const JointKind& kind = kind_of(joint.type);
+  Json document = {{"name", joint.name},      {"type", kind.word},
+                   {"freedom", kind.freedom}, {"freedoms", kind.freedoms()},
+                   {"bodies", joint.bodies},  {"axis", vector_document(joint.axis)}};
+  if (kind.has_second_axis()) {
     document["second_axis"] = vector_document(joint.second_axis);
   }
   if (joint.drive) {
@@ -204,7 +205,7 @@ class GeometryWriter {
   Json joints() const {
     Json document = Json::array();
     for (const Joint& joint : scene_.joints) {
-      const Point& second = joint.type == JointType::distance ? joint.to : joint.at;
+      const Point& second = second_point(joint);
       Json entry = {{"places", {place(joint.bodies[0], joint.at), place(joint.bodies[1], second)}}};
       if (joint.drive) {
         entry["drive"] =

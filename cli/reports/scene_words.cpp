@@ -5,6 +5,7 @@
 #include "cli/reports/law_points.hpp"
 #include "cli/text/table.hpp"
 #include "core/base/number_text.hpp"
+#include "core/scene/joint_kind.hpp"
 
 namespace pleuel {
 
@@ -77,29 +78,6 @@ class ActionRow {
 
 }  // namespace
 
-JointWords words_of(JointType type) {
-  switch (type) {
-    case JointType::revolute:
-      return {"revolute", "turns about the axis", 1};
-    case JointType::prismatic:
-      return {"prismatic", "slides along the axis", 1};
-    case JointType::fixed:
-      return {"fixed", "does not move", 0};
-    case JointType::point_on_line:
-      return {"point-on-line", "its point stays on the line", 4};
-    case JointType::cylindrical:
-      return {"cylindrical", "slides along the axis and turns about it", 2};
-    case JointType::universal:
-      return {"universal", "turns about two axes", 2};
-    case JointType::spherical:
-      return {"spherical", "turns freely", 3};
-    case JointType::planar:
-      return {"planar", "slides in a plane and turns in it", 3};
-    default:
-      return {"distance", "keeps its distance", 5};
-  }
-}
-
 std::string joints_text(const ProblemFile& problem) {
   Table table({{"joint", Table::Align::left},
                {"kind", Table::Align::left},
@@ -107,11 +85,11 @@ std::string joints_text(const ProblemFile& problem) {
                {"free in space"},
                {"the second body", Table::Align::left}});
   for (const Joint& joint : problem.scene.joints) {
-    const JointWords words = words_of(joint.type);
-    std::string freedom = words.freedom;
+    const JointKind& kind = kind_of(joint.type);
+    std::string freedom(kind.freedom);
     if (joint.drive) freedom += "; a drive moves it";
-    table.add_row({joint.name, words.type, both(joint.bodies),
-                   fmt::format("{} of 6", words.freedoms), freedom});
+    table.add_row({joint.name, std::string(kind.word), both(joint.bodies),
+                   fmt::format("{} of 6", kind.freedoms()), freedom});
   }
   return table.is_empty() ? "" : table.text();
 }

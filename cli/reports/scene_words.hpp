@@ -9,14 +9,6 @@
 /// Joints, drives and loads of a scene in words.
 namespace pleuel {
 
-struct JointWords {
-  const char* type;
-  const char* freedom;  ///< of the second body against the first
-  int freedoms;         ///< how many, in space and without a drive
-};
-
-JointWords words_of(JointType type);
-
 /// Table: joint, kind, bodies, its freedoms, its drive.
 std::string joints_text(const ProblemFile& problem);
 

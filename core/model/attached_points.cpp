@@ -1,13 +1,14 @@
 #include "core/model/attached_points.hpp"
 
+#include "core/scene/joint_kind.hpp"
+
 namespace pleuel {
 
 std::vector<AttachedPoint> attached_points(const Scene& scene) {
   std::vector<AttachedPoint> points;
   for (const Joint& joint : scene.joints) {
-    const bool has_length = joint.type == JointType::distance;
     points.push_back({joint.name, joint.bodies[0], joint.at});
-    points.push_back({joint.name, joint.bodies[1], has_length ? joint.to : joint.at});
+    points.push_back({joint.name, joint.bodies[1], second_point(joint)});
   }
   for (const Load& load : scene.loads) {
     if (const auto* force = std::get_if<PointForce>(&load.element)) {

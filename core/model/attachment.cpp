@@ -5,6 +5,7 @@
 
 #include "core/model/beam_mesh.hpp"
 #include "core/model/imported_constants.hpp"
+#include "core/scene/joint_kind.hpp"
 #include "core/scene/visit_numbers.hpp"
 
 namespace pleuel {
@@ -88,6 +89,11 @@ Eigen::Vector3d reference_direction(std::span<const Attachment> attachments,
     return (direction - direction.dot(axis) * axis).normalized();
   }
   return axis.unitOrthogonal();
+}
+
+Eigen::Vector3d angle_reference(const Joint& joint, std::span<const Attachment> sides) {
+  if (kind_of(joint.type).has_second_axis()) return to_vector(joint.second_axis).normalized();
+  return reference_direction(sides, to_vector(joint.axis).normalized());
 }
 
 void Attachment::add_variables(std::set<int>& variables) const {

@@ -96,6 +96,10 @@ class Attachment {
 Eigen::Vector3d reference_direction(std::span<const Attachment> attachments,
                                     const Eigen::Vector3d& axis);
 
+/// The direction that the angle of a joint counts from: of a universal joint its second axis.
+/// @param sides  of the joint
+Eigen::Vector3d angle_reference(const Joint& joint, std::span<const Attachment> sides);
+
 /// Gives the markers of some attachments local numbers, and the map from generalized to local
 /// coordinates. Local multipliers follow the local coordinates.
 CoordinateMap make_local(std::span<const Attachment> attachments, std::span<Marker> markers);

@@ -10,6 +10,7 @@
 #include "core/model/beam_mesh.hpp"
 #include "core/model/effect_decisions.hpp"
 #include "core/model/scene_geometry.hpp"
+#include "core/scene/joint_kind.hpp"
 
 namespace pleuel {
 
@@ -145,9 +146,8 @@ class Division {
 
   void move_attachments(Scene& divided) const {
     for (Joint& joint : divided.joints) {
-      const bool has_length = joint.type == JointType::distance;
       move(joint.bodies[0], joint.at);
-      move(joint.bodies[1], has_length ? joint.to : joint.at);
+      move(joint.bodies[1], second_point(joint));
     }
     for (Load& load : divided.loads) {
       if (auto* force = std::get_if<PointForce>(&load.element)) {

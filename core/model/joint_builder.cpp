@@ -2,6 +2,7 @@
 
 #include "core/frame/number_data.hpp"
 #include "core/joints/joint_term.hpp"
+#include "core/scene/joint_kind.hpp"
 #include "core/scene/visit_numbers.hpp"
 #include "core/system/projected_term.hpp"
 
@@ -24,10 +25,10 @@ class JointBuilder {
   JointBuilder(const Joint& joint, const std::vector<BodyModel>& bodies,
                const BuildContext& context)
       : joint_(joint),
+        kind_(kind_of(joint.type)),
         context_(context),
         sides_{Attachment(joint.bodies[0], joint.at, bodies, context),
-               Attachment(joint.bodies[1], joint.type == JointType::distance ? joint.to : joint.at,
-                          bodies, context)} {}
+               Attachment(joint.bodies[1], second_point(joint), bodies, context)} {}
 
   JointModel build(int coordinates, int first_multiplier) {
     model_.name = joint_.name;
@@ -131,31 +132,7 @@ class JointBuilder {
   /// What is left of a joint in motion in a plane that it is symmetric about.
   void add_planar_equations(const MotionPlane& plane) {
     const Eigen::Vector3d axis = to_vector(joint_.axis).normalized();
-    const bool is_normal = is_along(axis, plane.normal);
-    switch (joint_.type) {
-      case JointType::revolute:
-      case JointType::spherical:
-      case JointType::fixed:
-      case JointType::universal:
-        add_planar_point(plane);
-        break;
-      case JointType::cylindrical:
-        if (is_normal) {
-          add_planar_point(plane);
-          break;
-        }
-        [[fallthrough]];
-      case JointType::prismatic:
-      case JointType::point_on_line:
-        add_on_plane(plane.normal.cross(axis));
-        break;
-      case JointType::planar:
-        if (!is_normal) add_on_plane(axis);
-        break;
-      case JointType::distance:
-        add_distance();
-        break;
-    }
+    hold_planar_displacements(axis, plane);
     if (drives(DrivenCoordinate::angle)) {
       add_planar_angle(axis, plane.normal);
       record_drive();
@@ -163,10 +140,32 @@ class JointBuilder {
       add_planar_angle(plane.normal, plane.normal);
     }
     if (!drives(DrivenCoordinate::displacement)) return;
-    if (joint_.type == JointType::distance) {
+    if (kind_.has_length()) {
       record_drive();
     } else {
       add_driven_slide(axis);
+    }
+  }
+
+  void hold_planar_displacements(const Eigen::Vector3d& axis, const MotionPlane& plane) {
+    const bool is_normal = is_along(axis, plane.normal);
+    switch (kind_.slides) {
+      case JointSlides::none:
+        add_planar_point(plane);
+        break;
+      case JointSlides::along_axis:
+        if (is_normal) {
+          add_planar_point(plane);
+        } else {
+          add_on_plane(plane.normal.cross(axis));
+        }
+        break;
+      case JointSlides::across_axis:
+        if (!is_normal) add_on_plane(axis);
+        break;
+      case JointSlides::at_distance:
+        add_distance();
+        break;
     }
   }
 
@@ -177,14 +176,12 @@ class JointBuilder {
 
   bool holds_planar_angle(const Eigen::Vector3d& axis, const MotionPlane& plane) const {
     const bool is_normal = is_along(axis, plane.normal);
-    switch (joint_.type) {
-      case JointType::fixed:
-      case JointType::prismatic:
+    switch (kind_.turns) {
+      case JointTurns::none:
         return true;
-      case JointType::cylindrical:
-      case JointType::planar:
+      case JointTurns::about_axis:
         return !is_normal;
-      case JointType::universal:
+      case JointTurns::about_both_axes:
         return !is_normal && !is_along(to_vector(joint_.second_axis).normalized(), plane.normal);
       default:
         return false;
@@ -194,52 +191,47 @@ class JointBuilder {
   void add_spatial_equations() {
     const Eigen::Vector3d n = to_vector(joint_.axis).normalized();
     const Eigen::Vector3d a = reference_direction(sides_, n), b = n.cross(a);
-    switch (joint_.type) {
-      case JointType::revolute:
-        add_point();
-        add_parallel(a, b);
-        break;
-      case JointType::fixed:
-        add_point();
-        add_parallel(a, b);
-        add_perpendicular(a, b);
-        break;
-      case JointType::prismatic:
-        add_on_plane(a);
-        add_on_plane(b);
-        add_parallel(a, b);
-        add_perpendicular(a, b);
-        break;
-      case JointType::point_on_line:
-        add_on_plane(a);
-        add_on_plane(b);
-        break;
-      case JointType::cylindrical:
-        add_on_plane(a);
-        add_on_plane(b);
-        add_parallel(a, b);
-        break;
-      case JointType::universal: {
-        const Eigen::Vector3d second = to_vector(joint_.second_axis).normalized();
-        add_point();
-        add_perpendicular(n, second);
-        add_driven_angle(n, second);
-        return;
-      }
-      case JointType::spherical:
-        add_point();
-        break;
-      case JointType::planar:
-        add_on_plane(n);
-        add_parallel(a, b);
-        break;
-      case JointType::distance:
-        add_distance();
-        if (joint_.drive) record_drive();
-        return;
+    hold_displacements(n, a, b);
+    if (kind_.has_length()) {
+      if (joint_.drive) record_drive();
+      return;
     }
-    add_driven_angle(n, a);
+    switch (kind_.turns) {
+      case JointTurns::none:
+        add_parallel(a, b);
+        add_perpendicular(a, b);
+        break;
+      case JointTurns::about_axis:
+        add_parallel(a, b);
+        break;
+      case JointTurns::about_both_axes:
+        add_perpendicular(n, to_vector(joint_.second_axis).normalized());
+        break;
+      case JointTurns::all:
+        break;
+    }
+    add_driven_angle(n, angle_reference(joint_, sides_));
     add_driven_slide(n);
+  }
+
+  /// @param n, a, b  axis of the joint, and two directions normal to it
+  void hold_displacements(const Eigen::Vector3d& n, const Eigen::Vector3d& a,
+                          const Eigen::Vector3d& b) {
+    switch (kind_.slides) {
+      case JointSlides::none:
+        add_point();
+        break;
+      case JointSlides::along_axis:
+        add_on_plane(a);
+        add_on_plane(b);
+        break;
+      case JointSlides::across_axis:
+        add_on_plane(n);
+        break;
+      case JointSlides::at_distance:
+        add_distance();
+        break;
+    }
   }
 
   template <class Scalar>
@@ -252,7 +244,7 @@ class JointBuilder {
     if (context_.plane && sides_[0].has_orientation() && sides_[1].has_orientation()) {
       data.offset = sides_[1].start_angle(design) - sides_[0].start_angle(design);
     }
-    if (joint_.type == JointType::distance) {
+    if (kind_.has_length()) {
       data.length =
           Vector3<Scalar>(resolve_point(joint_.to, design) - resolve_point(joint_.at, design))
               .norm();
@@ -280,6 +272,7 @@ class JointBuilder {
   }
 
   const Joint& joint_;
+  const JointKind& kind_;
   const BuildContext& context_;
   std::array<Attachment, 2> sides_;
   std::vector<AttachedDirection> directions_;

@@ -11,6 +11,7 @@
 #include "core/forces/point_torque.hpp"
 #include "core/forces/spring_damper.hpp"
 #include "core/frame/number_data.hpp"
+#include "core/scene/joint_kind.hpp"
 #include "core/scene/visit_numbers.hpp"
 #include "core/system/projected_term.hpp"
 
@@ -210,9 +211,7 @@ class LoadBuilder {
     } else if (coordinate == RelativeCoordinate::displacement) {
       numbers.directions[0] = sides[0].local_direction(axis, design);
     } else {
-      const Eigen::Vector3d reference = joint.type == JointType::universal
-                                            ? to_vector(joint.second_axis).normalized()
-                                            : reference_direction(sides, axis);
+      const Eigen::Vector3d reference = angle_reference(joint, sides);
       numbers.directions[0] = sides[0].local_direction(reference, design);
       numbers.directions[1] =
           sides[0].local_direction(Eigen::Vector3d(axis.cross(reference)), design);
@@ -280,20 +279,6 @@ BuiltLoad make_load(const Load& load, const std::vector<BodyModel>& bodies,
   return std::visit(LoadBuilder(load, bodies, context, coordinates), load.element);
 }
 
-namespace {
-
-bool has_angle(JointType type) {
-  return type == JointType::revolute || type == JointType::universal || type == JointType::planar ||
-         type == JointType::cylindrical;
-}
-
-bool has_displacement(JointType type) {
-  return type == JointType::prismatic || type == JointType::point_on_line ||
-         type == JointType::cylindrical;
-}
-
-}  // namespace
-
 void add_gauges(const Joint& joint, const std::vector<BodyModel>& bodies,
                 const BuildContext& context, JointModel& model) {
   const Load nothing{joint.name, JointForce{}};
@@ -304,8 +289,9 @@ void add_gauges(const Joint& joint, const std::vector<BodyModel>& bodies,
       std::all_of(joint.bodies.begin(), joint.bodies.end(), [&](const std::string& body) {
         return Attachment(body, joint.at, bodies, context).has_orientation();
       });
-  if (has_angle(joint.type) && turns) model.angle = gauge(DrivenCoordinate::angle);
-  if (has_displacement(joint.type)) model.displacement = gauge(DrivenCoordinate::displacement);
+  const JointKind& kind = kind_of(joint.type);
+  if (kind.has_angle() && turns) model.angle = gauge(DrivenCoordinate::angle);
+  if (kind.has_displacement()) model.displacement = gauge(DrivenCoordinate::displacement);
 }
 
 }  // namespace pleuel

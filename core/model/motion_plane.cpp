@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/model/imported_constants.hpp"
+#include "core/scene/joint_kind.hpp"
 
 namespace pleuel {
 
@@ -125,32 +126,17 @@ class PlaneCheck {
     const bool is_normal_axis = are_parallel(axis, normal_);
     const bool is_axis_in_plane = are_normal(axis, normal_);
     const bool turns = joint.drive && joint.drive->coordinate == DrivenCoordinate::angle;
-    switch (joint.type) {
-      case JointType::revolute:
-        require(is_normal_axis, what);
-        break;
-      case JointType::prismatic:
-      case JointType::point_on_line:
-        require(is_axis_in_plane, what);
-        break;
-      case JointType::cylindrical:
-      case JointType::planar:
-        require(is_normal_axis || is_axis_in_plane, what);
-        break;
-      case JointType::universal: {
-        const Eigen::Vector3d second = to_vector(joint.second_axis);
-        require(is_normal_axis || is_axis_in_plane, what);
-        require(are_parallel(second, normal_) || are_normal(second, normal_), what);
-        break;
-      }
-      case JointType::distance:
-        check_point(joint.to, what);
-        break;
-      case JointType::fixed:
-      case JointType::spherical:
-        break;
+    const JointKind& kind = kind_of(joint.type);
+    if (kind.has_axis()) {
+      const bool may_be_normal = kind.has_angle(), may_lie_in_plane = !kind.only_turns_about_axis();
+      require((may_be_normal && is_normal_axis) || (may_lie_in_plane && is_axis_in_plane), what);
     }
-    if (!joint.drive || joint.type == JointType::distance) return;
+    if (kind.has_second_axis()) {
+      const Eigen::Vector3d second = to_vector(joint.second_axis);
+      require(are_parallel(second, normal_) || are_normal(second, normal_), what);
+    }
+    if (kind.has_length()) check_point(joint.to, what);
+    if (!joint.drive || kind.has_length()) return;
     require(turns ? is_normal_axis : is_axis_in_plane, "the drive of " + what);
   }
 
@@ -208,13 +194,12 @@ std::vector<Eigen::Vector3d> candidate_normals(const Scene& scene, const Design<
   std::vector<Eigen::Vector3d> normals, directions, points;
   for (const Joint& joint : scene.joints) {
     const Eigen::Vector3d axis = to_vector(joint.axis);
-    if (joint.type == JointType::revolute) return {axis};
-    const bool has_axis = joint.type != JointType::fixed && joint.type != JointType::spherical &&
-                          joint.type != JointType::distance;
-    if (has_axis) directions.push_back(axis);
-    if (joint.type == JointType::universal) directions.push_back(to_vector(joint.second_axis));
+    const JointKind& kind = kind_of(joint.type);
+    if (kind.only_turns_about_axis()) return {axis};
+    if (kind.has_axis()) directions.push_back(axis);
+    if (kind.has_second_axis()) directions.push_back(to_vector(joint.second_axis));
     points.push_back(resolve_point(joint.at, start));
-    if (joint.type == JointType::distance) points.push_back(resolve_point(joint.to, start));
+    if (kind.has_length()) points.push_back(resolve_point(joint.to, start));
   }
   for (const Body& body : scene.bodies) {
     const Pose<double> pose = body_pose(body, start);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/base/dense_solvers.hpp"
+#include "core/scene/joint_kind.hpp"
 
 namespace pleuel {
 
@@ -64,62 +65,39 @@ class JointMotions {
       : joint_(joint), arm_(point - joint.at), length_(length) {}
 
   MotionSpace find() {
-    switch (joint_.type) {
-      case JointType::fixed:
-        break;
-      case JointType::revolute:
-        turn_about_axis();
-        break;
-      case JointType::prismatic:
-        slide_along_axis();
-        break;
-      case JointType::cylindrical:
-        turn_about_axis();
-        slide_along_axis();
-        break;
-      case JointType::universal:
-        turn_about_axis();
-        turn_about(joint_.second_axis);
-        break;
-      case JointType::planar:
-        turn_about_axis();
-        slide_along(joint_.axis.unitOrthogonal());
-        slide_along(joint_.axis.cross(joint_.axis.unitOrthogonal()));
-        break;
-      case JointType::spherical:
-        turn_about_all();
-        break;
-      case JointType::point_on_line:
-        turn_about_all();
-        slide_along_axis();
-        break;
-      case JointType::distance:
-        keep_distance();
-        break;
-    }
-    if (joint_.has_point_mass) turn_about_all();
+    const JointKind& kind = kind_of(joint_.type);
+    if (kind.has_angle() && !joint_.drives_angle) turn_about(joint_.axis);
+    if (kind.has_second_axis()) turn_about(joint_.second_axis);
+    if (kind.turns == JointTurns::all || joint_.has_point_mass) turn_about_all();
+    slide(kind.slides);
     return basis_of(std::move(left_));
   }
 
  private:
+  void slide(JointSlides slides) {
+    switch (slides) {
+      case JointSlides::none:
+        break;
+      case JointSlides::along_axis:
+        if (!joint_.drives_displacement) slide_along(joint_.axis);
+        break;
+      case JointSlides::across_axis:
+        slide_across(joint_.axis);
+        break;
+      case JointSlides::at_distance:
+        slide_across((joint_.to - joint_.at).normalized());
+        break;
+    }
+  }
   void slide_along(const Eigen::Vector3d& axis) { add(axis, Eigen::Vector3d::Zero()); }
-  void slide_along_axis() {
-    if (!joint_.drives_displacement) slide_along(joint_.axis);
+  void slide_across(const Eigen::Vector3d& axis) {
+    const Eigen::Vector3d normal = axis.unitOrthogonal();
+    slide_along(normal);
+    slide_along(axis.cross(normal));
   }
   void turn_about(const Eigen::Vector3d& axis) { add(axis.cross(arm_) / length_, axis); }
-  void turn_about_axis() {
-    if (!joint_.drives_angle) turn_about(joint_.axis);
-  }
   void turn_about_all() {
     for (int i = 0; i < 3; ++i) turn_about(Eigen::Vector3d::Unit(i));
-  }
-
-  /// All but those along the line between the points.
-  void keep_distance() {
-    const Eigen::Vector3d line = (joint_.to - joint_.at).normalized();
-    MotionSpace held(6, 1);
-    held << line, line.cross(arm_) / length_;
-    left_ = normal_to(held);
   }
 
   void add(const Eigen::Vector3d& velocity, const Eigen::Vector3d& turn) {
@@ -261,13 +239,12 @@ class EndMotions {
 
 RigidMotions::RigidMotions(const Scene& scene, const Design<double>& start) {
   for (const Joint& joint : scene.joints) {
-    const bool is_distance = joint.type == JointType::distance;
     const Eigen::Vector3d at = resolve_point(joint.at, start);
     for (const std::string& body : joint.bodies) {
       of_body_[body].push_back(static_cast<int>(joints_.size()));
     }
     joints_.push_back(
-        {joint.type, joint.bodies, at, is_distance ? resolve_point(joint.to, start) : at,
+        {joint.type, joint.bodies, at, resolve_point(second_point(joint), start),
          to_vector(joint.axis).normalized(), to_vector(joint.second_axis).normalized(),
          is_driven(joint, DrivenCoordinate::angle),
          is_driven(joint, DrivenCoordinate::displacement),

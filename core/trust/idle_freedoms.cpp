@@ -11,6 +11,7 @@
 #include "core/base/find_named.hpp"
 #include "core/integration/degrees_of_freedom.hpp"
 #include "core/model/body_energy.hpp"
+#include "core/scene/joint_kind.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/trust/connections.hpp"
 
@@ -220,10 +221,7 @@ class IdleFreedoms {
     for (const Joint& joint : run_.problem.scene.joints) {
       if (joint.bodies[0] != name && joint.bodies[1] != name) continue;
       ++count;
-      if (joint.type != JointType::spherical && joint.type != JointType::point_on_line &&
-          joint.type != JointType::distance) {
-        return false;
-      }
+      if (kind_of(joint.type).turns != JointTurns::all) return false;
     }
     return count >= 2;
   }

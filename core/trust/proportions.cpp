@@ -12,6 +12,7 @@
 
 #include "core/base/diameter.hpp"
 #include "core/model/scene_geometry.hpp"
+#include "core/scene/joint_kind.hpp"
 
 namespace pleuel {
 
@@ -82,7 +83,7 @@ class Proportions {
     }
     for (const Joint& joint : scene_.joints) {
       place("/scene/joints/" + joint.name + "/at", joint.at);
-      if (joint.type == JointType::distance) {
+      if (kind_of(joint.type).has_length()) {
         place("/scene/joints/" + joint.name + "/to", joint.to);
       }
     }

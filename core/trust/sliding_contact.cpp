@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/model/scene_geometry.hpp"
+#include "core/scene/joint_kind.hpp"
 
 namespace pleuel {
 
@@ -52,16 +53,9 @@ class FramePoint {
 
 /// Whether forces of a joint act on this body where the other one is.
 bool has_contact(const Joint& joint, std::size_t side) {
-  switch (joint.type) {
-    case JointType::prismatic:
-    case JointType::cylindrical:
-      return true;
-    case JointType::point_on_line:
-    case JointType::planar:
-      return side == 0;
-    default:
-      return false;
-  }
+  const JointKind& kind = kind_of(joint.type);
+  const bool slides = kind.has_displacement() || kind.slides == JointSlides::across_axis;
+  return slides && (side == 0 || kind.is_guide());
 }
 
 /// How far the other body's point of a joint goes along a beam, within its ends [m].

@@ -10,6 +10,7 @@
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
+#include "core/scene/joint_kind.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "tests/scene/good_problem.hpp"
 #include "tests/support/source_folder.hpp"
@@ -63,6 +64,14 @@ TEST_F(ProblemSchema, AcceptsEveryProblemFile) {
   }
   EXPECT_GE(files, 4);
   EXPECT_GE(hard_files, 18) << "as many as docs/stability.md lists";
+}
+
+TEST(Schema, NamesEveryTypeOfJoint) {
+  const nlohmann::json schema = load(problems / "problem.schema.json");
+  const nlohmann::json::json_pointer pointer("/definitions/joint/properties/type/enum");
+  nlohmann::json words = nlohmann::json::array();
+  for (const JointKind& kind : joint_kinds) words.push_back(std::string(kind.word));
+  EXPECT_EQ(schema.at(pointer), words);
 }
 
 TEST_F(ProblemSchema, KnowsWhatLoadCasesMayChange) {

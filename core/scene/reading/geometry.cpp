@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/scene/body_axes.hpp"
+#include "core/scene/joint_kind.hpp"
 
 namespace pleuel {
 namespace {
@@ -28,7 +29,7 @@ std::vector<Eigen::Vector3d> all_places(const Scene& scene, const Design<double>
   }
   for (const Joint& joint : scene.joints) {
     places.push_back(position(joint.at, design));
-    if (joint.type == JointType::distance) places.push_back(position(joint.to, design));
+    if (kind_of(joint.type).has_length()) places.push_back(position(joint.to, design));
   }
   return places;
 }

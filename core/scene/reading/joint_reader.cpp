@@ -13,25 +13,22 @@ namespace {
 /// Cosine of the angle between axes that are meant to be normal to each other: rounding.
 constexpr double normal_tolerance = 1e-9;
 
-bool has_axis(JointType type) {
-  return type != JointType::fixed && type != JointType::spherical && type != JointType::distance;
-}
-
 /// A direction of sliding has no sensible default; the axis of rotation of a planar mechanism has.
 void read_axis(const JsonNode& node, Joint& joint, const NumberReader& numbers) {
   const std::optional<JsonNode> axis = node.find("axis");
-  if (!has_axis(joint.type)) {
+  const JointKind& kind = kind_of(joint.type);
+  if (!kind.has_axis()) {
     if (axis) {
       axis->fail(fmt::format("is not for a {} joint, which has no axis", name_of(joint.type)));
     }
     return;
   }
-  if (!axis && joint.type == JointType::revolute) return;
+  if (!axis && kind.only_turns_about_axis()) return;
   joint.axis = numbers.direction(node.at("axis"));
 }
 
 void read_second_axis(const JsonNode& node, Joint& joint, const NumberReader& numbers) {
-  if (joint.type != JointType::universal) {
+  if (!kind_of(joint.type).has_second_axis()) {
     if (const auto axis = node.find("second_axis")) axis->fail("is for universal joints only");
     return;
   }
@@ -45,7 +42,7 @@ void read_second_axis(const JsonNode& node, Joint& joint, const NumberReader& nu
 }
 
 void read_second_point(const JsonNode& node, Joint& joint, NumberReader& numbers) {
-  if (joint.type == JointType::distance) {
+  if (kind_of(joint.type).has_length()) {
     joint.to = numbers.triple(node.at("to"), quantities::length);
   } else if (const auto to = node.find("to")) {
     to->fail("is for distance joints only");
@@ -53,7 +50,7 @@ void read_second_point(const JsonNode& node, Joint& joint, NumberReader& numbers
 }
 
 Drive read_drive(const JsonNode& node, const Joint& joint, NumberReader& numbers) {
-  if (drivable_coordinates(joint.type).empty()) fail_joint_type(node, joint, drivable_types());
+  check_drivable(node, joint);
   const DrivenCoordinate coordinate = read_coordinate(node, joint);
   return {read_drive_function(node, driven_quantity(coordinate), numbers), coordinate};
 }

@@ -7,46 +7,30 @@
 namespace pleuel {
 namespace {
 
-constexpr Choice<JointType> joint_types[] = {{"revolute", JointType::revolute},
-                                             {"prismatic", JointType::prismatic},
-                                             {"fixed", JointType::fixed},
-                                             {"point-on-line", JointType::point_on_line},
-                                             {"cylindrical", JointType::cylindrical},
-                                             {"universal", JointType::universal},
-                                             {"spherical", JointType::spherical},
-                                             {"planar", JointType::planar},
-                                             {"distance", JointType::distance}};
-
 constexpr Choice<DrivenCoordinate> coordinates[] = {
     {"angle", DrivenCoordinate::angle}, {"displacement", DrivenCoordinate::displacement}};
 
 }  // namespace
 
 JointType read_joint_type(const JsonNode& node) {
-  return read_choice(node, joint_types);
+  std::vector<std::string> words;
+  for (const JointKind& kind : joint_kinds) {
+    words.emplace_back(kind.word);
+    if (node.value() == words.back()) return kind.type;
+  }
+  fail_choice(node, words);
 }
 
 std::string name_of(JointType type) {
-  return word_of(joint_types, type);
+  return std::string(kind_of(type).word);
 }
 
 std::vector<DrivenCoordinate> drivable_coordinates(JointType type) {
-  switch (type) {
-    case JointType::revolute:
-    case JointType::universal:
-    case JointType::planar:
-      return {DrivenCoordinate::angle};
-    case JointType::prismatic:
-    case JointType::point_on_line:
-    case JointType::distance:
-      return {DrivenCoordinate::displacement};
-    case JointType::cylindrical:
-      return {DrivenCoordinate::angle, DrivenCoordinate::displacement};
-    case JointType::fixed:
-    case JointType::spherical:
-      break;
-  }
-  return {};
+  const JointKind& kind = kind_of(type);
+  std::vector<DrivenCoordinate> all;
+  if (kind.has_angle()) all.push_back(DrivenCoordinate::angle);
+  if (kind.has_displacement() || kind.has_length()) all.push_back(DrivenCoordinate::displacement);
+  return all;
 }
 
 DrivenCoordinate read_coordinate(const JsonNode& node, const Joint& joint) {
@@ -63,20 +47,30 @@ DrivenCoordinate read_coordinate(const JsonNode& node, const Joint& joint) {
   return chosen;
 }
 
-void fail_joint_type(const JsonNode& node, const Joint& joint,
-                     const std::vector<JointType>& needed) {
+namespace {
+
+/// @throws InputError unless joints of this type have what is needed
+template <class Predicate>
+void require(const JsonNode& node, const Joint& joint, const Predicate& has_it) {
+  if (has_it(kind_of(joint.type))) return;
   std::vector<std::string> names;
-  for (const JointType type : needed) names.push_back(name_of(type));
+  for (const JointKind& kind : joint_kinds) {
+    if (has_it(kind)) names.emplace_back(kind.word);
+  }
   node.fail(fmt::format("needs a joint of the type {}, but \"{}\" is of the type \"{}\"",
                         quoted_list(names, "or"), joint.name, name_of(joint.type)));
 }
 
-std::vector<JointType> drivable_types() {
-  std::vector<JointType> types;
-  for (const auto& [word, type] : joint_types) {
-    if (!drivable_coordinates(type).empty()) types.push_back(type);
-  }
-  return types;
+}  // namespace
+
+void check_drivable(const JsonNode& node, const Joint& joint) {
+  require(node, joint,
+          [](const JointKind& kind) { return !drivable_coordinates(kind.type).empty(); });
+}
+
+void check_coordinate_between_bodies(const JsonNode& node, const Joint& joint) {
+  require(node, joint,
+          [](const JointKind& kind) { return kind.has_angle() || kind.has_displacement(); });
 }
 
 }  // namespace pleuel

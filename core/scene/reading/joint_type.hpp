@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/joint_kind.hpp"
 #include "core/scene/reading/json_node.hpp"
-#include "core/scene/scene.hpp"
 
 /// What the types of joints are called, and which of their coordinates a drive or load can act on.
 namespace pleuel {
@@ -15,18 +15,18 @@ JointType read_joint_type(const JsonNode& node);
 /// As in a file: "point-on-line".
 std::string name_of(JointType type);
 
-/// None for fixed and spherical joints, two for a cylindrical joint, one for all others.
+/// Those of a joint that a drive can prescribe: none, one, or for a cylindrical joint two.
 std::vector<DrivenCoordinate> drivable_coordinates(JointType type);
 
 /// The coordinate that a drive or load of this joint acts on: the one that the key "coordinate" of
 /// `node` says, which may be missing if there is only one. @throws InputError
 DrivenCoordinate read_coordinate(const JsonNode& node, const Joint& joint);
 
-/// Ends the reading: a joint with such coordinates is needed.
-[[noreturn]] void fail_joint_type(const JsonNode& node, const Joint& joint,
-                                  const std::vector<JointType>& needed);
+/// @throws InputError unless the joint has a coordinate that can be driven
+void check_drivable(const JsonNode& node, const Joint& joint);
 
-/// Those with a coordinate that can be driven.
-std::vector<JointType> drivable_types();
+/// @throws InputError unless the joint has an angle or a displacement of one body against the other,
+/// which loads act along and responses look at. A distance has none.
+void check_coordinate_between_bodies(const JsonNode& node, const Joint& joint);
 
 }  // namespace pleuel

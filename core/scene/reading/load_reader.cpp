@@ -21,11 +21,7 @@ const Body& read_loaded_body(const JsonNode& node, const Scene& scene) {
 const Joint& read_loaded_joint(const JsonNode& node, const Scene& scene) {
   const std::string name = read_known_name(node, "joint", names_of(scene.joints));
   const Joint& joint = *find_named(scene.joints, name);
-  std::vector<JointType> types = drivable_types();
-  types.erase(std::remove(types.begin(), types.end(), JointType::distance), types.end());
-  if (std::find(types.begin(), types.end(), joint.type) == types.end()) {
-    fail_joint_type(node, joint, types);
-  }
+  check_coordinate_between_bodies(node, joint);
   return joint;
 }
 

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "core/scene/joint_kind.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 
 namespace pleuel {
@@ -76,17 +77,12 @@ bool have_parallel_axes(const Joint& a, const Joint& b) {
   return first.stableNormalized().cross(second.stableNormalized()).norm() <= parallel_tolerance;
 }
 
-/// Whether all points of the second body are displaced alike along the axis.
-bool keeps_direction_of_axis(JointType type) {
-  return type == JointType::prismatic || type == JointType::cylindrical;
-}
-
 /// Drives of distances, and of points on lines, may act side by side, as in a hexapod.
 bool drive_the_same(const Joint& a, const Joint& b) {
   if (a.drive->coordinate != b.drive->coordinate) return false;
   if (!have_same_bodies(a, b) || !have_parallel_axes(a, b)) return false;
   return a.drive->coordinate == DrivenCoordinate::angle ||
-         (keeps_direction_of_axis(a.type) && keeps_direction_of_axis(b.type));
+         (kind_of(a.type).is_guide() && kind_of(b.type).is_guide());
 }
 
 void check_that_no_motion_is_driven_twice(const JsonNode& node, const Scene& scene) {

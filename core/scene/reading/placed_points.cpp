@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/find_named.hpp"
+#include "core/scene/joint_kind.hpp"
 #include "core/scene/reading/geometry.hpp"
 #include "core/scene/reading/limits.hpp"
 
@@ -12,11 +13,10 @@ namespace pleuel {
 namespace {
 
 void add_joint(const Scene& scene, const Joint& joint, std::vector<PlacedPoint>& points) {
-  const bool is_distance = joint.type == JointType::distance;
   points.push_back(
       {{"joints", joint.name, "at"}, &joint.at, find_named(scene.bodies, joint.bodies[0])});
-  points.push_back({{"joints", joint.name, is_distance ? "to" : "at"},
-                    is_distance ? &joint.to : &joint.at,
+  points.push_back({{"joints", joint.name, kind_of(joint.type).has_length() ? "to" : "at"},
+                    &second_point(joint),
                     find_named(scene.bodies, joint.bodies[1])});
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/joint_kind.hpp"
 #include "core/scene/reading/geometry.hpp"
 #include "core/scene/reading/limits.hpp"
 #include "core/scene/reading/placed_points.hpp"
@@ -31,7 +32,7 @@ JsonNode node_of(const JsonNode& scene, const PlacedPoint& place) {
 std::vector<PointPair> pairs_of(const JsonNode& node, const Scene& scene) {
   std::vector<PointPair> pairs;
   for (const Joint& joint : scene.joints) {
-    if (joint.type != JointType::distance) continue;
+    if (!kind_of(joint.type).has_length()) continue;
     pairs.push_back({node.at("joints").at(joint.name).at("to"), &joint.at, &joint.to,
                      "must not be the same point as \"at\""});
   }

@@ -50,11 +50,7 @@ void read_joint_motion(const JsonNode& node, const ResponseContext& context,
   allow_history_keys(node, {"joint", "coordinate"});
   const JsonNode name = node.at("joint");
   const Joint& joint = read_joint_name(name, context.scene);
-  std::vector<JointType> types = drivable_types();
-  std::erase(types, JointType::distance);
-  if (std::find(types.begin(), types.end(), joint.type) == types.end()) {
-    fail_joint_type(name, joint, types);
-  }
+  check_coordinate_between_bodies(name, joint);
   response.joint = joint.name;
   response.coordinate = read_coordinate(node, joint);
   read_history(node, context, response);
