@@ -9,6 +9,7 @@
 #include "cli/reports/analysis_report.hpp"
 #include "cli/text/packed_numbers.hpp"
 #include "core/response/shown_history.hpp"
+#include "core/scene/response_kind.hpp"
 #include "core/scene/response_names.hpp"
 #include "core/scene/response_quantity.hpp"
 #include "core/scene/shown_unit.hpp"
@@ -48,7 +49,7 @@ Json unit_document(const ShownUnit& unit) {
 }
 
 Json meaning_document(const ResponseSettings& response) {
-  Json document = {{"type", word_of(response_types, response.type)},
+  Json document = {{"type", kind_of(response.type).word},
                    {"over_time", word_of(over_time_kinds, response.over_time)},
                    {"bodies", response.bodies},
                    {"unit", unit_document(unit_of(response))},
@@ -58,10 +59,7 @@ Json meaning_document(const ResponseSettings& response) {
   if (response.station) {
     document["at"] = *response.station;
   }
-  const bool has_place =
-      response.type == ResponseType::deflection || response.type == ResponseType::position ||
-      response.type == ResponseType::velocity || response.type == ResponseType::acceleration;
-  if (has_place) document["at"] = response.at;
+  if (kind_of(response.type).is_of_point) document["at"] = response.at;
   return document;
 }
 

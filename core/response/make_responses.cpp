@@ -1,7 +1,6 @@
 #include "core/response/make_responses.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -88,17 +87,6 @@ class ResponseMaker {
 
   std::unique_ptr<Signal> make_signal() {
     switch (settings_.type) {
-      case ResponseType::stress:
-      case ResponseType::fatigue:
-      case ResponseType::fatigue_damage:
-      case ResponseType::shear_stress:
-      case ResponseType::buckling:
-      case ResponseType::lateral_buckling:
-      case ResponseType::deflection:
-      case ResponseType::position:
-      case ResponseType::velocity:
-      case ResponseType::acceleration:
-        return make_signal_of_body(settings_, model_);
       case ResponseType::drive_torque:
       case ResponseType::drive_force:
         return of_multipliers(make_drive_effort_signal(driven_joint()));
@@ -117,11 +105,6 @@ class ResponseMaker {
       case ResponseType::constraint_drift:
         if (model_.mechanism.system->multipliers() == 0) fail("the mechanism has no constraints");
         return make_drift_signal(model_, settings_.level);
-      case ResponseType::angle:
-      case ResponseType::angular_acceleration:
-      case ResponseType::angular_velocity:
-      case ResponseType::section_force:
-        return make_signal_of_body(settings_, model_);
       case ResponseType::joint_position:
       case ResponseType::joint_velocity:
       case ResponseType::spring_length:
@@ -129,12 +112,9 @@ class ResponseMaker {
       case ResponseType::motor_power:
       case ResponseType::damper_power:
         return make_reading();
-      case ResponseType::mass:
-      case ResponseType::frequency:
-      case ResponseType::expression:
-        break;
+      default:
+        return make_signal_of_body(settings_, model_);
     }
-    throw std::logic_error("a response without a signal");
   }
 
   std::unique_ptr<Signal> make_reading() const { return make_gauge_signal(settings_, model_); }

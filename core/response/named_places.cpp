@@ -7,6 +7,7 @@
 #include "core/base/find_named.hpp"
 #include "core/model/attached_points.hpp"
 #include "core/model/beam_mesh.hpp"
+#include "core/scene/response_kind.hpp"
 
 namespace pleuel {
 
@@ -34,10 +35,7 @@ class PlaceFinder {
 
  private:
   void add_response(const ResponseSettings& response) {
-    const bool has_place =
-        response.type == ResponseType::deflection || response.type == ResponseType::position ||
-        response.type == ResponseType::velocity || response.type == ResponseType::acceleration;
-    if (!has_place || response.bodies.front() != body_.name) return;
+    if (!kind_of(response.type).is_of_point || response.bodies.front() != body_.name) return;
     add(response.name, find_place(body_.beam, response.at));
   }
 

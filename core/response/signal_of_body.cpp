@@ -1,6 +1,7 @@
 #include "core/response/signal_of_body.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -63,8 +64,10 @@ class BodySignalMaker {
         return make_spin_signal(body_, settings_.direction, TimeDerivative::second);
       case ResponseType::angle:
         return make_angle_signal(body_, settings_.direction);
-      default:
+      case ResponseType::acceleration:
         return make_motion(TimeDerivative::second);
+      default:
+        throw std::logic_error("a response without a signal");
     }
   }
 

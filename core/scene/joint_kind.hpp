@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstddef>
-#include <iterator>
 #include <string_view>
 
+#include "core/scene/kind_table.hpp"
 #include "core/scene/scene.hpp"
 
 /// What each type of joint leaves of the motion of the second body against the first. The equations
@@ -76,14 +76,7 @@ inline constexpr JointKind joint_kinds[] = {
      "keeps its distance"},
 };
 
-static_assert(
-    [] {
-      for (std::size_t i = 0; i < std::size(joint_kinds); ++i) {
-        if (static_cast<std::size_t>(joint_kinds[i].type) != i) return false;
-      }
-      return true;
-    }(),
-    "the table has the order of JointType");
+static_assert(are_in_order(joint_kinds));
 
 constexpr const JointKind& kind_of(JointType type) {
   return joint_kinds[static_cast<std::size_t>(type)];

@@ -1,5 +1,7 @@
 #include "core/scene/response_quantity.hpp"
 
+#include "core/scene/response_kind.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -9,59 +11,20 @@ Quantity instant_quantity(const ResponseSettings& response) {
   switch (response.type) {
     case ResponseType::stress:
     case ResponseType::shear_stress:
-      return response.part == StressPart::utilization ? quantities::pure_number
-                                                      : quantities::stress;
-    case ResponseType::deflection:
-    case ResponseType::position:
-      return quantities::length;
-    case ResponseType::velocity:
-      return quantities::speed;
-    case ResponseType::acceleration:
-      return quantities::acceleration;
-    case ResponseType::drive_torque:
-    case ResponseType::reaction_moment:
-      return quantities::torque;
-    case ResponseType::drive_power:
-      return quantities::power;
-    case ResponseType::drive_force:
-    case ResponseType::reaction_force:
-      return quantities::force;
-    case ResponseType::frequency:
-      return quantities::angular_frequency;
-    case ResponseType::buckling:
-    case ResponseType::lateral_buckling:
-    case ResponseType::fatigue:
-    case ResponseType::fatigue_damage:
-    case ResponseType::constraint_drift:
-      return quantities::pure_number;
+      if (response.part == StressPart::utilization) return quantities::pure_number;
+      break;
     case ResponseType::section_force:
       return is_force(response.section_part) ? quantities::force : quantities::torque;
-    case ResponseType::angular_velocity:
-      return quantities::angular_speed;
     case ResponseType::joint_position:
-      return is_angle ? quantities::angle : quantities::length;
+      if (is_angle) return quantities::angle;
+      break;
     case ResponseType::joint_velocity:
-      return is_angle ? quantities::angular_speed : quantities::speed;
-    case ResponseType::spring_length:
-      return quantities::length;
-    case ResponseType::spring_force:
-      return quantities::force;
-    case ResponseType::angle:
-      return quantities::angle;
-    case ResponseType::angular_acceleration:
-      return per_time(quantities::angular_speed);
-    case ResponseType::damper_power:
-    case ResponseType::motor_power:
-      return quantities::power;
-    case ResponseType::kinetic_energy:
-    case ResponseType::elastic_energy:
-    case ResponseType::energy_balance:
-      return quantities::energy;
-    case ResponseType::mass:
-    case ResponseType::expression:
+      if (is_angle) return quantities::angular_speed;
+      break;
+    default:
       break;
   }
-  return quantities::mass;
+  return kind_of(response.type).quantity;
 }
 
 }  // namespace

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "core/response/make_responses.hpp"
 #include "core/response/recorder.hpp"
 #include "core/scene/magnitude_direction.hpp"
 #include "core/scene/response_parts.hpp"
+#include "core/scene/response_quantity.hpp"
 
 namespace pleuel {
 
@@ -75,33 +77,25 @@ class RoundOff {
                                          [&](std::size_t part) { return is_round_off[part]; });
   }
 
-  /// Of a length and its rates.
+  /// Of a length or an angle, and of its rates.
   double length_scale(const ResponseSettings& response) const {
+    constexpr int most_rates = 2;
     const Trajectory& trajectory = run_.analysis.trajectory;
     const double step = trajectory.time(trajectory.steps()) / trajectory.steps();
-    switch (response.type) {
-      case ResponseType::position:
-      case ResponseType::deflection:
-        return tiny_length * size_;
-      case ResponseType::spring_length:
-        return tiny_length * size_;
-      case ResponseType::joint_position:
-        return tiny_length * (is_angle(response) ? 1.0 : size_);
-      case ResponseType::velocity:
-        return tiny_way * size_ / step;
-      case ResponseType::joint_velocity:
-        return tiny_way * (is_angle(response) ? 1.0 : size_) / step;
-      case ResponseType::angle:
-        return tiny_length;
-      case ResponseType::angular_velocity:
-        return tiny_way / step;
-      case ResponseType::angular_acceleration:
-        return tiny_way / (step * step);
-      case ResponseType::acceleration:
-        return tiny_way * size_ / (step * step);
-      default:
-        return 0.0;
+    ResponseSettings instant = response;
+    instant.over_time = OverTime::final;
+    const Quantity quantity = quantity_of(instant);
+    for (auto [one, size] :
+         {std::pair(quantities::length, size_), std::pair(quantities::angle, 1.0)}) {
+      if (quantity == one) return tiny_length * size;
+      double way = tiny_way * size;
+      for (int i = 0; i < most_rates; ++i) {
+        one = per_time(one);
+        way /= step;
+        if (quantity == one) return way;
+      }
     }
+    return 0.0;
   }
 
   /// What a strain of round-off makes of a response of beams: positions of the size of the mechanism
@@ -132,10 +126,6 @@ class RoundOff {
       default:
         return 0.0;
     }
-  }
-
-  static bool is_angle(const ResponseSettings& response) {
-    return response.coordinate == DrivenCoordinate::angle;
   }
 
   std::vector<Measure> measures_of(const ResponseSettings& response) const {

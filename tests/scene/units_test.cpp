@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/common_units.hpp"
-#include "core/scene/response_names.hpp"
+#include "core/scene/response_kind.hpp"
 #include "core/scene/response_quantity.hpp"
 
 namespace pleuel {
@@ -128,14 +128,14 @@ TEST(Units, ThatAreUnknownAreRefused) {
 }
 
 TEST(Integrals, HaveAUnitForEveryResponse) {
-  for (const auto& [word, type] : response_types) {
-    if (type == ResponseType::expression) continue;  // has the unit of its formula
+  for (const ResponseKind& kind : response_kinds) {
+    if (kind.type == ResponseType::expression) continue;  // has the unit of its formula
     ResponseSettings response;
-    response.type = type;
+    response.type = kind.type;
     response.over_time = OverTime::integral;
     for (const auto along : {DrivenCoordinate::angle, DrivenCoordinate::displacement}) {
       response.coordinate = along;
-      EXPECT_NO_THROW(quantity_of(response)) << word;
+      EXPECT_NO_THROW(quantity_of(response)) << kind.word;
     }
   }
 }

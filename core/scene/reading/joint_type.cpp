@@ -13,12 +13,7 @@ constexpr Choice<DrivenCoordinate> coordinates[] = {
 }  // namespace
 
 JointType read_joint_type(const JsonNode& node) {
-  std::vector<std::string> words;
-  for (const JointKind& kind : joint_kinds) {
-    words.emplace_back(kind.word);
-    if (node.value() == words.back()) return kind.type;
-  }
-  fail_choice(node, words);
+  return read_kind(node, joint_kinds);
 }
 
 std::string name_of(JointType type) {

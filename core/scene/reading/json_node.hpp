@@ -73,6 +73,17 @@ Meaning read_choice(const JsonNode& node, const Choice<Meaning> (&choices)[count
   fail_choice(node, words);
 }
 
+/// The type of the kind in a table (joint_kind.hpp, response_kind.hpp) whose word is the node's text.
+template <class Kind, std::size_t count>
+auto read_kind(const JsonNode& node, const Kind (&kinds)[count]) {
+  std::vector<std::string> words;
+  for (const Kind& kind : kinds) {
+    words.emplace_back(kind.word);
+    if (node.value() == words.back()) return kind.type;
+  }
+  fail_choice(node, words);
+}
+
 /// Ends the reading: `names the unknown material "stel"; did you mean "steel"?`
 [[noreturn]] void fail_unknown_name(const JsonNode& node, std::string_view kind,
                                     const std::string& name, const std::vector<std::string>& known);

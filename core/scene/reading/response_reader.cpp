@@ -9,7 +9,7 @@
 #include "core/scene/reading/joint_type.hpp"
 #include "core/scene/reading/limits.hpp"
 #include "core/scene/reading/scene_reader.hpp"
-#include "core/scene/response_names.hpp"
+#include "core/scene/response_kind.hpp"
 
 namespace pleuel {
 namespace {
@@ -194,7 +194,7 @@ ResponseSettings read_response(const std::string& name, const JsonNode& node,
                                const ResponseContext& context) {
   ResponseSettings response;
   response.name = name;
-  response.type = read_choice(node.at("type"), response_types);
+  response.type = read_kind(node.at("type"), response_kinds);
   switch (response.type) {
     case ResponseType::mass:
       read_mass(node, context.scene, response);
