@@ -4,7 +4,9 @@
 #include "core/scene/units.hpp"
 
 /// Every number of a scene that may be bound to a design variable, with what it measures: the only
-/// list of them. `visit(number, quantity)` is called in the order of the structs.
+/// list of them. `visit(number, quantity)` is called in the order of the structs. Structs are taken
+/// apart by all their members: one that is added does not compile before it is looked at here, where
+/// a number that is left out would have no derivatives.
 namespace pleuel {
 
 namespace visiting {
@@ -68,12 +70,13 @@ void visit_numbers(const Section& section, Visit&& visit) {
 
 template <class Visit>
 void visit_numbers(const Material& material, Visit&& visit) {
-  visit(material.young, quantities::stress);
-  visit(material.poisson, quantities::pure_number);
-  visit(material.density, quantities::density);
-  for (auto* strength : {&material.strength, &material.ultimate_strength, &material.endurance_limit,
-                         &material.fatigue_strength}) {
-    if (*strength) visit(**strength, quantities::stress);
+  const auto& [name, young, poisson, density, strength, ultimate, endurance, fatigue, exponent] =
+      material;
+  visit(young, quantities::stress);
+  visit(poisson, quantities::pure_number);
+  visit(density, quantities::density);
+  for (auto* limit : {&strength, &ultimate, &endurance, &fatigue}) {
+    if (*limit) visit(**limit, quantities::stress);
   }
 }
 
@@ -122,31 +125,50 @@ void visit_numbers(const TimeFunction& function, const Quantity& value, Visit&& 
   }
 }
 
+namespace visiting {
+
+template <class Visit>
+struct ShapeNumbers {
+  Visit& visit;
+
+  void operator()(const BeamBody& beam) const {
+    const auto& [from, to, material, segments, frame, damping, reference, is_rigid, reduction,
+                 frames, part] = beam;
+    all(from, quantities::length, visit);
+    all(to, quantities::length, visit);
+    for (const Segment& segment : segments) visit_numbers(segment.section, visit);
+    visit(damping.mass, quantities::rate);
+    visit(damping.stiffness, quantities::time);
+    visit(damping.modal, quantities::pure_number);
+  }
+  void operator()(const RigidBody& body) const {
+    const auto& [at, mass, inertia] = body;
+    all(at, quantities::length, visit);
+    visit(mass, quantities::mass);
+    all(inertia, quantities::inertia, visit);
+  }
+  void operator()(const ImportedBody& body) const {
+    const auto& [from, to, reference, source, file, variables, is_linear] = body;
+    all(from, quantities::length, visit);
+    all(to, quantities::length, visit);
+    for (const ImportedVariable& of : variables) visit(of.number, of.quantity);
+  }
+  void operator()(const PointMass& body) const {
+    const auto& [at, mass] = body;
+    all(at, quantities::length, visit);
+    visit(mass, quantities::mass);
+  }
+};
+
+}  // namespace visiting
+
 template <class Visit>
 void visit_numbers(const Body& body, Visit&& visit) {
-  if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
-    visiting::all(beam->from, quantities::length, visit);
-    visiting::all(beam->to, quantities::length, visit);
-    for (const Segment& segment : beam->segments) visit_numbers(segment.section, visit);
-    visit(beam->damping.mass, quantities::rate);
-    visit(beam->damping.stiffness, quantities::time);
-    visit(beam->damping.modal, quantities::pure_number);
-  } else if (const auto* rigid = std::get_if<RigidBody>(&body.shape)) {
-    visiting::all(rigid->at, quantities::length, visit);
-    visit(rigid->mass, quantities::mass);
-    visiting::all(rigid->inertia, quantities::inertia, visit);
-  } else if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
-    visiting::all(imported->from, quantities::length, visit);
-    visiting::all(imported->to, quantities::length, visit);
-    for (const ImportedVariable& of : imported->variables) visit(of.number, of.quantity);
-  } else {
-    const auto& point = std::get<PointMass>(body.shape);
-    visiting::all(point.at, quantities::length, visit);
-    visit(point.mass, quantities::mass);
-  }
-  visiting::all(body.velocity, quantities::speed, visit);
-  visiting::all(body.angular_velocity, quantities::angular_speed, visit);
-  for (const InitialDeflection& one : body.initial_deflections) {
+  const auto& [name, shape, velocity, angular_velocity, initial_deflections] = body;
+  std::visit(visiting::ShapeNumbers<std::remove_reference_t<Visit>>{visit}, shape);
+  visiting::all(velocity, quantities::speed, visit);
+  visiting::all(angular_velocity, quantities::angular_speed, visit);
+  for (const InitialDeflection& one : initial_deflections) {
     visiting::all(one.at, quantities::length, visit);
     visit(one.displacement, quantities::length);
     visit(one.rate, quantities::speed);
@@ -159,41 +181,57 @@ inline Quantity driven_quantity(DrivenCoordinate coordinate) {
 
 template <class Visit>
 void visit_numbers(const Joint& joint, Visit&& visit) {
-  visiting::all(joint.at, quantities::length, visit);
-  visiting::all(joint.to, quantities::length, visit);
-  if (joint.drive) {
-    visit_numbers(joint.drive->motion, driven_quantity(joint.drive->coordinate), visit);
-  }
+  const auto& [name, type, bodies, at, axis, second_axis, to, drive] = joint;
+  visiting::all(at, quantities::length, visit);
+  visiting::all(to, quantities::length, visit);
+  if (drive) visit_numbers(drive->motion, driven_quantity(drive->coordinate), visit);
 }
+
+namespace visiting {
+
+template <class Visit>
+struct LoadNumbers {
+  Visit& visit;
+
+  void operator()(const PointForce& force) const {
+    const auto& [body, at, direction, value, follows_body, over] = force;
+    all(at, quantities::length, visit);
+    visit_numbers(value, quantities::force, visit);
+  }
+  void operator()(const PointTorque& torque) const {
+    const auto& [body, at, direction, value, follows_body, over] = torque;
+    all(at, quantities::length, visit);
+    visit_numbers(value, quantities::torque, visit);
+  }
+  void operator()(const SpringDamper& spring) const {
+    const auto& [bodies, at, stiffness, damping, free_length, resistance] = spring;
+    for (const Point& point : at) all(point, quantities::length, visit);
+    visit(stiffness, quantities::spring_stiffness);
+    visit(damping, quantities::damping_constant);
+    if (free_length) visit(*free_length, quantities::length);
+    if (resistance) visit_numbers(*resistance, quantities::force, visit);
+  }
+  void operator()(const JointForce& force) const {
+    const auto& [joint, coordinate, stiffness, damping, rest, motor, control, resistance] = force;
+    const AlongCoordinate measures = along(coordinate);
+    visit(stiffness, measures.stiffness);
+    visit(damping, measures.damping);
+    visit(rest, measures.coordinate);
+    if (motor) visit_numbers(*motor, measures.force, visit);
+    if (control) {
+      visit_numbers(control->target, measures.coordinate, visit);
+      visit(control->proportional, measures.stiffness);
+      visit(control->derivative, measures.damping);
+    }
+    if (resistance) visit_numbers(*resistance, measures.force, visit);
+  }
+};
+
+}  // namespace visiting
 
 template <class Visit>
 void visit_numbers(const Load& load, Visit&& visit) {
-  if (const auto* force = std::get_if<PointForce>(&load.element)) {
-    visiting::all(force->at, quantities::length, visit);
-    visit_numbers(force->value, quantities::force, visit);
-  } else if (const auto* torque = std::get_if<PointTorque>(&load.element)) {
-    visiting::all(torque->at, quantities::length, visit);
-    visit_numbers(torque->value, quantities::torque, visit);
-  } else if (const auto* spring = std::get_if<SpringDamper>(&load.element)) {
-    for (const Point& point : spring->at) visiting::all(point, quantities::length, visit);
-    visit(spring->stiffness, quantities::spring_stiffness);
-    visit(spring->damping, quantities::damping_constant);
-    if (spring->free_length) visit(*spring->free_length, quantities::length);
-    if (spring->resistance) visit_numbers(*spring->resistance, quantities::force, visit);
-  } else {
-    const auto& joint = std::get<JointForce>(load.element);
-    const AlongCoordinate measures = along(joint.coordinate);
-    visit(joint.stiffness, measures.stiffness);
-    visit(joint.damping, measures.damping);
-    visit(joint.rest, measures.coordinate);
-    if (joint.motor) visit_numbers(*joint.motor, measures.force, visit);
-    if (joint.control) {
-      visit_numbers(joint.control->target, measures.coordinate, visit);
-      visit(joint.control->proportional, measures.stiffness);
-      visit(joint.control->derivative, measures.damping);
-    }
-    if (joint.resistance) visit_numbers(*joint.resistance, measures.force, visit);
-  }
+  std::visit(visiting::LoadNumbers<std::remove_reference_t<Visit>>{visit}, load.element);
 }
 
 template <class Visit>
