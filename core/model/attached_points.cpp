@@ -1,26 +1,18 @@
 #include "core/model/attached_points.hpp"
 
-#include "core/scene/joint_kind.hpp"
+#include "core/scene/held_points.hpp"
 
 namespace pleuel {
 
 std::vector<AttachedPoint> attached_points(const Scene& scene) {
   std::vector<AttachedPoint> points;
-  for (const Joint& joint : scene.joints) {
-    points.push_back({joint.name, joint.bodies[0], joint.at});
-    points.push_back({joint.name, joint.bodies[1], second_point(joint)});
-  }
-  for (const Load& load : scene.loads) {
-    if (const auto* force = std::get_if<PointForce>(&load.element)) {
-      points.push_back({load.name, force->body, force->at});
-    } else if (const auto* torque = std::get_if<PointTorque>(&load.element)) {
-      points.push_back({load.name, torque->body, torque->at});
-    } else if (const auto* spring = std::get_if<SpringDamper>(&load.element)) {
-      for (std::size_t i = 0; i < 2; ++i) {
-        points.push_back({load.name, spring->bodies[i], spring->at[i]});
-      }
-    }
-  }
+  const auto add_held = [&](const auto& holder) {
+    visit_held_points(holder, [&](const std::string& body, const Point& at, const PointKey&) {
+      points.push_back({holder.name, body, at});
+    });
+  };
+  for (const Joint& joint : scene.joints) add_held(joint);
+  for (const Load& load : scene.loads) add_held(load);
   for (const Body& body : scene.bodies) {
     for (const InitialDeflection& one : body.initial_deflections) {
       points.push_back({"initial deflection", body.name, one.at});

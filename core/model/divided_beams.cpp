@@ -10,7 +10,7 @@
 #include "core/model/beam_mesh.hpp"
 #include "core/model/effect_decisions.hpp"
 #include "core/model/scene_geometry.hpp"
-#include "core/scene/joint_kind.hpp"
+#include "core/scene/held_points.hpp"
 
 namespace pleuel {
 
@@ -145,19 +145,11 @@ class Division {
   }
 
   void move_attachments(Scene& divided) const {
-    for (Joint& joint : divided.joints) {
-      move(joint.bodies[0], joint.at);
-      move(joint.bodies[1], second_point(joint));
-    }
-    for (Load& load : divided.loads) {
-      if (auto* force = std::get_if<PointForce>(&load.element)) {
-        move(force->body, force->at);
-      } else if (auto* torque = std::get_if<PointTorque>(&load.element)) {
-        move(torque->body, torque->at);
-      } else if (auto* spring = std::get_if<SpringDamper>(&load.element)) {
-        for (std::size_t i = 0; i < 2; ++i) move(spring->bodies[i], spring->at[i]);
-      }
-    }
+    const auto move_held = [&](std::string& body, const Point& at, const PointKey&) {
+      move(body, at);
+    };
+    for (Joint& joint : divided.joints) visit_held_points(joint, move_held);
+    for (Load& load : divided.loads) visit_held_points(load, move_held);
   }
 
   /// From a beam to the stretch of it that a point lies on.

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/model/imported_constants.hpp"
-#include "core/scene/joint_kind.hpp"
+#include "core/scene/held_points.hpp"
 
 namespace pleuel {
 
@@ -142,19 +142,16 @@ class PlaneCheck {
 
   void check_load(const Load& load) {
     const std::string what = "load " + load.name;
+    visit_held_points(
+        load, [&](const std::string&, const Point& at, const PointKey&) { check_point(at, what); });
     if (const auto* force = std::get_if<PointForce>(&load.element)) {
-      check_point(force->at, what);
       require(are_normal(to_vector(force->direction), normal_), what);
       if (force->over) check_coordinate(force->over->joint, force->over->coordinate, what);
     } else if (const auto* torque = std::get_if<PointTorque>(&load.element)) {
-      check_point(torque->at, what);
       require(are_parallel(to_vector(torque->direction), normal_), what);
       if (torque->over) check_coordinate(torque->over->joint, torque->over->coordinate, what);
-    } else if (const auto* spring = std::get_if<SpringDamper>(&load.element)) {
-      for (const Point& point : spring->at) check_point(point, what);
-    } else {
-      const auto& of_joint = std::get<JointForce>(load.element);
-      check_coordinate(of_joint.joint, of_joint.coordinate, what);
+    } else if (const auto* of_joint = std::get_if<JointForce>(&load.element)) {
+      check_coordinate(of_joint->joint, of_joint->coordinate, what);
     }
   }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/held_points.hpp"
 #include "core/scene/reading/geometry.hpp"
 #include "core/scene/reading/placed_points.hpp"
 
@@ -28,18 +29,16 @@ bool has_point_formulas(const Scene& scene) {
     const auto* mass = std::get_if<PointMass>(&body.shape);
     return mass != nullptr && is_formula(mass->at);
   };
-  const auto of_joint = [](const Joint& joint) {
-    return is_formula(joint.at) || is_formula(joint.to);
-  };
-  const auto of_load = [](const Load& load) {
-    if (const auto* force = std::get_if<PointForce>(&load.element)) return is_formula(force->at);
-    if (const auto* torque = std::get_if<PointTorque>(&load.element)) return is_formula(torque->at);
-    const auto* spring = std::get_if<SpringDamper>(&load.element);
-    return spring != nullptr && (is_formula(spring->at[0]) || is_formula(spring->at[1]));
+  const auto of_holder = [](const auto& holder) {
+    bool has_formula = false;
+    visit_held_points(holder, [&](const std::string&, const Point& at, const PointKey&) {
+      has_formula = has_formula || is_formula(at);
+    });
+    return has_formula;
   };
   return std::any_of(scene.bodies.begin(), scene.bodies.end(), of_body) ||
-         std::any_of(scene.joints.begin(), scene.joints.end(), of_joint) ||
-         std::any_of(scene.loads.begin(), scene.loads.end(), of_load);
+         std::any_of(scene.joints.begin(), scene.joints.end(), of_holder) ||
+         std::any_of(scene.loads.begin(), scene.loads.end(), of_holder);
 }
 
 std::optional<std::string> complaint(const RangedFormula& formula, const Design<double>& start,

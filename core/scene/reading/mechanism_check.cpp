@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "core/scene/joint_kind.hpp"
+#include "core/scene/held_points.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 
 namespace pleuel {
@@ -15,22 +15,13 @@ namespace {
 
 constexpr double parallel_tolerance = 1e-9;  // sine of the angle between axes: rounding
 
-/// Bodies that a joint or load names.
-struct TouchedBodies {
-  std::set<std::string>& names;
-
-  void operator()(const PointForce& force) const { names.insert(force.body); }
-  void operator()(const PointTorque& torque) const { names.insert(torque.body); }
-  void operator()(const SpringDamper& spring) const {
-    names.insert(spring.bodies.begin(), spring.bodies.end());
-  }
-  void operator()(const JointForce&) const {}  // its joint does
-};
-
 void check_that_something_acts_on_every_body(const JsonNode& node, const Scene& scene) {
   std::set<std::string> touched;
-  for (const Joint& joint : scene.joints) touched.insert(joint.bodies.begin(), joint.bodies.end());
-  for (const Load& load : scene.loads) std::visit(TouchedBodies{touched}, load.element);
+  const auto touch = [&](const std::string& body, const Point&, const PointKey&) {
+    touched.insert(body);
+  };
+  for (const Joint& joint : scene.joints) visit_held_points(joint, touch);
+  for (const Load& load : scene.loads) visit_held_points(load, touch);
   for (const Body& body : scene.bodies) {
     if (touched.count(body.name) > 0) continue;
     node.at("bodies").at(body.name).fail("is not connected to anything by a joint or a load");

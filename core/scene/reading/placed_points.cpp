@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/find_named.hpp"
-#include "core/scene/joint_kind.hpp"
+#include "core/scene/held_points.hpp"
 #include "core/scene/reading/geometry.hpp"
 #include "core/scene/reading/limits.hpp"
 
@@ -12,28 +12,15 @@ namespace pleuel {
 
 namespace {
 
-void add_joint(const Scene& scene, const Joint& joint, std::vector<PlacedPoint>& points) {
-  points.push_back(
-      {{"joints", joint.name, "at"}, &joint.at, find_named(scene.bodies, joint.bodies[0])});
-  points.push_back({{"joints", joint.name, kind_of(joint.type).has_length() ? "to" : "at"},
-                    &second_point(joint),
-                    find_named(scene.bodies, joint.bodies[1])});
-}
-
-void add_load(const Scene& scene, const Load& load, std::vector<PlacedPoint>& points) {
-  if (const auto* force = std::get_if<PointForce>(&load.element)) {
-    points.push_back(
-        {{"loads", load.name, "at"}, &force->at, find_named(scene.bodies, force->body)});
-  } else if (const auto* torque = std::get_if<PointTorque>(&load.element)) {
-    points.push_back(
-        {{"loads", load.name, "at"}, &torque->at, find_named(scene.bodies, torque->body)});
-  } else if (const auto* spring = std::get_if<SpringDamper>(&load.element)) {
-    for (const std::size_t end : {0U, 1U}) {
-      points.push_back({{"loads", load.name, "at", std::to_string(end)},
-                        &spring->at[end],
-                        find_named(scene.bodies, spring->bodies[end])});
-    }
-  }
+/// @param list  of the scene, in which the joint or load stands
+template <class Holder>
+void add_held(const Scene& scene, const char* list, const Holder& holder,
+              std::vector<PlacedPoint>& points) {
+  visit_held_points(holder, [&](const std::string& body, const Point& at, const PointKey& key) {
+    std::vector<std::string> path = {list, holder.name, key.key};
+    if (key.index >= 0) path.push_back(std::to_string(key.index));
+    points.push_back({std::move(path), &at, find_named(scene.bodies, body)});
+  });
 }
 
 void add_deflections(const Body& body, std::vector<PlacedPoint>& points) {
@@ -52,8 +39,8 @@ std::string PlacedPoint::pointer() const {
 
 std::vector<PlacedPoint> placed_points(const Scene& scene) {
   std::vector<PlacedPoint> points;
-  for (const Joint& joint : scene.joints) add_joint(scene, joint, points);
-  for (const Load& load : scene.loads) add_load(scene, load, points);
+  for (const Joint& joint : scene.joints) add_held(scene, "joints", joint, points);
+  for (const Load& load : scene.loads) add_held(scene, "loads", load, points);
   for (const Body& body : scene.bodies) add_deflections(body, points);
   return points;
 }

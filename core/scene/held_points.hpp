@@ -1,0 +1,44 @@
+#pragma once
+
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "core/scene/joint_kind.hpp"
+
+/// Where joints and loads hold on to bodies: the only list of it.
+namespace pleuel {
+
+/// Where a point stands in a joint or load of a problem file.
+struct PointKey {
+  const char* key;  ///< "at", "to"
+  int index = -1;   ///< of a list of points
+};
+
+/// Calls visit(body, at, key) for each point that a joint or a load holds on to: the name of the
+/// body or of the ground, the point at t = 0, and where it stands. What acts in a joint holds on to
+/// nothing itself.
+/// @param holder  a Joint or a Load; of one that is not const, visit() may change body and point
+template <class Holder, class Visit>
+void visit_held_points(Holder& holder, Visit&& visit) {
+  if constexpr (std::is_same_v<std::remove_const_t<Holder>, Joint>) {
+    const bool has_length = kind_of(holder.type).has_length();
+    visit(holder.bodies[0], holder.at, PointKey{"at"});
+    visit(holder.bodies[1], has_length ? holder.to : holder.at, PointKey{has_length ? "to" : "at"});
+  } else {
+    std::visit(
+        [&](auto& element) {
+          using Element = std::remove_cvref_t<decltype(element)>;
+          if constexpr (std::is_same_v<Element, SpringDamper>) {
+            for (std::size_t end : {0U, 1U}) {
+              visit(element.bodies[end], element.at[end], PointKey{"at", static_cast<int>(end)});
+            }
+          } else if constexpr (!std::is_same_v<Element, JointForce>) {
+            visit(element.body, element.at, PointKey{"at"});
+          }
+        },
+        holder.element);
+  }
+}
+
+}  // namespace pleuel
