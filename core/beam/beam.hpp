@@ -6,13 +6,15 @@
 
 namespace pleuel {
 
-/// One Euler–Bernoulli element between two nodes.
+/// One element between two nodes: Timoshenko's, or Euler and Bernoulli's where nothing shears.
 template <class Scalar>
 struct BeamElement {
   Scalar length;        ///< ℓ [m]
   Scalar young, shear;  ///< E, G [Pa]
   Scalar density;       ///< ρ [kg/m³]
   SectionProperties<Scalar> section;
+  /// 1/(κ G A) of shear forces along y and z [1/N]; 0: shear does not bend it.
+  Scalar shear_compliance_y = Scalar(0), shear_compliance_z = Scalar(0);
   // That stress is compared with [Pa]; 0: not given.
   Scalar strength = Scalar(0);           ///< of yield
   Scalar ultimate_strength = Scalar(0);  ///< of fracture

@@ -15,7 +15,8 @@ namespace pleuel {
 /// its axis: without it that would cost nothing.
 enum class RotaryInertia { included, neglected };
 
-/// Element stiffness (12 × 12): ∫ EA u'u' + EI_z v''v'' + EI_y w''w'' + GJ θx'θx' dx.
+/// Element stiffness (12 × 12): ∫ EA u'u' + EI_z v''v'' + EI_y w''w'' + GJ θx'θx' dx, and where shear
+/// bends it + κGA (γyγy + γzγz); curvatures θ' are v'', as γ is constant.
 template <class Scalar>
 Eigen::Matrix<Scalar, 12, 12> element_stiffness(const BeamElement<Scalar>& element) {
   using Matrix = Eigen::Matrix<Scalar, 12, 12>;
@@ -32,13 +33,20 @@ Eigen::Matrix<Scalar, 12, 12> element_stiffness(const BeamElement<Scalar>& eleme
   }
   const Scalar bending_z = element.young * section.inertia_z;
   const Scalar bending_y = element.young * section.inertia_y;
+  const ElementForm<Scalar> form = form_of(element);
   for (const GaussPoint& point : gauss_points) {
-    const auto v = deflection_y_row(point.xi, element.length, 2);
-    const auto w = deflection_z_row(point.xi, element.length, 2);
+    const auto v = deflection_y_row(point.xi, form, 2);
+    const auto w = deflection_z_row(point.xi, form, 2);
     const Scalar weight = point.weight * element.length;
     stiffness +=
         (weight * bending_z) * (v.transpose() * v) + (weight * bending_y) * (w.transpose() * w);
   }
+  const auto add_shear = [&](const ElementRow<Scalar>& angle, const Scalar& compliance) {
+    if (value_of(compliance) == 0.0) return;
+    stiffness += (element.length / compliance) * (angle.transpose() * angle);
+  };
+  add_shear(shear_y_row(form), element.shear_compliance_y);
+  add_shear(shear_z_row(form), element.shear_compliance_z);
   return stiffness;
 }
 
@@ -83,11 +91,12 @@ void add_element_inertia(const BeamElement<Scalar>& element, const Scalar& start
   using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
   const Scalar zero(0), one(1);
   InvariantSum<Scalar> integral{sum, indices};
+  const ElementForm<Scalar> form = form_of(element);
   for (const GaussPoint& point : gauss_points) {
     const Scalar per_area = element.density * point.weight * element.length;
     const Scalar mass = per_area * element.section.area;
     const Scalar x = start + point.xi * element.length;
-    const ElementShape<Scalar> shape = axis_shape(point.xi, element.length);
+    const ElementShape<Scalar> shape = axis_shape(point.xi, form);
     sum.mass += mass;
     sum.first_moment(0) += mass * x;
     for (int j = 0; j < 12; ++j) {
@@ -96,8 +105,8 @@ void add_element_inertia(const BeamElement<Scalar>& element, const Scalar& start
     }
     integral.add(mass, Vector3(x, zero, zero), shape);
     // Off-axis points: ∫y dA = ∫z dA = ∫yz dA = 0 leave the second moments of the section only.
-    ElementShape<Scalar> y_shape = y_offset_shape(point.xi, element.length);
-    ElementShape<Scalar> z_shape = z_offset_shape(point.xi, element.length);
+    ElementShape<Scalar> y_shape = y_offset_shape(point.xi, form);
+    ElementShape<Scalar> z_shape = z_offset_shape(point.xi, form);
     Scalar inertia_y = element.section.inertia_y, inertia_z = element.section.inertia_z;
     if (rotary == RotaryInertia::neglected) {
       // Points off the axis stay beside it when it tilts; what is taken from x² leaves a tensor of
@@ -177,7 +186,8 @@ void add_element_stiffness(const BeamElement<Scalar>& element, const std::array<
 inline bool is_varied(const BeamElement<Dual>& element) {
   const SectionProperties<Dual>& section = element.section;
   for (const Dual& number : {element.length, element.young, element.shear, element.density,
-                             section.area, section.inertia_y, section.inertia_z, section.torsion}) {
+                             section.area, section.inertia_y, section.inertia_z, section.torsion,
+                             element.shear_compliance_y, element.shear_compliance_z}) {
     if (derivative_of(number) != 0.0) return true;
   }
   return false;

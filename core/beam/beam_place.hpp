@@ -41,12 +41,12 @@ Scalar position_of(const Beam<Scalar>& beam, const BeamPlace& place) {
 
 /// u v w θx θy θz of a place, one row each, from the twelve coordinates of its element.
 template <class Scalar>
-Eigen::Matrix<Scalar, 6, 12> place_shape(const BeamPlace& place, const Scalar& length) {
+Eigen::Matrix<Scalar, 6, 12> place_shape(const BeamPlace& place, const ElementForm<Scalar>& form) {
   Eigen::Matrix<Scalar, 6, 12> shape;
-  shape.template topRows<3>() = axis_shape(place.xi, length);
+  shape.template topRows<3>() = axis_shape(place.xi, form);
   shape.row(3) = linear_row<Scalar>(3, place.xi);
-  shape.row(4) = -deflection_z_row(place.xi, length, 1);
-  shape.row(5) = deflection_y_row(place.xi, length, 1);
+  shape.row(4) = rotation_y_row(place.xi, form);
+  shape.row(5) = rotation_z_row(place.xi, form);
   return shape;
 }
 

@@ -4,13 +4,16 @@
 
 #include <Eigen/Core>
 
-/// Shape functions of the 3D Euler–Bernoulli beam element: the one source of its mass, stiffness,
-/// inertia shape integrals and recovery.
+#include "core/beam/element_form.hpp"
+
+/// Shape functions of the 3D beam element: the one source of its mass, stiffness, inertia shape
+/// integrals and recovery.
 ///
 /// Element coordinates (12): u v w θx θy θz at the first node, then at the second, in local axes.
 /// A material point (x, y, z) is displaced by
-///     u = u₀ − y v₀' − z w₀',   v = v₀ − z θx,   w = w₀ + y θx
-/// with u₀, θx linear and v₀, w₀ cubic (Hermite) in ξ = x/ℓ; θz = v₀', θy = −w₀'.
+///     u = u₀ − y θz + z θy,   v = v₀ − z θx,   w = w₀ + y θx
+/// with u₀, θx linear and v₀, w₀ cubic in ξ = x/ℓ; θz = v₀' − γy, θy = −(w₀' − γz) with the shear
+/// angles γ of core/beam/element_form.hpp, zero where shear does not bend the element.
 namespace pleuel {
 
 inline constexpr int element_coordinates = 12;
@@ -47,28 +50,95 @@ Scalar slope_integral(const Scalar& difference, const Scalar& first_slope,
               2.0 * second_slope * second_slope);
 }
 
-/// Row of v₀ (in the x–y plane), differentiated `order` times.
+/// Coefficients of deflection and rotation at both ends (v₁, θ₁, v₂, θ₂) in one plane of bending.
 template <class Scalar>
-ElementRow<Scalar> deflection_y_row(double xi, const Scalar& length, int order = 0) {
-  const auto h = hermite(xi, length, order);
-  ElementRow<Scalar> row = ElementRow<Scalar>::Constant(Scalar(0));
-  row(1) = h[0];
-  row(5) = h[1];
-  row(7) = h[2];
-  row(11) = h[3];
+using BendingRow = std::array<Scalar, 4>;
+
+/// γ.
+/// @param shear  s of the plane
+template <class Scalar>
+BendingRow<Scalar> shear_angle(const Scalar& length, const Scalar& shear) {
+  const Scalar of_deflection = shear / length, of_rotation = -0.5 * shear;
+  return {Scalar(-of_deflection), of_rotation, of_deflection, of_rotation};
+}
+
+/// The deflection of the axis, differentiated `order` times: the cubic with the end slopes θ + γ.
+template <class Scalar>
+BendingRow<Scalar> deflection(double xi, const Scalar& length, const Scalar& shear, int order) {
+  BendingRow<Scalar> row = hermite(xi, length, order);
+  if (value_of(shear) == 0.0) return row;
+  const Scalar of_angle = row[1] + row[3];
+  const BendingRow<Scalar> angle = shear_angle(length, shear);
+  for (std::size_t i = 0; i < 4; ++i) row[i] += of_angle * angle[i];
   return row;
 }
 
-/// Row of w₀ (in the x–z plane; θy = −w₀'), differentiated `order` times.
+/// The rotation of the section, v' − γ.
 template <class Scalar>
-ElementRow<Scalar> deflection_z_row(double xi, const Scalar& length, int order = 0) {
-  const auto h = hermite(xi, length, order);
-  ElementRow<Scalar> row = ElementRow<Scalar>::Constant(Scalar(0));
-  row(2) = h[0];
-  row(4) = -h[1];
-  row(8) = h[2];
-  row(10) = -h[3];
+BendingRow<Scalar> section_rotation(double xi, const Scalar& length, const Scalar& shear) {
+  BendingRow<Scalar> row = deflection(xi, length, shear, 1);
+  if (value_of(shear) == 0.0) return row;
+  const BendingRow<Scalar> angle = shear_angle(length, shear);
+  for (std::size_t i = 0; i < 4; ++i) row[i] -= angle[i];
   return row;
+}
+
+/// A row of the x–y plane (v, θz) in the twelve coordinates.
+template <class Scalar>
+ElementRow<Scalar> row_along_y(const BendingRow<Scalar>& bending) {
+  ElementRow<Scalar> row = ElementRow<Scalar>::Constant(Scalar(0));
+  row(1) = bending[0];
+  row(5) = bending[1];
+  row(7) = bending[2];
+  row(11) = bending[3];
+  return row;
+}
+
+/// A row of the x–z plane (w, −θy) in the twelve coordinates.
+template <class Scalar>
+ElementRow<Scalar> row_along_z(const BendingRow<Scalar>& bending) {
+  ElementRow<Scalar> row = ElementRow<Scalar>::Constant(Scalar(0));
+  row(2) = bending[0];
+  row(4) = -bending[1];
+  row(8) = bending[2];
+  row(10) = -bending[3];
+  return row;
+}
+
+/// Row of v₀ (in the x–y plane), differentiated `order` times.
+template <class Scalar>
+ElementRow<Scalar> deflection_y_row(double xi, const ElementForm<Scalar>& form, int order = 0) {
+  return row_along_y(deflection(xi, form.length, form.shear_y, order));
+}
+
+/// Row of w₀ (in the x–z plane), differentiated `order` times.
+template <class Scalar>
+ElementRow<Scalar> deflection_z_row(double xi, const ElementForm<Scalar>& form, int order = 0) {
+  return row_along_z(deflection(xi, form.length, form.shear_z, order));
+}
+
+/// Row of θz.
+template <class Scalar>
+ElementRow<Scalar> rotation_z_row(double xi, const ElementForm<Scalar>& form) {
+  return row_along_y(section_rotation(xi, form.length, form.shear_y));
+}
+
+/// Row of θy.
+template <class Scalar>
+ElementRow<Scalar> rotation_y_row(double xi, const ElementForm<Scalar>& form) {
+  return -row_along_z(section_rotation(xi, form.length, form.shear_z));
+}
+
+/// Row of γy = v₀' − θz.
+template <class Scalar>
+ElementRow<Scalar> shear_y_row(const ElementForm<Scalar>& form) {
+  return row_along_y(shear_angle(form.length, form.shear_y));
+}
+
+/// Row of γz = w₀' + θy.
+template <class Scalar>
+ElementRow<Scalar> shear_z_row(const ElementForm<Scalar>& form) {
+  return row_along_z(shear_angle(form.length, form.shear_z));
 }
 
 /// Linear interpolation of the coordinates `first` and `first` + 6 (0: u₀, 3: θx).
@@ -82,28 +152,28 @@ ElementRow<Scalar> linear_row(int first, double xi) {
 
 /// Displacement of the beam axis.
 template <class Scalar>
-ElementShape<Scalar> axis_shape(double xi, const Scalar& length) {
+ElementShape<Scalar> axis_shape(double xi, const ElementForm<Scalar>& form) {
   ElementShape<Scalar> shape;
   shape.row(0) = linear_row<Scalar>(0, xi);
-  shape.row(1) = deflection_y_row(xi, length);
-  shape.row(2) = deflection_z_row(xi, length);
+  shape.row(1) = deflection_y_row(xi, form);
+  shape.row(2) = deflection_z_row(xi, form);
   return shape;
 }
 
-/// Displacement per unit y of an off-axis point: (−v₀', 0, θx).
+/// Displacement per unit y of an off-axis point: (−θz, 0, θx).
 template <class Scalar>
-ElementShape<Scalar> y_offset_shape(double xi, const Scalar& length) {
+ElementShape<Scalar> y_offset_shape(double xi, const ElementForm<Scalar>& form) {
   ElementShape<Scalar> shape = ElementShape<Scalar>::Constant(Scalar(0));
-  shape.row(0) = -deflection_y_row(xi, length, 1);
+  shape.row(0) = -rotation_z_row(xi, form);
   shape.row(2) = linear_row<Scalar>(3, xi);
   return shape;
 }
 
-/// Displacement per unit z of an off-axis point: (−w₀', −θx, 0).
+/// Displacement per unit z of an off-axis point: (θy, −θx, 0).
 template <class Scalar>
-ElementShape<Scalar> z_offset_shape(double xi, const Scalar& length) {
+ElementShape<Scalar> z_offset_shape(double xi, const ElementForm<Scalar>& form) {
   ElementShape<Scalar> shape = ElementShape<Scalar>::Constant(Scalar(0));
-  shape.row(0) = -deflection_z_row(xi, length, 1);
+  shape.row(0) = rotation_y_row(xi, form);
   shape.row(1) = -linear_row<Scalar>(3, xi);
   return shape;
 }
@@ -122,13 +192,13 @@ inline constexpr std::array<GaussPoint, 4> gauss_points = {{
 
 /// Ĝ of an element in its twelve coordinates: ∫ v₀'² + w₀'² dx = qᵀ Ĝ q.
 template <class Scalar>
-Eigen::Matrix<Scalar, 12, 12> slope_matrix(const Scalar& length) {
+Eigen::Matrix<Scalar, 12, 12> slope_matrix(const ElementForm<Scalar>& form) {
   using Matrix = Eigen::Matrix<Scalar, 12, 12>;
   Matrix matrix = Matrix::Constant(Scalar(0));
   for (const GaussPoint& point : gauss_points) {
-    const auto v = deflection_y_row(point.xi, length, 1);
-    const auto w = deflection_z_row(point.xi, length, 1);
-    matrix += (point.weight * length) * (v.transpose() * v + w.transpose() * w);
+    const auto v = deflection_y_row(point.xi, form, 1);
+    const auto w = deflection_z_row(point.xi, form, 1);
+    matrix += (point.weight * form.length) * (v.transpose() * v + w.transpose() * w);
   }
   return matrix;
 }

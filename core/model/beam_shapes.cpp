@@ -58,7 +58,7 @@ class ShapeBuilder {
       const std::vector<int> active = active_displacements(model_.coordinates, e);
       std::vector<int> indices;
       for (int i : active) indices.push_back(model_.coordinates.index(e + i / 6, i % 6));
-      const auto slopes = slope_matrix(element.length);
+      const auto slopes = slope_matrix(form_of(element));
       result.elements.push_back({std::move(indices), elongation_of(active),
                                  number(axial_stiffness(element)),
                                  slopes(active, active).unaryExpr(number)});

@@ -34,13 +34,13 @@ BodyPoint point_of(const BodyModel& body, int place) {
 BodyPoint point_of(const BodyModel& body, const BeamPlace& place) {
   if (place.is_node()) return point_of(body, place.node());
   const NodePair nodes(body.places, place.element);
-  const MatrixXd shape = place_shape(place, nodes.way.x());
+  const MatrixXd shape = place_shape(place, form_of(body.beam.elements[place.element]));
   BodyPoint point{{nodes.start + place.xi * nodes.way, (shape * nodes.rows).sparseView()}, {}};
-  for (const auto& [variable, of_places] : body.places_x) {
+  for (std::size_t k = 0; k < body.places_x.size(); ++k) {
+    const auto& [variable, of_places] = body.places_x[k];
     const NodePair change(of_places, place.element);
-    Dual length = nodes.way.x();
-    length.derivatives()[0] = change.way.x();
-    const MatrixXd shape_x = derivative_matrix(place_shape(place, length));
+    const BeamElement<Dual>& element = body.beam_x[k].second.elements[place.element];
+    const MatrixXd shape_x = derivative_matrix(place_shape(place, form_of(element)));
     point.derivatives.push_back(
         {variable,
          {change.start + place.xi * change.way,

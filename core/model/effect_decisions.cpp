@@ -71,6 +71,10 @@ class BeamTable {
       add_stiffening();
     }
     add("rotary_inertia");
+    if (built_.elasticity && std::get<BeamBody>(body_.shape).has_shear) {
+      records_.push_back(
+          {"shear", body_.name, true, EffectRecord::Kind::forced, "asked for", {}, 0});
+    }
     return std::move(records_);
   }
 

@@ -3,6 +3,7 @@
 #include "core/beam/beam.hpp"
 #include "core/model/beam_mesh.hpp"
 #include "core/model/scene_geometry.hpp"
+#include "core/model/shear_area.hpp"
 
 namespace pleuel {
 
@@ -14,8 +15,9 @@ Beam<Scalar> resolve_beam(const BeamBody& body, const BeamMesh& mesh, const Scen
   const Scalar length =
       length_of<Scalar>(resolve_point(body.to, design) - resolve_point(body.from, design));
   BeamElement<Scalar> element;
+  const Scalar poisson = resolve(material.poisson, design);
   element.young = resolve(material.young, design);
-  element.shear = element.young / (2.0 * (1.0 + resolve(material.poisson, design)));
+  element.shear = element.young / (2.0 * (1.0 + poisson));
   element.density = resolve(material.density, design);
   if (material.strength) element.strength = resolve(*material.strength, design);
   if (material.ultimate_strength) {
@@ -33,7 +35,13 @@ Beam<Scalar> resolve_beam(const BeamBody& body, const BeamMesh& mesh, const Scen
   for (const MeshElement& part : mesh.elements) {
     if (part.segment != segment) {
       segment = part.segment;
-      element.section = resolve_section(body.segments[segment].section, design);
+      const Section& section = body.segments[segment].section;
+      element.section = resolve_section(section, design);
+      if (body.has_shear) {
+        const ShearArea<Scalar> area = shear_area(section, element.section, poisson, design);
+        element.shear_compliance_y = 1.0 / (element.shear * area.along_y);
+        element.shear_compliance_z = 1.0 / (element.shear * area.along_z);
+      }
     }
     element.length = length * part.share;
     beam.elements.push_back(element);

@@ -16,26 +16,32 @@ namespace {
 enum class Plane { y, z };
 
 template <class Scalar>
+const Scalar& shear_compliance(const BeamElement<Scalar>& element, Plane plane) {
+  return plane == Plane::y ? element.shear_compliance_y : element.shear_compliance_z;
+}
+
+template <class Scalar>
 Scalar inertia(const SectionProperties<Scalar>& section, Plane plane) {
   return plane == Plane::y ? section.inertia_z : section.inertia_y;
 }
 
-/// Whether all sections are as stiff about one axis as about the other, at neighbouring designs,
+/// Whether all sections are as stiff along one axis as along the other, at neighbouring designs,
 /// too.
 bool is_equal_in_both(const BodyModel& body) {
   constexpr double round_off = 1e-12;
-  const auto differs = [](double a, double b, double size) {
-    return std::abs(a - b) > round_off * std::abs(size);
-  };
+  const auto differ = [](double a, double b) { return std::abs(a - b) > round_off * std::abs(b); };
   for (const BeamElement<double>& element : body.beam.elements) {
-    const SectionProperties<double>& s = element.section;
-    if (differs(s.inertia_y, s.inertia_z, s.inertia_z)) return false;
+    if (differ(element.section.inertia_y, element.section.inertia_z)) return false;
+    if (differ(element.shear_compliance_y, element.shear_compliance_z)) return false;
   }
+  const auto derivatives_differ = [&](const Dual& a, const Dual& b) {
+    return differ(derivative_of(a), derivative_of(b));
+  };
   for (const auto& [variable, beam] : body.beam_x) {
     for (const BeamElement<Dual>& element : beam.elements) {
-      const double y = derivative_of(element.section.inertia_y),
-                   z = derivative_of(element.section.inertia_z);
-      if (differs(y, z, z)) return false;
+      const SectionProperties<Dual>& s = element.section;
+      if (derivatives_differ(s.inertia_y, s.inertia_z)) return false;
+      if (derivatives_differ(element.shear_compliance_y, element.shear_compliance_z)) return false;
     }
   }
   return true;
@@ -66,24 +72,24 @@ class BucklingQuantity {
 
   const std::vector<Plane>& planes() const { return planes_; }
 
+  /// Of the section with the least; with shear P/(1 + P/(κGA)) (Engesser; Timoshenko & Gere, Theory
+  /// of Elastic Stability, art. 2.17).
   template <class Scalar>
   static Scalar euler_load(const Beam<Scalar>& beam, Plane plane) {
     constexpr double pi = std::numbers::pi;
     const Scalar length = beam.node_position(beam.node_count() - 1);
-    return pi * pi * least_stiffness(beam, plane) / (length * length);
-  }
-
- private:
-  template <class Scalar>
-  static Scalar least_stiffness(const Beam<Scalar>& beam, Plane plane) {
     Scalar least(std::numeric_limits<double>::infinity());
     for (const BeamElement<Scalar>& element : beam.elements) {
       const Scalar stiffness = element.young * inertia(element.section, plane);
-      if (value_of(stiffness) < value_of(least)) least = stiffness;
+      Scalar load = pi * pi * stiffness / (length * length);
+      const Scalar& compliance = shear_compliance(element, plane);
+      if (value_of(compliance) != 0.0) load = load / (1.0 + load * compliance);
+      if (value_of(load) < value_of(least)) least = load;
     }
     return least;
   }
 
+ private:
   std::vector<Plane> planes_;
 };
 

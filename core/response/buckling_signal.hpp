@@ -11,6 +11,7 @@ namespace pleuel {
 /// Compressive axial force over the Euler load of the member as if pinned at both ends,
 ///     −N/P_E,   P_E = π² min(E I)/L²                                               [–]
 /// at every node and quarter point of its elements: 0.5 is a load factor of 2 against buckling.
+/// with P_E/(1 + P_E/(κGA)) in place of P_E where shear bends the beam (Engesser).
 /// L is the length of the whole beam, E I the smallest bending stiffness of its sections, about
 /// either axis, also where the motion is in a plane: a channel for each axis, so the larger counts.
 /// That is safe for tapered members, and for members whose ends are held more firmly than by pins.

@@ -10,6 +10,15 @@ namespace {
 
 constexpr int axial = 0, moment_y = 1, moment_z = 2, torque = 3;
 
+/// Moment over w ℓ² in a clamped element under the load w ξ. What of the load is even about the middle
+/// does not shear the element as a whole. Of w (ξ − ½) the moment is w ℓ² (t³/6 + c t), t = ξ − ½, and
+/// ends that do not move apart, ∫ (ℓ − x) M/EI dx = ΔM/(κGA), ask for c = −(1/40 + Φ/24)/(1 + Φ).
+/// @param shear  Φ/(1 + Φ) of the plane
+template <class Scalar>
+Scalar clamped_change(double xi, const Scalar& shear) {
+  return xi * xi * xi / 6 - 3 * xi / 20 + 1.0 / 30 - shear * ((xi - 0.5) / 60);
+}
+
 /// The section forces at a place of an element, as rows.
 template <class Scalar>
 struct ElementForces {
@@ -18,12 +27,13 @@ struct ElementForces {
   Eigen::Matrix<Scalar, section_force_count, 6> of_accelerations;
 
   ElementForces(const BeamElement<Scalar>& element, double xi) {
-    set_strain(element, xi);
-    set_inertia(element, xi);
+    const ElementForm<Scalar> form = form_of(element);
+    set_strain(element, form, xi);
+    set_inertia(element, form, xi);
   }
 
  private:
-  void set_strain(const BeamElement<Scalar>& element, double xi) {
+  void set_strain(const BeamElement<Scalar>& element, const ElementForm<Scalar>& form, double xi) {
     const SectionProperties<Scalar>& section = element.section;
     const Scalar& length = element.length;
     of_coordinates.setConstant(Scalar(0));
@@ -32,26 +42,27 @@ struct ElementForces {
     of_coordinates(torque, 9) = element.shear * section.torsion / length;
     of_coordinates(torque, 3) = -of_coordinates(torque, 9);
     of_coordinates.row(moment_z) =
-        element.young * section.inertia_z * deflection_y_row(xi, length, 2);
+        element.young * section.inertia_z * deflection_y_row(xi, form, 2);
     of_coordinates.row(moment_y) =
-        -(element.young * section.inertia_y) * deflection_z_row(xi, length, 2);
+        -(element.young * section.inertia_y) * deflection_z_row(xi, form, 2);
   }
 
-  /// What the linear load w = w₁ + ξ Δ does in a clamped element: EI v″ and EA u' with M″ = w,
-  /// N' = −w, and no displacement at the ends.
-  void set_inertia(const BeamElement<Scalar>& element, double xi) {
+  /// What the linear load w = w₁ + ξ Δ does in a clamped element: EI θ' and EA u' with M″ = w,
+  /// N' = −w, and no displacement and rotation at the ends.
+  void set_inertia(const BeamElement<Scalar>& element, const ElementForm<Scalar>& form, double xi) {
     const Scalar density = -element.density * element.section.area;
     const Scalar along = density * element.length, across = along * element.length;
     const double along_start = 0.5 - xi, along_change = 1.0 / 6 - xi * xi / 2;
     const double start = xi * xi / 2 - xi / 2 + 1.0 / 12;
-    const double change = xi * xi * xi / 6 - 3 * xi / 20 + 1.0 / 30;
+    const Scalar change_y = clamped_change(xi, form.shear_y);
+    const Scalar change_z = clamped_change(xi, form.shear_z);
     of_accelerations.setConstant(Scalar(0));
     of_accelerations(axial, 0) = along * (along_start - along_change);
     of_accelerations(axial, 3) = along * along_change;
-    of_accelerations(moment_z, 1) = across * (start - change);
-    of_accelerations(moment_z, 4) = across * change;
-    of_accelerations(moment_y, 2) = across * (change - start);
-    of_accelerations(moment_y, 5) = across * -change;
+    of_accelerations(moment_z, 1) = across * (start - change_y);
+    of_accelerations(moment_z, 4) = across * change_y;
+    of_accelerations(moment_y, 2) = across * (change_z - start);
+    of_accelerations(moment_y, 5) = across * -change_z;
   }
 };
 
@@ -64,10 +75,13 @@ struct ElementShear {
   ElementShear(const BeamElement<Scalar>& element, double xi, int direction) {
     const SectionProperties<Scalar>& section = element.section;
     const Scalar& length = element.length;
-    // v‴ of the cubic with the values and slopes at both nodes: (12, 6ℓ, −12, 6ℓ)/ℓ³; θ_y = −w'.
+    // v‴ of the cubic with the values and rotations at both nodes: (12, 6ℓ, −12, 6ℓ)/ℓ³ (1 − s).
     const bool is_y = direction == 1;
     const Scalar inertia = is_y ? section.inertia_z : section.inertia_y;
-    const Scalar third = -(element.young * inertia) / (length * length * length);
+    const ElementForm<Scalar> form = form_of(element);
+    const Scalar& shear = is_y ? form.shear_y : form.shear_z;
+    const Scalar stiffness = element.young * inertia * (1.0 - shear);
+    const Scalar third = -stiffness / (length * length * length);
     const Scalar turned = (is_y ? 6.0 : -6.0) * third * length;
     const int turn = is_y ? 5 : 4;
     of_coordinates.setConstant(Scalar(0));
@@ -76,7 +90,8 @@ struct ElementShear {
     of_coordinates(6 + direction) = -12.0 * third;
     of_coordinates(6 + turn) = turned;
     const Scalar across = -element.density * section.area * length;
-    const double start = xi - 0.5, change = xi * xi / 2 - 3.0 / 20;
+    const double start = xi - 0.5;
+    const Scalar change = xi * xi / 2 - 3.0 / 20 - shear / 60.0;
     of_accelerations.setConstant(Scalar(0));
     of_accelerations(direction) = across * (change - start);
     of_accelerations(3 + direction) = across * -change;

@@ -18,7 +18,7 @@ SectionForces<Scalar> section_forces(const Scalar* numbers) {
 }
 
 /// Section forces of the stations of a beam, four rows each: those of the strain of the elements
-/// (N = EA Δu/ℓ, M = EI v″, T = GJ θ'), and what the inertia load w = −ρA a, linear in the element,
+/// (N = EA Δu/ℓ, M = EI θ', T = GJ θx'), and what the inertia load w = −ρA a, linear in the element,
 /// does between its nodes: without that, moments at nodes are off by wℓ²/12. Where two elements of
 /// one segment meet, their section forces are averaged.
 Recovery section_force_recovery(const BodyModel& body, const std::vector<Station>& stations);

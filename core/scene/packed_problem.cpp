@@ -174,8 +174,8 @@ void transfer(Archive& archive, GeneralStressPoint& point) {
 
 template <class Archive>
 void transfer(Archive& archive, GeneralSection& section) {
-  auto& [area, inertia_y, inertia_z, torsion, points] = section;
-  archive(area, inertia_y, inertia_z, torsion, points);
+  auto& [area, inertia_y, inertia_z, torsion, points, shear_area_y, shear_area_z] = section;
+  archive(area, inertia_y, inertia_z, torsion, points, shear_area_y, shear_area_z);
 }
 
 template <class Archive>
@@ -204,10 +204,10 @@ void transfer(Archive& archive, BeamPart& part) {
 
 template <class Archive>
 void transfer(Archive& archive, BeamBody& beam) {
-  auto& [from, to, material, segments, frame, damping, reference, is_rigid, reduction, frames,
-         part] = beam;
-  archive(from, to, material, segments, frame, damping, reference, is_rigid, reduction, frames,
-          part);
+  auto& [from, to, material, segments, frame, damping, reference, is_rigid, has_shear, reduction,
+         frames, part] = beam;
+  archive(from, to, material, segments, frame, damping, reference, is_rigid, has_shear, reduction,
+          frames, part);
 }
 
 template <class Archive>

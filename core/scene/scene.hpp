@@ -73,6 +73,8 @@ struct GeneralSection {
   Number inertia_y, inertia_z;             ///< ∫z² dA, ∫y² dA [m⁴]
   Number torsion;                          ///< torsion constant J [m⁴]
   std::vector<GeneralStressPoint> points;  ///< at least one
+  /// κA of shear forces along y and z [m²]; both or none. A beam whose shear counts needs them.
+  std::optional<Number> shear_area_y = {}, shear_area_z = {};
 };
 
 using Section = std::variant<RectangleSection, CircleSection, TubeSection, EllipseSection,
@@ -134,6 +136,8 @@ struct BeamBody {
   /// By default local y lies in the global x–y plane (the global y axis for beams along z).
   std::optional<std::array<double, 3>> reference;
   bool is_rigid = false;  ///< no elastic coordinates; inertia from the same integrals
+  bool has_shear =
+      false;  ///< bends by shear, too: Timoshenko's beam in place of Euler and Bernoulli's
   std::optional<CraigBampton> reduction;
   int frames = 1;  ///< floating frames that share the beam, welded to each other
   std::optional<BeamPart> part = {};

@@ -40,6 +40,8 @@ struct SectionNumbers {
       lengths({&point.y, &point.z});
       visit(point.shear, quantities::torsional_shear);
     }
+    if (s.shear_area_y) visit(*s.shear_area_y, quantities::area);
+    if (s.shear_area_z) visit(*s.shear_area_z, quantities::area);
   }
 };
 

@@ -5,32 +5,37 @@
 /// ν. Lengths in any one unit.
 namespace pleuel {
 
-inline double rectangle_shear_coefficient(double nu) {
+template <class Scalar>
+Scalar rectangle_shear_coefficient(const Scalar& nu) {
   return 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu);
 }
 
 /// Circle, or tube with the ratio of inner to outer diameter.
-inline double round_shear_coefficient(double nu, double ratio) {
-  const double square = ratio * ratio, sum = (1.0 + square) * (1.0 + square);
+template <class Scalar>
+Scalar round_shear_coefficient(const Scalar& nu, const Scalar& ratio) {
+  const Scalar square = ratio * ratio, sum = (1.0 + square) * (1.0 + square);
   return 6.0 * (1.0 + nu) * sum / ((7.0 + 6.0 * nu) * sum + (20.0 + 12.0 * nu) * square);
 }
 
 /// @param along, across  axes of the ellipse along the force and normal to it
-inline double ellipse_shear_coefficient(double nu, double along, double across) {
-  const double a2 = along * along, b2 = across * across;
+template <class Scalar>
+Scalar ellipse_shear_coefficient(const Scalar& nu, const Scalar& along, const Scalar& across) {
+  const Scalar a2 = along * along, b2 = across * across;
   return 12.0 * (1.0 + nu) * a2 * (3.0 * a2 + b2) /
          ((40.0 + 37.0 * nu) * a2 * a2 + (16.0 + 10.0 * nu) * a2 * b2 + nu * b2 * b2);
 }
 
 /// Mean lines of a thin-walled box or I: flanges normal to the force, webs along it.
+template <class Scalar>
 struct ThinWalls {
-  double height, width;  ///< between mean lines of the flanges; of the flanges
-  double web, flange;    ///< thickness of one web, of one flange
+  Scalar height, width;  ///< between mean lines of the flanges; of the flanges
+  Scalar web, flange;    ///< thickness of one web, of one flange
 };
 
-inline double box_shear_coefficient(double nu, const ThinWalls& s) {
-  const double m = s.width * s.flange / (s.height * s.web), n = s.width / s.height;
-  const double m2 = m * m, m3 = m2 * m, one = 1.0 + 3.0 * m;
+template <class Scalar>
+Scalar box_shear_coefficient(const Scalar& nu, const ThinWalls<Scalar>& s) {
+  const Scalar m = s.width * s.flange / (s.height * s.web), n = s.width / s.height;
+  const Scalar m2 = m * m, m3 = m2 * m, one = 1.0 + 3.0 * m;
   return 10.0 * (1.0 + nu) * one * one /
          ((12.0 + 72.0 * m + 150.0 * m2 + 90.0 * m3) +
           nu * (11.0 + 66.0 * m + 135.0 * m2 + 90.0 * m3) +
@@ -38,9 +43,10 @@ inline double box_shear_coefficient(double nu, const ThinWalls& s) {
 }
 
 /// Force along the web.
-inline double i_shear_coefficient(double nu, const ThinWalls& s) {
-  const double m = 2.0 * s.width * s.flange / (s.height * s.web), n = s.width / s.height;
-  const double m2 = m * m, m3 = m2 * m, one = 1.0 + 3.0 * m;
+template <class Scalar>
+Scalar i_shear_coefficient(const Scalar& nu, const ThinWalls<Scalar>& s) {
+  const Scalar m = 2.0 * s.width * s.flange / (s.height * s.web), n = s.width / s.height;
+  const Scalar m2 = m * m, m3 = m2 * m, one = 1.0 + 3.0 * m;
   return 10.0 * (1.0 + nu) * one * one /
          ((12.0 + 72.0 * m + 150.0 * m2 + 90.0 * m3) +
           nu * (11.0 + 66.0 * m + 135.0 * m2 + 90.0 * m3) + 30.0 * n * n * (m + m2) +

@@ -15,9 +15,14 @@ double elongation_of(const BodyModel& body, const Eigen::MatrixXd& nodal, int el
   const auto from = nodal.col(element), to = nodal.col(element + 1);
   const double linear = to(0) - from(0);
   if (!body.has_stiffening) return linear;
-  const double length = body.beam.elements[element].length;
-  return linear + 0.5 * (slope_integral<double>(to(1) - from(1), from(5), to(5), length) +
-                         slope_integral<double>(to(2) - from(2), -from(4), -to(4), length));
+  const ElementForm<double> form = form_of(body.beam.elements[element]);
+  const auto along = [&](double moved, double first, double last, double shear) {
+    // The slopes of the axis are by γ steeper than the sections are turned.
+    const double angle = shear * (moved / form.length - 0.5 * (first + last));
+    return slope_integral<double>(moved, first + angle, last + angle, form.length);
+  };
+  return linear + 0.5 * (along(to(1) - from(1), from(5), to(5), form.shear_y) +
+                         along(to(2) - from(2), -from(4), -to(4), form.shear_z));
 }
 
 namespace {

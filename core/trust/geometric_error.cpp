@@ -42,6 +42,8 @@ struct Piece {
   Vector3d stiffness;    ///< D = GJ, EI_y, EI_z [N m²]
   double strain;         ///< ε
   double axial;          ///< EA [N]; 0 where elongation is no coordinate
+  Vector3d angle;        ///< γ of shear along y and z, in sections
+  Vector3d compliance;   ///< 1/(κGA) [1/N]
   Vector3d load;         ///< Q [N], frame axes
   Vector3d linear_rate;  ///< what the linear equations have in place of r' × Q [N]
 };
@@ -89,16 +91,19 @@ class ExactBeam {
     const bool stretches = has_coordinate(0);
     piece.strain = stretches ? elongation_of(body_, in_frame_, e) / length : 0.0;
     piece.axial = stretches ? element.young * section.area : 0.0;
+    const ElementForm<double> form = form_of(element);
+    piece.angle << 0.0, shear_y_row(form).dot(q), shear_z_row(form).dot(q);
+    piece.compliance << 0.0, element.shear_compliance_y, element.shear_compliance_z;
     const double force = piece.axial * piece.strain;
-    const auto rates = rates_of_curvature(q, length);
+    const auto rates = rates_of_curvature(q, form);
     piece.linear_rate =
         Vector3d(0.0, -piece.stiffness(1) * rates[0], -piece.stiffness(2) * rates[1]);
     for (int i = 0; i < pieces; ++i) {
       const double xi = (i + 0.5) / pieces;
-      const double slope_y = deflection_y_row(xi, length, 1).dot(q);
-      const double slope_z = deflection_z_row(xi, length, 1).dot(q);
-      piece.curvature << (q(9) - q(3)) / length, -deflection_z_row(xi, length, 2).dot(q),
-          deflection_y_row(xi, length, 2).dot(q);
+      const double slope_y = deflection_y_row(xi, form, 1).dot(q);
+      const double slope_z = deflection_z_row(xi, form, 1).dot(q);
+      piece.curvature << (q(9) - q(3)) / length, -deflection_z_row(xi, form, 2).dot(q),
+          deflection_y_row(xi, form, 2).dot(q);
       piece.load << force, piece.linear_rate(2), -piece.linear_rate(1);
       if (body_.has_stiffening) piece.load += force * Vector3d(0.0, slope_y, slope_z);
       pieces_.push_back(piece);
@@ -107,22 +112,27 @@ class ExactBeam {
 
   /// κ_y' and κ_z' of an element.
   static std::array<double, 2> rates_of_curvature(const Eigen::Matrix<double, 12, 1>& q,
-                                                  double length) {
-    const auto rate = [&](auto row) {
-      return (row(1.0, length, 2).dot(q) - row(0.0, length, 2).dot(q)) / length;
+                                                  const ElementForm<double>& form) {
+    const auto curvatures = [&](double xi) {
+      return std::array<double, 2>{-deflection_z_row(xi, form, 2).dot(q),
+                                   deflection_y_row(xi, form, 2).dot(q)};
     };
-    return {-rate([](double xi, double l, int order) { return deflection_z_row(xi, l, order); }),
-            rate([](double xi, double l, int order) { return deflection_y_row(xi, l, order); })};
+    const auto first = curvatures(0.0), last = curvatures(1.0);
+    return {(last[0] - first[0]) / form.length, (last[1] - first[1]) / form.length};
   }
 
-  /// The shape that curvatures and elongations of the pieces make, in the frame.
+  /// r' of a piece whose section is turned by R.
+  static Vector3d tangent_of(const Piece& piece, const Matrix3d& rotation) {
+    return (1.0 + piece.strain) * rotation.col(0) + rotation * piece.angle;
+  }
+
+  /// The shape that curvatures, elongations and shear of the pieces make, in the frame.
   Shape integrate() const {
     Shape shape{{Vector3d::Zero()}, {Matrix3d::Identity()}};
     for (const Piece& piece : pieces_) {
       const Matrix3d middle =
           shape.rotation.back() * rotation_of(0.5 * piece.length * piece.curvature);
-      shape.position.push_back(shape.position.back() +
-                               (1.0 + piece.strain) * piece.length * middle.col(0));
+      shape.position.push_back(shape.position.back() + piece.length * tangent_of(piece, middle));
       shape.rotation.push_back(shape.rotation.back() * rotation_of(piece.length * piece.curvature));
     }
     align(shape);
@@ -146,7 +156,7 @@ class ExactBeam {
 
   double length() const { return body_.beam.node_position(body_.beam.node_count() - 1); }
 
-  /// Curvatures and elongations of the loads at their true places.
+  /// Curvatures, elongations and shear of the loads at their true places.
   void correct(const Shape& shape) {
     std::vector<Matrix3d> rotations;
     std::vector<Vector3d> changes;  // of r' × Q, integrated from the first node to each middle
@@ -154,7 +164,7 @@ class ExactBeam {
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       const Piece& piece = pieces_[i];
       rotations.push_back(shape.rotation[i] * rotation_of(0.5 * piece.length * piece.curvature));
-      const Vector3d tangent = (1.0 + piece.strain) * rotations[i].col(0);
+      const Vector3d tangent = tangent_of(piece, rotations[i]);
       const Vector3d half = 0.5 * piece.length * (tangent.cross(piece.load) - piece.linear_rate);
       changes.push_back(sum + half);
       sum += 2.0 * half;
@@ -176,6 +186,7 @@ class ExactBeam {
         if (!has_coordinate(3 + k)) continue;
         piece.curvature(k) += (local(k) - before(k)) / piece.stiffness(k);
       }
+      piece.angle = piece.compliance.cwiseProduct(rotations[i].transpose() * piece.load);
       if (piece.axial == 0.0) continue;
       const double force = rotations[i].col(0).dot(piece.load);
       piece.strain += (force - piece.axial * piece.strain) / piece.axial;

@@ -15,8 +15,7 @@
 #include "core/beam/beam_shape.hpp"
 #include "core/beam/elastic_basis.hpp"
 #include "core/beam/natural_modes.hpp"
-#include "core/model/scene_geometry.hpp"
-#include "core/section/shear_coefficient.hpp"
+#include "core/model/shear_area.hpp"
 #include "core/trust/beam_state.hpp"
 
 namespace pleuel {
@@ -30,52 +29,6 @@ constexpr double tolerable_shear = 0.01;
 constexpr double alarming = 0.1;
 /// Planes in which a beam deflects less than this share of the other do not count.
 constexpr double still = 1e-3;
-
-/// κ for forces along local y and z.
-struct Coefficients {
-  const Design<double>& design;
-  double nu;
-
-  using Pair = std::array<double, 2>;
-  double of(const Number& number) const { return resolve(number, design); }
-
-  Pair operator()(const RectangleSection&) const {
-    const double kappa = rectangle_shear_coefficient(nu);
-    return {kappa, kappa};
-  }
-  Pair operator()(const CircleSection&) const {
-    const double kappa = round_shear_coefficient(nu, 0.0);
-    return {kappa, kappa};
-  }
-  Pair operator()(const TubeSection& s) const {
-    const double kappa =
-        round_shear_coefficient(nu, 1.0 - 2.0 * of(s.thickness) / of(s.outer_diameter));
-    return {kappa, kappa};
-  }
-  Pair operator()(const EllipseSection& s) const {
-    return {ellipse_shear_coefficient(nu, of(s.height), of(s.width)),
-            ellipse_shear_coefficient(nu, of(s.width), of(s.height))};
-  }
-  Pair operator()(const BoxSection& s) const {
-    const double t = of(s.thickness), width = of(s.width) - t, height = of(s.height) - t;
-    return {box_shear_coefficient(nu, {height, width, t, t}),
-            box_shear_coefficient(nu, {width, height, t, t})};
-  }
-  /// Along z the flanges carry the force, as two rectangles.
-  Pair operator()(const ISection& s) const {
-    const double flange = of(s.flange_thickness), web = of(s.web_thickness);
-    const double width = of(s.width), height = of(s.height);
-    const double flanges = 2.0 * width * flange;
-    const double area = flanges + (height - 2.0 * flange) * web;
-    return {i_shear_coefficient(nu, {height - flange, width, web, flange}),
-            rectangle_shear_coefficient(nu) * flanges / area};
-  }
-  /// Unknown: as of a rectangle.
-  Pair operator()(const GeneralSection&) const {
-    const double kappa = rectangle_shear_coefficient(nu);
-    return {kappa, kappa};
-  }
-};
 
 /// A plane of bending of one element.
 struct ElementBending {
@@ -107,18 +60,19 @@ class BendingReader {
       const BeamElement<double>& element = body.beam.elements[e];
       const std::size_t segment = body.mesh.elements[e].segment;
       const double nu = element.young / (2.0 * element.shear) - 1.0;
-      const auto kappa = std::visit(Coefficients{design_, nu}, beam_->segments[segment].section);
+      const ShearArea<double> area =
+          shear_area(beam_->segments[segment].section, element.section, nu, design_);
+      const ElementForm<double> form = form_of(element);
       Eigen::Matrix<double, 12, 1> q;
       q << nodal.col(e), nodal.col(e + 1);
       ElementBending bending;
       bending.length = element.length;
       bending.stiffness =
           element.young * (plane == 0 ? element.section.inertia_z : element.section.inertia_y);
-      bending.shear_stiffness = kappa[plane] * element.shear * element.section.area;
+      bending.shear_stiffness = element.shear * (plane == 0 ? area.along_y : area.along_z);
       for (std::size_t end = 0; end < 2; ++end) {
         const double xi = static_cast<double>(end);
-        const auto row = plane == 0 ? deflection_y_row(xi, element.length, 2)
-                                    : deflection_z_row(xi, element.length, 2);
+        const auto row = plane == 0 ? deflection_y_row(xi, form, 2) : deflection_z_row(xi, form, 2);
         bending.curvature[end] = row.dot(q);
         bending.deflection[end] = nodal(1 + plane, e + static_cast<Eigen::Index>(end));
       }
@@ -313,18 +267,35 @@ class ShearDoubts {
       names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", name);
     }
     const bool is_serious = worst > alarming;
-    const std::string advice = is_serious ? "Do not trust that" : "Where that matters";
+    const bool has_shear = scene_beam(body).has_shear;
     doubts.push_back(
-        {fmt::format("\"{}\" is stubby: shear, which beams leave out, would change {} by {} "
-                     "{:.2g} %. {}: import the body from a code whose elements shear (type "
-                     "\"invariants\").",
-                     body, names, is_held_twice_ ? "up to" : "some", 100.0 * worst, advice),
+        {fmt::format("\"{}\" is stubby: shear, which {}, would change {} by {} {:.2g} %.{}", body,
+                     has_shear ? "\"lateral-buckling\" leaves out" : "it leaves out", names,
+                     is_held_twice_ ? "up to" : "some", 100.0 * worst,
+                     has_shear ? "" : advice(body, is_serious)),
          is_serious, responses});
   }
 
-  /// What shear of a beam changes of a response, over what it is with shear.
+  std::string advice(const std::string& body, bool is_serious) const {
+    const auto& segments = scene_beam(body).segments;
+    const bool is_known = std::all_of(segments.begin(), segments.end(), [](const Segment& segment) {
+      const auto* general = std::get_if<GeneralSection>(&segment.section);
+      return general == nullptr || general->shear_area_y;
+    });
+    return fmt::format(
+        " {}: set /scene/bodies/{}/shear to true{}.",
+        is_serious ? "Do not trust that" : "Where that matters", body,
+        is_known ? "" : ", and give its section \"shear_area_y\" and \"shear_area_z\"");
+  }
+
+  const BeamBody& scene_beam(const std::string& body) const {
+    return std::get<BeamBody>(find_named(run_.problem.scene.bodies, body)->shape);
+  }
+
+  /// What shear that is left out changes of a response, over what it is with shear.
   double error_of(std::size_t index, const std::string& body, const ShearShare& share) const {
     const ResponseSettings& response = run_.problem.responses[index];
+    if (scene_beam(body).has_shear && response.type != ResponseType::lateral_buckling) return 0.0;
     const bool is_of_body =
         std::find(response.bodies.begin(), response.bodies.end(), body) != response.bodies.end();
     const double largest = share.largest() / (1.0 + share.largest());

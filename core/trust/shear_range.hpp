@@ -5,7 +5,7 @@
 
 namespace pleuel {
 
-/// Deflection by shear, which Euler–Bernoulli beams leave out, over that by bending, for bending
+/// Deflection by shear, which beams leave out that are not asked to have it, over that by bending, for bending
 /// along local y and z. From the section forces of a state, so for the ends and loads that the beam
 /// has there: the slope by shear is V/(κ G A); 3EI/(κ G A L²) of a cantilever with a force at its
 /// tip, 12EI/(κ G A L²) of a beam on two pins with one in the middle. Of a divided beam, and of
@@ -25,7 +25,8 @@ ShearShare shear_share(const ProblemFile& problem, const Eigen::VectorXd& x, con
 /// Beams that are too stubby for responses that rest on their bending stiffness: deflection,
 /// elastic energy, buckling and frequencies of the beam, positions and deflections of the
 /// mechanism as far as the beam moves them; and its stresses, and forces and moments of joints and
-/// drives, where these hold more than rigid bodies need.
+/// drives, where these hold more than rigid bodies need. Of beams that have shear only lateral
+/// buckling, which leaves it out.
 std::vector<Doubt> doubt_shear_range(const TrustedRun& run);
 
 }  // namespace pleuel

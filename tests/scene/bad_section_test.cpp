@@ -77,7 +77,9 @@ INSTANTIATE_TEST_SUITE_P(
                    "/points/0 must be an object {…}, got [0,0,0]"},
         BadSection{general("points/0", R"({"y": 0, "z": 0})"),
                    R"(/points/0 is missing the key "shear")"},
-        BadSection{general("torsion", "remove"), R"( is missing the key "torsion")"}));
+        BadSection{general("torsion", "remove"), R"( is missing the key "torsion")"},
+        BadSection{general("shear_area_z", "1e-5"),
+                   R"( has "shear_area_z" without "shear_area_y")"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Values, BadSectionOf,

@@ -143,7 +143,10 @@ TEST_F(ProblemSchema, AcceptsEverySection) {
         R"({"type": "i", "width": 0.02, "height": 0.04, "flange_thickness": 1e-3,
             "web_thickness": "1 mm"})",
         R"({"type": "general", "area": "2 cm^2", "inertia_y": 1e-8, "inertia_z": 1e-8,
-            "torsion": 1e-8, "points": [{"y": 0.01, "z": 0, "shear": "1 1/cm^3"}]})"}) {
+            "torsion": 1e-8, "points": [{"y": 0.01, "z": 0, "shear": "1 1/cm^3"}]})",
+        R"({"type": "general", "area": "2 cm^2", "inertia_y": 1e-8, "inertia_z": 1e-8,
+            "torsion": 1e-8, "shear_area_y": "= 5 mm * width", "shear_area_z": "1 cm^2",
+            "points": [{"y": 0.01, "z": 0, "shear": "1 1/cm^3"}]})"}) {
     EXPECT_EQ(complaints_about_edit("/scene/bodies/crank/section", section), "") << section;
     EXPECT_EQ(complaint(edited("/scene/bodies/crank/section", section)), "") << section;
   }
@@ -153,6 +156,23 @@ TEST_F(ProblemSchema, AcceptsEverySection) {
     EXPECT_EQ(complaints_about_edit(pointer, R"("355 MPa")"), "") << strength;
     EXPECT_EQ(complaint(edited(pointer, R"("355 MPa")")), "") << strength;
   }
+}
+
+/// Of general sections with their shear areas only, which the schema cannot know of a catalogue.
+TEST_F(ProblemSchema, AcceptsBeamsWithShear) {
+  const std::string pointer = "/scene/bodies/crank/shear";
+  for (const char* value : {"true", "false"}) {
+    EXPECT_EQ(complaints_about_edit(pointer, value), "");
+    EXPECT_EQ(complaint(edited(pointer, value)), "");
+  }
+  EXPECT_NE(complaints_about_edit(pointer, R"("yes")"), "");
+  const Json general = edited("/scene/bodies/crank/section",
+                              R"({"type": "general", "area": "= 5 mm * width", "inertia_y": 1e-8,
+                 "inertia_z": 1e-8, "torsion": 1e-8, "points": [{"y": 0, "z": 0, "shear": 1}]})");
+  EXPECT_EQ(
+      complaint(edited(general, pointer, "true")),
+      "bad.json: /scene/bodies/crank/shear needs \"shear_area_y\" and \"shear_area_z\" [m^2] of "
+      "sections of the type \"general\", which the section has not");
 }
 
 TEST_F(ProblemSchema, AcceptsEveryReferenceOfADeflection) {

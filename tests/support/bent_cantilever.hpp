@@ -16,6 +16,7 @@ struct BentCantilever {
   double moment_z = 0.0;                ///< at the tip [N m]
   int frames = 1, elements = 16;
   std::string motion = "auto", frame = "tangent", stiffening = "on";
+  std::string section = R"({"type": "rectangle", "width": 0.01, "height": 0.01})";
   std::string more = "";  ///< further keys of the beam, with a comma in front
 
   static constexpr double bending_stiffness = 100.0;  ///< [N m²]
@@ -41,14 +42,14 @@ struct BentCantilever {
         R"({{"name": "bent", "scene": {{"gravity": [0, 0, 0],
           "materials": {{"soft": {{"young": 1.2e11, "poisson": 0.3, "density": 1000}}}},
           "bodies": {{"beam": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
-            "material": "soft", "section": {{"type": "rectangle", "width": 0.01, "height": 0.01}},
+            "material": "soft", "section": {},
             "elements": {}, "frames": {}, "frame": "{}"{}}}}},
           "joints": {{"clamp": {{"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}}}},
           "loads": {{{}}}}},
         "effects": {{"spatial_motion": "{}", "geometric_stiffening": "{}"}},
         "simulation": {{"end_time": 2e-4, "step": 1e-4, "initial_state": "quasi-static"}},
         "responses": {{{}}}}})",
-        elements, frames, frame, more, loads(), motion, stiffening, responses());
+        section, elements, frames, frame, more, loads(), motion, stiffening, responses());
   }
 
   static std::string responses() {

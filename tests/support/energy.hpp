@@ -38,8 +38,8 @@ inline double energy_of(pleuel::Model& model, const pleuel::State& state) {
       }
       double total = n(6) - n(0);
       for (const GaussPoint& point : gauss_points) {
-        const double v = deflection_y_row(point.xi, element.length, 1).dot(n);
-        const double w = deflection_z_row(point.xi, element.length, 1).dot(n);
+        const double v = deflection_y_row(point.xi, form_of(element), 1).dot(n);
+        const double w = deflection_z_row(point.xi, form_of(element), 1).dot(n);
         total += 0.5 * point.weight * element.length * (v * v + w * w);
       }
       energy += 0.5 * element.young * element.section.area / element.length *

@@ -22,8 +22,7 @@ inline pleuel::FrameMotion<double> frame_of(const pleuel::BodyModel& body,
 inline Eigen::Vector3d deflection_at(const pleuel::BodyModel& body, const pleuel::State& state,
                                      double at) {
   const pleuel::BeamPlace place = find_place(body.beam, at);
-  const double length = body.beam.elements[place.element].length;
-  return pleuel::axis_shape(place.xi, length) *
+  return pleuel::axis_shape(place.xi, form_of(body.beam.elements[place.element])) *
          nodal_displacements(body, state).segment<12>(6 * place.element);
 }
 

@@ -5,9 +5,9 @@
 using namespace sample_parts;
 
 std::vector<SampleScene> all_samples() {
-  return {planar_sample(),          planar_sample_in_space(), spatial_sample(),
-          spatial_joints_sample(),  planar_joints_sample(),   reduced_sample(),
-          reduced_sample_in_space()};
+  return {planar_sample(),           planar_sample_in_space(),  spatial_sample(),
+          spatial_joints_sample(),   planar_joints_sample(),    reduced_sample(),
+          reduced_sample_in_space(), sheared_sample_in_space(), sheared_reduced_sample()};
 }
 
 Scene swinging_beam(double length, const Section& section, int elements) {

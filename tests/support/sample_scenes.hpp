@@ -62,9 +62,14 @@ SampleScene planar_joints_sample();
 SampleScene reduced_sample();
 SampleScene reduced_sample_in_space();
 
+/// Those in space of the planar and in the plane of the reduced sample with beams that shear bends,
+/// too, one of them of a general section with shear areas of its own.
+SampleScene sheared_sample_in_space();
+SampleScene sheared_reduced_sample();
+
 std::vector<SampleScene> all_samples();
 /// How many there are, for instantiating test suites.
-inline constexpr int sample_count = 7;
+inline constexpr int sample_count = 9;
 
 /// A beam of steel from the origin along x, turning about z on a bearing in the origin; gravity
 /// along −y. No variables.

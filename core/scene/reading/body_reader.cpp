@@ -94,6 +94,21 @@ CraigBampton read_reduction(const JsonNode& node, const NumberReader& numbers) {
   return reduction;
 }
 
+/// Of general sections nobody knows how they shear.
+void read_shear(const JsonNode& node, BeamBody& beam) {
+  beam.has_shear = node.truth();
+  if (!beam.has_shear) return;
+  if (beam.is_rigid) node.fail("is not for a rigid beam");
+  for (std::size_t i = 0; i < beam.segments.size(); ++i) {
+    const auto* general = std::get_if<GeneralSection>(&beam.segments[i].section);
+    if (general == nullptr || general->shear_area_y) continue;
+    node.fail(fmt::format(
+        "needs \"shear_area_y\" and \"shear_area_z\" [m^2] of sections of the type \"general\", "
+        "which the section{} has not",
+        beam.segments.size() > 1 ? fmt::format(" of segment {}", i) : ""));
+  }
+}
+
 /// How the beam deforms: not at all, in all coordinates, or in few.
 void read_elasticity(const JsonNode& node, BeamBody& beam, NumberReader& numbers) {
   const auto damping = node.find("damping"), reduction = node.find("reduction");
@@ -105,6 +120,7 @@ void read_elasticity(const JsonNode& node, BeamBody& beam, NumberReader& numbers
   if (damping && damping->find("modal") && !reduction) {
     damping->at("modal").fail("is for beams with a \"reduction\" only");
   }
+  if (const auto shear = node.find("shear")) read_shear(*shear, beam);
 }
 
 /// Damping that is stated for the motion against one frame changes its meaning with many.
@@ -126,7 +142,7 @@ void read_frames(const JsonNode& node, const JsonNode& body, BeamBody& beam) {
 BeamBody read_beam(const JsonNode& node, const std::vector<std::string>& materials,
                    NumberReader& numbers) {
   node.allow_keys({"type", "from", "to", "material", "section", "elements", "segments", "frame",
-                   "frames", "damping", "reference", "rigid", "reduction", "velocity",
+                   "frames", "damping", "reference", "rigid", "shear", "reduction", "velocity",
                    "angular_velocity", "initial_deflections"});
   BeamBody beam;
   beam.from = numbers.triple(node.at("from"), quantities::length);

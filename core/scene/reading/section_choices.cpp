@@ -106,7 +106,9 @@ class SectionList {
     const auto kind_of = [](const Json& section) {
       const std::string type = section.at("type").get<std::string>();
       if (!section.contains("points")) return type;
-      return fmt::format("{} with {} points", type, section.at("points").size());
+      const bool has_areas = section.contains("shear_area_y");
+      return fmt::format("{} with {} points{}", type, section.at("points").size(),
+                         has_areas ? " and shear areas" : "");
     };
     for (std::size_t i = 1; i < names_.size(); ++i) {
       if (kind_of(at(i)) == kind_of(at(0))) continue;

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "core/scene/reading/scene_reader.hpp"
 
 namespace pleuel {
@@ -60,7 +62,8 @@ GeneralStressPoint read_stress_point(const JsonNode& node, NumberReader& numbers
 }
 
 Section read_general(const JsonNode& node, NumberReader& numbers) {
-  node.allow_keys({"type", "area", "inertia_y", "inertia_z", "torsion", "points"});
+  node.allow_keys({"type", "area", "inertia_y", "inertia_z", "torsion", "points", "shear_area_y",
+                   "shear_area_z"});
   const auto read = [&](const char* key, const Quantity& quantity) {
     return numbers.designable(node.at(key), quantity, Range::positive);
   };
@@ -69,6 +72,16 @@ Section read_general(const JsonNode& node, NumberReader& numbers) {
   section.inertia_y = read("inertia_y", quantities::second_moment_of_area);
   section.inertia_z = read("inertia_z", quantities::second_moment_of_area);
   section.torsion = read("torsion", quantities::second_moment_of_area);
+  const bool has_y = node.find("shear_area_y").has_value();
+  const bool has_z = node.find("shear_area_z").has_value();
+  if (has_y != has_z) {
+    node.fail(fmt::format("has \"shear_area_{}\" without \"shear_area_{}\"", has_y ? 'y' : 'z',
+                          has_y ? 'z' : 'y'));
+  }
+  if (has_y) {
+    section.shear_area_y = read("shear_area_y", quantities::area);
+    section.shear_area_z = read("shear_area_z", quantities::area);
+  }
   const JsonNode points = node.at("points");
   for (const JsonNode& point : points.items()) {
     section.points.push_back(read_stress_point(point, numbers));

@@ -34,14 +34,15 @@ std::vector<NamedSection> all_sections() {
        ISection{variable(0), variable(1), variable(2), variable(3)},
        {0.04, 0.08, 0.005, 0.004}},
       {"general",
-       GeneralSection{variable(0), variable(1), variable(2), variable(3), points},
-       {6e-4, 2e-8, 4.5e-8, 4.7e-8}},
+       GeneralSection{variable(0), variable(1), variable(2), variable(3), points, variable(4),
+                      variable(5)},
+       {6e-4, 2e-8, 4.5e-8, 4.7e-8, 3e-4, 2e-4}},
   };
 }
 
 /// A beam oblique in space whose end, material and damping are variables, too: the first number
 /// after the sizes of the section is the x of its end.
-SampleScene beam_of(const NamedSection& named, ReferenceCondition frame) {
+SampleScene beam_of(const NamedSection& named, ReferenceCondition frame, bool has_shear = false) {
   SampleScene sample;
   sample.scene = swinging_beam(0.7, named.section, 3);
   sample.effects.spatial_motion = EffectChoice::on;
@@ -52,6 +53,7 @@ SampleScene beam_of(const NamedSection& named, ReferenceCondition frame) {
   };
   auto& beam = std::get<BeamBody>(sample.scene.bodies[0].shape);
   beam.frame = frame;
+  beam.has_shear = has_shear;
   beam.to = {next(0.6), Number(0.2), next(0.1)};
   Material& steel = sample.scene.materials[0];
   steel.young = next(2.1e11);
@@ -110,7 +112,9 @@ TEST(InvariantDerivatives, OfTheComplexStepAreExactForEverySectionAndFrame) {
     for (auto frame : {ReferenceCondition::tangent, ReferenceCondition::tangent_end,
                        ReferenceCondition::chord, ReferenceCondition::mean_axis}) {
       SCOPED_TRACE(section.name);
-      EXPECT_LE(error_of(beam_of(section, frame), "beam", {complex_step}), 1e-13);
+      for (const bool has_shear : {false, true}) {
+        EXPECT_LE(error_of(beam_of(section, frame, has_shear), "beam", {complex_step}), 1e-13);
+      }
     }
   }
 }

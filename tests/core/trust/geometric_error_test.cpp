@@ -96,6 +96,24 @@ TEST(GeometricError, IsOfTheSameSizeInSpaceAndWithModes) {
   EXPECT_NEAR(BentBeam(oblique).error().deflection, alone, 0.02 * alone);
 }
 
+/// A beam as soft in shear as in bending, 3EI/(κGAL²) = 1: the estimate is what a division into 16
+/// frames changes, and no shear is taken for an error.
+TEST(GeometricError, OfABeamThatShearsIsThatAgainstManyFrames) {
+  for (const double alpha : {0.05, 0.25, 0.5}) {
+    BentCantilever cantilever = pushed(alpha);
+    cantilever.stiffening = "off";
+    cantilever.section = R"({"type": "general", "area": 1e-4, "inertia_y": 8.3333333333333e-10,
+      "inertia_z": 8.3333333333333e-10, "torsion": 1.4e-9, "shear_area_y": 6.5e-9,
+      "shear_area_z": 6.5e-9, "points": [{"y": 0.005, "z": 0.005, "shear": 0}]})";
+    cantilever.more = R"(, "shear": true)";
+    const BentBeam run(cantilever);
+    EXPECT_NEAR(run.value("y"), 2.0 * alpha / 3.0, 1e-6);
+    cantilever.frames = 16;
+    const double expected = relative(run.value("y"), BentBeam(cantilever).value("y"));
+    EXPECT_LT(std::abs(std::log(run.error().deflection / expected)), std::log(1.2)) << alpha;
+  }
+}
+
 /// At an error of 1 % of deflection (α = 0.3) there is a doubt, at 0.3 % (α = 0.16) there is none.
 TEST(BendingRange, IsLeftAtAnErrorOfOnePercent) {
   ASSERT_EQ(BentBeam(pushed(0.32)).doubts().size(), 1u);

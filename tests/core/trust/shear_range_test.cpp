@@ -1,5 +1,6 @@
 #include "core/trust/shear_range.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -25,6 +26,7 @@ struct StubbyBeam {
   std::string frame = "tangent",
               response = R"({"type": "deflection", "body": "beam", "at": 1, "over_time": "max"})";
   int frames = 1;
+  std::string more = "";  ///< further keys of the beam, with a comma in front
 
   ProblemFile problem() const {
     const std::string clamp =
@@ -36,12 +38,12 @@ struct StubbyBeam {
     return read_problem_text(fmt::format(R"({{"name": "stubby", "scene": {{"gravity": [0, 0, 0],
           "materials": {{"steel": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
           "bodies": {{"beam": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
-            "material": "steel", "section": {}, "elements": 8, "frames": {}, "frame": "{}"}}}},
+            "material": "steel", "section": {}, "elements": 8, "frames": {}, "frame": "{}"{}}}}},
           "joints": {}, "loads": {{"push": {{"type": "force", "body": "beam", "at": [{}, 0, 0],
             "direction": [0, 1, 0], "value": 1}}}}}},
         "simulation": {{"end_time": 2e-6, "step": 1e-6, "initial_state": "quasi-static"}},
         "responses": {{"asked": {}}}}})",
-                                         section, frames, frame, is_pinned ? pins : clamp,
+                                         section, frames, frame, more, is_pinned ? pins : clamp,
                                          is_pinned ? 0.5 : 1.0, response),
                              "stubby.json");
   }
@@ -205,6 +207,47 @@ TEST(ShearRange, ConcernsTheForcesOfWhatIsHeldMoreThanItNeeds) {
     EXPECT_TRUE(found[0].is_serious);
     EXPECT_THAT(found[0].text, HasSubstr(fmt::format("up to {:.2g} %", 100 * phi / (1 + phi))));
   }
+}
+
+/// Timoshenko's tip, P L³/3EI + P L/κGA, of all sections in modes and frames, and no doubt of it.
+TEST(ShearRange, DoesNotConcernBeamsThatHaveShear) {
+  const double kappa = 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu), area = 0.05 * 0.5;
+  const double bending = 1.0 / (3 * 2.1e11 * area * 0.25 / 12);
+  const double expected = bending + 2.6 / (kappa * 2.1e11 * area);
+  for (const auto& [frames, more] :
+       {std::pair(1, R"(, "shear": true)"), std::pair(2, R"(, "shear": true)"),
+        std::pair(1, R"(, "shear": true, "reduction": {"modes": 2})")}) {
+    StubbyBeam beam{rectangle(0.5)};
+    beam.frames = frames;
+    beam.more = more;
+    const ShearedBeam run(beam);
+    EXPECT_NEAR(run.analysis->reductions[0].value, expected, 1e-6 * expected) << frames << more;
+    EXPECT_TRUE(run.doubts().empty()) << frames << more;
+  }
+  const auto records =
+      ShearedBeam(StubbyBeam{.section = rectangle(0.5), .more = R"(, "shear": true)"})
+          .analysis->model.effects;
+  EXPECT_EQ(std::count_if(records.begin(), records.end(),
+                          [](const EffectRecord& one) { return one.name == "shear"; }),
+            1);
+}
+
+/// What can be done is said; lateral buckling has no shear in it.
+TEST(ShearRange, SaysWhatHelps) {
+  StubbyBeam beam{rectangle(0.5)};
+  EXPECT_THAT(ShearedBeam(beam).doubts()[0].text,
+              HasSubstr("some 16 %. Do not trust that: set /scene/bodies/beam/shear to true."));
+  beam.section = R"({"type": "general", "area": 0.025, "inertia_y": 5e-6, "inertia_z": 5e-4,
+                     "torsion": 2e-5, "points": [{"y": 0.25, "z": 0, "shear": 0}]})";
+  EXPECT_THAT(ShearedBeam(beam).doubts()[0].text,
+              HasSubstr(R"(true, and give its section "shear_area_y" and "shear_area_z".)"));
+  beam.section = R"({"type": "rectangle", "width": 0.4, "height": 0.5})";
+  beam.response = R"({"type": "lateral-buckling", "body": "beam", "over_time": "max"})";
+  beam.more = R"(, "shear": true)";
+  const std::vector<Doubt> doubts = ShearedBeam(beam).doubts();
+  ASSERT_EQ(doubts.size(), 1u);
+  EXPECT_THAT(doubts[0].text, HasSubstr(R"(shear, which "lateral-buckling" leaves out, would)"));
+  EXPECT_THAT(doubts[0].text, testing::Not(HasSubstr("/shear to true")));
 }
 
 /// Cowper's coefficients meet: an ellipse with equal axes and a tube without hole are circles, a
