@@ -136,8 +136,8 @@ struct BeamBody {
   /// By default local y lies in the global x–y plane (the global y axis for beams along z).
   std::optional<std::array<double, 3>> reference;
   bool is_rigid = false;  ///< no elastic coordinates; inertia from the same integrals
-  bool has_shear =
-      false;  ///< bends by shear, too: Timoshenko's beam in place of Euler and Bernoulli's
+  /// Bends by shear, too: Timoshenko's beam in place of Euler and Bernoulli's.
+  bool has_shear = false;
   std::optional<CraigBampton> reduction;
   int frames = 1;  ///< floating frames that share the beam, welded to each other
   std::optional<BeamPart> part = {};
