@@ -20,15 +20,14 @@ using MatrixOf = Eigen::Matrix<Scalar, 6, 6>;
 /// A beam whose stiffnesses in both planes differ by less is as stiff in both.
 constexpr double equal_stiffness = 1e-9;
 
-/// Rows in w, w', φ of both nodes.
+/// A row in w, θ, φ of both nodes.
 template <class Scalar>
-RowOf<Scalar> deflection_row(double xi, const Scalar& length, int order) {
-  const auto h = hermite(xi, length, order);
+RowOf<Scalar> bending_row(const BendingRow<Scalar>& bending) {
   RowOf<Scalar> row = RowOf<Scalar>::Constant(Scalar(0));
-  row(0) = h[0];
-  row(1) = h[1];
-  row(3) = h[2];
-  row(4) = h[3];
+  row(0) = bending[0];
+  row(1) = bending[1];
+  row(3) = bending[2];
+  row(4) = bending[3];
   return row;
 }
 template <class Scalar>
@@ -50,7 +49,10 @@ struct ElementMatrices {
     geometric.fill(elastic);
     const SectionProperties<Scalar>& section = element.section;
     const Scalar& length = element.length;
+    const ElementForm<Scalar> form = form_of(element);
     const bool is_xy = plane == BendingPlane::xy;
+    const Scalar& shear = is_xy ? form.shear_z : form.shear_y;
+    const Scalar& compliance = is_xy ? element.shear_compliance_z : element.shear_compliance_y;
     const Scalar lateral = is_xy ? section.inertia_y : section.inertia_z;
     const Scalar bending = is_xy ? section.inertia_z : section.inertia_y;
     const Scalar left = 1.0 - lateral / bending;  // m²
@@ -60,8 +62,8 @@ struct ElementMatrices {
     const RowOf<Scalar> twist_slope = twist_row(Scalar(-slope_of_twist), slope_of_twist);
     for (const GaussPoint& point : gauss_points) {
       const Scalar weight = point.weight * length;
-      const RowOf<Scalar> slope = deflection_row(point.xi, length, 1);
-      const RowOf<Scalar> curvature = deflection_row(point.xi, length, 2);
+      const RowOf<Scalar> slope = bending_row(deflection(point.xi, length, shear, 1));
+      const RowOf<Scalar> curvature = bending_row(deflection(point.xi, length, shear, 2));
       const RowOf<Scalar> twist = twist_row(Scalar(1.0 - point.xi), Scalar(point.xi));
       const MatrixOf<Scalar> twisting = twist_slope.transpose() * twist_slope;
       const MatrixOf<Scalar> coupling = twist.transpose() * curvature;
@@ -75,6 +77,9 @@ struct ElementMatrices {
       geometric[2] += (1.0 - point.xi) * of_moment;
       geometric[3] += point.xi * of_moment;
     }
+    if (value_of(compliance) == 0.0) return;
+    const RowOf<Scalar> angle = bending_row(shear_angle(length, shear));
+    elastic += (length / compliance) * (angle.transpose() * angle);
   }
 
   /// The nodal values of an end become those of the support of its rigid body, which carries N.

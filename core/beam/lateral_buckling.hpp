@@ -32,7 +32,7 @@ using PlaneLoad = Eigen::Matrix4Xd;
 /// What makes a beam buckle, and how: the share of the critical load and the modes that have it.
 struct LateralModes {
   double share = 0.0;      ///< 0: nothing buckles, and there are no modes
-  Eigen::MatrixXd shapes;  ///< w, w', φ of all nodes, a column each mode; φᵀ K φ = 1
+  Eigen::MatrixXd shapes;  ///< w, θ, φ of all nodes, a column each mode; φᵀ K φ = 1
 };
 
 /// Lateral(–torsional) buckling of a beam out of the plane in which it bends, by given section
@@ -41,13 +41,16 @@ struct LateralModes {
 ///     Π = ½ ∫ EI w''² + GJ φ'² + s (N w'² + N (I₀/A) φ'² + 2 m M φ w'') dx,
 /// or in the nodal values u of cubic w and linear φ
 ///     Π = ½ uᵀ (K + s G) u,    −G u = (1/s) K u.
+/// Sections turn by θ = w', and where shear bends the beam by θ = w' − γ: EI θ'² + κGA γ² takes the
+/// place of EI w''² and φ θ' that of φ w'', while N still acts along the slope w' of the axis. So
+/// P/(1 + P/(κGA)) takes the place of Euler's load P (Engesser; Timoshenko & Gere, art. 2.17).
 /// The share of the critical load is 1/s for the smallest s > 0 at which Π is no longer positive, and
 /// 0 if there is none. It has columns (Euler's loads), beams whose moment twists them sideways
 /// (M = π √(EI GJ)/L for a constant one), and both together. m² = 1 − EI/EI_bending, as bending in
 /// the plane holds the beam straighter out of it (Kirby & Nethercot 1979); a beam that is as stiff
 /// sideways has m = 0. A rigid body that carries the axial force N of an end over the reach d has
-/// the slope w' of the end: it adds ½ s N d w'² to Π. Where it is held at the distance p beyond the
-/// end, w ± p w' (of the last and the first node) takes the place of the deflection of the end.
+/// the slope θ of the end: it adds ½ s N d θ² to Π. Where it is held at the distance p beyond the
+/// end, w ± p θ (of the last and the first node) takes the place of the deflection of the end.
 /// Warping of sections is free, transverse loads act at the centroid.
 class LateralBuckling {
  public:

@@ -267,12 +267,11 @@ class ShearDoubts {
       names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", name);
     }
     const bool is_serious = worst > alarming;
-    const bool has_shear = scene_beam(body).has_shear;
     doubts.push_back(
-        {fmt::format("\"{}\" is stubby: shear, which {}, would change {} by {} {:.2g} %.{}", body,
-                     has_shear ? "\"lateral-buckling\" leaves out" : "it leaves out", names,
-                     is_held_twice_ ? "up to" : "some", 100.0 * worst,
-                     has_shear ? "" : advice(body, is_serious)),
+        {fmt::format(
+             "\"{}\" is stubby: shear, which it leaves out, would change {} by {} {:.2g} %.{}",
+             body, names, is_held_twice_ ? "up to" : "some", 100.0 * worst,
+             advice(body, is_serious)),
          is_serious, responses});
   }
 
@@ -295,7 +294,7 @@ class ShearDoubts {
   /// What shear that is left out changes of a response, over what it is with shear.
   double error_of(std::size_t index, const std::string& body, const ShearShare& share) const {
     const ResponseSettings& response = run_.problem.responses[index];
-    if (scene_beam(body).has_shear && response.type != ResponseType::lateral_buckling) return 0.0;
+    if (scene_beam(body).has_shear) return 0.0;
     const bool is_of_body =
         std::find(response.bodies.begin(), response.bodies.end(), body) != response.bodies.end();
     const double largest = share.largest() / (1.0 + share.largest());

@@ -57,6 +57,8 @@ class SidewaysBuckling {
       const double bending = is_xy ? s.inertia_z : s.inertia_y;
       lateral_ = std::min(lateral_, element.young * weak);
       twisting_ = std::min(twisting_, element.shear * s.torsion);
+      shearing_ =
+          std::max(shearing_, is_xy ? element.shear_compliance_z : element.shear_compliance_y);
       is_equal = is_equal && weak >= (1.0 - 1e-9) * bending;
       for (const StressPoint<double>& point : s.points) {
         depth_ = std::max(depth_, std::abs(is_xy ? point.y : point.z));
@@ -101,7 +103,8 @@ class SidewaysBuckling {
     const double pi = std::numbers::pi, longer = full_length_ / length_;
     const double moment = pi * std::sqrt(lateral_ * twisting_) / full_length_;
     const double b = moments_matter_ ? largest_moment(load) / moment : 0.0;
-    const double p = largest_press(load) / euler_load() * longer * longer;
+    const double press = largest_press(load);
+    const double p = press * (longer * longer / euler_load() + harmless_load * shearing_);
     return (p + std::sqrt(p * p + 4.0 * b * b * harmless_load)) / (2.0 * harmless_load);
   }
 
@@ -154,7 +157,8 @@ class SidewaysBuckling {
   LateralMember observed_, judged_;
   bool moments_matter_ = true;
   bool is_over_ = false;  ///< nothing holds it, or it bends in its plane, as the motion shows
-  double length_ = 0.0, full_length_ = 0.0, lateral_ = 0.0, twisting_ = 0.0, depth_ = 0.0;
+  double length_ = 0.0, full_length_ = 0.0, lateral_ = 0.0, twisting_ = 0.0;
+  double shearing_ = 0.0, depth_ = 0.0;
   double share_ = near_critical, time_ = 0.0;
   PlaneLoad load_;
 };

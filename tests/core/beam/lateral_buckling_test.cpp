@@ -121,6 +121,29 @@ TEST(LateralStability, OfASteppedColumnIsTheRootOfItsEquation) {
   EXPECT_GT(low, 1.2 * pi * pi * thin / (4 * length * length));
 }
 
+/// Engesser's P/(1 + P/(κGA)) with the load P without shear, where nothing but the axial force acts
+/// across the sections (Timoshenko & Gere, Theory of Elastic Stability, art. 2.17).
+TEST(LateralStability, OfAColumnThatShearsIsEngessersLoad) {
+  for (const auto& [ends, share_of_unit] :
+       {std::pair(Ends{clamped, open}, 0.25), std::pair(Ends{forked, forked}, 1.0),
+        std::pair(Ends{clamped, clamped}, 4.0)}) {
+    Beam<double> beam = thin_beam();
+    const double euler = share_of_unit * pi * pi * lateral_stiffness() / (length * length);
+    for (const double softness : {0.1, 1.0, 10.0}) {
+      for (BeamElement<double>& element : beam.elements) {
+        element.shear_compliance_z = softness / euler;
+        element.shear_compliance_y = 1e3 / euler;  // of the plane of bending
+      }
+      std::vector<LateralSupport> supports(count + 1);
+      supports.front() = ends.first;
+      supports.back() = ends.last;
+      LateralBuckling buckling(beam, BendingPlane::xy, supports);
+      EXPECT_NEAR(1.0 / buckling.share(load_of(-1.0, none)), euler / (1.0 + softness), 1e-4 * euler)
+          << share_of_unit << " " << softness;
+    }
+  }
+}
+
 TEST(LateralStability, IsNotAskedForOfABeamThatNothingHolds) {
   const Beam<double> beam = thin_beam();
   std::vector<LateralSupport> supports(count + 1);
@@ -260,6 +283,8 @@ class AnyBeam : public testing::TestWithParam<int> {
       made.elements.push_back({Scalar((0.1 + 0.01 * e) * size), Scalar(young), Scalar(shear),
                                Scalar(7850.0),
                                rectangle_section<Scalar>(Scalar(sizes[e] * size), Scalar(0.05))});
+      if (GetParam() < 6) continue;  // shear bends the others, by some tenths
+      made.elements.back().shear_compliance_z = (1.0 + 0.1 * e) * 1e-5 / (size * size);
     }
     return made;
   }
