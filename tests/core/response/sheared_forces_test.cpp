@@ -56,7 +56,7 @@ TEST(ForcesOfAShearedBeam, HeldTwiceAreTimoshenkos) {
           "roller": {"type": "point-on-line", "bodies": ["ground", "beam"], "at": [0.5, 0, 0],
                      "axis": [1, 0, 0]}})",
                   {force_at(0.0, "moment-z"), force_at(0.6, "moment-z"), force_at(0.6, "shear-y"),
-                   R"({"type": "reaction-force", "joint": "roller", "direction": [0, 1, 0],
+                   R"({"type": "reaction-force", "joint": "roller", "direction": "y",
                       "over_time": "max-abs"})"});
   const double q = 9.81 * density * area, L = length;
   const double bending = 1 / (young * inertia), shear = 1 / (shear_modulus * shear_area);
