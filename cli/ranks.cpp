@@ -19,12 +19,6 @@
 
 namespace pleuel {
 
-template <class Archive>
-void transfer(Archive& archive, RankDescription& rank) {
-  auto& [machine, program, processors] = rank;
-  archive(machine, program, processors);
-}
-
 namespace {
 
 std::string machine_name() {

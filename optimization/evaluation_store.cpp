@@ -1,6 +1,7 @@
 #include "optimization/evaluation_store.hpp"
 
-#include "optimization/packed_result.hpp"
+#include "core/base/packed.hpp"
+#include "optimization/result.hpp"
 
 namespace pleuel {
 
@@ -9,18 +10,6 @@ namespace {
 enum class Question : char { find, keep };
 
 }  // namespace
-
-template <class Archive>
-void transfer(Archive& archive, EvaluationKey& key) {
-  auto& [setting, rows, method, request, x] = key;
-  archive(setting, rows, method, request, x);
-}
-
-template <class Archive>
-void transfer(Archive& archive, StoredEvaluation& stored) {
-  auto& [evaluation, failure, method, reason, seconds] = stored;
-  archive(evaluation, failure, method, reason, seconds);
-}
 
 std::optional<StoredEvaluation> RemoteStore::find(const EvaluationKey& key) {
   return unpacked<std::optional<StoredEvaluation>>(caller_.ask(packed(Question::find, key)));

@@ -8,22 +8,17 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/packed.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/base/stop.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/trust/asked_responses.hpp"
-#include "studies/packed_accuracy.hpp"
+#include "studies/accuracy_run.hpp"
 
 namespace pleuel {
 
-// Parts of a study (studies/packed_accuracy.hpp).
-
-template <class Archive>
-void transfer(Archive& archive, ReferenceCheck& check) {
-  auto& [formulation, failure, differences] = check;
-  archive(formulation, failure, differences);
-}
+// Parts of a study (core/base/part_store.hpp).
 
 /// But for the variation, which the file says.
 template <class Archive>

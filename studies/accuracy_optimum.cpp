@@ -8,20 +8,15 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/packed.hpp"
 #include "core/base/stop.hpp"
 #include "optimization/design/design_solve.hpp"
-#include "studies/packed_accuracy.hpp"
+#include "studies/accuracy_run.hpp"
 #include "studies/row_prices.hpp"
 
 namespace pleuel {
 
-// Parts of a study (studies/packed_accuracy.hpp).
-
-template <class Archive>
-void transfer(Archive& archive, OptimumRun& run) {
-  auto& [settings, failure, status, x, objective, change, seconds, evaluations] = run;
-  archive(settings, failure, status, x, objective, change, seconds, evaluations);
-}
+// Parts of a study (core/base/part_store.hpp).
 
 namespace {
 

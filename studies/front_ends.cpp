@@ -5,21 +5,16 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/packed.hpp"
 #include "core/base/tasks.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/packed_problem.hpp"
 #include "optimization/design/design_problem.hpp"
-#include "optimization/packed_options.hpp"
-#include "optimization/packed_result.hpp"
+#include "optimization/result.hpp"
+#include "optimization/solve.hpp"
 #include "studies/sized_search.hpp"
 
 namespace pleuel {
-
-template <class Archive>
-void transfer(Archive& archive, FrontEnd& end) {
-  auto& [result, values, sizes, start_value] = end;
-  archive(result, values[0], values[1], sizes, start_value);
-}
 
 namespace {
 

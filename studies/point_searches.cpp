@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/base/packed.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/stop.hpp"
 #include "core/base/tasks.hpp"
@@ -10,28 +11,13 @@
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/size_choice.hpp"
 #include "optimization/design/size_trials.hpp"
-#include "optimization/packed_options.hpp"
-#include "optimization/packed_result.hpp"
+#include "optimization/result.hpp"
+#include "optimization/solve.hpp"
 #include "studies/front_ends.hpp"
 #include "studies/sized_search.hpp"
 #include "studies/varied_limit.hpp"
 
 namespace pleuel {
-
-template <class Archive>
-void transfer(Archive& archive, FoundPoint& found) {
-  auto& [start, between, point] = found;
-  auto& [limit, limited_value, multiplier, objective_limit, is_dominated, is_end, is_choice, sizes,
-         result] = point;
-  archive(start, between, limit, limited_value, multiplier, objective_limit, is_dominated, is_end,
-          is_choice, sizes, result);
-}
-
-template <class Archive>
-void transfer(Archive& archive, PointSearch& search) {
-  auto& [limit, from, start, other, known, objective_limit, keeps_sizes] = search;
-  archive(limit, from, start, other, known, objective_limit, keeps_sizes);
-}
 
 namespace {
 

@@ -18,12 +18,6 @@ struct TriedSizes {
   double penalty = 0.0;
 };
 
-template <class Archive>
-void transfer(Archive& archive, TriedSizes& sizes) {
-  auto& [combinations, tried, is_exhaustive, penalty] = sizes;
-  archive(combinations, tried, is_exhaustive, penalty);
-}
-
 /// The best design of a file for one point of a front.
 struct SizedDesign {
   Result result;

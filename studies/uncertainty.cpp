@@ -77,12 +77,6 @@ struct Sample {
   Eigen::VectorXd values, histories;
 };
 
-template <class Archive>
-void transfer(Archive& archive, Sample& sample) {
-  auto& [values, histories] = sample;
-  archive(values, histories);
-}
-
 /// So many samples a task, which take longer than to make a process for them.
 constexpr int task_size = 8;
 

@@ -16,16 +16,17 @@
 
 #include <Eigen/Core>
 
+#include "core/base/members.hpp"
+
 /// Values as bytes and back, for other processes of the same program on the same kind of machine:
-/// doubles bit by bit.
+/// doubles bit by bit. Plain structs go member by member (core/base/members.hpp); others say how:
 ///
 ///     template <class Archive>
-///     void transfer(Archive& archive, Point& point) {
-///       auto& [x, y] = point;         // names all members: a new one does not compile unnoticed
-///       archive(x, y);
+///     void transfer(Archive& archive, Interval& interval) {
+///       archive(interval.lower, interval.upper);
 ///     }
 ///
-///     const Point same = unpacked<Point>(packed(point));
+///     const Interval same = unpacked<Interval>(packed(interval));
 namespace pleuel {
 
 /// Appends what it is called with to its bytes.
@@ -42,8 +43,10 @@ class Packer {
   void one(Value& value) {
     if constexpr (std::is_arithmetic_v<Value> || std::is_enum_v<Value>) {
       raw(&value, sizeof value);
-    } else {
+    } else if constexpr (requires { transfer(*this, value); }) {
       transfer(*this, value);
+    } else {
+      with_members(value, *this);
     }
   }
   void raw(const void* data, std::size_t size) {
@@ -117,8 +120,10 @@ class Unpacker {
   void one(Value& value) {
     if constexpr (std::is_arithmetic_v<Value> || std::is_enum_v<Value>) {
       raw(&value, sizeof value);
-    } else {
+    } else if constexpr (requires { transfer(*this, value); }) {
       transfer(*this, value);
+    } else {
+      with_members(value, *this);
     }
   }
   void raw(void* data, std::size_t size) {

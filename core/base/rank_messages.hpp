@@ -13,30 +13,6 @@ enum class ToRank : char { work, start, answer, kill, ask_to_end };
 /// Followed by number and event; what went wrong.
 enum class FromRank : char { event, problem };
 
-template <class Archive>
-void transfer(Archive& archive, PackedWork& work) {
-  auto& [kind, content] = work;
-  archive(kind, content);
-}
-
-template <class Archive>
-void transfer(Archive& archive, TaskOrder& order) {
-  auto& [task, threads, needed] = order;
-  archive(task, threads, needed);
-}
-
-template <class Archive>
-void transfer(Archive& archive, Frame& frame) {
-  auto& [kind, content] = frame;
-  archive(kind, content);
-}
-
-template <class Archive>
-void transfer(Archive& archive, TaskEvent& event) {
-  auto& [kind, task, frame, how] = event;
-  archive(kind, task, frame, how);
-}
-
 template <class... Values>
 Frame message_of(const Values&... values) {
   return {Frame::Kind::message, packed(values...)};

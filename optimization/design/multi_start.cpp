@@ -6,12 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "core/base/packed.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/tasks.hpp"
 #include "core/scene/packed_problem.hpp"
 #include "optimization/design/packed_solution.hpp"
-#include "optimization/packed_options.hpp"
-#include "optimization/packed_result.hpp"
+#include "optimization/result.hpp"
+#include "optimization/solve.hpp"
 #include "optimization/starts.hpp"
 
 namespace pleuel {

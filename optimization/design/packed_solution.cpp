@@ -4,35 +4,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/packed.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/packed_problem.hpp"
-#include "optimization/packed_result.hpp"
+#include "optimization/result.hpp"
 
 namespace pleuel {
-
-template <class Archive>
-void transfer(Archive& archive, Refinement& refinement) {
-  auto& [step, elements, more_modes, newton] = refinement;
-  archive(step, elements, more_modes, newton);
-}
-
-template <class Archive>
-void transfer(Archive& archive, TriedSetting& tried) {
-  auto& [setting, step, elements, error, response, work] = tried;
-  archive(setting, step, elements, error, response, work);
-}
-
-template <class Archive>
-void transfer(Archive& archive, Stage& stage) {
-  auto& [target, settings, is_met, settings_tried, evaluations, choice_seconds, seconds] = stage;
-  archive(target, settings, is_met, settings_tried, evaluations, choice_seconds, seconds);
-}
-
-template <class Archive>
-void transfer(Archive& archive, GradientChoice& choice) {
-  auto& [method, reason] = choice;
-  archive(method, reason);
-}
 
 std::string pack_solution(const StagedSolution& solution) {
   const DesignProblem& problem = *solution.problem;

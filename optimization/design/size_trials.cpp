@@ -3,21 +3,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/packed.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/base/tasks.hpp"
 #include "core/scene/packed_problem.hpp"
-#include "optimization/packed_options.hpp"
-#include "optimization/packed_result.hpp"
+#include "optimization/result.hpp"
 #include "optimization/scaling.hpp"
+#include "optimization/solve.hpp"
 
 namespace pleuel {
-
-template <class Archive>
-void transfer(Archive& archive, SizeTrial& trial) {
-  auto& [x, objective, violation, constraints, history, seconds] = trial;
-  archive(x, objective, violation, constraints, history, seconds);
-}
 
 namespace {
 

@@ -21,12 +21,6 @@ struct Thing {
   bool operator==(const Thing&) const = default;
 };
 
-template <class Archive>
-void transfer(Archive& archive, Thing& thing) {
-  auto& [name, numbers, vector, matrix, colours, is_new] = thing;
-  archive(name, numbers, vector, matrix, colours, is_new);
-}
-
 TEST(Packed, ValuesComeBackBitByBit) {
   const Thing thing{"a\0b\n",
                     {0.1, std::nullopt, -0.0, 5e-324},
