@@ -121,25 +121,12 @@ class ModelBuilder {
 
  private:
   void decide_motion() {
-    const PlaneAnalysis analysis = find_motion_plane(scene_, context_.start);
-    EffectRecord record{"spatial_motion", "", true, EffectRecord::Kind::exact,
-                        analysis.reason,  {}, 0};
-    switch (context_.effects.spatial_motion) {
-      case EffectChoice::automatic:
-        context_.plane = analysis.plane;
-        break;
-      case EffectChoice::on:
-        record.reason = "asked for";
-        record.kind = EffectRecord::Kind::forced;
-        break;
-      case EffectChoice::off:
-        record.kind = EffectRecord::Kind::forced;
-        if (!analysis.plane) {
-          throw InputError("/effects/spatial_motion is \"off\", but " + analysis.reason);
-        }
-        context_.plane = analysis.plane;
-        break;
-    }
+    const EffectChoice choice = context_.effects.spatial_motion;
+    PlaneAnalysis analysis = decide_motion_plane(scene_, choice, context_.start);
+    context_.plane = analysis.plane;
+    EffectRecord record{"spatial_motion",           "", true, EffectRecord::Kind::exact,
+                        std::move(analysis.reason), {}, 0};
+    if (choice != EffectChoice::automatic) record.kind = EffectRecord::Kind::forced;
     record.is_built = !context_.plane.has_value();
     model_.effects.push_back(record);
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.hpp"
 #include "core/model/imported_constants.hpp"
 #include "core/scene/held_points.hpp"
 
@@ -242,6 +243,16 @@ PlaneAnalysis find_motion_plane(const Scene& scene, const Design<double>& start)
   }
   return first.value_or(
       PlaneAnalysis{std::nullopt, "no direction of the scene determines a plane"});
+}
+
+PlaneAnalysis decide_motion_plane(const Scene& scene, EffectChoice spatial,
+                                  const Design<double>& start) {
+  if (spatial == EffectChoice::on) return {std::nullopt, "asked for"};
+  PlaneAnalysis analysis = find_motion_plane(scene, start);
+  if (spatial == EffectChoice::off && !analysis.plane) {
+    throw InputError("/effects/spatial_motion is \"off\", but " + analysis.reason);
+  }
+  return analysis;
 }
 
 }  // namespace pleuel

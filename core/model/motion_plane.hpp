@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/model/scene_geometry.hpp"
+#include "core/scene/problem_file.hpp"
 
 namespace pleuel {
 
@@ -22,5 +23,11 @@ struct PlaneAnalysis {
 /// Whether a mechanism moves in one plane, to the last digit: geometry, joint axes, gravity and
 /// principal axes of all sections are symmetric about it. An exact decision.
 PlaneAnalysis find_motion_plane(const Scene& scene, const Design<double>& start);
+
+/// The plane in which a mechanism is simulated; none in space.
+/// @param spatial  what the file says of motion in space
+/// @throws InputError if the mechanism is to stay in a plane, and does not
+PlaneAnalysis decide_motion_plane(const Scene& scene, EffectChoice spatial,
+                                  const Design<double>& start);
 
 }  // namespace pleuel

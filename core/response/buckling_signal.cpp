@@ -3,8 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <string>
-#include <vector>
+#include <utility>
 
 #include "core/response/section_stations.hpp"
 
@@ -47,51 +46,21 @@ bool is_equal_in_both(const BodyModel& body) {
   return true;
 }
 
-class BucklingQuantity {
- public:
-  using Point = Plane;
-
-  explicit BucklingQuantity(const BodyModel& body)
-      : planes_(is_equal_in_both(body) ? std::vector<Plane>{Plane::y}
-                                       : std::vector<Plane>{Plane::y, Plane::z}) {}
-
-  std::vector<Plane> points(const BodyModel&, const SectionProperties<double>&) const {
-    return planes_;
+/// Of the section with the least.
+template <class Scalar>
+Scalar euler_load(const Beam<Scalar>& beam, Plane plane) {
+  constexpr double pi = std::numbers::pi;
+  const Scalar length = beam.node_position(beam.node_count() - 1);
+  Scalar least(std::numeric_limits<double>::infinity());
+  for (const BeamElement<Scalar>& element : beam.elements) {
+    const Scalar stiffness = element.young * inertia(element.section, plane);
+    Scalar load = pi * pi * stiffness / (length * length);
+    const Scalar& compliance = shear_compliance(element, plane);
+    if (value_of(compliance) != 0.0) load = load / (1.0 + load * compliance);
+    if (value_of(load) < value_of(least)) least = load;
   }
-
-  std::string name(const SectionProperties<double>&, Plane plane) const {
-    if (planes_.size() == 1) return "";
-    return plane == Plane::y ? ", bending along y" : ", bending along z";
-  }
-
-  template <class Scalar, class Force>
-  StressOf<Scalar, Force> evaluate(const Beam<Scalar>& beam, const SectionProperties<Scalar>&,
-                                   const SectionForces<Force>& forces, Plane plane) const {
-    return -forces.axial / euler_load(beam, plane);
-  }
-
-  const std::vector<Plane>& planes() const { return planes_; }
-
-  /// Of the section with the least; with shear P/(1 + P/(κGA)) (Engesser; Timoshenko & Gere, Theory
-  /// of Elastic Stability, art. 2.17).
-  template <class Scalar>
-  static Scalar euler_load(const Beam<Scalar>& beam, Plane plane) {
-    constexpr double pi = std::numbers::pi;
-    const Scalar length = beam.node_position(beam.node_count() - 1);
-    Scalar least(std::numeric_limits<double>::infinity());
-    for (const BeamElement<Scalar>& element : beam.elements) {
-      const Scalar stiffness = element.young * inertia(element.section, plane);
-      Scalar load = pi * pi * stiffness / (length * length);
-      const Scalar& compliance = shear_compliance(element, plane);
-      if (value_of(compliance) != 0.0) load = load / (1.0 + load * compliance);
-      if (value_of(load) < value_of(least)) least = load;
-    }
-    return least;
-  }
-
- private:
-  std::vector<Plane> planes_;
-};
+  return least;
+}
 
 class CompressionQuantity : public OneASection {
  public:
@@ -102,11 +71,52 @@ class CompressionQuantity : public OneASection {
   }
 };
 
+/// The channels of a compression over each of several loads, load by load.
+class BucklingSignal final : public Signal {
+ public:
+  BucklingSignal(std::unique_ptr<Signal> compression, std::vector<EulerLoad> loads)
+      : compression_(std::move(compression)),
+        loads_(std::move(loads)),
+        values_(compression_->channels()) {}
+
+  int channels() const override { return static_cast<int>(loads_.size()) * places(); }
+  std::string describe(int channel) const override {
+    return compression_->describe(channel % places()) + load_of(channel).name;
+  }
+
+  void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
+    compression_->observe(state, values_);
+    for (std::size_t i = 0; i < loads_.size(); ++i) {
+      values.segment(static_cast<Eigen::Index>(i) * places(), places()) = values_ / loads_[i].value;
+    }
+  }
+
+  void add_gradient(const State& state, int channel, double weight,
+                    SignalGradient& gradient) override {
+    const EulerLoad& load = load_of(channel);
+    const int place = channel % places();
+    compression_->observe(state, values_);
+    compression_->add_gradient(state, place, weight / load.value, gradient);
+    const double slope = -values_(place) / (load.value * load.value);
+    gradient.design += weight * slope * load.derivatives;
+  }
+
+ private:
+  int places() const { return static_cast<int>(values_.size()); }
+  const EulerLoad& load_of(int channel) const {
+    return loads_[static_cast<std::size_t>(channel / places())];
+  }
+
+  std::unique_ptr<Signal> compression_;
+  std::vector<EulerLoad> loads_;
+  Eigen::VectorXd values_;  ///< of the compression
+};
+
 }  // namespace
 
-std::unique_ptr<Signal> make_buckling_signal(const BodyModel& body,
-                                             const Eigen::Vector3d& gravity) {
-  return make_section_signal(body, gravity, {}, BucklingQuantity(body));
+std::unique_ptr<Signal> make_buckling_signal(std::unique_ptr<Signal> compression,
+                                             std::vector<EulerLoad> loads) {
+  return std::make_unique<BucklingSignal>(std::move(compression), std::move(loads));
 }
 
 std::unique_ptr<Signal> make_compression_signal(const BodyModel& body,
@@ -116,14 +126,18 @@ std::unique_ptr<Signal> make_compression_signal(const BodyModel& body,
 
 std::vector<EulerLoad> euler_loads(const BodyModel& body, int variables) {
   std::vector<EulerLoad> loads;
-  const BucklingQuantity quantity(body);
-  for (const Plane plane : quantity.planes()) {
-    EulerLoad load{BucklingQuantity::euler_load(body.beam, plane),
-                   Eigen::VectorXd::Zero(variables)};
+  const auto add = [&](Plane plane, const char* name) {
+    EulerLoad load{euler_load(body.beam, plane), Eigen::VectorXd::Zero(variables), name};
     for (const auto& [variable, beam] : body.beam_x) {
-      load.derivatives(variable) = derivative_of(BucklingQuantity::euler_load(beam, plane));
+      load.derivatives(variable) = derivative_of(euler_load(beam, plane));
     }
     loads.push_back(std::move(load));
+  };
+  if (is_equal_in_both(body)) {
+    add(Plane::y, "");
+  } else {
+    add(Plane::y, ", bending along y");
+    add(Plane::z, ", bending along z");
   }
   return loads;
 }

@@ -9,13 +9,13 @@
 #include "core/response/buckling_signal.hpp"
 #include "core/response/divided_deflection.hpp"
 #include "core/response/fatigue_signal.hpp"
+#include "core/response/largest_signal.hpp"
 #include "core/response/lateral_buckling_signal.hpp"
 #include "core/response/motion_signals.hpp"
 #include "core/response/norm_signal.hpp"
 #include "core/response/place_deflection.hpp"
 #include "core/response/point_stress_signal.hpp"
 #include "core/response/response.hpp"
-#include "core/response/scaled_signal.hpp"
 #include "core/response/section_force_signal.hpp"
 #include "core/response/shear_stress_signal.hpp"
 #include "core/response/signal_list.hpp"
@@ -25,6 +25,12 @@
 namespace pleuel {
 
 namespace {
+
+/// Whether the peak of both planes of bending is the larger one of their peaks. Then each is a
+/// channel of its own; else at each instant the plane counts that is nearer to buckling.
+bool takes_larger_peak(OverTime kind) {
+  return kind == OverTime::max || kind == OverTime::max_abs;
+}
 
 class BodySignalMaker {
  public:
@@ -44,8 +50,7 @@ class BodySignalMaker {
       case ResponseType::shear_stress:
         return make_shear_stress();
       case ResponseType::buckling:
-        check_section_forces();
-        return make_buckling_signal(body_, model_.gravity);
+        return make_buckling();
       case ResponseType::lateral_buckling:
         return make_lateral_buckling();
       case ResponseType::deflection:
@@ -69,12 +74,6 @@ class BodySignalMaker {
       default:
         throw std::logic_error("a response without a signal");
     }
-  }
-
-  /// Compressive axial force.
-  std::unique_ptr<Signal> make_compression() const {
-    check_section_forces();
-    return make_compression_signal(body_, model_.gravity);
   }
 
   /// Where an axis of the body frame points.
@@ -160,6 +159,24 @@ class BodySignalMaker {
   }
 
   /// Of the whole beam, also where the body is a part of it.
+  std::unique_ptr<Signal> make_buckling() const {
+    check_section_forces();
+    std::vector<std::unique_ptr<Signal>> parts;
+    for (const BodyModel* part : model_.parts(body_.name)) {
+      parts.push_back(make_compression_signal(*part, model_.gravity));
+    }
+    std::vector<EulerLoad> loads =
+        euler_loads(model_.body(body_.name), model_.mechanism.system->variables());
+    if (!takes_larger_peak(settings_.over_time)) {
+      const auto is_weaker = [](const EulerLoad& a, const EulerLoad& b) {
+        return a.value < b.value;
+      };
+      loads = {*std::min_element(loads.begin(), loads.end(), is_weaker)};
+    }
+    return make_buckling_signal(std::make_unique<SignalList>(std::move(parts)), std::move(loads));
+  }
+
+  /// The same.
   std::unique_ptr<Signal> make_lateral_buckling() const {
     check_section_forces();
     auto signal = make_lateral_buckling_signal(body_.name, model_);
@@ -169,7 +186,8 @@ class BodySignalMaker {
                       "it carries hold nothing",
                       body_.name));
     }
-    return signal;
+    if (takes_larger_peak(settings_.over_time) || signal->channels() == 1) return signal;
+    return std::make_unique<LargestSignal>(std::move(signal), "sideways in either plane");
   }
 
   /// The point that the response looks at.
@@ -238,8 +256,6 @@ class DividedSignalMaker {
       case ResponseType::shear_stress:
       case ResponseType::section_force:
         return make_stress();
-      case ResponseType::buckling:
-        return make_buckling();
       case ResponseType::deflection:
         if (settings_.against == DeflectionReference::rigid_mechanism) break;
         return make_deflection();
@@ -292,20 +308,6 @@ class DividedSignalMaker {
     // Where two parts meet, the place is the end of one and the beginning of the other.
     if (settings_.side && signals.size() > 1) {
       return std::move(*settings_.side == SectionSide::before ? signals.front() : signals.back());
-    }
-    return std::make_unique<SignalList>(std::move(signals));
-  }
-
-  /// Compression of the parts over the Euler load of the whole beam.
-  std::unique_ptr<Signal> make_buckling() const {
-    const int variables = model_.mechanism.system->variables();
-    std::vector<std::unique_ptr<Signal>> signals;
-    for (const EulerLoad& load : euler_loads(model_.body(settings_.bodies.front()), variables)) {
-      for (const BodyModel* part : parts_) {
-        signals.push_back(std::make_unique<ScaledSignal>(
-            BodySignalMaker(settings_, model_, *part).make_compression(), 1.0 / load.value,
-            -load.derivatives / (load.value * load.value)));
-      }
     }
     return std::make_unique<SignalList>(std::move(signals));
   }

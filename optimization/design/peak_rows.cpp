@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/model/motion_plane.hpp"
 #include "core/response/fatigue_damage.hpp"
 #include "core/response/signal_of_body.hpp"
 
@@ -34,6 +35,41 @@ std::vector<ChannelRange> equal_places(Eigen::Index channels, int places, Eigen:
     ranges.push_back({together * first, together * (end - first)});
   }
   return ranges;
+}
+
+bool is_of_stress(const ResponseSettings& response) {
+  return response.type == ResponseType::stress || response.type == ResponseType::shear_stress ||
+         is_fatigue(response);
+}
+
+bool is_round(const Section& section) {
+  return std::holds_alternative<CircleSection>(section) ||
+         std::holds_alternative<TubeSection>(section);
+}
+
+/// Whether the Euler loads of a beam in both planes are two numbers.
+bool has_two_euler_loads(const ProblemFile& file, const ResponseSettings& response) {
+  const auto* beam = std::get_if<BeamBody>(&body_of(file, response).shape);
+  return beam != nullptr && !std::all_of(beam->segments.begin(), beam->segments.end(),
+                                         [](const Segment& one) { return is_round(one.section); });
+}
+
+bool moves_in_a_plane(const ProblemFile& file) {
+  const Eigen::VectorXd start = start_design(file);
+  const Design<double> design(start.begin(), start.end());
+  return decide_motion_plane(file.scene, file.effects.spatial_motion, design).plane.has_value();
+}
+
+/// Into how many planes of bending the channels of a response fall, one plane after the other. Joints
+/// may hold a round beam differently in both, but it has one Euler load. A minimum over time is that
+/// of the worse plane at each instant.
+int planes_of(const ProblemFile& file, const ResponseSettings& response) {
+  if (response.over_time == OverTime::min) return 1;
+  if (response.type == ResponseType::buckling) {
+    return has_two_euler_loads(file, response) ? 2 : 1;
+  }
+  if (response.type == ResponseType::lateral_buckling) return moves_in_a_plane(file) ? 1 : 2;
+  return 1;
 }
 
 /// One place a segment; empty where the segments do not add up to the channels of the response.
@@ -85,7 +121,8 @@ std::vector<ChannelRange> places_of(const Analysis& analysis, const ProblemFile&
                                     std::size_t response, int places) {
   const Eigen::Index channels = analysis.histories[response].rows();
   const ResponseSettings& settings = file.responses[response];
-  if (settings.bodies.size() == 1 && places == segments_of(file, settings)) {
+  const bool is_of_beam = is_of_stress(settings) && settings.bodies.size() == 1;
+  if (is_of_beam && places == segments_of(file, settings)) {
     auto ranges = places_of_segments(analysis, settings, channels, places);
     if (!ranges.empty()) return ranges;
   }
@@ -119,10 +156,9 @@ bool has_peaks(const ResponseSettings& response) {
 }
 
 int place_count(const ProblemFile& file, const ResponseSettings& response) {
-  const bool is_stress =
-      response.type == ResponseType::stress || response.type == ResponseType::shear_stress;
-  const bool is_divided = is_fatigue(response) || (is_stress && has_peaks(response));
-  if (!is_divided || response.station) return 1;
+  if (!has_peaks(response) && !is_fatigue(response)) return 1;
+  if (!is_of_stress(response)) return planes_of(file, response);
+  if (response.station) return 1;
   if (response.bodies.size() > 1) {
     return std::min(places_of_a_part * static_cast<int>(response.bodies.size()), most_places);
   }

@@ -22,7 +22,8 @@ bool is_fatigue(const ResponseSettings& response);
 
 /// Into how many places a response of many channels is to be split, since the place of its peak
 /// changes with the design: the stress or fatigue of a whole beam into its segments, that of one segment, or
-/// of an imported body, into a few parts; everything else is one place.
+/// of an imported body, into a few parts; buckling into both planes in which a beam bends, lateral
+/// buckling in space only; everything else is one place.
 int place_count(const ProblemFile& file, const ResponseSettings& response);
 
 /// The peaks of a response at a simulated design in equal windows of time at each place, place by

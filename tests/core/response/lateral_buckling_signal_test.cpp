@@ -323,7 +323,7 @@ class GradientsOfLateralBuckling
     ProblemFile problem = problem_of(bar);
     problem.simulation.end_time = 0.02;
     problem.scene.materials[0].density = 7850.0;
-    for (const OverTime kind : {OverTime::rms, OverTime::final}) {
+    for (const OverTime kind : {OverTime::rms, OverTime::mean, OverTime::final}) {
       ResponseSettings more = problem.responses[0];
       more.name = fmt::format("share {}", static_cast<int>(kind));
       more.over_time = kind;
