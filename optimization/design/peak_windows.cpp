@@ -18,10 +18,11 @@ constexpr double near_the_highest = 1e-2;
 /// Gradients that differ by less move alike.
 constexpr double alike = 1e-2;
 
-/// The two heights of each tie within a window, one after the other.
+/// The two heights of each tie within a window at one place, one after the other.
 void add_ties(const Analysis& analysis, const ProblemFile& file, std::size_t response, int windows,
               std::vector<SampledValue>& values) {
-  const std::vector<Reduction> peaks = divided_peaks(analysis, file, response, {windows, 1});
+  const PeakDivision division{windows, place_count(file, file.responses[response])};
+  const std::vector<Reduction> peaks = divided_peaks(analysis, file, response, division);
   const double highest = analysis.reductions[response].value;
   for (const Reduction& peak : peaks) {
     if (std::abs(peak.value - highest) > near_the_highest * std::abs(highest)) continue;
