@@ -60,9 +60,9 @@ bool moves_in_a_plane(const ProblemFile& file) {
   return decide_motion_plane(file.scene, file.effects.spatial_motion, design).plane.has_value();
 }
 
-/// Into how many planes of bending the channels of a response fall, one plane after the other. Joints
-/// may hold a round beam differently in both, but it has one Euler load. A minimum over time is that
-/// of the worse plane at each instant.
+/// Into how many planes of bending the channels of a response fall, one plane after the other.
+/// Joints may hold a round beam differently in both, but it has one Euler load. A minimum over time
+/// is that of the worse plane at each instant.
 int planes_of(const ProblemFile& file, const ResponseSettings& response) {
   if (response.over_time == OverTime::min) return 1;
   if (response.type == ResponseType::buckling) {

@@ -5,10 +5,10 @@
 namespace pleuel {
 
 /// Into how many windows of time the optimized responses are to be split at a design, so that no
-/// two peaks of one place (place_count()) that tie (within 0.1 %, at different times, with gradients
-/// that differ by more than a hundredth) stand in one: `fewest`, or twice, four times … as many, up
-/// to `most`. Only windows count whose peak is within 1 % of the highest. Costs a gradient for each
-/// number that is tried. Of several load cases the one that needs most of them counts.
+/// two peaks of one place (place_count()) that tie stand in one: `fewest`, or twice, four times …
+/// as many, up to `most`. Peaks tie within 0.1 %, at different times, with gradients that differ by
+/// more than a hundredth. Only windows count whose peak is within 1 % of the highest. Costs a
+/// gradient for each number that is tried. Of several load cases the one that needs most counts.
 /// @returns `fewest` if the design cannot be simulated
 int windows_that_part_peaks(DesignProblem& problem, const Eigen::VectorXd& x, int fewest, int most);
 
