@@ -18,12 +18,12 @@ struct EndDistance {
   std::vector<std::pair<int, double>> slopes;  ///< by the design variables that it depends on
 };
 
-/// What a joint at an end holds of a beam and its fittings, as if they were one.
+/// What a joint holds of a beam and its fittings, as if they were one.
 struct EndHold {
-  int end = 0;  ///< 0 or 1: beginning or end of the beam
+  int end = 0;  ///< 0 or 1: beginning or end of the beam; -1: a place between them
   bool is_of_fitting = false;
-  EndDistance distance;
-  JointHold hold;
+  EndDistance distance;  ///< of a joint of a fitting
+  JointHold hold;        ///< at a place of the beam
 };
 
 /// Rigid bodies that are welded to the ends of a beam, and rigid ones that are welded to them: the
@@ -41,7 +41,7 @@ class EndFittings {
   /// weight and inertia.
   /// @pre is_fitted(end)
   const EndDistance& reach(int end) const { return *reaches_[end]; }
-  /// Of all joints of fittings, and of those that the beam has at its ends besides.
+  /// Of all joints of fittings, and of those that the beam has besides.
   std::vector<EndHold> holds() const;
 
  private:

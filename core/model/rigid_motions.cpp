@@ -217,13 +217,40 @@ class EndMotions {
     Eigen::MatrixXd both(ends.rows(), ends.cols() + 6);
     both << ends, -straight;
     const Eigen::MatrixXd common = null_space(both).bottomRows<6>();
-    Eigen::MatrixXd whole = straight * space_of(common);
-    for (Eigen::Index row = 0; row < whole.rows(); ++row) {
-      if (row % 6 >= 3) whole.row(row) *= turn_weight;
+    return ends * null_space(anchors(straight * space_of(common)) * ends);
+  }
+
+  /// Rows of displacements and turns of ends, as many as there are columns, that tell motions as a
+  /// whole from each other. Taken by ends and directions of motion: the global axes play no part.
+  /// @param whole  motions of all ends
+  static Eigen::MatrixXd anchors(Eigen::MatrixXd whole) {
+    Eigen::MatrixXd rows(0, whole.rows());
+    while (whole.cols() > 0) {
+      const Eigen::Index first = largest_block(whole);
+      const Eigen::MatrixXd block = whole.middleRows<3>(first);
+      const PivotedQr qr(block, same_motion);
+      const Eigen::Index before = rows.rows();
+      rows.conservativeResize(before + qr.rank(), Eigen::NoChange);
+      rows.bottomRows(qr.rank()).setZero();
+      rows.bottomRows(qr.rank()).middleCols<3>(first) = qr.q().leftCols(qr.rank()).transpose();
+      whole = whole * null_space(block);
     }
-    const std::vector<int> order = PivotedQr(whole.transpose()).order();
-    const std::vector<int> zero(order.begin(), order.begin() + whole.cols());
-    return ends * null_space(ends(zero, Eigen::all));
+    return rows;
+  }
+
+  /// The first row of the displacement or turn of an end that is largest; of equal ones the first.
+  static Eigen::Index largest_block(const Eigen::MatrixXd& whole) {
+    constexpr double clearly = 1.0 + 1e-6;
+    Eigen::Index largest = 0;
+    double most = 0.0;
+    for (Eigen::Index row = 0; row < whole.rows(); row += 3) {
+      const double size = whole.middleRows<3>(row).norm() * (row % 6 == 0 ? 1.0 : turn_weight);
+      if (size > clearly * most) {
+        most = size;
+        largest = row;
+      }
+    }
+    return largest;
   }
 
   const RigidMotions& motions_;

@@ -100,6 +100,24 @@ std::vector<LateralSupport> lateral_supports(const Beam<double>& beam, BendingPl
   return supports;
 }
 
+/// As lateral_supports(), but of a beam and its fittings as one; at the ends that have several
+/// joints with their fitting as the joints hold the beam alone, with its welds.
+std::vector<LateralSupport> fitted_supports(const Beam<double>& beam, BendingPlane plane,
+                                            const EndFittings& fittings,
+                                            const std::vector<JointHold>& alone) {
+  std::vector<JointHold> holds;
+  std::array<int, 2> at_end = {0, 0};
+  for (const EndHold& hold : fittings.holds()) {
+    if (!hold.is_of_fitting) holds.push_back(hold.hold);
+    if (hold.end >= 0) ++at_end[hold.end];
+  }
+  std::vector<LateralSupport> supports = lateral_supports(beam, plane, holds);
+  const std::vector<LateralSupport> welded = lateral_supports(beam, plane, alone);
+  if (fittings.is_fitted(0) && at_end[0] > 1) supports.front() = welded.front();
+  if (fittings.is_fitted(1) && at_end[1] > 1) supports.back() = welded.back();
+  return supports;
+}
+
 /// How an end goes on in its fitting. A single joint holds it as it holds both as one. Of several
 /// the deflection is held where they are; slope and twist as they hold the weld together, and the
 /// slope where deflections are held at two distances.
@@ -171,13 +189,18 @@ LateralMember::LateralMember(const std::string& name, const Model& model, Bendin
 
 LateralBuckling& LateralMember::buckling() {
   if (buckling_) return *buckling_;
-  std::vector<LateralSupport> supports = lateral_supports(beam_, plane_, model_.holds.of(name_));
+  const std::vector<JointHold> alone = model_.holds.of(name_);
+  const auto found = model_.fittings.find(name_);
+  if (found == model_.fittings.end()) {
+    return buckling_.emplace(beam_, plane_, lateral_supports(beam_, plane_, alone));
+  }
+  const EndFittings& fittings = found->second;
+  std::vector<LateralSupport> supports = fitted_supports(beam_, plane_, fittings, alone);
   RigidEnds ends;
-  const auto fittings = model_.fittings.find(name_);
-  for (int end = 0; fittings != model_.fittings.end() && end < 2; ++end) {
-    if (!fittings->second.is_fitted(end)) continue;
+  for (int end = 0; end < 2; ++end) {
+    if (!fittings.is_fitted(end)) continue;
     LateralSupport& support = end == 0 ? supports.front() : supports.back();
-    ends_[end] = fitted_end(fittings->second, end, plane_, length_, support);
+    ends_[end] = fitted_end(fittings, end, plane_, length_, support);
     ends[end] = {ends_[end].reach.value, ends_[end].pivot.value};
   }
   return buckling_.emplace(beam_, plane_, std::move(supports), ends);

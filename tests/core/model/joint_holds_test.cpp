@@ -147,5 +147,23 @@ TEST(JointHolds, OfTwoCarriagesLetOneEndMoveAcross) {
   }
 }
 
+/// A rod that swings about a pin along its local z, with a body on a ball at its tip: against its
+/// swing it is held there across itself in the plane of the swing, whatever the global axes are.
+TEST(JointHolds, OfASwingingRodDoNotDependOnTheGlobalAxes) {
+  const std::vector<std::array<std::string, 2>> tips_and_axes = {
+      {"[1, 0, 0]", "[0, 0, 1]"}, {"[2, 1, 2]", "[-4, -2, 5]"}, {"[1, -2, 2]", "[-2, 4, 5]"}};
+  for (const auto& [to, axis] : tips_and_axes) {
+    const auto holds =
+        holds_of_bar(R"("bar": )" + beam(zero, to) + rigid("load", to),
+                     joint("pin", "revolute", "ground", "bar", zero, R"("axis": )" + axis) + ", " +
+                         joint("ball", "spherical", "bar", "load", to));
+    ASSERT_EQ(holds.size(), 2);
+    EXPECT_TRUE(holds[1].displacements[1]) << to;
+    EXPECT_FALSE(holds[1].displacements[2]) << to;
+    EXPECT_TRUE(holds[0].rotations[1]) << to;
+    EXPECT_FALSE(holds[0].rotations[2]) << to;
+  }
+}
+
 }  // namespace
 }  // namespace pleuel::test

@@ -396,6 +396,23 @@ TEST(LateralBucklingResponse, OfAPendulumIsThatOfACantilever) {
   EXPECT_NEAR(share_of({ball, press, space}), share_of({clamp, press, space}), 1e-6);
 }
 
+/// With a rigid body on its tip it is the cantilever with that body: P = (u/L)² EI, u tan u = L/d.
+TEST(LateralBucklingResponse, OfAPendulumWithARigidTipIsThatOfACantilever) {
+  const double d = 0.25 * length, u = angle_of(length / d);
+  for (const char* pivot : {R"("type": "spherical")", R"("type": "revolute", "axis": [0, 1, 0])"}) {
+    Bar bar{fmt::format(R"("pivot": {{{}, "bodies": ["ground", "bar"], "at": [0, 0, 0]}},
+                           "weld": {{"type": "fixed", "bodies": ["bar", "tip"],
+                                     "at": [1.2, 0, 0]}})",
+                        pivot),
+            fmt::format(R"("f": {{"type": "force", "body": "tip", "at": [{}, 0, 0],
+                                  "direction": [-1, 0, 0], "value": {}}})",
+                        length + d, 0.5 * std::pow(u / length, 2) * lateral),
+            space};
+    bar.bodies = rigid("tip", "[1.3, 0, 0]");
+    EXPECT_NEAR(share_of(bar), 0.5, 1e-4) << pivot;
+  }
+}
+
 TEST(LateralBucklingResponse, IsRefusedWhereNoJointHoldsTheBeam) {
   try {
     analysis_of({"", force(1.0, "[1, 0, 0]")});
