@@ -15,11 +15,11 @@ struct One {
   double number;
 };
 struct Mixed {
-  std::string text;
-  std::array<double, 3> place{};
+  std::string text = {};
+  std::array<double, 3> place = {};
   std::vector<One> ones = {};
-  std::variant<int, std::string> either;
-  std::optional<One> perhaps;
+  std::variant<int, std::string> either = {};
+  std::optional<One> perhaps = {};
   const char* last = "last";
 };
 struct Largest {
@@ -44,7 +44,7 @@ TEST(Members, ComeInTheirOrder) {
 }
 
 TEST(Members, OfAConstantStructAreConstant) {
-  const Mixed mixed{.text = "a"};
+  const Mixed mixed{};
   const bool are_constant = with_members(
       mixed, []<class... Members>(Members&...) { return (std::is_const_v<Members> && ...); });
   EXPECT_TRUE(are_constant);
