@@ -5,6 +5,7 @@
 
 #include "core/base/dense_solvers.hpp"
 #include "core/integration/axial_strains.hpp"
+#include "core/integration/turning.hpp"
 
 namespace pleuel {
 
@@ -43,26 +44,34 @@ bool is_symmetric(const Eigen::MatrixXd& matrix) {
   return (matrix - matrix.transpose()).norm() <= asymmetry * matrix.norm();
 }
 
-/// Whether small motions in the given deformations grow:
-///     det(s² M + s G + K) = 0 with an s of positive real part,
-/// G the gyroscopic part of the forces of velocity. Forces that damp are left out: they only delay.
-bool grows(const Mechanism& mechanism, const State& state, const Eigen::MatrixXd& deformations,
+/// Whether small motions grow:  det(s² M + s G + K) = 0 with an s of positive real part.
+bool grows(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& gyroscopic,
            const Eigen::MatrixXd& stiffness) {
   constexpr double round_off = 1e-7;
+  const Eigen::Index size = mass.cols();
+  const DenseLu factors(mass);
+  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(2 * size, 2 * size);
+  companion.topRightCorner(size, size).setIdentity();
+  companion.bottomLeftCorner(size, size) = -factors.solve(stiffness);
+  companion.bottomRightCorner(size, size) = -factors.solve(gyroscopic);
+  const Eigen::VectorXcd roots = eigenvalues_of(companion);
+  return roots.real().maxCoeff() > round_off * roots.cwiseAbs().maxCoeff();
+}
+
+Eigen::MatrixXd skew_part(const Eigen::MatrixXd& matrix) {
+  return 0.5 * (matrix - matrix.transpose());
+}
+
+/// Of the given deformations, with the gyroscopic part of the forces of velocity. Forces that damp
+/// are left out: they only delay.
+bool grows(const Mechanism& mechanism, const State& state, const Eigen::MatrixXd& deformations,
+           const Eigen::MatrixXd& stiffness) {
   const int n = mechanism.system->coordinates();
-  const Eigen::Index size = deformations.cols();
   const auto reduced = [&](const Weights& weights) -> Eigen::MatrixXd {
     return deformations.transpose() * scaled_tangent(mechanism, state, weights).topRows(n) *
            deformations;
   };
-  const Eigen::MatrixXd rates = reduced({.v = 1.0});
-  const DenseLu mass(symmetric_part(reduced({.a = 1.0})));
-  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(2 * size, 2 * size);
-  companion.topRightCorner(size, size).setIdentity();
-  companion.bottomLeftCorner(size, size) = -mass.solve(stiffness);
-  companion.bottomRightCorner(size, size) = -mass.solve(0.5 * (rates - rates.transpose()));
-  const Eigen::VectorXcd roots = eigenvalues_of(companion);
-  return roots.real().maxCoeff() > round_off * roots.cwiseAbs().maxCoeff();
+  return grows(symmetric_part(reduced({.a = 1.0})), skew_part(reduced({.v = 1.0})), stiffness);
 }
 
 /// What the largest entry of a deformation belongs to.
@@ -81,14 +90,11 @@ int count_negative(const Eigen::VectorXcd& eigenvalues) {
       }));
 }
 
-}  // namespace
-
-Eigen::MatrixXd free_deformations(const Mechanism& mechanism, const State& state) {
-  const System& system = *mechanism.system;
-  const Eigen::Index n = system.coordinates();
-  Eigen::MatrixXd phi =
-      scaled_tangent(mechanism, state, {.q = 1.0}).bottomRows(system.multipliers());
-  for (int i : system.left_out()) phi.row(i).setZero();
+/// Deformations that constraints allow, normal to the motions of the mechanism as rigid bodies.
+/// @param phi  Φ_q in the coordinates of the answer
+Eigen::MatrixXd free_deformations(const Mechanism& mechanism, Eigen::MatrixXd phi) {
+  const Eigen::Index n = mechanism.system->coordinates();
+  for (int i : mechanism.system->left_out()) phi.row(i).setZero();
   // Rows normalised: of lengths, directions and angles none counts more.
   for (Eigen::Index i = 0; i < phi.rows(); ++i) {
     if (phi.row(i).norm() > 0.0) phi.row(i).normalize();
@@ -106,6 +112,76 @@ Eigen::MatrixXd free_deformations(const Mechanism& mechanism, const State& state
   return null_space(rows, n);
 }
 
+/// The matrices of small motions of the deformations of a mechanism that turns, in axes that turn
+/// with its bodies, where a steady motion has constant coefficients.
+struct TurningDeformations {
+  Eigen::MatrixXd shapes, mass, gyroscopic, stiffness;
+};
+
+TurningDeformations turning_deformations(const Mechanism& mechanism, const State& state) {
+  const int n = mechanism.system->coordinates(), m = mechanism.system->multipliers();
+  const Turning turning = turning_of(mechanism, state);
+  const auto scaled = [&](const Eigen::MatrixXd& matrix) -> Eigen::MatrixXd {
+    return mechanism.scale.cwiseInverse().asDiagonal() * matrix * mechanism.scale.asDiagonal();
+  };
+  const Eigen::MatrixXd T = scaled(turning.T);
+  const Eigen::MatrixXd of_q = scaled_tangent(mechanism, state, {.q = 1.0});
+  const Eigen::MatrixXd of_v = scaled_tangent(mechanism, state, {.v = 1.0}).topRows(n);
+  const Eigen::MatrixXd of_a = scaled_tangent(mechanism, state, {.a = 1.0}).topRows(n);
+  TurningDeformations result;
+  result.shapes = free_deformations(mechanism, Eigen::MatrixXd(of_q.bottomRows(m) * T));
+  const Eigen::MatrixXd& z = result.shapes;
+  const Eigen::MatrixXd left = (T * z).transpose();
+  result.mass = symmetric_part(left * (of_a * (T * z)));
+  result.gyroscopic = skew_part(left * (of_a * (scaled(turning.P) * z) + of_v * (T * z)));
+  result.stiffness = left * (of_a * (scaled(turning.Q) * z) + of_v * (scaled(turning.V) * z) +
+                             of_q.topRows(n) * (T * z));
+  return result;
+}
+
+/// Whether a mechanism turns at a constant speed in elastic equilibrium.
+bool is_steady(const Mechanism& mechanism, const State& state, const FastestTurn& turn) {
+  constexpr double round_off = 1e-6;
+  const double limit = round_off * turn.omega.squaredNorm();
+  return turn.alpha.norm() <= limit &&
+         std::all_of(mechanism.elastic.begin(), mechanism.elastic.end(),
+                     [&](int i) { return std::abs(state.a(i)) <= limit * mechanism.scale(i); });
+}
+
+/// Of a mechanism that turns in space at a constant speed. Deformations without stiffness may be
+/// held by gyroscopic forces, which is asked of the lowest modes.
+ElasticStability turning_stability(const Mechanism& mechanism, const State& state) {
+  constexpr double round_off_mass = 1e-12;
+  constexpr Eigen::Index more_modes = 20;
+  const TurningDeformations all = turning_deformations(mechanism, state);
+  if (all.shapes.cols() == 0) return {};
+  const Eigen::MatrixXd symmetric = symmetric_part(all.stiffness);
+  if (is_positive_definite(symmetric)) return {};
+  Eigen::MatrixXd mass = all.mass;
+  mass.diagonal().array() += round_off_mass * mass.diagonal().maxCoeff();
+  const SymmetricModes modes = symmetric_modes(symmetric, mass);
+  ElasticStability result;
+  result.negative = count_negative(modes.values.cast<std::complex<double>>());
+  const Eigen::Index size = modes.vectors.cols();
+  const auto low =
+      modes.vectors.leftCols(std::min<Eigen::Index>(size, 2 * result.negative + more_modes));
+  const auto reduced = [&](const Eigen::MatrixXd& matrix) -> Eigen::MatrixXd {
+    return low.transpose() * matrix * low;
+  };
+  result.is_stable = result.negative == 0 ||
+                     !grows(reduced(mass), reduced(all.gyroscopic), reduced(all.stiffness));
+  if (!result.is_stable) result.where = owner(mechanism, all.shapes * modes.vectors.col(0));
+  return result;
+}
+
+}  // namespace
+
+Eigen::MatrixXd free_deformations(const Mechanism& mechanism, const State& state) {
+  const int m = mechanism.system->multipliers();
+  return free_deformations(
+      mechanism, Eigen::MatrixXd(scaled_tangent(mechanism, state, {.q = 1.0}).bottomRows(m)));
+}
+
 Eigen::MatrixXd deformation_stiffness(const Mechanism& mechanism, const State& state,
                                       const Eigen::MatrixXd& deformations) {
   const int n = mechanism.system->coordinates();
@@ -115,6 +191,10 @@ Eigen::MatrixXd deformation_stiffness(const Mechanism& mechanism, const State& s
 }
 
 ElasticStability elastic_stability(const Mechanism& mechanism, const State& state) {
+  const FastestTurn turn = fastest_turn(mechanism, state);
+  if (!turn.omega.isZero(0.0) && is_steady(mechanism, state, turn)) {
+    return turning_stability(mechanism, state);
+  }
   const Eigen::MatrixXd z = free_deformations(mechanism, state);
   if (z.cols() == 0) return {};
   const Eigen::MatrixXd stiffness = deformation_stiffness(mechanism, state, z);

@@ -26,10 +26,13 @@ struct Mechanism {
   std::unique_ptr<System> system;
   /// Positions and velocities to start from; made consistent with the constraints by assembly.
   State guess;
-  /// First coordinates of the rotation vectors in q (three each): their rates are angular
+  /// First coordinates of the rotation vectors in q (three each, behind the translations of their
+  /// frames): their rates are angular
   /// velocities in body axes, and their changes are right perturbations
   /// (core/base/rotation_vector.hpp).
   std::vector<int> rotations;
+  /// First coordinates of point masses in space (three each).
+  std::vector<int> points;
   /// Coordinates that are angles of frames in a plane: whole turns change nothing but their number.
   std::vector<int> angles;
   /// What each equation of the system belongs to, for messages: "the body \"rod\"", "the joint …";

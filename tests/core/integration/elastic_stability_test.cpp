@@ -162,4 +162,58 @@ TEST(QuasiStaticStart, LeavesMotionsOfTheWholeMechanismAlone) {
   EXPECT_EQ(error_of(beam(joint("p", "revolute", 0), -0.01 * stiffness, 0.0)), "");
 }
 
+/// A shaft of 1 m × 10 mm × h between a ball joint and a line, which turns about itself at Ω and is
+/// pressed by P, both relative to its first critical speed and its Euler load.
+std::string shaft(const std::string& frame, double h, double speed, double press) {
+  return fmt::format(R"({{"scene": {{
+      "materials": {{"m": {{"young": 7e10, "poisson": 0.3, "density": 2700}}}},
+      "bodies": {{"b": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "m",
+                       "section": {{"type": "rectangle", "width": 0.01, "height": {}}},
+                       "elements": 6, "frame": "{}", "angular_velocity": [{}, 0, 0]}}}},
+      "joints": {{"a": {{"type": "spherical", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
+                "l": {{"type": "point-on-line", "bodies": ["ground", "b"], "at": [1, 0, 0],
+                      "axis": [1, 0, 0]}}}},
+      "loads": {{"p": {{"type": "force", "body": "b", "at": [1, 0, 0], "direction": [-1, 0, 0],
+                      "value": {}}}}}}},
+      "effects": {{"spatial_motion": "on"}},
+      "simulation": {{"end_time": 2e-4, "step": 1e-4, "initial_state": "quasi-static"}},
+      "responses": {{
+        "x": {{"type": "position", "body": "b", "at": 1, "direction": "x", "over_time": "final"}},
+        "y": {{"type": "position", "body": "b", "at": 1, "direction": "y", "over_time": "final"}}}}}})",
+                     h, frame,
+                     speed * std::pow(std::numbers::pi, 2) * std::sqrt(7e10 / 2700 / 12) * 0.01,
+                     press * std::pow(std::numbers::pi, 2) * 7e10 * h * 1e-6 / 12);
+}
+
+/// In axes that turn with it the waves n of a shaft have ω² = n⁴ b − n² p in units of its lowest
+/// critical speed, with b = 1 and p in its thin plane, (h/b)² and p in the other one: K = ω² − Ω²,
+///     (s² + K₁)(s² + K₂) + 4Ω² s² = 0
+/// which grows unless K₁ K₂ > 0, K₁ + K₂ + 4Ω² > 2 √(K₁ K₂).
+bool is_stable_shaft(double ratio, double speed, double press) {
+  for (int n : {1, 2, 3}) {
+    const double square = speed * speed, n2 = n * n;
+    const double thin = n2 * n2 - n2 * press - square;
+    const double thick = n2 * n2 * ratio * ratio - n2 * press - square;
+    if (thin * thick < 0.0) return false;
+    if (thin + thick + 4.0 * square < 2.0 * std::sqrt(thin * thick)) return false;
+  }
+  return true;
+}
+
+/// Between its critical speeds a flat shaft grows; beyond them, and a round one at any speed, it does
+/// not, whatever the frame of the body is, and a press beyond its Euler load may be borne.
+TEST(QuasiStaticStart, OfAShaftThatTurnsIsFoundWhereItIsStable) {
+  for (const double h : {0.0101, 0.012, 0.02}) {
+    for (const char* frame : {"tangent", "tangent-end", "chord", "mean-axis"}) {
+      for (const double speed : {0.5, 1.5, 2.5, 6.0}) {
+        for (const double press : {0.0, 0.2, 0.8, 1.2}) {
+          const std::string error = error_of(shaft(frame, h, speed, press));
+          EXPECT_EQ(error.empty(), is_stable_shaft(h / 0.01, speed, press))
+              << h << " " << frame << " " << speed << " " << press << ": " << error;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace

@@ -1,0 +1,60 @@
+#include "core/integration/turning.hpp"
+
+#include "core/base/rotation_vector.hpp"
+
+namespace pleuel {
+
+namespace {
+
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& w) {
+  Eigen::Matrix3d matrix;
+  matrix << 0, -w(2), w(1), w(2), 0, -w(0), -w(1), w(0), 0;
+  return matrix;
+}
+
+FastestTurn turn_of(const State& state, int rotation) {
+  return {rotation_of(state.q.segment<3>(rotation)), state.v.segment<3>(rotation),
+          state.a.segment<3>(rotation)};
+}
+
+void set_translation(int first, const FastestTurn& turn, Turning& turning) {
+  const Eigen::Matrix3d omega = cross_matrix(turn.omega), alpha = cross_matrix(turn.alpha);
+  turning.T.block<3, 3>(first, first) = turn.axes;
+  turning.V.block<3, 3>(first, first) = turn.axes * omega;
+  turning.P.block<3, 3>(first, first) = 2.0 * turn.axes * omega;
+  turning.Q.block<3, 3>(first, first) = turn.axes * (omega * omega + alpha);
+}
+
+void set_rotation(int first, const FastestTurn& turn, Turning& turning) {
+  const Eigen::Matrix3d omega = cross_matrix(turn.omega);
+  turning.V.block<3, 3>(first, first) = omega;
+  turning.P.block<3, 3>(first, first) = omega;
+  turning.Q.block<3, 3>(first, first) = cross_matrix(turn.alpha);
+}
+
+}  // namespace
+
+FastestTurn fastest_turn(const Mechanism& mechanism, const State& state) {
+  FastestTurn fastest;
+  for (const int rotation : mechanism.rotations) {
+    const FastestTurn turn = turn_of(state, rotation);
+    if (turn.omega.norm() > fastest.omega.norm()) fastest = turn;
+  }
+  return fastest;
+}
+
+Turning turning_of(const Mechanism& mechanism, const State& state) {
+  const Eigen::Index n = state.q.size();
+  Turning turning{Eigen::MatrixXd::Identity(n, n), Eigen::MatrixXd::Zero(n, n),
+                  Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n)};
+  for (const int rotation : mechanism.rotations) {
+    const FastestTurn turn = turn_of(state, rotation);
+    set_translation(rotation - 3, turn, turning);
+    set_rotation(rotation, turn, turning);
+  }
+  const FastestTurn fastest = fastest_turn(mechanism, state);
+  for (const int point : mechanism.points) set_translation(point, fastest, turning);
+  return turning;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "core/integration/mechanism.hpp"
+
+namespace pleuel {
+
+/// Small motions y of a mechanism in space, counted in axes A that turn with its bodies: how changes
+/// of coordinates, rates and accelerations follow from them,
+///     δq = T y,   δv = T ẏ + V y,   δa = T ÿ + P ẏ + Q y
+/// With ω and α of a body in its axes δr = A y_r, δω = ẏ_θ + ω × y_θ,
+///     δr̈ = A (ÿ_r + 2 ω × ẏ_r + (ω̃ω̃ + α̃) y_r),   δα = ÿ_θ + ω × ẏ_θ + α × y_θ;
+/// elastic coordinates turn with their body anyway. A point mass takes the axes of the body that
+/// turns fastest. Where the whole mechanism turns alike the coefficients of y are constant.
+struct Turning {
+  Eigen::MatrixXd T, V, P, Q;  ///< n × n
+};
+
+Turning turning_of(const Mechanism& mechanism, const State& state);
+
+/// The angular velocity of the body that turns fastest, in its axes, and its angular acceleration
+/// [rad/s, rad/s²]; zero in a plane.
+struct FastestTurn {
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d omega = Eigen::Vector3d::Zero(), alpha = Eigen::Vector3d::Zero();
+};
+
+FastestTurn fastest_turn(const Mechanism& mechanism, const State& state);
+
+}  // namespace pleuel
