@@ -27,9 +27,8 @@ struct Mechanism {
   /// Positions and velocities to start from; made consistent with the constraints by assembly.
   State guess;
   /// First coordinates of the rotation vectors in q (three each, behind the translations of their
-  /// frames): their rates are angular
-  /// velocities in body axes, and their changes are right perturbations
-  /// (core/base/rotation_vector.hpp).
+  /// frames): their rates are angular velocities in body axes, and their changes are right
+  /// perturbations (core/base/rotation_vector.hpp).
   std::vector<int> rotations;
   /// First coordinates of point masses in space (three each).
   std::vector<int> points;
