@@ -14,6 +14,7 @@
 #include "core/model/motion_plane.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/joint_kind.hpp"
+#include "core/scene/number_keys.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "picture/drawn_place.hpp"
 #include "picture/section_outline.hpp"
@@ -42,39 +43,25 @@ class SectionText {
  public:
   explicit SectionText(const Values& design) : design_(design) {}
 
-  std::string operator()(const RectangleSection& s) const {
-    return sizes("rectangle", {{"width", &s.width}, {"height", &s.height}});
-  }
-  std::string operator()(const CircleSection& s) const {
-    return sizes("circle", {{"diameter", &s.diameter}});
-  }
-  std::string operator()(const TubeSection& s) const {
-    return sizes("tube", {{"outer diameter", &s.outer_diameter}, {"thickness", &s.thickness}});
-  }
-  std::string operator()(const EllipseSection& s) const {
-    return sizes("ellipse", {{"width", &s.width}, {"height", &s.height}});
-  }
-  std::string operator()(const BoxSection& s) const {
-    return sizes("box", {{"width", &s.width}, {"height", &s.height}, {"thickness", &s.thickness}});
-  }
-  std::string operator()(const ISection& s) const {
-    return sizes("I", {{"width", &s.width},
-                       {"height", &s.height},
-                       {"flange", &s.flange_thickness},
-                       {"web", &s.web_thickness}});
-  }
+  std::string operator()(const RectangleSection& s) const { return sizes("rectangle", s); }
+  std::string operator()(const CircleSection& s) const { return sizes("circle", s); }
+  std::string operator()(const TubeSection& s) const { return sizes("tube", s); }
+  std::string operator()(const EllipseSection& s) const { return sizes("ellipse", s); }
+  std::string operator()(const BoxSection& s) const { return sizes("box", s); }
+  std::string operator()(const ISection& s) const { return sizes("I", s); }
   std::string operator()(const GeneralSection&) const {
     return "general (drawn as the rectangle with its radii of gyration)";
   }
 
  private:
-  std::string sizes(const std::string& kind,
-                    const std::vector<std::pair<const char*, const Number*>>& numbers) const {
+  template <class OfType>
+  std::string sizes(std::string text, const OfType& section) const {
     const ShownUnit unit = engineering_unit("m");
-    std::string text = kind;
-    for (const auto& [name, number] : numbers) {
-      text += fmt::format(", {} {} {}", name, significant(unit.shown(resolve(*number, design_)), 4),
-                          unit.name);
+    for (const NumberKey<OfType>& key : number_keys(KeysOf<OfType>())) {
+      std::string name(key.word);
+      std::replace(name.begin(), name.end(), '_', ' ');
+      const double size = resolve(*key.of(section), design_);
+      text += fmt::format(", {} {} {}", name, significant(unit.shown(size), 4), unit.name);
     }
     return text;
   }

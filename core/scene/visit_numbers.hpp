@@ -1,12 +1,11 @@
 #pragma once
 
-#include "core/scene/scene.hpp"
-#include "core/scene/units.hpp"
+#include "core/scene/number_keys.hpp"
 
-/// Every number of a scene that may be bound to a design variable, with what it measures: the only
-/// list of them. `visit(number, quantity)` is called in the order of the structs. Structs are taken
-/// apart by all their members: one that is added does not compile before it is looked at here, where
-/// a number that is left out would have no derivatives.
+/// Every number of a scene that may be bound to a design variable, with what it measures.
+/// `visit(number, quantity)` is called for those of the tables (number_keys.hpp), and for lists of
+/// numbers. Structs with such lists are taken apart by all their members: one that is added does not
+/// compile before it is looked at here, where a number that is left out would have no derivatives.
 namespace pleuel {
 
 namespace visiting {
@@ -16,115 +15,60 @@ void all(const Numbers& numbers, const Quantity& quantity, Visit& visit) {
   for (const Number& number : numbers) visit(number, quantity);
 }
 
+/// Those of the struct's table.
+template <class Struct, class Visit, class... Measures>
+void keyed(const Struct& object, Visit& visit, const Measures&... measures) {
+  for (const NumberKey<Struct>& key : number_keys(KeysOf<Struct>(), measures...)) {
+    if (const Number* number = key.of(object)) visit(*number, key.quantity);
+  }
+}
+
+}  // namespace visiting
+
 template <class Visit>
-struct SectionNumbers {
+void visit_numbers(const Section& section, Visit&& visit) {
+  std::visit([&](const auto& s) { visiting::keyed(s, visit); }, section);
+  if (const auto* general = std::get_if<GeneralSection>(&section)) {
+    for (const GeneralStressPoint& point : general->points) visiting::keyed(point, visit);
+  }
+}
+
+template <class Visit>
+void visit_numbers(const Material& material, Visit&& visit) {
+  visiting::keyed(material, visit);
+}
+
+namespace visiting {
+
+template <class Visit>
+struct FunctionNumbers {
+  const Quantity& value;
   Visit& visit;
 
-  void lengths(std::initializer_list<const Number*> numbers) const {
-    for (const Number* number : numbers) visit(*number, quantities::length);
+  template <class Function>
+  void operator()(const Function& function) const {
+    keyed(function, visit, value);
   }
-  void operator()(const RectangleSection& s) const { lengths({&s.width, &s.height}); }
-  void operator()(const CircleSection& s) const { lengths({&s.diameter}); }
-  void operator()(const TubeSection& s) const { lengths({&s.outer_diameter, &s.thickness}); }
-  void operator()(const EllipseSection& s) const { lengths({&s.width, &s.height}); }
-  void operator()(const BoxSection& s) const { lengths({&s.width, &s.height, &s.thickness}); }
-  void operator()(const ISection& s) const {
-    lengths({&s.width, &s.height, &s.flange_thickness, &s.web_thickness});
-  }
-  void operator()(const GeneralSection& s) const {
-    visit(s.area, quantities::area);
-    visit(s.inertia_y, quantities::second_moment_of_area);
-    visit(s.inertia_z, quantities::second_moment_of_area);
-    visit(s.torsion, quantities::second_moment_of_area);
-    for (const GeneralStressPoint& point : s.points) {
-      lengths({&point.y, &point.z});
-      visit(point.shear, quantities::torsional_shear);
+  void operator()(const PolynomialFunction& polynomial) const {
+    Quantity quantity = value;
+    for (const Number& coefficient : polynomial.coefficients) {
+      if (&coefficient != polynomial.coefficients.data()) quantity = per_time(quantity);
+      visit(coefficient, quantity);
     }
-    if (s.shear_area_y) visit(*s.shear_area_y, quantities::area);
-    if (s.shear_area_z) visit(*s.shear_area_z, quantities::area);
+  }
+  void operator()(const TableFunction& table) const { all(table.values, value, visit); }
+  /// What a variable measures in a formula is not known here (NumberReader::quantity_of).
+  void operator()(const ExpressionFunction& formula) const {
+    all(formula.variables, quantities::pure_number, visit);
   }
 };
 
 }  // namespace visiting
 
-/// What numbers of a force element measure that acts along an angle or a displacement.
-struct AlongCoordinate {
-  Quantity coordinate, rate, force, stiffness, damping;
-};
-inline AlongCoordinate along(DrivenCoordinate coordinate) {
-  if (coordinate == DrivenCoordinate::angle) {
-    return {quantities::angle, quantities::angular_speed, quantities::torque,
-            quantities::torsional_stiffness, quantities::torsional_damping};
-  }
-  return {quantities::length, quantities::speed, quantities::force, quantities::spring_stiffness,
-          quantities::damping_constant};
-}
-/// @param force  a torque or a force
-inline AlongCoordinate along(const Quantity& force) {
-  return along(force == quantities::torque ? DrivenCoordinate::angle
-                                           : DrivenCoordinate::displacement);
-}
-
-template <class Visit>
-void visit_numbers(const Section& section, Visit&& visit) {
-  std::visit(visiting::SectionNumbers<std::remove_reference_t<Visit>>{visit}, section);
-}
-
-template <class Visit>
-void visit_numbers(const Material& material, Visit&& visit) {
-  const auto& [name, young, poisson, density, strength, ultimate, endurance, fatigue, exponent] =
-      material;
-  visit(young, quantities::stress);
-  visit(poisson, quantities::pure_number);
-  visit(density, quantities::density);
-  for (auto* limit : {&strength, &ultimate, &endurance, &fatigue}) {
-    if (*limit) visit(**limit, quantities::stress);
-  }
-}
-
 /// @param value  what the function itself measures
 template <class Visit>
 void visit_numbers(const TimeFunction& function, const Quantity& value, Visit&& visit) {
-  if (const auto* constant = std::get_if<ConstantFunction>(&function)) {
-    visit(constant->value, value);
-  } else if (const auto* speed = std::get_if<ConstantSpeedDrive>(&function)) {
-    visit(speed->speed, per_time(value));
-  } else if (const auto* ramp = std::get_if<RampToSpeedDrive>(&function)) {
-    visit(ramp->speed, per_time(value));
-    visit(ramp->ramp, quantities::time);
-  } else if (const auto* polynomial = std::get_if<PolynomialFunction>(&function)) {
-    const std::vector<Number>& coefficients = polynomial->coefficients;
-    Quantity quantity = value;
-    for (std::size_t i = 0; i < coefficients.size(); ++i) {
-      if (i > 0) quantity = per_time(quantity);
-      visit(coefficients[i], quantity);
-    }
-  } else if (const auto* harmonic = std::get_if<HarmonicFunction>(&function)) {
-    visit(harmonic->amplitude, value);
-    visit(harmonic->frequency, quantities::angular_speed);
-    visit(harmonic->phase, quantities::angle);
-    visit(harmonic->offset, value);
-  } else if (const auto* table = std::get_if<TableFunction>(&function)) {
-    visiting::all(table->values, value, visit);
-  } else if (const auto* flank = std::get_if<RampFunction>(&function)) {
-    visit(flank->from, value);
-    visit(flank->to, value);
-  } else if (const auto* wave = std::get_if<HalfSineFunction>(&function)) {
-    visit(wave->amplitude, value);
-    visit(wave->offset, value);
-  } else if (const auto* formula = std::get_if<ExpressionFunction>(&function)) {
-    // What a variable measures in a formula is not known here (NumberReader::quantity_of).
-    for (const Number& number : formula->variables) visit(number, quantities::pure_number);
-  } else if (const auto* friction = std::get_if<FrictionLaw>(&function)) {
-    visit(friction->value, value);
-    visit(friction->speed, along(value).rate);
-  } else {
-    const auto& clearance = std::get<ClearanceLaw>(function);
-    visit(clearance.lower, along(value).coordinate);
-    visit(clearance.upper, along(value).coordinate);
-    visit(clearance.stiffness, along(value).stiffness);
-    visit(clearance.rounding, along(value).coordinate);
-  }
+  std::visit(visiting::FunctionNumbers<std::remove_reference_t<Visit>>{value, visit}, function);
 }
 
 namespace visiting {
@@ -139,14 +83,12 @@ struct ShapeNumbers {
     all(from, quantities::length, visit);
     all(to, quantities::length, visit);
     for (const Segment& segment : segments) visit_numbers(segment.section, visit);
-    visit(damping.mass, quantities::rate);
-    visit(damping.stiffness, quantities::time);
-    visit(damping.modal, quantities::pure_number);
+    keyed(damping, visit);
   }
   void operator()(const RigidBody& body) const {
     const auto& [at, mass, inertia] = body;
     all(at, quantities::length, visit);
-    visit(mass, quantities::mass);
+    keyed(body, visit);
     all(inertia, quantities::inertia, visit);
   }
   void operator()(const ImportedBody& body) const {
@@ -158,7 +100,7 @@ struct ShapeNumbers {
   void operator()(const PointMass& body) const {
     const auto& [at, mass] = body;
     all(at, quantities::length, visit);
-    visit(mass, quantities::mass);
+    keyed(body, visit);
   }
 };
 
@@ -172,8 +114,7 @@ void visit_numbers(const Body& body, Visit&& visit) {
   visiting::all(angular_velocity, quantities::angular_speed, visit);
   for (const InitialDeflection& one : initial_deflections) {
     visiting::all(one.at, quantities::length, visit);
-    visit(one.displacement, quantities::length);
-    visit(one.rate, quantities::speed);
+    visiting::keyed(one, visit);
   }
 }
 
@@ -208,22 +149,17 @@ struct LoadNumbers {
   void operator()(const SpringDamper& spring) const {
     const auto& [bodies, at, stiffness, damping, free_length, resistance] = spring;
     for (const Point& point : at) all(point, quantities::length, visit);
-    visit(stiffness, quantities::spring_stiffness);
-    visit(damping, quantities::damping_constant);
-    if (free_length) visit(*free_length, quantities::length);
+    keyed(spring, visit);
     if (resistance) visit_numbers(*resistance, quantities::force, visit);
   }
   void operator()(const JointForce& force) const {
     const auto& [joint, coordinate, stiffness, damping, rest, motor, control, resistance] = force;
     const AlongCoordinate measures = along(coordinate);
-    visit(stiffness, measures.stiffness);
-    visit(damping, measures.damping);
-    visit(rest, measures.coordinate);
+    keyed(force, visit, measures);
     if (motor) visit_numbers(*motor, measures.force, visit);
     if (control) {
       visit_numbers(control->target, measures.coordinate, visit);
-      visit(control->proportional, measures.stiffness);
-      visit(control->derivative, measures.damping);
+      keyed(*control, visit, measures);
     }
     if (resistance) visit_numbers(*resistance, measures.force, visit);
   }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/reading/keyed_numbers.hpp"
 #include "core/scene/reading/limits.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 
@@ -62,20 +63,15 @@ std::vector<Segment> read_segments(const JsonNode& node, NumberReader& numbers) 
 }
 
 Damping read_damping(const JsonNode& node, NumberReader& numbers) {
-  node.allow_keys({"mass", "stiffness", "modal"});
-  Damping damping;
-  if (const auto modal = node.find("modal")) {
-    for (const char* key : {"mass", "stiffness"}) {
-      if (node.find(key)) node.fail(fmt::format("has both \"modal\" and \"{}\"", key));
+  constexpr auto keys = number_keys(KeysOf<Damping>());
+  node.allow_keys(words_of(keys));
+  for (const char* key : {"mass", "stiffness"}) {
+    if (node.find("modal") && node.find(key)) {
+      node.fail(fmt::format("has both \"modal\" and \"{}\"", key));
     }
-    damping.modal = numbers.designable(*modal, quantities::pure_number, Range::below_one);
   }
-  if (const auto mass = node.find("mass")) {
-    damping.mass = numbers.designable(*mass, quantities::rate, Range::not_negative);
-  }
-  if (const auto stiffness = node.find("stiffness")) {
-    damping.stiffness = numbers.designable(*stiffness, quantities::time, Range::not_negative);
-  }
+  Damping damping;
+  read_numbers(node, keys, numbers, damping);
   return damping;
 }
 
@@ -164,7 +160,7 @@ RigidBody read_rigid(const JsonNode& node, NumberReader& numbers) {
   node.allow_keys({"type", "at", "mass", "inertia", "velocity", "angular_velocity"});
   RigidBody body;
   body.at = numbers.triple(node.at("at"), quantities::length);
-  body.mass = numbers.designable(node.at("mass"), quantities::mass, Range::positive);
+  read_numbers(node, number_keys(KeysOf<RigidBody>()), numbers, body);
   const std::vector<JsonNode> inertia = node.at("inertia").items(body.inertia.size());
   for (std::size_t i = 0; i < inertia.size(); ++i) {
     const Range range = i < 3 ? Range::not_negative : Range::any;
@@ -180,7 +176,7 @@ PointMass read_point_mass(const JsonNode& node, NumberReader& numbers) {
   node.allow_keys({"type", "at", "mass", "velocity"});
   PointMass point;
   point.at = numbers.triple(node.at("at"), quantities::length);
-  point.mass = numbers.designable(node.at("mass"), quantities::mass, Range::positive);
+  read_numbers(node, number_keys(KeysOf<PointMass>()), numbers, point);
   return point;
 }
 
@@ -194,14 +190,15 @@ void read_velocities(const JsonNode& node, Body& body, NumberReader& numbers) {
 }
 
 InitialDeflection read_initial_deflection(const JsonNode& node, NumberReader& numbers) {
-  node.allow_keys({"at", "direction", "displacement", "rate"});
+  constexpr auto keys = number_keys(KeysOf<InitialDeflection>());
+  node.allow_keys(words_of(keys, {"at", "direction"}));
   InitialDeflection one;
   one.at = numbers.triple(node.at("at"), quantities::length);
   one.direction = numbers.unit_vector(node.at("direction"));
-  const auto displacement = node.find("displacement"), rate = node.find("rate");
-  if (!displacement && !rate) node.fail("needs \"displacement\" or \"rate\"");
-  if (displacement) one.displacement = numbers.designable(*displacement, quantities::length);
-  if (rate) one.rate = numbers.designable(*rate, quantities::speed);
+  if (!node.find("displacement") && !node.find("rate")) {
+    node.fail("needs \"displacement\" or \"rate\"");
+  }
+  read_numbers(node, keys, numbers, one);
   return one;
 }
 

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include "core/scene/reading/joint_type.hpp"
+#include "core/scene/reading/keyed_numbers.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/time_function_reader.hpp"
-#include "core/scene/visit_numbers.hpp"
 
 namespace pleuel {
 namespace {
@@ -75,7 +75,8 @@ PointTorque read_torque(const JsonNode& node, const Scene& scene, NumberReader& 
 }
 
 SpringDamper read_spring(const JsonNode& node, const Scene& scene, NumberReader& numbers) {
-  node.allow_keys({"type", "bodies", "at", "stiffness", "damping", "free_length", "resistance"});
+  constexpr auto keys = number_keys(KeysOf<SpringDamper>());
+  node.allow_keys(words_of(keys, {"type", "bodies", "at", "resistance"}));
   std::vector<std::string> bodies = names_of(scene.bodies);
   bodies.emplace_back(ground_name);
   SpringDamper spring;
@@ -90,32 +91,20 @@ SpringDamper read_spring(const JsonNode& node, const Scene& scene, NumberReader&
     spring.resistance =
         read_resistance({*resistance, quantities::force, Purpose::load, names}, numbers);
   }
-  if (!resistance || node.find("stiffness")) {
-    spring.stiffness =
-        numbers.designable(node.at("stiffness"), quantities::spring_stiffness, Range::not_negative);
-  }
-  if (const auto damping = node.find("damping")) {
-    spring.damping =
-        numbers.designable(*damping, quantities::damping_constant, Range::not_negative);
-  }
-  if (const auto length = node.find("free_length")) {
-    spring.free_length = numbers.designable(*length, quantities::length, Range::not_negative);
-  }
+  if (!resistance) node.at("stiffness");
+  read_numbers(node, keys, numbers, spring);
   return spring;
 }
 
 /// A motor that follows a motion.
 MotorControl read_control(const JsonNode& node, DrivenCoordinate coordinate,
                           NumberReader& numbers) {
-  node.allow_keys({"type", "target", "proportional", "derivative"});
   const AlongCoordinate measures = along(coordinate);
+  const auto keys = number_keys(KeysOf<MotorControl>(), measures);
+  node.allow_keys(words_of(keys, {"type", "target"}));
   MotorControl control;
   control.target = read_target(node.at("target"), measures.coordinate, numbers);
-  control.proportional =
-      numbers.designable(node.at("proportional"), measures.stiffness, Range::not_negative);
-  if (const auto derivative = node.find("derivative")) {
-    control.derivative = numbers.designable(*derivative, measures.damping, Range::not_negative);
-  }
+  read_numbers(node, keys, numbers, control);
   return control;
 }
 
@@ -136,27 +125,21 @@ void read_motor(const JsonNode& node, const Joint& joint, NumberReader& numbers,
 JointForce read_joint_force(const JsonNode& node, const Scene& scene, NumberReader& numbers) {
   node.allow_keys(
       {"type", "joint", "coordinate", "stiffness", "damping", "rest", "resistance", "motor"});
-  const auto stiffness = node.find("stiffness"), damping = node.find("damping"),
-             rest = node.find("rest"), motor = node.find("motor"),
-             resistance = node.find("resistance");
-  if (!stiffness && !damping && !motor && !resistance) {
+  const bool has_spring = node.find("stiffness").has_value();
+  const auto motor = node.find("motor"), resistance = node.find("resistance");
+  if (!has_spring && !node.find("damping") && !motor && !resistance) {
     node.fail("does nothing; it needs \"stiffness\", \"damping\", \"resistance\" or \"motor\"");
   }
-  if (rest && !stiffness && !resistance) {
-    rest->fail("is the rest position of a spring, and needs \"stiffness\" or \"resistance\"");
+  if (node.find("rest") && !has_spring && !resistance) {
+    node.at("rest").fail(
+        "is the rest position of a spring, and needs \"stiffness\" or \"resistance\"");
   }
   const Joint& joint = read_loaded_joint(node.at("joint"), scene);
   JointForce force;
   force.joint = joint.name;
   force.coordinate = read_coordinate(node, joint);
   const AlongCoordinate measures = along(force.coordinate);
-  if (stiffness) {
-    force.stiffness = numbers.designable(*stiffness, measures.stiffness, Range::not_negative);
-  }
-  if (damping) {
-    force.damping = numbers.designable(*damping, measures.damping, Range::not_negative);
-  }
-  if (rest) force.rest = numbers.designable(*rest, measures.coordinate);
+  read_numbers(node, number_keys(KeysOf<JointForce>(), measures), numbers, force);
   if (resistance) {
     force.resistance = read_resistance(
         {*resistance, measures.force, Purpose::load, names_along(force.coordinate)}, numbers);

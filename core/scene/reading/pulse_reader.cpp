@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/reading/keyed_numbers.hpp"
+
 namespace pleuel {
 namespace {
 
@@ -57,10 +59,10 @@ TableFunction read_step(const LawSource& source, NumberReader& numbers) {
 }
 
 RampFunction read_ramp(const LawSource& source, NumberReader& numbers) {
-  source.allow_keys({"from", "to", "begin", "end", "rounding"});
+  const auto keys = number_keys(KeysOf<RampFunction>(), source.value);
+  source.allow_keys(words_of(keys, {"begin", "end", "rounding"}));
   RampFunction ramp;
-  ramp.from = number_or(source, "from", 0.0, numbers);
-  ramp.to = numbers.designable(source.node.at("to"), source.value);
+  read_numbers(source.node, keys, numbers, ramp);
   ramp.begin = time_or(source, "begin", 0.0, Range::any, numbers);
   const JsonNode end = source.node.at("end");
   ramp.end = numbers.fixed(end, quantities::time);
@@ -75,10 +77,10 @@ RampFunction read_ramp(const LawSource& source, NumberReader& numbers) {
 }
 
 HalfSineFunction read_half_sine(const LawSource& source, NumberReader& numbers) {
-  source.allow_keys({"amplitude", "offset", "begin", "duration", "period"});
+  const auto keys = number_keys(KeysOf<HalfSineFunction>(), source.value);
+  source.allow_keys(words_of(keys, {"begin", "duration", "period"}));
   HalfSineFunction wave;
-  wave.amplitude = numbers.designable(source.node.at("amplitude"), source.value);
-  wave.offset = number_or(source, "offset", 0.0, numbers);
+  read_numbers(source.node, keys, numbers, wave);
   wave.begin = time_or(source, "begin", 0.0, Range::any, numbers);
   wave.duration = numbers.fixed(source.node.at("duration"), quantities::time, Range::positive);
   wave.period = read_period(source, wave.duration, numbers);

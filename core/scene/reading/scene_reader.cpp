@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/scene/material_library.hpp"
+#include "core/scene/reading/keyed_numbers.hpp"
 
 namespace pleuel {
 namespace {
@@ -19,23 +20,11 @@ void check_strengths(const JsonNode& node, const Material& material) {
 }
 
 Material read_material(const std::string& name, const JsonNode& node, NumberReader& numbers) {
-  node.allow_keys({"young", "poisson", "density", "strength", "ultimate_strength",
-                   "endurance_limit", "fatigue_strength", "fatigue_exponent"});
+  constexpr auto keys = number_keys(KeysOf<Material>());
+  node.allow_keys(words_of(keys, {"fatigue_exponent"}));
   Material material;
   material.name = name;
-  material.young = numbers.designable(node.at("young"), quantities::stress, Range::positive);
-  material.poisson =
-      numbers.designable(node.at("poisson"), quantities::pure_number, Range::poisson);
-  material.density = numbers.designable(node.at("density"), quantities::density, Range::positive);
-  const auto read_strength = [&](const char* key) {
-    const auto strength = node.find(key);
-    if (!strength) return std::optional<Number>();
-    return std::optional(numbers.designable(*strength, quantities::stress, Range::positive));
-  };
-  material.strength = read_strength("strength");
-  material.ultimate_strength = read_strength("ultimate_strength");
-  material.endurance_limit = read_strength("endurance_limit");
-  material.fatigue_strength = read_strength("fatigue_strength");
+  read_numbers(node, keys, numbers, material);
   if (const auto exponent = node.find("fatigue_exponent")) {
     material.fatigue_exponent = numbers.fixed(*exponent, quantities::pure_number, Range::positive);
     if (*material.fatigue_exponent < 1.0) {

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "core/scene/reading/csv_table.hpp"
+#include "core/scene/reading/keyed_numbers.hpp"
 #include "core/scene/reading/pulse_reader.hpp"
 #include "core/scene/reading/symbols.hpp"
-#include "core/scene/visit_numbers.hpp"
 
 namespace pleuel {
 namespace {
@@ -32,22 +32,13 @@ enum class FunctionType {
   clearance
 };
 
-ConstantFunction read_constant(const LawSource& source, NumberReader& numbers) {
-  source.allow_keys({"value"});
-  return {numbers.designable(source.node.at("value"), source.value)};
-}
-
-ConstantSpeedDrive read_constant_speed(const LawSource& source, NumberReader& numbers) {
-  source.allow_keys({"speed"});
-  return {numbers.designable(source.node.at("speed"), per_time(source.value))};
-}
-
-RampToSpeedDrive read_ramp_to_speed(const LawSource& source, NumberReader& numbers) {
-  source.allow_keys({"speed", "ramp"});
-  RampToSpeedDrive drive;
-  drive.speed = numbers.designable(source.node.at("speed"), per_time(source.value));
-  drive.ramp = numbers.designable(source.node.at("ramp"), quantities::time, Range::positive);
-  return drive;
+/// A function that its numbers are all of.
+template <class Function>
+Function read_numbers_of(const LawSource& source, NumberReader& numbers, Function function = {}) {
+  const auto keys = number_keys(KeysOf<Function>(), source.value);
+  source.allow_keys(words_of(keys));
+  read_numbers(source.node, keys, numbers, function);
+  return function;
 }
 
 PolynomialFunction read_polynomial(const LawSource& source, NumberReader& numbers) {
@@ -65,21 +56,6 @@ PolynomialFunction read_polynomial(const LawSource& source, NumberReader& number
     polynomial.coefficients.push_back(numbers.designable(items[i], quantity));
   }
   return polynomial;
-}
-
-HarmonicFunction read_harmonic(const LawSource& source, NumberReader& numbers) {
-  source.allow_keys({"amplitude", "frequency", "phase", "offset"});
-  HarmonicFunction harmonic;
-  harmonic.amplitude = numbers.designable(source.node.at("amplitude"), source.value);
-  harmonic.frequency = numbers.designable(source.node.at("frequency"),
-                                          quantities::angular_frequency, Range::positive);
-  if (const auto phase = source.node.find("phase")) {
-    harmonic.phase = numbers.designable(*phase, quantities::angle);
-  }
-  if (const auto offset = source.node.find("offset")) {
-    harmonic.offset = numbers.designable(*offset, source.value);
-  }
-  return harmonic;
 }
 
 // Tables.
@@ -276,44 +252,30 @@ TimeFunction read_expression_object(const LawSource& source, NumberReader& numbe
 
 // Laws of springs and dampers.
 
-FrictionLaw read_friction(const LawSource& source, NumberReader& numbers) {
-  source.allow_keys({"value", "speed"});
-  return {
-      numbers.designable(source.node.at("value"), source.value, Range::not_negative),
-      numbers.designable(source.node.at("speed"), source.state->rate_quantity, Range::positive)};
-}
-
 ClearanceLaw read_clearance(const LawSource& source, NumberReader& numbers) {
-  source.allow_keys({"lower", "upper", "stiffness", "rounding"});
-  const Quantity& coordinate = source.state->coordinate_quantity;
   constexpr double never = 1e30;
   const auto lower = source.node.find("lower"), upper = source.node.find("upper");
   if (!lower && !upper) source.node.fail("needs \"lower\" or \"upper\", or both");
-  ClearanceLaw law;
-  law.lower = lower ? numbers.designable(*lower, coordinate) : Number(-never);
-  law.upper = upper ? numbers.designable(*upper, coordinate) : Number(never);
+  const auto law = read_numbers_of<ClearanceLaw>(source, numbers, {-never, never, {}, {}});
   if (lower && upper && !law.lower.is_bound() && !law.upper.is_bound() &&
       law.lower.constant > law.upper.constant) {
     upper->fail_with_value("must not be less than \"lower\"");
   }
-  law.stiffness = numbers.designable(source.node.at("stiffness"), along(source.value).stiffness,
-                                     Range::positive);
-  law.rounding = numbers.designable(source.node.at("rounding"), coordinate, Range::positive);
   return law;
 }
 
 TimeFunction read_function(FunctionType type, const LawSource& source, NumberReader& numbers) {
   switch (type) {
     case FunctionType::constant:
-      return read_constant(source, numbers);
+      return read_numbers_of<ConstantFunction>(source, numbers);
     case FunctionType::constant_speed:
-      return read_constant_speed(source, numbers);
+      return read_numbers_of<ConstantSpeedDrive>(source, numbers);
     case FunctionType::ramp_to_speed:
-      return read_ramp_to_speed(source, numbers);
+      return read_numbers_of<RampToSpeedDrive>(source, numbers);
     case FunctionType::polynomial:
       return read_polynomial(source, numbers);
     case FunctionType::harmonic:
-      return read_harmonic(source, numbers);
+      return read_numbers_of<HarmonicFunction>(source, numbers);
     case FunctionType::step:
       return read_step(source, numbers);
     case FunctionType::ramp:
@@ -325,7 +287,7 @@ TimeFunction read_function(FunctionType type, const LawSource& source, NumberRea
     case FunctionType::expression:
       return read_expression_object(source, numbers);
     case FunctionType::friction:
-      return read_friction(source, numbers);
+      return read_numbers_of<FrictionLaw>(source, numbers);
     case FunctionType::clearance:
       return read_clearance(source, numbers);
     case FunctionType::table:
