@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "core/base/rotation_series.hpp"
+#include "core/base/skew.hpp"
 
 namespace pleuel {
 
@@ -16,12 +17,6 @@ namespace {
 
 /// Below this angle series are exact to round-off.
 constexpr double small_angle = 1e-2;
-
-Matrix3d tilde(const Vector3d& w) {
-  Matrix3d matrix;
-  matrix << 0.0, -w(2), w(1), w(2), 0.0, -w(0), -w(1), w(0), 0.0;
-  return matrix;
-}
 
 /// Euler parameters (cos φ/2, sin(φ/2)/φ ψ).
 Quaterniond euler_parameters(const Vector3d& psi) {
@@ -60,7 +55,7 @@ Vector3d compose(const Vector3d& psi, const Vector3d& delta) {
 
 Matrix3d tangent_operator(const Vector3d& delta) {
   const RotationSeries<double> series(delta.squaredNorm());
-  const Matrix3d d = tilde(delta);
+  const Matrix3d d = skew(delta);
   return Matrix3d::Identity() - series.c2 * d + series.c3 * d * d;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/base/dual.hpp"
 #include "core/base/rotation_vector.hpp"
+#include "core/base/skew.hpp"
 
 /// The floating frame of a body: which coordinates move it, and its kinematics.
 namespace pleuel {
@@ -16,14 +17,6 @@ template <class Scalar>
 using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
 template <class Scalar>
 using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
-
-template <class Scalar>
-Matrix3<Scalar> skew(const Vector3<Scalar>& w) {
-  Matrix3<Scalar> matrix;
-  const Scalar zero(0);
-  matrix << zero, -w(2), w(1), w(2), zero, -w(0), -w(1), w(0), zero;
-  return matrix;
-}
 
 /// Coordinates of the rotation A (body to global axes).
 enum class RotationCoordinates {

@@ -1,16 +1,11 @@
 #include "core/integration/turning.hpp"
 
 #include "core/base/rotation_vector.hpp"
+#include "core/base/skew.hpp"
 
 namespace pleuel {
 
 namespace {
-
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& w) {
-  Eigen::Matrix3d matrix;
-  matrix << 0, -w(2), w(1), w(2), 0, -w(0), -w(1), w(0), 0;
-  return matrix;
-}
 
 FastestTurn turn_of(const State& state, int rotation) {
   return {rotation_of(state.q.segment<3>(rotation)), state.v.segment<3>(rotation),
@@ -18,7 +13,7 @@ FastestTurn turn_of(const State& state, int rotation) {
 }
 
 void set_translation(int first, const FastestTurn& turn, Turning& turning) {
-  const Eigen::Matrix3d omega = cross_matrix(turn.omega), alpha = cross_matrix(turn.alpha);
+  const Eigen::Matrix3d omega = skew(turn.omega), alpha = skew(turn.alpha);
   turning.T.block<3, 3>(first, first) = turn.axes;
   turning.V.block<3, 3>(first, first) = turn.axes * omega;
   turning.P.block<3, 3>(first, first) = 2.0 * turn.axes * omega;
@@ -26,10 +21,10 @@ void set_translation(int first, const FastestTurn& turn, Turning& turning) {
 }
 
 void set_rotation(int first, const FastestTurn& turn, Turning& turning) {
-  const Eigen::Matrix3d omega = cross_matrix(turn.omega);
+  const Eigen::Matrix3d omega = skew(turn.omega);
   turning.V.block<3, 3>(first, first) = omega;
   turning.P.block<3, 3>(first, first) = omega;
-  turning.Q.block<3, 3>(first, first) = cross_matrix(turn.alpha);
+  turning.Q.block<3, 3>(first, first) = skew(turn.alpha);
 }
 
 }  // namespace

@@ -5,15 +5,8 @@
 
 namespace pleuel {
 
-namespace {
-
-/// Places that are closer than this share of a length are one, as in fitting_builder.cpp.
-constexpr double same_position = 1e-9;
-
-}  // namespace
-
 std::vector<EndHold> EndFittings::holds() const {
-  const double least = same_position * total_;
+  const double least = same_place * total_;
   std::vector<Joined> left = joints_;
   std::vector<EndHold> holds;
   for (JointHold hold : as_one_.of(beam_)) {

@@ -45,6 +45,9 @@ class EndFittings {
   std::vector<EndHold> holds() const;
 
  private:
+  /// Places that are closer than this share of a length are one.
+  static constexpr double same_place = 1e-9;
+
   struct Joined {
     int end;
     double position;  ///< along the beam, at the start [m]

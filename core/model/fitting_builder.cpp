@@ -10,9 +10,6 @@ namespace pleuel {
 
 namespace {
 
-/// Places that are closer than this share of the length of the beam are one, as in end_fittings.cpp.
-constexpr double same_place = 1e-9;
-
 /// Where something acts: a point, or the centre of mass of a rigid beam.
 struct Place {
   const Point* point = nullptr;
