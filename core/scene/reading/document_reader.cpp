@@ -8,12 +8,14 @@
 #include "core/base/error.hpp"
 #include "core/base/machine_memory.hpp"
 #include "core/scene/reading/catalogue.hpp"
+#include "core/scene/reading/effects_reader.hpp"
 #include "core/scene/reading/goal_reader.hpp"
 #include "core/scene/reading/override.hpp"
 #include "core/scene/reading/response_reader.hpp"
 #include "core/scene/reading/scene_check.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/settings_reader.hpp"
+#include "core/scene/reading/simulation_reader.hpp"
 #include "core/scene/reading/variable_reader.hpp"
 
 namespace pleuel {

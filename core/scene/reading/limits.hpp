@@ -12,5 +12,6 @@ inline constexpr double placement_tolerance = 1e-6;
 
 inline constexpr int most_elements = 10000;  ///< of a segment
 inline constexpr int most_modes = 1000;      ///< of a body
+inline constexpr int most_iterations = 1000000;
 
 }  // namespace pleuel

@@ -4,16 +4,9 @@
 #include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/number_reader.hpp"
 
-/// How to compute: effects, simulation, sensitivity, optimizer, accuracy, uncertainty. All throw
+/// What is asked of a simulation: sensitivity, optimizer, accuracy, uncertainty. All throw
 /// InputError.
 namespace pleuel {
-
-EffectSettings read_effects(const JsonNode& node);
-
-/// What is asked for in so many words has to be possible with the bodies that there are.
-void check_effects(const JsonNode& node, const ProblemFile& problem);
-
-SimulationSettings read_simulation(const JsonNode& node, const NumberReader& numbers);
 
 SensitivitySettings read_sensitivity(const JsonNode& node, const NumberReader& numbers);
 
