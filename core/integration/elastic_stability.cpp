@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/base/dense_solvers.hpp"
+#include "core/base/rotation_vector.hpp"
 #include "core/integration/axial_strains.hpp"
 #include "core/integration/turning.hpp"
 
@@ -44,8 +45,8 @@ bool is_symmetric(const Eigen::MatrixXd& matrix) {
   return (matrix - matrix.transpose()).norm() <= asymmetry * matrix.norm();
 }
 
-/// Whether small motions grow:  det(s² M + s G + K) = 0 with an s of positive real part.
-bool grows(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& gyroscopic,
+/// Whether small motions grow:  det(s² M + s C + K) = 0 with an s of positive real part.
+bool grows(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& rates,
            const Eigen::MatrixXd& stiffness) {
   constexpr double round_off = 1e-7;
   const Eigen::Index size = mass.cols();
@@ -53,7 +54,7 @@ bool grows(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& gyroscopic,
   Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(2 * size, 2 * size);
   companion.topRightCorner(size, size).setIdentity();
   companion.bottomLeftCorner(size, size) = -factors.solve(stiffness);
-  companion.bottomRightCorner(size, size) = -factors.solve(gyroscopic);
+  companion.bottomRightCorner(size, size) = -factors.solve(rates);
   const Eigen::VectorXcd roots = eigenvalues_of(companion);
   return roots.real().maxCoeff() > round_off * roots.cwiseAbs().maxCoeff();
 }
@@ -115,7 +116,7 @@ Eigen::MatrixXd free_deformations(const Mechanism& mechanism, Eigen::MatrixXd ph
 /// The matrices of small motions of the deformations of a mechanism that turns, in axes that turn
 /// with its bodies, where a steady motion has constant coefficients.
 struct TurningDeformations {
-  Eigen::MatrixXd shapes, mass, gyroscopic, stiffness;
+  Eigen::MatrixXd shapes, mass, rates, stiffness;  ///< rates: gyroscopic forces and damping
 };
 
 TurningDeformations turning_deformations(const Mechanism& mechanism, const State& state) {
@@ -133,7 +134,7 @@ TurningDeformations turning_deformations(const Mechanism& mechanism, const State
   const Eigen::MatrixXd& z = result.shapes;
   const Eigen::MatrixXd left = (T * z).transpose();
   result.mass = symmetric_part(left * (of_a * (T * z)));
-  result.gyroscopic = skew_part(left * (of_a * (scaled(turning.P) * z) + of_v * (T * z)));
+  result.rates = left * (of_a * (scaled(turning.P) * z) + of_v * (T * z));
   result.stiffness = left * (of_a * (scaled(turning.Q) * z) + of_v * (scaled(turning.V) * z) +
                              of_q.topRows(n) * (T * z));
   return result;
@@ -148,8 +149,22 @@ bool is_steady(const Mechanism& mechanism, const State& state, const FastestTurn
                      [&](int i) { return std::abs(state.a(i)) <= limit * mechanism.scale(i); });
 }
 
-/// Of a mechanism that turns in space at a constant speed. Deformations without stiffness may be
-/// held by gyroscopic forces, which is asked of the lowest modes.
+/// Whether all that turns does so alike and at a constant speed, but for small vibrations.
+bool turns_alike(const Mechanism& mechanism, const State& state, const FastestTurn& turn) {
+  constexpr double small = 0.01;
+  const Eigen::Vector3d omega = turn.axes * turn.omega;
+  const double limit = small * omega.norm();
+  return turn.alpha.norm() <= limit * omega.norm() &&
+         std::all_of(mechanism.rotations.begin(), mechanism.rotations.end(), [&](int rotation) {
+           const Eigen::Vector3d own = rotation_of(state.q.segment<3>(rotation)) *
+                                       Eigen::Vector3d(state.v.segment<3>(rotation));
+           return own.norm() <= limit || (own - omega).norm() <= limit;
+         });
+}
+
+/// Of a mechanism that turns in space. Deformations without stiffness may be held by gyroscopic
+/// forces, which is asked of the lowest modes; damping by what turns takes that away (Kelvin, Tait &
+/// Chetaev), and what stands still may give it back.
 ElasticStability turning_stability(const Mechanism& mechanism, const State& state) {
   constexpr double round_off_mass = 1e-12;
   constexpr Eigen::Index more_modes = 20;
@@ -157,44 +172,30 @@ ElasticStability turning_stability(const Mechanism& mechanism, const State& stat
   if (all.shapes.cols() == 0) return {};
   const Eigen::MatrixXd symmetric = symmetric_part(all.stiffness);
   if (is_positive_definite(symmetric)) return {};
+  ElasticStability result;
+  // Not from those below: light bodies vibrate so fast that their round-off hides slow growth.
+  result.negative = count_negative(symmetric_eigenvalues(symmetric).cast<std::complex<double>>());
+  if (result.negative == 0) return result;
   Eigen::MatrixXd mass = all.mass;
   mass.diagonal().array() += round_off_mass * mass.diagonal().maxCoeff();
   const SymmetricModes modes = symmetric_modes(symmetric, mass);
-  ElasticStability result;
-  result.negative = count_negative(modes.values.cast<std::complex<double>>());
   const Eigen::Index size = modes.vectors.cols();
   const auto low =
       modes.vectors.leftCols(std::min<Eigen::Index>(size, 2 * result.negative + more_modes));
   const auto reduced = [&](const Eigen::MatrixXd& matrix) -> Eigen::MatrixXd {
     return low.transpose() * matrix * low;
   };
-  result.is_stable = result.negative == 0 ||
-                     !grows(reduced(mass), reduced(all.gyroscopic), reduced(all.stiffness));
-  if (!result.is_stable) result.where = owner(mechanism, all.shapes * modes.vectors.col(0));
+  const Eigen::MatrixXd m = reduced(mass), c = reduced(all.rates), k = reduced(all.stiffness);
+  const bool buckles = grows(m, skew_part(c), k);
+  result.is_stable = !buckles && !grows(m, c, k);
+  if (result.is_stable) return result;
+  result.where = owner(mechanism, all.shapes * modes.vectors.col(0));
+  if (!buckles) result.how = "whirls, as its own damping turns with it";
   return result;
 }
 
-}  // namespace
-
-Eigen::MatrixXd free_deformations(const Mechanism& mechanism, const State& state) {
-  const int m = mechanism.system->multipliers();
-  return free_deformations(
-      mechanism, Eigen::MatrixXd(scaled_tangent(mechanism, state, {.q = 1.0}).bottomRows(m)));
-}
-
-Eigen::MatrixXd deformation_stiffness(const Mechanism& mechanism, const State& state,
-                                      const Eigen::MatrixXd& deformations) {
-  const int n = mechanism.system->coordinates();
-  const Eigen::MatrixXd half =
-      scaled_tangent(mechanism, state, {.q = 1.0}).topRows(n) * deformations;
-  return deformations.transpose() * half;
-}
-
-ElasticStability elastic_stability(const Mechanism& mechanism, const State& state) {
-  const FastestTurn turn = fastest_turn(mechanism, state);
-  if (!turn.omega.isZero(0.0) && is_steady(mechanism, state, turn)) {
-    return turning_stability(mechanism, state);
-  }
+/// In the axes in which the coordinates are counted.
+ElasticStability standing_stability(const Mechanism& mechanism, const State& state) {
   const Eigen::MatrixXd z = free_deformations(mechanism, state);
   if (z.cols() == 0) return {};
   const Eigen::MatrixXd stiffness = deformation_stiffness(mechanism, state, z);
@@ -214,6 +215,37 @@ ElasticStability elastic_stability(const Mechanism& mechanism, const State& stat
                                                      shapes.transpose() * stiffness * shapes));
   if (!result.is_stable) result.where = owner(mechanism, z * modes.vectors.col(0));
   return result;
+}
+
+}  // namespace
+
+Eigen::MatrixXd free_deformations(const Mechanism& mechanism, const State& state) {
+  const int m = mechanism.system->multipliers();
+  return free_deformations(
+      mechanism, Eigen::MatrixXd(scaled_tangent(mechanism, state, {.q = 1.0}).bottomRows(m)));
+}
+
+Eigen::MatrixXd deformation_stiffness(const Mechanism& mechanism, const State& state,
+                                      const Eigen::MatrixXd& deformations) {
+  const int n = mechanism.system->coordinates();
+  const Eigen::MatrixXd half =
+      scaled_tangent(mechanism, state, {.q = 1.0}).topRows(n) * deformations;
+  return deformations.transpose() * half;
+}
+
+bool is_rotor(const Mechanism& mechanism, const State& state) {
+  const FastestTurn turn = fastest_turn(mechanism, state);
+  return !turn.omega.isZero(0.0) && turns_alike(mechanism, state, turn);
+}
+
+ElasticStability elastic_stability(const Mechanism& mechanism, const State& state) {
+  const FastestTurn turn = fastest_turn(mechanism, state);
+  if (turn.omega.isZero(0.0)) return standing_stability(mechanism, state);
+  if (is_steady(mechanism, state, turn) || turns_alike(mechanism, state, turn)) {
+    return turning_stability(mechanism, state);
+  }
+  const ElasticStability standing = standing_stability(mechanism, state);
+  return standing.is_stable ? standing : turning_stability(mechanism, state);
 }
 
 double buckling_load_factor(const Mechanism& mechanism, const State& unloaded, const State& loaded,

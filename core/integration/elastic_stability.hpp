@@ -21,6 +21,7 @@ struct ElasticStability {
   bool is_stable = true;
   int negative = 0;   ///< real negative eigenvalues of the stiffness
   std::string where;  ///< what moves most in the lowest mode: "the body \"rod\""; if unstable
+  std::string how = "buckles";  ///< what it does, for people; if unstable
 };
 
 /// Counts the negative eigenvalues of the stiffness at a state. One is a deformation that grows.
@@ -28,6 +29,9 @@ struct ElasticStability {
 /// that follow); an odd one grows (Thomson & Tait). Whether they do is asked of the deformations of
 /// these eigenvalues alone, with their mass.
 ElasticStability elastic_stability(const Mechanism& mechanism, const State& state);
+
+/// Whether all that turns in space turns alike and at a constant speed, but for small vibrations.
+bool is_rotor(const Mechanism& mechanism, const State& state);
 
 /// By what factor the loads of a state buckle the members, from how they change the stiffness:
 ///     (K₀ + s (K₁ − K₀)) φ = 0,   the smallest s > 0; infinite if there is none

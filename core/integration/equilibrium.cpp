@@ -367,8 +367,8 @@ void Equilibrium::refuse_unstable(const InitialState& start, const InitialState&
       factor <= 1.0 ? fmt::format(", at some {:.3g} of these loads", factor) : "";
   throw SimulationError(
       fmt::format("the elastic equilibrium under the loads at t = 0 is unstable "
-                  "(/simulation/initial_state is \"quasi-static\"): {} buckles{}",
-                  stability.where, at));
+                  "(/simulation/initial_state is \"quasi-static\"): {} {}{}",
+                  stability.where, stability.how, at));
 }
 
 Equilibrium::Derivatives Equilibrium::differentiate(const InitialState& solution) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/integration/elastic_stability.hpp"
+#include "core/integration/turning.hpp"
 #include "core/response/lateral_buckling_signal.hpp"
 
 namespace pleuel {
@@ -47,6 +48,20 @@ struct PressedBeam {
   }
 };
 
+/// When what turns as one, as a shaft with its disks, turned fastest.
+struct FastestRotor {
+  double speed = 0.0;
+  int instant = -1;
+
+  void see(const Mechanism& mechanism, const State& state, int now) {
+    constexpr double same = 1e-6;
+    const double turn = fastest_turn(mechanism, state).omega.norm();
+    if (!(turn > (1.0 + same) * speed) || !is_rotor(mechanism, state)) return;
+    speed = turn;
+    instant = now;
+  }
+};
+
 std::vector<PressedBeam> beams_of(const TrustedRun& run) {
   const Model& model = run.analysis.model;
   std::vector<PressedBeam> beams;
@@ -68,22 +83,29 @@ std::vector<Doubt> doubt_unstable_members(const TrustedRun& run) {
   if (beams.empty()) return {};
   const Trajectory& trajectory = run.analysis.trajectory;
   State state;
+  FastestRotor rotor;
   for (int i = 0; i < static_cast<int>(trajectory.time.size()); ++i) {
     trajectory.states->load(i, state);
     for (PressedBeam& beam : beams) beam.see(state, i);
+    rotor.see(mechanism, state, i);
   }
   std::set<int> instants;
   for (const PressedBeam& beam : beams) {
     if (beam.instant >= 0) instants.insert(beam.instant);
   }
+  if (rotor.instant >= 0) instants.insert(rotor.instant);
   for (const int i : instants) {
     trajectory.states->load(i, state);
     const ElasticStability stability = elastic_stability(mechanism, state);
     if (stability.is_stable) continue;
-    return {{fmt::format("At t = {:.4g} s the mechanism is not in stable equilibrium with its "
-                         "loads: {} buckles. In the motion a member that is exactly straight stays "
+    const std::string turning = is_rotor(mechanism, state)
+                                    ? fmt::format(", where it turns at {:.4g} rad/s,",
+                                                  fastest_turn(mechanism, state).omega.norm())
+                                    : "";
+    return {{fmt::format("At t = {:.4g} s{} the mechanism is not in stable equilibrium with its "
+                         "loads: {} {}. In the motion a member that is exactly straight stays "
                          "so. Make it stiffer, or hold it.",
-                         trajectory.time(i), stability.where),
+                         trajectory.time(i), turning, stability.where, stability.how),
              true}};
   }
   return {};

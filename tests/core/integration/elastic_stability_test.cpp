@@ -164,12 +164,15 @@ TEST(QuasiStaticStart, LeavesMotionsOfTheWholeMechanismAlone) {
 
 /// A shaft of 1 m × 10 mm × h between a ball joint and a line, which turns about itself at Ω and is
 /// pressed by P, both relative to its first critical speed and its Euler load.
-std::string shaft(const std::string& frame, double h, double speed, double press) {
+/// @param damping  by stiffness [s]
+std::string shaft(const std::string& frame, double h, double speed, double press,
+                  double damping = 0.0) {
   return fmt::format(R"({{"scene": {{
       "materials": {{"m": {{"young": 7e10, "poisson": 0.3, "density": 2700}}}},
       "bodies": {{"b": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "m",
                        "section": {{"type": "rectangle", "width": 0.01, "height": {}}},
-                       "elements": 6, "frame": "{}", "angular_velocity": [{}, 0, 0]}}}},
+                       "elements": 6, "frame": "{}", "angular_velocity": [{}, 0, 0],
+                       "damping": {{"stiffness": {}}}}}}},
       "joints": {{"a": {{"type": "spherical", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
                 "l": {{"type": "point-on-line", "bodies": ["ground", "b"], "at": [1, 0, 0],
                       "axis": [1, 0, 0]}}}},
@@ -182,7 +185,7 @@ std::string shaft(const std::string& frame, double h, double speed, double press
         "y": {{"type": "position", "body": "b", "at": 1, "direction": "y", "over_time": "final"}}}}}})",
                      h, frame,
                      speed * std::pow(std::numbers::pi, 2) * std::sqrt(7e10 / 2700 / 12) * 0.01,
-                     press * std::pow(std::numbers::pi, 2) * 7e10 * h * 1e-6 / 12);
+                     damping, press * std::pow(std::numbers::pi, 2) * 7e10 * h * 1e-6 / 12);
 }
 
 /// In axes that turn with it the waves n of a shaft have ω² = n⁴ b − n² p in units of its lowest
@@ -212,6 +215,71 @@ TEST(QuasiStaticStart, OfAShaftThatTurnsIsFoundWhereItIsStable) {
               << h << " " << frame << " " << speed << " " << press << ": " << error;
         }
       }
+    }
+  }
+}
+
+/// What gyroscopic forces alone hold, damping that turns with the shaft lets go (Kelvin, Tait &
+/// Chetaev): it is stable only where K₁ > 0.
+TEST(QuasiStaticStart, OfAShaftBeyondItsCriticalSpeedIsRefusedWhereItDampsItself) {
+  for (const char* frame : {"tangent", "chord", "mean-axis"}) {
+    EXPECT_EQ(error_of(shaft(frame, 0.0101, 0.85, 0.2, 1e-4)), "") << frame;
+    for (const double speed : {1.5, 2.5}) {
+      EXPECT_EQ(error_of(shaft(frame, 0.0101, speed, 0.2)), "") << frame << " " << speed;
+      EXPECT_THAT(error_of(shaft(frame, 0.0101, speed, 0.2, 1e-4)), HasSubstr("\"b\" whirls"))
+          << frame << " " << speed;
+    }
+  }
+}
+
+/// A column without mass, 0.3 m long, which points from the rim of a turning hub of 0.5 m towards the
+/// axis, with 2 kg at its end.
+/// @param out_of_plane  whether it is thin along the axis
+std::string inward_column(bool out_of_plane, double speed) {
+  return fmt::format(R"({{"scene": {{
+      "materials": {{"light": {{"young": 2.1e11, "poisson": 0.3, "density": 1}}}},
+      "bodies": {{
+        "hub": {{"type": "rigid", "at": [0, 0, 0], "mass": 1, "inertia": [0.01, 0.01, 0.01, 0, 0, 0],
+                "angular_velocity": [0, 0, {0}]}},
+        "column": {{"type": "beam", "from": [0.5, 0, 0], "to": [0.2, 0, 0], "material": "light",
+                   "section": {{"type": "rectangle", "width": {1}, "height": {2}}}, "elements": 10,
+                   "reference": [0, 1, 0], "angular_velocity": [0, 0, {0}],
+                   "velocity": [0, {3}, 0]}},
+        "end": {{"type": "rigid", "at": [0.2, 0, 0], "mass": 2,
+                "inertia": [2e-7, 2e-7, 2e-7, 0, 0, 0], "angular_velocity": [0, 0, {0}],
+                "velocity": [0, {4}, 0]}}}},
+      "joints": {{
+        "bearing": {{"type": "revolute", "bodies": ["ground", "hub"], "at": [0, 0, 0],
+                    "axis": [0, 0, 1], "drive": {{"type": "constant-speed", "speed": {0}}}}},
+        "root": {{"type": "fixed", "bodies": ["hub", "column"], "at": [0.5, 0, 0]}},
+        "weld": {{"type": "fixed", "bodies": ["column", "end"], "at": [0.2, 0, 0]}}}}}},
+      "effects": {{"spatial_motion": "on"}},
+      "simulation": {{"end_time": 2e-4, "step": 1e-4, "initial_state": "quasi-static"}},
+      "responses": {{
+        "x": {{"type": "position", "body": "end", "direction": "x", "over_time": "final"}},
+        "y": {{"type": "position", "body": "end", "direction": "y", "over_time": "final"}}}}}})",
+                     speed, out_of_plane ? 0.004 : 0.02, out_of_plane ? 0.02 : 0.004, 0.5 * speed,
+                     0.2 * speed);
+}
+
+/// P = m Ω² (R − L) presses it. Across the turning it keeps its direction: P = π² EI/4L². In the plane
+/// it comes from the axis, so that k² = P/EI has tan kL = kR. Its own light elements vibrate 10⁶ times
+/// as fast as it buckles.
+TEST(QuasiStaticStart, OfAColumnThatTurnsInwardsIsFoundBelowItsCriticalSpeed) {
+  constexpr double length = 0.3, radius = 0.5, mass = 2.0;
+  const double bending = young * 0.02 * std::pow(0.004, 3) / 12;
+  double low = 1.0, high = 0.5 * std::numbers::pi / length - 1e-6;
+  for (int i = 0; i < 60; ++i) {
+    const double k = 0.5 * (low + high);
+    (std::tan(k * length) < k * radius ? low : high) = k;
+  }
+  for (const bool out_of_plane : {true, false}) {
+    const double k = out_of_plane ? 0.5 * std::numbers::pi / length : low;
+    const double critical = k * std::sqrt(bending / (mass * (radius - length)));
+    EXPECT_EQ(error_of(inward_column(out_of_plane, 0.98 * critical)), "") << out_of_plane;
+    for (const double share : {1.02, 1.1}) {
+      EXPECT_THAT(error_of(inward_column(out_of_plane, share * critical)), HasSubstr("buckles"))
+          << out_of_plane << " " << share;
     }
   }
 }

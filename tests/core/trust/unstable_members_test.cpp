@@ -96,5 +96,80 @@ TEST(UnstableMembers, IncludeTheTurningOfEndFittings) {
   });
 }
 
+/// A shaft of 1 m × 10 mm × h between a ball joint and a line, in the units of
+/// elastic_stability_test.cpp: its lowest critical speed and its Euler load.
+struct Shaft {
+  double height, speed;
+  double press = 0.0, gravity = 0.0, damping = 0.0;
+  double disk = 0.0;  ///< on its middle [kg]
+};
+
+std::string disk(double mass, double speed) {
+  return fmt::format(R"(, "disk": {{"type": "rigid", "at": [0.5, 0, 0], "mass": {0},
+                          "inertia": [{1}, {1}, {1}, 0, 0, 0], "angular_velocity": [{2}, 0, 0]}})",
+                     mass, 1e-6 * mass, speed);
+}
+
+const std::string weld =
+    R"(, "weld": {"type": "fixed", "bodies": ["bar", "disk"], "at": [0.5, 0, 0]})";
+
+std::vector<Doubt> doubts_of_shaft(const Shaft& shaft) {
+  const double wave = std::numbers::pi * std::numbers::pi;
+  const double speed = shaft.speed * wave * std::sqrt(7e10 / 2700 / 12) * 0.01;
+  const std::string text = fmt::format(
+      R"j({{"scene": {{ "gravity": [0, {}, 0],
+        "materials": {{"m": {{"young": 7e10, "poisson": 0.3, "density": 2700}}}},
+        "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "elements": 6,
+                            "material": "m", "frame": "chord", "angular_velocity": [{}, 0, 0],
+                            "damping": {{"stiffness": {}}},
+                            "section": {{"type": "rectangle", "width": 0.01, "height": {}}}}}{}}},
+        "joints": {{"a": {{"type": "spherical", "bodies": ["ground", "bar"], "at": [0, 0, 0]}},
+                   "l": {{"type": "point-on-line", "bodies": ["ground", "bar"], "at": [1, 0, 0],
+                         "axis": [1, 0, 0]}}{}}},
+        "loads": {{"press": {{"type": "force", "body": "bar", "at": [1, 0, 0],
+                             "direction": [-1, 0, 0], "value": {}}}}}}},
+      "effects": {{"spatial_motion": "on", "geometric_stiffening": "on"}},
+      "simulation": {{"end_time": 0.01, "step": 2e-4}},
+      "responses": {{"mass": {{"type": "mass"}}}}}})j",
+      -shaft.gravity, speed, shaft.damping, shaft.height,
+      shaft.disk > 0.0 ? disk(shaft.disk, speed) : "", shaft.disk > 0.0 ? weld : "",
+      shaft.press * wave * 7e10 * shaft.height * 1e-6 / 12);
+  return doubts_of(read_scene(text), doubt_unstable_members);
+}
+
+/// A shaft that is as stiff in both planes is held by gyroscopic forces beyond its critical speeds,
+/// however its weight or a sudden press makes it vibrate: (s² + K)² + 4Ω²s² has imaginary roots.
+TEST(UnstableMembers, AreNoShaftsBeyondTheirCriticalSpeeds) {
+  for (const double speed : {0.5, 1.5, 2.5, 3.5}) {
+    EXPECT_TRUE(doubts_of_shaft({0.01, speed, 0.2, 9.81}).empty()) << speed;
+    for (const double mass : {0.1, 1.0}) {
+      EXPECT_TRUE(doubts_of_shaft({0.01, speed, 0.2, 9.81, 0.0, mass}).empty()) << speed;
+      EXPECT_TRUE(doubts_of_shaft({0.01, speed, 0.2, 0.0, 0.0, mass}).empty()) << speed;
+    }
+  }
+}
+
+/// A flat shaft of ratio 2 grows between its critical speeds 1 and 2, pressed or not.
+TEST(UnstableMembers, AreFlatShaftsBetweenTheirCriticalSpeeds) {
+  for (const double press : {0.0, 0.02, 0.1}) {
+    EXPECT_TRUE(doubts_of_shaft({0.02, 0.9, press}).empty()) << press;
+    EXPECT_TRUE(doubts_of_shaft({0.02, 2.5, press}).empty()) << press;
+    for (const double speed : {1.1, 1.5, 1.9}) {
+      const std::vector<Doubt> doubts = doubts_of_shaft({0.02, speed, press});
+      ASSERT_EQ(doubts.size(), 1) << press << " " << speed;
+      EXPECT_TRUE(doubts[0].is_serious);
+      EXPECT_NE(doubts[0].text.find("\"bar\" buckles"), std::string::npos) << doubts[0].text;
+    }
+  }
+}
+
+/// Damping that turns with a shaft makes it whirl beyond its first critical speed.
+TEST(UnstableMembers, AreShaftsThatDampThemselves) {
+  EXPECT_TRUE(doubts_of_shaft({0.01, 0.9, 0.0, 0.0, 1e-4}).empty());
+  const std::vector<Doubt> doubts = doubts_of_shaft({0.01, 1.5, 0.0, 0.0, 1e-4});
+  ASSERT_EQ(doubts.size(), 1);
+  EXPECT_NE(doubts[0].text.find("\"bar\" whirls"), std::string::npos) << doubts[0].text;
+}
+
 }  // namespace
 }  // namespace pleuel::test
