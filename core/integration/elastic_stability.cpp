@@ -1,6 +1,7 @@
 #include "core/integration/elastic_stability.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/base/dense_solvers.hpp"
@@ -45,18 +46,24 @@ bool is_symmetric(const Eigen::MatrixXd& matrix) {
   return (matrix - matrix.transpose()).norm() <= asymmetry * matrix.norm();
 }
 
-/// Whether small motions grow:  det(s² M + s C + K) = 0 with an s of positive real part.
+/// Whether small motions grow:  det(s² M + s C + K) = 0 with an s of positive real part. Round-off is
+/// relative to the fastest vibration: what damping holds back may be faster by far.
 bool grows(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& rates,
            const Eigen::MatrixXd& stiffness) {
   constexpr double round_off = 1e-7;
   const Eigen::Index size = mass.cols();
   const DenseLu factors(mass);
+  const Eigen::MatrixXd squares = factors.solve(stiffness);
+  const double unit = std::sqrt(squares.cwiseAbs().maxCoeff());  // of rates, as all entries are
+  if (!(unit > 0.0)) return false;
   Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(2 * size, 2 * size);
-  companion.topRightCorner(size, size).setIdentity();
-  companion.bottomLeftCorner(size, size) = -factors.solve(stiffness);
+  companion.topRightCorner(size, size).diagonal().setConstant(unit);
+  companion.bottomLeftCorner(size, size) = -squares / unit;
   companion.bottomRightCorner(size, size) = -factors.solve(rates);
   const Eigen::VectorXcd roots = eigenvalues_of(companion);
-  return roots.real().maxCoeff() > round_off * roots.cwiseAbs().maxCoeff();
+  const double vibration = roots.imag().cwiseAbs().maxCoeff();
+  const double scale = vibration > 0.0 ? vibration : roots.cwiseAbs().maxCoeff();
+  return roots.real().maxCoeff() > round_off * scale;
 }
 
 Eigen::MatrixXd skew_part(const Eigen::MatrixXd& matrix) {
@@ -121,7 +128,8 @@ struct TurningDeformations {
 
 TurningDeformations turning_deformations(const Mechanism& mechanism, const State& state) {
   const int n = mechanism.system->coordinates(), m = mechanism.system->multipliers();
-  const Turning turning = turning_of(mechanism, state);
+  const Turning turning =
+      is_rotor(mechanism, state) ? rotor_turning(mechanism, state) : turning_of(mechanism, state);
   const auto scaled = [&](const Eigen::MatrixXd& matrix) -> Eigen::MatrixXd {
     return mechanism.scale.cwiseInverse().asDiagonal() * matrix * mechanism.scale.asDiagonal();
   };
@@ -186,11 +194,12 @@ ElasticStability turning_stability(const Mechanism& mechanism, const State& stat
     return low.transpose() * matrix * low;
   };
   const Eigen::MatrixXd m = reduced(mass), c = reduced(all.rates), k = reduced(all.stiffness);
-  const bool buckles = grows(m, skew_part(c), k);
-  result.is_stable = !buckles && !grows(m, c, k);
+  result.is_stable = !grows(m, c, k);
   if (result.is_stable) return result;
   result.where = owner(mechanism, all.shapes * modes.vectors.col(0));
-  if (!buckles) result.how = "whirls, as its own damping turns with it";
+  if (!grows(m, skew_part(c), symmetric_part(k))) {
+    result.how = "whirls, as its own damping turns with it";
+  }
   return result;
 }
 

@@ -17,6 +17,11 @@ struct Turning {
 
 Turning turning_of(const Mechanism& mechanism, const State& state);
 
+/// The same with all bodies in axes that turn with the one that turns fastest: what stands still beside
+/// a rotor, as the block of a bearing, has constant coefficients there, if it is alike in all
+/// directions across the axis.
+Turning rotor_turning(const Mechanism& mechanism, const State& state);
+
 /// The angular velocity of the body that turns fastest, in its axes, and its angular acceleration
 /// [rad/s, rad/s²]; zero in a plane.
 struct FastestTurn {

@@ -284,4 +284,55 @@ TEST(QuasiStaticStart, OfAColumnThatTurnsInwardsIsFoundBelowItsCriticalSpeed) {
   }
 }
 
+/// A shaft almost without mass with a disk of 1 kg on its middle, and a block of 1 kg that does not
+/// turn, on a bearing; two dampers hold the block. Stiffness 48 EI/L³ of two pins, L = 1.
+std::string held_rotor(double speed, double damping, double damper) {
+  return fmt::format(R"({{"scene": {{
+      "materials": {{"light": {{"young": 2.1e11, "poisson": 0.3, "density": 10}}}},
+      "bodies": {{
+        "b": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "light",
+              "section": {{"type": "circle", "diameter": 0.01}}, "elements": 4, "frame": "chord",
+              "angular_velocity": [{0}, 0, 0], "damping": {{"stiffness": {1}}}}},
+        "disk": {{"type": "rigid", "at": [0.5, 0, 0], "mass": 1,
+                 "inertia": [1e-6, 1e-6, 1e-6, 0, 0, 0], "angular_velocity": [{0}, 0, 0]}},
+        "block": {{"type": "rigid", "at": [0.5, 0, 0], "mass": 1,
+                  "inertia": [1e-6, 1e-6, 1e-6, 0, 0, 0]}}}},
+      "joints": {{
+        "a": {{"type": "spherical", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
+        "l": {{"type": "point-on-line", "bodies": ["ground", "b"], "at": [1, 0, 0],
+              "axis": [1, 0, 0]}},
+        "weld": {{"type": "fixed", "bodies": ["b", "disk"], "at": [0.5, 0, 0]}},
+        "bearing": {{"type": "revolute", "bodies": ["b", "block"], "at": [0.5, 0, 0],
+                    "axis": [1, 0, 0]}}}},
+      "loads": {{
+        "y": {{"type": "spring", "bodies": ["ground", "block"], "at": [[0.5, 10, 0], [0.5, 0, 0]],
+              "stiffness": 0, "damping": {2}}},
+        "z": {{"type": "spring", "bodies": ["ground", "block"], "at": [[0.5, 0, 10], [0.5, 0, 0]],
+              "stiffness": 0, "damping": {2}}}}}}},
+      "effects": {{"spatial_motion": "on"}},
+      "simulation": {{"end_time": 2e-4, "step": 1e-4, "initial_state": "quasi-static"}},
+      "responses": {{
+        "x": {{"type": "position", "body": "disk", "direction": "x", "over_time": "final"}},
+        "y": {{"type": "position", "body": "disk", "direction": "y", "over_time": "final"}}}}}})",
+                     speed, damping, damper);
+}
+
+/// With c_i = β k of the shaft, which turns, and c_e of the dampers, which stand still, it whirls from
+/// Ω = √(k/m) (1 + c_e/c_i) on (Smith 1933), where m is the
+/// mass of disk and block. Without damping nothing grows.
+TEST(QuasiStaticStart, OfARotorInDampersIsFoundUpToTheSpeedThatTheyHold) {
+  constexpr double mass = 2.0;
+  const double stiff = 48 * young * std::numbers::pi * 1e-8 / 64;
+  const double critical = std::sqrt(stiff / mass), damping = 1e-3;
+  for (const double share : {0.0, 0.5, 2.0}) {
+    const double damper = share * damping * stiff, limit = (1.0 + share) * critical;
+    EXPECT_EQ(error_of(held_rotor(0.97 * limit, damping, damper)), "") << share;
+    EXPECT_THAT(error_of(held_rotor(1.03 * limit, damping, damper)), HasSubstr("\"b\" whirls"))
+        << share;
+  }
+  for (const double speed : {0.9, 1.1, 1.5, 3.0}) {
+    EXPECT_EQ(error_of(held_rotor(speed * critical, 0.0, 0.0)), "") << speed;
+  }
+}
+
 }  // namespace
