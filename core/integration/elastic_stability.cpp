@@ -126,7 +126,9 @@ struct TurningDeformations {
   Eigen::MatrixXd shapes, mass, rates, stiffness;  ///< rates: gyroscopic forces and damping
 };
 
-TurningDeformations turning_deformations(const Mechanism& mechanism, const State& state) {
+/// @param shapes  the deformations, if they are known
+TurningDeformations turning_deformations(const Mechanism& mechanism, const State& state,
+                                         const Eigen::MatrixXd* shapes = nullptr) {
   const int n = mechanism.system->coordinates(), m = mechanism.system->multipliers();
   const Turning turning =
       is_rotor(mechanism, state) ? rotor_turning(mechanism, state) : turning_of(mechanism, state);
@@ -138,7 +140,9 @@ TurningDeformations turning_deformations(const Mechanism& mechanism, const State
   const Eigen::MatrixXd of_v = scaled_tangent(mechanism, state, {.v = 1.0}).topRows(n);
   const Eigen::MatrixXd of_a = scaled_tangent(mechanism, state, {.a = 1.0}).topRows(n);
   TurningDeformations result;
-  result.shapes = free_deformations(mechanism, Eigen::MatrixXd(of_q.bottomRows(m) * T));
+  result.shapes = shapes != nullptr
+                      ? *shapes
+                      : free_deformations(mechanism, Eigen::MatrixXd(of_q.bottomRows(m) * T));
   const Eigen::MatrixXd& z = result.shapes;
   const Eigen::MatrixXd left = (T * z).transpose();
   result.mass = symmetric_part(left * (of_a * (T * z)));
@@ -170,6 +174,44 @@ bool turns_alike(const Mechanism& mechanism, const State& state, const FastestTu
          });
 }
 
+/// A state after a short time, as bodies do not deform.
+State advanced(const Mechanism& mechanism, const State& state, double time) {
+  const FastestTurn rotor = fastest_turn(mechanism, state);
+  const Eigen::Vector3d omega = rotor.axes * rotor.omega;
+  State next = state;
+  next.q += time * state.v;
+  const auto turn = [&](int translation) {
+    for (Eigen::VectorXd* rates : {&next.v, &next.a}) {
+      const Eigen::Vector3d rate = rates->segment<3>(translation);
+      rates->segment<3>(translation) += time * omega.cross(rate);
+    }
+  };
+  for (const int rotation : mechanism.rotations) {
+    const Eigen::Vector3d step = time * state.v.segment<3>(rotation);
+    next.q.segment<3>(rotation) = compose(state.q.segment<3>(rotation), step);
+    turn(rotation - 3);
+  }
+  for (const int point : mechanism.points) turn(point);
+  return next;
+}
+
+/// Whether the stiffness of a rotor changes as it turns, as in bearings that are softer one way: by
+/// more than what is negative in it, so that one instant does not tell whether it grows.
+/// @param low     modes with φᵀ M φ = 1, the lowest first
+/// @param lowest  φᵀ K φ of that
+bool changes_with_angle(const Mechanism& mechanism, const State& state,
+                        const Eigen::MatrixXd& shapes, const Eigen::MatrixXd& low, double lowest) {
+  constexpr double angle = 1e-4, share = 0.25;
+  const double speed = fastest_turn(mechanism, state).omega.norm();
+  if (lowest < -(1.0 + share) * speed * speed) return false;  // it would buckle standing still, too
+  const auto row = [&](double time) -> Eigen::MatrixXd {
+    const State moved = advanced(mechanism, state, time);
+    return low.col(0).transpose() * turning_deformations(mechanism, moved, &shapes).stiffness * low;
+  };
+  const Eigen::MatrixXd change = (row(angle / speed) - row(-angle / speed)) / (2.0 * angle);
+  return change.norm() > share * std::abs(lowest);
+}
+
 /// Of a mechanism that turns in space. Deformations without stiffness may be held by gyroscopic
 /// forces, which is asked of the lowest modes; damping by what turns takes that away (Kelvin, Tait &
 /// Chetaev), and what stands still may give it back.
@@ -194,7 +236,9 @@ ElasticStability turning_stability(const Mechanism& mechanism, const State& stat
     return low.transpose() * matrix * low;
   };
   const Eigen::MatrixXd m = reduced(mass), c = reduced(all.rates), k = reduced(all.stiffness);
-  result.is_stable = !grows(m, c, k);
+  result.is_stable =
+      !grows(m, c, k) || (is_rotor(mechanism, state) &&
+                          changes_with_angle(mechanism, state, all.shapes, low, modes.values(0)));
   if (result.is_stable) return result;
   result.where = owner(mechanism, all.shapes * modes.vectors.col(0));
   if (!grows(m, skew_part(c), symmetric_part(k))) {

@@ -286,7 +286,8 @@ TEST(QuasiStaticStart, OfAColumnThatTurnsInwardsIsFoundBelowItsCriticalSpeed) {
 
 /// A shaft almost without mass with a disk of 1 kg on its middle, and a block of 1 kg that does not
 /// turn, on a bearing; two dampers hold the block. Stiffness 48 EI/L³ of two pins, L = 1.
-std::string held_rotor(double speed, double damping, double damper) {
+/// @param spring  along y, stiffness
+std::string held_rotor(double speed, double damping, double damper, double spring = 0.0) {
   return fmt::format(R"({{"scene": {{
       "materials": {{"light": {{"young": 2.1e11, "poisson": 0.3, "density": 10}}}},
       "bodies": {{
@@ -306,7 +307,7 @@ std::string held_rotor(double speed, double damping, double damper) {
                     "axis": [1, 0, 0]}}}},
       "loads": {{
         "y": {{"type": "spring", "bodies": ["ground", "block"], "at": [[0.5, 10, 0], [0.5, 0, 0]],
-              "stiffness": 0, "damping": {2}}},
+              "stiffness": {3}, "damping": {2}}},
         "z": {{"type": "spring", "bodies": ["ground", "block"], "at": [[0.5, 0, 10], [0.5, 0, 0]],
               "stiffness": 0, "damping": {2}}}}}}},
       "effects": {{"spatial_motion": "on"}},
@@ -314,7 +315,7 @@ std::string held_rotor(double speed, double damping, double damper) {
       "responses": {{
         "x": {{"type": "position", "body": "disk", "direction": "x", "over_time": "final"}},
         "y": {{"type": "position", "body": "disk", "direction": "y", "over_time": "final"}}}}}})",
-                     speed, damping, damper);
+                     speed, damping, damper, spring);
 }
 
 /// With c_i = β k of the shaft, which turns, and c_e of the dampers, which stand still, it whirls from
@@ -332,6 +333,19 @@ TEST(QuasiStaticStart, OfARotorInDampersIsFoundUpToTheSpeedThatTheyHold) {
   }
   for (const double speed : {0.9, 1.1, 1.5, 3.0}) {
     EXPECT_EQ(error_of(held_rotor(speed * critical, 0.0, 0.0)), "") << speed;
+  }
+}
+
+/// In a bearing that is softer one way a round shaft without damping grows at no speed: in axes that
+/// stand still y and z are vibrations of their own.
+TEST(QuasiStaticStart, OfARoundShaftInABearingThatIsSofterOneWayIsFound) {
+  const double stiff = 48 * young * std::numbers::pi * 1e-8 / 64;
+  for (const double ratio : {0.3, 3.0}) {
+    for (const double speed : {0.9, 1.1, 1.5, 1.9, 2.5}) {
+      const double critical = std::sqrt(stiff / 2.0);
+      EXPECT_EQ(error_of(held_rotor(speed * critical, 0.0, 0.0, ratio * stiff)), "")
+          << ratio << " " << speed;
+    }
   }
 }
 
