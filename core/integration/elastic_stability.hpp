@@ -28,6 +28,8 @@ struct ElasticStability {
 /// Gyroscopic forces may hold an even number, and so may a stiffness that is not symmetric (loads
 /// that follow); an odd one grows (Thomson & Tait). Whether they do is asked of the deformations of
 /// these eigenvalues alone, with their mass.
+/// A rotor whose stiffness changes with its angle, and that does not buckle standing still, counts as
+/// stable: Floquet's theory would have to tell.
 ElasticStability elastic_stability(const Mechanism& mechanism, const State& state);
 
 /// Whether all that turns in space turns alike and at a constant speed, but for small vibrations.
