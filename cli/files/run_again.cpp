@@ -1,5 +1,6 @@
 #include "cli/files/run_again.hpp"
 
+#include <utility>
 #include <vector>
 
 #include "cli/input/case_document.hpp"
@@ -14,6 +15,26 @@ std::string shown_case(const Json& result) {
   const Json name = result["cases"].value("shown", Json());
   return name.is_string() ? name.get<std::string>() : "";
 }
+
+namespace {
+
+/// The effects of the model that the result is of: where an optimization has ended, more of them may
+/// matter than where it began.
+/// @returns whether the result names them
+bool take_effects(const Json& result, ProblemFile& problem) {
+  if (problem.has_cases() || !result.contains("effects")) return false;
+  EffectDecisions decisions;
+  for (const Json& effect : result["effects"]) {
+    if (!effect.contains("body") || effect.value("case", "") != problem.load_case) continue;
+    const std::pair key(effect["body"].get<std::string>(), effect.at("name").get<std::string>());
+    decisions.measured[key].is_needed = effect.at("built").get<bool>();
+  }
+  if (decisions.measured.empty()) return false;
+  problem.effects.decisions = std::move(decisions);
+  return true;
+}
+
+}  // namespace
 
 ProblemFile problem_of(const Json& card, const Json& result) {
   return problem_of(card, result, shown_case(result));
@@ -34,7 +55,7 @@ ProblemFile problem_of(const Json& card, const Json& result, const std::string& 
   }
   ProblemFile problem = read_problem_text(document.dump(), file, overrides);
   problem.load_case = load_case;
-  decide_effects(problem);
+  if (!take_effects(result, problem)) decide_effects(problem);
   return problem;
 }
 

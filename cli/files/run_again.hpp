@@ -14,7 +14,8 @@ namespace pleuel {
 /// The load case whose mechanism a page shows first; empty without cases.
 std::string shown_case(const Json& result);
 
-/// The problem as it ran: with the steps and elements that were chosen for an accuracy.
+/// The problem as it ran: with the steps and elements that were chosen for an accuracy, and the
+/// effects that were built at the end.
 ProblemFile problem_of(const Json& card, const Json& result);
 
 /// The same of one of its load cases; of all if it is empty.

@@ -202,6 +202,32 @@ TEST_F(OptimizationReport, CanBeMadeLater) {
   EXPECT_EQ(data_of(page).at("picture"), before);
 }
 
+/// An optimization may end with effects that it left out where it began.
+TEST(Report, IsOfTheEffectsThatTheResultNames) {
+  const TemporaryFolder folder;
+  const fs::path page = folder.path() / "one/report.html",
+                 result = folder.path() / "one/result.json";
+  run_program(folder.path(),
+              joined({"optimize", problem("slider_crank_round"), "-o", "one", "--set",
+                      "/effects/tolerance=0.03", "--set", "/effects/geometric_stiffening=auto"},
+                     quick()));
+  const json drawn = data_of(page).at("picture");
+  run_program(folder.path(), {"report", "one"});
+  EXPECT_TRUE(data_of(page).at("picture") == drawn);
+  json document = json::parse(read_file(result));
+  int turned = 0;
+  for (json& effect : document.at("effects")) {
+    if (effect.at("name") != "geometric_stiffening") continue;
+    effect["built"] = !effect["built"].get<bool>();
+    ++turned;
+  }
+  EXPECT_EQ(turned, 2);
+  std::ofstream(result) << document.dump();
+  const ProgramRun run = run_program(folder.path(), {"report", "one"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_FALSE(data_of(page).at("picture") == drawn);
+}
+
 std::vector<std::string> simulate(const std::string& name) {
   return joined({"simulate", problem("slider_crank_round"), "-o", name}, quick());
 }
