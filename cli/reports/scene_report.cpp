@@ -120,9 +120,11 @@ std::string assembly_text(const Analysis& analysis) {
   }
   const std::string& name = mechanism.equation_names.at(largest);
   return wrapped(
-      fmt::format("Joints and drives move the mechanism from where the file places it before the "
-                  "start, most {}, by {} m or rad.\n",
-                  name, significant(shift(largest), 3)),
+      fmt::format(
+          "{} move the mechanism from where the file places it before the start, most {}, "
+          "by {} m or rad.\n",
+          mechanism.starts_in_equilibrium ? "Loads, joints and drives" : "Joints and drives", name,
+          significant(shift(largest), 3)),
       "  ");
 }
 

@@ -99,7 +99,7 @@ std::string actions_text(const ProblemFile& problem, const Eigen::VectorXd& x) {
   Table table({{"acts", Table::Align::left},
                {"kind", Table::Align::left},
                {"on", Table::Align::left},
-               {"from the start to the end", Table::Align::left}});
+               {"smallest … largest", Table::Align::left}});
   for (const Joint& joint : problem.scene.joints) {
     if (!joint.drive) continue;
     const bool turns = joint.drive->coordinate == DrivenCoordinate::angle;

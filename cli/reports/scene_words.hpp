@@ -12,7 +12,7 @@ namespace pleuel {
 /// Table: joint, kind, bodies, its freedoms, its drive.
 std::string joints_text(const ProblemFile& problem);
 
-/// Table: drives and loads, on what they act, how large they are from the start to the end. Empty
+/// Table: drives and loads, on what they act, their smallest and largest values from the start to the end. Empty
 /// where there are none.
 std::string actions_text(const ProblemFile& problem, const Eigen::VectorXd& x);
 

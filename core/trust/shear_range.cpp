@@ -269,9 +269,9 @@ class ShearDoubts {
     const bool is_serious = worst > alarming;
     doubts.push_back(
         {fmt::format(
-             "\"{}\" is stubby: shear, which it leaves out, would change {} by {} {:.2g} %.{}",
+             "\"{}\" is stubby: shear, which it leaves out, would change {} by {} {:.2g} %{}.{}",
              body, names, is_held_twice_ ? "up to" : "some", 100.0 * worst,
-             advice(body, is_serious)),
+             is_serious ? " of what it is with shear" : "", advice(body, is_serious)),
          is_serious, responses});
   }
 

@@ -6,7 +6,9 @@
 #include <numbers>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "core/base/find_named.hpp"
 #include "core/response/lateral_buckling_signal.hpp"
 
 namespace pleuel {
@@ -72,6 +74,7 @@ class SidewaysBuckling {
   void see(const State& state, double time) {
     if (is_over_) return;
     PlaneLoad load = observed_.observe(state);
+    pressed_ = std::max(pressed_, largest_press(load) / euler_load());
     if (way_ == Way::in_plane) {
       is_over_ = largest_moment(load) > straight_offset * length_ * euler_load();
       load.bottomRows<2>().setZero();
@@ -85,6 +88,12 @@ class SidewaysBuckling {
     load_ = load;
     time_ = time;
   }
+
+  /// Whether it is pressed, in a mechanism that moves in a plane, enough to buckle with others.
+  bool is_pressed_in_plane() const {
+    return is_planar_ && way_ == Way::out_of_plane && pressed_ > harmless_load;
+  }
+  const std::string& name() const { return name_; }
 
   /// 0: nothing is worth a word.
   double share() const { return share_ > near_critical ? share_ : 0.0; }
@@ -160,6 +169,7 @@ class SidewaysBuckling {
   double length_ = 0.0, full_length_ = 0.0, lateral_ = 0.0, twisting_ = 0.0;
   double shearing_ = 0.0, depth_ = 0.0;
   double share_ = near_critical, time_ = 0.0;
+  double pressed_ = 0.0;  ///< largest press over the Euler load of two pins
   PlaneLoad load_;
 };
 
@@ -171,6 +181,34 @@ std::vector<SidewaysBuckling> ways_of(const TrustedRun& run, const BodyModel& pa
   for (const BendingPlane plane : planes) ways.emplace_back(run, part, plane, Way::out_of_plane);
   if (planes.size() == 1) ways.emplace_back(run, part, planes.front(), Way::in_plane);
   return ways;
+}
+
+bool is_elastic_beam(const Scene& scene, const std::string& name) {
+  const Body* body = find_named(scene.bodies, name);
+  const auto* beam = body ? std::get_if<BeamBody>(&body->shape) : nullptr;
+  return beam != nullptr && !beam->is_rigid;
+}
+
+/// Whether it is welded to another elastic beam, which counts as rigid here, but sways with it.
+bool is_welded_to_beam(const Scene& scene, const std::string& name) {
+  return std::any_of(scene.joints.begin(), scene.joints.end(), [&](const Joint& joint) {
+    if (joint.type != JointType::fixed) return false;
+    const bool is_first = joint.bodies[0] == name;
+    return (is_first || joint.bodies[1] == name) &&
+           is_elastic_beam(scene, joint.bodies[is_first ? 1 : 0]);
+  });
+}
+
+/// Members of a frame in the plane of motion, each of which may bear its load, but not together.
+Doubt doubt_common_sway(const std::vector<std::string>& names) {
+  return {
+      fmt::format("Whether {} with the elastic beams welded to {} out of the plane of motion was "
+                  "not looked at: each member is judged by itself, with its neighbours as "
+                  "rigid. Set /effects/spatial_motion to \"on\" to find out.",
+                  names.size() == 1 ? fmt::format("\"{}\" buckles", names[0])
+                                    : fmt::format("\"{}\" buckle", fmt::join(names, "\", \"")),
+                  names.size() == 1 ? "it" : "them"),
+      false};
 }
 
 }  // namespace
@@ -191,12 +229,19 @@ std::vector<Doubt> doubt_sideways_buckling(const TrustedRun& run) {
     }
   }
   std::vector<Doubt> doubts;
+  std::vector<std::string> swaying;
   for (auto& ways : members) {
     auto worst = std::max_element(ways.begin(), ways.end(), [](const auto& one, const auto& other) {
       return one.share() < other.share();
     });
-    if (worst->share() > 0.0) doubts.push_back(worst->doubt());
+    if (worst->share() > 0.0) {
+      doubts.push_back(worst->doubt());
+    } else if (ways.front().is_pressed_in_plane() &&
+               is_welded_to_beam(run.problem.scene, ways.front().name())) {
+      swaying.push_back(ways.front().name());
+    }
   }
+  if (!swaying.empty()) doubts.push_back(doubt_common_sway(swaying));
   return doubts;
 }
 

@@ -238,4 +238,48 @@ TEST(SidewaysBuckling, OfADividedBeamIsThatOfTheWhole) {
   }
 }
 
+/// Two columns with a beam across, pressed at both knees.
+std::string portal(double force, const std::string& knee, const std::string& motion) {
+  const auto beam = [](const std::string& name, const std::string& ends) {
+    return fmt::format(R"("{}": {{"type": "beam", {}, "material": "steel", "elements": 4,
+        "section": {{"type": "rectangle", "width": 0.04, "height": 0.06}}}})",
+                       name, ends);
+  };
+  const auto press = [force](const std::string& body, double at) {
+    return fmt::format(R"("{0}": {{"type": "force", "body": "{0}", "at": [{1}, 3, 0],
+                                   "direction": [0, -1, 0], "value": {2}}})",
+                       body, at, force);
+  };
+  const auto joint = [](const std::string& type, const std::string& one, const std::string& other,
+                        double x, double y) {
+    return fmt::format(R"("{1} {2}": {{"type": "{0}", "bodies": ["{1}", "{2}"],
+                                       "at": [{3}, {4}, 0]}})",
+                       type, one, other, x, y);
+  };
+  const std::string joints =
+      joint("fixed", "ground", "left", 0, 0) + ", " + joint("fixed", "ground", "right", 4, 0) +
+      ", " + joint(knee, "left", "top", 0, 3) + ", " + joint(knee, "right", "top", 4, 3);
+  return fmt::format(
+      R"({{"scene": {{"bodies": {{{}, {}, {}}}, "joints": {{{}}}, "loads": {{{}, {}}}}},
+      "effects": {{"spatial_motion": "{}"}},
+      "simulation": {{"end_time": 0.002, "step": 0.001, "initial_state": "quasi-static"}},
+      "responses": {{"mass": {{"type": "mass"}}}}}})",
+      beam("left", R"("from": [0, 0, 0], "to": [0, 3, 0])"),
+      beam("right", R"("from": [4, 0, 0], "to": [4, 3, 0])"),
+      beam("top", R"("from": [0, 3, 0], "to": [4, 3, 0])"), joints, press("left", 0),
+      press("right", 4), motion);
+}
+
+/// Each column is stiff enough with the other members held, but the frame sways as a cantilever.
+TEST(SidewaysBuckling, OfAFrameTogetherIsSaidNotToBeLookedAt) {
+  const double euler = pi * pi * 2.1e11 * (0.06 * std::pow(0.04, 3) / 12) / 9.0;
+  const std::vector<Doubt> doubts = sideways_doubts_of(portal(0.4 * euler, "fixed", "auto"));
+  ASSERT_EQ(doubts.size(), 1u);
+  EXPECT_NE(doubts[0].text.find(R"("left", "right" buckle)"), std::string::npos) << doubts[0].text;
+  EXPECT_FALSE(doubts[0].is_serious);
+  EXPECT_TRUE(sideways_doubts_of(portal(0.04 * euler, "fixed", "auto")).empty());
+  EXPECT_TRUE(sideways_doubts_of(portal(0.1 * euler, "revolute", "auto")).empty());
+  EXPECT_TRUE(sideways_doubts_of(portal(0.1 * euler, "fixed", "on")).empty());
+}
+
 }  // namespace
