@@ -236,7 +236,8 @@ TEST(ShearRange, DoesNotConcernBeamsThatHaveShear) {
 TEST(ShearRange, SaysWhatHelps) {
   StubbyBeam beam{rectangle(0.5)};
   EXPECT_THAT(ShearedBeam(beam).doubts()[0].text,
-              HasSubstr("some 16 %. Do not trust that: set /scene/bodies/beam/shear to true."));
+              HasSubstr("some 16 % of what it is with shear. Do not trust that: set "
+                        "/scene/bodies/beam/shear to true."));
   beam.section = R"({"type": "general", "area": 0.025, "inertia_y": 5e-6, "inertia_z": 5e-4,
                      "torsion": 2e-5, "points": [{"y": 0.25, "z": 0, "shear": 0}]})";
   EXPECT_THAT(ShearedBeam(beam).doubts()[0].text,
