@@ -6,10 +6,9 @@
 #include <numbers>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include "core/base/find_named.hpp"
 #include "core/response/lateral_buckling_signal.hpp"
+#include "core/trust/common_buckling.hpp"
 
 namespace pleuel {
 
@@ -183,32 +182,11 @@ std::vector<SidewaysBuckling> ways_of(const TrustedRun& run, const BodyModel& pa
   return ways;
 }
 
-bool is_elastic_beam(const Scene& scene, const std::string& name) {
-  const Body* body = find_named(scene.bodies, name);
-  const auto* beam = body ? std::get_if<BeamBody>(&body->shape) : nullptr;
-  return beam != nullptr && !beam->is_rigid;
-}
-
-/// Whether it is welded to another elastic beam, which counts as rigid here, but sways with it.
-bool is_welded_to_beam(const Scene& scene, const std::string& name) {
-  return std::any_of(scene.joints.begin(), scene.joints.end(), [&](const Joint& joint) {
-    if (joint.type != JointType::fixed) return false;
-    const bool is_first = joint.bodies[0] == name;
-    return (is_first || joint.bodies[1] == name) &&
-           is_elastic_beam(scene, joint.bodies[is_first ? 1 : 0]);
+/// Whether the mechanism has another elastic body, which counts as rigid here, but gives way with it.
+bool has_elastic_neighbour(const Model& model, const std::string& name) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(), [&](const BodyModel& body) {
+    return body.name != name && body.elastic_size() > 0;
   });
-}
-
-/// Members of a frame in the plane of motion, each of which may bear its load, but not together.
-Doubt doubt_common_sway(const std::vector<std::string>& names) {
-  return {
-      fmt::format("Whether {} with the elastic beams welded to {} out of the plane of motion was "
-                  "not looked at: each member is judged by itself, with its neighbours as "
-                  "rigid. Set /effects/spatial_motion to \"on\" to find out.",
-                  names.size() == 1 ? fmt::format("\"{}\" buckles", names[0])
-                                    : fmt::format("\"{}\" buckle", fmt::join(names, "\", \"")),
-                  names.size() == 1 ? "it" : "them"),
-      false};
 }
 
 }  // namespace
@@ -229,19 +207,21 @@ std::vector<Doubt> doubt_sideways_buckling(const TrustedRun& run) {
     }
   }
   std::vector<Doubt> doubts;
-  std::vector<std::string> swaying;
+  std::vector<std::string> pressed;
   for (auto& ways : members) {
     auto worst = std::max_element(ways.begin(), ways.end(), [](const auto& one, const auto& other) {
       return one.share() < other.share();
     });
-    if (worst->share() > 0.0) {
-      doubts.push_back(worst->doubt());
-    } else if (ways.front().is_pressed_in_plane() &&
-               is_welded_to_beam(run.problem.scene, ways.front().name())) {
-      swaying.push_back(ways.front().name());
+    if (worst->share() > 0.0) doubts.push_back(worst->doubt());
+    const std::string& name = ways.front().name();
+    if (ways.front().is_pressed_in_plane() && has_elastic_neighbour(run.analysis.model, name)) {
+      pressed.push_back(name);
     }
   }
-  if (!swaying.empty()) doubts.push_back(doubt_common_sway(swaying));
+  const bool is_refused = std::any_of(doubts.begin(), doubts.end(),
+                                      [](const Doubt& doubt) { return doubt.is_serious; });
+  if (pressed.empty() || is_refused) return doubts;
+  for (Doubt& doubt : doubt_common_buckling(run, pressed)) doubts.push_back(std::move(doubt));
   return doubts;
 }
 

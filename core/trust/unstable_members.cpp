@@ -16,7 +16,6 @@ namespace pleuel {
 namespace {
 
 constexpr double harmless_press = 0.05;
-constexpr Eigen::Index most_coordinates = 600;
 
 /// Of two pins at the ends of the beam with its fittings, about the weakest axis of the weakest
 /// element.
@@ -62,10 +61,9 @@ struct FastestRotor {
   }
 };
 
-std::vector<PressedBeam> beams_of(const TrustedRun& run) {
-  const Model& model = run.analysis.model;
+std::vector<PressedBeam> beams_of(const Scene& scene, const Model& model) {
   std::vector<PressedBeam> beams;
-  for (const Body& body : run.problem.scene.bodies) {
+  for (const Body& body : scene.bodies) {
     if (!std::holds_alternative<BeamBody>(body.shape)) continue;
     const BodyModel& part = *model.parts(body.name).front();
     const bool is_planar = part.frame.rotation == RotationCoordinates::angle;
@@ -76,12 +74,13 @@ std::vector<PressedBeam> beams_of(const TrustedRun& run) {
 
 }  // namespace
 
-std::vector<Doubt> doubt_unstable_members(const TrustedRun& run) {
-  const Mechanism& mechanism = run.analysis.model.mechanism;
-  if (mechanism.system->coordinates() > most_coordinates) return {};
-  std::vector<PressedBeam> beams = beams_of(run);
+std::vector<Doubt> doubt_instability(const Scene& scene, const Analysis& analysis,
+                                     const std::string& unseen) {
+  const Mechanism& mechanism = analysis.model.mechanism;
+  if (mechanism.system->coordinates() > most_judged_coordinates) return {};
+  std::vector<PressedBeam> beams = beams_of(scene, analysis.model);
   if (beams.empty()) return {};
-  const Trajectory& trajectory = run.analysis.trajectory;
+  const Trajectory& trajectory = analysis.trajectory;
   State state;
   FastestRotor rotor;
   for (int i = 0; i < static_cast<int>(trajectory.time.size()); ++i) {
@@ -103,12 +102,16 @@ std::vector<Doubt> doubt_unstable_members(const TrustedRun& run) {
                                                   fastest_turn(mechanism, state).omega.norm())
                                     : "";
     return {{fmt::format("At t = {:.4g} s{} the mechanism is not in stable equilibrium with its "
-                         "loads: {} {}. In the motion a member that is exactly straight stays "
-                         "so. Make it stiffer, or hold it.",
-                         trajectory.time(i), turning, stability.where, stability.how),
+                         "loads: {} {}. {} Make it stiffer, or hold it.",
+                         trajectory.time(i), turning, stability.where, stability.how, unseen),
              true}};
   }
   return {};
+}
+
+std::vector<Doubt> doubt_unstable_members(const TrustedRun& run) {
+  return doubt_instability(run.problem.scene, run.analysis,
+                           "In the motion a member that is exactly straight stays so.");
 }
 
 }  // namespace pleuel
