@@ -365,7 +365,7 @@ void Equilibrium::refuse_unstable(const InitialState& start, const InitialState&
   const double factor = load_factor(start);
   const std::string at =
       factor <= 1.0 ? fmt::format(", at some {:.3g} of these loads", factor) : "";
-  throw SimulationError(
+  throw UnstableEquilibrium(
       fmt::format("the elastic equilibrium under the loads at t = 0 is unstable "
                   "(/simulation/initial_state is \"quasi-static\"): {} {}{}",
                   stability.where, stability.how, at));

@@ -4,10 +4,17 @@
 
 #include <Eigen/SparseCore>
 
+#include "core/base/error.hpp"
 #include "core/integration/assembly.hpp"
 #include "core/integration/axial_strains.hpp"
 
 namespace pleuel {
+
+/// The loads are beyond those that the members bear: the message says which buckles.
+class UnstableEquilibrium : public SimulationError {
+ public:
+  using SimulationError::SimulationError;
+};
 
 /// The equations of a start from elastic equilibrium: the mechanism begins to move as given, and
 /// its members are deformed as if their elastic accelerations were zero, so that nothing rings.

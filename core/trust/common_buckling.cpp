@@ -4,12 +4,15 @@
 #include <fmt/ranges.h>
 
 #include "core/base/error.hpp"
+#include "core/integration/equilibrium.hpp"
 #include "core/response/full_mechanism.hpp"
 #include "core/trust/unstable_members.hpp"
 
 namespace pleuel {
 
 namespace {
+
+constexpr const char* unseen = "Motion in a plane does not have this buckling.";
 
 Doubt not_judged(const std::vector<std::string>& pressed, const std::string& reason) {
   return {fmt::format("Whether \"{}\" {} together with the elastic bodies beside {} was not looked "
@@ -42,8 +45,10 @@ std::vector<Doubt> doubt_common_buckling(const TrustedRun& run,
   space.responses.clear();
   try {
     const std::unique_ptr<Analysis> analysis = analyze(space, run.x);
-    return doubt_instability(space.scene, *analysis,
-                             "Motion in a plane does not have this buckling.");
+    return doubt_instability(space.scene, *analysis, unseen);
+  } catch (const UnstableEquilibrium& error) {
+    return {
+        {fmt::format("In space {}. {} Make it stiffer, or hold it.", error.what(), unseen), true}};
   } catch (const SimulationError& error) {
     return {not_simulated(pressed, error)};
   } catch (const InputError& error) {
