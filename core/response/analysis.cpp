@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/machine_memory.hpp"
+#include "core/integration/equilibrium.hpp"
 #include "core/integration/initial_state.hpp"
 #include "core/response/expression_value.hpp"
 #include "core/response/fatigue_damage.hpp"
@@ -257,6 +258,8 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
           recorder.see(step, state);
           guard.see(step, state);
         });
+  } catch (const UnstableEquilibrium&) {
+    throw;
   } catch (const SimulationError& error) {
     explain(error, analysis->model);
   }
