@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/error.hpp"
+#include "core/integration/elastic_stability.hpp"
 #include "core/integration/equilibrium.hpp"
 #include "core/response/full_mechanism.hpp"
 #include "core/trust/unstable_members.hpp"
@@ -11,8 +12,6 @@
 namespace pleuel {
 
 namespace {
-
-constexpr const char* unseen = "Motion in a plane does not have this buckling.";
 
 Doubt not_judged(const std::vector<std::string>& pressed, const std::string& reason) {
   return {fmt::format("Whether \"{}\" {} together with the elastic bodies beside {} was not looked "
@@ -32,6 +31,30 @@ int coordinates_in_space(const Model& model) {
   return model.mechanism.system->coordinates() + model.effects.front().coordinates_saved;
 }
 
+Doubt out_of_plane(const std::string& what) {
+  return {what + ". Motion in a plane does not have this buckling. Make it stiffer, or hold it.",
+          true};
+}
+
+/// Not serious: loads need not last as long as buckling takes, and motion in a plane shows it unless
+/// all is symmetric.
+Doubt in_plane(const std::string& what) {
+  return {what +
+              " in the plane of motion, if they lasted. In the motion what is exactly symmetric "
+              "stays so: a small load to one side tells.",
+          false};
+}
+
+/// Negative eigenvalues of the stiffness of a planar mechanism at the instant that is nearest.
+int unstable_in_plane(const Analysis& analysis, double time) {
+  const Trajectory& trajectory = analysis.trajectory;
+  Eigen::Index nearest = 0;
+  (trajectory.time.array() - time).abs().minCoeff(&nearest);
+  State state;
+  trajectory.states->load(static_cast<int>(nearest), state);
+  return elastic_stability(analysis.model.mechanism, state).negative;
+}
+
 }  // namespace
 
 std::vector<Doubt> doubt_common_buckling(const TrustedRun& run,
@@ -45,10 +68,12 @@ std::vector<Doubt> doubt_common_buckling(const TrustedRun& run,
   space.responses.clear();
   try {
     const std::unique_ptr<Analysis> analysis = analyze(space, run.x);
-    return doubt_instability(space.scene, *analysis, unseen);
+    const auto found = find_instability(
+        space.scene, *analysis, [&](double time) { return unstable_in_plane(run.analysis, time); });
+    if (!found) return {};
+    return {found->is_new ? out_of_plane(found->text) : in_plane(found->text)};
   } catch (const UnstableEquilibrium& error) {
-    return {
-        {fmt::format("In space {}. {} Make it stiffer, or hold it.", error.what(), unseen), true}};
+    return {out_of_plane(fmt::format("In space {}", error.what()))};
   } catch (const SimulationError& error) {
     return {not_simulated(pressed, error)};
   } catch (const InputError& error) {

@@ -74,8 +74,8 @@ std::vector<PressedBeam> beams_of(const Scene& scene, const Model& model) {
 
 }  // namespace
 
-std::vector<Doubt> doubt_instability(const Scene& scene, const Analysis& analysis,
-                                     const std::string& unseen) {
+std::optional<Instability> find_instability(const Scene& scene, const Analysis& analysis,
+                                            const std::function<int(double)>& known) {
   const Mechanism& mechanism = analysis.model.mechanism;
   if (mechanism.system->coordinates() > most_judged_coordinates) return {};
   std::vector<PressedBeam> beams = beams_of(scene, analysis.model);
@@ -93,25 +93,33 @@ std::vector<Doubt> doubt_instability(const Scene& scene, const Analysis& analysi
     if (beam.instant >= 0) instants.insert(beam.instant);
   }
   if (rotor.instant >= 0) instants.insert(rotor.instant);
+  std::optional<Instability> found;
   for (const int i : instants) {
     trajectory.states->load(i, state);
     const ElasticStability stability = elastic_stability(mechanism, state);
     if (stability.is_stable) continue;
+    const double time = trajectory.time(i);
+    const bool is_new = !known || stability.negative > known(time);
+    if (found && !is_new) continue;
     const std::string turning = is_rotor(mechanism, state)
                                     ? fmt::format(", where it turns at {:.4g} rad/s,",
                                                   fastest_turn(mechanism, state).omega.norm())
                                     : "";
-    return {{fmt::format("At t = {:.4g} s{} the mechanism is not in stable equilibrium with its "
-                         "loads: {} {}. {} Make it stiffer, or hold it.",
-                         trajectory.time(i), turning, stability.where, stability.how, unseen),
-             true}};
+    found = Instability{fmt::format("At t = {:.4g} s{} the mechanism is not in stable equilibrium "
+                                    "with its loads: {} {}",
+                                    time, turning, stability.where, stability.how),
+                        is_new};
+    if (is_new) break;
   }
-  return {};
+  return found;
 }
 
 std::vector<Doubt> doubt_unstable_members(const TrustedRun& run) {
-  return doubt_instability(run.problem.scene, run.analysis,
-                           "In the motion a member that is exactly straight stays so.");
+  const auto found = find_instability(run.problem.scene, run.analysis);
+  if (!found) return {};
+  return {{found->text + ". In the motion a member that is exactly straight stays so. Make it "
+                         "stiffer, or hold it.",
+           true}};
 }
 
 }  // namespace pleuel

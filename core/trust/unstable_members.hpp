@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,9 +20,16 @@ constexpr int most_judged_coordinates = 600;
 /// twentieth of the Euler load of two pins, nor in mechanisms of more than most_judged_coordinates.
 std::vector<Doubt> doubt_unstable_members(const TrustedRun& run);
 
-/// The same of a mechanism that was simulated in space.
-/// @param unseen  a sentence: why the motion does not show it
-std::vector<Doubt> doubt_instability(const Scene& scene, const Analysis& analysis,
-                                     const std::string& unseen);
+/// Where and how a mechanism is not in stable equilibrium.
+struct Instability {
+  std::string text;    ///< a sentence without its full stop
+  bool is_new = true;  ///< whether more is unstable than what is known
+};
+
+/// The same of a mechanism that was simulated in space: one that is new, if there is one.
+/// @param known  how many negative eigenvalues of the stiffness are known otherwise at a time [s];
+///               may be empty: none
+std::optional<Instability> find_instability(const Scene& scene, const Analysis& analysis,
+                                            const std::function<int(double)>& known = {});
 
 }  // namespace pleuel

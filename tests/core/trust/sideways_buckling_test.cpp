@@ -300,6 +300,26 @@ TEST(SidewaysBuckling, OfAFrameTogetherIsThatOfCantilevers) {
   EXPECT_TRUE(sideways_doubts_of(portal(1.03 * cantilever, "fixed", "on", "consistent")).empty());
 }
 
+/// Hinges at the knees leave each column a cantilever in the plane, too. Of columns that are twice
+/// as wide as deep that decides, and does not show where both are pressed alike.
+TEST(SidewaysBuckling, OfAFrameTogetherInThePlaneIsMentioned) {
+  const double cantilever = pi * pi * 2.1e11 * (0.08 * std::pow(0.04, 3) / 12) / (4.0 * 9.0);
+  const auto doubts = [&](double share) {
+    std::string text = portal(share * cantilever, "revolute", "auto", "consistent");
+    const std::string old = R"("width": 0.04, "height": 0.06)";
+    for (auto at = text.find(old); at != std::string::npos; at = text.find(old, at)) {
+      text.replace(at, old.size(), R"("width": 0.08, "height": 0.04)");
+    }
+    return sideways_doubts_of(text);
+  };
+  EXPECT_TRUE(doubts(0.97).empty());
+  const std::vector<Doubt> beyond = doubts(1.03);
+  ASSERT_EQ(beyond.size(), 1u);
+  EXPECT_FALSE(beyond[0].is_serious);
+  EXPECT_NE(beyond[0].text.find("in the plane of motion, if they lasted"), std::string::npos)
+      << beyond[0].text;
+}
+
 /// A frame of too many coordinates for a dense stiffness is not judged, which is said.
 TEST(SidewaysBuckling, OfALargeFrameTogetherIsSaidNotToBeLookedAt) {
   const double cantilever = pi * pi * 2.1e11 * (0.06 * std::pow(0.04, 3) / 12) / (4.0 * 9.0);
