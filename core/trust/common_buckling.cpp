@@ -40,8 +40,8 @@ Doubt out_of_plane(const std::string& what) {
 /// all is symmetric.
 Doubt in_plane(const std::string& what) {
   return {what +
-              " in the plane of motion, if they lasted. In the motion what is exactly symmetric "
-              "stays so: a small load to one side tells.",
+              " in the plane of motion. Loads that do not last may do no harm. In the motion what "
+              "is exactly symmetric stays so: a small load to one side tells.",
           false};
 }
 
