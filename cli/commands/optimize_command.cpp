@@ -79,11 +79,14 @@ Result interrupted_result(const DesignProblem& problem, const SolveOptions& opti
       best_record(last.front().has_failed() ? seen : last, options.verdict.violation);
   Result result;
   result.status = Status::interrupted;
+  const std::string limits =
+      best.max_violation > 0.0
+          ? fmt::format("exceeds no limit by more than {:.1e} (relative)", best.max_violation)
+          : "keeps all limits";
   result.message = fmt::format(
-      "{} evaluations were made; the best design among them has {} = {} and exceeds no limit by "
-      "more than {:.1e} (relative)",
-      seen.size(), problem.file().objective->response, problem.objective_text(best.objective),
-      best.max_violation);
+      "{} {} made; the best design among them has {} = {} and {}", seen.size(),
+      seen.size() == 1 ? "evaluation was" : "evaluations were", problem.file().objective->response,
+      problem.objective_text(best.objective), limits);
   if (!keeps_choices(problem.file(), best.x)) {
     result.message += "; its sizes are not chosen from their lists yet";
   }
