@@ -29,8 +29,7 @@ std::string broken_limits(const Problem& problem, const Eigen::VectorXd& constra
   std::vector<BrokenLimit> broken;
   for (std::size_t row = 0; row < problem.constraints().size(); ++row) {
     const Constraint& limits = problem.constraints()[row];
-    const double excess =
-        std::max(constraints[row] - limits.upper, limits.lower - constraints[row]);
+    const double excess = limits.excess(constraints[row]);
     if (excess <= allowed * scales[row]) continue;
     broken.push_back({limits.name, describe(problem, row, constraints[row]), excess / scales[row]});
   }

@@ -25,10 +25,6 @@ constexpr std::array<const char*, 2> proving_backends = {"nlopt-slsqp", "ipopt"}
 /// Iterations without progress after which nothing more is expected.
 constexpr int elastic_patience = 15;
 
-double excess(const Constraint& limits, double value) {
-  return std::max(value - limits.upper, limits.lower - value);
-}
-
 /// 0.0713 of 0.07124 for an upper limit: what is named suffices.
 double rounded_outward(double value, bool is_upper) {
   if (value == 0.0) return 0.0;
@@ -159,7 +155,7 @@ class Elasticity {
 
   bool is_broken(std::size_t constraint) const {
     const double value = folded(*at_least_)[constraint];
-    return excess(limits_[constraint], value) > Tolerances().violation * magnitude_of(constraint);
+    return limits_[constraint].excess(value) > Tolerances().violation * magnitude_of(constraint);
   }
 
   double magnitude_of(std::size_t constraint) const {
@@ -238,7 +234,7 @@ Eigen::VectorXd LimitRows::fold(const Eigen::VectorXd& rows,
     const std::size_t i = constraint_of_row[row];
     const double value = rows[row];
     double& worst = values[i];
-    if (!is_set[i] || excess(limits[i], value) > excess(limits[i], worst)) worst = value;
+    if (!is_set[i] || limits[i].excess(value) > limits[i].excess(worst)) worst = value;
     is_set[i] = true;
   }
   return values;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <string>
@@ -40,6 +41,8 @@ struct Constraint {
   double upper = infinity;
 
   bool is_equality() const { return lower == upper; }
+  /// How far a value is beyond the limits; below 0 it keeps them, by that much.
+  double excess(double value) const { return std::max(value - upper, lower - value); }
 };
 
 /// What is known of one design. Gradients are empty unless they were requested.

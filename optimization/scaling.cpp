@@ -107,9 +107,7 @@ double max_violation(const Problem& problem, const Eigen::VectorXd& constraints,
                      const Eigen::VectorXd& scales) {
   double largest = 0.0;
   for (Eigen::Index j = 0; j < constraints.size(); ++j) {
-    const Constraint& limits = problem.constraints()[j];
-    const double excess = std::max(constraints[j] - limits.upper, limits.lower - constraints[j]);
-    largest = std::max(largest, excess / scales[j]);
+    largest = std::max(largest, problem.constraints()[j].excess(constraints[j]) / scales[j]);
   }
   return largest;
 }

@@ -210,10 +210,8 @@ bool keeps_margins(DesignProblem& design, const Eigen::VectorXd& x, double toler
       robust->evaluate(checked_start(*robust), Request::values).constraints;
   const Eigen::VectorXd values = peaks.fold_values(rows);
   for (std::size_t i = 0; i < design.constraints().size(); ++i) {
-    const Constraint& constraint = design.constraints()[i];
     const double value = values(i);
-    const double excess = std::max(value - constraint.upper, constraint.lower - value);
-    if (excess > tolerance * std::abs(value)) return false;
+    if (design.constraints()[i].excess(value) > tolerance * std::abs(value)) return false;
   }
   return true;
 }

@@ -13,11 +13,6 @@ namespace pleuel {
 
 namespace {
 
-/// How much of a limit is used: larger is worse, above 0 is a violation.
-double excess(const Constraint& constraint, double value) {
-  return std::max(value - constraint.upper, constraint.lower - value);
-}
-
 /// By how much of its peak the objective is taken to depend on the design at least.
 constexpr double least_dependence = 1e-2;
 /// Of one limit, and of all limits together. Where places or limits alone are more, each has two
@@ -320,7 +315,8 @@ Eigen::VectorXd PeakProblem::fold_values(const Eigen::VectorXd& rows) const {
     const std::size_t i = *constraint_of_row_[row];
     const double value = rows(row);
     double& worst = values(i);
-    if (!is_set[i] || excess(constraints[i], value) > excess(constraints[i], worst)) worst = value;
+    const Constraint& limits = constraints[i];
+    if (!is_set[i] || limits.excess(value) > limits.excess(worst)) worst = value;
     is_set[i] = true;
   }
   return values;
