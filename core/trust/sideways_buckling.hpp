@@ -12,8 +12,8 @@ namespace pleuel {
 /// on, serious beyond it where compression alone is too large: with a bending moment the numbers
 /// hold for a member that is held sideways. The section forces of each instant count as if
 /// they lasted, neighbours at joints as rigid: where others are elastic, too, the mechanism is
-/// judged as a whole besides (common_buckling.hpp). Warping of sections helps short I beams: a bent beam
-/// is said to buckle only beyond what flanges at the edges of its section could bear.
+/// judged as a whole besides (common_buckling.hpp). Warping of sections helps short I beams: a bent
+/// beam is said to buckle only beyond what flanges at the edges of its section could bear.
 std::vector<Doubt> doubt_sideways_buckling(const TrustedRun& run);
 
 }  // namespace pleuel
