@@ -44,7 +44,7 @@ struct Drift {
 ProblemFile read(Case observed, const ComparedFormulation& formulation) {
   observed.overrides.insert(observed.overrides.end(), formulation.overrides.begin(),
                             formulation.overrides.end());
-  return read_problem(observed.file, observed.overrides);
+  return read_problem(observed.file, observed.overrides).complete();
 }
 
 /// Φ and dΦ/dx at one instant.

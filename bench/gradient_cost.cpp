@@ -37,7 +37,8 @@ double median(Times times) {
 
 ProblemFile problem(const std::string& name, const std::string& formulation) {
   return read_problem(std::string(PLEUEL_SOURCE_DIR) + "/problems/" + name + ".json",
-                      {"/simulation/formulation=" + formulation});
+                      {"/simulation/formulation=" + formulation})
+      .complete();
 }
 
 /// What an optimization asks for: objective and limits.

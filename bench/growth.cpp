@@ -84,7 +84,8 @@ ProblemFile slider_crank(int elements, int steps) {
   return read_problem(std::string(PLEUEL_SOURCE_DIR) + "/problems/slider_crank.json",
                       {fmt::format("/scene/bodies/rod/elements={}", elements),
                        fmt::format("/scene/bodies/crank/elements={}", elements),
-                       fmt::format("/simulation/end_time={:.17g}", 2.5e-5 * steps)});
+                       fmt::format("/simulation/end_time={:.17g}", 2.5e-5 * steps)})
+      .complete();
 }
 
 std::string bar(const std::string& name, double x1, double y1, double x2, double y2) {
@@ -124,15 +125,16 @@ ProblemFile four_bars(int count, Neighbours neighbours, int steps) {
     joints.push_back(pin(name("f"), name("bar"), name("crank"), x, 0.1));
   }
   return read_problem_text(
-      fmt::format(
-          R"({{"scene": {{"gravity": [0, 0, 0], "materials": {{"steel": {{"young": "210 GPa",
+             fmt::format(
+                 R"({{"scene": {{"gravity": [0, 0, 0], "materials": {{"steel": {{"young": "210 GPa",
           "poisson": 0.3, "density": "7850 kg/m^3"}}}}, "bodies": {{{}}}, "joints": {{{}}}}},
           "effects": {{"elasticity": "off"}},
           "simulation": {{"end_time": {:.17g}, "step": 1e-4}},
           "responses": {{"torque": {{"type": "drive-torque", "joint": "a0",
                                      "over_time": "max-abs"}}}}}})",
-          fmt::join(bodies, ", "), fmt::join(joints, ", "), 1e-4 * steps),
-      "four_bars.json");
+                 fmt::join(bodies, ", "), fmt::join(joints, ", "), 1e-4 * steps),
+             "four_bars.json")
+      .complete();
 }
 
 }  // namespace

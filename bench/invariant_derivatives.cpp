@@ -14,7 +14,8 @@ namespace pleuel::bench {
 namespace {
 
 ProblemFile slider_crank(double end_time) {
-  ProblemFile problem = read_problem(PLEUEL_SOURCE_DIR "/problems/slider_crank.json", {});
+  ProblemFile problem =
+      read_problem(PLEUEL_SOURCE_DIR "/problems/slider_crank.json", {}).complete();
   problem.simulation.end_time = end_time;
   return problem;
 }

@@ -37,8 +37,10 @@ void differentiate_problem(benchmark::State& state, const ProblemFile& problem,
 }
 
 void register_problem(const std::string& file, const std::vector<std::string>& overrides) {
-  const ProblemFile problem = read_problem(
-      std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems" / (file + ".json"), overrides);
+  const ProblemFile problem =
+      read_problem(std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems" / (file + ".json"),
+                   overrides)
+          .complete();
   std::string name = file;
   for (const std::string& assignment : overrides) name += " " + assignment;
   benchmark::RegisterBenchmark(("simulate/" + name).c_str(), simulate_problem, problem)

@@ -24,7 +24,8 @@ namespace {
 /// Divides both members into segments of the sections' start values, each with its own variables.
 ProblemFile divided_slider_crank(int segments, int elements, double end_time) {
   ProblemFile problem =
-      read_problem(std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems" / "slider_crank.json", {});
+      read_problem(std::filesystem::path(PLEUEL_SOURCE_DIR) / "problems" / "slider_crank.json", {})
+          .complete();
   problem.variables.clear();
   problem.constraints.clear();
   problem.objective.reset();

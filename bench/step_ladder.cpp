@@ -44,11 +44,13 @@ struct Run {
 };
 
 Run run(const Mesh& mesh, int steps, int repetitions) {
-  const ProblemFile problem = read_problem(
-      std::string(PLEUEL_SOURCE_DIR) + "/problems/slider_crank_exudyn.json",
-      {fmt::format("/scene/bodies/rod/elements={}", mesh.rod),
-       fmt::format("/scene/bodies/crank/elements={}", mesh.crank),
-       fmt::format("/simulation/step={:.17g}", end_time / steps), "/effects/rotary_inertia=off"});
+  const ProblemFile problem =
+      read_problem(std::string(PLEUEL_SOURCE_DIR) + "/problems/slider_crank_exudyn.json",
+                   {fmt::format("/scene/bodies/rod/elements={}", mesh.rod),
+                    fmt::format("/scene/bodies/crank/elements={}", mesh.crank),
+                    fmt::format("/simulation/step={:.17g}", end_time / steps),
+                    "/effects/rotary_inertia=off"})
+          .complete();
   Run result{{}, 1e300};
   for (int i = 0; i < repetitions; ++i) {
     const std::clock_t start = std::clock();

@@ -20,16 +20,17 @@ struct Reading {
   const std::optional<std::string>& load_case;
 };
 
-ProblemFile read_with(const std::filesystem::path& file, const Reading& reading,
-                      const ComparedFormulation& formulation) {
+UndecidedProblem read_with(const std::filesystem::path& file, const Reading& reading,
+                           const ComparedFormulation& formulation) {
   std::vector<std::string> overrides = reading.overrides;
   overrides.insert(overrides.end(), formulation.overrides.begin(), formulation.overrides.end());
-  const ProblemFile problem = read_problem(file, overrides);
-  return reading.load_case ? problem_of_case(problem, *reading.load_case) : problem;
+  UndecidedProblem read = read_problem(file, overrides);
+  if (!reading.load_case) return read;
+  return UndecidedProblem(problem_of_case(read.complete(), *reading.load_case));
 }
 
-void measure(ProblemFile problem, StabilityRun& run) {
-  decide_effects(problem);
+void measure(UndecidedProblem read, StabilityRun& run) {
+  const ProblemFile problem = decided(std::move(read));
   const Stopwatch stopwatch;
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
@@ -62,7 +63,7 @@ StabilityRun try_to_measure(const std::filesystem::path& file, const Reading& re
   StabilityRun run;
   run.file = file;
   run.formulation = formulation.name;
-  run.problem = read_with(file, reading, compared_formulations().front()).name;
+  run.problem = read_with(file, reading, compared_formulations().front()).complete().name;
   try {
     measure(read_with(file, reading, formulation), run);
   } catch (const SimulationError& error) {

@@ -123,7 +123,7 @@ class Units {
   void add(const OlderRun& run) try {
     const Json input = run.card.value("input", Json::object());
     const ProblemFile problem =
-        read_problem_text(run.card.at("problem").dump(), input.value("file", ""), {});
+        read_problem_text(run.card.at("problem").dump(), input.value("file", ""), {}).complete();
     const std::vector<ShownUnit> units = variable_units(problem);
     for (std::size_t i = 0; i < units.size(); ++i) {
       units_[{"variables", problem.variables[i].name}] = units[i];

@@ -57,7 +57,7 @@ void add_numbers_over_cases(const Arguments& arguments, Outcome& all) {
   for (const auto& [name, document] : all.document["cases"].items()) {
     if (!document.contains("responses")) return;  // it could not be simulated
   }
-  const ProblemFile joined = read_problem(arguments.file, arguments.overrides);
+  const ProblemFile joined = read_problem(arguments.file, arguments.overrides).complete();
   const Json document =
       over_cases_document(joined, design_of(arguments, joined), all.document["cases"]);
   if (document.is_null()) return;
@@ -88,7 +88,7 @@ std::string limits_left_out_text(const Arguments& arguments) {
   const bool has_limits =
       std::find(with_limits.begin(), with_limits.end(), arguments.command) != with_limits.end();
   if (!has_limits || !arguments.load_case) return "";
-  const ProblemFile joined = read_problem(arguments.file, arguments.overrides);
+  const ProblemFile joined = read_problem(arguments.file, arguments.overrides).complete();
   std::vector<std::string> names;
   for (std::size_t i = 0; joined.has_cases() && i < joined.constraints.size(); ++i) {
     if (is_of_several(joined.case_constraints[i])) names.push_back(joined.constraints[i].name);

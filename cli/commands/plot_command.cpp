@@ -105,7 +105,8 @@ std::optional<ProblemFile> problem_of_card(const fs::path& folder) {
   if (!card.is_object() || !card.contains("problem")) return std::nullopt;
   try {
     ProblemFile problem = read_problem_text(card["problem"].dump(),
-                                            card.at("input").at("file").get<std::string>(), {});
+                                            card.at("input").at("file").get<std::string>(), {})
+                              .complete();
     // Names of histories are those of a case.
     return problem.has_cases() ? problem.cases.front() : problem;
   } catch (const std::exception&) {

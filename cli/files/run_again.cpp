@@ -53,7 +53,7 @@ ProblemFile problem_of(const Json& card, const Json& result, const std::string& 
       overrides.push_back(pointer + "=" + value.dump());
     }
   }
-  ProblemFile problem = read_problem_text(document.dump(), file, overrides);
+  ProblemFile problem = read_problem_text(document.dump(), file, overrides).complete();
   problem.load_case = load_case;
   if (!take_effects(result, problem)) decide_effects(problem);
   return problem;

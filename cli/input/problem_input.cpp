@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -65,19 +66,23 @@ void require_one_case(const ProblemFile& problem, const std::filesystem::path& f
       case_list(problem), arguments.command, problem.cases.front().load_case));
 }
 
+UndecidedProblem read_asked_case(const std::filesystem::path& file, const Arguments& arguments) {
+  UndecidedProblem read = read_problem(file, arguments.overrides);
+  if (arguments.load_case) {
+    return UndecidedProblem(problem_of_case(read.complete(), *arguments.load_case));
+  }
+  require_one_case(read.complete(), file, arguments);
+  return read;
+}
+
 ProblemInput read_file(const std::filesystem::path& file, const Arguments& arguments) {
   ProblemInput input;
   input.file = file;
-  input.problem = read_problem(file, arguments.overrides);
-  if (arguments.load_case) {
-    input.problem = problem_of_case(input.problem, *arguments.load_case);
-  } else {
-    require_one_case(input.problem, file, arguments);
-  }
+  UndecidedProblem read = read_asked_case(file, arguments);
+  input.design = design_of(arguments, read.complete());
+  input.problem = decided(std::move(read));
   set_method(input.problem.sensitivity, arguments);
   for (ProblemFile& one : input.problem.cases) set_method(one.sensitivity, arguments);
-  input.design = design_of(arguments, input.problem);
-  decide_effects(input.problem);
   input.text = {whole_text(file), file.string(), arguments.overrides,
                 arguments.load_case.value_or("")};
   input.effective = parse_json(input.text.text, file.string());

@@ -12,17 +12,16 @@ namespace pleuel {
 namespace {
 
 std::optional<BeamEstimates> find_estimates(const Body& body, const EffectSettings& settings) {
-  if (settings.tolerance <= 0.0 || !settings.decisions) return std::nullopt;
-  const auto found = settings.decisions->estimates.find(body.name);
-  if (found == settings.decisions->estimates.end()) return std::nullopt;
+  if (settings.tolerance <= 0.0) return std::nullopt;
+  const auto found = settings.decisions.estimates.find(body.name);
+  if (found == settings.decisions.estimates.end()) return std::nullopt;
   return found->second;
 }
 
 const MeasuredEffect* find_measured(const Body& body, const char* effect,
                                     const EffectSettings& settings) {
-  if (!settings.decisions) return nullptr;
-  const auto found = settings.decisions->measured.find({body.name, effect});
-  return found == settings.decisions->measured.end() ? nullptr : &found->second;
+  const auto found = settings.decisions.measured.find({body.name, effect});
+  return found == settings.decisions.measured.end() ? nullptr : &found->second;
 }
 
 /// What is asked for, without regard to what effects need of each other.

@@ -187,7 +187,7 @@ class Estimation {
  private:
   Model build(EffectChoice elasticity) const {
     EffectSettings settings = problem_.effects;
-    settings.decisions.reset();
+    settings.decisions = {};
     settings.elasticity = elasticity;
     return build_model(without_divisions(problem_.scene), settings, start_, start_);
   }

@@ -234,9 +234,6 @@ Eigen::VectorXd values_of(const Analysis& analysis) {
 }
 
 std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::VectorXd& x) {
-  if (problem.effects.tolerance > 0.0 && !problem.effects.decisions) {
-    throw std::logic_error("effects have a tolerance and nothing was decided");
-  }
   if (problem.has_cases()) throw std::logic_error("load cases are simulated one by one");
   const Eigen::VectorXd start = start_design(problem);
   const Design<double> design(x.begin(), x.end()), start_values(start.begin(), start.end());

@@ -35,11 +35,10 @@ struct Analysis {
 Eigen::VectorXd values_of(const Analysis& analysis);
 
 /// Builds and simulates the mechanism of a problem at a design, and reduces its responses.
-/// @param problem  where it has a tolerance of effects, with the decisions (effect_measurement.hpp)
+/// @param problem  with what its tolerance of effects leaves out (effect_measurement.hpp)
 /// @param x        design variables [SI]
 /// @throws SimulationError
-/// @throws std::logic_error where decisions are missing: the model would depend on who came before;
-///         for a problem with load cases, which are simulated one by one
+/// @throws std::logic_error for a problem with load cases, which are simulated one by one
 std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::VectorXd& x);
 
 /// The problem with the steps of a trajectory in place of those that the control of the local error

@@ -39,10 +39,10 @@ Timed simulate(const ProblemFile& problem, const Eigen::VectorXd& x) {
 /// The problem with the same effects, each of them decided by its entry in `measured`.
 ProblemFile with_fixed_effects(ProblemFile problem, const Model& model) {
   EffectSettings& settings = problem.effects;
-  settings.decisions.emplace();
+  settings.decisions = {};
   for (const EffectRecord& record : model.effects) {
     if (!record.body.empty()) {
-      settings.decisions->measured[{record.body, record.name}].is_needed = record.is_built;
+      settings.decisions.measured[{record.body, record.name}].is_needed = record.is_built;
     }
   }
   for (const BeamEffect& effect : beam_effects) settings.*effect.choice = EffectChoice::automatic;
@@ -72,7 +72,7 @@ std::vector<Turned> turned_problems(const ProblemFile& fixed, const Model& model
     const Body* body = find_named(fixed.scene.bodies, record.body);
     if (!body || is_exact(record)) continue;
     ProblemFile problem = fixed;
-    problem.effects.decisions->measured[{record.body, record.name}].is_needed = !record.is_built;
+    problem.effects.decisions.measured[{record.body, record.name}].is_needed = !record.is_built;
     const bool changes_nothing = is_same(decide_beam_effects(*body, problem.effects),
                                          decide_beam_effects(*body, fixed.effects));
     if (!changes_nothing) turned.push_back({&record, std::move(problem)});

@@ -71,7 +71,7 @@ class EffectMeasurement {
     if (units.empty()) return;
     reference_ = try_to_analyze(with_all_effects(problem_));
     if (!reference_) {
-      problem_.effects.decisions->estimates.clear();
+      problem_.effects.decisions.estimates.clear();
       return;
     }
     for (; !units.empty(); units = left_out(problem_)) {
@@ -96,7 +96,7 @@ class EffectMeasurement {
     const auto found = costs_.find(unit);
     if (found != costs_.end()) return found->second;
     ProblemFile without = with_all_effects(problem_);
-    without.effects.decisions->measured[unit].is_needed = false;
+    without.effects.decisions.measured[unit].is_needed = false;
     return costs_.emplace(unit, change_of(without)).first->second;
   }
 
@@ -118,7 +118,7 @@ class EffectMeasurement {
   }
 
   void set(const Unit& unit, bool is_needed, const LargestChange& change) {
-    problem_.effects.decisions->measured[unit] = {is_needed, change.relative, change.response};
+    problem_.effects.decisions.measured[unit] = {is_needed, change.relative, change.response};
   }
 
   ProblemFile& problem_;
@@ -150,7 +150,7 @@ LargestChange largest_change(const ProblemFile& problem, const Analysis& referen
 }
 
 ProblemFile with_all_effects(ProblemFile problem) {
-  problem.effects.decisions.emplace();
+  problem.effects.decisions = {};
   return problem;
 }
 
@@ -159,6 +159,12 @@ void decide_effects(ProblemFile& problem) {
   if (problem.has_cases()) return;
   problem.effects.decisions = EffectDecisions{estimate_effects(problem), {}};
   EffectMeasurement(problem).run();
+}
+
+ProblemFile decided(UndecidedProblem problem) {
+  ProblemFile lean = std::move(problem).complete();
+  decide_effects(lean);
+  return lean;
 }
 
 ProblemFile starting_at(ProblemFile problem, const Eigen::VectorXd& x) {
@@ -174,10 +180,8 @@ void decide_effects(ProblemFile& problem, const Eigen::VectorXd& x) {
   if (problem.has_cases()) return;
   ProblemFile there = starting_at(problem, x);
   EffectDecisions decisions{estimate_effects(there), {}};
-  if (problem.effects.decisions) {
-    for (const auto& [unit, measured] : problem.effects.decisions->measured) {
-      if (measured.is_needed) decisions.measured.emplace(unit, measured);
-    }
+  for (const auto& [unit, measured] : problem.effects.decisions.measured) {
+    if (measured.is_needed) decisions.measured.emplace(unit, measured);
   }
   there.effects.decisions = std::move(decisions);
   EffectMeasurement(there).run();

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/response/analysis.hpp"
+#include "core/scene/undecided_problem.hpp"
 
 namespace pleuel {
 
@@ -33,6 +34,9 @@ ProblemFile with_all_effects(ProblemFile problem);
 /// without a tolerance, or where estimates leave nothing out. Where the mechanism with all effects
 /// cannot be simulated everything is built. Of a problem with load cases each decides for itself.
 void decide_effects(ProblemFile& problem);
+
+/// The problem of a file without what its tolerance leaves out at its start.
+ProblemFile decided(UndecidedProblem problem);
 
 /// The same at another design. What was decided before to be needed stays.
 void decide_effects(ProblemFile& problem, const Eigen::VectorXd& x);

@@ -55,7 +55,7 @@ ProblemFile with_all_modes(const ProblemFile& problem) {
   allow(full.effects.axial_elasticity);
   allow(full.effects.torsional_elasticity);
   full.effects.tolerance = 0.0;
-  full.effects.decisions.reset();
+  full.effects.decisions = {};
   for (Body& body : full.scene.bodies) {
     if (auto* beam = std::get_if<BeamBody>(&body.shape)) {
       beam->reduction.reset();

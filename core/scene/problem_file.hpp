@@ -32,8 +32,8 @@ struct MeasuredEffect {
   std::string response;  ///< its name
 };
 
-/// What a tolerance leaves out, decided before anything is simulated (decide_effects()), so that the
-/// model is the same at all designs.
+/// What a tolerance leaves out, decided before a design is simulated (decide_effects()), so that the
+/// model is the same at all designs. Without entries nothing is left out.
 struct EffectDecisions {
   /// By body. Without an entry an effect is built.
   std::map<std::string, BeamEstimates> estimates;
@@ -50,10 +50,10 @@ struct EffectSettings {
   EffectChoice elasticity = EffectChoice::automatic;  ///< all of it
   EffectChoice axial_elasticity = EffectChoice::automatic;
   EffectChoice torsional_elasticity = EffectChoice::automatic;
-  /// Relative change of any response that dropping an effect may cause; 0: nothing is dropped.
+  /// Relative change of any response that dropping an effect may cause; 0: nothing is dropped. What
+  /// is dropped the decisions say, which are made for it.
   double tolerance = 0.0;
-  /// None before decide_effects(): all effects are built.
-  std::optional<EffectDecisions> decisions = {};
+  EffectDecisions decisions = {};
 };
 
 struct SimulationSettings : TimeIntegration {

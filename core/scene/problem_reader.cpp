@@ -47,17 +47,8 @@ ProblemFile read_case_problem(const Json& document, const CaseChanges& changes,
   }
 }
 
-}  // namespace
-
-ProblemFile read_problem(const std::filesystem::path& path,
-                         const std::vector<std::string>& overrides) {
-  ProblemFile problem = read_problem_text(read_text_file(path), path.string(), overrides);
-  if (problem.name.empty()) problem.name = path.stem().string();
-  return problem;
-}
-
-ProblemFile read_problem_text(const std::string& text, const std::string& file,
-                              const std::vector<std::string>& overrides) {
+ProblemFile complete_problem(const std::string& text, const std::string& file,
+                             const std::vector<std::string>& overrides) {
   const UnitSystem units;
   const Json document = overridden_document({text, file, overrides});
   const JsonNode root(document, file);
@@ -81,6 +72,20 @@ ProblemFile read_problem_text(const std::string& text, const std::string& file,
   check_shared_limits(root, joined);
   read_across_cases(root, documents, units, joined);
   return joined;
+}
+
+}  // namespace
+
+UndecidedProblem read_problem(const std::filesystem::path& path,
+                              const std::vector<std::string>& overrides) {
+  ProblemFile problem = complete_problem(read_text_file(path), path.string(), overrides);
+  if (problem.name.empty()) problem.name = path.stem().string();
+  return UndecidedProblem(std::move(problem));
+}
+
+UndecidedProblem read_problem_text(const std::string& text, const std::string& file,
+                                   const std::vector<std::string>& overrides) {
+  return UndecidedProblem(complete_problem(text, file, overrides));
 }
 
 }  // namespace pleuel

@@ -20,13 +20,12 @@ std::string beam_text(const std::string& name, const BeamBody& beam) {
 
 std::string effects_text(const EffectSettings& effects) {
   std::string text = fmt::format("; effects {}", effects.tolerance);
-  if (!effects.decisions) return text;
-  for (const auto& [body, estimates] : effects.decisions->estimates) {
+  for (const auto& [body, estimates] : effects.decisions.estimates) {
     const auto& [elasticity, axial, torsional, stiffening, rotary] = estimates;
     text +=
         fmt::format(" {} {} {} {} {} {}", body, elasticity, axial, torsional, stiffening, rotary);
   }
-  for (const auto& [name, effect] : effects.decisions->measured) {
+  for (const auto& [name, effect] : effects.decisions.measured) {
     if (!effect.is_needed) text += fmt::format(" -{}/{}", name.first, name.second);
   }
   return text;

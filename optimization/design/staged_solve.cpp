@@ -36,8 +36,7 @@ bool is_same(const Refinement& one, const Refinement& other) {
 std::vector<std::array<std::string, 3>> left_out(const ProblemFile& file) {
   std::vector<std::array<std::string, 3>> names;
   for (const ProblemFile* one : simulated_problems(file)) {
-    if (!one->effects.decisions) continue;
-    for (const auto& [name, effect] : one->effects.decisions->measured) {
+    for (const auto& [name, effect] : one->effects.decisions.measured) {
       if (!effect.is_needed) names.push_back({one->load_case, name.first, name.second});
     }
   }

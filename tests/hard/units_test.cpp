@@ -64,7 +64,8 @@ std::string problem_text(const Units& u, const std::string& formulation) {
 /// Values of all responses, and their derivatives with respect to the logarithm of the diameter, in
 /// SI.
 Eigen::MatrixXd digits_in(const Units& u, const std::string& formulation) {
-  const ProblemFile problem = read_problem_text(problem_text(u, formulation), "units.json");
+  const ProblemFile problem =
+      read_problem_text(problem_text(u, formulation), "units.json").complete();
   const auto analysis = analyze(problem, start_design(problem));
   Eigen::VectorXd unit(6);
   unit << u.metre, u.metre, u.pascal(), u.newton() * u.metre, u.metre, u.newton();

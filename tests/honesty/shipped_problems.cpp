@@ -19,7 +19,7 @@ const std::vector<ShippedProblem>& shipped_problems() {
 }
 
 ProblemFile read_shipped(const ShippedProblem& problem) {
-  return read_problem(source_folder() + "/problems/" + problem.name + ".json", {});
+  return read_problem(source_folder() + "/problems/" + problem.name + ".json", {}).complete();
 }
 
 Eigen::VectorXd optimum_of(const ShippedProblem& problem) {

@@ -35,7 +35,8 @@ ProblemFile released_rod(const std::vector<std::string>& overrides = {}) {
   },
   "objective": {"minimize": "stress"}
 })",
-                           "rod.json", overrides);
+                           "rod.json", overrides)
+      .complete();
 }
 
 /// The stress is that of steps four times as short, whatever the mesh and the scheme: 27 steps for

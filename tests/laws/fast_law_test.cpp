@@ -61,13 +61,14 @@ TEST(FastLoad, IsNotDoubtedWhereItJumpsOnAnInstant) {
 /// A disc on a bearing.
 ProblemFile driven_disc(const std::string& drive) {
   return read_problem_text(
-      R"({"scene": {
+             R"({"scene": {
     "bodies": {"disc": {"type": "rigid", "at": [0, 0, 0], "mass": 2, "inertia": [1, 1, 1, 0, 0, 0]}},
     "joints": {"bearing": {"type": "revolute", "bodies": ["ground", "disc"], "at": [0, 0, 0], "drive": )" +
-          drive + R"(}}},
+                 drive + R"(}}},
   "simulation": {"end_time": 0.1, "step": 1e-3},
   "responses": {"torque": {"type": "drive-torque", "joint": "bearing", "over_time": "max-abs"}}})",
-      "disc.json");
+             "disc.json")
+      .complete();
 }
 
 /// 32 steps a revolution of 1 ms each are 196 rad/s; 1 − cos(π/32) is 0.5 %.

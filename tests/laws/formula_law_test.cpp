@@ -30,7 +30,8 @@ ProblemFile disc_driven_by(const std::string& formula) {
                 "turn": {"type": "joint-position", "joint": "bearing", "over_time": "final"}},
   "objective": {"minimize": "torque"}
 })json",
-                           "disc.json");
+                           "disc.json")
+      .complete();
 }
 
 /// As a problem file has it.

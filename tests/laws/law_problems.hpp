@@ -31,7 +31,8 @@ inline ProblemFile pushed_block(const std::string& value,
     "reaction": {"type": "reaction-force", "joint": "slide", "direction": "magnitude", "over_time": "max"}
   }
 })",
-                           "block.json", overrides);
+                           "block.json", overrides)
+      .complete();
 }
 
 /// A clamped steel beam of 1 m under its weight and a force across its tip; its height and the
@@ -58,7 +59,8 @@ inline ProblemFile loaded_cantilever(const std::string& value,
   },
   "objective": {"minimize": "stress"}
 })",
-                           "cantilever.json", overrides);
+                           "cantilever.json", overrides)
+      .complete();
 }
 
 inline double value_at_start(const ProblemFile& problem, const std::string& response) {

@@ -30,7 +30,7 @@ std::string with_drive(const std::string& drive) {
 }
 
 TimeLaw<double> drive_law(const std::string& drive) {
-  const ProblemFile problem = read_problem_text(with_drive(drive), "disc.json");
+  const ProblemFile problem = read_problem_text(with_drive(drive), "disc.json").complete();
   return resolve_time_law(problem.scene.joints[0].drive->motion, Design<double>{}, LawOf::motion);
 }
 

@@ -32,7 +32,8 @@ ProblemFile sliding_block(const std::string& in_slide, double end_time,
     "v": {"type": "velocity", "body": "block", "direction": "x", "over_time": "final"}
   }
 })",
-                           "block.json", overrides);
+                           "block.json", overrides)
+      .complete();
 }
 
 /// m v²/2 = k x⁴/4; the period of ẍ = −α x³ is 7.41629871/(x_max √α) (a complete elliptic
@@ -97,18 +98,19 @@ TEST(TableOverTheElongation, IsTheSpringThatItsLineSays) {
 /// J s̈ = p (s* − s) − d ṡ from rest, with ω = 20/s and damping ratio 1/2.
 ProblemFile controlled_link(const std::string& motor, const std::string& spatial = "auto") {
   return read_problem_text(
-      R"({"scene": {
+             R"({"scene": {
     "bodies": {"link": {"type": "rigid", "at": [0, 0, 0], "mass": 2, "inertia": [0.05, 0.05, 0.05, 0, 0, 0]}},
     "joints": {"elbow": {"type": "revolute", "bodies": ["ground", "link"], "at": [0, 0, 0]}},
     "loads": {"motor": {"type": "joint", "joint": "elbow", "motor": )" +
-          motor + R"(}}},
+                 motor + R"(}}},
   "effects": {"spatial_motion": ")" +
-          spatial + R"("},
+                 spatial + R"("},
   "simulation": {"end_time": 0.2, "step": 2e-4},
   "responses": {
     "s": {"type": "joint-position", "joint": "elbow", "over_time": "final"},
     "power": {"type": "motor-power", "load": "motor", "over_time": "final"}}})",
-      "link.json");
+             "link.json")
+      .complete();
 }
 
 TEST(ControlledMotor, AnswersAStepInClosedForm) {
@@ -141,23 +143,24 @@ TEST(ControlledMotor, FollowsTheRateOfItsTarget) {
 ProblemFile pushed_block_and_disc(const std::string& force, const std::string& torque,
                                   const std::string& spatial = "auto") {
   return read_problem_text(
-      R"({"scene": {
+             R"({"scene": {
     "bodies": {"disc": {"type": "rigid", "at": [0, 0, 0], "mass": 2, "inertia": [1, 1, 1, 0, 0, 0]},
                "block": {"type": "rigid", "at": [2, 0, 0], "mass": 2, "inertia": [1, 1, 1, 0, 0, 0]}},
     "joints": {"bearing": {"type": "revolute", "bodies": ["ground", "disc"], "at": [0, 0, 0],
                  "drive": {"type": "constant-speed", "speed": 30}},
                "slide": {"type": "prismatic", "bodies": ["ground", "block"], "at": [2, 0, 0], "axis": [1, 0, 0]}},
     "loads": {"gas": {"type": "force", "body": "block", "at": [2, 0, 0], "direction": [1, 0, 0], "value": )" +
-          force +
-          R"(},
+                 force +
+                 R"(},
               "turn": {"type": "torque", "body": "block", "at": [2, 0, 0], "direction": [0, 0, 1], "value": )" +
-          torque + R"(}}},
+                 torque + R"(}}},
   "effects": {"spatial_motion": ")" +
-          spatial + R"("},
+                 spatial + R"("},
   "simulation": {"end_time": 0.5, "step": 1e-3},
   "responses": {"v": {"type": "velocity", "body": "block", "direction": "x", "over_time": "final"},
                 "M": {"type": "reaction-moment", "joint": "slide", "direction": "z", "over_time": "final"}}})",
-      "gas.json");
+             "gas.json")
+      .complete();
 }
 
 std::string over_bearing(const std::string& formula) {
@@ -234,7 +237,8 @@ ProblemFile everything(const std::string& spatial) {
     "Q": {"type": "section-force", "body": "arm", "at": 0.3, "part": "shear-y", "over_time": "rms"}},
   "objective": {"minimize": "loss"}
 })json",
-                           "everything.json", {"/effects/spatial_motion=" + spatial});
+                           "everything.json", {"/effects/spatial_motion=" + spatial})
+      .complete();
 }
 
 TEST(LawsOfState, HaveTheGradientOfTheirSimulation) {

@@ -86,17 +86,18 @@ TEST(DriveTable, RefusesToJump) {
 TEST(DriveTable, StaysBetweenItsValuesUnlessItIsASpline) {
   const auto farthest = [](const std::string& interpolation) {
     const ProblemFile problem = read_problem_text(
-        R"({"scene": {
+                                    R"({"scene": {
             "bodies": {"block": {"type": "rigid", "at": [0, 0, 0], "mass": 1,
                                  "inertia": [1, 1, 1, 0, 0, 0]}},
             "joints": {"guide": {"type": "prismatic", "bodies": ["ground", "block"],
               "at": [0, 0, 0], "axis": [1, 0, 0], "drive": {"type": "table",
                 "times": [0, 1, 2, 3], "values": [0, 0.1, 0.1, 0])" +
-            interpolation + R"(}}}},
+                                        interpolation + R"(}}}},
           "simulation": {"end_time": 3, "step": 0.02},
           "responses": {"x": {"type": "position", "body": "block", "direction": "x",
                               "over_time": "max"}}})",
-        "block.json");
+                                    "block.json")
+                                    .complete();
     return analyze(problem, start_design(problem))->reductions[0].value;
   };
   EXPECT_NEAR(farthest(""), 0.1, 1e-9);

@@ -31,7 +31,7 @@ class TableFile : public testing::Test {
       "value": {"type": "table", "file": "push.csv", )" +
                                                  keys + R"(}}}},
   "simulation": {"end_time": 0.1, "step": 1e-3}})";
-    const ProblemFile problem = read_problem((folder_ / "block.json").string());
+    const ProblemFile problem = read_problem((folder_ / "block.json").string()).complete();
     return std::get<TableFunction>(std::get<PointForce>(problem.scene.loads[0].element).value);
   }
 

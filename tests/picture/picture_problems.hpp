@@ -39,7 +39,7 @@ inline ProblemFile turning_arm(const std::string& more,
     "responses": {)" + std::string(is_rigid ? "" : arm_responses) +
                            R"(}
   })";
-  return read_problem_text(text, "turning_arm.json", overrides);
+  return read_problem_text(text, "turning_arm.json", overrides).complete();
 }
 
 }  // namespace pleuel::test

@@ -18,7 +18,7 @@ using namespace pleuel;
 using Json = nlohmann::ordered_json;
 
 ProblemFile problem_of(const Json& document) {
-  return read_problem_text(document.dump(), "across.json");
+  return read_problem_text(document.dump(), "across.json").complete();
 }
 
 /// A stone on the floor: what is simulated does not matter.

@@ -66,7 +66,8 @@ ProblemFile bar_of(double height) {
       "objective": {{"minimize": "mass"}},
       "constraints": {{"stiff": {{"response": "sag", "upper": 5e-3}}}}}})",
                                        force, 1.2 * height),
-                           "bar.json");
+                           "bar.json")
+      .complete();
 }
 
 /// Of half its length shear would change the deflection by some 16 %: an optimum by its numbers
@@ -94,7 +95,8 @@ TEST(SolveDesign, ThatProvesNothingEndsAtTheBestDesignOfTheWholeRun) {
         read_problem_text(block, "block.json",
                           {R"(/responses/mass={"type": "mass"})", "/objective/minimize=mass",
                            R"(/constraints={"narrow": {"response": "reach", "upper": "90 mm"}})",
-                           "/simulation/resolution_check=false"}));
+                           "/simulation/resolution_check=false"})
+            .complete());
     const Result result = solve_design(problem, {.backend = backend, .max_iterations = 41});
     EXPECT_EQ(result.status, Status::infeasible) << backend << result.message;
     EXPECT_NEAR(result.max_violation, 1.0 / 9.0, 1e-5) << backend;
@@ -105,14 +107,14 @@ TEST(SolveDesign, ThatProvesNothingEndsAtTheBestDesignOfTheWholeRun) {
 class SolveDesign : public testing::TestWithParam<std::string> {};
 
 TEST_P(SolveDesign, LeavesTheMaximumItStartsAt) {
-  DesignProblem problem(read_problem_text(arm, "arm.json"));
+  DesignProblem problem(read_problem_text(arm, "arm.json").complete());
   const Result result = solve_design(problem, {.backend = GetParam()});
   EXPECT_EQ(to_string(result.status), "verified") << result.message;
   EXPECT_NEAR(result.evaluation.objective, 0.1 * std::cos(1.0), 1e-9);
 }
 
 TEST_P(SolveDesign, MinimizesTheHigherOneOfTwoPeaks) {
-  DesignProblem problem(read_problem_text(block, "block.json"));
+  DesignProblem problem(read_problem_text(block, "block.json").complete());
   const Result result = solve_design(problem, {.backend = GetParam()});
   EXPECT_EQ(to_string(result.status), "verified") << result.message;
   // Peaks of the parabola through three samples, 200 a period: (2π/200)⁴/64 · 100 mm at most.
@@ -127,8 +129,10 @@ INSTANTIATE_TEST_SUITE_P(Backends, SolveDesign, testing::ValuesIn(optimizer_name
 
 /// Thirty-three periods: each of sixteen windows holds peaks of both sides.
 TEST(SolveDesign, PartsTheTwoPeaksOfOnePeriod) {
-  DesignProblem problem(read_problem_text(
-      block, "block.json", {"/simulation/end_time=330 ms", "/simulation/step=0.1 ms"}));
+  DesignProblem problem(
+      read_problem_text(block, "block.json",
+                        {"/simulation/end_time=330 ms", "/simulation/step=0.1 ms"})
+          .complete());
   const Result result = solve_design(problem, {.backend = "nlopt-slsqp"});
   EXPECT_EQ(to_string(result.status), "verified") << result.message;
   EXPECT_NEAR(result.x(0), -0.02, 1e-5);
@@ -136,7 +140,7 @@ TEST(SolveDesign, PartsTheTwoPeaksOfOnePeriod) {
 }
 
 TEST(SolveDesign, SaysWhenAndWhyItTellsPeaksApart) {
-  DesignProblem problem(read_problem_text(block, "block.json"));
+  DesignProblem problem(read_problem_text(block, "block.json").complete());
   std::vector<std::string> notices;
   int seen = 0;
   const Result result = solve_design(
@@ -165,7 +169,7 @@ TEST(SolveDesign, NamesThePeaksThatTieWhereNothingIsVerified) {
   options.verdict.kkt_residual = -1.0;
   int used_up = 0, not_used_up = 0;
   for (options.max_iterations = 8; options.max_iterations < 64; options.max_iterations += 2) {
-    DesignProblem problem(read_problem_text(block, "block.json"));
+    DesignProblem problem(read_problem_text(block, "block.json").complete());
     bool goes_on = false;
     const Result result =
         solve_design(problem, options, {}, [&](const std::string&) { goes_on = true; });
@@ -186,7 +190,7 @@ TEST(SolveDesign, NamesThePeaksThatTieWhereNothingIsVerified) {
 /// 6.78248 N m by all three backends; what makes it an optimum is the audit.
 TEST(SolveDesign, MinimizesTheDriveTorqueOfTheFourBar) {
   const auto path = std::filesystem::path(source_folder()) / "problems" / "four_bar.json";
-  DesignProblem problem(read_problem(path, {"/objective/minimize=torque_peak"}));
+  DesignProblem problem(read_problem(path, {"/objective/minimize=torque_peak"}).complete());
   const Result result = solve_design(problem, {.backend = "nlopt-slsqp"});
   EXPECT_EQ(to_string(result.status), "verified") << result.message;
   EXPECT_NEAR(result.evaluation.objective, 6.78248, 1e-3 * 6.78248);
@@ -194,7 +198,7 @@ TEST(SolveDesign, MinimizesTheDriveTorqueOfTheFourBar) {
 
 /// The rows of the objective and t have the gradients of their windows.
 TEST(PeakProblem, BoundsAnObjectiveThatIsAPeak) {
-  DesignProblem problem(read_problem_text(block, "block.json"));
+  DesignProblem problem(read_problem_text(block, "block.json").complete());
   PeakProblem peaks(problem, 4, Eigen::VectorXd::Constant(1, -0.01));
   ASSERT_EQ(peaks.variables().size(), 2u);
   EXPECT_NEAR(peaks.variables()[1].start, 0.11, 1e-6);

@@ -60,7 +60,7 @@ Json slider_crank() {
 }
 
 ProblemFile problem_of(const Json& document) {
-  return read_problem_text(document.dump(), "slider_crank.json");
+  return read_problem_text(document.dump(), "slider_crank.json").complete();
 }
 
 double value_of(const ProblemFile& problem, const Analysis& analysis, const char* name) {

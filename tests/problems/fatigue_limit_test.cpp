@@ -12,7 +12,7 @@ namespace {
 /// the first segment: 6 kN and 4 kN in the first one.
 ProblemFile stepped_bar() {
   return read_problem_text(
-      R"j({"scene": {"gravity": [0, 0, 0],
+             R"j({"scene": {"gravity": [0, 0, 0],
     "materials": {"light": {"young": "200 GPa", "poisson": 0.3, "density": 1,
       "ultimate_strength": "400 MPa", "endurance_limit": "100 MPa"}},
     "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "material": "light",
@@ -40,7 +40,8 @@ ProblemFile stepped_bar() {
                 "life": {"type": "fatigue", "body": "bar", "criterion": "goodman"}},
   "objective": {"minimize": "mass"},
   "constraints": {"life": {"response": "life", "upper": 0.5}}})j",
-      "stepped.json");
+             "stepped.json")
+      .complete();
 }
 
 /// One limit on the whole beam is one on each of its segments, but not on windows of time.

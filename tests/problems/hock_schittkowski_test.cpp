@@ -71,7 +71,8 @@ class HockSchittkowski : public testing::TestWithParam<TextbookProblem> {};
 
 TEST_P(HockSchittkowski, HasItsOptimumInTheLanguageOfProblemFiles) {
   const TextbookProblem& problem = GetParam();
-  DesignProblem design(read_problem_text(document_of(problem).dump(), problem.name + ".json"));
+  DesignProblem design(
+      read_problem_text(document_of(problem).dump(), problem.name + ".json").complete());
   const Result result = solve_design(design, {});
   EXPECT_EQ(result.status, Status::verified) << result.message;
   // Optima are flat: a design to 1e-4 has its value to 1e-8.

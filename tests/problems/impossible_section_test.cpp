@@ -28,7 +28,7 @@ ProblemFile tube_problem(const std::vector<std::string>& more = {}) {
       "/constraints/rod_stiffness/upper=2 mm",
       "/constraints/rod_strength/upper=1 GPa"};
   overrides.insert(overrides.end(), more.begin(), more.end());
-  return read_problem(source_folder() + "/problems/slider_crank_round.json", overrides);
+  return read_problem(source_folder() + "/problems/slider_crank_round.json", overrides).complete();
 }
 
 Result optimum_of(ProblemFile file, const std::string& backend) {

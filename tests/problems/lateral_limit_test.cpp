@@ -18,7 +18,7 @@ constexpr double length = 1.2, height = 0.04, force = 10.0, young = 2.1e11, shea
 /// A flat bar on edge, clamped at one end, with a force across at the other.
 ProblemFile flat_bar() {
   return read_problem_text(
-      R"j({"scene": {
+             R"j({"scene": {
     "materials": {"steel": {"young": "210 GPa", "poisson": 0.3125, "density": 7850,
                             "strength": "235 MPa"}},
     "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [1.2, 0, 0], "material": "steel",
@@ -37,7 +37,8 @@ ProblemFile flat_bar() {
   "objective": {"minimize": "mass"},
   "constraints": {"stress": {"response": "stress", "upper": 0.5},
                   "sideways": {"response": "sideways", "upper": 0.5}}})j",
-      "flat_bar.json");
+             "flat_bar.json")
+      .complete();
 }
 
 /// F/F_cr with F_cr = 4.0126 √(EI GJ)/L² (Timoshenko & Gere, §6.3), J = hb³/3 (1 − 0.63 b/h), over
@@ -72,7 +73,7 @@ constexpr double strut_length = 1.0, press = 1e4;
 /// its buckling. In space.
 ProblemFile strut(const std::string& response, const std::string& over_time = "max") {
   return read_problem_text(
-      R"j({"scene": {
+             R"j({"scene": {
     "materials": {"steel": {"young": "210 GPa", "poisson": 0.3125, "density": 7850}},
     "bodies": {"strut": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
       "section": {"type": "rectangle", "width": {"variable": "b"}, "height": {"variable": "h"}},
@@ -91,10 +92,11 @@ ProblemFile strut(const std::string& response, const std::string& over_time = "m
                 "h": {"start": "40 mm", "lower": "5 mm", "upper": "60 mm"}},
   "responses": {"mass": {"type": "mass"},
     "share": {"type": ")j" +
-          response + R"(", "body": "strut", "over_time": ")" + over_time + R"("}},
+                 response + R"(", "body": "strut", "over_time": ")" + over_time + R"("}},
   "objective": {"minimize": "mass"},
   "constraints": {"share": {"response": "share", "upper": 0.5}}})",
-      "strut.json");
+             "strut.json")
+      .complete();
 }
 
 /// P/P_E with P_E = π² E I/L², I = across thick³/12.

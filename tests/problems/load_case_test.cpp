@@ -21,7 +21,7 @@ using namespace pleuel;
 using Json = nlohmann::ordered_json;
 
 ProblemFile problem_of(const Json& document) {
-  return read_problem_text(document.dump(), "cases.json");
+  return read_problem_text(document.dump(), "cases.json").complete();
 }
 
 /// A stone on the floor and a number x whose distance from a target is squared: the target is that

@@ -17,7 +17,7 @@ namespace {
 /// A rigid bar of 1 m, and the formulas f = (p − 0.3 m)² + q², g = (p + 0.2 m)² + q² + 0.1 m².
 ProblemFile bar(const std::string& goals) {
   return read_problem_text(
-      R"({"scene": {"bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
+             R"({"scene": {"bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
     "rigid": true, "material": "steel", "elements": 1,
     "section": {"type": "circle", "diameter": "10 mm"}}},
     "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}},
@@ -28,8 +28,9 @@ ProblemFile bar(const std::string& goals) {
                 "g": {"type": "expression", "value": "(p + 0.2 m)^2 + q^2 + 0.1 m^2"},
                 "x": {"type": "position", "body": "bar", "at": 1, "direction": "x",
                       "over_time": "max"}},)" +
-          goals + "}",
-      "bar.json");
+                 goals + "}",
+             "bar.json")
+      .complete();
 }
 
 /// f = g where −0.6 p + 0.09 = 0.4 p + 0.14: p = −0.05 m; there both are 0.1225 m². The larger one is

@@ -30,7 +30,8 @@ ProblemFile held_arm(const std::string& optimizer) {
       "over_time": "final"}}}},
     "objective": {{"minimize": "x"}}, "optimizer": {}}})",
                                        optimizer),
-                           "arm.json");
+                           "arm.json")
+      .complete();
 }
 
 MultiStart solved(const ProblemFile& file, const Execution& execution = {}) {
@@ -151,7 +152,8 @@ class SteppedCantilever : public testing::TestWithParam<std::string> {
           R"("h{}": {{"start": "90 mm", "lower": "5 mm", "upper": "200 mm"}}{})", i, comma);
     }
     return read_problem_text(
-        fmt::format(R"({{"scene": {{"gravity": [0, 0, 0], "bodies": {{"beam": {{"type": "beam",
+               fmt::format(
+                   R"({{"scene": {{"gravity": [0, 0, 0], "bodies": {{"beam": {{"type": "beam",
         "from": [0, 0, 0], "to": [{}, 0, 0], "material": "steel", "segments": [{}]}}}},
       "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}}}},
       "loads": {{"tip": {{"type": "force", "body": "beam", "at": [{}, 0, 0],
@@ -164,8 +166,9 @@ class SteppedCantilever : public testing::TestWithParam<std::string> {
         "stress": {{"type": "stress", "body": "beam", "over_time": "max"}}}},
       "objective": {{"minimize": "mass"}},
       "constraints": {{"strength": {{"response": "stress", "upper": {}}}}}}})",
-                    4 * piece, segments, 4 * piece, force, variables, stress),
-        "cantilever.json");
+                   4 * piece, segments, 4 * piece, force, variables, stress),
+               "cantilever.json")
+        .complete();
   }
 };
 

@@ -14,7 +14,8 @@ namespace pleuel::test {
 namespace {
 
 Result optimum(const std::string& name, const std::vector<std::string>& overrides) {
-  DesignProblem design(read_problem(source_folder() + "/problems/" + name + ".json", overrides));
+  DesignProblem design(
+      read_problem(source_folder() + "/problems/" + name + ".json", overrides).complete());
   return solve_design(design, {});
 }
 
@@ -62,7 +63,8 @@ TEST(OptimumError, IsComparedWithTheTargetOfTheFile) {
 /// tighter by as much makes of the optimum.
 TEST(OptimumError, IsTheSumOfChangesByTheirPrices) {
   DesignProblem design(read_problem(source_folder() + "/problems/slider_crank_round.json",
-                                    {"/simulation/step=0.2 ms"}));
+                                    {"/simulation/step=0.2 ms"})
+                           .complete());
   const Result result = solve_design(design, {});
   Eigen::VectorXd changes = Eigen::VectorXd::Zero(Eigen::Index(design.file().responses.size()));
   const auto index_of = [&](const std::string& name) {
@@ -90,8 +92,9 @@ TEST(OptimumError, IsTheSumOfChangesByTheirPrices) {
 /// 3 % of 10 mm where the value keeps 0.2 mm of distance from it.
 TEST(OptimumError, OfALimitThatItMayBreakIsAsLargeAsTheTargetAtMost) {
   const auto complaint = [](const std::string& side, double value, double error) {
-    DesignProblem design(read_problem_text(
-        R"({"scene": {"bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
+    DesignProblem design(
+        read_problem_text(
+            R"({"scene": {"bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
               "material": "steel", "elements": 1,
               "section": {"type": "circle", "diameter": {"variable": "d"}}}},
             "joints": {"f": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}}},
@@ -101,8 +104,9 @@ TEST(OptimumError, OfALimitThatItMayBreakIsAsLargeAsTheTargetAtMost) {
             "sag": {"type": "deflection", "body": "b", "at": 1, "over_time": "max"}},
           "objective": {"minimize": "m"},
           "constraints": {"limit": {"response": "sag", ")" +
-            side + R"(": "10 mm"}}})",
-        "limit.json"));
+                side + R"(": "10 mm"}}})",
+            "limit.json")
+            .complete());
     Result result;
     result.status = Status::verified;
     result.x = Eigen::VectorXd::Constant(1, 0.02);

@@ -75,7 +75,7 @@ TEST_P(OptimumOfProblem, IsFoundByEveryBackendFromEveryStart) {
   const KnownProblem& known = known_problems()[GetParam().problem];
   const auto path =
       std::filesystem::path(source_folder()) / "problems" / (std::string(known.name) + ".json");
-  ProblemFile file = read_problem(path);
+  ProblemFile file = read_problem(path).complete();
   const std::vector<double>& start = known.starts[GetParam().start];
   ASSERT_EQ(start.size(), file.variables.size());
   for (std::size_t i = 0; i < start.size(); ++i) file.variables[i].start = start[i];
@@ -99,7 +99,8 @@ INSTANTIATE_TEST_SUITE_P(SliderCranks, OptimumOfProblem, testing::ValuesIn(all_c
 TEST(OptimumFromAHeavyStart, IsFoundOrNotCalledOne) {
   for (const char* backend : {"nlopt-mma", "nlopt-slsqp", "ipopt"}) {
     ProblemFile file = read_problem(std::filesystem::path(source_folder()) / "problems" /
-                                    "slider_crank_round.json");
+                                    "slider_crank_round.json")
+                           .complete();
     file.variables[0].start = 0.045;
     file.variables[1].start = 0.020;
     DesignProblem problem(std::move(file));

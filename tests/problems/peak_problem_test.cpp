@@ -18,7 +18,8 @@ ProblemFile quick_problem(const char* name) {
   const auto path =
       std::filesystem::path(source_folder()) / "problems" / (std::string(name) + ".json");
   return read_problem(path, {"/simulation/step=0.2 ms", "/simulation/end_time=20 ms",
-                             "/scene/joints/bearing/drive/ramp=20 ms"});
+                             "/scene/joints/bearing/drive/ramp=20 ms"})
+      .complete();
 }
 
 TEST(PeakProblem, FoldsToTheConstraintsOfTheFile) {

@@ -21,7 +21,7 @@ struct Simulated {
   std::unique_ptr<Analysis> analysis;
 
   explicit Simulated(const char* text)
-      : problem(read_problem_text(text, "test.json")),
+      : problem(read_problem_text(text, "test.json").complete()),
         analysis(analyze(problem, start_design(problem))) {}
 
   double value(const char* name) const {
@@ -224,7 +224,7 @@ std::string complaint(const char* response) {
   Json document = Json::parse(cantilever);
   document["responses"] = {{"asked", Json::parse(response)}};
   try {
-    read_problem_text(document.dump(), "test.json");
+    read_problem_text(document.dump(), "test.json").complete();
   } catch (const InputError& error) {
     return error.what();
   }

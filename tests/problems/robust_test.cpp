@@ -14,13 +14,14 @@ using namespace pleuel;
 /// and over in 20 ms.
 ProblemFile robust_problem() {
   return read_problem(
-      source_folder() + "/problems/slider_crank_round.json",
-      {"/simulation/step=0.2 ms", "/simulation/end_time=20 ms",
-       "/scene/joints/bearing/drive/ramp=20 ms", "/constraints/crank_strength/deviations=3",
-       "/constraints/rod_strength/deviations=3", "/constraints/rod_stiffness/deviations=3",
-       "/constraints/crank_stiffness/deviations=3",
-       R"(/uncertainty={"parameters": {"crank_diameter": {"deviation": "0.1 mm"}, )"
-       R"("rod_diameter": {"interval": "0.2 mm"}}, "samples": 2000})"});
+             source_folder() + "/problems/slider_crank_round.json",
+             {"/simulation/step=0.2 ms", "/simulation/end_time=20 ms",
+              "/scene/joints/bearing/drive/ramp=20 ms", "/constraints/crank_strength/deviations=3",
+              "/constraints/rod_strength/deviations=3", "/constraints/rod_stiffness/deviations=3",
+              "/constraints/crank_stiffness/deviations=3",
+              R"(/uncertainty={"parameters": {"crank_diameter": {"deviation": "0.1 mm"}, )"
+              R"("rod_diameter": {"interval": "0.2 mm"}}, "samples": 2000})"})
+      .complete();
 }
 
 Eigen::Index worst_row(const Evaluation& evaluation, const DesignProblem& problem) {
@@ -97,8 +98,9 @@ const char* const two_peaks = R"({
 /// At the bound of a the highest peak keeps its margin, and the lower one does not.
 TEST(RobustConstraints, HoldForLowerPeaksThatScatterMore) {
   for (const char* upper : {"98 mm", "99.9 mm"}) {
-    DesignProblem problem(read_problem_text(two_peaks, "two_peaks.json",
-                                            {std::string("/variables/a/upper=") + upper}));
+    DesignProblem problem(
+        read_problem_text(two_peaks, "two_peaks.json", {std::string("/variables/a/upper=") + upper})
+            .complete());
     const Result result = solve_design(problem, {.backend = "nlopt-slsqp"});
     EXPECT_EQ(result.status, Status::verified) << result.message;
     EXPECT_NEAR(result.x(0), 0.096, 2e-5) << upper;
@@ -108,7 +110,7 @@ TEST(RobustConstraints, HoldForLowerPeaksThatScatterMore) {
 /// Where both keep theirs the bound is the answer.
 TEST(RobustConstraints, LeaveABoundThatAllPeaksKeep) {
   DesignProblem problem(
-      read_problem_text(two_peaks, "two_peaks.json", {"/variables/a/upper=95 mm"}));
+      read_problem_text(two_peaks, "two_peaks.json", {"/variables/a/upper=95 mm"}).complete());
   const Result result = solve_design(problem, {.backend = "nlopt-slsqp"});
   EXPECT_EQ(result.status, Status::verified) << result.message;
   EXPECT_NEAR(result.x(0), 0.095, 1e-9);

@@ -89,7 +89,8 @@ ProblemFile make_cantilever(const SteppedCantilever& of) {
     "objective": {{"minimize": "mass"}}, "constraints": {{{}}}}})",
                                        step_length * of.steps, segments, step_length * of.steps,
                                        variables, of.more_variables, responses, constraints),
-                           "cantilever.json");
+                           "cantilever.json")
+      .complete();
 }
 
 struct Answer {

@@ -20,7 +20,8 @@ constexpr double known_optimum = 0.319445;
 
 ProblemFile slider_crank(const std::vector<std::string>& overrides) {
   return read_problem(std::filesystem::path(source_folder()) / "problems" / "slider_crank.json",
-                      overrides);
+                      overrides)
+      .complete();
 }
 
 SolveOptions options_of(const ProblemFile& file) {

@@ -15,7 +15,7 @@ constexpr unsigned most_seeds = 45;
 
 int count_left_out(const ProblemFile& problem) {
   int count = 0;
-  for (const auto& [name, effect] : problem.effects.decisions->measured)
+  for (const auto& [name, effect] : problem.effects.decisions.measured)
     count += effect.is_needed ? 0 : 1;
   return count;
 }

@@ -606,7 +606,7 @@ Eigen::Matrix3d general_rotation(unsigned seed) {
 ProblemFile read(const Json& scene) {
   static std::mutex one_at_a_time;  // the library of units knows no threads
   const std::lock_guard lock(one_at_a_time);
-  return read_problem_text(scene.dump(), "random.json");
+  return read_problem_text(scene.dump(), "random.json").complete();
 }
 
 }  // namespace pleuel::test

@@ -161,7 +161,7 @@ class BadCatalogue : public testing::Test {
     document["scene"]["catalogue"] = "sizes.json";
     std::ofstream(folder_ / "bad.json") << document.dump();
     try {
-      read_problem(folder_ / "bad.json");
+      read_problem(folder_ / "bad.json").complete();
     } catch (const InputError& error) {
       std::string text = error.what();
       const std::string prefix = folder_.string() + "/";

@@ -243,7 +243,7 @@ TEST(BadValue, OfNoKindIsRefusedEverywhereInAMechanism) {
 
 std::string complaint_about_file(const std::filesystem::path& path) {
   try {
-    read_problem(path);
+    read_problem(path).complete();
   } catch (const InputError& error) {
     return error.what();
   }
@@ -271,8 +271,8 @@ TEST(File, IsReadLikeItsTextAndGivesItsNameToAProblemWithout) {
   Json document = good_json();
   document.erase("name");
   std::ofstream(path) << document.dump();
-  EXPECT_EQ(read_problem(path, {"/simulation/step=1e-3"}).name, "my_problem");
-  EXPECT_EQ(read_problem(path, {"/simulation/step=1e-3"}).simulation.step, 1e-3);
+  EXPECT_EQ(read_problem(path, {"/simulation/step=1e-3"}).complete().name, "my_problem");
+  EXPECT_EQ(read_problem(path, {"/simulation/step=1e-3"}).complete().simulation.step, 1e-3);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ Shape find_section(const std::string& name) {
   document["scene"]["bodies"]["crank"]["section"]["catalogue"] = name;
   document["scene"]["catalogue"] = "catalogue.json";
   const ProblemFile problem =
-      read_problem_text(document.dump(), source_folder() + "/problems/any.json");
+      read_problem_text(document.dump(), source_folder() + "/problems/any.json").complete();
   return std::get<Shape>(std::get<BeamBody>(problem.scene.bodies[0].shape).segments[0].section);
 }
 

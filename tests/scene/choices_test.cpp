@@ -31,7 +31,7 @@ Json beam_document(const std::string& section, const std::string& variable) {
 }
 
 ProblemFile read(const Json& document) {
-  return read_problem_text(document.dump(), file);
+  return read_problem_text(document.dump(), file).complete();
 }
 
 std::string complaint_about(const Json& document) {

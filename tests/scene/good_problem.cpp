@@ -85,7 +85,7 @@ Json good_json() {
 }
 
 ProblemFile read(const Json& document) {
-  return read_problem_text(document.dump(), "bad.json");
+  return read_problem_text(document.dump(), "bad.json").complete();
 }
 
 std::string complaint(const Json& document) {
@@ -94,7 +94,7 @@ std::string complaint(const Json& document) {
 
 std::string complaint_about_text(const std::string& text) {
   try {
-    read_problem_text(text, "bad.json");
+    read_problem_text(text, "bad.json").complete();
   } catch (const InputError& error) {
     return error.what();
   }

@@ -11,7 +11,7 @@ namespace pleuel::test {
 namespace {
 
 ProblemFile read_with(const std::vector<std::string>& overrides) {
-  return read_problem_text(good_text(), "good.json", overrides);
+  return read_problem_text(good_text(), "good.json", overrides).complete();
 }
 
 std::string complaint_with(const std::string& assignment) {
@@ -80,7 +80,8 @@ TEST(Override, ReachesKeysWithSlashesAndTildes) {
   Json document = good_json();
   document["responses"]["a/b~c"] = document["responses"]["stress"];
   const ProblemFile problem =
-      read_problem_text(document.dump(), "good.json", {"/responses/a~1b~0c/over_time=rms"});
+      read_problem_text(document.dump(), "good.json", {"/responses/a~1b~0c/over_time=rms"})
+          .complete();
   EXPECT_EQ(problem.responses.back().over_time, OverTime::rms);
 }
 

@@ -21,7 +21,7 @@ TEST(PackedProblem, IsTheSameWhenItIsUnpacked) {
     if (path.extension() != ".json" || path.string().find("schema") != std::string::npos) continue;
     ProblemFile problem;
     try {
-      problem = read_problem(path);
+      problem = read_problem(path).complete();
     } catch (const std::exception&) {
       continue;  // a catalogue, a material
     }
@@ -33,13 +33,14 @@ TEST(PackedProblem, IsTheSameWhenItIsUnpacked) {
 }
 
 TEST(PackedProblem, KeepsWhatNoFileSays) {
-  ProblemFile problem = read_problem(source_folder() + "/problems/slider_crank_round.json");
-  problem.effects.decisions.emplace();
-  problem.effects.decisions->measured[{"rod", "elasticity"}] = {false, 1e-3, "rod_bow"};
+  ProblemFile problem =
+      read_problem(source_folder() + "/problems/slider_crank_round.json").complete();
+  problem.effects.decisions = {};
+  problem.effects.decisions.measured[{"rod", "elasticity"}] = {false, 1e-3, "rod_bow"};
   problem.simulation.checks_resolution = false;
   problem.simulation.instants = {0.0, 0.1 / 3.0};
   const auto same = unpacked<ProblemFile>(packed(problem));
-  const MeasuredEffect& effect = same.effects.decisions->measured.at({"rod", "elasticity"});
+  const MeasuredEffect& effect = same.effects.decisions.measured.at({"rod", "elasticity"});
   EXPECT_FALSE(effect.is_needed);
   EXPECT_EQ(effect.response, "rod_bow");
   EXPECT_FALSE(same.simulation.checks_resolution);

@@ -17,7 +17,7 @@ using std::numbers::pi;
 using testing::ElementsAre;
 
 ProblemFile read_file(const std::string& name) {
-  return read_problem(std::filesystem::path(source_folder()) / "problems" / name);
+  return read_problem(std::filesystem::path(source_folder()) / "problems" / name).complete();
 }
 
 const BeamBody& beam_of(const ProblemFile& problem, std::size_t body) {
@@ -186,7 +186,8 @@ TEST(ExudynSliderCrank, HasTheDataOfTheReference) {
 TEST(ExudynSliderCrank, TakesTheOtherRodByAnOverride) {
   const ProblemFile problem =
       read_problem(std::filesystem::path(source_folder()) / "problems/slider_crank_exudyn.json",
-                   {"/scene/bodies/rod/section/diameter=30 mm"});
+                   {"/scene/bodies/rod/section/diameter=30 mm"})
+          .complete();
   EXPECT_EQ(std::get<CircleSection>(beam_of(problem, 1).segments[0].section).diameter.constant,
             0.03);
 }

@@ -34,7 +34,8 @@ ProblemFile cantilever(const std::vector<std::string>& overrides) {
     "objective": {"minimize": "= mass + 0 kg*(a + b)"
 }
 })json",
-                           "test.json", overrides);
+                           "test.json", overrides)
+      .complete();
 }
 
 struct Escape {

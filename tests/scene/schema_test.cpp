@@ -99,8 +99,8 @@ TEST_F(ProblemSchema, AcceptsACommentInEveryObject) {
 TEST(Comments, AreReadByNobody) {
   nlohmann::json document = nlohmann::json::parse(good_text());
   add_comments(document);
-  const ProblemFile with = read_problem_text(document.dump(), "good.json");
-  const ProblemFile without = read_problem_text(good_text(), "good.json");
+  const ProblemFile with = read_problem_text(document.dump(), "good.json").complete();
+  const ProblemFile without = read_problem_text(good_text(), "good.json").complete();
   EXPECT_EQ(with.scene.bodies.size(), without.scene.bodies.size());
   EXPECT_EQ(with.scene.joints.size(), without.scene.joints.size());
   EXPECT_EQ(with.variables.size(), without.variables.size());

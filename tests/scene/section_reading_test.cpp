@@ -77,7 +77,7 @@ TEST(SectionReading, KnowsTheGeneralSection) {
 /// The good problem in the folder of the shipped catalogue.
 ProblemFile read_beside_catalogue(Json document) {
   document["scene"]["catalogue"] = "catalogue.json";
-  return read_problem_text(document.dump(), source_folder() + "/problems/any.json");
+  return read_problem_text(document.dump(), source_folder() + "/problems/any.json").complete();
 }
 
 TEST(Catalogue, StandsForTheSectionOfThatName) {
@@ -94,7 +94,8 @@ TEST(Catalogue, NameCanBeOverridden) {
   document["scene"]["catalogue"] = "catalogue.json";
   const ProblemFile problem =
       read_problem_text(document.dump(), source_folder() + "/problems/any.json",
-                        {"/scene/bodies/rod/segments/1/section/catalogue=round 25"});
+                        {"/scene/bodies/rod/segments/1/section/catalogue=round 25"})
+          .complete();
   const auto circle = std::get<CircleSection>(
       std::get<BeamBody>(problem.scene.bodies[1].shape).segments[1].section);
   EXPECT_DOUBLE_EQ(circle.diameter.constant, 0.025);

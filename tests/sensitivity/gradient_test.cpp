@@ -91,7 +91,8 @@ TEST(Differences, OfAVariableAtZeroTakeTheirStepFromItsRange) {
     "variables": {"p": {"start": 0, "lower": -0.001, "upper": 0.001}},
     "responses": {"y": {"type": "position", "body": "arm", "at": 1, "direction": "y",
       "over_time": "final"}}})",
-                                                "arm.json");
+                                                "arm.json")
+                                  .complete();
   const Eigen::VectorXd x = start_design(problem);
   EXPECT_NEAR(central_differences(problem, x, 1e-5)(0, 0), 100.0, 1e-5);
   EXPECT_NEAR(forward_differences(problem, x, *analyze(problem, x), 1e-5)(0, 0), 100.0, 1e-5);

@@ -30,7 +30,8 @@ std::unique_ptr<Analysis> block_with(double factor) {
         "responses": {{"reach": {{"type": "position", "body": "block", "direction": "x",
                                   "over_time": "max-abs"}}}}}})",
                                                             factor),
-                                                "block.json");
+                                                "block.json")
+                                  .complete();
   return analyze(problem, start_design(problem));
 }
 

@@ -262,7 +262,8 @@ struct Oscillator {
                               "over_time": "max"}}}}}})",
                                          m, k, damper, force, frequency_text, period,
                                          period / steps, is_variable ? variable : ""),
-                             "oscillator.json");
+                             "oscillator.json")
+        .complete();
   }
 };
 
@@ -346,7 +347,7 @@ TEST(SteadyMachineErrors, NameAVariableThatSetsThePeriod) {
 
 TEST(SteadyMachineErrors, NameAMotionThatNothingBringsBack) {
   const std::string failure = failure_of(read_problem_text(
-      R"({"name": "free", "scene": {"gravity": [0, 0, 0],
+                                             R"({"name": "free", "scene": {"gravity": [0, 0, 0],
         "bodies": {"cart": {"type": "point-mass", "at": [0, 0, 0], "mass": 1}},
         "joints": {"guide": {"type": "point-on-line", "bodies": ["ground", "cart"],
                              "at": [0, 0, 0], "axis": [1, 0, 0]}},
@@ -356,7 +357,8 @@ TEST(SteadyMachineErrors, NameAMotionThatNothingBringsBack) {
         "simulation": {"end_time": 0.1, "step": 1e-3, "initial_state": "periodic"},
         "responses": {"x": {"type": "position", "body": "cart", "direction": "x",
                             "over_time": "max"}}})",
-      "free.json"));
+                                             "free.json")
+                                             .complete());
   EXPECT_THAT(failure, testing::HasSubstr("\"cart\""));
   EXPECT_THAT(failure, testing::HasSubstr("nothing has brought back"));
 }

@@ -36,7 +36,7 @@ ProblemFile bar(const std::string& pareto, const std::string& extra = R"({"start
                 "lower": "0.5 m", "upper": "0.5 m"})",
                 const std::string& more = "") {
   return read_problem_text(
-      fmt::format(R"({{"scene": {{"bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0],
+             fmt::format(R"({{"scene": {{"bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0],
     "to": [1, 0, 0], "rigid": true, "material": "steel", "elements": 1,
     "section": {{"type": "rectangle", "width": {{"variable": "b"}}, "height": {{"variable": "h"}}}}}}}},
     "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}}}}},
@@ -46,8 +46,9 @@ ProblemFile bar(const std::string& pareto, const std::string& extra = R"({"start
     "slack": {{"type": "expression", "value": "extra/(10 m) + 1e-5*(1 m)/b*((1 m)/h)^2"}},
     "goodness": {{"type": "expression", "value": "0 - slack"}}}},
   {} "pareto": {}}})",
-                  mm_list(widths), mm_list(heights), extra, more, pareto),
-      "bar.json");
+                         mm_list(widths), mm_list(heights), extra, more, pareto),
+             "bar.json")
+      .complete();
 }
 
 double slack(double b, double h) {
@@ -174,7 +175,7 @@ TEST(ChoiceFront, LeavesOutWhatCannotBeSimulated) {
     "type": "expression", "value": "((60 mm)/a)^2 + 0*sqrt((a/(1 mm) - 35)^2 - 9)"}},
     "pareto": {"responses": ["mass", "slack"]}})json";
   const auto front_with = [&](const char* sizes) {
-    return front_of(read_problem_text(begin + sizes + end, "bar.json"));
+    return front_of(read_problem_text(begin + sizes + end, "bar.json").complete());
   };
   const ParetoFront front = front_with(R"("30 mm", "34 mm", "35 mm", "40 mm")");
   EXPECT_EQ(front.choices->failed, 2);

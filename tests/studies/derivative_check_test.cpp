@@ -64,10 +64,10 @@ TEST(DerivativeCheck, FindsDirectAndAdjointAsFarApartAsRoundOffMovesTheMotion) {
         i == 0 ? "" : ", ", i, before, 0.2 * i, drive);
   }
   const ProblemFile problem = read_problem_text(
-      R"({"scene": {"gravity": [0, -9.81, 0],
+                                  R"({"scene": {"gravity": [0, -9.81, 0],
           "materials": {"soft": {"young": "2 GPa", "poisson": 0.3, "density": 1200}},
-          "bodies": {)" +
-          bodies + R"(}, "joints": {)" + joints + R"(}},
+          "bodies": {)" + bodies + R"(}, "joints": {)" +
+                                      joints + R"(}},
           "simulation": {"end_time": "0.5 s", "step": "1 ms",
             "formulation": "stabilized-index-2"},
           "variables": {"h": {"start": 0.01, "lower": 0.005, "upper": 0.02},
@@ -76,7 +76,8 @@ TEST(DerivativeCheck, FindsDirectAndAdjointAsFarApartAsRoundOffMovesTheMotion) {
             "a": {"type": "acceleration", "body": "b4", "at": 1, "direction": "y",
               "over_time": "max-abs"},
             "s": {"type": "stress", "body": "b0", "over_time": "max"}}})",
-      "chain.json");
+                                  "chain.json")
+                                  .complete();
   const Eigen::VectorXd x = start_design(problem);
   const auto gradients = [&](const Eigen::VectorXd& design, ExactMethod method) {
     const auto analysis = analyze(problem, design);
@@ -117,9 +118,10 @@ TEST(DerivativeCheck, DoesNotBlameResponsesThatAreNoise) {
 /// Newton's method stops after the same number of iterations at all designs nearby: what it leaves
 /// is smooth in the design, and part of the differences but not of the gradient.
 ProblemFile loose_problem() {
-  return read_problem(
-      source_folder() + "/problems/four_bar.json",
-      {"/simulation/step=1 ms", "/simulation/end_time=30 ms", "/simulation/newton_tolerance=1e-3"});
+  return read_problem(source_folder() + "/problems/four_bar.json",
+                      {"/simulation/step=1 ms", "/simulation/end_time=30 ms",
+                       "/simulation/newton_tolerance=1e-3"})
+      .complete();
 }
 
 /// Central differences of two steps, extrapolated to none (Richardson): of fourth order, so that

@@ -50,7 +50,7 @@ std::vector<std::string> names_of(const std::vector<NumberGroup>& groups) {
 
 TEST(NumberPrices, AreTheExponentsOfAClosedForm) {
   const ProblemText text{bar, "bar.json"};
-  const PriceList list = number_prices(text, read_problem_text(bar, "bar.json"),
+  const PriceList list = number_prices(text, read_problem_text(bar, "bar.json").complete(),
                                        Eigen::VectorXd::Constant(1, height_of_bar));
   EXPECT_NEAR(list.objective, 7850 * 0.4 * 0.03 * height_of_bar, 1e-12);
   EXPECT_LT(list.residual, 1e-6);
@@ -73,9 +73,9 @@ TEST(NumberPrices, AreTheExponentsOfAClosedForm) {
 TEST(NumberPrices, OfABoundIsThatOfTheObjective) {
   const std::vector<std::string> overrides = {"/variables/height/start=50 mm",
                                               "/variables/height/lower=40 mm"};
-  const PriceList list =
-      number_prices({bar, "bar.json", overrides}, read_problem_text(bar, "bar.json", overrides),
-                    Eigen::VectorXd::Constant(1, 0.04));
+  const PriceList list = number_prices({bar, "bar.json", overrides},
+                                       read_problem_text(bar, "bar.json", overrides).complete(),
+                                       Eigen::VectorXd::Constant(1, 0.04));
   const NumberPrice* bound = find(list, "/variables/height/lower");
   ASSERT_NE(bound, nullptr);
   EXPECT_NEAR(bound->per_unit, 7850 * 0.4 * 0.03, 1e-6);
@@ -91,7 +91,7 @@ TEST(NumberPrices, OfABoundIsThatOfTheObjective) {
 TEST(NumberPrices, SaysWhichBoundDecidesNext) {
   const std::vector<std::string> overrides = {"/variables/height/start=20 mm",
                                               "/variables/height/upper=20.05 mm"};
-  const ProblemFile problem = read_problem_text(bar, "bar.json", overrides);
+  const ProblemFile problem = read_problem_text(bar, "bar.json", overrides).complete();
   const PriceList list = number_prices({bar, "bar.json", overrides}, problem,
                                        Eigen::VectorXd::Constant(1, height_of_bar));
   EXPECT_EQ(find(list, "/scene/loads/press/value")->next_limit, "height");
@@ -102,7 +102,7 @@ TEST(NumberPrices, OfAFixedVariableIsThatOfTheNumber) {
   const std::vector<std::string> overrides = {
       R"(/scene/bodies/bar/section/width={"variable": "width"})",
       R"(/variables/width={"start": "30 mm", "lower": "30 mm", "upper": "30 mm"})"};
-  const ProblemFile problem = read_problem_text(bar, "bar.json", overrides);
+  const ProblemFile problem = read_problem_text(bar, "bar.json", overrides).complete();
   const PriceList list =
       number_prices({bar, "bar.json", overrides}, problem, Eigen::Vector2d(height_of_bar, 0.03));
   const NumberPrice* width = find(list, "width");
@@ -112,7 +112,8 @@ TEST(NumberPrices, OfAFixedVariableIsThatOfTheNumber) {
 }
 
 TEST(PricedNumbers, MovePointsThatAreSharedAsOne) {
-  const auto groups = priced_numbers({bar, "bar.json"}, read_problem_text(bar, "bar.json"));
+  const auto groups =
+      priced_numbers({bar, "bar.json"}, read_problem_text(bar, "bar.json").complete());
   for (const NumberGroup& group : groups) {
     if (group.name == "/scene/bodies/bar/to/0") {
       EXPECT_THAT(group.pointers,
@@ -132,22 +133,23 @@ TEST(PricedNumbers, AreThoseOfLibraryMaterialsToo) {
   const std::string declared =
       R"("materials": {"steel": {"young": "210 GPa", "poisson": 0.3, "density": "7850 kg/m^3"}},)";
   text.erase(text.find(declared), declared.size());
-  const auto groups = priced_numbers({text, "bar.json"}, read_problem_text(text, "bar.json"));
+  const auto groups =
+      priced_numbers({text, "bar.json"}, read_problem_text(text, "bar.json").complete());
   EXPECT_THAT(names_of(groups), testing::Contains("/scene/materials/steel/density"));
 }
 
 TEST(PricedNumbers, LeaveOutWhatNoVariableCanStandFor) {
   const std::vector<std::string> overrides = {"/scene/gravity=[0, -9.81, 0]"};
-  const auto groups =
-      priced_numbers({bar, "bar.json", overrides}, read_problem_text(bar, "bar.json", overrides));
+  const auto groups = priced_numbers({bar, "bar.json", overrides},
+                                     read_problem_text(bar, "bar.json", overrides).complete());
   EXPECT_THAT(names_of(groups), testing::Not(testing::Contains(testing::HasSubstr("gravity"))));
 }
 
 /// The end of the bar cannot be moved without the load, which a formula places.
 TEST(PricedNumbers, LeaveOutPointsThatFormulasMove) {
   const std::vector<std::string> overrides = {"/scene/loads/press/at/0== 0.4 m + 0*height"};
-  const auto groups =
-      priced_numbers({bar, "bar.json", overrides}, read_problem_text(bar, "bar.json", overrides));
+  const auto groups = priced_numbers({bar, "bar.json", overrides},
+                                     read_problem_text(bar, "bar.json", overrides).complete());
   EXPECT_THAT(names_of(groups), testing::Not(testing::Contains("/scene/bodies/bar/to/0")));
   EXPECT_THAT(names_of(groups), testing::Contains("/scene/bodies/bar/from/0"));
 }
@@ -155,7 +157,7 @@ TEST(PricedNumbers, LeaveOutPointsThatFormulasMove) {
 /// Binding a number to a variable that is fixed at its value changes no response.
 TEST(PricedNumbers, LeaveTheMechanismAsItIsWhenTheyAreBound) {
   const std::string path = source_folder() + "/problems/slider_crank.json";
-  const ProblemFile problem = read_problem(path);
+  const ProblemFile problem = read_problem(path).complete();
   std::ifstream stream(path);
   const ProblemText text{{std::istreambuf_iterator<char>(stream), {}}, path};
   const ProblemFile bound = bind_numbers(text, priced_numbers(text, problem));
@@ -179,13 +181,13 @@ TEST(NumberPrices, AreThoseOfOptimizingAnew) {
   const std::string file{std::istreambuf_iterator<char>(stream), {}};
   const std::string coarse = "/simulation/step=0.2 ms";
   const auto optimum = [&](const std::vector<std::string>& overrides) {
-    DesignProblem design(read_problem(path, overrides));
+    DesignProblem design(read_problem(path, overrides).complete());
     return solve_design(design, {});
   };
   const Result result = optimum({coarse});
   ASSERT_EQ(result.status, Status::verified);
   const PriceList list =
-      number_prices({file, path, {coarse}}, read_problem(path, {coarse}), result.x);
+      number_prices({file, path, {coarse}}, read_problem(path, {coarse}).complete(), result.x);
   struct Case {
     const char *pointer, *less, *more;
     double percents;  ///< between them

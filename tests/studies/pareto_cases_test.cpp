@@ -40,7 +40,7 @@ Json distances(const std::string& pareto) {
 
 std::vector<ParetoPoint> front(const Json& document, int jobs = 1,
                                EvaluationStore* store = nullptr) {
-  const ProblemFile file = read_problem_text(document.dump(), "cases.json");
+  const ProblemFile file = read_problem_text(document.dump(), "cases.json").complete();
   return pareto_front(trade_off_problem(file), {}, {{.jobs = jobs}, store}).points;
 }
 
@@ -107,7 +107,8 @@ TEST(ParetoOverCases, TradesASumOverThem) {
 TEST(ParetoOverCases, HasTheObjectiveOverCasesWhereItTradesThat) {
   Json document = distances(R"({"responses": ["distance", "cost[near]"], "points": 3})");
   document["objective"] = {{"minimize", "distance"}, {"over_cases", {{"near", 3}, {"far", 1}}}};
-  const ProblemFile problem = trade_off_problem(read_problem_text(document.dump(), "cases.json"));
+  const ProblemFile problem =
+      trade_off_problem(read_problem_text(document.dump(), "cases.json").complete());
   EXPECT_EQ(problem.objective->response, "distance [weighted]");
   const auto points = front(document);
   // 6 (x − 1) + 2 (x − 3) = 0. An end may miss its goal, 3 + 4 (x − 1.5)², by 1e-4 of its value: by
@@ -148,7 +149,7 @@ TEST(ParetoOverCases, GoesOnFromItsRecordWithTheSameDigits) {
 
 std::string complaint(const std::string& pareto) {
   try {
-    read_problem_text(distances(pareto).dump(), "cases.json");
+    read_problem_text(distances(pareto).dump(), "cases.json").complete();
   } catch (const InputError& error) {
     return error.what();
   }

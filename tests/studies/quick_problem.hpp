@@ -16,7 +16,7 @@ inline ProblemFile quick_problem(const std::vector<std::string>& more = {}) {
                                         "/scene/joints/bearing/drive/ramp=20 ms",
                                         "/optimizer/backend=nlopt-mma"};
   overrides.insert(overrides.end(), more.begin(), more.end());
-  return read_problem(source_folder() + "/problems/slider_crank_round.json", overrides);
+  return read_problem(source_folder() + "/problems/slider_crank_round.json", overrides).complete();
 }
 
 /// What the command accuracy tries.

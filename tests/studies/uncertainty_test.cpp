@@ -49,7 +49,7 @@ TEST(Uncertainty, OfTheMassIsThatOfTheClosedForm) {
 /// mass, which is linear in h, does not.
 TEST(Uncertainty, SaysWhereFirstOrderIsNotEnough) {
   const ProblemFile problem = read_problem_text(
-      R"({"scene": {
+                                  R"({"scene": {
           "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
             "section": {"type": "rectangle", "width": 0.02, "height": {"variable": "h"}},
             "elements": 1}},
@@ -61,7 +61,8 @@ TEST(Uncertainty, SaysWhereFirstOrderIsNotEnough) {
         "uncertainty": {"parameters": {"h": {"deviation": 0.003}}, "samples": 500},
         "responses": {"mass": {"type": "mass"},
           "sag": {"type": "deflection", "body": "b", "at": 1, "over_time": "max"}}})",
-      "h.json");
+                                  "h.json")
+                                  .complete();
   const auto doubts = [](const ProblemFile& of) {
     std::vector<std::string> texts;
     for (const Doubt& doubt : uncertainty_study(of, {.tasks = {.jobs = 2}}).doubts)
@@ -80,7 +81,7 @@ TEST(Uncertainty, SaysWhereFirstOrderIsNotEnough) {
 /// by first order F a/√3 = 0.866 F.
 TEST(Uncertainty, SaysWhereSamplesScatterLessThanFirstOrder) {
   const ProblemFile problem = read_problem_text(
-      R"({"scene": {
+                                  R"({"scene": {
           "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
             "section": {"type": "rectangle", "width": 0.02, "height": 0.02}, "elements": 1}},
           "joints": {"f": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
@@ -91,7 +92,8 @@ TEST(Uncertainty, SaysWhereSamplesScatterLessThanFirstOrder) {
         "variables": {"phase": {"start": 0, "lower": -3, "upper": 3}},
         "uncertainty": {"parameters": {"phase": {"interval": 1.5}}, "samples": 500},
         "responses": {"sag": {"type": "deflection", "body": "b", "at": 1, "over_time": "final"}}})",
-      "phase.json");
+                                  "phase.json")
+                                  .complete();
   const UncertaintyStudy study = uncertainty_study(problem, {.tasks = {.jobs = 2}});
   const UncertainResponse& sag = study.responses[0];
   const double ratio = std::sqrt(0.5 - std::sin(3.0) / 6.0) / (1.5 / std::sqrt(3.0));

@@ -63,7 +63,9 @@ struct BentCantilever {
       "stress": {"type": "stress", "body": "beam", "over_time": "max"})";
   }
 
-  pleuel::ProblemFile problem() const { return pleuel::read_problem_text(text(), "bent.json"); }
+  pleuel::ProblemFile problem() const {
+    return pleuel::read_problem_text(text(), "bent.json").complete();
+  }
 };
 
 /// Elastica: tip of a cantilever under a force of fixed direction, α = P L²/(E I); a shooting

@@ -8,7 +8,8 @@
 /// A problem file of the repository, with overrides.
 inline pleuel::ProblemFile sample_problem(const std::string& name,
                                           const std::vector<std::string>& overrides = {}) {
-  return pleuel::read_problem(pleuel::source_folder() + "/problems/" + name + ".json", overrides);
+  return pleuel::read_problem(pleuel::source_folder() + "/problems/" + name + ".json", overrides)
+      .complete();
 }
 
 inline Eigen::Index response_index(const pleuel::ProblemFile& problem, const std::string& name) {

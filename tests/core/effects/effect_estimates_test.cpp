@@ -87,7 +87,7 @@ TEST(EstimateOfStiffening, IsTheShareOfTheEulerLoad) {
   const double pull = 0.5 * 0.15 * 150.0 * 150.0 * (1 + 0.15 / 0.30);
   const double euler = pi * pi * 2.1e11 * pi / 64 * std::pow(0.010, 4) / (0.30 * 0.30);
   // The rod's own mass (0.185 kg against 0.5 kg) pulls, too.
-  const double estimate = file.effects.decisions->estimates.at("rod").geometric_stiffening;
+  const double estimate = file.effects.decisions.estimates.at("rod").geometric_stiffening;
   EXPECT_GT(estimate, pull / euler);
   EXPECT_LT(estimate, 1.4 * pull / euler);
 }
@@ -95,7 +95,7 @@ TEST(EstimateOfStiffening, IsTheShareOfTheEulerLoad) {
 TEST(Estimates, AreNotMadeWithoutATolerance) {
   ProblemFile file = sample_problem("slider_crank");
   file.effects.decisions = EffectDecisions{estimate_effects(file), {}};
-  EXPECT_TRUE(file.effects.decisions->estimates.empty());
+  EXPECT_TRUE(file.effects.decisions.estimates.empty());
 }
 
 /// What the file forces is not the estimate's business.

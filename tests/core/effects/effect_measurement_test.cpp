@@ -21,7 +21,7 @@ namespace {
 using testing::HasSubstr;
 
 ProblemFile read(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return read_problem_text(text, "test.json", overrides);
+  return read_problem_text(text, "test.json", overrides).complete();
 }
 
 /// A flat bar with an arm across it: the load on the arm twists the bar.
@@ -53,6 +53,21 @@ TEST(MeasuredEffects, KeepTheTwistThatAnArmMakesLarge) {
     const double bend = 0.3 * std::pow(0.8, 3) / (3 * 2.1e11 * 0.003 * std::pow(0.05, 3) / 12);
     EXPECT_NEAR(value, -(twist + bend), (tolerance + 1e-3) * (twist + bend)) << tolerance;
   }
+}
+
+int effects_left_out(const ProblemFile& problem) {
+  const auto analysis = analyze(problem, start_design(problem));
+  return std::count_if(analysis->model.effects.begin(), analysis->model.effects.end(),
+                       [](const EffectRecord& effect) {
+                         return effect.kind != EffectRecord::Kind::exact && !effect.is_built;
+                       });
+}
+
+/// What is read says which of both is meant: no simulation depends on who decided before it.
+TEST(MeasuredEffects, AreLeftOutOfTheDecidedProblemOnly) {
+  const UndecidedProblem read_one = read_problem_text(twisted_bar(1e-2, position), "test.json");
+  EXPECT_EQ(effects_left_out(read_one.complete()), 0);
+  EXPECT_GT(effects_left_out(decided(read_one)), 0);
 }
 
 TEST(MeasuredEffects, AreInTheTableWithWhatWasMeasured) {
@@ -173,7 +188,7 @@ TEST(Estimates, OfACantileverAreThoseOfTheBooks) {
                     "twist": {"type": "torque", "body": "beam", "at": [0.5, 0, 0], "direction": [1, 0, 0], "value": 2}}},
           "simulation": {"end_time": 0.01, "step": 0.001}, "effects": {"tolerance": 1e-3}})");
   problem.effects.decisions = EffectDecisions{estimate_effects(problem), {}};
-  const BeamEstimates found = problem.effects.decisions->estimates.at("beam");
+  const BeamEstimates found = problem.effects.decisions.estimates.at("beam");
   const double young = 7e10, area = width * height, pi = 3.14159265358979323846;
   const double about_z = width * std::pow(height, 3) / 12,
                about_y = height * std::pow(width, 3) / 12;

@@ -49,7 +49,7 @@ std::string beam(const std::string& joints, double axial, double transverse, int
 
 /// Tip x and y where the motion begins.
 Eigen::Vector2d tip(const std::string& text) {
-  const ProblemFile problem = read_problem_text(text, "a.json");
+  const ProblemFile problem = read_problem_text(text, "a.json").complete();
   const auto analysis = analyze(problem, start_design(problem));
   return {analysis->histories[0](0, 0), analysis->histories[1](0, 0)};
 }
@@ -123,7 +123,7 @@ TEST(QuasiStaticStart, OfClampedMembersCoupledAtTheirTipsIsFound) {
       "responses": {{"x": {{"type": "mass"}}, "y": {{"type": "position", "body": "one", "at": 1,
                                                 "direction": "y", "over_time": "max-abs"}}}}}})",
         type, std::string(type) == "revolute" ? "0, 0, 1" : "1, 0, 0");
-    const ProblemFile problem = read_problem_text(text, "a.json");
+    const ProblemFile problem = read_problem_text(text, "a.json").complete();
     const auto analysis = analyze(problem, start_design(problem));
     const double inertia = 0.02 * std::pow(0.03, 3) / 12;
     EXPECT_NEAR(analysis->reductions[1].value * 6 * young * inertia / 10.0, 1.0, 1e-4) << type;

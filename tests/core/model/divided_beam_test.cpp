@@ -228,7 +228,8 @@ ProblemFile turning_beam(int frames, const std::string& rest) {
         "bodies": {{"beam": {{"type": "beam", "from": [0, 0, 0], "elements": 16, "frames": {},
           {}}})",
                                        frames, rest),
-                           "turning.json");
+                           "turning.json")
+      .complete();
 }
 
 /// The spin-up of Kane, Ryan & Banerjee 1987: EXUDYN's geometrically exact beam gives −0.573780 m
@@ -287,7 +288,7 @@ TEST(DividedBeam, StartsWithTheSpinOfTheWholeBeam) {
       "first": {"type": "velocity", "body": "beam", "at": 0, "direction": "y", "over_time": "final"},
       "last": {"type": "velocity", "body": "beam", "at": 1, "direction": "y", "over_time": "final"},
       "energy": {"type": "kinetic-energy", "body": "beam", "over_time": "max"}}})";
-  const Simulated run(read_problem_text(text, "spin.json"));
+  const Simulated run(read_problem_text(text, "spin.json").complete());
   EXPECT_NEAR(run.value("first"), 2.0, 1e-3);
   EXPECT_NEAR(run.value("last"), 2.0 + 5.0 * 1.0, 1e-3);  // v + ω L
 }

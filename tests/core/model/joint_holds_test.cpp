@@ -37,7 +37,7 @@ std::vector<JointHold> holds_of_bar(const std::string& bodies, const std::string
            "simulation": {{"end_time": 1, "step": 0.1}},
            "responses": {{"mass": {{"type": "mass"}}}}}})j",
       bodies, joints);
-  const ProblemFile problem = read_problem_text(text, "bar.json");
+  const ProblemFile problem = read_problem_text(text, "bar.json").complete();
   return JointHolds(problem.scene, {}).of("bar");
 }
 

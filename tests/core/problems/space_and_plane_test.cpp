@@ -51,7 +51,7 @@ Json swung_arm() {
 
 ProblemFile problem_of(Json document, const char* spatial_motion) {
   document["effects"]["spatial_motion"] = spatial_motion;
-  return read_problem_text(document.dump(), "case.json");
+  return read_problem_text(document.dump(), "case.json").complete();
 }
 
 /// The largest rotation of a node of the boom against its frame [rad].

@@ -147,7 +147,8 @@ ProblemFile pulled_bar(const std::string& criterion, double constant) {
                  "endurance": {{"start": "100 MPa", "lower": "1 MPa", "upper": "1 GPa"}}}},
   "responses": {{"use": {{"type": "fatigue", "body": "bar", "criterion": "{}"}}}}}})j",
                                constant, criterion),
-                           "bar.json");
+                           "bar.json")
+      .complete();
 }
 
 double use_of(const std::string& criterion, double constant) {
@@ -202,7 +203,7 @@ TEST(Fatigue, IsThatOfTheWindow) {
 /// outline is met at 45°, not at the ends of its axes.
 TEST(Fatigue, OfARoundSectionIsSeenAllAroundIt) {
   const ProblemFile problem = read_problem_text(
-      R"j({"scene": {"gravity": [0, 0, 0],
+                                  R"j({"scene": {"gravity": [0, 0, 0],
     "materials": {"light": {"young": "200 GPa", "poisson": 0.3, "density": 1,
       "ultimate_strength": "400 MPa", "endurance_limit": "100 MPa"}},
     "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "elements": 2,
@@ -214,7 +215,8 @@ TEST(Fatigue, OfARoundSectionIsSeenAllAroundIt) {
   "effects": {"geometric_stiffening": "off"},
   "simulation": {"end_time": "0.1 s", "step": "1 ms", "initial_state": "quasi-static"},
   "responses": {"use": {"type": "fatigue", "body": "bar", "criterion": "gerber"}}})j",
-      "round.json");
+                                  "round.json")
+                                  .complete();
   const double stress = 32.0 * 100.0 * 0.5 / (std::numbers::pi * std::pow(0.02, 3));
   const auto analysis = analyze(problem, start_design(problem));
   EXPECT_NEAR(analysis->reductions[0].value, stress / 100e6, 1e-4);

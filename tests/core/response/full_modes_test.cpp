@@ -48,7 +48,7 @@ std::string cantilever(const std::string& section, const std::string& effects, i
 }
 
 Eigen::VectorXd values(const std::string& text) {
-  ProblemFile problem = read_problem_text(text, "a.json");
+  ProblemFile problem = read_problem_text(text, "a.json").complete();
   decide_effects(problem);
   return values_of(*analyze(problem, start_design(problem)));
 }
@@ -108,7 +108,7 @@ TEST(FrequencyOfAMechanism, OfARoundSectionComesTwiceWithOneGradient) {
   std::string text = cantilever(R"({"type": "circle", "diameter": {"variable": "d"}})",
                                 R"({"rotary_inertia": "off"})", 4);
   text.insert(1, R"("variables": {"d": {"start": 0.02, "lower": 0.01, "upper": 0.03}},)");
-  const ProblemFile problem = read_problem_text(text, "a.json");
+  const ProblemFile problem = read_problem_text(text, "a.json").complete();
   const auto analysis = analyze(problem, start_design(problem));
   const Eigen::VectorXd found = values_of(*analysis);
   const Eigen::MatrixXd gradient = direct_gradients(*analysis);
@@ -127,7 +127,7 @@ TEST(FrequencyOfAPlanarMechanism, HasTheGradientOfTheModeOutOfThePlane) {
       R"({"rotary_inertia": "off"})", 1);
   text.insert(1, R"("variables": {"b": {"start": 0.01, "lower": 0.005, "upper": 0.03},
                                   "h": {"start": 0.03, "lower": 0.005, "upper": 0.05}},)");
-  const ProblemFile problem = read_problem_text(text, "a.json");
+  const ProblemFile problem = read_problem_text(text, "a.json").complete();
   const auto analysis = analyze(problem, start_design(problem));
   const Eigen::MatrixXd gradient = direct_gradients(*analysis);
   for (Eigen::Index i = 0; i < 2; ++i) {

@@ -75,7 +75,7 @@ class Exchange : public testing::Test {
  protected:
   ProblemFile read(const std::string& name, const Json& document) const {
     std::ofstream(folder_.path() / name) << document;
-    return read_problem(folder_.path() / name);
+    return read_problem(folder_.path() / name).complete();
   }
 
   /// The complaint about a document; empty if there is none.
@@ -446,7 +446,7 @@ TEST_F(Exchange, ExampleOfTheDocumentationIsTheSliderCrank) {
                         folder_.path() / "example.json");
   const std::vector<std::string> quick = {"/simulation/end_time=10 ms", "/simulation/step=0.1 ms",
                                           "/scene/joints/bearing/drive/ramp=10 ms"};
-  const ProblemFile example = read_problem(folder_.path() / "example.json", quick);
+  const ProblemFile example = read_problem(folder_.path() / "example.json", quick).complete();
   const ProblemFile original = sample_problem("slider_crank", quick);
   const Eigen::VectorXd found = values_of(*analyze(example, start_design(example)));
   const Eigen::VectorXd expected = values_of(*analyze(original, start_design(original)));

@@ -57,7 +57,7 @@ ProblemFile problem_of(const Bar& bar) {
                 "h": {{"start": "40 mm", "lower": "1 mm", "upper": "90 mm"}}}},
   "responses": {{"share": {{"type": "lateral-buckling", "body": "bar", "over_time": "max"}}}}}})j",
       bar.elements, bar.body, bar.bodies, bar.joints, bar.loads, bar.effects);
-  return read_problem_text(text, "bar.json");
+  return read_problem_text(text, "bar.json").complete();
 }
 
 std::unique_ptr<Analysis> analysis_of(const Bar& bar) {

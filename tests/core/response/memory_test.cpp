@@ -18,16 +18,16 @@ constexpr const char* pendulum = R"({"scene": {"gravity": [0, -9.81, 0],
 
 TEST(Memory, ByDefaultFollowsTheMachineUpToFourGigabytes) {
   EXPECT_GT(machine_memory(), 1e7);
-  const double states = read_problem_text(pendulum, "p.json").sensitivity.memory;
+  const double states = read_problem_text(pendulum, "p.json").complete().sensitivity.memory;
   EXPECT_LE(states, 4e9);
   EXPECT_LE(states, 0.25 * machine_memory());
   const std::vector<std::string> given = {R"(/sensitivity={"memory": "1 MB"})"};
-  EXPECT_EQ(read_problem_text(pendulum, "p.json", given).sensitivity.memory, 1e6);
+  EXPECT_EQ(read_problem_text(pendulum, "p.json", given).complete().sensitivity.memory, 1e6);
 }
 
 /// 1e9 steps with the stress of thousands of places are some 1e13 bytes.
 TEST(Memory, OfHistoriesThatNoMachineHoldsIsTooMuchBeforeTheRun) {
-  const ProblemFile problem = read_problem_text(pendulum, "p.json");
+  const ProblemFile problem = read_problem_text(pendulum, "p.json").complete();
   try {
     analyze(problem, start_design(problem));
     FAIL();

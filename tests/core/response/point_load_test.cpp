@@ -38,7 +38,8 @@ ProblemFile supported_beam(int elements, double gravity, const std::string& load
                 "height": {{"start": "20 mm", "lower": "10 mm", "upper": "40 mm"}}}},
   "responses": {{"stress": {{"type": "stress", "body": "beam", "over_time": "final"}}}}}})",
                                gravity, elements, load),
-                           "beam.json");
+                           "beam.json")
+      .complete();
 }
 
 double stress_of(const ProblemFile& problem) {

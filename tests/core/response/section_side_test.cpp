@@ -34,7 +34,8 @@ ProblemFile supported_beam(const std::string& responses, int frames = 1, double 
   "objective": {{"minimize": "m"}},
   "responses": {{"m": {{"type": "mass"}}, {}}}}})j",
                                        frames, force, responses),
-                           "sides.json");
+                           "sides.json")
+      .complete();
 }
 
 double value_of(const Analysis& analysis, const std::string& name) {

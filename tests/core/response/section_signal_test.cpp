@@ -237,20 +237,21 @@ TEST(SectionForces, OfARigidBodyAreNotKnown) {
 TEST(StressOfOnePoint, HasTheSignOfItsSide) {
   const auto stress_at = [](const std::string& point, const std::string& direction) {
     const ProblemFile problem = read_problem_text(
-        R"({"scene": {"gravity": [0, 0, 0],
+                                    R"({"scene": {"gravity": [0, 0, 0],
             "bodies": {"beam": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
               "material": "steel", "elements": 2, "section": {"type": "general", "area": 1e-4,
                 "inertia_y": 2e-9, "inertia_z": 1e-9, "torsion": 1e-9, "points": [)" +
-            point + R"(]}}},
+                                        point + R"(]}}},
             "joints": {"wall": {"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}},
             "loads": {"push": {"type": "force", "body": "beam", "at": [1, 0, 0], "value": 1,
                                "direction": )" +
-            direction + R"(}}},
+                                        direction + R"(}}},
           "effects": {"geometric_stiffening": "off"},
           "simulation": {"end_time": 2e-4, "step": 1e-4, "initial_state": "quasi-static"},
           "responses": {"s": {"type": "stress", "part": "normal", "body": "beam", "at": 0,
                               "over_time": "final"}}})",
-        "point.json");
+                                    "point.json")
+                                    .complete();
     return analyze(problem, start_design(problem))->reductions[0].value;
   };
   const std::string y = "[0, 1, 0]", z = "[0, 0, 1]";

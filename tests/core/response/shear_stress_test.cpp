@@ -50,7 +50,8 @@ ProblemFile cantilever(const std::string& section, const Loads& loads) {
   "variables": {{{}}},
   "responses": {{"tau": {{"type": "shear-stress", "body": "bar", "over_time": "max"}}}}}})j",
                                section, loads.y, loads.z, loads.torque, variables_of(section)),
-                           "shear.json");
+                           "shear.json")
+      .complete();
 }
 
 double stress_of(const std::string& section, const Loads& loads) {

@@ -33,7 +33,8 @@ std::unique_ptr<Analysis> analysis_of(const std::string& gravity, const std::str
           "simulation": {{"end_time": 2e-9, "step": 1e-9, "initial_state": "quasi-static"}},
           "responses": {{{}}}}})",
                                                             gravity, joints, list),
-                                                "sheared.json");
+                                                "sheared.json")
+                                  .complete();
   return analyze(problem, start_design(problem));
 }
 

@@ -43,7 +43,7 @@ TEST(WholeTurns, OfAJointCountInSpace) {
       "of_body": {"type": "angle", "body": "one", "direction": "z", "over_time": "final"}
     }
   })";
-  const ProblemFile problem = read_problem_text(wheels, "wheels.json");
+  const ProblemFile problem = read_problem_text(wheels, "wheels.json").complete();
   const Eigen::VectorXd values = values_of(*analyze(problem, start_design(problem)));
   EXPECT_NEAR(values(0), 20.0, 1e-6);
   EXPECT_NEAR(values(1), 10.0, 1e-6);

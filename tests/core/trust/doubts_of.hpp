@@ -27,7 +27,7 @@ inline std::vector<Doubt> doubts_of(const ProblemFile& problem) {
 
 inline ProblemFile read_scene(const std::string& text,
                               const std::vector<std::string>& overrides = {}) {
-  return read_problem_text(text, "test.json", overrides);
+  return read_problem_text(text, "test.json", overrides).complete();
 }
 
 }  // namespace pleuel::test

@@ -27,7 +27,7 @@ struct Coverage {
 /// Of all histories of a problem.
 Coverage coverage(const std::string& name, const std::vector<std::string>& overrides) {
   const ProblemFile problem =
-      read_problem(source_folder() + "/problems/" + name + ".json", overrides);
+      read_problem(source_folder() + "/problems/" + name + ".json", overrides).complete();
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
@@ -78,7 +78,8 @@ TEST(ErrorBands, HoldTheTrueHistories) {
 TEST(ErrorBands, AreNotMadeWhereNothingIsChecked) {
   const ProblemFile problem =
       read_problem(source_folder() + "/problems/robot_arm.json",
-                   {"/simulation/step=4 ms", "/simulation/resolution_check=false"});
+                   {"/simulation/step=4 ms", "/simulation/resolution_check=false"})
+          .complete();
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);

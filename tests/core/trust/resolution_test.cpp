@@ -53,7 +53,8 @@ std::vector<Doubt> doubts_about(const TrustedRun& run) {
 }
 
 std::vector<Doubt> doubts_of(const std::vector<std::string>& overrides) {
-  const ProblemFile problem = read_problem_text(cantilever, "cantilever.json", overrides);
+  const ProblemFile problem =
+      read_problem_text(cantilever, "cantilever.json", overrides).complete();
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
@@ -120,7 +121,8 @@ TEST(Resolution, IsDoubtedFromOnePercentOfErrorAndSeriousFromTen) {
           "responses": {{"x": {{"type": "position", "body": "block", "direction": "x",
                                 "over_time": "final"}}}}}})",
                                                               end / steps),
-                                                  "block.json");
+                                                  "block.json")
+                                    .complete();
     const Eigen::VectorXd x = start_design(problem);
     const auto analysis = analyze(problem, x);
     const Monitors monitors = monitor(analysis->model, analysis->trajectory);
@@ -162,7 +164,8 @@ TEST(Resolution, ProposesAStepThatIsFineEnoughAndNotMuchFiner) {
           "responses": {{"x": {{"type": "position", "body": "block", "direction": "x",
                                 "over_time": "final"}}}}}})",
                                                               end / steps),
-                                                  "block.json");
+                                                  "block.json")
+                                    .complete();
     const Eigen::VectorXd x = start_design(problem);
     const auto analysis = analyze(problem, x);
     const Monitors monitors = monitor(analysis->model, analysis->trajectory);
@@ -185,7 +188,8 @@ TEST(Resolution, ProposesAStepThatIsFineEnoughAndNotMuchFiner) {
 TEST(Resolution, KnowsTheOrderOfTheScheme) {
   const std::vector<std::string> overrides = {"/simulation/scheme=implicit-euler",
                                               "/simulation/step=1e-3"};
-  const ProblemFile problem = read_problem_text(cantilever, "cantilever.json", overrides);
+  const ProblemFile problem =
+      read_problem_text(cantilever, "cantilever.json", overrides).complete();
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
@@ -202,7 +206,8 @@ TEST(Resolution, KnowsTheOrderOfTheScheme) {
 
 TEST(Refinement, KeepsTheEndAndTheLengths) {
   ProblemFile problem = read_problem_text(cantilever, "cantilever.json",
-                                          {"/simulation/end_time=0.1", "/simulation/step=0.02"});
+                                          {"/simulation/end_time=0.1", "/simulation/step=0.02"})
+                            .complete();
   EXPECT_NEAR(refined(problem, {2.0, 1.0}).simulation.step, 0.1 / 3, 1e-15);
   EXPECT_NEAR(refined(problem, {0.5, 1.0}).simulation.step, 0.01, 1e-15);
   problem.simulation.local_error = 1e-4;
@@ -262,7 +267,8 @@ TEST(Resolution, HasBarsForModesThatNeedMoreElements) {
                          "/simulation/initial_state=quasi-static",
                          R"(/responses={"sag": {"type": "deflection", "body": "b", "at": 0.5,
                               "over_time": "max-abs"}})",
-                         "/constraints={}", R"(/objective={"minimize": "sag"})"});
+                         "/constraints={}", R"(/objective={"minimize": "sag"})"})
+          .complete();
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
@@ -284,7 +290,8 @@ TEST(Resolution, IsNotAskedOfRoundOff) {
            "along": {"type": "reaction-force", "joint": "f", "direction": "x", "over_time": "max-abs"},
            "across": {"type": "reaction-force", "joint": "f", "direction": "y", "over_time": "max-abs"},
            "tip": {"type": "position", "body": "b", "at": 1, "direction": "y", "over_time": "max"}})",
-                         R"(/objective={"minimize": "whole"})", "/constraints={}"});
+                         R"(/objective={"minimize": "whole"})", "/constraints={}"})
+          .complete();
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
@@ -296,14 +303,16 @@ TEST(Resolution, IsNotAskedOfRoundOff) {
 /// A balanced rotor at constant speed needs no torque.
 TEST(Resolution, IsNotAskedOfATorqueThatHoldsNothing) {
   for (const char* step : {"1e-2", "1e-3"}) {
-    const ProblemFile problem = read_problem_text(
-        R"({"scene": {"bodies": {"r": {"type": "rigid", "at": [0, 0, 0], "mass": 1,
+    const ProblemFile problem =
+        read_problem_text(
+            R"({"scene": {"bodies": {"r": {"type": "rigid", "at": [0, 0, 0], "mass": 1,
               "inertia": [0.1, 0.1, 0.1, 0, 0, 0]}},
             "joints": {"j": {"type": "revolute", "bodies": ["ground", "r"], "at": [0, 0, 0],
               "drive": {"type": "constant-speed", "speed": 1}}}},
           "simulation": {"end_time": 0.5, "step": 1},
           "responses": {"T": {"type": "drive-torque", "joint": "j", "over_time": "max-abs"}}})",
-        "rotor.json", {std::string("/simulation/step=") + step});
+            "rotor.json", {std::string("/simulation/step=") + step})
+            .complete();
     const Eigen::VectorXd x = start_design(problem);
     const auto analysis = analyze(problem, x);
     const Monitors monitors = monitor(analysis->model, analysis->trajectory);
@@ -318,7 +327,8 @@ TEST(EnergyBalance, IsSeriousWhereSuddenLoadsLookSlow) {
     const ProblemFile problem =
         read_problem_text(cantilever, "cantilever.json",
                           {sudden, "/simulation/spectral_radius=0", "/simulation/end_time=" + end,
-                           "/simulation/step=" + step});
+                           "/simulation/step=" + step})
+            .complete();
     const Eigen::VectorXd x = start_design(problem);
     const auto analysis = analyze(problem, x);
     return doubt_energy_balance(

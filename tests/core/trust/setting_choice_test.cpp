@@ -44,7 +44,7 @@ const std::string without_jerk =
        "tip": {"type": "deflection", "body": "b", "at": 1, "over_time": "max-abs"}})";
 
 ProblemFile problem_of(const std::vector<std::string>& overrides) {
-  return read_problem_text(cantilever, "cantilever.json", overrides);
+  return read_problem_text(cantilever, "cantilever.json", overrides).complete();
 }
 
 SettingChoice choose(const ProblemFile& problem, double target) {

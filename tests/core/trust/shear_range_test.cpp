@@ -45,7 +45,8 @@ struct StubbyBeam {
         "responses": {{"asked": {}}}}})",
                                          section, frames, frame, more, is_pinned ? pins : clamp,
                                          is_pinned ? 0.5 : 1.0, response),
-                             "stubby.json");
+                             "stubby.json")
+        .complete();
   }
 };
 
@@ -182,8 +183,9 @@ TEST(ShearRange, DoesNotConcernTheForcesOfAPlanarLoopInSpace) {
 /// 12EI/L³ / (1 + 12EI/(κGAL²)) a metre: forces and stresses are as wrong as its stiffness.
 TEST(ShearRange, ConcernsTheForcesOfWhatIsHeldMoreThanItNeeds) {
   const auto doubts = [](const std::string& response) {
-    const ProblemFile problem = read_problem_text(
-        R"({"scene": {"materials": {"m": {"young": 2.1e11, "poisson": 0.3, "density": 7850}},
+    const ProblemFile problem =
+        read_problem_text(
+            R"({"scene": {"materials": {"m": {"young": 2.1e11, "poisson": 0.3, "density": 7850}},
             "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [0.2, 0, 0], "material": "m",
               "section": {"type": "rectangle", "width": 0.05, "height": 0.1}, "elements": 4}},
             "joints": {"clamp": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]},
@@ -191,8 +193,9 @@ TEST(ShearRange, ConcernsTheForcesOfWhatIsHeldMoreThanItNeeds) {
                                "axis": [0, 1, 0],
                                "drive": {"type": "polynomial", "coefficients": [0, 1e-5]}}}},
           "simulation": {"end_time": 1, "step": 0.25}, "responses": {"asked": )" +
-            response + "}}",
-        "ram.json");
+                response + "}}",
+            "ram.json")
+            .complete();
     const Eigen::VectorXd x = start_design(problem);
     const auto analysis = analyze(problem, x);
     return doubt_shear_range({problem, x, *analysis, Monitors{}});

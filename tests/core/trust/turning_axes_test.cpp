@@ -24,7 +24,8 @@ ProblemFile blade(const std::string& frame, double speed = 50.0) {
         "responses": {{"flap": {{"type": "frequency", "mode": 1}},
                        "lag": {{"type": "frequency", "mode": 2}}}}}})",
                                        frame, speed),
-                           "blade.json");
+                           "blade.json")
+      .complete();
 }
 
 Eigen::VectorXd frequencies(const Analysis& analysis) {
@@ -87,7 +88,8 @@ TEST(Frequencies, AreDoubtedWhereAFollowerForceMakesThemGrow) {
         "simulation": {{"end_time": 1e-3, "step": 1e-4, "initial_state": "quasi-static"}},
         "responses": {{"first": {{"type": "frequency"}}}}}})",
                                                               load * stiffness),
-                                                  "beck.json");
+                                                  "beck.json")
+                                    .complete();
     const Eigen::VectorXd x = start_design(problem);
     const auto analysis = analyze(problem, x);
     return doubt_frequencies({problem, x, *analysis, Monitors{}});
