@@ -55,7 +55,7 @@ TEST(MeasuredEffects, KeepTheTwistThatAnArmMakesLarge) {
   }
 }
 
-int effects_left_out(const ProblemFile& problem) {
+std::ptrdiff_t effects_left_out(const ProblemFile& problem) {
   const auto analysis = analyze(problem, start_design(problem));
   return std::count_if(analysis->model.effects.begin(), analysis->model.effects.end(),
                        [](const EffectRecord& effect) {
