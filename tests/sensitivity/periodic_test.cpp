@@ -164,7 +164,9 @@ TEST(SteadyMotor, RunsAsAfterFiftyTurns) {
   EXPECT_LT(difference_from_run_up(file, 50), 1e-6);
 }
 
-// From rest the motor takes longer than a period to its speed: the crank is behind by turns.
+// From rest the motor takes longer than a period to its speed: the crank is behind by turns. As of the
+// six-bar, the gap is round-off: 5e-11 … 4e-10 whatever the tolerance (1e-9 … 1e-13), where a period
+// leaves 0.7 % of a disturbance; on which side of 1e-10 it ends depends on the processor.
 TEST(SteadyMotor, MayStartSlowly) {
   ProblemFile file = motor();
   for (Load& load : file.scene.loads) {
@@ -174,7 +176,7 @@ TEST(SteadyMotor, MayStartSlowly) {
     control.derivative = 0.3;
   }
   const auto analysis = analyze(file, start_design(file));
-  EXPECT_LE(analysis->trajectory.periodic->gap, file.simulation.newton_tolerance);
+  EXPECT_LE(analysis->trajectory.periodic->gap, 1e-9);
 }
 
 TEST(SteadyMotor, HasEqualGradientsByAllMethods) {
