@@ -4,7 +4,9 @@
 
 #include "core/beam/beam_invariants.hpp"
 #include "core/effects/floating_frame_body.hpp"
+#include "core/effects/floating_frame_residual.hpp"
 #include "core/model/body_builder.hpp"
+#include "core/model/invariant_derivatives.hpp"
 
 namespace pleuel::bench {
 
@@ -49,18 +51,14 @@ class CoupledBody final : public BorrowedTerm {
   void add_design_derivative(const State& state, ConstraintLevel,
                              Eigen::MatrixXd& columns) override {
     const BodyFrame& frame = body_.frame();
-    const int m = frame.size(), n = model_.elastic_size();
-    const FrameMotion<double> motion =
-        frame_motion<double>(frame, state.q.segment(frame.offset, m),
-                             state.v.segment(frame.offset, m), state.a.segment(frame.offset, m));
-    products_.q = state.q.segment(frame.offset + m, n);
-    products_.v = state.v.segment(frame.offset + m, n);
-    products_.a = state.a.segment(frame.offset + m, n);
+    const int size = frame.size() + model_.elastic_size(), first = frame.offset;
+    set_body_motion(frame, gravity_, state.q.segment(first, size), state.v.segment(first, size),
+                    state.a.segment(first, size), motion_);
     for (const auto& [variable, seeded] : model_.beam_x) {
       const Invariants<double> change = derivative_of(beam_invariants(seeded, model_.coordinates));
-      evaluate_body(change, motion, gravity_, products_);
+      evaluate_body(change, motion_, products_);
       auto column = columns.col(variable);
-      add_body_forces(change, frame, motion, products_, frame.offset, column);
+      add_body_forces(change, frame, motion_, products_, first, column);
     }
   }
 
@@ -68,6 +66,7 @@ class CoupledBody final : public BorrowedTerm {
   FloatingFrameBody& body_;
   const BodyModel& model_;
   Eigen::Vector3d gravity_;
+  BodyMotion motion_;
   BodyProducts products_;
 };
 

@@ -1,16 +1,18 @@
 #pragma once
 
+#include <memory>
+
 #include <Eigen/SparseCore>
 
 #include "core/beam/invariant_vector.hpp"
-#include "core/effects/floating_frame_residual.hpp"
+#include "core/effects/body_equations.hpp"
 #include "core/system/term.hpp"
 
 namespace pleuel {
 
 /// Inertia (with all velocity forces), linear elasticity, Rayleigh damping and weight of one body.
-/// The equations stand in floating_frame_residual.hpp; the tangent here is derived by hand, since
-/// this is where the time goes.
+/// The equations stand in floating_frame_residual.hpp; body_equations.hpp has them with their
+/// tangents, derived by hand, since this is where the time goes.
 class FloatingFrameBody : public Term {
  public:
   /// @param name         of the body
@@ -21,6 +23,7 @@ class FloatingFrameBody : public Term {
   FloatingFrameBody(std::string name, BodyFrame frame, Invariants<double> invariants,
                     const std::vector<DesignDerivative<Invariants<double>>>& derivatives,
                     const Eigen::Vector3d& gravity);
+  FloatingFrameBody(const FloatingFrameBody&) = delete;
 
   std::string name() const override {
     return (invariants_.size() > 0 ? "inertia and elasticity of " : "inertia of ") + name_;
@@ -42,8 +45,9 @@ class FloatingFrameBody : public Term {
  private:
   /// dI/dx of one variable, on the coordinates that it concerns.
   struct Derivative {
-    int variable = 0;
-    PartialInvariants invariants;
+    int variable;
+    std::vector<int> coordinates;
+    std::unique_ptr<DerivativeForces> of_invariants;
     Eigen::VectorXd forces;  ///< scratch: frame, then those coordinates
     ElasticMotion elastic;   ///< scratch
   };
@@ -51,29 +55,21 @@ class FloatingFrameBody : public Term {
   bool is_designed() const { return !derivatives_.empty(); }
   void evaluate(const State& state);
   void evaluate(Derivative& derivative);
-  void write_tangent_of(const Weights& weights, double* entries);
-  void set_frame_columns(const Weights& weights);
-  void set_elastic_columns(const Weights& weights);
-  void write_elastic_block(const Weights& weights, double* entries) const;
 
   std::string name_;
   BodyFrame frame_;
   Invariants<double> invariants_;
   std::vector<Derivative> derivatives_;
   InvariantLayout layout_;
-  Eigen::MatrixXd elastic_;  ///< K, D, S_ff and S_kl, a column of non-zeros each
   Eigen::SparseMatrix<double> flat_derivatives_;  ///< numbers of the invariants × variables
   std::vector<int> variables_;                    ///< of its columns
   Eigen::Vector3d gravity_;
 
+  std::unique_ptr<BodyEquations> equations_;  ///< refer to frame and invariants
+
   // Scratch of one evaluation.
   Eigen::MatrixXd evaluated_;  ///< q, v, a of all coordinates where it was
-  FrameMotion<double> motion_;
-  BodyProducts products_;
-  Eigen::MatrixXd frame_block_;  ///< m × m
-  /// The coupling of m frame coordinates with elastic coordinate i is this times column i of
-  /// BodyProducts::coupling: entries (frame, i), then (i, frame); 2m × its rows.
-  Eigen::MatrixXd coupling_;
+  BodyMotion motion_;
 };
 
 }  // namespace pleuel

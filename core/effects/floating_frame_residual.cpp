@@ -99,14 +99,16 @@ auto with_known_pairs(const Invariants<double>& body, const Function& function) 
 
 /// Writes what couples frame and elasticity, and the forces of S_ff, K and D.
 template <int Pairs>
-ElasticSums multiply_elastic(const Invariants<double>& body, BodyProducts& out) {
+ElasticSums multiply_elastic(const Invariants<double>& body, const ElasticMotion& elastic,
+                             BodyProducts& out) {
   const CouplingRows rows(body);
   const Eigen::Index pairs = body.pairs.size();
   const std::array<int, 9> transposed = transposed_pairs(body);
   out.coupling.resize(rows.count, body.size());
   out.forces.resize(body.size());
   return multiply_elastic<Pairs>(
-      body, out, [&](int row, const auto& of_q, const auto& of_v, const auto& of_a, double force) {
+      body, elastic,
+      [&](int row, const auto& of_q, const auto& of_v, const auto& of_a, double force) {
         out.forces(row) = force;
         auto column = out.coupling.col(row);
         column.template head<3>() = Eigen::Map<const Vector3d>(body.shape.data() + 3 * row);
@@ -123,22 +125,22 @@ ElasticSums multiply_elastic(const Invariants<double>& body, BodyProducts& out) 
 /// Writes the generalized forces F.
 template <int Pairs>
 ElasticSums multiply_elastic(const Invariants<double>& body, const ElasticMotion& elastic,
-                             const BodyProducts& products, double* forces) {
+                             const BodyMotion& motion, double* forces) {
   using Column = Eigen::Matrix<double, Pairs, 1, 0, Pairs == Eigen::Dynamic ? 9 : Pairs, 1>;
   const Eigen::Index pairs = body.pairs.size();
   Column x(pairs), y(pairs);
   for (Eigen::Index p = 0; p < pairs; ++p) {
     const auto [r, c] = body.pairs[p];
-    x(p) = products.X(r, c);
-    y(p) = products.Y(r, c);
+    x(p) = motion.X(r, c);
+    y(p) = motion.Y(r, c);
   }
-  const Eigen::Map<const Vector9> weighted(products.X.data());
+  const Eigen::Map<const Vector9> weighted(motion.X.data());
   return multiply_elastic<Pairs>(
       body, elastic, [&](int row, const auto& of_q, const auto& of_v, const auto&, double force) {
         const Eigen::Map<const Vector3d> shape(body.shape.data() + 3 * row);
         const Eigen::Map<const Vector9> mixed(body.mixed.data() + 9 * row);
         forces[row] =
-            force + products.a0.dot(shape) + weighted.dot(mixed) + x.dot(of_q) + y.dot(of_v);
+            force + motion.a0.dot(shape) + weighted.dot(mixed) + x.dot(of_q) + y.dot(of_v);
       });
 }
 
@@ -150,14 +152,14 @@ struct FrameForces {
 };
 
 FrameForces frame_forces(const Invariants<double>& body, const ElasticSums& sums,
-                         const Vector3d& a0, const Matrix3d& X, const Matrix3d& Y) {
+                         const BodyMotion& motion) {
   FrameForces out;
   out.c = body.first_moment + sums.shape_q;
   out.M = body.second_moment + square(sums.mixed_q).transpose() + square(sums.weighted_q);
   out.B = square(sums.weighted_v);
-  out.force = body.mass * a0 + X * out.c + Y * sums.shape_v + sums.shape_a;
-  const Matrix3d N = out.c * a0.transpose() + out.M * X.transpose() + out.B * Y.transpose() +
-                     square(sums.weighted_a);
+  out.force = body.mass * motion.a0 + motion.X * out.c + motion.Y * sums.shape_v + sums.shape_a;
+  const Matrix3d N = out.c * motion.a0.transpose() + out.M * motion.X.transpose() +
+                     out.B * motion.Y.transpose() + square(sums.weighted_a);
   out.moment = axial(N);
   return out;
 }
@@ -174,16 +176,12 @@ void add_frame_forces(const BodyFrame& frame, const FrameMotion<double>& motion,
 
 }  // namespace
 
-void evaluate_body(const Invariants<double>& body, const FrameMotion<double>& frame,
-                   const Vector3d& gravity, BodyProducts& out) {
-  const ElasticSums sums = with_known_pairs(
-      body, [&](auto pairs) { return multiply_elastic<decltype(pairs)::value>(body, out); });
-  const Matrix3d omega = skew<double>(frame.omega);
-  out.X = skew<double>(frame.alpha) + omega * omega;
-  out.Y = 2.0 * omega;
-  out.a0 = frame.A.transpose() * (frame.r_ddot - gravity);
+void evaluate_body(const Invariants<double>& body, const BodyMotion& motion, BodyProducts& out) {
+  const ElasticSums sums = with_known_pairs(body, [&](auto pairs) {
+    return multiply_elastic<decltype(pairs)::value>(body, motion, out);
+  });
+  const FrameForces forces = frame_forces(body, sums, motion);
   out.shape_v = sums.shape_v;
-  const FrameForces forces = frame_forces(body, sums, out.a0, out.X, out.Y);
   out.c = forces.c;
   out.M = forces.M;
   out.B = forces.B;
@@ -192,30 +190,30 @@ void evaluate_body(const Invariants<double>& body, const FrameMotion<double>& fr
 }
 
 void set_derivative_forces(const Invariants<double>& derivative, const BodyFrame& frame,
-                           const FrameMotion<double>& motion, const ElasticMotion& elastic,
-                           const BodyProducts& products, Eigen::VectorXd& forces) {
+                           const BodyMotion& motion, const ElasticMotion& elastic,
+                           Eigen::VectorXd& forces) {
   forces.resize(frame.size() + derivative.size());
   const ElasticSums sums = with_known_pairs(derivative, [&](auto pairs) {
-    return multiply_elastic<decltype(pairs)::value>(derivative, elastic, products,
+    return multiply_elastic<decltype(pairs)::value>(derivative, elastic, motion,
                                                     forces.data() + frame.size());
   });
-  const FrameForces of_frame = frame_forces(derivative, sums, products.a0, products.X, products.Y);
+  const FrameForces of_frame = frame_forces(derivative, sums, motion);
   forces.head(frame.size()).setZero();
-  add_frame_forces(frame, motion, of_frame.force, of_frame.moment, 0, forces);
+  add_frame_forces(frame, motion.frame, of_frame.force, of_frame.moment, 0, forces);
 }
 
 void add_body_forces(const Invariants<double>& body, const BodyFrame& frame,
-                     const FrameMotion<double>& motion, const BodyProducts& products, int row,
+                     const BodyMotion& motion, const BodyProducts& products, int row,
                      Eigen::Ref<Eigen::VectorXd> residual) {
-  add_frame_forces(frame, motion, products.force, products.moment, row, residual);
+  add_frame_forces(frame, motion.frame, products.force, products.moment, row, residual);
   if (body.size() == 0) return;
   // F = S_ff q̈_f + K q_f + D q̇_f + S̄ᵀ a₀ + X_kl W_lk + Y_kl S_kl q̇_f
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 21, 1> factors(CouplingRows(body).acceleration);
-  factors.head<3>() = products.a0;
-  Eigen::Map<Matrix3d>(factors.data() + CouplingRows::weighted) = products.X;
+  factors.head<3>() = motion.a0;
+  Eigen::Map<Matrix3d>(factors.data() + CouplingRows::weighted) = motion.X;
   for (std::size_t p = 0; p < body.pairs.size(); ++p) {
     const auto [r, c] = body.pairs[p];
-    factors(CouplingRows::rate + static_cast<Eigen::Index>(p)) = products.Y(r, c);
+    factors(CouplingRows::rate + static_cast<Eigen::Index>(p)) = motion.Y(r, c);
   }
   auto forces = residual.segment(row + frame.size(), body.size());
   forces += products.forces;

@@ -3,12 +3,12 @@
 #include <Eigen/Core>
 
 #include "core/beam/invariants.hpp"
-#include "core/frame/body_frame.hpp"
+#include "core/effects/body_motion.hpp"
 
 /// Inertia, elastic and damping forces of a body in the floating frame of reference formulation.
 ///
 /// With the local acceleration of a material point
-///     a = a₀ + X p + Y ṗ + p̈,   a₀ = Aᵀ(r̈ − g),  X = α̃ + ω̃ω̃,  Y = 2ω̃,  p = p₀ + S q_f
+///     a = a₀ + X p + Y ṗ + p̈                                       (body_motion.hpp)
 /// the virtual work of −ρ a gives, all in invariants (Shabana, Dynamics of Multibody Systems, ch.
 /// 5, written with second moments of the mass distribution):
 ///     force    f = ∫ρ a               = m a₀ + X c + Y S̄ q̇_f + S̄ q̈_f,        c = c₀ + S̄ q_f
@@ -18,21 +18,15 @@
 /// forces need no formula of their own.
 namespace pleuel {
 
-/// Elastic coordinates and rates (n).
-struct ElasticMotion {
-  Eigen::VectorXd q, v, a;
-};
-
 /// Products of one configuration that residual and tangent share.
-struct BodyProducts : ElasticMotion {
+struct BodyProducts {
   /// What the coupling of frame and elastic coordinates is made of, one column for each of these:
   /// S̄ (3), W (9, W_kl in row 3k + l), S_kl q̇_f and S_kl q̈_f (as many as pairs).
   Eigen::MatrixXd coupling;
   Eigen::VectorXd forces;   ///< S_ff q̈_f + K q_f + D q̇_f
-  Eigen::Vector3d a0;       ///< [m/s²]
   Eigen::Vector3d c;        ///< ∫ρ p
   Eigen::Vector3d shape_v;  ///< S̄ q̇_f
-  Eigen::Matrix3d X, Y, M, B;
+  Eigen::Matrix3d M, B;
   Eigen::Vector3d force;   ///< f, body axes
   Eigen::Vector3d moment;  ///< T about the frame origin, body axes
 };
@@ -51,21 +45,20 @@ inline Eigen::Vector3d axial(const Eigen::Matrix3d& n) {
   return {n(1, 2) - n(2, 1), n(2, 0) - n(0, 2), n(0, 1) - n(1, 0)};
 }
 
-/// Everything but the generalized forces. Expects out.q, out.v, out.a to be set.
-void evaluate_body(const Invariants<double>& body, const FrameMotion<double>& frame,
-                   const Eigen::Vector3d& gravity, BodyProducts& out);
+/// Everything but the generalized forces.
+void evaluate_body(const Invariants<double>& body, const BodyMotion& motion, BodyProducts& out);
 
 /// residual.segment(row, …) += [ basisᵀ A f ; Gᵀ T ; F ] of one body.
 void add_body_forces(const Invariants<double>& body, const BodyFrame& frame,
-                     const FrameMotion<double>& motion, const BodyProducts& products, int row,
+                     const BodyMotion& motion, const BodyProducts& products, int row,
                      Eigen::Ref<Eigen::VectorXd> residual);
 
 /// The same of invariants dI/dx in the motion of a body, without what only tangents need.
-/// @param elastic   of the coordinates that dI/dx has
-/// @param products  of the body: a₀, X and Y are taken from there
-/// @param forces    frame, then those coordinates; overwritten
+/// @param motion   of the body; its elastic coordinates are not read
+/// @param elastic  of the coordinates that dI/dx has
+/// @param forces   frame, then those coordinates; overwritten
 void set_derivative_forces(const Invariants<double>& derivative, const BodyFrame& frame,
-                           const FrameMotion<double>& motion, const ElasticMotion& elastic,
-                           const BodyProducts& products, Eigen::VectorXd& forces);
+                           const BodyMotion& motion, const ElasticMotion& elastic,
+                           Eigen::VectorXd& forces);
 
 }  // namespace pleuel

@@ -13,7 +13,7 @@ struct BodyAdjoint {
   Vector3d c, shape_v;
 
   // The adjoint of axial() is −skew().
-  BodyAdjoint(const BodyProducts& p, const BodyMultipliers& mu)
+  BodyAdjoint(const BodyMotion& p, const BodyMultipliers& mu)
       : N(-skew<double>(mu.moment)),
         M(N * p.X),
         B(N * p.Y),
@@ -23,7 +23,7 @@ struct BodyAdjoint {
 
 /// `Pairs` is the number of pairs (k, l) where the compiler may know it.
 template <int Pairs>
-void add_sums(const Invariants<double>& body, const InvariantLayout& layout, const BodyProducts& p,
+void add_sums(const Invariants<double>& body, const InvariantLayout& layout, const BodyMotion& p,
               const BodyMultipliers& mu, double* sums) {
   using Row = Eigen::Matrix<double, Pairs, 1, 0, Pairs == Eigen::Dynamic ? 9 : Pairs, 1>;
   const BodyAdjoint of(p, mu);
@@ -63,14 +63,14 @@ void add_sums(const Invariants<double>& body, const InvariantLayout& layout, con
 }  // namespace
 
 void add_invariant_sums(const Invariants<double>& body, const InvariantLayout& layout,
-                        const BodyProducts& products, const BodyMultipliers& mu, double* sums) {
+                        const BodyMotion& motion, const BodyMultipliers& mu, double* sums) {
   switch (body.pairs.size()) {
     case 4:
-      return add_sums<4>(body, layout, products, mu, sums);  // planar motion
+      return add_sums<4>(body, layout, motion, mu, sums);  // planar motion
     case 9:
-      return add_sums<9>(body, layout, products, mu, sums);  // spatial motion
+      return add_sums<9>(body, layout, motion, mu, sums);  // spatial motion
     default:
-      return add_sums<Eigen::Dynamic>(body, layout, products, mu, sums);
+      return add_sums<Eigen::Dynamic>(body, layout, motion, mu, sums);
   }
 }
 

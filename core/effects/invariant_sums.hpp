@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/beam/invariant_vector.hpp"
-#include "core/effects/floating_frame_residual.hpp"
+#include "core/effects/body_motion.hpp"
 
 namespace pleuel {
 
@@ -15,8 +15,8 @@ struct BodyMultipliers {
 /// sums += ∂(μᵀR)/∂I: the residual of a body (floating_frame_residual.hpp) is linear in its
 /// invariants, μᵀR = Σ sums · I. The same chain of formulas, backwards.
 /// @param layout    of the body's invariants; `sums` has so many entries
-/// @param products  of evaluate_body() for those invariants
+/// @param motion    of the body
 void add_invariant_sums(const Invariants<double>& body, const InvariantLayout& layout,
-                        const BodyProducts& products, const BodyMultipliers& mu, double* sums);
+                        const BodyMotion& motion, const BodyMultipliers& mu, double* sums);
 
 }  // namespace pleuel

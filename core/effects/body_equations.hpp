@@ -1,0 +1,43 @@
+#pragma once
+
+#include "core/beam/invariants.hpp"
+#include "core/effects/body_motion.hpp"
+#include "core/system/term.hpp"
+
+namespace pleuel {
+
+/// Forces and tangents of one body in the floating frame of reference formulation, written for one
+/// kind of motion of its frame. The equations stand in floating_frame_residual.hpp.
+class BodyEquations {
+ public:
+  virtual ~BodyEquations() = default;
+
+  /// What forces and tangents of one motion share. They expect the motion evaluated last.
+  virtual void evaluate(const BodyMotion& motion) = 0;
+
+  /// residual.segment(frame.offset, …) += [ basisᵀ A f ; Gᵀ T ; F ]
+  virtual void add_forces(const BodyMotion& motion, Eigen::VectorXd& residual) const = 0;
+
+  /// w.q R_q + w.v R_v + w.a R_a in the order of declare_body_entries().
+  virtual void write_tangent(const BodyMotion& motion, const Weights& weights, double* entries) = 0;
+};
+
+/// Forces of the derivative of a body's invariants with respect to one variable: the residual is
+/// linear in them.
+class DerivativeForces {
+ public:
+  virtual ~DerivativeForces() = default;
+
+  /// @param motion   of the body; its elastic coordinates are not read
+  /// @param elastic  of the coordinates that the derivative has
+  /// @param forces   frame, then those coordinates; overwritten
+  virtual void set_forces(const BodyMotion& motion, const ElasticMotion& elastic,
+                          Eigen::VectorXd& forces) = 0;
+};
+
+/// The pattern of the tangent of a body: its frame, then for each elastic coordinate its column and
+/// its row of the coupling with the frame, then the non-zeros of the elastic coordinates.
+void declare_body_entries(const BodyFrame& frame, const ElasticPattern& pattern,
+                          EntryList& entries);
+
+}  // namespace pleuel
