@@ -1,5 +1,6 @@
 #include "core/joints/joint_linearization.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pleuel {
@@ -8,25 +9,44 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 JointLinearization::JointLinearization(const JointTopology& topology, const JointData<double>& data,
-                                       double time, const double* q, int size)
+                                       int size)
     : topology_(topology),
       data_(data),
       gradient_(size),
       gradient_rate_(size),
-      hessian_(size, size) {
-  if (topology.is_driven) drive_ = data.drive.at(time);
-  markers_[0].start = 0;
+      hessian_(Hessian::Zero(size, size)) {
+  set_constants(0, 0);
+  set_constants(1, markers_[0].size);
+}
+
+void JointLinearization::set_constants(std::size_t m, int start) {
+  const Marker& marker = topology_.markers[m];
+  const BodyFrame& frame = marker.frame;
+  MarkerState& state = markers_[m];
+  state.start = start;
+  state.frame = frame.size();
+  state.size =
+      state.frame + static_cast<int>(std::count_if(marker.elastic.begin(), marker.elastic.end(),
+                                                   [](int i) { return i >= 0; }));
+  if (frame.rotation != RotationCoordinates::angle) return;
+  // R v = c v + s n × v + (1 − c)(n·v) n, applied to the columns of A_ref.
+  state.normal = frame.reference.transpose() * frame.axis;
+  state.across = skew<double>(frame.axis) * frame.reference;
+  state.along = frame.axis * state.normal.transpose();
+  state.in_plane = frame.reference - state.along;
+}
+
+void JointLinearization::set_state(double time, const double* q) {
+  if (topology_.is_driven) drive_ = data_.drive.at(time);
   set_marker(0, q);
-  markers_[1].start = markers_[0].size;
   set_marker(1, q + markers_[0].size);
+  clear_hessian();
 }
 
 void JointLinearization::set_marker(std::size_t m, const double* q) {
   const Marker& marker = topology_.markers[m];
   const BodyFrame& frame = marker.frame;
   MarkerState& state = markers_[m];
-  state.frame = frame.size();
-  int next = state.frame;
   state.r = frame.origin;
   for (int i = 0; i < frame.translations(); ++i) state.r += q[i] * frame.basis.col(i);
   const double* rotation = q + frame.translations();
@@ -37,13 +57,8 @@ void JointLinearization::set_marker(std::size_t m, const double* q) {
     case RotationCoordinates::angle: {
       state.angle = rotation[0];
       const double c = std::cos(state.angle), s = std::sin(state.angle);
-      state.normal = frame.reference.transpose() * frame.axis;
-      // R v = c v + s n × v + (1 − c)(n·v) n, applied to the columns of A_ref.
-      const Matrix3d across = skew<double>(frame.axis) * frame.reference;
-      const Matrix3d along = frame.axis * state.normal.transpose();
-      const Matrix3d in_plane = frame.reference - along;
-      state.A = along + c * in_plane + s * across;
-      state.A_p[0] = c * across - s * in_plane;
+      state.A = state.along + c * state.in_plane + s * state.across;
+      state.A_p[0] = c * state.across - s * state.in_plane;
       break;
     }
     case RotationCoordinates::rotation_vector:
@@ -55,15 +70,34 @@ void JointLinearization::set_marker(std::size_t m, const double* q) {
   }
   state.u = data_.points[m];
   state.psi.setZero();
+  const double* next = q + state.frame;
   for (int i = 0; i < 6; ++i) {
-    if (marker.elastic[i] < 0) continue;
-    (i < 3 ? state.u : state.psi)(i % 3) += q[next++];
+    if (marker.elastic[i] >= 0) (i < 3 ? state.u : state.psi)(i % 3) += *next++;
   }
-  if (marker.has_elastic_rotation()) {
-    state.turn = ElasticRotation<double>(state.psi);
-    state.turn_tangent = state.turn.tangent();
+  state.has_turn = false;
+  points_[m].reset();
+}
+
+void JointLinearization::set_turn(std::size_t m) {
+  MarkerState& state = markers_[m];
+  if (state.has_turn) return;
+  state.has_turn = true;
+  state.turn = ElasticRotation<double>(state.psi);
+  state.turn_tangent = state.turn.tangent();
+}
+
+const JointLinearization::Hessian& JointLinearization::hessian() {
+  if (!pull_.isZero(0.0)) {
+    add_weighted_curvature(point(0), -pull_);
+    add_weighted_curvature(point(1), pull_);
+    pull_.setZero();
   }
-  state.size = next;
+  return hessian_;
+}
+
+void JointLinearization::clear_hessian() {
+  hessian_.setZero();
+  pull_.setZero();
 }
 
 /// Columns A_p s of the rotations and A ∂s/∂e of the elastic coordinates.
@@ -78,7 +112,12 @@ void JointLinearization::add_rotations(Attached& attached) const {
   }
 }
 
-JointLinearization::Attached JointLinearization::point(std::size_t m) const {
+const JointLinearization::Attached& JointLinearization::point(std::size_t m) {
+  if (!points_[m]) points_[m] = make_point(m);
+  return *points_[m];
+}
+
+JointLinearization::Attached JointLinearization::make_point(std::size_t m) const {
   const MarkerState& state = markers_[m];
   const Marker& marker = topology_.markers[m];
   Attached attached{AttachedKind::point,
@@ -100,10 +139,10 @@ JointLinearization::Attached JointLinearization::point(std::size_t m) const {
   return attached;
 }
 
-JointLinearization::Attached JointLinearization::direction(std::size_t m,
-                                                           const Vector3d& local) const {
+JointLinearization::Attached JointLinearization::direction(std::size_t m, const Vector3d& local) {
   const MarkerState& state = markers_[m];
   const Marker& marker = topology_.markers[m];
+  if (marker.has_elastic_rotation()) set_turn(m);
   const Vector3d s = marker.has_elastic_rotation() ? state.turn.turned(local) : local;
   Attached attached{AttachedKind::direction,
                     m,
@@ -127,9 +166,13 @@ void JointLinearization::add_to(Vector& gradient, const Attached& a, const Vecto
   gradient.segment(state.start, state.size).noalias() += a.jacobian.transpose() * g;
 }
 
+void JointLinearization::add_curvature(const Attached& a, const Vector3d& g) {
+  add_weighted_curvature(a, weight_ * g);
+}
+
 /// hessian += H(g): second derivatives with respect to two rotations, a rotation and an elastic
 /// coordinate, or two elastic rotations.
-void JointLinearization::add_curvature(const Attached& a, const Vector3d& g) {
+void JointLinearization::add_weighted_curvature(const Attached& a, const Vector3d& g) {
   const MarkerState& state = markers_[a.marker];
   const BodyFrame& frame = topology_.markers[a.marker].frame;
   if (a.kind == AttachedKind::direction) add_elastic_curvature(a, state.A.transpose() * g);
@@ -177,21 +220,21 @@ void JointLinearization::add_elastic_curvature(const Attached& a, const Vector3d
   }
 }
 
-/// hessian += sign (Jₐᵀ J_b + J_bᵀ Jₐ)
+/// hessian += weight sign (Jₐᵀ J_b + J_bᵀ Jₐ)
 void JointLinearization::add_product(const Attached& a, const Attached& b, double sign) {
   const MarkerState& first = markers_[a.marker];
   const MarkerState& second = markers_[b.marker];
   hessian_.block(first.start, second.start, first.size, second.size).noalias() +=
-      sign * a.jacobian.transpose() * b.jacobian;
+      weight_ * sign * a.jacobian.transpose() * b.jacobian;
   hessian_.block(second.start, first.start, second.size, first.size).noalias() +=
-      sign * b.jacobian.transpose() * a.jacobian;
+      weight_ * sign * b.jacobian.transpose() * a.jacobian;
 }
 
-void JointLinearization::evaluate(const JointEquation& equation) {
+void JointLinearization::evaluate(const JointEquation& equation, double weight) {
   rate_ = 0.0;
+  weight_ = weight;
   gradient_.setZero();
   gradient_rate_.setZero();
-  hessian_.setZero();
   const auto local = [&](int index) { return data_.directions[index]; };
   switch (equation.kind) {
     case EquationKind::coincident:
@@ -221,18 +264,18 @@ void JointLinearization::evaluate(const JointEquation& equation) {
   }
 }
 
+/// Of all such equations of a joint H is evaluated at once.
 void JointLinearization::evaluate_coincident(const Vector3d& e) {
-  const Attached first = point(0), second = point(1);
+  const Attached &first = point(0), &second = point(1);
   value_ = e.dot(second.y - first.y);
   add_gradient(first, -e);
   add_gradient(second, e);
-  add_curvature(first, -e);
-  add_curvature(second, e);
+  pull_ += weight_ * e;
 }
 
 void JointLinearization::evaluate_on_plane(const JointEquation& equation) {
   const Attached d = direction(0, data_.directions[equation.first]);
-  const Attached first = point(0), second = point(1);
+  const Attached &first = point(0), &second = point(1);
   const Vector3d difference = second.y - first.y;
   value_ = d.y.dot(difference);
   add_gradient(d, difference);
@@ -247,7 +290,7 @@ void JointLinearization::evaluate_on_plane(const JointEquation& equation) {
 
 /// Φ = ½ (Δ·Δ/ℓ − ℓ):  Φ_q = Jᵀ Δ/ℓ,  Φ_qq = H(Δ/ℓ) + Jᵀ J/ℓ  with J = J₂ − J₁
 void JointLinearization::evaluate_distance() {
-  const Attached first = point(0), second = point(1);
+  const Attached &first = point(0), &second = point(1);
   const Vector3d difference = second.y - first.y;
   const double length = data_.length + drive_.value;
   value_ = 0.5 * (difference.squaredNorm() / length - length);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/frame/elastic_rotation.hpp"
 #include "core/joints/joint.hpp"
 
@@ -20,37 +22,49 @@ class JointLinearization {
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_size, 1>;
   using Hessian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_size, max_size>;
 
-  /// @param q  local coordinates: first marker's, then second marker's
-  JointLinearization(const JointTopology& topology, const JointData<double>& data, double time,
-                     const double* q, int size);
+  /// @param topology, data  must outlive this
+  /// @param size            number of local coordinates
+  JointLinearization(const JointTopology& topology, const JointData<double>& data, int size);
 
-  /// Sets value(), rate(), gradient(), hessian() and gradient_rate() to those of one equation.
-  void evaluate(const JointEquation& equation);
+  /// What follows is that of this state; hessian() is zero.
+  /// @param q  local coordinates: first marker's, then second marker's
+  void set_state(double time, const double* q);
+
+  /// Sets value(), rate(), gradient() and gradient_rate() to those of one equation, and adds weight
+  /// times its H to hessian().
+  void evaluate(const JointEquation& equation, double weight);
 
   double value() const { return value_; }
   /// Φ_t: zero unless a drive moves the equation.
   double rate() const { return rate_; }
   const Vector& gradient() const { return gradient_; }
-  /// H: rows belong to g, columns to its derivatives; not symmetric for rotations in space.
-  const Hessian& hessian() const { return hessian_; }
+  /// Σ weight · H since it was zero: rows belong to g, columns to its derivatives; not symmetric for
+  /// rotations in space.
+  const Hessian& hessian();
+  void clear_hessian();
   /// g_t: zero unless a drive moves the equation.
   const Vector& gradient_rate() const { return gradient_rate_; }
 
  private:
   using Jacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, max_size>;
 
+  /// Constants of a marker, and its state.
   struct MarkerState {
     int start = 0;  ///< of its local coordinates
     int size = 0;
     int frame = 0;  ///< number of frame coordinates
+    /// Of planar motion: the normal in local axes, and R A_ref = along + c in_plane + s across.
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d along, in_plane, across;
+
     Eigen::Vector3d r;
     Eigen::Matrix3d A;
     std::array<Eigen::Matrix3d, 3> A_p;
     Eigen::Vector3d u, psi;
+    double angle = 0.0;
+    bool has_turn = false;         ///< whether these are those of the state:
     ElasticRotation<double> turn;  ///< by ψ
     Eigen::Matrix3d turn_tangent;  ///< T of it
-    double angle = 0.0;
-    Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of planar motion, local axes
   };
 
   enum class AttachedKind { point, direction };
@@ -66,18 +80,25 @@ class JointLinearization {
     Jacobian elastic;
   };
 
+  void set_constants(std::size_t m, int start);
   void set_marker(std::size_t m, const double* q);
-  Attached point(std::size_t m) const;
-  Attached direction(std::size_t m, const Eigen::Vector3d& local) const;
+  void set_turn(std::size_t m);
+  /// The point of a marker; evaluated once a state.
+  const Attached& point(std::size_t m);
+  Attached make_point(std::size_t m) const;
+  Attached direction(std::size_t m, const Eigen::Vector3d& local);
   void add_rotations(Attached& attached) const;
   Eigen::Vector3d driven_direction(const JointEquation& equation, double quarter_turns) const;
   void evaluate_drive(const JointEquation& equation);
 
   void add_gradient(const Attached& a, const Eigen::Vector3d& g) { add_to(gradient_, a, g); }
   void add_to(Vector& gradient, const Attached& a, const Eigen::Vector3d& g) const;
+  // To the Hessian, times weight_.
   void add_curvature(const Attached& a, const Eigen::Vector3d& g);
-  void add_elastic_curvature(const Attached& a, const Eigen::Vector3d& local);
   void add_product(const Attached& a, const Attached& b, double sign);
+  // Without it.
+  void add_weighted_curvature(const Attached& a, const Eigen::Vector3d& g);
+  void add_elastic_curvature(const Attached& a, const Eigen::Vector3d& local);
   void evaluate_coincident(const Eigen::Vector3d& e);
   void evaluate_on_plane(const JointEquation& equation);
   void evaluate_distance();
@@ -88,7 +109,10 @@ class JointLinearization {
   const JointData<double>& data_;
   TimeValue<double> drive_{0.0, 0.0, 0.0};
   std::array<MarkerState, 2> markers_;
-  double value_ = 0.0, rate_ = 0.0;
+  std::array<std::optional<Attached>, 2> points_;  ///< where they were asked for
+  double value_ = 0.0, rate_ = 0.0, weight_ = 0.0;
+  /// Σ weight · e of coincident points, whose H(e) is still to be added.
+  Eigen::Vector3d pull_ = Eigen::Vector3d::Zero();
   Vector gradient_, gradient_rate_;
   Hessian hessian_;
 };

@@ -103,9 +103,10 @@ class JointEvaluation {
         return directions(level, lambda, fixed_direction(equation.first), equation.second);
       case EquationKind::drive:
         return directions(level, lambda, driven_direction(equation), equation.second);
-      default:
-        return planar_angle(equation, level, lambda);
+      case EquationKind::planar_angle:
+        break;
     }
+    return planar_angle(equation, level, lambda);
   }
 
   Scalar coincident(const JointEquation& equation, ConstraintLevel level, const Scalar& lambda) {

@@ -18,7 +18,8 @@ class JointTerm : public Term {
         data_(std::move(data)),
         wide_data_(cast_data<WideDual>(data_)),
         narrow_data_(cast_data<NarrowDual>(data_)),
-        coordinates_(coordinate_indices(topology_.markers)) {
+        coordinates_(coordinate_indices(topology_.markers)),
+        linearization_(topology_, data_, local_size()) {
     for (const auto& [variable, derivative] : derivatives) {
       derivatives_.push_back({variable, seed_data(data_, derivative)});
     }
@@ -46,13 +47,19 @@ class JointTerm : public Term {
 
   void linearize(const State& state, const WeightList& weights, ConstraintLevel level,
                  Eigen::VectorXd& residual, const EntryBlocks& entries) override {
-    const int size = local_size(), count = equations();
     const Local<double> local = load<double>(state);
-    JointLinearization joint(topology_, data_, state.time, local.q.data(), size);
+    linearization_.set_state(state.time, local.q.data());
+    if (level == ConstraintLevel::position) {
+      linearize_positions(state, weights, residual, entries);
+      return;
+    }
+    const int size = local_size(), count = equations();
+    JointLinearization& joint = linearization_;
     curvature_.setZero(size, size);
     const auto first = topology_.multiplier - state.q.size();
     for (int i = 0; i < count; ++i) {
-      joint.evaluate(topology_.equations[index(i)]);
+      joint.clear_hessian();
+      joint.evaluate(topology_.equations[index(i)], 1.0);
       const double lambda = state.lambda(first + i);
       residual(topology_.multiplier + i) += value_of(joint, local, level);
       for (int row = 0; row < size; ++row) {
@@ -64,7 +71,9 @@ class JointTerm : public Term {
         write_equation(joint, tangent, i, weights[k], entries.block(k));
       }
     }
-    for (std::size_t k = 0; k < weights.size(); ++k) write_curvature(weights[k], entries.block(k));
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      write_curvature(curvature_, weights[k], entries.block(k));
+    }
     if (level != ConstraintLevel::acceleration) return;
     const Result<double> result = evaluate(data_, local, state.time, level);
     for (int i = 0; i < count; ++i) {
@@ -132,10 +141,34 @@ class JointTerm : public Term {
   int equations() const { return static_cast<int>(topology_.equations.size()); }
   int coordinate(int i) const { return coordinates_[index(i)]; }
 
-  /// Φ or dΦ/dt = gᵀv + Φ_t of one equation; zero on the level of accelerations.
+  /// At position level, where one Hessian of all equations together is enough.
+  void linearize_positions(const State& state, const WeightList& weights, Eigen::VectorXd& residual,
+                           const EntryBlocks& entries) {
+    JointLinearization& joint = linearization_;
+    const int size = local_size(), count = equations(), stride = size + count;
+    const auto first = topology_.multiplier - state.q.size();
+    for (int i = 0; i < count; ++i) {
+      const double lambda = state.lambda(first + i);
+      joint.evaluate(topology_.equations[index(i)], lambda);
+      residual(topology_.multiplier + i) += joint.value();
+      for (int row = 0; row < size; ++row) {
+        const double slope = joint.gradient()(row);
+        residual(coordinate(row)) += lambda * slope;
+        for (std::size_t k = 0; k < weights.size(); ++k) {
+          double* block = entries.block(k);
+          block[row * stride + size + i] = slope;
+          block[size * stride + i * size + row] = weights[k].q * slope;
+        }
+      }
+    }
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      write_curvature(joint.hessian(), weights[k], entries.block(k));
+    }
+  }
+
+  /// dΦ/dt = gᵀv + Φ_t of one equation; zero on the level of accelerations.
   double value_of(const JointLinearization& joint, const Local<double>& local,
                   ConstraintLevel level) const {
-    if (level == ConstraintLevel::position) return joint.value();
     if (level == ConstraintLevel::acceleration) return 0.0;
     return joint.gradient().dot(Eigen::Map<const Eigen::VectorXd>(local.v.data(), local_size())) +
            joint.rate();
@@ -145,11 +178,10 @@ class JointTerm : public Term {
   struct EquationTangent {
     JointLinearization::Vector q, v, a;
   };
-  EquationTangent tangent_of(const JointLinearization& joint, const Local<double>& local,
+  EquationTangent tangent_of(JointLinearization& joint, const Local<double>& local,
                              ConstraintLevel level) const {
     const int size = local_size();
     const JointLinearization::Vector zero = JointLinearization::Vector::Zero(size);
-    if (level == ConstraintLevel::position) return {joint.gradient(), zero, zero};
     const Eigen::Map<const Eigen::VectorXd> v(local.v.data(), size);
     const JointLinearization::Vector by_q = joint.hessian().transpose() * v + joint.gradient_rate();
     if (level == ConstraintLevel::velocity) return {by_q, joint.gradient(), zero};
@@ -167,11 +199,12 @@ class JointTerm : public Term {
   }
 
   /// Of all equations together.
-  void write_curvature(const Weights& weights, double* entries) const {
+  void write_curvature(const JointLinearization::Hessian& curvature, const Weights& weights,
+                       double* entries) const {
     const int size = local_size(), stride = size + equations();
     for (int row = 0; row < size; ++row) {
       for (int col = 0; col < size; ++col) {
-        entries[row * stride + col] = weights.q * curvature_(row, col);
+        entries[row * stride + col] = weights.q * curvature(row, col);
       }
     }
   }
@@ -234,6 +267,7 @@ class JointTerm : public Term {
   JointData<NarrowDual> narrow_data_;
   std::vector<DesignDerivative<JointData<Dual>>> derivatives_;
   std::vector<int> coordinates_;
+  JointLinearization linearization_;       ///< refers to topology and data
   JointLinearization::Hessian curvature_;  ///< scratch: (Φ_qᵀ λ)_q
 };
 

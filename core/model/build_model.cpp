@@ -52,8 +52,18 @@ constexpr double elastic_scale = 1e-3;
 constexpr double bearing_share = 0.1;
 
 bool is_moment(EquationKind kind) {
-  return kind == EquationKind::perpendicular || kind == EquationKind::drive ||
-         kind == EquationKind::planar_angle;
+  switch (kind) {
+    case EquationKind::perpendicular:
+    case EquationKind::drive:
+    case EquationKind::planar_angle:
+      return true;
+    case EquationKind::coincident:
+    case EquationKind::on_plane:
+    case EquationKind::slide:
+    case EquationKind::distance:
+      break;
+  }
+  return false;
 }
 
 /// The largest distance between bodies and joints [m]: the scale of lengths.

@@ -43,11 +43,11 @@ Outcome run(const std::array<double, 3>& axis, EffectChoice spatial) {
       simulate(model.mechanism, {{.end_time = 0.05, .step = 1e-3, .spectral_radius = 0.8}});
   const BodyModel& bar = model.body("bar");
   const Eigen::VectorXd q =
-      trajectory.columns().q.col(trajectory.steps()).segment(bar.frame.offset, bar.frame.size());
+      trajectory.columns().q().col(trajectory.steps()).segment(bar.frame.offset, bar.frame.size());
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(q.size());
   const FrameMotion<double> motion = frame_motion<double>(bar.frame, q, zero, zero);
   return {motion.A(1, 0),
-          -trajectory.columns().lambda(model.joint("hinge").drive_row, trajectory.steps())};
+          -trajectory.columns().lambda()(model.joint("hinge").drive_row, trajectory.steps())};
 }
 
 TEST(Drive, TurnsAboutTheAxisOfItsJointInThePlaneAsInSpace) {
