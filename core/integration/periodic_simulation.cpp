@@ -157,7 +157,7 @@ class PeriodicSearch {
   void set_multipliers(const Eigen::VectorXd& lambda, Attempt& attempt) {
     attempt.start.lambda = lambda;
     if (attempt.trajectory.recomputed()) return;
-    attempt.trajectory.columns().lambda.col(0) = lambda;
+    attempt.trajectory.columns().lambda().col(0) = lambda;
   }
 
   /// By Newton's method, with less than its correction where that leads away.

@@ -1,48 +1,51 @@
 #include "core/integration/state_columns.hpp"
 
+#include "core/base/huge_pages.hpp"
+
 namespace pleuel {
 
 StateColumns::StateColumns(const RecordedState& like, Eigen::Index columns)
-    : time(columns),
-      q(like.q.size(), columns),
-      v(like.v.size(), columns),
-      a(like.a.size(), columns),
-      lambda(like.lambda.size(), columns),
-      eta(like.eta.size(), columns),
-      drifted_q(like.drifted_q.size(), columns),
-      drifted_v(like.drifted_v.size(), columns) {}
+    : coordinates_(like.q.size()),
+      multipliers_(like.lambda.size()),
+      shift_multipliers_(like.eta.size()),
+      drifted_coordinates_(like.drifted_q.size()),
+      values_(1 + 3 * coordinates_ + multipliers_ + shift_multipliers_ + 2 * drifted_coordinates_,
+              columns) {
+  prefer_huge_pages(values_.data(), values_.size());
+}
 
 void StateColumns::resize(Eigen::Index columns) {
-  time.conservativeResize(columns);
-  for (auto* matrix : {&q, &v, &a, &lambda, &eta, &drifted_q, &drifted_v}) {
-    matrix->conservativeResize(Eigen::NoChange, columns);
-  }
+  values_.conservativeResize(Eigen::NoChange, columns);
 }
 
 void StateColumns::set(Eigen::Index column, const RecordedState& state) {
-  time(column) = state.time;
-  q.col(column) = state.q;
-  v.col(column) = state.v;
-  a.col(column) = state.a;
-  lambda.col(column) = state.lambda;
-  eta.col(column) = state.eta;
-  drifted_q.col(column) = state.drifted_q;
-  drifted_v.col(column) = state.drifted_v;
+  auto values = values_.col(column);
+  values(0) = state.time;
+  Eigen::Index row = 1;
+  for (const auto* part : {&state.q, &state.v, &state.a, &state.lambda, &state.eta,
+                           &state.drifted_q, &state.drifted_v}) {
+    values.segment(row, part->size()) = *part;
+    row += part->size();
+  }
 }
 
 void StateColumns::load(Eigen::Index column, State& state) const {
-  state.time = time(column);
-  state.q = q.col(column);
-  state.v = v.col(column);
-  state.a = a.col(column);
-  state.lambda = lambda.col(column);
+  const auto values = values_.col(column);
+  state.time = values(0);
+  const Eigen::Index n = coordinates_;
+  state.q = values.segment(1, n);
+  state.v = values.segment(1 + n, n);
+  state.a = values.segment(1 + 2 * n, n);
+  state.lambda = values.segment(1 + 3 * n, multipliers_);
 }
 
 void StateColumns::load_record(Eigen::Index column, RecordedState& state) const {
   load(column, state);
-  state.eta = eta.col(column);
-  state.drifted_q = drifted_q.col(column);
-  state.drifted_v = drifted_v.col(column);
+  const auto values = values_.col(column);
+  const Eigen::Index first = 1 + 3 * coordinates_ + multipliers_;
+  state.eta = values.segment(first, shift_multipliers_);
+  state.drifted_q = values.segment(first + shift_multipliers_, drifted_coordinates_);
+  state.drifted_v = values.tail(drifted_coordinates_);
 }
 
 }  // namespace pleuel

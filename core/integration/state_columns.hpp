@@ -4,23 +4,31 @@
 
 namespace pleuel {
 
-/// Recorded states, a column each.
-struct StateColumns {
-  Eigen::RowVectorXd time;
-  Eigen::MatrixXd q, v, a;               ///< n rows
-  Eigen::MatrixXd lambda;                ///< m rows, unscaled
-  Eigen::MatrixXd eta;                   ///< m rows or none
-  Eigen::MatrixXd drifted_q, drifted_v;  ///< n rows or none
-
+/// Recorded states, a column each, in one block of memory.
+class StateColumns {
+ public:
   StateColumns() = default;
   /// @param like  a state of the same size
   StateColumns(const RecordedState& like, Eigen::Index columns);
 
-  Eigen::Index capacity() const { return time.size(); }
+  Eigen::Index capacity() const { return values_.cols(); }
   void resize(Eigen::Index columns);
   void set(Eigen::Index column, const RecordedState& state);
   void load(Eigen::Index column, State& state) const;
   void load_record(Eigen::Index column, RecordedState& state) const;
+
+  auto q() { return values_.middleRows(1, coordinates_); }
+  auto v() { return values_.middleRows(1 + coordinates_, coordinates_); }
+  auto a() { return values_.middleRows(1 + 2 * coordinates_, coordinates_); }
+  /// Unscaled.
+  auto lambda() { return values_.middleRows(1 + 3 * coordinates_, multipliers_); }
+
+ private:
+  Eigen::Index coordinates_ = 0, multipliers_ = 0;
+  Eigen::Index shift_multipliers_ = 0;    ///< m or none
+  Eigen::Index drifted_coordinates_ = 0;  ///< n or none
+  /// Rows: time; q, v, a; λ; η; drifted q and v.
+  Eigen::MatrixXd values_;
 };
 
 }  // namespace pleuel

@@ -1,11 +1,15 @@
 #include "core/response/recorder.hpp"
 
+#include "core/base/huge_pages.hpp"
+
 namespace pleuel {
 
 Recorder::Recorder(const std::vector<Response>& responses, int instants) : responses_(responses) {
   for (const Response& response : responses) {
     const ResponseHistory* observed = response.history();
-    histories_.emplace_back(observed ? observed->signal->channels() : 0, observed ? instants : 0);
+    Eigen::MatrixXd& history = histories_.emplace_back(observed ? observed->signal->channels() : 0,
+                                                       observed ? instants : 0);
+    prefer_huge_pages(history.data(), history.size());
   }
 }
 

@@ -12,6 +12,7 @@
 #include "tests/laws/law_problems.hpp"
 #include "tests/support/convergence.hpp"
 #include "tests/support/differences.hpp"
+#include "tests/support/parameter_name.hpp"
 
 namespace pleuel::test {
 namespace {
@@ -88,7 +89,8 @@ TEST_P(ReactionsOfASuddenStart, AreOfSecondOrderFromTheFirstStepOn) {
            "/effects/axial_elasticity=off", "/simulation/end_time=4e-3",
            "/simulation/newton_tolerance=1e-13", "/simulation/formulation=" + formulation,
            fmt::format("/simulation/step={:.17g}", 4e-3 / steps)});
-      return Eigen::MatrixXd(analyze(problem, start_design(problem))->trajectory.columns().lambda);
+      return Eigen::MatrixXd(
+          analyze(problem, start_design(problem))->trajectory.columns().lambda());
     };
   };
   const int reference_steps = 3200;
@@ -149,7 +151,8 @@ INSTANTIATE_TEST_SUITE_P(Schemes, GradientOfADampedStart,
                                          Overrides{"/simulation/formulation=index-1"},
                                          Overrides{"/simulation/scheme=newmark"},
                                          Overrides{"/simulation/scheme=implicit-euler"},
-                                         Overrides{"/effects/spatial_motion=on"}));
+                                         Overrides{"/effects/spatial_motion=on"}),
+                         named_as_printed());
 
 }  // namespace
 }  // namespace pleuel::test

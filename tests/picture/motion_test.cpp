@@ -8,6 +8,7 @@
 
 #include "picture/frames_of_motion.hpp"
 #include "tests/picture/picture_problems.hpp"
+#include "tests/support/parameter_name.hpp"
 
 namespace pleuel::test {
 namespace {
@@ -73,7 +74,8 @@ TEST_P(MotionOfBeams, HasTheLargestStressOfTheBody) {
 INSTANTIATE_TEST_SUITE_P(Beams, MotionOfBeams,
                          ::testing::Values(R"("frame": "tangent")", R"("frame": "chord")",
                                            R"("frame": "mean-axis")",
-                                           R"("reduction": {"modes": 2})", R"("frames": 2)"));
+                                           R"("reduction": {"modes": 2})", R"("frames": 2)"),
+                         named_by_value());
 
 TEST(FramesOfMotion, AreCloseTogetherAndHaveThePeaks) {
   const ProblemFile problem =

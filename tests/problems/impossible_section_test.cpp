@@ -9,6 +9,7 @@
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/design/design_solve.hpp"
+#include "tests/support/parameter_name.hpp"
 #include "tests/support/source_folder.hpp"
 
 namespace {
@@ -81,6 +82,6 @@ TEST_P(OptimumOfTube, HasAWallWhereItIsAFormula) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, OptimumOfTube,
-                         testing::Values("nlopt-slsqp", "nlopt-mma", "ipopt"));
+                         testing::Values("nlopt-slsqp", "nlopt-mma", "ipopt"), named_by_value());
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/peak_problem.hpp"
+#include "tests/support/parameter_name.hpp"
 
 /// A limit on lateral buckling decides an optimum.
 namespace pleuel::test {
@@ -166,7 +167,7 @@ TEST_P(BucklingInBothPlanes, CountByTheWorseAtEachInstant) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Responses, BucklingInBothPlanes,
-                         testing::Values("lateral-buckling", "buckling"));
+                         testing::Values("lateral-buckling", "buckling"), named_by_value());
 
 TEST(LateralLimit, HasOnePlaceInAPlane) {
   ProblemFile file = flat_bar();

@@ -13,6 +13,7 @@
 #include "sensitivity/gradients.hpp"
 #include "tests/random/seeds.hpp"
 #include "tests/random/simulated_scene.hpp"
+#include "tests/support/parameter_name.hpp"
 
 /// Laws that hold for every mechanism, tried on random ones. The seeds are fixed by the build.
 namespace pleuel::test {
@@ -193,7 +194,8 @@ TEST_P(RandomScene, HasTheSameGradientsByAllMethods) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomScene, testing::Range(first_seed, end_seed));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomScene, testing::Range(first_seed, end_seed),
+                         named_by_value());
 
 }  // namespace
 }  // namespace pleuel::test

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/scene/bad_edit.hpp"
+#include "tests/support/parameter_name.hpp"
 
 namespace pleuel::test {
 namespace {
@@ -58,7 +59,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "/scene/bodies/block/velocity must be a list of 3 values, got 3"},
         BadEdit{
             "/scene/bodies/block/angular_velocity/0", R"("1 Hz")",
-            R"(/scene/bodies/block/angular_velocity/0 must be an angular speed [rad/s], got "1 Hz": "Hz" names no angle; write rad/s, deg/s or rpm)"}));
+            R"(/scene/bodies/block/angular_velocity/0 must be an angular speed [rad/s], got "1 Hz": "Hz" names no angle; write rad/s, deg/s or rpm)"}),
+    named_by(&BadEdit::pointer));
 
 }  // namespace
 }  // namespace pleuel::test

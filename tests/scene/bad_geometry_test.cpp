@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/scene/bad_edit.hpp"
+#include "tests/support/parameter_name.hpp"
 
 namespace pleuel::test {
 namespace {
@@ -64,7 +65,8 @@ INSTANTIATE_TEST_SUITE_P(
             R"(/scene/joints/pin/at must stay at the share 1 of the length of the beam "crank", which is (0.04, 0, 0) [m], got (0.12, 0, 0), with the variable "diameter" at its lower bound)"},
         BadEdit{
             "/variables/width/upper", "1e308",
-            R"(/scene/bodies/crank/section/height must be positive [m], got inf with the variable "width" at its upper bound)"}));
+            R"(/scene/bodies/crank/section/height must be positive [m], got inf with the variable "width" at its upper bound)"}),
+    named_by(&BadEdit::pointer));
 
 }  // namespace
 }  // namespace pleuel::test

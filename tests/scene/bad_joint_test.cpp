@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/scene/bad_edit.hpp"
+#include "tests/support/parameter_name.hpp"
 
 namespace pleuel::test {
 namespace {
@@ -39,7 +40,8 @@ INSTANTIATE_TEST_SUITE_P(
             R"(/scene/joints/tie/at must be on the axis of the beam "rod", the nearest point is (1.25, 0, 0) [m], got (1.25, 0.1, 0))"},
         BadEdit{
             "/scene/joints/wrist/at/0", "2.1",
-            R"(/scene/joints/wrist/at must be on the axis of the beam "rod", the nearest point is (2, 0, 0) [m], got (2.1, 0, 0))"}));
+            R"(/scene/joints/wrist/at must be on the axis of the beam "rod", the nearest point is (2, 0, 0) [m], got (2.1, 0, 0))"}),
+    named_by(&BadEdit::pointer));
 
 INSTANTIATE_TEST_SUITE_P(
     Drives, BadMechanismFile,
@@ -106,7 +108,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{
             "/scene/joints/second_shoulder",
             R"({"type": "revolute", "bodies": ["arm", "ground"], "at": [0.5, 0, 0], "axis": [0, 0, -1], "drive": {"type": "constant-speed", "speed": 1}})",
-            R"(/scene/joints/second_shoulder/drive prescribes the same motion as the drive of the joint "shoulder")"}));
+            R"(/scene/joints/second_shoulder/drive prescribes the same motion as the drive of the joint "shoulder")"}),
+    named_by(&BadEdit::pointer));
 
 }  // namespace
 }  // namespace pleuel::test

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/scene/bad_edit.hpp"
+#include "tests/support/parameter_name.hpp"
 
 namespace pleuel::test {
 namespace {
@@ -47,7 +48,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{"/variables/", R"({"start": 1, "lower": 0, "upper": 2})",
                 "/variables has a member without a name"},
         BadEdit{"/responses/a~1b", R"({"type": "stress", "body": "rod", "overtime": "max"})",
-                R"(/responses/a~1b has the unknown key "overtime"; did you mean "over_time"?)"}));
+                R"(/responses/a~1b has the unknown key "overtime"; did you mean "over_time"?)"}),
+    named_by(&BadEdit::pointer));
 
 INSTANTIATE_TEST_SUITE_P(
     Names, BadProblemFile,
@@ -111,7 +113,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{"/responses/weight/bodies", "[]",
                 "/responses/weight/bodies must name at least one body"},
         BadEdit{"/responses/weight/body", R"("rod")",
-                R"(/responses/weight has both "body" and "bodies")"}));
+                R"(/responses/weight has both "body" and "bodies")"}),
+    named_by(&BadEdit::pointer));
 
 }  // namespace
 }  // namespace pleuel::test

@@ -2,6 +2,7 @@
 
 #include "tests/scene/bad_edit.hpp"
 #include "tests/scene/good_problem.hpp"
+#include "tests/support/parameter_name.hpp"
 
 namespace pleuel::test {
 namespace {
@@ -61,7 +62,8 @@ INSTANTIATE_TEST_SUITE_P(
             R"(/scene/loads/twist/body must name a body that can turn, but "ball" is a point mass)"},
         BadEdit{
             "/scene/loads/twist/value", R"("3 N")",
-            R"(/scene/loads/twist/value must be a torque [N m], got "3 N": "N" measures something else)"}));
+            R"(/scene/loads/twist/value must be a torque [N m], got "3 N": "N" measures something else)"}),
+    named_by(&BadEdit::pointer));
 
 INSTANTIATE_TEST_SUITE_P(
     ForceElements, BadMechanismFile,
@@ -119,7 +121,8 @@ INSTANTIATE_TEST_SUITE_P(
             "/scene/loads/bush/motor", R"("1 N m")",
             R"(/scene/loads/bush/motor must be a force [N], got "1 N m": "N m" measures something else)"},
         BadEdit{"/scene/loads/stopper/stiffness", "-1",
-                "/scene/loads/stopper/stiffness must not be negative [N/m], got -1"}));
+                "/scene/loads/stopper/stiffness must not be negative [N/m], got -1"}),
+    named_by(&BadEdit::pointer));
 
 TEST(GoodMechanismFile, MayHoldABodyByLoadsAlone) {
   Json document = edited(good_mechanism(), "/scene/joints/line", "remove");

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/scene/bad_edit.hpp"
+#include "tests/support/parameter_name.hpp"
 
 namespace pleuel::test {
 namespace {
@@ -119,7 +120,8 @@ INSTANTIATE_TEST_SUITE_P(
             R"(/responses/use/part needs the strength of the material "glass", which has none)"},
         BadEdit{
             "/constraints/strength/upper", R"("80 MPa")",
-            R"(/constraints/strength/upper must be a number without unit, got "80 MPa": "MPa" measures something else)"}));
+            R"(/constraints/strength/upper must be a number without unit, got "80 MPa": "MPa" measures something else)"}),
+    named_by(&BadEdit::pointer));
 
 INSTANTIATE_TEST_SUITE_P(
     Windows, BadMechanismFile,
@@ -139,7 +141,8 @@ INSTANTIATE_TEST_SUITE_P(
             R"(/responses/jolt/from must be a time [s], got "1 m": "m" measures something else)"},
         BadEdit{"/simulation/end_time", "0.05",
                 "/responses/jolt/to must not be after the end of the simulation, 0.05 [s], "
-                "got 0.1"}));
+                "got 0.1"}),
+    named_by(&BadEdit::pointer));
 
 }  // namespace
 }  // namespace pleuel::test

@@ -7,6 +7,7 @@
 #include "core/base/error.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "tests/scene/good_problem.hpp"
+#include "tests/support/parameter_name.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace pleuel::test {
@@ -79,7 +80,8 @@ INSTANTIATE_TEST_SUITE_P(
                    R"(/points/0 is missing the key "shear")"},
         BadSection{general("torsion", "remove"), R"( is missing the key "torsion")"},
         BadSection{general("shear_area_z", "1e-5"),
-                   R"( has "shear_area_z" without "shear_area_y")"}));
+                   R"( has "shear_area_z" without "shear_area_y")"}),
+    named_by(&BadSection::section));
 
 INSTANTIATE_TEST_SUITE_P(
     Values, BadSectionOf,
@@ -117,7 +119,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadSection{
             R"({"type": "i", "width": 0.1, "height": 0.1, "flange_thickness": 0.002, "web_thickness": 0.0061})",
             "/web_thickness must not exceed three times the flange thickness 0.006 [m], got "
-            "0.0061"}));
+            "0.0061"}),
+    named_by(&BadSection::section));
 
 /// Walls may be as thick as they can be, and a rounded half is a half.
 TEST(GoodSection, MayHaveTheThickestWalls) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/scene/bad_edit.hpp"
+#include "tests/support/parameter_name.hpp"
 
 namespace pleuel::test {
 namespace {
@@ -35,7 +36,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "number of times, and does so 2.5 times, got \"0.04 s\""},
         BadEdit{
             "/simulation/initial_state", R"({"type": "periodic", "period": "0.1 kg"})",
-            R"(/simulation/initial_state/period must be a time [s], got "0.1 kg": "kg" measures something else)"}));
+            R"(/simulation/initial_state/period must be a time [s], got "0.1 kg": "kg" measures something else)"}),
+    named_by(&BadEdit::pointer));
 
 }  // namespace
 }  // namespace pleuel::test

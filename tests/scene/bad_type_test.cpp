@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/scene/bad_edit.hpp"
+#include "tests/support/parameter_name.hpp"
 
 namespace pleuel::test {
 namespace {
@@ -61,7 +62,8 @@ INSTANTIATE_TEST_SUITE_P(
             R"(/scene/joints/bearing/type must be "revolute", "prismatic", "fixed", "point-on-line", "cylindrical", "universal", "spherical", "planar" or "distance", got "revolut"; did you mean "revolute"?)"},
         BadEdit{
             "/scene/bodies/rod/frame", R"("cord")",
-            R"(/scene/bodies/rod/frame must be "tangent", "tangent-end", "chord" or "mean-axis", got "cord"; did you mean "chord"?)"}));
+            R"(/scene/bodies/rod/frame must be "tangent", "tangent-end", "chord" or "mean-axis", got "cord"; did you mean "chord"?)"}),
+    named_by(&BadEdit::pointer));
 
 INSTANTIATE_TEST_SUITE_P(
     Units, BadProblemFile,
@@ -112,7 +114,8 @@ INSTANTIATE_TEST_SUITE_P(
             R"(/variables/width/start must be a length [m], got "20 kg": "kg" measures something else)"},
         BadEdit{
             "/variables/load/lower", R"("1 mm")",
-            R"(/variables/load/lower must be a mass [kg], got "1 mm": "mm" measures something else)"}));
+            R"(/variables/load/lower must be a mass [kg], got "1 mm": "mm" measures something else)"}),
+    named_by(&BadEdit::pointer));
 
 }  // namespace
 }  // namespace pleuel::test

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/scene/bad_edit.hpp"
+#include "tests/support/parameter_name.hpp"
 
 namespace pleuel::test {
 namespace {
@@ -160,7 +161,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{"/scene/joints/hub/axis", "[0, 0, 1]",
                 "/scene/joints/hub/axis is not for a fixed joint, which has no axis"},
         BadEdit{"/scene/joints/bearing/drive/ramp", "0",
-                "/scene/joints/bearing/drive/ramp must be positive [s], got 0"}));
+                "/scene/joints/bearing/drive/ramp must be positive [s], got 0"}),
+    named_by(&BadEdit::pointer));
 
 }  // namespace
 }  // namespace pleuel::test

@@ -5,6 +5,7 @@
 
 #include "core/scene/problem_reader.hpp"
 #include "tests/scene/good_problem.hpp"
+#include "tests/support/parameter_name.hpp"
 #include "tests/support/source_folder.hpp"
 
 /// The shipped catalogue against the geometry of its shapes.
@@ -76,7 +77,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Ipe{80, 46, 3.8, 5.2, 5, 0.70}, Ipe{100, 55, 4.1, 5.7, 7, 1.20},
                     Ipe{120, 64, 4.4, 6.3, 7, 1.74}, Ipe{140, 73, 4.7, 6.9, 7, 2.45},
                     Ipe{160, 82, 5.0, 7.4, 9, 3.60}, Ipe{180, 91, 5.3, 8.0, 9, 4.79},
-                    Ipe{200, 100, 5.6, 8.5, 12, 6.98}));
+                    Ipe{200, 100, 5.6, 8.5, 12, 6.98}),
+    named_as_printed());
 
 /// EN 10219-2: height × width × wall in mm; corners of radius 2T outside, T inside.
 struct Hollow {
@@ -145,7 +147,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Hollow{"SHS 60x60x3", 60, 60, 3}, Hollow{"SHS 80x80x4", 80, 80, 4},
                     Hollow{"RHS 40x20x2", 40, 20, 2}, Hollow{"RHS 50x30x2", 50, 30, 2},
                     Hollow{"RHS 60x40x3", 60, 40, 3}, Hollow{"RHS 80x40x3", 80, 40, 3},
-                    Hollow{"RHS 100x50x4", 100, 50, 4}));
+                    Hollow{"RHS 100x50x4", 100, 50, 4}),
+    named_by(&Hollow::name));
 
 /// Printed in the tables of EN 10219-2: A [cm²], I [cm⁴], I_t [cm⁴].
 TEST(Catalogue, AgreesWithTheTablesOfTheStandard) {

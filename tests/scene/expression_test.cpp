@@ -10,6 +10,7 @@
 #include <mpParser.h>
 
 #include "core/scene/reading/expression_parser.hpp"
+#include "tests/support/parameter_name.hpp"
 
 namespace pleuel::test {
 namespace {
@@ -170,7 +171,8 @@ INSTANTIATE_TEST_SUITE_P(Formulas, ExpressionDerivative,
                                          Formula{"a/(b + c/(1 + a))", "a/(b + c/(1 + a))"},
                                          Formula{"(a + b)^3*(a - c)^-2", "(a + b)^3/(a - c)^2"},
                                          Formula{"sin(a*1 rad)*cos(b*2 rad) + tan(a*c*1 rad)",
-                                                 "sin(a)*cos(2*b) + tan(a*c)"}));
+                                                 "sin(a)*cos(2*b) + tan(a*c)"}),
+                         named_by(&Formula::text));
 
 /// Of functions that are not analytic; differences of second order with 1e-5, whose error is
 /// below 1e-9 for numbers near 1.
@@ -247,7 +249,8 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongFormula{"p + 5 foo", 7, "\"foo\" is not a known unit"},
                     WrongFormula{"p + 20 °C", 8, "does not count from zero"},
                     WrongFormula{"5 N*m", 5, "stands right behind its number"},
-                    WrongFormula{"'tip deflection' + load", 18, "a length [m] + a mass [kg]"}));
+                    WrongFormula{"'tip deflection' + load", 18, "a length [m] + a mass [kg]"}),
+    named_by(&WrongFormula::text));
 
 INSTANTIATE_TEST_SUITE_P(
     OtherMistakes, WrongUnit,
@@ -265,7 +268,8 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongFormula{"max(p)", 1, "two numbers at least"},
                     WrongFormula{"atan2(1, 2, 3)", 14, "too many arguments"},
                     WrongFormula{"p == 3 m", 3, "means nothing"},
-                    WrongFormula{"p × q", 3, "is no sign of a formula"}));
+                    WrongFormula{"p × q", 3, "is no sign of a formula"}),
+    named_by(&WrongFormula::text));
 
 TEST(Expression, RefusesAUnitThatMayBeAName) {
   std::vector<Symbol> all = symbols();

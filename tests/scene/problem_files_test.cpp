@@ -8,6 +8,7 @@
 #include "core/scene/problem_reader.hpp"
 #include "core/scene/response_quantity.hpp"
 #include "tests/scene/good_problem.hpp"
+#include "tests/support/parameter_name.hpp"
 #include "tests/support/source_folder.hpp"
 
 namespace pleuel::test {
@@ -41,7 +42,8 @@ class SliderCrank : public testing::TestWithParam<std::string> {};
 
 INSTANTIATE_TEST_SUITE_P(Files, SliderCrank,
                          testing::Values("slider_crank.json", "slider_crank_round.json",
-                                         "slider_crank_tapered.json"));
+                                         "slider_crank_tapered.json"),
+                         named_by_value());
 
 TEST_P(SliderCrank, HasTheCommonMechanism) {
   const ProblemFile problem = read_file(GetParam());

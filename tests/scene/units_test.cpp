@@ -9,6 +9,7 @@
 #include "core/scene/common_units.hpp"
 #include "core/scene/response_kind.hpp"
 #include "core/scene/response_quantity.hpp"
+#include "tests/support/parameter_name.hpp"
 
 namespace pleuel {
 namespace {
@@ -79,14 +80,16 @@ INSTANTIATE_TEST_SUITE_P(
         Reading{"0.3", pure_number, 0.3}, Reading{"30 %", pure_number, 0.3},
         Reading{"4096 B", data, 4096.0}, Reading{"1.5 kB", data, 1500.0},
         Reading{"4 GB", data, 4e9}, Reading{"1 KiB", data, 1024.0},
-        Reading{"512 MiB", data, 536870912.0}, Reading{"2 GiB", data, 2147483648.0}));
+        Reading{"512 MiB", data, 536870912.0}, Reading{"2 GiB", data, 2147483648.0}),
+    named_by(&Reading::text));
 
 INSTANTIATE_TEST_SUITE_P(UnitsOfAngularSpeed, UnitReading,
                          testing::Values(Reading{"200 rad/s", angular_speed, 200.0},
                                          Reading{"1500 rpm", angular_speed, 50.0 * pi},
                                          Reading{"1500 rev/min", angular_speed, 50.0 * pi},
                                          Reading{"180 deg/s", angular_speed, pi},
-                                         Reading{"180 degree/s", angular_speed, pi}));
+                                         Reading{"180 degree/s", angular_speed, pi}),
+                         named_by(&Reading::text));
 
 /// Cycles and radians are both units of a frequency: one cycle is 2π rad.
 INSTANTIATE_TEST_SUITE_P(UnitsOfFrequency, UnitReading,
@@ -95,7 +98,8 @@ INSTANTIATE_TEST_SUITE_P(UnitsOfFrequency, UnitReading,
                                          Reading{"40 rad/s", angular_frequency, 40.0},
                                          Reading{"60 rpm", angular_frequency, 2.0 * pi},
                                          Reading{"10 rad/s", frequency, 5.0 / pi},
-                                         Reading{"60 rpm", frequency, 1.0}));
+                                         Reading{"60 rpm", frequency, 1.0}),
+                         named_by(&Reading::text));
 
 TEST(Units, OfAFrequencyAreNoTimesOrLengths) {
   EXPECT_EQ(complaint("3 m Hz", angular_frequency), "\"m Hz\" measures something else");

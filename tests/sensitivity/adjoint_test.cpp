@@ -57,10 +57,10 @@ class Adjoint : public testing::TestWithParam<AdjointCase> {
       return Eigen::MatrixXd::NullaryExpr(rows, count, [this] { return uniform_(generator_); });
     };
     for (int step = 0; step <= trajectory.steps(); ++step) {
-      functions.q.push_back(random(trajectory.columns().q.rows()));
-      functions.v.push_back(1e-2 * random(trajectory.columns().q.rows()));
-      functions.a.push_back(1e-4 * random(trajectory.columns().q.rows()));
-      functions.lambda.push_back(1e-4 * random(trajectory.columns().lambda.rows()));
+      functions.q.push_back(random(trajectory.columns().q().rows()));
+      functions.v.push_back(1e-2 * random(trajectory.columns().q().rows()));
+      functions.a.push_back(1e-4 * random(trajectory.columns().q().rows()));
+      functions.lambda.push_back(1e-4 * random(trajectory.columns().lambda().rows()));
     }
     return functions;
   }

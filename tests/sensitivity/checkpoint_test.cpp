@@ -105,9 +105,9 @@ TEST(Checkpoints, RepeatStepsThatFollowTheLocalError) {
   ASSERT_GT(whole->trajectory.rejected_steps, 0);
   ASSERT_GT(whole->trajectory.steps(), 300);
   // A third of what all states take.
-  const StateColumns& states = whole->trajectory.columns();
+  StateColumns& states = whole->trajectory.columns();
   const double all = 8.0 * static_cast<double>(states.capacity()) *
-                     static_cast<double>(3 * states.q.rows() + 2 * states.lambda.rows());
+                     static_cast<double>(3 * states.q().rows() + 2 * states.lambda().rows());
   ProblemFile limited = problem;
   limited.sensitivity.memory = all / 3;
   const auto part = analyze(limited, start_design(limited));

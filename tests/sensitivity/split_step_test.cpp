@@ -32,8 +32,8 @@ TEST(SplitSteps, LeadToEveryRegularInstant) {
   const Trajectory whole = simulate(model.mechanism, patient);
   EXPECT_EQ(whole.split_steps, 0);
   // The same motion up to the error of the large steps.
-  const Eigen::VectorXd end = trajectory.columns().q.col(trajectory.steps()),
-                        other = whole.columns().q.col(whole.steps());
+  const Eigen::VectorXd end = trajectory.columns().q().col(trajectory.steps()),
+                        other = whole.columns().q().col(whole.steps());
   EXPECT_LE((end - other).norm(), 0.05 * other.norm());
 }
 
@@ -54,7 +54,7 @@ TEST(SplitSteps, AreDifferentiatedAsTheyRan) {
       Model neighbour = sample.build_at(design);
       const Trajectory found = simulate(neighbour.mechanism, impatient());
       EXPECT_EQ(found.steps(), trajectory.steps()) << "not the same sequence of steps";
-      return found.columns().q.col(found.steps());
+      return found.columns().q().col(found.steps());
     };
     const Eigen::VectorXd expected = (end_at(h) - end_at(-h)) / (2 * h);
     const Eigen::VectorXd found = s.col(j);

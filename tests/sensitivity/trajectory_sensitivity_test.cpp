@@ -39,8 +39,8 @@ const NamedFormulation projected{"Projected", {ConstraintForm::index_1, 0.0, tru
 /// q, v, a, λ of the last step.
 std::array<Eigen::VectorXd, 4> end_of(const Trajectory& trajectory) {
   const int last = trajectory.steps();
-  return {trajectory.columns().q.col(last), trajectory.columns().v.col(last),
-          trajectory.columns().a.col(last), trajectory.columns().lambda.col(last)};
+  return {trajectory.columns().q().col(last), trajectory.columns().v().col(last),
+          trajectory.columns().a().col(last), trajectory.columns().lambda().col(last)};
 }
 
 using DirectCase = std::tuple<int, NamedFormulation>;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/dense_solvers.hpp"
+#include "tests/support/parameter_name.hpp"
 
 namespace {
 
@@ -82,6 +83,6 @@ TEST_P(AnyBands, AreNotANumberWhereAnEntryIsNone) {
   EXPECT_TRUE(std::isnan(LargestBandMode(b).value(a, 1.0, 1e-9)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, AnyBands, testing::Values(1, 2, 5, 6, 7, 20, 61));
+INSTANTIATE_TEST_SUITE_P(Sizes, AnyBands, testing::Values(1, 2, 5, 6, 7, 20, 61), named_by_value());
 
 }  // namespace

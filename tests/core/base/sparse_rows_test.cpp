@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/dense_solvers.hpp"
+#include "tests/support/parameter_name.hpp"
 
 namespace pleuel {
 namespace {
@@ -115,7 +116,7 @@ TEST_P(RowsOfAChain, GiveBackTheFactorsOfASum) {
             1e-11 * factors.norm());
 }
 
-INSTANTIATE_TEST_SUITE_P(FewAndMany, RowsOfAChain, testing::Values(20, 120));
+INSTANTIATE_TEST_SUITE_P(FewAndMany, RowsOfAChain, testing::Values(20, 120), named_by_value());
 
 TEST(NullSpaceOfRows, HasTheColumnsThatNoRowHas) {
   SparseRows rows(1, 3);

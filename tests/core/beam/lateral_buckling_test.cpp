@@ -8,6 +8,7 @@
 
 #include "core/section/ellipse_section.hpp"
 #include "core/section/rectangle_section.hpp"
+#include "tests/support/parameter_name.hpp"
 
 namespace {
 
@@ -370,7 +371,7 @@ TEST_P(AnyBeam, HasTheSlopesOfDifferencesOfItsRigidEnds) {
   EXPECT_NEAR(at.load_slopes(modes).cwiseProduct(load).sum(), modes.share, 1e-10 * modes.share);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, AnyBeam, testing::Range(0, 12));
+INSTANTIATE_TEST_SUITE_P(Seeds, AnyBeam, testing::Range(0, 12), named_by_value());
 
 /// Pull, and bending of a beam that is as stiff sideways.
 TEST(LateralStability, IsNoneWhereNothingBuckles) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/parameter_name.hpp"
+
 namespace pleuel::test {
 namespace {
 
@@ -33,7 +35,7 @@ TEST_P(PlanOfCheckpoints, NeedsTheRootOfTheStates) {
 }
 
 INSTANTIATE_TEST_SUITE_P(States, PlanOfCheckpoints,
-                         testing::Values(2, 3, 10, 1000, 123'457, 20'000'000));
+                         testing::Values(2, 3, 10, 1000, 123'457, 20'000'000), named_by_value());
 
 TEST(CheckpointPlan, HoldsAllStatesWhereTheyFit) {
   const CheckpointPlan plan{state_bytes, checkpoint_bytes, 8000.0};

@@ -46,8 +46,8 @@ double error_of_newmark(double radius) {
 double error_of_step(const Trajectory& trajectory, int step) {
   const double h = trajectory.time(step) - trajectory.time(step - 1);
   const auto last = step - 1;
-  return trajectory.columns().q(0, step) - trajectory.columns().q(0, last) -
-         h * trajectory.columns().v(0, last) - h * h / 2 * trajectory.columns().a(0, last) -
+  return trajectory.columns().q()(0, step) - trajectory.columns().q()(0, last) -
+         h * trajectory.columns().v()(0, last) - h * h / 2 * trajectory.columns().a()(0, last) -
          h * h * h / 6 * jerk;
 }
 
@@ -80,7 +80,7 @@ TEST_P(LocalError, IsThatOfTaylorsSeriesWhateverTheStepBefore) {
   for (int step = 4; step <= 12; ++step) {
     const double h = options.instants[std::size_t(step)] - options.instants[std::size_t(step - 1)];
     EXPECT_NEAR(error_of_step(trajectory, step) / (factor * h * h * h * jerk), 1.0, 1e-5) << step;
-    EXPECT_NEAR(trajectory.columns().a(0, step), jerk * options.instants[std::size_t(step)],
+    EXPECT_NEAR(trajectory.columns().a()(0, step), jerk * options.instants[std::size_t(step)],
                 1e-9 * jerk);
   }
 }
@@ -127,7 +127,8 @@ TEST(ErrorOfVelocity, IsThatOfTheTheoryAfterEveryChangeOfTheStep) {
                               : 0.0;
     for (int step = 4; step <= trajectory.steps(); ++step) {
       const double h = trajectory.time(step) - trajectory.time(step - 1);
-      const double gained = trajectory.columns().v(0, step) - trajectory.columns().v(0, step - 1);
+      const double gained =
+          trajectory.columns().v()(0, step) - trajectory.columns().v()(0, step - 1);
       const double exact = jerk * h * (trajectory.time(step - 1) + h / 2);
       EXPECT_NEAR(gained - exact, excess * h * h * jerk, 1e-9 * h * jerk) << step;
     }

@@ -25,7 +25,7 @@ Eigen::Vector2d pendulum_at(double time, double step, EffectChoice spatial) {
   SimulationOptions options{time, step, 0.8};
   options.newton_tolerance = 1e-12;
   const Trajectory trajectory = simulate(model.mechanism, options);
-  return trajectory.columns().q.col(trajectory.steps()).head<2>();
+  return trajectory.columns().q().col(trajectory.steps()).head<2>();
 }
 
 /// IFToMM benchmark A01, exact. Richardson's step removes the h² of the error; measured 3e-10.

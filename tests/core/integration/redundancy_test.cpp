@@ -83,7 +83,7 @@ TEST(RedundantConstraints, LeaveTheMotionThatThePlaneHas) {
     for (std::size_t i = 0; i < space.bodies.size(); ++i) {
       const auto place = [&](const Model& model, const Trajectory& trajectory) {
         return Eigen::Vector2d(
-            trajectory.columns().q.col(last).segment<2>(model.bodies[i].frame.offset));
+            trajectory.columns().q().col(last).segment<2>(model.bodies[i].frame.offset));
       };
       // Positions to what Newton's method leaves.
       EXPECT_LE((place(space, found) - place(plane, expected)).norm(), 1e-9) << i;
@@ -144,7 +144,7 @@ TEST(RedundantConstraints, OfADoubledJointAreThoseOfOne) {
   EXPECT_EQ(twice.mechanism.system->left_out().size(), 2u);
   const Trajectory found = simulate(twice.mechanism, {0.1, 1e-3}),
                    expected = simulate(once.mechanism, {0.1, 1e-3});
-  EXPECT_LE((found.columns().q - expected.columns().q).lpNorm<Eigen::Infinity>(), 1e-12);
+  EXPECT_LE((found.columns().q() - expected.columns().q()).lpNorm<Eigen::Infinity>(), 1e-12);
 }
 
 /// A second drive of the same angle follows from the first if it says the same at all times; one

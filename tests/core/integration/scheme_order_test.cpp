@@ -30,8 +30,8 @@ class SchemeOrder : public testing::Test {
     options.newton_tolerance = 1e-14;
     const Trajectory trajectory = simulate(model.mechanism, options);
     const int last = trajectory.steps();
-    return {trajectory.columns().q.col(last), trajectory.columns().v.col(last),
-            trajectory.columns().lambda.col(last)};
+    return {trajectory.columns().q().col(last), trajectory.columns().v().col(last),
+            trajectory.columns().lambda().col(last)};
   }
 
   struct Orders {

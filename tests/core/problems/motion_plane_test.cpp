@@ -6,6 +6,7 @@
 
 #include "sensitivity/gradients.hpp"
 #include "tests/support/differences.hpp"
+#include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_scenes.hpp"
 
@@ -53,7 +54,7 @@ TEST_P(MotionPlane, GivesWhatSpaceGives) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Problems, MotionPlane,
-                         testing::Values("slider_crank", "slider_crank_round"));
+                         testing::Values("slider_crank", "slider_crank_round"), named_by_value());
 
 /// A clamped beam without weight: nothing but its load says in which plane it moves.
 TEST(PlaneOfACantilever, IsThatOfItsLoad) {
@@ -261,9 +262,11 @@ INSTANTIATE_TEST_SUITE_P(
               scene.loads = {{"push", PointForce{"mass", {0.7, 0.0, 0.1}, {0, 1, 0}, {}, false}}};
             }},
         OutOfPlane{
-            "load twist", [](Scene& scene) {
+            "load twist",
+            [](Scene& scene) {
               scene.loads = {{"twist", PointTorque{"mass", {0.7, 0.0, 0.0}, {1, 0, 0}, {}, false}}};
-            }}));
+            }}),
+    named_by(&OutOfPlane::reason));
 
 /// A scene whose points are fixed, turned about z and shifted.
 Scene moved_scene(Scene scene, double angle, const Eigen::Vector3d& shift) {

@@ -38,7 +38,7 @@ TEST(Pendulum, IsAfterFourPeriodsWhereTheEllipticFunctionsPutIt) {
     scene.joints = {revolute(ground_name, "mass", {0.0, 0.0})};
     Model model = build_model(scene, {}, {}, {});
     const Trajectory trajectory = simulate(model.mechanism, options_of(10.0, h));
-    return trajectory.columns().q.col(trajectory.steps()).head<2>();
+    return trajectory.columns().q().col(trajectory.steps()).head<2>();
   };
   const Eigen::Vector2d found = extrapolated(end, 1e-3);
   // Measured 1e-8 and 8e-10: what h⁴ leaves.
@@ -70,9 +70,10 @@ struct FourBars {
   }
   /// Position and velocity of B0, the upper end of the first link.
   Eigen::Vector4d point_of(const Trajectory& trajectory, int step) const {
-    const double x = trajectory.columns().q(0, step),
-                 y = trajectory.columns().q(1, step);  // its middle
-    return {2 * x, 2 * y, 2 * trajectory.columns().v(0, step), 2 * trajectory.columns().v(1, step)};
+    const double x = trajectory.columns().q()(0, step),
+                 y = trajectory.columns().q()(1, step);  // its middle
+    return {2 * x, 2 * y, 2 * trajectory.columns().v()(0, step),
+            2 * trajectory.columns().v()(1, step)};
   }
   Model model;
 };
@@ -185,7 +186,7 @@ struct Squeezer {
     SimulationOptions options = options_of(time, h);
     const Trajectory trajectory = simulate(model.mechanism, options);
     const auto turn = [&](const char* body) {
-      return trajectory.columns().q(model.body(body).frame.offset + 2, trajectory.steps());
+      return trajectory.columns().q()(model.body(body).frame.offset + 2, trajectory.steps());
     };
     Eigen::VectorXd q(7);
     q << turn("K1"), turn("K2") - turn("K1"), turn("K3"), turn("K4") - turn("K5"), turn("K5"),

@@ -25,8 +25,8 @@ struct SpinUp {
     effects.geometric_stiffening = stiffening;
     Model model = build_model(scene, effects, {}, {});
     trajectory = simulate(model.mechanism, {end_time, 5e-3, 0.8});
-    tip = trajectory.columns().q.row(model.bodies[0].coordinate(8, 1));
-    stretch = trajectory.columns().q.row(model.bodies[0].coordinate(8, 0));
+    tip = trajectory.columns().q().row(model.bodies[0].coordinate(8, 1));
+    stretch = trajectory.columns().q().row(model.bodies[0].coordinate(8, 0));
   }
   double tip_at(double time) const { return tip(static_cast<int>(std::round(time / 5e-3))); }
 };

@@ -9,6 +9,7 @@
 #include "core/response/body_export.hpp"
 #include "core/scene/invariants_file.hpp"
 #include "sensitivity/gradients.hpp"
+#include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/source_folder.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -190,7 +191,8 @@ INSTANTIATE_TEST_SUITE_P(
         R"({})", R"({"effects": {"spatial_motion": "on"}})",
         R"({"effects": {"geometric_stiffening": "off"}})",
         R"({"scene": {"bodies": {"rod": {"frame": "mean-axis", "reduction": {"modes": 3}}}}, )"
-        R"("responses": {"rod_frequency": null}})"));
+        R"("responses": {"rod_frequency": null}})"),
+    named_by_value());
 
 /// A chord between two other places against the straight line by hand: u_P − (1 − s) u_A − s u_B with
 /// s = (0.4 − 0.2)/(0.8 − 0.2) = 1/3.

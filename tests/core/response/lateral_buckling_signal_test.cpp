@@ -11,6 +11,7 @@
 #include "core/trust/sideways_buckling.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/core/trust/doubts_of.hpp"
+#include "tests/support/parameter_name.hpp"
 
 /// A thin bar of 1.2 m, 2 mm × 40 mm, on edge: it bends in the plane x–y.
 namespace {
@@ -355,12 +356,13 @@ TEST_P(GradientsOfLateralBuckling, OfBothMethodsAndOfDifferencesAgree) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Bodies, GradientsOfLateralBuckling,
-                         testing::Values(std::pair(R"("geometric_stiffening": "off")", ""),
-                                         std::pair(R"("geometric_stiffening": "on")", ""),
-                                         std::pair(R"("spatial_motion": "on")", ""),
-                                         std::pair("", R"(, "frames": 2)"),
-                                         std::pair("", R"(, "reduction": {"modes": 2})")));
+INSTANTIATE_TEST_SUITE_P(
+    Bodies, GradientsOfLateralBuckling,
+    testing::Values(std::pair(R"("geometric_stiffening": "off")", ""),
+                    std::pair(R"("geometric_stiffening": "on")", ""),
+                    std::pair(R"("spatial_motion": "on")", ""), std::pair("", R"(, "frames": 2)"),
+                    std::pair("", R"(, "reduction": {"modes": 2})")),
+    named_by([](const auto& body) { return std::string(body.first) + body.second; }));
 
 /// Eyes, and a body on a mast, whose lengths are variables as the section is.
 TEST(GradientsOfFittings, OfBothMethodsAndOfDifferencesAgree) {

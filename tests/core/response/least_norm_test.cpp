@@ -7,6 +7,7 @@
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/core/response/response_samples.hpp"
+#include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"
 
 namespace {
@@ -173,6 +174,17 @@ INSTANTIATE_TEST_SUITE_P(Formulations, GradientOfLeastNorm,
                          testing::Values(Formulation{},
                                          Formulation{ConstraintForm::stabilized_index_2},
                                          Formulation{ConstraintForm::index_1},
-                                         Formulation{ConstraintForm::index_1, 0.0, true}));
+                                         Formulation{ConstraintForm::index_1, 0.0, true}),
+                         named_by([](const Formulation& formulation) {
+                           if (formulation.is_projected) return "index_1_projected";
+                           switch (formulation.constraints) {
+                             case ConstraintForm::index_1:
+                               return "index_1";
+                             case ConstraintForm::stabilized_index_2:
+                               return "stabilized_index_2";
+                             default:
+                               return "index_3";
+                           }
+                         }));
 
 }  // namespace

@@ -226,7 +226,7 @@ TEST(Monitors, CompareTheBalanceWithTheEnergyOfTheStrainToo) {
 
 TEST(Monitors, SeeRatesThatDoNotBelongToTheMotion) {
   auto [model, trajectory] = simulated_pendulum(1e-4);
-  trajectory.columns().v *= 1.01;
+  trajectory.columns().v() *= 1.01;
   EXPECT_NEAR(monitor(model, trajectory).energy_error, 1.0 - 1.0 / (1.01 * 1.01), 1e-3);
 }
 
@@ -238,8 +238,8 @@ TEST(Monitors, SeeConstraintsThatAreNotKept) {
   const BodyFrame& slider = model.body("slider").frame;
   const Eigen::Vector3d off_the_guide = {0.0, 1.0, 0.0};
   const Eigen::VectorXd direction = slider.basis.transpose() * off_the_guide;
-  trajectory.columns().q.col(200).segment(slider.offset, slider.size()) += 1e-3 * direction;
-  trajectory.columns().v.col(100).segment(slider.offset, slider.size()) += 1e-2 * direction;
+  trajectory.columns().q().col(200).segment(slider.offset, slider.size()) += 1e-3 * direction;
+  trajectory.columns().v().col(100).segment(slider.offset, slider.size()) += 1e-2 * direction;
   const Monitors monitors = monitor(model, trajectory);
   EXPECT_NEAR(monitors.position_drift, 1e-3, 1e-12);
   EXPECT_NEAR(monitors.velocity_drift, 1e-2, 1e-3);  // with the drift that is there: 7e-5

@@ -8,6 +8,7 @@
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "sensitivity/gradients.hpp"
+#include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"
 
 namespace {
@@ -84,6 +85,7 @@ TEST_P(Meshes, GiveTheGradient) {
 }
 
 /// 5 and 10 have a node there already.
-INSTANTIATE_TEST_SUITE_P(Elements, Meshes, testing::Values(1, 2, 3, 4, 5, 7, 8, 10));
+INSTANTIATE_TEST_SUITE_P(Elements, Meshes, testing::Values(1, 2, 3, 4, 5, 7, 8, 10),
+                         named_by_value());
 
 }  // namespace

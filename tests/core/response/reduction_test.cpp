@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/parameter_name.hpp"
+
 namespace {
 
 using namespace pleuel;
@@ -86,7 +88,25 @@ TEST_P(EveryReduction, HasTheDerivativesOfItsValueAsWeights) {
 INSTANTIATE_TEST_SUITE_P(Kinds, EveryReduction,
                          testing::Values(OverTime::max, OverTime::min, OverTime::max_abs,
                                          OverTime::rms, OverTime::mean, OverTime::integral,
-                                         OverTime::final));
+                                         OverTime::final),
+                         named_by([](OverTime kind) {
+                           switch (kind) {
+                             case OverTime::max:
+                               return "max";
+                             case OverTime::min:
+                               return "min";
+                             case OverTime::max_abs:
+                               return "max_abs";
+                             case OverTime::rms:
+                               return "rms";
+                             case OverTime::mean:
+                               return "mean";
+                             case OverTime::integral:
+                               return "integral";
+                             default:
+                               return "final";
+                           }
+                         }));
 
 TEST(Reduction, TakesTheHighestChannel) {
   Eigen::MatrixXd y(2, steps + 1);

@@ -45,7 +45,7 @@ TEST(NotFinite, IsAFailedSimulationThatNamesTheFirstResponseAndItsTime) {
 TEST(NotFinite, IsAFailureOfTheMonitorsToo) {
   const ProblemFile problem = short_crank("7850");
   const auto analysis = analyze(problem, start_design(problem));
-  analysis->trajectory.columns().v(0, 7) = 1e200;
+  analysis->trajectory.columns().v()(0, 7) = 1e200;
   EXPECT_THAT(failure_of([&] { monitor(analysis->model, analysis->trajectory); }),
               HasSubstr("energy of the mechanism is not finite at t = 0.000175 s"));
 }

@@ -8,6 +8,7 @@
 #include "core/section/rectangle_section.hpp"
 #include "tests/core/section/saint_venant.hpp"
 #include "tests/core/section/section_derivative.hpp"
+#include "tests/support/parameter_name.hpp"
 
 namespace pleuel::test {
 namespace {
@@ -67,7 +68,8 @@ INSTANTIATE_TEST_SUITE_P(Sizes, BoxTorsionOf,
                                          Box{1.0, 0.25}, Box{1.0, 0.35}, Box{1.0, 0.45},
                                          Box{1.5, 0.1}, Box{1.5, 0.25}, Box{1.5, 0.45},
                                          Box{2.0, 0.05}, Box{2.0, 0.2}, Box{2.0, 0.4},
-                                         Box{4.0, 0.1}, Box{4.0, 0.25}, Box{4.0, 0.49}));
+                                         Box{4.0, 0.1}, Box{4.0, 0.25}, Box{4.0, 0.49}),
+                         named_as_printed());
 
 /// The reference itself: the series of the rectangle, which the table of Timoshenko & Goodier
 /// confirms. 3e-5: extrapolation from 10, 20 and 40 cells.

@@ -8,6 +8,7 @@
 
 #include "tests/core/section/saint_venant.hpp"
 #include "tests/core/section/section_derivative.hpp"
+#include "tests/support/parameter_name.hpp"
 
 namespace pleuel::test {
 namespace {
@@ -60,8 +61,8 @@ INSTANTIATE_TEST_SUITE_P(Shapes, ITorsionOf,
                                          Sizes{0.5, 1.0, 0.05, 0.05}, Sizes{0.5, 1.0, 0.05, 0.1},
                                          Sizes{1.0, 1.0, 0.1, 0.05}, Sizes{1.0, 1.0, 0.1, 0.1},
                                          Sizes{1.0, 1.0, 0.1, 0.15}, Sizes{1.0, 0.5, 0.1, 0.08},
-                                         Sizes{0.46, 0.8, 0.052,
-                                               0.038}));  // IPE 80 without its fillets
+                                         Sizes{0.46, 0.8, 0.052, 0.038}),
+                         named_as_printed());  // IPE 80 without its fillets
 
 /// El Darwish & Johnston 1965 (also AISC Design Guide 9): an independent fit of the junction, for
 /// fillets of any radius, here 0. Their own numbers have about this accuracy.

@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "tests/core/trust/crank_rocker.hpp"
 #include "tests/core/trust/doubts_of.hpp"
+#include "tests/support/parameter_name.hpp"
 
 namespace pleuel::test {
 namespace {
@@ -71,10 +72,12 @@ const auto directions = testing::Values("x", "z");
 const auto units = testing::Values(1.0, 1e-3);
 INSTANTIATE_TEST_SUITE_P(Tilts, NearlyAlignedHinges,
                          testing::Combine(testing::Values(0.0, 1e-12, 1e-9, 1e-8, 1e-7), directions,
-                                          units));
+                                          units),
+                         named_as_printed());
 INSTANTIATE_TEST_SUITE_P(Tilts, SlightlyTiltedHinges,
                          testing::Combine(testing::Values(1e-5, 1e-4, 1e-3, 1e-2), directions,
-                                          units));
+                                          units),
+                         named_as_printed());
 
 /// The same door on a carriage that drives off with it: what it does against the carriage counts,
 /// not that it moves at all.

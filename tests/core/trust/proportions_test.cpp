@@ -8,6 +8,7 @@
 
 #include "tests/core/trust/crank_rocker.hpp"
 #include "tests/core/trust/doubts_of.hpp"
+#include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"
 
 namespace pleuel::test {
@@ -38,7 +39,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Slip{"/scene/materials/steel/density=7.85e6", "/scene/materials/steel/density"},
                     Slip{"/scene/materials/steel/young=2.1e5", "/scene/materials/steel/young"},
                     Slip{"/scene/materials/steel/young=2.1e20", "/scene/materials/steel/young"},
-                    Slip{"/scene/gravity=[0, -9810, 0]", "/scene/gravity"}));
+                    Slip{"/scene/gravity=[0, -9810, 0]", "/scene/gravity"}),
+    named_by(&Slip::pointer));
 
 /// Just within and just beyond what is said of each: from foams to osmium, from rubber to what is
 /// meant as rigid, from half a metre to 250 m/s².
