@@ -114,7 +114,7 @@ bool DampedStart::make_probe(Probe& probe) {
   equations.begin(start_);
   StepState state = equations.make_state(start_);
   System::Matrix matrix = equations.make_matrix();
-  LinearSolver solver(matrix);
+  LinearSolver solver(matrix, mechanism_.elastic);
   state.time = start_.time + probe.step;
   state.a.setZero();
   Eigen::VectorXd correction = Eigen::VectorXd::Zero(equations.size());
@@ -164,7 +164,7 @@ Eigen::MatrixXd DampedStart::differentiate(const Probe& probe, const Eigen::Matr
   pull_back(mechanism_.rotations, probe.increment, old_q);
   const Eigen::MatrixXd of_v = -old_q / h, of_a = (of_v - v) / h;
   equations.differentiate(state, of_v, of_a, q, rhs);
-  LinearSolver solver(matrix);
+  LinearSolver solver(matrix, mechanism_.elastic);
   if (!solver.factorize(matrix)) {
     throw SimulationError("the derivatives of the first step's start are singular");
   }

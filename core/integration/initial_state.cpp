@@ -37,8 +37,8 @@ InitialState initial_state(Mechanism& mechanism) {
   System::Matrix matrix = mechanism.system->make_matrix();
   // Assembly weighs its equations by many orders of magnitude: an order for one kind does not suit
   // it.
-  LinearSolver solver(matrix);
-  InitialState initial = assemble(mechanism, solver, matrix);
+  LinearSolver of_assembly(matrix), solver(matrix, mechanism.elastic);
+  InitialState initial = assemble(mechanism, of_assembly, matrix);
   solve_accelerations(mechanism, solver, matrix, initial.state);
   if (!mechanism.starts_in_equilibrium) return initial;
   initial.state.time = just_before_start;

@@ -126,11 +126,13 @@ void StepEquations::write_matrix(const StepState& state, std::size_t q, System::
   if (!rotations.empty()) {
     add_increment_tangent(rotations, state.increment, matrices_[q], scheme_.correction(0), step);
   }
-  step.coeffs().head(scales_.size()) *= scales_;
   if (!shift_) {
-    matrix.coeffs() = step.coeffs();
+    const Eigen::Index scaled = scales_.size(), others = step.nonZeros() - scaled;
+    matrix.coeffs().head(scaled) = scales_ * step.coeffs().head(scaled);
+    matrix.coeffs().tail(others) = step.coeffs().tail(others);
     return;
   }
+  step.coeffs().head(scales_.size()) *= scales_;
   System::Matrix& with_q = matrices_[q];
   add_increment_tangent(rotations, state.increment, with_q, 1.0, with_q);
   set_constraint_rows(state);
