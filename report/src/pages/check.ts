@@ -4,7 +4,7 @@ import type { Document, ReportData } from "../data";
 import { h, section, table } from "../dom";
 import { count, number, seconds, withUnit, words } from "../format";
 import { influenceSection } from "./influence";
-import { viewing } from "./optimize";
+import { viewing } from "./viewing";
 import { effectsSection, fact, filesSection, unitOf } from "./parts";
 import { bodiesSection, variablesTable } from "./simulate";
 import { hero } from "./studies";

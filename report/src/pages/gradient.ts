@@ -4,7 +4,7 @@ import type { Document, ReportData } from "../data";
 import { h, section, table } from "../dom";
 import { number, seconds, words } from "../format";
 import { influenceNotes, influenceOf, influenceTable } from "./influence";
-import { viewing } from "./optimize";
+import { viewing } from "./viewing";
 import { fact, filesSection } from "./parts";
 import { csvCharts, hero } from "./studies";
 

@@ -4,7 +4,7 @@ import { curveOf, type Picture, type Shown, type Unit } from "../data";
 import { h, section } from "../dom";
 import { inThousands, number, timeUnit, words } from "../format";
 import { color, onTheme } from "../theme";
-import type { Viewing } from "./optimize";
+import type { Viewing } from "./viewing";
 
 /** A row of the matrix: percent of a response per percent of each variable. */
 interface Row {

@@ -4,54 +4,10 @@ import { type Companion, type Document, type Picture, parseCsv, type ReportData,
 import { h, section, table } from "../dom";
 import { engineering, errorText, number, pair, percent, placeText, seconds, share, withUnit, words } from "../format";
 import { influenceSection } from "./influence";
-import { type Inspector, makeInspector } from "./inspector";
 import { addMarks, type Mark } from "../mechanism/marks";
-import { makePlayer, type Pick as Picked, type Player } from "../mechanism/player";
 import { change, effectsSection, endName, fact, filesSection, monitorsText, responsesTable, sentenceCase, unitOf, unitOfLimit, verdict, warnings } from "./parts";
 import { conflictSection, partsNote, startsSection } from "./search";
-
-export interface Viewing {
-  element: HTMLElement;
-  player: Player;
-  inspector: Inspector;
-  pickBody(name: string | undefined): void;
-  /** Calls with the name of each body that is clicked. */
-  onBody(listener: (body: string) => void): void;
-}
-
-/** The drawing beside what is known of the member that was clicked. */
-export function viewing(picture: Picture, main: number, showsNames = false, showsAxes = false, unheld: string[] = []): Viewing {
-  let player: Player | null = null;
-  const listeners: ((body: string) => void)[] = [];
-  const choose = (pick: Picked) => {
-    player?.select(pick.body);
-    inspector.show(pick);
-    if (pick.body !== null) for (const listener of listeners) listener(picture.scene.bodies[pick.body].name);
-  };
-  const inspector = makeInspector(picture, main, (time) => player?.goTo(time), choose);
-  player = makePlayer({
-    picture,
-    main,
-    showsNames,
-    showsAxes,
-    unheld,
-    onPick: choose,
-  });
-  player.onTime((time) => inspector.setTime(time));
-  const made = player;
-  Object.assign(window, { pleuelPlayer: made });  // for tests
-  return {
-    element: h("section.card.viewing", { "aria-label": "mechanism" }, made.element, inspector.element),
-    player: made,
-    inspector,
-    onBody: (listener) => listeners.push(listener),
-    pickBody(name) {
-      const body = picture.scene.bodies.findIndex((one) => one.name === name);
-      made.select(body < 0 ? null : body);
-      inspector.show({ body: body < 0 ? null : body, joint: null });
-    },
-  };
-}
+import { type Viewing, viewing } from "./viewing";
 
 /** Shows another load case; of a limit also its instant. */
 type ChooseCase = (name: string, limit?: string) => void;

@@ -4,7 +4,7 @@ import { curveOf, type Document, type Packed, type Picture, type ReportData, typ
 import { h, section, table } from "../dom";
 import { count, engineering, number, seconds, share, timeUnit, withUnit, words } from "../format";
 import { curveMeaning, limitsOn, profiles, signed } from "./inspector";
-import { type Viewing, viewing } from "./optimize";
+import { type Viewing, viewing } from "./viewing";
 import { effectsSection, fact, filesSection, monitorsText, responsesTable, unitOfLimit, warnings, withoutRoundOff } from "./parts";
 
 export function simulatePage(data: ReportData): HTMLElement[] {
