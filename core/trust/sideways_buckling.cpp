@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/response/lateral_buckling_signal.hpp"
+#include "core/scene/joint_kind.hpp"
 #include "core/trust/common_buckling.hpp"
 
 namespace pleuel {
@@ -88,10 +89,14 @@ class SidewaysBuckling {
     time_ = time;
   }
 
-  /// Whether it is pressed, in a mechanism that moves in a plane, enough to buckle with others.
-  bool is_pressed_in_plane() const {
-    return is_planar_ && way_ == Way::out_of_plane && pressed_ > harmless_load;
+  /// Whether it is pressed, in a mechanism that moves in a plane, enough to buckle with others: as
+  /// part of a column as long as all elastic beams together.
+  /// @param all  that length [m]
+  bool is_pressed_in_plane(double all) const {
+    const double share = full_length_ / all;
+    return is_planar_ && way_ == Way::out_of_plane && pressed_ > harmless_load * share * share;
   }
+  double full_length() const { return full_length_; }
   const std::string& name() const { return name_; }
 
   /// 0: nothing is worth a word.
@@ -189,6 +194,20 @@ bool has_elastic_neighbour(const Model& model, const std::string& name) {
   });
 }
 
+/// Whether bodies may lean out of the plane of motion, or are loaded by springs: what presses a
+/// member then changes its direction with it.
+bool may_lean(const Scene& scene) {
+  const bool has_springs = std::any_of(
+      scene.loads.begin(), scene.loads.end(),
+      [](const auto& load) { return std::holds_alternative<SpringDamper>(load.element); });
+  return has_springs ||
+         std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) {
+           const JointKind& kind = kind_of(joint.type);
+           return kind.turns >= JointTurns::about_both_axes ||
+                  kind.slides == JointSlides::at_distance;
+         });
+}
+
 }  // namespace
 
 std::vector<Doubt> doubt_sideways_buckling(const TrustedRun& run) {
@@ -206,6 +225,9 @@ std::vector<Doubt> doubt_sideways_buckling(const TrustedRun& run) {
       for (SidewaysBuckling& way : ways) way.see(state, run.analysis.trajectory.time(i));
     }
   }
+  double all = 0.0;
+  for (const auto& ways : members) all += ways.front().full_length();
+  const bool is_leaning = may_lean(run.problem.scene);
   std::vector<Doubt> doubts;
   std::vector<std::string> pressed;
   for (auto& ways : members) {
@@ -214,7 +236,8 @@ std::vector<Doubt> doubt_sideways_buckling(const TrustedRun& run) {
     });
     if (worst->share() > 0.0) doubts.push_back(worst->doubt());
     const std::string& name = ways.front().name();
-    if (ways.front().is_pressed_in_plane() && has_elastic_neighbour(run.analysis.model, name)) {
+    if (ways.front().is_pressed_in_plane(all) &&
+        (is_leaning || has_elastic_neighbour(run.analysis.model, name))) {
       pressed.push_back(name);
     }
   }

@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.hpp"
 #include "core/integration/elastic_stability.hpp"
+#include "core/integration/equilibrium.hpp"
 #include "core/integration/turning.hpp"
 #include "core/response/lateral_buckling_signal.hpp"
 
@@ -15,6 +17,7 @@ namespace pleuel {
 
 namespace {
 
+/// Of the Euler load of two pins at the ends of a column as long as all elastic beams together.
 constexpr double harmless_press = 0.05;
 
 /// Of two pins at the ends of the beam with its fittings, about the weakest axis of the weakest
@@ -33,18 +36,65 @@ double euler_load(const LateralMember& member) {
 /// A beam, and when it was pressed most.
 struct PressedBeam {
   LateralMember member;
-  double most = 0.0;
+  double euler, most = 0.0;  ///< [N]
   int instant = -1;
 
   PressedBeam(const std::string& name, const Model& model)
-      : member(name, model, BendingPlane::xy), most(harmless_press * euler_load(member)) {}
+      : member(name, model, BendingPlane::xy), euler(euler_load(member)) {}
+
+  /// @returns the press over its Euler load
+  double see(const State& state, int now) {
+    const double press = std::max(0.0, -member.observe(state).topRows<2>().minCoeff());
+    if (press > most) {
+      most = press;
+      instant = now;
+    }
+    return press / euler;
+  }
+};
+
+/// All beams of a mechanism in space, and when they were pressed most together.
+class PressedBeams {
+ public:
+  PressedBeams(const Scene& scene, const Model& model) {
+    for (const Body& body : scene.bodies) {
+      if (!std::holds_alternative<BeamBody>(body.shape)) continue;
+      const BodyModel& part = *model.parts(body.name).front();
+      const bool is_planar = part.frame.rotation == RotationCoordinates::angle;
+      if (!part.is_elastic || is_planar) continue;
+      beams_.emplace_back(body.name, model);
+      length_ += beams_.back().member.full_length();
+      has_stiffening_ = has_stiffening_ || part.has_stiffening;
+    }
+  }
 
   void see(const State& state, int now) {
-    const double press = -member.observe(state).topRows<2>().minCoeff();
-    if (!(press > most)) return;
-    most = press;
-    instant = now;
+    double sum = 0.0;
+    for (PressedBeam& beam : beams_) sum += beam.see(state, now);
+    if (sum <= most_) return;
+    most_ = sum;
+    instant_ = now;
   }
+
+  bool is_empty() const { return beams_.empty(); }
+  bool has_stiffening() const { return has_stiffening_; }
+  /// Instants at which beams are pressed most, each of them or all together, enough to buckle.
+  std::set<int> instants() const {
+    std::set<int> instants;
+    for (const PressedBeam& beam : beams_) {
+      const double share = beam.member.full_length() / length_;
+      if (beam.most > harmless_press * share * share * beam.euler) instants.insert(beam.instant);
+    }
+    if (!instants.empty()) instants.insert(instant_);
+    return instants;
+  }
+
+ private:
+  std::vector<PressedBeam> beams_;
+  double length_ = 0.0;  ///< of all [m]
+  bool has_stiffening_ = false;
+  double most_ = 0.0;  ///< largest sum of presses over Euler loads
+  int instant_ = -1;
 };
 
 /// When what turns as one, as a shaft with its disks, turned fastest.
@@ -61,15 +111,50 @@ struct FastestRotor {
   }
 };
 
-std::vector<PressedBeam> beams_of(const Scene& scene, const Model& model) {
-  std::vector<PressedBeam> beams;
-  for (const Body& body : scene.bodies) {
-    if (!std::holds_alternative<BeamBody>(body.shape)) continue;
-    const BodyModel& part = *model.parts(body.name).front();
-    const bool is_planar = part.frame.rotation == RotationCoordinates::angle;
-    if (part.is_elastic && part.has_stiffening && !is_planar) beams.emplace_back(body.name, model);
+PressedBeams pressed_beams(const Scene& scene, const Analysis& analysis) {
+  PressedBeams beams(scene, analysis.model);
+  if (beams.is_empty()) return beams;
+  State state;
+  for (int i = 0; i < static_cast<int>(analysis.trajectory.time.size()); ++i) {
+    analysis.trajectory.states->load(i, state);
+    beams.see(state, i);
   }
   return beams;
+}
+
+constexpr const char* unseen =
+    ". In the motion a member that is exactly straight stays so. Make it stiffer, or hold it.";
+
+Doubt not_judged(const std::string& reason) {
+  return {"Whether the pressed beams of the mechanism buckle was not looked at: " + reason, false};
+}
+
+/// Of a mechanism in space without geometric stiffening, which is simulated once more with it.
+std::vector<Doubt> doubt_with_stiffening(const TrustedRun& run) {
+  ProblemFile stiffened = run.problem;
+  stiffened.effects.geometric_stiffening = EffectChoice::on;
+  stiffened.responses.clear();
+  try {
+    const std::unique_ptr<Analysis> analysis = analyze(stiffened, run.x);
+    const auto found = find_instability(stiffened.scene, *analysis);
+    if (!found) return {};
+    return {{"With geometric stiffening, which is off: " + found->text + unseen, true}};
+  } catch (const UnstableEquilibrium& error) {
+    return {
+        {fmt::format("With geometric stiffening, which is off, {}. Make it stiffer, or hold it.",
+                     error.what()),
+         true}};
+  } catch (const SimulationError& error) {
+    return {
+        not_judged(fmt::format("with geometric stiffening, which is off, it cannot be "
+                               "simulated: {}",
+                               error.what()))};
+  } catch (const InputError& error) {
+    return {
+        not_judged(fmt::format("with geometric stiffening, which is off, it cannot be "
+                               "simulated: {}",
+                               error.what()))};
+  }
 }
 
 }  // namespace
@@ -78,19 +163,15 @@ std::optional<Instability> find_instability(const Scene& scene, const Analysis& 
                                             const std::function<int(double)>& known) {
   const Mechanism& mechanism = analysis.model.mechanism;
   if (mechanism.system->coordinates() > most_judged_coordinates) return {};
-  std::vector<PressedBeam> beams = beams_of(scene, analysis.model);
-  if (beams.empty()) return {};
+  const PressedBeams beams = pressed_beams(scene, analysis);
+  if (!beams.has_stiffening()) return {};
+  std::set<int> instants = beams.instants();
   const Trajectory& trajectory = analysis.trajectory;
   State state;
   FastestRotor rotor;
   for (int i = 0; i < static_cast<int>(trajectory.time.size()); ++i) {
     trajectory.states->load(i, state);
-    for (PressedBeam& beam : beams) beam.see(state, i);
     rotor.see(mechanism, state, i);
-  }
-  std::set<int> instants;
-  for (const PressedBeam& beam : beams) {
-    if (beam.instant >= 0) instants.insert(beam.instant);
   }
   if (rotor.instant >= 0) instants.insert(rotor.instant);
   std::optional<Instability> found;
@@ -115,11 +196,17 @@ std::optional<Instability> find_instability(const Scene& scene, const Analysis& 
 }
 
 std::vector<Doubt> doubt_unstable_members(const TrustedRun& run) {
+  const Model& model = run.analysis.model;
+  const bool is_too_large = model.mechanism.system->coordinates() > most_judged_coordinates;
+  const bool is_off = run.problem.effects.geometric_stiffening == EffectChoice::off;
+  if (is_too_large || is_off) {
+    if (pressed_beams(run.problem.scene, run.analysis).instants().empty()) return {};
+    if (!is_too_large) return doubt_with_stiffening(run);
+    return {not_judged(fmt::format("it has more than {} coordinates.", most_judged_coordinates))};
+  }
   const auto found = find_instability(run.problem.scene, run.analysis);
   if (!found) return {};
-  return {{found->text + ". In the motion a member that is exactly straight stays so. Make it "
-                         "stiffer, or hold it.",
-           true}};
+  return {{found->text + unseen, true}};
 }
 
 }  // namespace pleuel

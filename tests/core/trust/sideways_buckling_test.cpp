@@ -9,6 +9,7 @@
 
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
+#include "core/trust/unstable_members.hpp"
 #include "tests/core/trust/doubts_of.hpp"
 
 namespace {
@@ -335,6 +336,130 @@ TEST(SidewaysBuckling, OfALargeFrameTogetherIsSaidNotToBeLookedAt) {
   EXPECT_NE(doubts[0].text.find(R"("left", "right" buckle together)"), std::string::npos)
       << doubts[0].text;
   EXPECT_NE(doubts[0].text.find("more than 600 coordinates"), std::string::npos) << doubts[0].text;
+}
+
+/// So many beams of 10 × 30 mm, welded in line to a column of one metre that is clamped at its foot,
+/// upright in the plane of their strong axis, in which a small force pushes.
+std::string column(int beams, const std::string& more_bodies, const std::string& more_joints,
+                   const std::string& loads) {
+  std::string bodies, joints;
+  for (int i = 0; i < beams; ++i) {
+    bodies += fmt::format(R"({}"c{}": {{"type": "beam", "from": [0, {}, 0], "to": [0, {}, 0],
+        "material": "steel", "elements": {},
+        "section": {{"type": "rectangle", "width": 0.01, "height": 0.03}}}})",
+                          i > 0 ? ", " : "", i, double(i) / beams, double(i + 1) / beams,
+                          beams > 2 ? 2 : 6);
+    joints += fmt::format(R"({}"j{}": {{"type": "fixed", "bodies": ["{}", "c{}"],
+                                        "at": [0, {}, 0]}})",
+                          i > 0 ? ", " : "", i, i > 0 ? fmt::format("c{}", i - 1) : "ground", i,
+                          double(i) / beams);
+  }
+  const std::string side = fmt::format(R"(, "side": {{"type": "force", "body": "c{}",
+      "at": [0, 1, 0], "direction": [1, 0, 0], "value": 1e-3}})",
+                                       beams - 1);
+  return fmt::format(R"({{"scene": {{"bodies": {{{}{}}}, "joints": {{{}{}}}, "loads": {{{}}}}},
+      "simulation": {{"end_time": 0.002, "step": 0.001, "initial_state": "quasi-static"}},
+      "responses": {{"mass": {{"type": "mass"}}}}}})",
+                     bodies, more_bodies, joints, more_joints, loads + side);
+}
+
+constexpr double column_stiffness = 2.1e11 * 0.03 * 0.01 * 0.01 * 0.01 / 12;  // EI about z
+
+/// Nothing is told at 0.95 of the critical force, and something serious at 1.05.
+template <class TextOf>
+void expect_critical_force(double force, const TextOf& text_of) {
+  EXPECT_TRUE(sideways_doubts_of(text_of(0.95 * force)).empty());
+  const std::vector<Doubt> doubts = sideways_doubts_of(text_of(1.05 * force));
+  ASSERT_EQ(doubts.size(), 1u);
+  EXPECT_TRUE(doubts[0].is_serious) << doubts[0].text;
+}
+
+/// However short the beams are of which it is made: π²EI/4L².
+TEST(SidewaysBuckling, OfAColumnOfWeldedBeamsIsThatOfTheWhole) {
+  for (const int beams : {2, 3, 6}) {
+    SCOPED_TRACE(beams);
+    expect_critical_force(pi * pi * column_stiffness / 4.0, [&](double force) {
+      const std::string load = R"("f": {{"type": "force", "body": "c{}", "at": [0, 1, 0],
+                                         "direction": [0, -1, 0], "value": {}}})";
+      return column(beams, "", "", fmt::format(fmt::runtime(load), beams - 1, force));
+    });
+  }
+}
+
+/// What presses by a link of length h above the tip pushes it aside as it leans: with u² = PL²/EI
+/// tan u = u (1 + h/L), for h = L/5 u = 0.695450. The same with a spring in place of a rigid link.
+TEST(SidewaysBuckling, OfAColumnUnderWhatLeansIsTold) {
+  constexpr double u = 0.695450;
+  ASSERT_NEAR(std::tan(u), 1.2 * u, 1e-5);
+  const double critical = u * u * column_stiffness;
+  expect_critical_force(critical, [](double force) {
+    return column(1, "", "",
+                  fmt::format(R"("s": {{"type": "spring", "bodies": ["ground", "c0"],
+                         "at": [[0, 1.2, 0], [0, 1, 0]], "stiffness": 1000, "free_length": {}}})",
+                              0.2 + force / 1000));
+  });
+  expect_critical_force(critical, [](double force) {
+    return column(1, R"(, "link": {"type": "rigid", "at": [0, 1.1, 0], "mass": 1e-3,
+                                   "inertia": [1e-6, 1e-6, 1e-6, 0, 0, 0]},
+                        "push": {"type": "rigid", "at": [0, 1.2, 0], "mass": 1e-3,
+                                 "inertia": [1e-6, 1e-6, 1e-6, 0, 0, 0]})",
+                  R"(, "low": {"type": "spherical", "bodies": ["c0", "link"], "at": [0, 1, 0]},
+                       "high": {"type": "spherical", "bodies": ["link", "push"], "at": [0, 1.2, 0]},
+                       "guide": {"type": "prismatic", "bodies": ["ground", "push"],
+                                 "at": [0, 1.2, 0], "axis": [0, 1, 0]})",
+                  fmt::format(R"("f": {{"type": "force", "body": "push", "at": [0, 1.2, 0],
+                                        "direction": [0, -1, 0], "value": {}}})",
+                              force));
+  });
+}
+
+/// Columns that are pressed most one after the other, but too much when they are pressed together.
+TEST(SidewaysBuckling, OfAFrameTogetherIsLookedForWhereAllIsPressedMost) {
+  const double cantilever = pi * pi * 2.1e11 * (0.06 * std::pow(0.04, 3) / 12) / (4.0 * 9.0);
+  const auto doubts = [&](double together) {
+    std::string text = portal(1.0, "fixed", "auto", "consistent");
+    for (const char* values : {"0, {1}, {0}, 0, 0", "0, 0, {0}, {1}, 0"}) {
+      const std::string old = R"("times": [0, 0.5], "values": [0, 1])";
+      const auto at = text.find(old);
+      EXPECT_NE(at, std::string::npos);
+      text.replace(
+          at, old.size(),
+          fmt::format(R"("times": [0, 0.2, 0.3, 0.4, 0.5], "values": [{}])",
+                      fmt::format(fmt::runtime(values), together * cantilever, 1.06 * cantilever)));
+    }
+    return sideways_doubts_of(text);
+  };
+  EXPECT_TRUE(doubts(0.9).empty());
+  const std::vector<Doubt> beyond = doubts(1.04);
+  ASSERT_EQ(beyond.size(), 1u);
+  EXPECT_TRUE(beyond[0].is_serious) << beyond[0].text;
+}
+
+/// In space without geometric stiffening, which is simulated once more with it; and of too many
+/// coordinates.
+TEST(SidewaysBuckling, OfAFrameInSpaceIsToldWithoutStiffeningAndWhereItIsTooLarge) {
+  const double cantilever = pi * pi * 2.1e11 * (0.06 * std::pow(0.04, 3) / 12) / (4.0 * 9.0);
+  const auto doubts = [](std::string text) {
+    return doubts_of(read_scene(text), doubt_unstable_members);
+  };
+  const std::string off = R"(on", "geometric_stiffening": "off)";
+  for (const char* start : {"quasi-static", "consistent"}) {
+    EXPECT_TRUE(doubts(portal(0.97 * cantilever, "fixed", off, start)).empty());
+    const std::vector<Doubt> beyond = doubts(portal(1.03 * cantilever, "fixed", off, start));
+    ASSERT_EQ(beyond.size(), 1u);
+    EXPECT_TRUE(beyond[0].is_serious);
+    EXPECT_NE(beyond[0].text.find("With geometric stiffening, which is off"), std::string::npos)
+        << beyond[0].text;
+  }
+  std::string large = portal(0.5 * cantilever, "fixed", "on");
+  for (auto at = large.find("\"elements\": 4"); at != std::string::npos;
+       at = large.find("\"elements\": 4", at + 1)) {
+    large.replace(at, 13, "\"elements\": 40");
+  }
+  const std::vector<Doubt> unseen = doubts(large);
+  ASSERT_EQ(unseen.size(), 1u);
+  EXPECT_FALSE(unseen[0].is_serious);
+  EXPECT_NE(unseen[0].text.find("more than 600 coordinates"), std::string::npos) << unseen[0].text;
 }
 
 }  // namespace
