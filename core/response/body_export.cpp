@@ -33,6 +33,12 @@ SparseMatrix sparse(const ElasticPattern& pattern, const Entries& entries) {
   return matrix;
 }
 
+/// Without the round-off by which derivatives that vanish would not be symmetric.
+SparseMatrix symmetric(const ElasticPattern& pattern, const Eigen::VectorXd& entries) {
+  const SparseMatrix matrix = sparse(pattern, entries);
+  return 0.5 * (matrix + SparseMatrix(matrix.transpose()));
+}
+
 BodyConstants constants_of(const Invariants<double>& invariants) {
   BodyConstants constants;
   const ElasticPattern& pattern = invariants.pattern;
@@ -41,9 +47,9 @@ BodyConstants constants_of(const Invariants<double>& invariants) {
   constants.second_moment = invariants.second_moment;
   constants.shape = sparse(invariants.shape);
   constants.mixed = sparse(invariants.mixed);
-  constants.mass_matrix = sparse(pattern, invariants.mass_matrix);
-  constants.stiffness = sparse(pattern, invariants.stiffness);
-  constants.damping = sparse(pattern, invariants.damping);
+  constants.mass_matrix = symmetric(pattern, invariants.mass_matrix);
+  constants.stiffness = symmetric(pattern, invariants.stiffness);
+  constants.damping = symmetric(pattern, invariants.damping);
   for (std::size_t i = 0; i < moment_pairs.size(); ++i) {
     constants.moments[i] = SparseMatrix(pattern.size, pattern.size);
     const auto found = std::find(invariants.pairs.begin(), invariants.pairs.end(), moment_pairs[i]);

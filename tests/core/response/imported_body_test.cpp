@@ -303,6 +303,24 @@ TEST_F(Exchange, GivesEveryNumberBackExactly) {
   EXPECT_EQ(write_invariants(read_invariants_text(text, "rod.json")), text);
 }
 
+/// The stiffness of a mean-axis body does not depend on its density: what round-off leaves of its
+/// derivative is symmetric, too, or reading would refuse it.
+TEST_F(Exchange, WritesSymmetricDerivatives) {
+  Json document = slider_crank();
+  document["scene"]["materials"]["stuff"] = Json::parse(
+      R"({"young": 4.3e11, "poisson": 0.25, "strength": 5e8, "density": {"variable": "rho"}})");
+  document["scene"]["bodies"]["rod"]["material"] = "stuff";
+  document["scene"]["bodies"]["rod"]["frame"] = "mean-axis";
+  document["variables"]["rho"] = Json::parse(R"({"start": 4121, "lower": 2000, "upper": 8000})");
+  const InvariantsFile file = exported(read("original.json", document), "rod");
+  ASSERT_FALSE(file.design.empty());
+  for (const ConstantsDerivative& derivative : file.design) {
+    ASSERT_TRUE(derivative.derivative);
+    const Eigen::MatrixXd stiffness = derivative.derivative->stiffness;
+    EXPECT_TRUE((stiffness - stiffness.transpose()).isZero(0.0)) << derivative.variable;
+  }
+}
+
 TEST_F(Exchange, PassesAnImportedBodyOn) {
   const Json document = exchanged(slider_crank());
   std::ifstream stream(folder_.path() / "rod.json");
