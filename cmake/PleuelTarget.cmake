@@ -20,19 +20,11 @@ function(pleuel_library name)
   endif()
 endfunction()
 
-# Several files of a target at once: from scratch that takes about a third less processor time, since headers
-# are read and templates instantiated once for all of them. After a change of one file it takes
-# longer. Names in anonymous namespaces then have to differ within a target; files named by ALONE are
-# compiled by themselves.
-#
-#   pleuel_compile_together(NAME ALONE a.cpp b.cpp)
+# Several files of a target at once: from scratch that takes far less processor time, since headers are read
+# and templates instantiated once for all of them. After a change of one file it takes longer. Names in anonymous namespaces then have to differ within a target.
 option(PLEUEL_UNITY "Compile several files at once: faster from scratch, slower after a change" OFF)
 function(pleuel_compile_together name)
-  cmake_parse_arguments(ARG "" "" "ALONE" ${ARGN})
-  set_target_properties(${name} PROPERTIES UNITY_BUILD ${PLEUEL_UNITY} UNITY_BUILD_BATCH_SIZE 8)
-  if(ARG_ALONE)
-    set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  endif()
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ${PLEUEL_UNITY} UNITY_BUILD_BATCH_SIZE 32)
 endfunction()
 
 # Of files that are compiled together, a name of one may be that of a local variable of another, and GCC

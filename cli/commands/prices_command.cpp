@@ -30,14 +30,14 @@ constexpr double nearly_optimal = 1e-2;
 constexpr std::size_t most_lines = 25;
 
 /// The design that prices are of, and what is known of it.
-struct PricedDesign {
+struct AnalyzedDesign {
   Eigen::VectorXd x;
   std::string verdict;  ///< of the optimization, if there was one
   bool is_optimum = true;
   std::vector<std::string> warnings;
 };
 
-PricedDesign find_optimum(const ProblemInput& input, const Arguments& arguments) {
+AnalyzedDesign find_optimum(const ProblemInput& input, const Arguments& arguments) {
   const SolveOptions options = solve_options(input.problem, arguments);
   DesignProblem problem(input.problem, arguments.jobs);
   IterationLines lines(arguments.progress(), input.problem);
@@ -48,7 +48,7 @@ PricedDesign find_optimum(const ProblemInput& input, const Arguments& arguments)
           result.warnings};
 }
 
-PricedDesign given_design(const ProblemInput& input) {
+AnalyzedDesign given_design(const ProblemInput& input) {
   const auto analysis = analyze(input.problem, input.design);
   return {input.design, "", true, texts_of(find_doubts(input.problem, input.design, *analysis))};
 }
@@ -78,7 +78,8 @@ Json price_document(const NumberPrice& price) {
   return document;
 }
 
-Json make_document(const ProblemFile& problem, const PricedDesign& design, const PriceList& list) {
+Json make_document(const ProblemFile& problem, const AnalyzedDesign& design,
+                   const PriceList& list) {
   const std::string& name = problem.objective->response;
   Json document = {{"status", design.is_optimum ? "done" : "no optimum"},
                    {"verdict", design.verdict},
@@ -169,7 +170,8 @@ std::string left_out_text(const PriceList& list) {
   return text;
 }
 
-std::string report(const ProblemFile& problem, const PricedDesign& design, const PriceList& list) {
+std::string report(const ProblemFile& problem, const AnalyzedDesign& design,
+                   const PriceList& list) {
   const ShownUnit unit = unit_of(find_response(problem, problem.objective->response));
   std::string text = design.verdict.empty() ? "" : "\n" + wrapped(design.verdict) + "\n\n";
   text += wrapped(
@@ -185,7 +187,7 @@ std::string report(const ProblemFile& problem, const PricedDesign& design, const
 }
 
 /// A design whose multipliers explain nothing has no prices.
-void doubt_design(PricedDesign& design, const PriceList& list) {
+void doubt_design(AnalyzedDesign& design, const PriceList& list) {
   if (list.residual <= nearly_optimal) return;
   design.is_optimum = false;
   design.warnings.insert(
@@ -204,7 +206,7 @@ Outcome run_prices(const Arguments& arguments) {
   RunRecord record(arguments, input, options_document(options, input.problem));
   show_warnings_before(input.problem);
   record.begin_phase("optimize");
-  PricedDesign design = arguments.design ? given_design(input) : find_optimum(input, arguments);
+  AnalyzedDesign design = arguments.design ? given_design(input) : find_optimum(input, arguments);
   record.begin_phase("prices");
   const PriceList list = number_prices(input.text, input.problem, design.x, arguments.jobs);
   doubt_design(design, list);

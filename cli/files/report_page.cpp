@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/input/fingerprint.hpp"
 #include "cli/text/wrapped_text.hpp"
 
 namespace pleuel {
@@ -24,11 +25,6 @@ constexpr std::array<const char*, 7> shown_files = {
     "history.csv",  "uncertainty.csv", "stability.csv",         "accuracy.csv",
     "accuracy.svg", "gradients.csv",   "accuracy-gradients.svg"};
 constexpr std::uintmax_t largest_file = 3'000'000;  ///< [byte]
-
-std::string whole_text(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 /// A document inside a script element: "</script>" or "<!--" in a name must not end it.
 std::string without_tags(const std::string& json) {

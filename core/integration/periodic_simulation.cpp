@@ -22,7 +22,7 @@ constexpr int most_simulations = 60;
 /// The map is made anew where the gap shrinks by less than this.
 constexpr double slow_search = 0.1;
 /// A correction is halved so often at most.
-constexpr int most_halvings = 6;
+constexpr int most_halvings_of_corrections = 6;
 /// Gaps below this that no longer shrink are round-off.
 constexpr double gap_of_round_off = 1e-9, no_progress = 0.5;
 /// Below it, 1 − M is singular.
@@ -112,7 +112,7 @@ class PeriodicSearch {
     while (attempt.gap > one_.newton_tolerance) {
       const bool is_fresh = rate > slow_search, is_small = attempt.gap <= gap_of_round_off;
       if (is_fresh && !is_small) make_map(attempt.trajectory);
-      Attempt next = corrected(attempt, is_fresh && !is_small ? most_halvings : 0);
+      Attempt next = corrected(attempt, is_fresh && !is_small ? most_halvings_of_corrections : 0);
       rate = next.gap / attempt.gap;
       if (rate < 1.0) attempt = std::move(next);
       if (rate > no_progress && is_small) break;

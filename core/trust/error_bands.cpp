@@ -60,9 +60,9 @@ bool is_there(const NestedRun* run) {
   return run != nullptr && !run->has_failed();
 }
 
-class Band {
+class WidthsInTime {
  public:
-  explicit Band(const Eigen::VectorXd& time)
+  explicit WidthsInTime(const Eigen::VectorXd& time)
       : time_(time), half_width_(Eigen::VectorXd::Zero(time.size())) {}
 
   /// Adds `factor` times the largest of a curve near each instant.
@@ -126,7 +126,7 @@ std::vector<Eigen::VectorXd> error_bands(const Analysis& analysis, const Judging
     if (is_there(runs.four_steps)) {
       of_four = difference(twice, curve_of(response, *runs.four_steps, i));
     }
-    Band band(now.time);
+    WidthsInTime band(now.time);
     band.add_steps(of_twice, of_four, order);
     band.add(runs.more_elements, response, i, more_safety);
     if (!is_there(runs.more_elements.run)) {

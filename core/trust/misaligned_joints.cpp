@@ -20,12 +20,12 @@ constexpr double locking = 3e-2;
 /// [rad], or of the mechanism's size.
 constexpr double idle_way = 1e-3;
 
-struct Pose {
+struct BodyPose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
 };
 
-Pose pose_of(const std::string& body, const Model& model, const State& state) {
+BodyPose pose_of(const std::string& body, const Model& model, const State& state) {
   if (body == ground_name) return {};
   const BodyFrame& frame = model.parts(body).front()->frame;
   const auto part = [&](const Eigen::VectorXd& of) {
@@ -37,9 +37,9 @@ Pose pose_of(const std::string& body, const Model& model, const State& state) {
 }
 
 /// Of the second body of a joint as the first one sees it.
-Pose relative_pose(const Joint& joint, const Model& model, const State& state) {
-  const Pose first = pose_of(joint.bodies[0], model, state),
-             second = pose_of(joint.bodies[1], model, state);
+BodyPose relative_pose(const Joint& joint, const Model& model, const State& state) {
+  const BodyPose first = pose_of(joint.bodies[0], model, state),
+                 second = pose_of(joint.bodies[1], model, state);
   return {first.rotation.transpose() * (second.position - first.position),
           first.rotation.transpose() * second.rotation};
 }
@@ -51,10 +51,10 @@ bool moves(const Joint& joint, const TrustedRun& run) {
   const double size = model.mechanism.scale.maxCoeff();
   State state;
   trajectory.states->load(0, state);
-  const Pose start = relative_pose(joint, model, state);
+  const BodyPose start = relative_pose(joint, model, state);
   for (int step = 1; step <= trajectory.steps(); ++step) {
     trajectory.states->load(step, state);
-    const Pose pose = relative_pose(joint, model, state);
+    const BodyPose pose = relative_pose(joint, model, state);
     const double way = (pose.position - start.position).lpNorm<Eigen::Infinity>() / size;
     const double turn = (pose.rotation - start.rotation).lpNorm<Eigen::Infinity>();
     if (std::max(way, turn) > idle_way) return true;

@@ -6,7 +6,7 @@
 
 #include "tests/cli/program.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::bad_input_test {
 namespace {
 
 using ::testing::AllOf;
@@ -121,4 +121,4 @@ TEST(Help, FitsIntoAHundredColumns) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::bad_input_test

@@ -9,7 +9,7 @@
 #include "tests/cli/svg_text.hpp"
 
 /// Diagrams: well-formed, and what stands in them stands where the data say.
-namespace pleuel::test {
+namespace pleuel::test::chart_test {
 namespace {
 
 using nlohmann::json;
@@ -190,4 +190,4 @@ TEST(AccuracyCommand, OptimaAreThoseOfOptimizeWithTheirOverrides) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::chart_test

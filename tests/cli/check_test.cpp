@@ -2,7 +2,7 @@
 
 #include "tests/cli/program.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::check_test {
 namespace {
 
 TEST(Check, FindsTheDerivativesOfEveryResponseRight) {
@@ -116,4 +116,4 @@ TEST(Check, NeedsNoVariables) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::check_test

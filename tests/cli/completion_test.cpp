@@ -3,7 +3,7 @@
 #include "tests/cli/program.hpp"
 
 /// What a shell offers for a word that is begun.
-namespace pleuel::test {
+namespace pleuel::test::completion_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -57,4 +57,4 @@ TEST(Completion, KnowsWhichShellsThereAre) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::completion_test

@@ -5,7 +5,7 @@
 #include "tests/cli/program.hpp"
 
 /// Designs that an optimization leaves, run again with --design.
-namespace pleuel::test {
+namespace pleuel::test::design_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -224,4 +224,4 @@ TEST_F(WrongDesign, ThatIsNotThereIsNamed) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::design_test

@@ -5,7 +5,7 @@
 
 #include "tests/cli/program.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::gradient_test {
 namespace {
 
 TEST(Gradient, MethodsStandSideBySideAndAgree) {
@@ -90,4 +90,4 @@ TEST(Backends, AreListed) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::gradient_test

@@ -6,7 +6,7 @@
 #include "tests/cli/program.hpp"
 
 /// Long commands end in good order when they are asked to, with what they know by then.
-namespace pleuel::test {
+namespace pleuel::test::interruption_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -206,4 +206,4 @@ TEST_F(Interrupted, SimulationLeavesNothing) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::interruption_test

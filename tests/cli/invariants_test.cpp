@@ -4,7 +4,7 @@
 
 #include "tests/cli/program.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::invariants_test {
 namespace {
 
 using testing::HasSubstr;
@@ -85,4 +85,4 @@ TEST(Invariants, RefuseWhatHasNone) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::invariants_test

@@ -7,7 +7,7 @@
 
 #include "tests/cli/program.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::load_case_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -311,4 +311,4 @@ TEST_F(BentCantilever, IsADesignWithAVariableWithoutUnit) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::load_case_test

@@ -7,7 +7,7 @@
 #include "tests/cli/program.hpp"
 
 /// What goes wrong around a run must not cost its result, nor that of another one.
-namespace pleuel::test {
+namespace pleuel::test::lost_result_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -195,4 +195,4 @@ TEST_F(LostResult, OfAFileOfInvariantsIsReplacedOnlyIfAskedFor) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::lost_result_test

@@ -4,7 +4,7 @@
 #include "tests/cli/compared_runs.hpp"
 
 /// Runs under mpirun come to the same digits as others.
-namespace pleuel::test {
+namespace pleuel::test::mpi_test {
 namespace {
 
 using ::testing::AllOf;
@@ -158,4 +158,4 @@ TEST(WithoutMpi, MpirunIsAnsweredByAMessage) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::mpi_test

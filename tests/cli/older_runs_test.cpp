@@ -9,7 +9,7 @@
 #include "tests/cli/text_table.hpp"
 
 /// What is told of runs that have ended, and of those that have not.
-namespace pleuel::test {
+namespace pleuel::test::older_runs_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -174,4 +174,4 @@ TEST_F(OlderRuns, AreExportedAsMotion) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::older_runs_test

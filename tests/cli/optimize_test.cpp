@@ -8,7 +8,7 @@
 
 #include "tests/cli/program.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::optimize_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -235,4 +235,4 @@ TEST(Optimize, BackendOfTheCommandLineWinsOverThatOfTheFile) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::optimize_test

@@ -6,7 +6,7 @@
 #include "tests/cli/program.hpp"
 
 /// Histories of a run as SVG and in the terminal.
-namespace pleuel::test {
+namespace pleuel::test::plot_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -94,4 +94,4 @@ TEST_F(Plot, OfAFolderWithoutHistoriesSaysWhichCommandsWriteSome) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::plot_test

@@ -7,7 +7,7 @@
 #include "tests/cli/program.hpp"
 
 /// The check for instructions that the program was built for, before anything else runs.
-namespace pleuel::test {
+namespace pleuel::test::processor_test {
 namespace {
 
 using testing::HasSubstr;
@@ -42,4 +42,4 @@ TEST(ProcessorCheck, NamesWhatIsLackingAndWhatToDo) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::processor_test

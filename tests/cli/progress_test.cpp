@@ -8,7 +8,7 @@
 #include "cli/commands/progress_line.hpp"
 #include "tests/cli/program.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::progress_test {
 namespace {
 
 using ::testing::ContainsRegex;
@@ -51,4 +51,4 @@ TEST(ProgressLine, IsNotInAFile) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::progress_test

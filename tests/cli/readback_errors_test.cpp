@@ -3,7 +3,7 @@
 #include "tests/cli/readback.hpp"
 
 /// Error bars, read back.
-namespace pleuel::test {
+namespace pleuel::test::readback_errors_test {
 namespace {
 
 using nlohmann::json;
@@ -87,4 +87,4 @@ TEST(ReadBackErrors, OfAnOptimumAreAboutThoseOfItsLimitsTimesTheirPrices) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::readback_errors_test

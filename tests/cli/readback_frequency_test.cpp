@@ -5,7 +5,7 @@
 #include "tests/cli/readback.hpp"
 
 /// Frequencies, which documents have in radians a second and people read in hertz.
-namespace pleuel::test {
+namespace pleuel::test::readback_frequency_test {
 namespace {
 
 using nlohmann::json;
@@ -238,4 +238,4 @@ TEST_F(ReadBackFrequency, HasItsGradientInHertzAUnit) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::readback_frequency_test

@@ -3,7 +3,7 @@
 #include "tests/cli/readback.hpp"
 
 /// Prices, read back.
-namespace pleuel::test {
+namespace pleuel::test::readback_prices_test {
 namespace {
 
 using nlohmann::json;
@@ -43,4 +43,4 @@ TEST(ReadBackPrices, AreThoseOfTheDocumentInUnitsOfTheUser) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::readback_prices_test

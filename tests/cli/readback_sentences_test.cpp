@@ -3,7 +3,7 @@
 #include "tests/cli/readback.hpp"
 
 /// Numbers in sentences and in tables of the model, read back.
-namespace pleuel::test {
+namespace pleuel::test::readback_sentences_test {
 namespace {
 
 using nlohmann::json;
@@ -348,4 +348,4 @@ TEST(ReadBackSentences, OfCheck) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::readback_sentences_test

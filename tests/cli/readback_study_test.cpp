@@ -5,7 +5,7 @@
 #include "tests/cli/readback.hpp"
 
 /// Studies, read back.
-namespace pleuel::test {
+namespace pleuel::test::readback_study_test {
 namespace {
 
 using nlohmann::json;
@@ -283,4 +283,4 @@ TEST(ReadBack, OfDominatedPoints) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::readback_study_test

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 /// Simulations, gradients, optima, and names in CSV files, read back.
-namespace pleuel::test {
+namespace pleuel::test::readback_test {
 namespace {
 
 using nlohmann::json;
@@ -379,4 +379,4 @@ TEST_F(ReadBackOptimum, Effort) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::readback_test

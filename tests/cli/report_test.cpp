@@ -9,7 +9,7 @@
 #include "tests/cli/program.hpp"
 
 /// report.html: the data that the program puts into the page.
-namespace pleuel::test {
+namespace pleuel::test::report_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -444,4 +444,4 @@ TEST(Show, DrawsTheMechanismBeforeAnythingIsSimulated) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::report_test

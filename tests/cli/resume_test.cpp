@@ -11,7 +11,7 @@
 
 /// Runs that are killed go on as if nothing had happened, and answers do not depend on how many
 /// processes find them.
-namespace pleuel::test {
+namespace pleuel::test::resume_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -309,4 +309,4 @@ TEST_F(Jobs, AreTakenFromTheEnvironment) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::resume_test

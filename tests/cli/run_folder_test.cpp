@@ -6,7 +6,7 @@
 
 #include "tests/cli/program.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::run_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -246,4 +246,4 @@ TEST(RunFolder, WithOtherPeoplesFilesIsNotTouched) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::run_folder_test

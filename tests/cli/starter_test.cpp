@@ -7,7 +7,7 @@
 #include "tests/support/source_folder.hpp"
 
 /// Problem files that `new` writes to begin with, and the schema beside them.
-namespace pleuel::test {
+namespace pleuel::test::starter_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -129,4 +129,4 @@ TEST(Schema, IsThatOfTheProblems) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::starter_test

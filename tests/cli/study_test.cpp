@@ -8,7 +8,7 @@
 
 #include "tests/cli/program.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::study_test {
 namespace {
 
 using testing::HasSubstr;
@@ -275,4 +275,4 @@ TEST(PricesCommand, AreThoseOfTheDesignThatIsGivenIfItIsAnOptimum) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::study_test

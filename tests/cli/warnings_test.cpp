@@ -5,7 +5,7 @@
 #include "tests/cli/program.hpp"
 
 /// Every command that shows numbers shows what speaks against them.
-namespace pleuel::test {
+namespace pleuel::test::warnings_test {
 namespace {
 
 using ::testing::AllOf;
@@ -99,4 +99,4 @@ TEST(Warnings, FitIntoAHundredColumns) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::warnings_test

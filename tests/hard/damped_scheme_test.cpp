@@ -9,7 +9,7 @@
 
 /// Newmark's scheme and implicit Euler in hard cases: what they damp, and that they are of first
 /// order (Newmark's of second without damping).
-namespace pleuel::test {
+namespace pleuel::test::damped_scheme_test {
 namespace {
 
 class DampedScheme : public HardCase {
@@ -115,4 +115,4 @@ TEST_P(DampedScheme, OfEulerEndsASuddenLoadInItsStaticDeflection) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::damped_scheme_test

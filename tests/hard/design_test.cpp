@@ -10,7 +10,7 @@
 #include "tests/support/differences.hpp"
 
 /// Designs that cannot be simulated beside those that are looked for, and designs at the bounds.
-namespace pleuel::test {
+namespace pleuel::test::design_test {
 namespace {
 
 Result optimize(const ProblemFile& file, const std::string& backend) {
@@ -196,4 +196,4 @@ INSTANTIATE_TEST_SUITE_P(
     corner_name);
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::design_test

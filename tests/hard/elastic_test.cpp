@@ -6,7 +6,7 @@
 
 /// Elastic members at the ends of what can be meant: as stiff as rigid, as soft as rubber, thin,
 /// fast, next to massless.
-namespace pleuel::test {
+namespace pleuel::test::elastic_test {
 namespace {
 
 using std::numbers::pi;
@@ -161,4 +161,4 @@ TEST_P(ElasticHardCase, RingsInEveryModeUnderASuddenLoad) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::elastic_test

@@ -5,7 +5,7 @@
 #include "core/scene/problem_reader.hpp"
 #include "tests/support/source_folder.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::files_test {
 namespace {
 
 TEST(HardFiles, AreReadAndSayWhyTheyAreHard) {
@@ -16,4 +16,4 @@ TEST(HardFiles, AreReadAndSayWhyTheyAreHard) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::files_test

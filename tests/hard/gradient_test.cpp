@@ -2,7 +2,7 @@
 #include "sensitivity/gradients.hpp"
 #include "tests/hard/hard_problems.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::gradient_test {
 namespace {
 
 struct GradientCase {
@@ -117,4 +117,4 @@ INSTANTIATE_TEST_SUITE_P(
     case_name);
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::gradient_test

@@ -3,7 +3,7 @@
 #include "tests/support/energy.hpp"
 
 /// Mechanisms whose constraints depend on each other in every position.
-namespace pleuel::test {
+namespace pleuel::test::redundancy_test {
 namespace {
 
 class RedundantHardCase : public HardCase {};
@@ -67,4 +67,4 @@ TEST_P(RedundantHardCase, BricardMechanismKeepsItsEnergy) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::redundancy_test

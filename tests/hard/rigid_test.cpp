@@ -11,7 +11,7 @@
 
 /// Mechanisms of rigid bodies whose motion is known without constraints: in closed form, by energy,
 /// or published.
-namespace pleuel::test {
+namespace pleuel::test::rigid_test {
 namespace {
 
 using std::numbers::pi;
@@ -277,4 +277,4 @@ TEST_P(RigidHardCase, PrecessesAtTheRateOfItsMomentum) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::rigid_test

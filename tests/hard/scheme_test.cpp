@@ -10,7 +10,7 @@
 #include "tests/support/convergence.hpp"
 
 /// Settings at their ends: step, spectral radius, number of steps.
-namespace pleuel::test {
+namespace pleuel::test::scheme_test {
 namespace {
 
 class SchemeHardCase : public HardCase {};
@@ -206,4 +206,4 @@ TEST_P(SchemeHardCase, LagsInAFreeVibrationAsTheEigenvaluesOfTheSchemeSay) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::scheme_test

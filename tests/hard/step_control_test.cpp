@@ -8,7 +8,7 @@
 #include "tests/support/convergence.hpp"
 
 /// Steps that follow the local error, and what is promised of them.
-namespace pleuel::test {
+namespace pleuel::test::step_control_test {
 namespace {
 
 /// The slider-crank of dead_centres.json with a rod hardly longer than its crank: the slider waits
@@ -138,4 +138,4 @@ TEST_F(StepControl, SaysWhatErrsTooMuchWithTheSmallestStep) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::step_control_test

@@ -5,7 +5,7 @@
 
 /// The same mechanism in other numbers: whoever writes millimetres, tonnes and newtons gets the
 /// digits of SI. Plain numbers are taken as they stand, so the file may be in any consistent units.
-namespace pleuel::test {
+namespace pleuel::test::units_test {
 namespace {
 
 /// Powers of ten of a unit system: its unit of length and mass in SI; the unit of time is the
@@ -97,4 +97,4 @@ TEST_P(UnitsHardCase, GivesTheSameDigitsInMicrometresAndGrams) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::units_test

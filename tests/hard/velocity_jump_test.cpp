@@ -9,7 +9,7 @@
 #include "tests/hard/rigid_references.hpp"
 
 /// problems/hard/velocity_jump.json: a drive at rest turns at Ω from one instant to the next.
-namespace pleuel::test {
+namespace pleuel::test::velocity_jump_test {
 namespace {
 
 /// A crank of radius r at rest that turns at Ω from T on, and a uniform rod of length L that is
@@ -180,4 +180,4 @@ TEST(Index1, HasTheGradientOfAProjectionThatLeadsFar) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::velocity_jump_test

@@ -14,7 +14,7 @@
 
 /// Whether error bars are true: errors lie within them, and they are not much wider. The program
 /// prints the tables of docs/accuracy.md.
-namespace pleuel::test {
+namespace pleuel::test::honesty_test {
 namespace {
 
 /// What is promised: so many bars cover the error or say that they cannot; half of them are at most
@@ -108,4 +108,4 @@ TEST(ErrorBars, AreHonestOnRandomScenes) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::honesty_test

@@ -11,7 +11,7 @@
 #include "tests/honesty/shipped_problems.hpp"
 
 /// The error bars of optima beside optima of finer simulations. Prints a table of docs/accuracy.md.
-namespace pleuel::test {
+namespace pleuel::test::optimum_honesty_test {
 namespace {
 
 /// Relative errors from which on a bar has to be of the size of the error, and how wide it may be
@@ -67,4 +67,4 @@ std::string name_of(const testing::TestParamInfo<std::size_t>& info) {
 INSTANTIATE_TEST_SUITE_P(Shipped, OptimumError, testing::Range<std::size_t>(0, 6), name_of);
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::optimum_honesty_test

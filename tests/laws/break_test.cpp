@@ -8,7 +8,7 @@
 #include "tests/laws/law_problems.hpp"
 #include "tests/support/convergence.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::break_test {
 namespace {
 
 SimulationOptions options_with(const std::vector<double>& breaks) {
@@ -114,4 +114,4 @@ TEST(LoadTable, IsStraightUnlessToldOtherwise) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::break_test

@@ -14,7 +14,7 @@
 #include "tests/support/differences.hpp"
 #include "tests/support/parameter_name.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::damped_start_test {
 namespace {
 
 /// A rod of steel, hinged at one end, that is let go while it lies undeformed: gravity acts on it
@@ -155,4 +155,4 @@ INSTANTIATE_TEST_SUITE_P(Schemes, GradientOfADampedStart,
                          named_as_printed());
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::damped_start_test

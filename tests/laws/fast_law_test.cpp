@@ -6,7 +6,7 @@
 #include "core/trust/fast_laws.hpp"
 #include "tests/laws/law_problems.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::fast_law_test {
 namespace {
 
 std::vector<Doubt> doubts_about(const ProblemFile& problem) {
@@ -106,4 +106,4 @@ TEST(DriveOfStraightLines, IsDoubtedWhereItsSpeedJumps) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::fast_law_test

@@ -12,7 +12,7 @@
 #include "tests/laws/law_problems.hpp"
 #include "tests/support/differences.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::formula_law_test {
 namespace {
 
 /// A disc whose drive is a formula of t and of two variables, p and w, around 1. Its mass, of which
@@ -174,4 +174,4 @@ TEST(FormulaOfTime, IsAnsweredWithItsColumn) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::formula_law_test

@@ -9,7 +9,7 @@
 #include "tests/laws/law_problems.hpp"
 #include "tests/support/differences.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::pulse_law_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -234,4 +234,4 @@ TEST(Period, MustCoverWhatIsRepeated) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::pulse_law_test

@@ -10,7 +10,7 @@
 #include "tests/laws/law_problems.hpp"
 #include "tests/support/differences.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::state_law_test {
 namespace {
 
 /// A block of 2 kg that slides along x, at first with 3 m/s, and what acts in its slide.
@@ -291,4 +291,4 @@ TEST(LawOfState, IsAnsweredWithItsPlace) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::state_law_test

@@ -9,7 +9,7 @@
 #include "tests/laws/law_problems.hpp"
 #include "tests/support/differences.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::sudden_load_test {
 namespace {
 
 constexpr double young = 2.1e11, density = 7850, gravity = 9.81, width = 0.02, height = 0.03;
@@ -119,4 +119,4 @@ TEST(DriveTable, OfTheRobotArmStartsAtRest) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::sudden_load_test

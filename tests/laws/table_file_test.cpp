@@ -8,7 +8,7 @@
 #include "core/model/scene_geometry.hpp"
 #include "tests/laws/law_problems.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::table_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -111,4 +111,4 @@ TEST_F(TableFile, IsAnsweredWhatItsColumnsLack) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::table_file_test

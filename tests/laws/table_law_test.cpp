@@ -8,9 +8,9 @@
 
 #include "tests/support/differences.hpp"
 
+namespace pleuel::test::table_law_test {
 namespace {
 
-using namespace pleuel;
 using Values = std::vector<double>;
 
 struct Shape {
@@ -231,3 +231,4 @@ TEST(StepTable, HoldsEachValueAndTakesTheMeanAtAJumpAndTheNewValueAtTheStart) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::table_law_test

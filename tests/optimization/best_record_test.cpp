@@ -2,7 +2,7 @@
 
 #include "optimization/history.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::best_record_test {
 namespace {
 
 EvaluationRecord record(double objective, double max_violation, const std::string& failure = "") {
@@ -26,4 +26,4 @@ TEST(BestRecord, IsTheOneNearestToTheLimitsIfNoneKeepsThem) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::best_record_test

@@ -11,7 +11,7 @@
 #include "optimization/restoration.hpp"
 #include "optimization/scaling.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::elastic_problem_test {
 namespace {
 
 using testing::HasSubstr;
@@ -167,4 +167,4 @@ TEST(Restoration, OfAStartThatFailsIsNone) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::elastic_problem_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pleuel::test {
+namespace pleuel::test::evaluation_cache_test {
 namespace {
 
 /// x² with the limit x ≤ 1, which cannot be evaluated below −5, and has no gradients below −2.
@@ -105,4 +105,4 @@ TEST_F(CacheOfEvaluations, CountsIterationsOfTheSearchButNotOfAudits) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::evaluation_cache_test

@@ -10,7 +10,7 @@
 #include "optimization/backends.hpp"
 #include "optimization/solve.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::failure_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -236,4 +236,4 @@ TEST_P(Failure, OfTheConstraintQualificationIsNotVerifiedElsewhere) {
 INSTANTIATE_TEST_SUITE_P(Backends, Failure, testing::ValuesIn(optimizer_names()), name_of_backend);
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::failure_test

@@ -8,7 +8,7 @@
 #include "optimization/backends.hpp"
 #include "optimization/solve.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::far_start_test {
 namespace {
 
 /// The same problem, started somewhere between its bounds, or between −4 and 4 where it has none.
@@ -71,4 +71,4 @@ TEST_P(FarStart, OutsideTheLimitsIsLedBackInside) {
 INSTANTIATE_TEST_SUITE_P(Backends, FarStart, testing::ValuesIn(optimizer_names()), name_of_backend);
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::far_start_test

@@ -14,7 +14,7 @@
 #include "optimization/backends.hpp"
 #include "optimization/starts.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::find_optimum_test {
 namespace {
 
 using testing::HasSubstr;
@@ -230,4 +230,4 @@ TEST(Starts, NameAVariableThatNothingIsKnownOf) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::find_optimum_test

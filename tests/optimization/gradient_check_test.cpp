@@ -7,7 +7,7 @@
 #include "optimization/scaling.hpp"
 #include "optimization/verdict.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::gradient_check_test {
 namespace {
 
 /// f with the gradient that is asked for, right or wrong.
@@ -102,4 +102,4 @@ TEST(GradientCheck, LooksAtSixDesignsWithinTheBounds) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::gradient_check_test

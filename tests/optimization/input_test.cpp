@@ -7,7 +7,7 @@
 #include "optimization/backends.hpp"
 #include "optimization/solve.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::input_test {
 namespace {
 
 /// What solve() complains about.
@@ -87,4 +87,4 @@ TEST(Input, WithAllVariablesFixedTheStartIsJudgedAsItIs) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::input_test

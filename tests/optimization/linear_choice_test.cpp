@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pleuel::test {
+namespace pleuel::test::linear_choice_test {
 namespace {
 
 constexpr int variables = 4, sizes = 4, rows = 2;
@@ -81,4 +81,4 @@ TEST(LinearChoice, EndsAfterItsBudgetOfBranchings) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::linear_choice_test

@@ -8,7 +8,7 @@
 #include "optimization/backends.hpp"
 #include "optimization/solve.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::multiplier_test {
 namespace {
 
 class Multipliers : public testing::TestWithParam<std::string> {
@@ -135,4 +135,4 @@ INSTANTIATE_TEST_SUITE_P(Backends, Multipliers, testing::ValuesIn(optimizer_name
                          name_of_backend);
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::multiplier_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pleuel::test {
+namespace pleuel::test::nonnegative_least_squares_test {
 namespace {
 
 Eigen::MatrixXd random_matrix(std::mt19937& engine, Eigen::Index rows, Eigen::Index columns) {
@@ -55,4 +55,4 @@ TEST(NonnegativeLeastSquares, WithoutColumnsHasNoUnknowns) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::nonnegative_least_squares_test

@@ -11,7 +11,7 @@
 #include "optimization/backends.hpp"
 #include "optimization/solve.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::optimum_test {
 namespace {
 
 using Case = std::tuple<std::size_t, std::string>;  // which known problem, which backend
@@ -174,4 +174,4 @@ INSTANTIATE_TEST_SUITE_P(Backends, Noise, testing::Values("nlopt-mma", "nlopt-cc
                          name_of_backend);
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::optimum_test

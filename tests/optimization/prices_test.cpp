@@ -7,7 +7,7 @@
 #include "known_problems.hpp"
 #include "optimization/broken_limits.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::prices_test {
 namespace {
 
 using testing::HasSubstr;
@@ -100,4 +100,4 @@ TEST(InfeasibleDesign, IsTheLeastViolationThatWasSeen) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::prices_test

@@ -8,7 +8,7 @@
 #include "optimization/solve.hpp"
 #include "tests/optimization/backend_names.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::robust_problem_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -113,4 +113,4 @@ INSTANTIATE_TEST_SUITE_P(Backends, RobustOptimum, testing::ValuesIn(optimizer_na
                          name_of_backend);
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::robust_problem_test

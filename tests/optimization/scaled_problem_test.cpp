@@ -10,7 +10,7 @@
 #include "optimization/scaling.hpp"
 #include "optimization/solve.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::scaled_problem_test {
 namespace {
 
 /// f = 100 a b², one constraint of each kind; b is fixed.
@@ -151,4 +151,4 @@ TEST(Budget, OfIterationsIsKept) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::scaled_problem_test

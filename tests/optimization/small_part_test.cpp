@@ -12,7 +12,7 @@
 #include "optimization/backends.hpp"
 #include "optimization/solve.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::small_part_test {
 namespace {
 
 using testing::HasSubstr;
@@ -268,4 +268,4 @@ TEST(Verdict, SaysThatOtherOptimaWereNotLookedFor) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::small_part_test

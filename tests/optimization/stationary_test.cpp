@@ -15,7 +15,7 @@
 #include "optimization/lowest_curvature.hpp"
 #include "optimization/solve.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::stationary_test {
 namespace {
 
 template <typename V, typename... Entries>
@@ -278,4 +278,4 @@ TEST(LowestCurvature, IsFoundWhereAllDirectionsAreAlike) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::stationary_test

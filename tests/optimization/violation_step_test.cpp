@@ -6,7 +6,7 @@
 
 #include "optimization/nonnegative_least_squares.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::violation_step_test {
 namespace {
 
 constexpr double box_weight = 30.0, regularization = 1e-4;  // as the header says
@@ -75,4 +75,4 @@ TEST(ViolationStep, StaysWhereNothingIsViolated) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::violation_step_test

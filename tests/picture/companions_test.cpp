@@ -6,7 +6,7 @@
 
 #include "tests/picture/picture_problems.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::companions_test {
 namespace {
 
 const Companion& find(const Companions& companions, const std::string& name) {
@@ -43,4 +43,4 @@ TEST(Companions, DoNotRepeatWhatTheFileAsksFor) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::companions_test

@@ -5,7 +5,7 @@
 #include "core/response/analysis.hpp"
 #include "tests/picture/picture_problems.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::drawn_place_test {
 namespace {
 
 Design<double> start_of(const ProblemFile& problem) {
@@ -39,4 +39,4 @@ TEST(DrawnPlace, BesideARigidBeamIsAPointOfItsFrame) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::drawn_place_test

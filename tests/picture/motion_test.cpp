@@ -10,7 +10,7 @@
 #include "tests/picture/picture_problems.hpp"
 #include "tests/support/parameter_name.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::motion_test {
 namespace {
 
 constexpr double pi = 3.141592653589793;
@@ -105,4 +105,4 @@ TEST(FramesOfMotion, AreNoMoreThanAskedForAndThePeaks) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::motion_test

@@ -5,7 +5,7 @@
 #include "core/response/analysis.hpp"
 #include "tests/picture/picture_problems.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::peak_place_test {
 namespace {
 
 /// Four elements of equal lengths: node k is at k/4, wherever frames divide the beam.
@@ -42,4 +42,4 @@ TEST(PeakPlace, IsWhereTheSignalSaysThatThePeakIs) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::peak_place_test

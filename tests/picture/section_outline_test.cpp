@@ -6,7 +6,7 @@
 
 #include "core/model/scene_geometry.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::section_outline_test {
 namespace {
 
 /// Area, ∫y² dA and ∫z² dA of a polygon by Green's theorem; anticlockwise ones count positive.
@@ -62,4 +62,4 @@ TEST(SectionOutline, OfAGeneralSectionHasItsRadiiOfGyration) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::section_outline_test

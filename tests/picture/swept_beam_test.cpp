@@ -7,7 +7,7 @@
 
 #include "tests/picture/picture_problems.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::swept_beam_test {
 namespace {
 
 /// By the divergence theorem, of faces that are fans of triangles; of points behind a surface that
@@ -72,4 +72,4 @@ TEST(SweptBeam, OfAnElasticArmHasStressAtItsPoints) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::swept_beam_test

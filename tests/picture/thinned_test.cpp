@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pleuel::test {
+namespace pleuel::test::thinned_test {
 namespace {
 
 TEST(Thinned, KeepsThePeaksOfEveryStretch) {
@@ -25,4 +25,4 @@ TEST(Thinned, LeavesShortCurvesAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::thinned_test

@@ -12,9 +12,9 @@
 
 /// Expressions that name load cases, `bow[fast] - bow[slow]`: closed forms, differences, and the same
 /// problem said in another way.
+namespace pleuel::test::across_cases_test {
 namespace {
 
-using namespace pleuel;
 using Json = nlohmann::ordered_json;
 
 ProblemFile problem_of(const Json& document) {
@@ -300,3 +300,4 @@ TEST(AcrossCases, HaveTheSameDigitsWhateverTheNumberOfJobs) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::across_cases_test

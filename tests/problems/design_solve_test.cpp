@@ -15,7 +15,7 @@
 #include "tests/optimization/backend_names.hpp"
 #include "tests/support/source_folder.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::design_solve_test {
 namespace {
 
 /// An arm of 100 mm, held at the angle phi: the place of its tip is 100 mm · cos phi, most at the
@@ -218,4 +218,4 @@ TEST(PeakProblem, BoundsAnObjectiveThatIsAPeak) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::design_solve_test

@@ -14,9 +14,9 @@
 
 /// A slider-crank whose points are formulas of the lengths of crank and rod: its stroke is twice the
 /// crank, whatever the rod.
+namespace pleuel::test::expression_response_test {
 namespace {
 
-using namespace pleuel;
 using Json = nlohmann::ordered_json;
 
 Json slider_crank() {
@@ -187,3 +187,4 @@ TEST(Maximize, IsToMinimizeTheNegative) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::expression_response_test

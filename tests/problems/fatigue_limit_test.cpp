@@ -5,7 +5,7 @@
 #include "optimization/design/peak_problem.hpp"
 
 /// A limit on fatigue decides an optimum.
-namespace pleuel::test {
+namespace pleuel::test::fatigue_limit_test {
 namespace {
 
 /// A light bar in two segments, pulled by 3 kN + 2 kN sin ωt at its end and by as much at the end of
@@ -69,4 +69,4 @@ TEST(FatigueLimit, SizesBothSegments) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::fatigue_limit_test

@@ -12,9 +12,9 @@
 /// Programming Codes, Springer 1981, with the optima of the book, written in the language of problem
 /// files: objective and limits are formulas of the variables, and the mechanism is a stone that lies
 /// on the floor.
+namespace pleuel::test::hock_schittkowski_test {
 namespace {
 
-using namespace pleuel;
 using Json = nlohmann::ordered_json;
 
 struct Range {
@@ -128,3 +128,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& tested) { return tested.param.name; });
 
 }  // namespace
+}  // namespace pleuel::test::hock_schittkowski_test

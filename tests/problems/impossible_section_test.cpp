@@ -12,9 +12,8 @@
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/source_folder.hpp"
 
+namespace pleuel::test::impossible_section_test {
 namespace {
-
-using namespace pleuel;
 
 /// The round slider-crank, coarse and only its ramp, with a tube of at least 4 mm wall for a rod.
 /// It may bend so much that a bar of 8 mm is stiff and strong enough; a "tube" of less diameter
@@ -85,3 +84,4 @@ INSTANTIATE_TEST_SUITE_P(Backends, OptimumOfTube,
                          testing::Values("nlopt-slsqp", "nlopt-mma", "ipopt"), named_by_value());
 
 }  // namespace
+}  // namespace pleuel::test::impossible_section_test

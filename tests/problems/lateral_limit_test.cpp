@@ -10,7 +10,7 @@
 #include "tests/support/parameter_name.hpp"
 
 /// A limit on lateral buckling decides an optimum.
-namespace pleuel::test {
+namespace pleuel::test::lateral_limit_test {
 namespace {
 
 constexpr double length = 1.2, height = 0.04, force = 10.0, young = 2.1e11, shear = 8.0e10,
@@ -190,4 +190,4 @@ TEST(LateralLimit, OfARoundBeamHasPlacesByItsJointsOnly) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::lateral_limit_test

@@ -15,9 +15,9 @@
 #include "tests/support/problem_runs.hpp"
 
 /// Load cases: closed forms of numbers over cases, and a mechanism against two copies of it.
+namespace pleuel::test::load_case_test {
 namespace {
 
-using namespace pleuel;
 using Json = nlohmann::ordered_json;
 
 ProblemFile problem_of(const Json& document) {
@@ -238,3 +238,4 @@ TEST(LoadCases, HaveStepsOfTheirOwnWhereAnAccuracyIsAskedFor) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::load_case_test

@@ -11,7 +11,7 @@
 #include "optimization/design/peak_problem.hpp"
 
 /// The largest of several responses, as an objective and as a limit.
-namespace pleuel::test {
+namespace pleuel::test::min_max_test {
 namespace {
 
 /// A rigid bar of 1 m, and the formulas f = (p − 0.3 m)² + q², g = (p + 0.2 m)² + q² + 0.1 m².
@@ -130,4 +130,4 @@ TEST(PeakProblem, LeavesAMinimumWithAnUpperLimitWhole) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::min_max_test

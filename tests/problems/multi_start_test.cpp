@@ -11,7 +11,7 @@
 #include "optimization/design/setting_text.hpp"
 #include "tests/optimization/backend_names.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::multi_start_test {
 namespace {
 
 using testing::HasSubstr;
@@ -192,4 +192,4 @@ INSTANTIATE_TEST_SUITE_P(Backends, SteppedCantilever, testing::ValuesIn(optimize
                          name_of_backend);
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::multi_start_test

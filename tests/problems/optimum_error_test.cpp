@@ -10,7 +10,7 @@
 #include "tests/support/source_folder.hpp"
 
 /// How far optima are from those of finer simulations, against optimizing with these.
-namespace pleuel::test {
+namespace pleuel::test::optimum_error_test {
 namespace {
 
 Result optimum(const std::string& name, const std::vector<std::string>& overrides) {
@@ -140,4 +140,4 @@ TEST(OptimumError, IsNotLookedForWhereTheFileLeavesItOut) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::optimum_error_test

@@ -15,9 +15,8 @@
 #include "optimization/design/design_solve.hpp"
 #include "tests/support/source_folder.hpp"
 
+namespace pleuel::test::optimum_test {
 namespace {
-
-using namespace pleuel;
 
 struct KnownProblem {
   const char* name;
@@ -113,3 +112,4 @@ TEST(OptimumFromAHeavyStart, IsFoundOrNotCalledOne) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::optimum_test

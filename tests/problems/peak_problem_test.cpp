@@ -9,9 +9,8 @@
 #include "optimization/design/design_solve.hpp"
 #include "tests/support/source_folder.hpp"
 
+namespace pleuel::test::peak_problem_test {
 namespace {
-
-using namespace pleuel;
 
 /// A quick variant of a problem file: coarse, and over in 20 ms.
 ProblemFile quick_problem(const char* name) {
@@ -93,3 +92,4 @@ TEST(SolveDesign, SplitsNoLimitsWhereTheOptimumIsSmooth) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::peak_problem_test

@@ -11,9 +11,9 @@
 #include "tests/support/problem_runs.hpp"
 
 /// Responses of joints, springs, motors and sections in closed form.
+namespace pleuel::test::read_responses_test {
 namespace {
 
-using namespace pleuel;
 using Json = nlohmann::ordered_json;
 
 struct Simulated {
@@ -258,3 +258,4 @@ TEST(ReadResponse, OfAnythingElseIsRefusedWithItsPlace) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::read_responses_test

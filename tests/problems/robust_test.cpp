@@ -6,9 +6,8 @@
 #include "studies/uncertainty.hpp"
 #include "tests/support/source_folder.hpp"
 
+namespace pleuel::test::robust_test {
 namespace {
-
-using namespace pleuel;
 
 /// The round slider-crank with diameters that scatter, three deviations below each limit; coarse,
 /// and over in 20 ms.
@@ -117,3 +116,4 @@ TEST(RobustConstraints, LeaveABoundThatAllPeaksKeep) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::robust_test

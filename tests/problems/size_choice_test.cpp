@@ -11,7 +11,7 @@
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/multi_start.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::size_choice_test {
 namespace {
 
 using testing::HasSubstr;
@@ -232,4 +232,4 @@ TEST(SizeChoice, OfOneSizeIsThatOne) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::size_choice_test

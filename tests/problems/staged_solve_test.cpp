@@ -11,7 +11,7 @@
 #include "core/scene/problem_reader.hpp"
 #include "tests/support/source_folder.hpp"
 
-namespace pleuel {
+namespace pleuel::test::staged_solve_test {
 namespace {
 
 /// The optimum with all effects and steps of 25 µs, which three backends find (optimum_test.cpp)
@@ -104,4 +104,4 @@ TEST(StagedSolve, TakesEffectsBackThatMatterAtTheOptimum) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::staged_solve_test

@@ -7,7 +7,7 @@
 #include "tests/random/simulated_scene.hpp"
 
 /// What a tolerance promises of effects that are left out.
-namespace pleuel::test {
+namespace pleuel::test::random_effects_test {
 namespace {
 
 /// So many seeds at most: each takes some simulations for each of three tolerances.
@@ -41,4 +41,4 @@ TEST(RandomEffects, ThatAreLeftOutChangeNoResponseByMoreThanTheTolerance) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::random_effects_test

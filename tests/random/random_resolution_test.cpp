@@ -16,7 +16,7 @@
 #include "tests/random/simulated_scene.hpp"
 
 /// What warnings about resolution are worth, over all random mechanisms together.
-namespace pleuel::test {
+namespace pleuel::test::random_resolution_test {
 namespace {
 
 /// Runs something for each seed, several at a time. @return one result a seed
@@ -145,4 +145,4 @@ TEST(RandomScenes, AreWarnedOfWhatIsNotResolvedWhereStartsAndLoadsAreSudden) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::random_resolution_test

@@ -16,7 +16,7 @@
 #include "tests/support/parameter_name.hpp"
 
 /// Laws that hold for every mechanism, tried on random ones. The seeds are fixed by the build.
-namespace pleuel::test {
+namespace pleuel::test::random_scene_test {
 namespace {
 
 /// Round-off of numbers in a file and of a step: some units in the last place.
@@ -198,4 +198,4 @@ INSTANTIATE_TEST_SUITE_P(Seeds, RandomScene, testing::Range(first_seed, end_seed
                          named_by_value());
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::random_scene_test

@@ -12,7 +12,7 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::run_database_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -187,4 +187,4 @@ TEST_F(Record, HasAllThatWasKeptBeforeAKill) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::run_database_test

@@ -3,7 +3,7 @@
 #include "tests/scene/bad_edit.hpp"
 #include "tests/support/parameter_name.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::bad_body_test {
 namespace {
 
 INSTANTIATE_TEST_SUITE_P(
@@ -63,4 +63,4 @@ INSTANTIATE_TEST_SUITE_P(
     named_by(&BadEdit::pointer));
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::bad_body_test

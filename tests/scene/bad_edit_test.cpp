@@ -4,12 +4,11 @@
 
 #include "tests/scene/good_problem.hpp"
 
-namespace pleuel::test {
-
-void PrintTo(const BadEdit& bad, std::ostream* stream) {
+void pleuel::test::PrintTo(const BadEdit& bad, std::ostream* stream) {
   *stream << bad.pointer << " = " << bad.value;
 }
 
+namespace pleuel::test::bad_edit_test {
 namespace {
 
 TEST_P(BadProblemFile, IsRefusedWithPlaceValueAndRule) {
@@ -32,4 +31,4 @@ TEST(GoodMechanismFile, IsNotRefused) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::bad_edit_test

@@ -3,7 +3,7 @@
 #include "tests/scene/bad_edit.hpp"
 #include "tests/support/parameter_name.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::bad_joint_test {
 namespace {
 
 INSTANTIATE_TEST_SUITE_P(
@@ -112,4 +112,4 @@ INSTANTIATE_TEST_SUITE_P(
     named_by(&BadEdit::pointer));
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::bad_joint_test

@@ -4,7 +4,7 @@
 #include "tests/scene/good_problem.hpp"
 #include "tests/support/parameter_name.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::bad_load_test {
 namespace {
 
 INSTANTIATE_TEST_SUITE_P(
@@ -137,4 +137,4 @@ TEST(GoodMechanismFile, MayHoldABodyByLoadsAlone) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::bad_load_test

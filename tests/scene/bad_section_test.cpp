@@ -10,7 +10,7 @@
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::bad_section_test {
 namespace {
 
 /// A section or a material of the good problem's crank, and what the reader must say of it after
@@ -252,4 +252,4 @@ TEST(MissingCatalogue, IsSaidToBeMissing) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::bad_section_test

@@ -11,7 +11,7 @@
 #include "tests/scene/good_problem.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::bad_text_test {
 namespace {
 
 using testing::HasSubstr;
@@ -276,4 +276,4 @@ TEST(File, IsReadLikeItsTextAndGivesItsNameToAProblemWithout) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::bad_text_test

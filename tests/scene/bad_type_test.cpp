@@ -3,7 +3,7 @@
 #include "tests/scene/bad_edit.hpp"
 #include "tests/support/parameter_name.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::bad_type_test {
 namespace {
 
 INSTANTIATE_TEST_SUITE_P(
@@ -118,4 +118,4 @@ INSTANTIATE_TEST_SUITE_P(
     named_by(&BadEdit::pointer));
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::bad_type_test

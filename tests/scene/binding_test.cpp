@@ -2,7 +2,7 @@
 
 #include "tests/scene/good_problem.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::binding_test {
 namespace {
 
 const BeamBody& beam(const ProblemFile& problem, std::size_t body) {
@@ -106,4 +106,4 @@ TEST(Fractions, AreRoundedNumbersThatSumToOneExactly) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::binding_test

@@ -5,7 +5,7 @@
 
 #include "tests/scene/good_problem.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::body_rules_test {
 namespace {
 
 /// The good problem with a tube for a crank: its wall is a variable beside the outer diameter.
@@ -71,4 +71,4 @@ TEST(Inertia, MayLieOnTheEdgeOfWhatIsPossible) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::body_rules_test

@@ -9,7 +9,7 @@
 #include "tests/support/source_folder.hpp"
 
 /// The shipped catalogue against the geometry of its shapes.
-namespace pleuel::test {
+namespace pleuel::test::catalogue_test {
 namespace {
 
 using std::numbers::pi;
@@ -171,4 +171,4 @@ TEST(Catalogue, NamesOfTubesAndBarsAreTheirSizes) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::catalogue_test

@@ -8,7 +8,7 @@
 #include "tests/support/source_folder.hpp"
 
 /// Sizes and sections that are chosen from lists.
-namespace pleuel::test {
+namespace pleuel::test::choices_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -167,4 +167,4 @@ TEST(ValuePath, IsTheStraightLineThroughValuesOnOne) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::choices_test

@@ -12,7 +12,7 @@
 #include "core/scene/reading/expression_parser.hpp"
 #include "tests/support/parameter_name.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::expression_test {
 namespace {
 
 using Kind = ExpressionArgument::Kind;
@@ -280,4 +280,4 @@ TEST(Expression, RefusesAUnitThatMayBeAName) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::expression_test

@@ -9,7 +9,7 @@
 #include "tests/scene/good_problem.hpp"
 
 /// Formulas in a problem file: in place of numbers, and as responses.
-namespace pleuel::test {
+namespace pleuel::test::formula_test {
 namespace {
 
 constexpr const char* section = "/scene/bodies/crank/section/height";
@@ -242,4 +242,4 @@ TEST(Goal, IsEitherSmallOrLarge) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::formula_test

@@ -12,7 +12,7 @@
 #include "core/scene/problem_reader.hpp"
 #include "tests/scene/good_problem.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::load_case_test {
 namespace {
 
 using testing::AllOf;
@@ -343,4 +343,4 @@ TEST(AcrossCases, NeedCases) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::load_case_test

@@ -10,7 +10,7 @@
 #include "core/scene/visit_numbers.hpp"
 #include "tests/scene/good_problem.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::mechanism_test {
 namespace {
 
 using std::numbers::pi;
@@ -364,4 +364,4 @@ TEST_F(Mechanism, MayHaveLegsDrivenSideBySide) {  // as in a hexapod
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::mechanism_test

@@ -13,7 +13,7 @@
 #include "tests/support/source_folder.hpp"
 
 /// The schema, which is written by hand, says of every number what the tables of keys say.
-namespace pleuel::test {
+namespace pleuel::test::number_keys_test {
 namespace {
 
 using nlohmann::json;
@@ -158,4 +158,4 @@ TEST(NumberKeys, LeaveOutWhatIsNotGiven) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::number_keys_test

@@ -7,7 +7,7 @@
 #include "core/scene/problem_reader.hpp"
 #include "tests/scene/good_problem.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::override_test {
 namespace {
 
 ProblemFile read_with(const std::vector<std::string>& overrides) {
@@ -127,4 +127,4 @@ TEST(BadOverride, SaysWhatIsWrongWithIt) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::override_test

@@ -7,7 +7,7 @@
 #include "core/scene/problem_reader.hpp"
 #include "tests/support/source_folder.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::packed_problem_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -49,4 +49,4 @@ TEST(PackedProblem, KeepsWhatNoFileSays) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::packed_problem_test

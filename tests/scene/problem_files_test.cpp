@@ -11,7 +11,7 @@
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/source_folder.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::problem_files_test {
 namespace {
 
 using std::numbers::pi;
@@ -265,4 +265,4 @@ TEST(GoodProblem, MayOmitWhatHasADefault) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::problem_files_test

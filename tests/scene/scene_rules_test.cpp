@@ -8,7 +8,7 @@
 
 /// What formulas must keep at every design: bounds are those of variables, not of what formulas make
 /// of them.
-namespace pleuel::test {
+namespace pleuel::test::scene_rules_test {
 namespace {
 
 using testing::HasSubstr;
@@ -106,4 +106,4 @@ TEST(PlaceOfAMass, MustStayWhereItsJointIs) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::scene_rules_test

@@ -15,7 +15,7 @@
 #include "tests/scene/good_problem.hpp"
 #include "tests/support/source_folder.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::schema_test {
 namespace {
 
 const std::filesystem::path problems = std::filesystem::path(source_folder()) / "problems";
@@ -366,4 +366,4 @@ TEST_F(ProblemSchema, RefusesWhatTheReaderRefuses) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::schema_test

@@ -8,7 +8,7 @@
 #include "tests/scene/good_problem.hpp"
 #include "tests/support/source_folder.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::section_reading_test {
 namespace {
 
 const BeamBody& crank_of(const ProblemFile& problem) {
@@ -203,4 +203,4 @@ TEST(Materials, CarbonFibreIsTheLaminateOfItsPlies) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::section_reading_test

@@ -12,7 +12,7 @@
 #include "tests/support/source_folder.hpp"
 
 /// What load cases must have in common, and names that would stand for two things.
-namespace pleuel::test {
+namespace pleuel::test::shared_by_cases_test {
 namespace {
 
 using testing::AllOf;
@@ -259,4 +259,4 @@ TEST(LimitsOnVariables, HaveTheirUnitsWhereOneCaseDoesNotUseThem) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::shared_by_cases_test

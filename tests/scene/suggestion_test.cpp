@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pleuel {
+namespace pleuel::test::suggestion_test {
 namespace {
 
 TEST(EditDistance, CountsInsertionsDeletionsReplacementsAndSwaps) {
@@ -43,4 +43,4 @@ TEST(Hint, NamesTheKnownWordsIfNoneIsNear) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::suggestion_test

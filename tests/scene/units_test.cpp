@@ -11,7 +11,7 @@
 #include "core/scene/response_quantity.hpp"
 #include "tests/support/parameter_name.hpp"
 
-namespace pleuel {
+namespace pleuel::test::units_test {
 namespace {
 
 /// What the reading of a text complains about; empty if it does not.
@@ -185,4 +185,4 @@ TEST(Units, ScaleBackForDisplay) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::units_test

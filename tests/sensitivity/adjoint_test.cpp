@@ -9,9 +9,8 @@
 #include "sensitivity/direct.hpp"
 #include "tests/support/sample_scenes.hpp"
 
+namespace pleuel::test::adjoint_test {
 namespace {
-
-using namespace pleuel;
 
 struct NamedRun {
   std::string name;
@@ -156,3 +155,4 @@ INSTANTIATE_TEST_SUITE_P(
     adjoint_case_name);
 
 }  // namespace
+}  // namespace pleuel::test::adjoint_test

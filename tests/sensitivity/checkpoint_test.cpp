@@ -12,7 +12,7 @@
 
 /// Trajectories that do not fit into the memory: the same numbers, bit by bit, for at most one more
 /// simulation.
-namespace pleuel::test {
+namespace pleuel::test::checkpoint_test {
 namespace {
 
 /// The least memory for equal steps, in bytes.
@@ -191,4 +191,4 @@ TEST(CheckpointPlan, HoldsWhatItSaysItDoes) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::checkpoint_test

@@ -7,7 +7,7 @@
 #include "sensitivity/sampled_gradients.hpp"
 #include "tests/support/problem_runs.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::deflection_reference_test {
 namespace {
 
 constexpr double ramp = 0.05, speed = 200.0;
@@ -131,4 +131,4 @@ TEST(DeflectionReferences, HaveTheGradientsOfDifferences) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::deflection_reference_test

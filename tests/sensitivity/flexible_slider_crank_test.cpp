@@ -10,6 +10,7 @@
 
 /// Derivatives of the flexible slider-crank of the IVP Test Set with respect to the rod's E, ρ and
 /// height against a computation that shares nothing with the code under test.
+namespace pleuel::test::flexible_slider_crank_test {
 namespace {
 
 using namespace simeon;
@@ -194,3 +195,4 @@ TEST(FlexibleSliderCrankGradient, IsThatOfTheComplexStepAfterTwoRevolutions) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::flexible_slider_crank_test

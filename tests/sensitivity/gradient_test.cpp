@@ -5,9 +5,8 @@
 #include "sensitivity/gradients.hpp"
 #include "tests/support/problem_runs.hpp"
 
+namespace pleuel::test::gradient_test {
 namespace {
-
-using namespace pleuel;
 
 struct Case {
   std::string problem;
@@ -107,3 +106,4 @@ TEST(Differences, TakeTheirStepFromTheValueElsewhere) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::gradient_test

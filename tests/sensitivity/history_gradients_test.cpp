@@ -6,9 +6,8 @@
 #include "sensitivity/gradients.hpp"
 #include "tests/support/problem_runs.hpp"
 
+namespace pleuel::test::history_gradients_test {
 namespace {
-
-using namespace pleuel;
 
 class Histories : public testing::Test {
  protected:
@@ -113,3 +112,4 @@ TEST_F(Histories, LeadToTheGradientsOfTheValues) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::history_gradients_test

@@ -11,9 +11,8 @@
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_scenes.hpp"
 
+namespace pleuel::test::initial_sensitivity_test {
 namespace {
-
-using namespace pleuel;
 
 struct StartCase {
   int sample;
@@ -123,3 +122,4 @@ INSTANTIATE_TEST_SUITE_P(Samples, StartSensitivity, testing::ValuesIn(all_cases(
                          start_case_name);
 
 }  // namespace
+}  // namespace pleuel::test::initial_sensitivity_test

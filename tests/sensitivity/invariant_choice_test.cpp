@@ -3,9 +3,8 @@
 #include "sensitivity/gradients.hpp"
 #include "tests/support/problem_runs.hpp"
 
+namespace pleuel::test::invariant_choice_test {
 namespace {
-
-using namespace pleuel;
 
 /// Relative to the largest derivative of a response by relative changes of the variables.
 double gradient_error(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected,
@@ -45,3 +44,4 @@ TEST(GradientsOfTheSliderCrank, AreAsGoodAsTheDerivativesOfTheInvariants) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::invariant_choice_test

@@ -9,7 +9,7 @@
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::kinks_test {
 namespace {
 
 /// A block that swings by A about factor · b, at A = 100 mm and b = 0: its greatest distance is
@@ -67,4 +67,4 @@ TEST(Kinks, AreTheSameByTheWayOfGradients) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::kinks_test

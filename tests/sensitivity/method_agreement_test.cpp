@@ -4,9 +4,8 @@
 #include "sensitivity/method_choice.hpp"
 #include "tests/support/problem_runs.hpp"
 
+namespace pleuel::test::method_agreement_test {
 namespace {
-
-using namespace pleuel;
 
 class MethodsOfAProblem : public testing::TestWithParam<const char*> {};
 
@@ -70,3 +69,4 @@ TEST(ChoiceOfAMethod, LeavesTheGradientAsItIs) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::method_agreement_test

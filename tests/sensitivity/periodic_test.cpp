@@ -16,7 +16,7 @@
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::periodic_test {
 namespace {
 
 /// Runs steadily at 50 rad/s, 500 steps a turn, with much damping in the members.
@@ -369,4 +369,4 @@ TEST(SteadyMachineErrors, NameAMotionThatNothingBringsBack) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::periodic_test

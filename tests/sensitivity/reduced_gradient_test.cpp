@@ -5,9 +5,8 @@
 #include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
 
+namespace pleuel::test::reduced_gradient_test {
 namespace {
-
-using namespace pleuel;
 
 ResponseSettings response(const std::string& name, ResponseType type, const std::string& body,
                           double at, OverTime over_time) {
@@ -80,3 +79,4 @@ TEST_P(ReducedBodies, HaveTheGradientsOfModelsThatAreReducedAnew) {
 INSTANTIATE_TEST_SUITE_P(Samples, ReducedBodies, testing::Values(5, 6), sample_name);
 
 }  // namespace
+}  // namespace pleuel::test::reduced_gradient_test

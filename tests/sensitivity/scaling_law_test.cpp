@@ -6,9 +6,8 @@
 
 /// Gradients that are known in closed form: frequencies and static deflections of a cantilever are
 /// products of powers of its numbers.
+namespace pleuel::test::scaling_law_test {
 namespace {
-
-using namespace pleuel;
 
 enum Variable { young, density, length, height, width };
 const Eigen::VectorXd design = Eigen::Vector<double, 5>(2.1e11, 7850.0, 0.7, 0.02, 0.03);
@@ -102,3 +101,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
+}  // namespace pleuel::test::scaling_law_test

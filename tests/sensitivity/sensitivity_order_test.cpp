@@ -10,9 +10,8 @@
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/scheme_case.hpp"
 
+namespace pleuel::test::sensitivity_order_test {
 namespace {
-
-using namespace pleuel;
 
 struct SensitivityCase : SchemeCase {
   int coarsest = 354;  ///< steps of the longest run, in the asymptotic range
@@ -77,3 +76,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.name; });
 
 }  // namespace
+}  // namespace pleuel::test::sensitivity_order_test

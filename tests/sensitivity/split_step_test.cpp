@@ -5,7 +5,7 @@
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_scenes.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::split_step_test {
 namespace {
 
 /// Too few iterations for such steps, so that some are split.
@@ -89,4 +89,4 @@ TEST(SplitSteps, OfTheFirstStepSetOutFromTheInitialValues) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::split_step_test

@@ -10,9 +10,8 @@
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_scenes.hpp"
 
+namespace pleuel::test::trajectory_sensitivity_test {
 namespace {
-
-using namespace pleuel;
 
 /// Large steps: the gradient is that of the scheme at any step, and differences of accelerations,
 /// which are Δq/h²β, have the less round-off.
@@ -31,7 +30,7 @@ struct NamedFormulation {
     return stream << (named.name.empty() ? "Index3" : named.name);
   }
 };
-const NamedFormulation index_3{"", {}};
+const NamedFormulation plain{"", {}};
 const NamedFormulation stabilized{"StabilizedIndex2", {ConstraintForm::stabilized_index_2}};
 const NamedFormulation baumgarte{"Baumgarte", {ConstraintForm::index_1, 50.0}};
 const NamedFormulation projected{"Projected", {ConstraintForm::index_1, 0.0, true}};
@@ -133,12 +132,12 @@ std::string direct_case_name(const testing::TestParamInfo<DirectCase>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(Samples, DirectDifferentiation,
                          testing::Combine(testing::Range(0, sample_count),
-                                          testing::Values(index_3, stabilized, baumgarte,
-                                                          projected)),
+                                          testing::Values(plain, stabilized, baumgarte, projected)),
                          direct_case_name);
 INSTANTIATE_TEST_SUITE_P(Samples, DifferentiatedConstraints,
                          testing::Combine(testing::Range(0, sample_count),
-                                          testing::Values(index_3, stabilized, projected)),
+                                          testing::Values(plain, stabilized, projected)),
                          direct_case_name);
 
 }  // namespace
+}  // namespace pleuel::test::trajectory_sensitivity_test

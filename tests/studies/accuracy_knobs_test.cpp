@@ -14,7 +14,7 @@
 #include "studies/accuracy.hpp"
 #include "tests/studies/quick_problem.hpp"
 
-namespace pleuel {
+namespace pleuel::test::accuracy_knobs_test {
 namespace {
 
 std::string word_of(const Override& one) {
@@ -197,4 +197,4 @@ TEST(Accuracy, KeepsTheLengthsOfSegments) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::accuracy_knobs_test

@@ -4,7 +4,7 @@
 
 #include "tests/studies/quick_problem.hpp"
 
-namespace pleuel {
+namespace pleuel::test::accuracy_optimum_test {
 namespace {
 
 AccuracyRun run_of(double step, double seconds, double error) {
@@ -52,4 +52,4 @@ TEST(AccuracyOptimum, KnowsHowFarItsReferenceIsOff) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::accuracy_optimum_test

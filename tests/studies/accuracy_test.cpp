@@ -9,7 +9,7 @@
 #include "core/response/analysis.hpp"
 #include "tests/studies/quick_problem.hpp"
 
-namespace pleuel {
+namespace pleuel::test::accuracy_test {
 namespace {
 
 PricedDesign at_start(const ProblemFile& problem) {
@@ -157,4 +157,4 @@ TEST(Accuracy, WithoutResponsesThereIsNothingToCompare) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::accuracy_test

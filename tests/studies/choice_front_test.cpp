@@ -14,7 +14,7 @@
 #include "studies/pareto.hpp"
 
 /// Fronts of sizes from lists.
-namespace pleuel::test {
+namespace pleuel::test::choice_front_test {
 namespace {
 
 using testing::ElementsAre;
@@ -266,4 +266,4 @@ TEST(NonDominated, KeepsEqualOnesAndDropsTheWorse) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::choice_front_test

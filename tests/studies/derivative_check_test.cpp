@@ -13,7 +13,7 @@
 #include "tests/studies/quick_problem.hpp"
 #include "tests/support/source_folder.hpp"
 
-namespace pleuel {
+namespace pleuel::test::derivative_check_test {
 namespace {
 
 TEST(DerivativeCheck, AgreesForEveryResponseOfASampleProblem) {
@@ -239,4 +239,4 @@ TEST(DerivativeCheck, FindsErrorsPutIntoDerivativesOfASimulation) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::derivative_check_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pleuel {
+namespace pleuel::test::derivative_verdict_test {
 namespace {
 
 constexpr double place = 2.0;
@@ -127,4 +127,4 @@ TEST(DerivativeVerdict, DoesNotDependOnTheUnitOfTheVariable) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::derivative_verdict_test

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pleuel::test {
+namespace pleuel::test::front_gaps_test {
 namespace {
 
 /// What a search for the best design below a limit comes to.
@@ -376,4 +376,4 @@ TEST(FrontGaps, BeginSearchesAtTheNearerNeighbour) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::front_gaps_test

@@ -7,7 +7,7 @@
 
 #include "tests/studies/quick_problem.hpp"
 
-namespace pleuel {
+namespace pleuel::test::method_comparison_test {
 namespace {
 
 class MethodComparison : public ::testing::Test {
@@ -62,4 +62,4 @@ TEST_F(MethodComparison, SeesTheOrdersOfDifferencesWhereStepsAreLarge) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::method_comparison_test

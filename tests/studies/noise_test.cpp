@@ -8,7 +8,7 @@
 #include "core/response/analysis.hpp"
 #include "tests/studies/quick_problem.hpp"
 
-namespace pleuel {
+namespace pleuel::test::noise_test {
 namespace {
 
 constexpr int points = 8;  // as many as response_noise() uses
@@ -77,4 +77,4 @@ TEST(Noise, DoesNotDependOnTheThreads) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::noise_test

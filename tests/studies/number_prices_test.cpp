@@ -12,7 +12,7 @@
 #include "studies/priced_numbers.hpp"
 #include "tests/support/source_folder.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::number_prices_test {
 namespace {
 
 /// A bar of width b under a force F at its end, at rest; its height h has to carry it: the mass is
@@ -208,4 +208,4 @@ TEST(NumberPrices, AreThoseOfOptimizingAnew) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::number_prices_test

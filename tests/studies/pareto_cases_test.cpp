@@ -11,7 +11,7 @@
 #include "tests/support/evaluation_memory.hpp"
 
 /// Fronts of files with load cases, against closed forms.
-namespace pleuel::test {
+namespace pleuel::test::pareto_cases_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -172,4 +172,4 @@ TEST(ParetoOverCases, SaysWhichNamesThereAre) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::pareto_cases_test

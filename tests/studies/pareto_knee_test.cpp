@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pleuel::test {
+namespace pleuel::test::pareto_knee_test {
 namespace {
 
 ParetoPoint point_at(double objective, double limited) {
@@ -73,4 +73,4 @@ TEST(Knee, IsAPointThatCounts) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::pareto_knee_test

@@ -11,7 +11,7 @@
 #include "optimization/design/design_solve.hpp"
 #include "tests/studies/quick_problem.hpp"
 
-namespace pleuel {
+namespace pleuel::test::pareto_test {
 namespace {
 
 const std::vector<std::string> four_points = {"/pareto/points=4"};
@@ -229,4 +229,4 @@ TEST(Pareto, WithoutSettingsThereIsNothingToVary) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::pareto_test

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+namespace pleuel::test::random_numbers_test {
 namespace {
 
 using pleuel::RandomNumbers;
@@ -47,3 +48,4 @@ TEST(RandomNumbers, AreNormal) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::random_numbers_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pleuel {
+namespace pleuel::test::relative_error_test {
 namespace {
 
 TEST(RelativeError, OfAValueIsRelativeToTheReference) {
@@ -29,4 +29,4 @@ TEST(RelativeError, OfAGradientDoesNotDependOnTheUnitsOfTheVariables) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::relative_error_test

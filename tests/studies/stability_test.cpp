@@ -7,7 +7,7 @@
 #include "core/base/error.hpp"
 #include "tests/support/source_folder.hpp"
 
-namespace pleuel {
+namespace pleuel::test::stability_test {
 namespace {
 
 std::filesystem::path hard(const std::string& name) {
@@ -55,4 +55,4 @@ TEST(Stability, RefusesABadFileBeforeAnyIsSimulated) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::stability_test

@@ -9,7 +9,7 @@
 #include "studies/pareto.hpp"
 
 /// Fronts between two responses.
-namespace pleuel::test {
+namespace pleuel::test::trade_off_test {
 namespace {
 
 /// A square bar of 1 m and side a: its mass is ρ a². The response "slack" is (60 mm/a)² · 1 kg +
@@ -324,4 +324,4 @@ TEST(TradeOff, IsBetweenTwoResponses) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::trade_off_test

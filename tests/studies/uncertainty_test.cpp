@@ -11,7 +11,7 @@
 #include "studies/random_numbers.hpp"
 #include "tests/studies/quick_problem.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::uncertainty_test {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -279,4 +279,4 @@ TEST(Uncertainty, MayBeOfFixedVariables) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::uncertainty_test

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/source_folder.hpp"
+namespace pleuel::test::floors_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -194,3 +195,4 @@ TEST(Floors, AreReadAtAll) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::floors_test

@@ -8,9 +8,8 @@
 #include "core/base/dense_solvers.hpp"
 #include "tests/support/parameter_name.hpp"
 
+namespace pleuel::test::band_modes_test {
 namespace {
-
-using namespace pleuel;
 
 Eigen::MatrixXd dense(const Band& band) {
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(band.cols(), band.cols());
@@ -86,3 +85,4 @@ TEST_P(AnyBands, AreNotANumberWhereAnEntryIsNone) {
 INSTANTIATE_TEST_SUITE_P(Sizes, AnyBands, testing::Values(1, 2, 5, 6, 7, 20, 61), named_by_value());
 
 }  // namespace
+}  // namespace pleuel::test::band_modes_test

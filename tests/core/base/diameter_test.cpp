@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pleuel::test {
+namespace pleuel::test::diameter_test {
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
@@ -43,4 +43,4 @@ TEST(Diameter, OfAChainIsItsLength) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::diameter_test

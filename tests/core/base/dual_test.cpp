@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pleuel {
+namespace pleuel::test::dual_test {
 namespace {
 
 using Two = DualOf<2>;
@@ -77,4 +77,4 @@ TEST(DualNumbers, ServeAsScalarsOfEigen) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::dual_test

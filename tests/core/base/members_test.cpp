@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pleuel::test {
+namespace pleuel::test::members_test {
 namespace {
 
 struct One {
@@ -51,4 +51,4 @@ TEST(Members, OfAConstantStructAreConstant) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::members_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pleuel {
+namespace pleuel::test::packed_test {
 namespace {
 
 enum class Colour { red, green };
@@ -48,4 +48,4 @@ TEST(Packed, BytesThatEndTooEarlyAreAnError) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::packed_test

@@ -6,9 +6,8 @@
 
 #include <gtest/gtest.h>
 
+namespace pleuel::test::parallel_test {
 namespace {
-
-using namespace pleuel;
 
 TEST(ParallelWork, IsDoneOnceEach) {
   for (int threads : {1, 2, 7}) {
@@ -36,3 +35,4 @@ TEST(ParallelWork, MayBeNone) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::parallel_test

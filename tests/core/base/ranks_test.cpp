@@ -15,7 +15,7 @@
 #include "tests/support/temporary_folder.hpp"
 
 /// Tasks on other ranks, which here are processes of this machine at the other end of a socket.
-namespace pleuel::test {
+namespace pleuel::test::ranks_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -182,4 +182,4 @@ TEST(Ranks, ThatCannotMakeTheWorkSaySo) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::ranks_test

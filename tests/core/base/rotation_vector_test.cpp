@@ -9,9 +9,9 @@
 
 #include "tests/support/differences.hpp"
 
+namespace pleuel::test::rotation_vector_test {
 namespace {
 
-using namespace pleuel;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
@@ -73,3 +73,4 @@ TEST(TangentOperator, IsTheDerivativeOfTheExponential) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::rotation_vector_test

@@ -8,7 +8,7 @@
 #include "core/base/dense_solvers.hpp"
 #include "tests/support/parameter_name.hpp"
 
-namespace pleuel {
+namespace pleuel::test::sparse_rows_test {
 namespace {
 
 /// A chain of rows that each share two columns with the next: 3 k … 3 k + 4 of row k and its twin.
@@ -127,4 +127,4 @@ TEST(NullSpaceOfRows, HasTheColumnsThatNoRowHas) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::sparse_rows_test

@@ -14,7 +14,7 @@
 #include "core/base/stopwatch.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::tasks_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -182,4 +182,4 @@ TEST(Tasks, MayBeNone) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::tasks_test

@@ -3,9 +3,8 @@
 #include "tests/support/convergence.hpp"
 #include "tests/support/sample_beams.hpp"
 
+namespace pleuel::test::frequency_order_test {
 namespace {
-
-using namespace pleuel;
 
 /// Error of λ falls with ℓ⁴ for cubic elements (Strang & Fix 1973); exact roots.
 TEST(BeamFrequencyOrder, BendingErrorFallsWithTheFourthPowerOfTheElementLength) {
@@ -36,3 +35,4 @@ TEST(BeamFrequencyOrder, AxialErrorFallsWithTheSquareOfTheElementLength) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::frequency_order_test

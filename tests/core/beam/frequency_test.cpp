@@ -2,9 +2,8 @@
 
 #include "tests/support/sample_beams.hpp"
 
+namespace pleuel::test::frequency_test {
 namespace {
-
-using namespace pleuel;
 
 constexpr double length = 0.7, width = 0.02, height = 0.03, young = 2.1e11, density = 7850;
 
@@ -109,3 +108,4 @@ TEST(BeamFrequencies, DerivativesFollowTheScalingLaws) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::frequency_test

@@ -7,9 +7,8 @@
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_beams.hpp"
 
+namespace pleuel::test::invariants_test {
 namespace {
-
-using namespace pleuel;
 
 constexpr double length = 0.7, width = 0.02, height = 0.03, young = 2.1e11, density = 7850;
 
@@ -270,3 +269,4 @@ TEST(BeamInvariants, DampingIsRayleighs) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::invariants_test

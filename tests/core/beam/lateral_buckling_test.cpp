@@ -10,9 +10,8 @@
 #include "core/section/rectangle_section.hpp"
 #include "tests/support/parameter_name.hpp"
 
+namespace pleuel::test::lateral_buckling_test {
 namespace {
-
-using namespace pleuel;
 
 constexpr double young = 2.1e11, shear = 8.0e10, length = 1.2;
 constexpr int count = 16;
@@ -404,3 +403,4 @@ TEST(LateralStability, OfTwoEqualSpansHasTheMeanOfTheirSlopes) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::lateral_buckling_test

@@ -8,9 +8,8 @@
 #include "tests/support/convergence.hpp"
 #include "tests/support/sample_beams.hpp"
 
+namespace pleuel::test::shear_test {
 namespace {
-
-using namespace pleuel;
 
 // Stubby, and with κ A of its own along each axis.
 constexpr double length = 0.7, width = 0.15, height = 0.3, young = 2.1e11, density = 7850;
@@ -205,3 +204,4 @@ TEST(ShearedBeam, BucklesUnderEngessersLoad) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::shear_test

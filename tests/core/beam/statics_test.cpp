@@ -3,9 +3,8 @@
 
 #include "tests/support/sample_beams.hpp"
 
+namespace pleuel::test::statics_test {
 namespace {
-
-using namespace pleuel;
 
 constexpr double length = 0.7, width = 0.02, height = 0.03, young = 2.1e11, density = 7850;
 
@@ -67,3 +66,4 @@ TEST(BeamStatics, OwnWeightBendsByQL4Over8EI) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::statics_test

@@ -9,9 +9,8 @@
 #include "tests/support/sample_beams.hpp"
 
 /// The equations for special motions are those for any motion.
+namespace pleuel::test::body_equations_test {
 namespace {
-
-using namespace pleuel;
 
 constexpr Weights weights{.q = 0.7, .v = -1.3, .a = 0.4};
 
@@ -133,3 +132,4 @@ INSTANTIATE_TEST_SUITE_P(Bodies, EquationsOfATranslation,
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace
+}  // namespace pleuel::test::body_equations_test

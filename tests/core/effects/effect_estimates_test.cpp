@@ -8,9 +8,8 @@
 #include "core/response/analysis.hpp"
 #include "tests/support/problem_runs.hpp"
 
+namespace pleuel::test::effect_estimates_test {
 namespace {
-
-using namespace pleuel;
 
 struct Case {
   const char* problem;
@@ -108,3 +107,4 @@ TEST(Estimates, DoNotOverruleTheFile) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::effect_estimates_test

@@ -15,7 +15,7 @@
 #include "core/trust/left_out_effects.hpp"
 #include "tests/support/problem_runs.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::effect_measurement_test {
 namespace {
 
 using testing::HasSubstr;
@@ -241,4 +241,4 @@ TEST(GeometricStiffening, KeepsTheAxialElasticityThatItNeeds) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::effect_measurement_test

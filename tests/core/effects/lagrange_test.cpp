@@ -7,9 +7,9 @@
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_beams.hpp"
 
+namespace pleuel::test::lagrange_test {
 namespace {
 
-using namespace pleuel;
 using Complex = std::complex<double>;
 using VectorXc = Eigen::VectorXcd;
 using Vector3c = Eigen::Vector3cd;
@@ -285,3 +285,4 @@ TEST(FloatingFrameBody, AddsStiffnessAndDampingTimesTheElasticCoordinates) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::lagrange_test

@@ -8,9 +8,8 @@
 #include "tests/support/sample_beams.hpp"
 #include "tests/support/sample_scenes.hpp"
 
+namespace pleuel::test::stiffening_test {
 namespace {
-
-using namespace pleuel;
 
 Term& find_term(Model& model, const std::string& name) {
   for (const auto& term : model.mechanism.system->terms()) {
@@ -152,3 +151,4 @@ TEST(GeometricStiffening, ConvergesToThemWithTheSquareOfTheElementLength) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::stiffening_test

@@ -7,9 +7,9 @@
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_scenes.hpp"
 
+namespace pleuel::test::term_list_test {
 namespace {
 
-using namespace pleuel;
 using testing::ElementsAre;
 
 std::vector<std::string> terms_of(const Model& model) {
@@ -114,3 +114,4 @@ TEST(TermList, OfASceneInATiltedPlaneIsThatOfThePlane) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::term_list_test

@@ -4,9 +4,8 @@
 #include "tests/support/dense.hpp"
 #include "tests/support/differences.hpp"
 
+namespace pleuel::test::force_derivative_test {
 namespace {
-
-using namespace pleuel;
 
 constexpr auto at_position = ConstraintLevel::position;
 
@@ -100,9 +99,10 @@ TEST_P(EverySpatialForce, DeclaresOnlyBlocksThatCanDifferFromZero) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Forces, EverySpatialForce,
-                         testing::ValuesIn(force_samples(Choice::spatial)),
+                         testing::ValuesIn(force_samples(ForceChoice::spatial)),
                          [](const auto& test) { return test.param.name; });
-INSTANTIATE_TEST_SUITE_P(Forces, EveryForce, testing::ValuesIn(force_samples(Choice::all)),
+INSTANTIATE_TEST_SUITE_P(Forces, EveryForce, testing::ValuesIn(force_samples(ForceChoice::all)),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace
+}  // namespace pleuel::test::force_derivative_test

@@ -11,9 +11,9 @@
 #include "tests/support/dense.hpp"
 #include "tests/support/differences.hpp"
 
+namespace pleuel::test::force_law_test {
 namespace {
 
-using namespace pleuel;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
@@ -93,9 +93,9 @@ TEST_P(EveryInternalForceInSpace, IsTheSameInATurnedSpace) {
 
 const auto name_of = [](const auto& test) { return test.param.name; };
 INSTANTIATE_TEST_SUITE_P(Forces, EveryInternalForce,
-                         testing::ValuesIn(force_samples(Choice::internal)), name_of);
+                         testing::ValuesIn(force_samples(ForceChoice::internal)), name_of);
 INSTANTIATE_TEST_SUITE_P(Forces, EveryInternalForceInSpace,
-                         testing::ValuesIn(force_samples(Choice::internal_spatial)), name_of);
+                         testing::ValuesIn(force_samples(ForceChoice::internal_spatial)), name_of);
 
 /// A body in space with all elastic coordinates of a marker.
 class PointLoad : public testing::Test {
@@ -260,3 +260,4 @@ TEST(JointForce, SaysWhereItsAngleHasNoValue) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::force_law_test

@@ -262,13 +262,15 @@ VectorXd ForceSample::advanced(const VectorXd& q, const VectorXd& increment) con
   return moved;
 }
 
-std::vector<ForceSample> force_samples(Choice choice) {
+std::vector<ForceSample> force_samples(ForceChoice choice) {
   std::vector<ForceSample> samples = all_force_samples();
   std::erase_if(samples, [&](const ForceSample& sample) {
     const bool is_internal = static_cast<bool>(sample.coordinate);
     const bool is_spatial = sample.mount.rotations.size() == 2;
-    return (!is_internal && (choice == Choice::internal || choice == Choice::internal_spatial)) ||
-           (!is_spatial && (choice == Choice::spatial || choice == Choice::internal_spatial));
+    return (!is_internal &&
+            (choice == ForceChoice::internal || choice == ForceChoice::internal_spatial)) ||
+           (!is_spatial &&
+            (choice == ForceChoice::spatial || choice == ForceChoice::internal_spatial));
   });
   return samples;
 }

@@ -47,8 +47,8 @@ struct ForceSample {
 
 /// Which: those that act along a coordinate s; those between two bodies in space; those that do
 /// both.
-enum class Choice { all, internal, spatial, internal_spatial };
-std::vector<ForceSample> force_samples(Choice choice);
+enum class ForceChoice { all, internal, spatial, internal_spatial };
+std::vector<ForceSample> force_samples(ForceChoice choice);
 
 /// How a failing test calls its sample.
 std::ostream& operator<<(std::ostream& stream, const ForceSample& sample);

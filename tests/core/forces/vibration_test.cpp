@@ -8,9 +8,9 @@
 #include "core/forces/spring_damper.hpp"
 #include "core/system/system.hpp"
 
+namespace pleuel::test::vibration_test {
 namespace {
 
-using namespace pleuel;
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
@@ -124,3 +124,4 @@ TEST(SpringDamper, MakesTwoMassesSwingAlongAndAcross) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::vibration_test

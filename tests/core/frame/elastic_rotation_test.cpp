@@ -4,9 +4,9 @@
 
 #include "tests/support/differences.hpp"
 
+namespace pleuel::test::elastic_rotation_test {
 namespace {
 
-using namespace pleuel;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
@@ -90,3 +90,4 @@ TEST(ElasticRotation, CarriesDualNumbers) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::elastic_rotation_test

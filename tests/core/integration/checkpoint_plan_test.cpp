@@ -6,7 +6,7 @@
 
 #include "tests/support/parameter_name.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::checkpoint_plan_test {
 namespace {
 
 constexpr double state_bytes = 800.0, checkpoint_bytes = 1100.0;
@@ -51,4 +51,4 @@ TEST(CheckpointPlan, HasNoCheckpointsWithoutMemory) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::checkpoint_plan_test

@@ -12,9 +12,9 @@
 #include "core/scene/problem_reader.hpp"
 
 /// Starts from elastic equilibrium: those that have to be found, and those that do not exist.
+namespace pleuel::test::elastic_stability_test {
 namespace {
 
-using namespace pleuel;
 using testing::HasSubstr;
 
 constexpr double young = 2.1e11, width = 0.02, height = 0.002;
@@ -350,3 +350,4 @@ TEST(QuasiStaticStart, OfARoundShaftInABearingThatIsSofterOneWayIsFound) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::elastic_stability_test

@@ -14,9 +14,8 @@
 #include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
 
+namespace pleuel::test::equilibrium_test {
 namespace {
-
-using namespace pleuel;
 
 constexpr double length = 1.0, width = 0.02, height = 0.03, young = 2.1e11, density = 7850,
                  gravity = 9.81;
@@ -175,3 +174,4 @@ TEST_P(EquilibriumOfASample, HasOnePatternOfItsJacobian) {
 INSTANTIATE_TEST_SUITE_P(Samples, EquilibriumOfASample, testing::Values(0, 2), sample_name);
 
 }  // namespace
+}  // namespace pleuel::test::equilibrium_test

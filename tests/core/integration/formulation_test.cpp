@@ -3,7 +3,7 @@
 #include "core/integration/simulate.hpp"
 #include "tests/support/sample_scenes.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::formulation_test {
 namespace {
 
 /// Largest |Φ| and |dΦ/dt| of a trajectory.
@@ -67,4 +67,4 @@ INSTANTIATE_TEST_SUITE_P(Samples, Formulations, testing::Range(0, sample_count),
                          [](const auto& test) { return all_samples()[test.param].name; });
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::formulation_test

@@ -5,7 +5,7 @@
 #include "core/response/analysis.hpp"
 #include "tests/support/problem_runs.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::freedoms_test {
 namespace {
 
 struct Expected {
@@ -76,4 +76,4 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::freedoms_test

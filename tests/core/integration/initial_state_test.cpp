@@ -11,9 +11,8 @@
 #include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
 
+namespace pleuel::test::initial_state_test {
 namespace {
-
-using namespace pleuel;
 
 class StartOfAMechanism : public testing::TestWithParam<int> {
  protected:
@@ -138,3 +137,4 @@ TEST(StartOfAMechanism, NamesTheJointThatCannotBeClosed) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::initial_state_test

@@ -6,9 +6,9 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+namespace pleuel::test::linear_solver_test {
 namespace {
 
-using namespace pleuel;
 using Matrix = LinearSolver::Matrix;
 
 constexpr int size = 30;
@@ -264,3 +264,4 @@ TEST(LinearSolver, FillsInProportionToTheNodesOfABody) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::linear_solver_test

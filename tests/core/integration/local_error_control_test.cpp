@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pleuel::test {
+namespace pleuel::test::local_error_control_test {
 namespace {
 
 /// Two coordinates with scales of 1 and 10; ten regular steps of 0.1 s, at least an eighth of them.
@@ -73,4 +73,4 @@ TEST_F(ControlOfTheLocalError, MeasuresTheErrorOfARegularStep) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::local_error_control_test

@@ -9,9 +9,8 @@
 #include "core/model/model.hpp"
 #include "tests/support/scheme_case.hpp"
 
+namespace pleuel::test::local_error_test {
 namespace {
-
-using namespace pleuel;
 
 constexpr double jerk = 24.0, mass = 1.7;
 
@@ -160,3 +159,4 @@ TEST(ControlledSteps, AreTheLongestThatKeepTheToleranceOfARegularStep) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::local_error_test

@@ -5,9 +5,8 @@
 #include "tests/support/energy.hpp"
 #include "tests/support/sample_scenes.hpp"
 
+namespace pleuel::test::pendulum_test {
 namespace {
-
-using namespace pleuel;
 
 /// IFToMM benchmark A01: 1 kg at 1 m, from (−1, 0) at rest.
 Eigen::Vector2d pendulum_at(double time, double step, EffectChoice spatial) {
@@ -72,3 +71,4 @@ TEST(FlexiblePendulum, KeepsItsEnergyTheBetterTheSmallerTheStep) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::pendulum_test

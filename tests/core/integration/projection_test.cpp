@@ -6,7 +6,7 @@
 #include "core/model/model.hpp"
 #include "tests/support/sample_scenes.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::projection_test {
 namespace {
 
 /// A point mass that keeps its distance of 2 m from the origin.
@@ -58,4 +58,4 @@ TEST(Projection, LeavesAStateThatMeetsTheConstraints) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::projection_test

@@ -12,7 +12,7 @@
 #include "tests/support/places.hpp"
 #include "tests/support/sample_scenes.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::redundancy_test {
 namespace {
 
 Joint revolute(const std::string& name, const std::string& a, const std::string& b, Point at) {
@@ -226,4 +226,4 @@ TEST(RedundantConstraints, HaveNoMultipliersAfterAStepOfNewtonsMethod) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::redundancy_test

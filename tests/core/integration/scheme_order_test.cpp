@@ -8,9 +8,8 @@
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/scheme_case.hpp"
 
+namespace pleuel::test::scheme_order_test {
 namespace {
-
-using namespace pleuel;
 
 /// A flexible slider-crank in bending that is soft enough for steps in the asymptotic range, driven
 /// smoothly from rest: no initial transient, nothing but the order of the scheme.
@@ -91,3 +90,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.name; });
 
 }  // namespace
+}  // namespace pleuel::test::scheme_order_test

@@ -8,7 +8,7 @@
 #include "tests/support/sample_name.hpp"
 #include "tests/support/scheme_case.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::step_equations_test {
 namespace {
 
 class EquationsOfAStep : public testing::TestWithParam<int> {
@@ -56,4 +56,4 @@ TEST_P(EquationsOfAStep, HaveTheTangentOfTheirResidual) {
 INSTANTIATE_TEST_SUITE_P(Samples, EquationsOfAStep, testing::Range(0, sample_count), sample_name);
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::step_equations_test

@@ -5,9 +5,8 @@
 #include "core/integration/simulate.hpp"
 #include "tests/support/places.hpp"
 
+namespace pleuel::test::drive_sense_test {
 namespace {
-
-using namespace pleuel;
 
 /// A bar that is driven about `axis`, and a point mass on a revolute joint about +z that comes
 /// first and decides which normal the plane gets.
@@ -163,3 +162,4 @@ TEST(Drive, OfBothFreedomsOfACylindricalJointMakesAScrew) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::drive_sense_test

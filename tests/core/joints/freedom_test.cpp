@@ -6,9 +6,8 @@
 #include "tests/support/dense.hpp"
 #include "tests/support/sample_scenes.hpp"
 
+namespace pleuel::test::freedom_test {
 namespace {
-
-using namespace pleuel;
 
 /// A rigid body held by one joint on the ground.
 struct Freedom {
@@ -292,3 +291,4 @@ TEST(Joints, AreClosedAtTheStartOfASceneThatIsDrawnClosed) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::freedom_test

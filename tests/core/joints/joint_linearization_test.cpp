@@ -9,9 +9,8 @@
 #include "tests/support/differences.hpp"
 #include "tests/support/parameter_name.hpp"
 
+namespace pleuel::test::joint_linearization_test {
 namespace {
-
-using namespace pleuel;
 
 constexpr int size = JointLinearization::max_size;
 using Wide = DualOf<size>;
@@ -153,3 +152,4 @@ INSTANTIATE_TEST_SUITE_P(Kinds, JointEquations,
                          }));
 
 }  // namespace
+}  // namespace pleuel::test::joint_linearization_test

@@ -10,7 +10,7 @@
 #include "tests/support/places.hpp"
 #include "tests/support/sample_scenes.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::attachment_test {
 namespace {
 
 /// The beams of a mechanism in space with nodal displacements or with modes as coordinates, what
@@ -164,4 +164,4 @@ TEST(ReferenceDirection, IsAUnitVectorAcrossTheAxisInTheAxesOfABeam) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::attachment_test

@@ -9,7 +9,7 @@
 #include "core/model/shear_area.hpp"
 #include "tests/support/source_folder.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::catalogue_shear_test {
 namespace {
 
 double square_centimetres(const nlohmann::json& text) {
@@ -57,4 +57,4 @@ TEST(Catalogue, HasTheShearAreasOfItsShapes) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::catalogue_shear_test

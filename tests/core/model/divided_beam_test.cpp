@@ -14,7 +14,7 @@
 #include "tests/support/differences.hpp"
 #include "tests/support/problem_runs.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::divided_beam_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -342,4 +342,4 @@ TEST(DividedBeam, HasAnElementAFrameAndItsJointsWhereTheyAre) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::divided_beam_test

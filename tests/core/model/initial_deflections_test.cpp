@@ -12,9 +12,9 @@
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_scenes.hpp"
 
+namespace pleuel::test::initial_deflections_test {
 namespace {
 
-using namespace pleuel;
 using ::testing::HasSubstr;
 
 constexpr double length = 1.0, width = 0.02, height = 0.03, young = 2.1e11, bow = 2e-4, rate = 0.3;
@@ -228,3 +228,4 @@ TEST(InitialDeflections, MustBePossible) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::initial_deflections_test

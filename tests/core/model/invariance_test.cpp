@@ -5,9 +5,8 @@
 #include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
 
+namespace pleuel::test::invariance_test {
 namespace {
-
-using namespace pleuel;
 
 /// A sample with all numbers fixed, turned and shifted as a whole.
 class MovedScene {
@@ -101,7 +100,7 @@ End end_of(const SampleScene& sample, const Scene& scene) {
   End end;
   for (const BodyModel& body : model.bodies) {
     for (double at : {0.0, 1.0}) end.points.push_back(position_of(body, state, at));
-    end.displacements.push_back(body.is_beam() ? nodal_displacements(body, state)
+    end.displacements.push_back(body.is_beam() ? stacked_displacements(body, state)
                                                : Eigen::VectorXd());
   }
   return end;
@@ -187,3 +186,4 @@ TEST(MotionPlane, IsLeftByAJointForceAcrossIt) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::invariance_test

@@ -6,9 +6,9 @@
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_scenes.hpp"
 
+namespace pleuel::test::invariant_derivatives_test {
 namespace {
 
-using namespace pleuel;
 using enum InvariantDerivatives;
 
 Number variable(int index) {
@@ -156,3 +156,4 @@ TEST(InvariantDerivatives, ByDifferencesAreGoodWithoutAGivenStep) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::invariant_derivatives_test

@@ -6,7 +6,7 @@
 #include "core/scene/problem_reader.hpp"
 
 /// What mechanisms hold of a bar from the origin to (1, 0, 0) m, which bends.
-namespace pleuel::test {
+namespace pleuel::test::joint_holds_test {
 namespace {
 
 constexpr std::array<bool, 3> all = {true, true, true}, none = {false, false, false};
@@ -166,4 +166,4 @@ TEST(JointHolds, OfASwingingRodDoNotDependOnTheGlobalAxes) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::joint_holds_test

@@ -4,9 +4,8 @@
 #include "tests/support/places.hpp"
 #include "tests/support/sample_scenes.hpp"
 
+namespace pleuel::test::reduced_body_test {
 namespace {
-
-using namespace pleuel;
 
 /// The slider-crank of the reduced sample with its slider and a spring between nodes, all beams
 /// flexible and longer in elements.
@@ -103,3 +102,4 @@ TEST(CraigBamptonModes, AFewOfThemConverge) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::reduced_body_test

@@ -6,9 +6,8 @@
 #include "tests/support/places.hpp"
 #include "tests/support/sample_scenes.hpp"
 
+namespace pleuel::test::reference_frame_test {
 namespace {
-
-using namespace pleuel;
 
 constexpr std::array frames = {ReferenceCondition::chord, ReferenceCondition::tangent,
                                ReferenceCondition::tangent_end, ReferenceCondition::mean_axis};
@@ -157,3 +156,4 @@ TEST(RigidBeam, HasTheInertiaOfABar) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::reference_frame_test

@@ -3,7 +3,7 @@
 #include "core/model/scene_geometry.hpp"
 #include "core/scene/visit_numbers.hpp"
 
-namespace pleuel {
+namespace pleuel::test::resolve_section_test {
 namespace {
 
 Number doubled(int variable) {
@@ -89,4 +89,4 @@ TEST(ResolvedSection, OfGivenNumbersIsThoseNumbers) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::resolve_section_test

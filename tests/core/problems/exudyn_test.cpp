@@ -7,9 +7,8 @@
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/source_folder.hpp"
 
+namespace pleuel::test::exudyn_test {
 namespace {
-
-using namespace pleuel;
 
 /// Columns of tests/data/…: time, angle, slider x, slider v, deflection, chord, torque.
 Eigen::MatrixXd read_reference(int rod_diameter) {
@@ -72,3 +71,4 @@ TEST(SliderCrankAgainstExudyn, WithoutStiffeningTheThinRodIsEighteenPercentOff) 
 }
 
 }  // namespace
+}  // namespace pleuel::test::exudyn_test

@@ -3,9 +3,8 @@
 #include "core/response/analysis.hpp"
 #include "tests/support/problem_runs.hpp"
 
+namespace pleuel::test::mesh_test {
 namespace {
-
-using namespace pleuel;
 
 Eigen::VectorXd values_with(const std::string& elements) {
   const ProblemFile problem =
@@ -26,3 +25,4 @@ TEST(Mesh, OfSixElementsHasThePeaksOfTwentyFour) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::mesh_test

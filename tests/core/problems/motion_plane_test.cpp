@@ -10,9 +10,8 @@
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_scenes.hpp"
 
+namespace pleuel::test::motion_plane_test {
 namespace {
-
-using namespace pleuel;
 
 ProblemFile shortened(const std::string& name, const std::string& spatial, double step) {
   ProblemFile problem =
@@ -312,3 +311,4 @@ TEST(Frame, StressDeflectionAndTorqueDoNotDependOnWhereTheSceneStands) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::motion_plane_test

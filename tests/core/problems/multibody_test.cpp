@@ -10,9 +10,8 @@
 #include "tests/support/places.hpp"
 
 /// Mechanisms with published answers.
+namespace pleuel::test::multibody_test {
 namespace {
-
-using namespace pleuel;
 
 /// Value of a function of the step at h → 0 by Richardson's step: the scheme is of second order.
 template <class Function>
@@ -332,3 +331,4 @@ TEST(FlexibleSliderCrank, WithElementsComesCloseToTheTestSet) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::multibody_test

@@ -9,9 +9,9 @@
 #include "tests/support/differences.hpp"
 #include "tests/support/places.hpp"
 
+namespace pleuel::test::space_and_plane_test {
 namespace {
 
-using namespace pleuel;
 using Json = nlohmann::json;
 
 /// A soft beam of aluminium that is swung about z bends by up to 0.2 rad and carries a stiffer arm,
@@ -61,7 +61,7 @@ double largest_rotation(const Analysis& analysis) {
   State state;
   for (int step = 0; step <= analysis.trajectory.steps(); ++step) {
     analysis.trajectory.states->load(step, state);
-    const Eigen::VectorXd d = nodal_displacements(boom, state);
+    const Eigen::VectorXd d = stacked_displacements(boom, state);
     for (Eigen::Index i = 0; i < d.size(); i += 6) {
       largest = std::max(largest, d.segment<3>(i + 3).norm());
     }
@@ -369,3 +369,4 @@ TEST(ElasticRotation, KeepsTheBalanceOfEnergy) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::space_and_plane_test

@@ -3,9 +3,8 @@
 #include "core/integration/simulate.hpp"
 #include "tests/support/sample_scenes.hpp"
 
+namespace pleuel::test::spin_up_test {
 namespace {
-
-using namespace pleuel;
 
 /// The spin-up manoeuvre of Simo & Vu-Quoc 1987, numbers of an independent model (chordwise
 /// linear model with centrifugal stiffening; about 1 % from the geometrically exact beam).
@@ -68,3 +67,4 @@ TEST(SpinUpBeam, DivergesWithoutStiffening) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::spin_up_test

@@ -10,9 +10,8 @@
 #include "core/scene/problem_reader.hpp"
 #include "sensitivity/gradients.hpp"
 
+namespace pleuel::test::fatigue_test {
 namespace {
-
-using namespace pleuel;
 
 constexpr FatigueCriterion criteria[] = {FatigueCriterion::goodman, FatigueCriterion::gerber,
                                          FatigueCriterion::soderberg};
@@ -242,3 +241,4 @@ TEST(Fatigue, NeedsTheDataOfTheMaterial) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::fatigue_test

@@ -14,9 +14,9 @@
 #include "tests/support/problem_runs.hpp"
 
 /// Natural frequencies and buckling of members that move in a plane: what is out of it counts.
+namespace pleuel::test::full_modes_test {
 namespace {
 
-using namespace pleuel;
 using test::doubts_of;
 using test::read_scene;
 
@@ -271,3 +271,4 @@ TEST(FrequencyOfAMechanism, IsThatWithoutItsRedundantConstraints) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::full_modes_test

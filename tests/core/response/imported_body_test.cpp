@@ -16,7 +16,7 @@
 
 /// A member that is taken out of a problem by its invariants and put back as a body that is known
 /// by them only: nothing may change but round-off.
-namespace pleuel::test {
+namespace pleuel::test::imported_body_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -480,4 +480,4 @@ TEST_F(Exchange, ExampleOfTheDocumentationIsTheSliderCrank) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::imported_body_test

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace pleuel::test {
+namespace pleuel::test::largest_signal_test {
 namespace {
 
 /// q₀, −q₀ and 2 q₁ − 1.
@@ -47,4 +47,4 @@ TEST(LargestSignal, IsTheLargestAtEachInstant) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::largest_signal_test

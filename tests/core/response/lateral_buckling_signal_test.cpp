@@ -14,9 +14,8 @@
 #include "tests/support/parameter_name.hpp"
 
 /// A thin bar of 1.2 m, 2 mm × 40 mm, on edge: it bends in the plane x–y.
+namespace pleuel::test::lateral_buckling_signal_test {
 namespace {
-
-using namespace pleuel;
 
 constexpr double young = 2.1e11, shear = 8.0e10, length = 1.2, pi = std::numbers::pi;
 
@@ -426,3 +425,4 @@ TEST(LateralBucklingResponse, IsRefusedWhereNoJointHoldsTheBeam) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::lateral_buckling_signal_test

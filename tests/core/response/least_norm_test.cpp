@@ -10,9 +10,9 @@
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"
 
+namespace pleuel::test::least_norm_test {
 namespace {
 
-using namespace pleuel;
 using namespace response_samples;
 
 constexpr double mass = 20.0, width = 0.9, distance = 1.6, gravity = 9.81, turning = 3.0;
@@ -188,3 +188,4 @@ INSTANTIATE_TEST_SUITE_P(Formulations, GradientOfLeastNorm,
                          }));
 
 }  // namespace
+}  // namespace pleuel::test::least_norm_test

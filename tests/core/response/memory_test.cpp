@@ -5,7 +5,7 @@
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
 
-namespace pleuel {
+namespace pleuel::test::memory_test {
 namespace {
 
 constexpr const char* pendulum = R"({"scene": {"gravity": [0, -9.81, 0],
@@ -38,4 +38,4 @@ TEST(Memory, OfHistoriesThatNoMachineHoldsIsTooMuchBeforeTheRun) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::memory_test

@@ -12,9 +12,9 @@
 
 /// Energies and errors of the time integration as responses; their gradients are tested with those
 /// of all signals.
+namespace pleuel::test::monitor_response_test {
 namespace {
 
-using namespace pleuel;
 using namespace response_samples;
 
 std::string response_of(const std::string& name, const std::string& value) {
@@ -87,9 +87,9 @@ TEST(EnergyResponses, AreThoseOfMassAndStrain) {
   }
 }
 
-class EverySample : public testing::TestWithParam<int> {
+class EverySimulatedSample : public testing::TestWithParam<int> {
  protected:
-  EverySample() {
+  EverySimulatedSample() {
     const SampleScene sample = sample_with_strength(GetParam());
     problem_ = sample.problem();
     problem_.simulation.end_time = 0.02;
@@ -110,7 +110,7 @@ class EverySample : public testing::TestWithParam<int> {
 };
 
 /// The monitors have other formulas for the same balance; round-off of the largest energy.
-TEST_P(EverySample, MissesInItsBalanceWhatTheMonitorsMiss) {
+TEST_P(EverySimulatedSample, MissesInItsBalanceWhatTheMonitorsMiss) {
   for (const bool is_window : {false, true}) {
     ResponseSettings& balance = response(ResponseType::energy_balance);
     balance.over_time = OverTime::final;
@@ -129,7 +129,7 @@ TEST_P(EverySample, MissesInItsBalanceWhatTheMonitorsMiss) {
   }
 }
 
-TEST_P(EverySample, DriftsAsTheMonitorsSay) {
+TEST_P(EverySimulatedSample, DriftsAsTheMonitorsSay) {
   problem_.simulation.formulation.constraints = ConstraintForm::index_1;
   for (ResponseSettings& response : problem_.responses) {
     if (response.type == ResponseType::constraint_drift) response.over_time = OverTime::max_abs;
@@ -147,7 +147,8 @@ TEST_P(EverySample, DriftsAsTheMonitorsSay) {
   EXPECT_LE(velocity, 1.125 * monitors.velocity_drift);
 }
 
-INSTANTIATE_TEST_SUITE_P(Samples, EverySample, testing::Range(0, sample_count), sample_name);
+INSTANTIATE_TEST_SUITE_P(Samples, EverySimulatedSample, testing::Range(0, sample_count),
+                         sample_name);
 
 /// Index 1 drifts by something that depends on the design, and its gradient says how; index 3 keeps
 /// its constraints at every design. The drift is a sum of small errors: with the step of the file
@@ -212,3 +213,4 @@ TEST(DriftResponse, NeedsConstraints) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::monitor_response_test

@@ -11,9 +11,8 @@
 #include "tests/support/random_state.hpp"
 #include "tests/support/sample_scenes.hpp"
 
+namespace pleuel::test::monitor_test {
 namespace {
-
-using namespace pleuel;
 
 /// vᵀR of the terms that the energy of bodies stands for: all less the others.
 double power_into_bodies(Model& model, const State& state) {
@@ -286,3 +285,4 @@ TEST(ElasticRotation, OfACantileverIsThatOfStatics) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::monitor_test

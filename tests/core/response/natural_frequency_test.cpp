@@ -9,9 +9,9 @@
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_name.hpp"
 
+namespace pleuel::test::natural_frequency_test {
 namespace {
 
-using namespace pleuel;
 using namespace response_samples;
 
 constexpr double length = 0.8, width = 0.003, height = 0.002, young = 2.1e11, density = 7850.0;
@@ -188,3 +188,4 @@ TEST_P(BodyFrequencies, HaveTheDerivativesOfDifferences) {
 INSTANTIATE_TEST_SUITE_P(Samples, BodyFrequencies, testing::Range(0, sample_count), sample_name);
 
 }  // namespace
+}  // namespace pleuel::test::natural_frequency_test

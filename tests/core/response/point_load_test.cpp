@@ -11,9 +11,8 @@
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"
 
+namespace pleuel::test::point_load_test {
 namespace {
-
-using namespace pleuel;
 
 constexpr double length = 1.0, width = 0.01, height = 0.02;
 constexpr double a = 0.4, b = 0.6;  ///< from the load to either end
@@ -89,3 +88,4 @@ INSTANTIATE_TEST_SUITE_P(Elements, Meshes, testing::Values(1, 2, 3, 4, 5, 7, 8, 
                          named_by_value());
 
 }  // namespace
+}  // namespace pleuel::test::point_load_test

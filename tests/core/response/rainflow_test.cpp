@@ -13,9 +13,8 @@
 #include "core/scene/problem_reader.hpp"
 #include "sensitivity/gradients.hpp"
 
+namespace pleuel::test::rainflow_test {
 namespace {
-
-using namespace pleuel;
 
 /// ASTM E1049-85 (2017), figure 6, the example of 5.4.4: peaks and valleys A … I; one cycle EF of
 /// range 4, and half cycles AB 3, BC 4, CD 8, DG 9, GH 8, HI 6.
@@ -217,3 +216,4 @@ TEST(Damage, OfASteadyStateIsThatOfAWholeCycle) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::rainflow_test

@@ -7,9 +7,9 @@
 #include "tests/support/dense.hpp"
 #include "tests/support/sample_name.hpp"
 
+namespace pleuel::test::reaction_test {
 namespace {
 
-using namespace pleuel;
 using namespace response_samples;
 
 class EveryReaction : public testing::TestWithParam<int> {};
@@ -179,3 +179,4 @@ TEST(Power, IsTorqueTimesSpeedAndItsIntegralTheChangeOfEnergy) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::reaction_test

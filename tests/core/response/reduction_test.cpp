@@ -8,9 +8,8 @@
 
 #include "tests/support/parameter_name.hpp"
 
+namespace pleuel::test::reduction_test {
 namespace {
-
-using namespace pleuel;
 
 constexpr int steps = 40;
 const Eigen::VectorXd grid = Eigen::VectorXd::LinSpaced(steps + 1, 0.0, 0.2);
@@ -172,3 +171,4 @@ TEST(Reduction, TellsTheOtherPeakOfAPeriodHoweverManyPeriodsThereAre) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::reduction_test

@@ -5,9 +5,9 @@
 #include "tests/core/response/response_samples.hpp"
 #include "tests/support/sample_name.hpp"
 
+namespace pleuel::test::response_gradient_test {
 namespace {
 
-using namespace pleuel;
 using namespace response_samples;
 
 class GradientsOfResponses : public testing::TestWithParam<int> {
@@ -83,3 +83,4 @@ INSTANTIATE_TEST_SUITE_P(Samples, GradientsOfResponses, testing::Range(0, sample
                          sample_name);
 
 }  // namespace
+}  // namespace pleuel::test::response_gradient_test

@@ -10,9 +10,8 @@
 #include "core/trust/round_off.hpp"
 
 /// Section forces on both sides of a load.
+namespace pleuel::test::section_side_test {
 namespace {
-
-using namespace pleuel;
 
 /// A light beam on two supports with a force F upwards at 0.4 of its length: the shear force of the
 /// part behind a section on the part before it is +0.6 F before the load and −0.4 F behind it; the
@@ -102,3 +101,4 @@ TEST(SectionForces, ThatVanishAreRoundOff) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::section_side_test

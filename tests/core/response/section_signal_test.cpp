@@ -11,9 +11,9 @@
 #include "tests/core/response/response_samples.hpp"
 #include "tests/support/dense.hpp"
 
+namespace pleuel::test::section_signal_test {
 namespace {
 
-using namespace pleuel;
 using namespace response_samples;
 
 constexpr double length = 0.8, width = 0.02, height = 0.03, density = 7850, young = 2.1e11;
@@ -263,3 +263,4 @@ TEST(StressOfOnePoint, HasTheSignOfItsSide) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::section_signal_test

@@ -10,9 +10,8 @@
 
 /// A light cantilever of 0.5 m with a force across its tip and a torque about its axis: V and T are
 /// the same all along.
+namespace pleuel::test::shear_stress_test {
 namespace {
-
-using namespace pleuel;
 
 constexpr double force = 5.0, torque = 0.2, pi = std::numbers::pi;
 
@@ -169,3 +168,4 @@ TEST(ShearStress, OfAGeneralSectionIsNotKnown) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::shear_stress_test

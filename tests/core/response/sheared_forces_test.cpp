@@ -8,7 +8,7 @@
 #include "core/response/buckling_signal.hpp"
 #include "core/scene/problem_reader.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::sheared_forces_test {
 namespace {
 
 constexpr double young = 2.1e11, shear_modulus = young / 2.6, density = 7850;
@@ -102,4 +102,4 @@ TEST(EulerLoad, OfAShearedBeamIsEngessers) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::sheared_forces_test

@@ -6,9 +6,9 @@
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_name.hpp"
 
+namespace pleuel::test::signal_derivative_test {
 namespace {
 
-using namespace pleuel;
 using namespace response_samples;
 
 class EverySignal : public testing::TestWithParam<int> {
@@ -152,3 +152,4 @@ TEST_P(EverySignal, OfAMotionFollowsTheSimulatedPosition) {
 INSTANTIATE_TEST_SUITE_P(Samples, EverySignal, testing::Range(0, sample_count), sample_name);
 
 }  // namespace
+}  // namespace pleuel::test::signal_derivative_test

@@ -8,7 +8,7 @@
 #include "tests/core/response/response_samples.hpp"
 #include "tests/support/sample_name.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::signal_description_test {
 namespace {
 
 using namespace response_samples;
@@ -51,4 +51,4 @@ INSTANTIATE_TEST_SUITE_P(Samples, DescriptionOfASignal, testing::Range(0, sample
                          sample_name);
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::signal_description_test

@@ -9,9 +9,8 @@
 #include "tests/support/dense.hpp"
 #include "tests/support/sample_scenes.hpp"
 
+namespace pleuel::test::stress_test {
 namespace {
-
-using namespace pleuel;
 
 constexpr double length = 0.8, width = 0.02, height = 0.03, density = 7850, gravity = 9.81;
 
@@ -176,3 +175,4 @@ TEST(Stress, OfAGeneralSectionIsThatAtItsPoints) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::stress_test

@@ -7,9 +7,9 @@
 #include "core/response/monitors.hpp"
 #include "tests/support/problem_runs.hpp"
 
+namespace pleuel::test::validity_test {
 namespace {
 
-using namespace pleuel;
 using testing::HasSubstr;
 
 template <class Work>
@@ -95,3 +95,4 @@ TEST(PulledApartJoint, IsJudgedByWhatTheFormulationPromises) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::validity_test

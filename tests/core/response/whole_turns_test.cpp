@@ -8,7 +8,7 @@
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::whole_turns_test {
 namespace {
 
 TEST(WholeTurns, AreAddedWhereAnAngleJumps) {
@@ -51,4 +51,4 @@ TEST(WholeTurns, OfAJointCountInSpace) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::whole_turns_test

@@ -4,9 +4,9 @@
 #include "core/response/analysis.hpp"
 #include "tests/core/response/response_samples.hpp"
 
+namespace pleuel::test::window_test {
 namespace {
 
-using namespace pleuel;
 using namespace response_samples;
 
 constexpr int steps = 40;
@@ -123,3 +123,4 @@ TEST(Window, WithLessThanTwoStepsIsAnError) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::window_test

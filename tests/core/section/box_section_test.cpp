@@ -10,7 +10,7 @@
 #include "tests/core/section/section_derivative.hpp"
 #include "tests/support/parameter_name.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::box_section_test {
 namespace {
 
 constexpr double width = 1.0;
@@ -162,4 +162,4 @@ TEST(BoxSection, DerivativesAreThoseOfTheComplexStepAndOfDifferences) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::box_section_test

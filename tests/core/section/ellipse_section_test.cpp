@@ -5,7 +5,7 @@
 #include "core/section/round_section.hpp"
 #include "tests/core/section/section_derivative.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::ellipse_section_test {
 namespace {
 
 TEST(EllipseSection, WithEqualAxesIsTheCircle) {
@@ -65,4 +65,4 @@ TEST(EllipseSection, DerivativesAreThoseOfTheComplexStepAndOfDifferences) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::ellipse_section_test

@@ -10,7 +10,7 @@
 #include "tests/core/section/section_derivative.hpp"
 #include "tests/support/parameter_name.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::i_section_test {
 namespace {
 
 struct Sizes {
@@ -140,4 +140,4 @@ TEST(ISection, DerivativesAreThoseOfTheComplexStepAndOfDifferences) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::i_section_test

@@ -7,9 +7,8 @@
 
 #include "tests/core/section/section_derivative.hpp"
 
+namespace pleuel::test::rectangle_section_test {
 namespace {
-
-using namespace pleuel;
 
 struct KnownTorsion {
   double ratio, constant, tolerance;
@@ -135,3 +134,4 @@ TEST(RectangleSection, DerivativesAreThoseOfTheComplexStepAndOfDifferences) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::rectangle_section_test

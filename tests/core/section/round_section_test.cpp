@@ -4,9 +4,8 @@
 
 #include "tests/core/section/section_derivative.hpp"
 
+namespace pleuel::test::round_section_test {
 namespace {
-
-using namespace pleuel;
 
 TEST(RoundSection, SecondMomentsAreTheIntegralsOverItsArea) {
   const double outer = 0.03, inner = 0.021;
@@ -55,3 +54,4 @@ TEST(RoundSection, DerivativesAreThoseOfTheComplexStepAndOfDifferences) {
 }
 
 }  // namespace
+}  // namespace pleuel::test::round_section_test

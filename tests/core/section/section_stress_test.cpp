@@ -7,7 +7,7 @@
 #include "core/section/ellipse_section.hpp"
 #include "core/section/round_section.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::section_stress_test {
 namespace {
 
 using Forces = SectionForces<double>;
@@ -139,4 +139,4 @@ TEST(RoundOutline, DerivativeOfTheLargestStressNeedsNoMotionOfItsPlace) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::section_stress_test

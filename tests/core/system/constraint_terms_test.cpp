@@ -7,9 +7,8 @@
 #include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
 
+namespace pleuel::test::constraint_terms_test {
 namespace {
-
-using namespace pleuel;
 
 constexpr ConstraintLevel all_levels[] = {ConstraintLevel::position, ConstraintLevel::velocity,
                                           ConstraintLevel::acceleration};
@@ -112,3 +111,4 @@ TEST_P(ConstraintTermsOf, HaveTheParameterAdjointsOfTheConstraints) {
 INSTANTIATE_TEST_SUITE_P(Samples, ConstraintTermsOf, testing::Range(0, sample_count), sample_name);
 
 }  // namespace
+}  // namespace pleuel::test::constraint_terms_test

@@ -9,9 +9,8 @@
 #include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
 
+namespace pleuel::test::linear_forces_test {
 namespace {
-
-using namespace pleuel;
 
 constexpr auto on_acceleration_level = ConstraintLevel::acceleration;
 
@@ -127,3 +126,4 @@ TEST_P(LinearForcesOf, SumWhatMultipliesTheirDesignDerivatives) {
 INSTANTIATE_TEST_SUITE_P(Samples, LinearForcesOf, testing::Range(0, sample_count), sample_name);
 
 }  // namespace
+}  // namespace pleuel::test::linear_forces_test

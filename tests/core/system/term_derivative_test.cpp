@@ -10,9 +10,8 @@
 #include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
 
+namespace pleuel::test::term_derivative_test {
 namespace {
-
-using namespace pleuel;
 
 struct Case {
   int sample;
@@ -269,3 +268,4 @@ INSTANTIATE_TEST_SUITE_P(Samples, EveryTerm, testing::ValuesIn(all_cases()), cas
 INSTANTIATE_TEST_SUITE_P(Samples, EverySample, testing::Range(0, sample_count), sample_name);
 
 }  // namespace
+}  // namespace pleuel::test::term_derivative_test

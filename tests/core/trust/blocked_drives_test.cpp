@@ -7,7 +7,7 @@
 #include "tests/core/trust/doubts_of.hpp"
 #include "tests/support/problem_runs.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::blocked_drives_test {
 namespace {
 
 using testing::HasSubstr;
@@ -76,4 +76,4 @@ INSTANTIATE_TEST_SUITE_P(Problems, ShippedMechanism,
                          });
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::blocked_drives_test

@@ -8,7 +8,7 @@
 #include "tests/core/trust/crank_rocker.hpp"
 #include "tests/core/trust/doubts_of.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::energy_balance_test {
 namespace {
 
 using testing::HasSubstr;
@@ -30,4 +30,4 @@ TEST(EnergyBalance, IsDoubtedAboveOnePercent) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::energy_balance_test

@@ -12,7 +12,7 @@
 #include "tests/support/source_folder.hpp"
 
 /// Bands around histories against runs at an eighth of the step with four times the elements.
-namespace pleuel {
+namespace pleuel::test::error_bands_test {
 namespace {
 
 /// Errors of vibrations pass through zero; instants.
@@ -87,4 +87,4 @@ TEST(ErrorBands, AreNotMadeWhereNothingIsChecked) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::error_bands_test

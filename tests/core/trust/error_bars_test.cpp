@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 /// Estimates from runs with refined steps, on values whose error is known.
-namespace pleuel {
+namespace pleuel::test::error_bars_test {
 namespace {
 
 TEST(Extrapolation, FindsTheLimitOfASecondOrderSequence) {
@@ -250,4 +250,4 @@ TEST_F(ErrorBarOfAValue, IsExactOfAConstantWhereStepsFailed) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::error_bars_test

@@ -8,7 +8,7 @@
 #include "tests/core/trust/crank_rocker.hpp"
 #include "tests/core/trust/doubts_of.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::extrapolation_test {
 namespace {
 
 using testing::HasSubstr;
@@ -51,4 +51,4 @@ TEST(Extrapolation, IsADoubtWhereTheDesignHasLeftThatOfTheFile) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::extrapolation_test

@@ -6,7 +6,7 @@
 #include "tests/core/trust/crank_rocker.hpp"
 #include "tests/core/trust/doubts_of.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::far_limits_test {
 namespace {
 
 using testing::HasSubstr;
@@ -39,4 +39,4 @@ TEST(FarLimit, IsNoneThatIsBrokenByLessOrZero) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::far_limits_test

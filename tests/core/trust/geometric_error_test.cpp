@@ -10,7 +10,7 @@
 #include "tests/support/bent_cantilever.hpp"
 #include "tests/support/problem_runs.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::geometric_error_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -166,4 +166,4 @@ TEST(BendingRange, IsLeftByLargeStretching) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::geometric_error_test

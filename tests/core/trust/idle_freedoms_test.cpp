@@ -11,7 +11,7 @@
 #include "tests/core/trust/doubts_of.hpp"
 #include "tests/support/problem_runs.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::idle_freedoms_test {
 namespace {
 
 using testing::HasSubstr;
@@ -116,4 +116,4 @@ TEST(UnconnectedBodies, AreNamed) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::idle_freedoms_test

@@ -10,7 +10,7 @@
 
 #include "tests/core/trust/doubts_of.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::initial_motion_test {
 namespace {
 
 using testing::HasSubstr;
@@ -77,4 +77,4 @@ TEST(InitialMotion, OfAMassOnAnElasticMemberIsADoubt) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::initial_motion_test

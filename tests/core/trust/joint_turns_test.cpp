@@ -8,7 +8,7 @@
 
 #include "tests/core/trust/doubts_of.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::joint_turns_test {
 namespace {
 
 using testing::HasSubstr;
@@ -63,4 +63,4 @@ TEST(JointTurns, AreADoubtOfLawsThatDoNotRepeat) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::joint_turns_test

@@ -10,7 +10,7 @@
 
 #include "tests/core/trust/doubts_of.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::left_out_effects_test {
 namespace {
 
 using testing::HasSubstr;
@@ -44,4 +44,4 @@ TEST(LostStiffening, IsADoubtWhereAxialForcesAreLarge) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::left_out_effects_test

@@ -11,7 +11,7 @@
 #include "tests/core/trust/doubts_of.hpp"
 #include "tests/support/parameter_name.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::misaligned_joints_test {
 namespace {
 
 using testing::HasSubstr;
@@ -154,4 +154,4 @@ TEST(MisalignedJoints, OfALoopInSpaceThatIsDrivenAreRedundant) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::misaligned_joints_test

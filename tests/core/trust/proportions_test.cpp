@@ -11,7 +11,7 @@
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::proportions_test {
 namespace {
 
 using testing::HasSubstr;
@@ -149,4 +149,4 @@ TEST(SizesOutOfProportion, AreNotThinLeaves) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::proportions_test

@@ -12,7 +12,7 @@
 #include "core/trust/nested_runs.hpp"
 #include "core/trust/round_off.hpp"
 
-namespace pleuel {
+namespace pleuel::test::resolution_test {
 namespace {
 
 using testing::HasSubstr;
@@ -341,4 +341,4 @@ TEST(EnergyBalance, IsSeriousWhereSuddenLoadsLookSlow) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::resolution_test

@@ -10,7 +10,7 @@
 #include "core/trust/asked_responses.hpp"
 
 /// Chosen settings are compared with runs at an eighth of their step and four times their elements.
-namespace pleuel {
+namespace pleuel::test::setting_choice_test {
 namespace {
 
 using testing::ElementsAre;
@@ -165,4 +165,4 @@ TEST(AccuracyTarget, ChoosesTheSettingOnlyWhereItIsGiven) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::setting_choice_test

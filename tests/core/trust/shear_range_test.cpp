@@ -12,7 +12,7 @@
 #include "tests/support/bent_cantilever.hpp"
 #include "tests/support/problem_runs.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::shear_range_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -260,4 +260,4 @@ TEST(ShearCoefficient, OfSectionsThatAreTheSameIsTheSame) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::shear_range_test

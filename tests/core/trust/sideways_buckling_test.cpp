@@ -12,9 +12,9 @@
 #include "core/trust/unstable_members.hpp"
 #include "tests/core/trust/doubts_of.hpp"
 
+namespace pleuel::test::sideways_buckling_test {
 namespace {
 
-using namespace pleuel;
 using test::doubts_of;
 using test::read_scene;
 
@@ -464,3 +464,4 @@ TEST(SidewaysBuckling, OfAFrameInSpaceIsToldWithoutStiffeningAndWhereItIsTooLarg
 }
 
 }  // namespace
+}  // namespace pleuel::test::sideways_buckling_test

@@ -8,7 +8,7 @@
 
 #include "tests/core/trust/doubts_of.hpp"
 
-namespace pleuel::test {
+namespace pleuel::test::sliding_contact_test {
 namespace {
 
 using testing::HasSubstr;
@@ -61,4 +61,4 @@ TEST(SlidingContact, IsADoubtWhereItTravelsOverAnElasticBeam) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::sliding_contact_test

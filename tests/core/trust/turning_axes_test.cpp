@@ -9,7 +9,7 @@
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/frequency_meaning.hpp"
 
-namespace pleuel {
+namespace pleuel::test::turning_axes_test {
 namespace {
 
 /// A steel blade of 1 m × 20 mm × 30 mm that turns at 50 rad/s about its clamped end.
@@ -101,4 +101,4 @@ TEST(Frequencies, AreDoubtedWhereAFollowerForceMakesThemGrow) {
 }
 
 }  // namespace
-}  // namespace pleuel
+}  // namespace pleuel::test::turning_axes_test

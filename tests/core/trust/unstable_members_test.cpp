@@ -9,7 +9,7 @@
 #include "tests/core/trust/doubts_of.hpp"
 
 /// A square column of 1 m × 10 mm, pressed slowly: EI = 175 N m².
-namespace pleuel::test {
+namespace pleuel::test::unstable_members_test {
 namespace {
 
 constexpr double stiffness = 2.1e11 * 1e-8 / 12;
@@ -172,4 +172,4 @@ TEST(UnstableMembers, AreShaftsThatDampThemselves) {
 }
 
 }  // namespace
-}  // namespace pleuel::test
+}  // namespace pleuel::test::unstable_members_test

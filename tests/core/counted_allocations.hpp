@@ -1,0 +1,14 @@
+#pragma once
+
+/// Defined where the allocator of the C library can be counted: it stands behind operator new, Eigen and
+/// KLU alike. Sanitizers bring their own.
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+#define PLEUEL_COUNTS_ALLOCATIONS
+
+namespace pleuel::test {
+
+/// Blocks that this program has asked for so far. A program that links this counts all of its own.
+long allocations();
+
+}  // namespace pleuel::test
+#endif
