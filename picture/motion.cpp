@@ -115,7 +115,7 @@ class BodySampler {
     }
   }
 
-  BodyMotion take() { return std::move(motion_); }
+  BodyTrack take() { return std::move(motion_); }
 
  private:
   void add_position(ResponseSettings settings, const Model& model) {
@@ -168,7 +168,7 @@ class BodySampler {
         .coeffs();
   }
 
-  BodyMotion motion_;
+  BodyTrack motion_;
   std::vector<const BodyModel*> parts_;
   std::vector<std::unique_ptr<Signal>> positions_, stresses_;
   Eigen::VectorXd number_ = Eigen::VectorXd::Zero(1), points_;

@@ -10,7 +10,7 @@
 namespace pleuel {
 
 /// How a body moves and deforms: one column an instant.
-struct BodyMotion {
+struct BodyTrack {
   std::string body;
   /// Of a beam its stations along the length, 0 … 1; of an imported body its places along local x
   /// [m]; of others one, the centre of mass.
@@ -24,8 +24,8 @@ struct BodyMotion {
 };
 
 struct Motion {
-  Eigen::VectorXd time;            ///< [s]
-  std::vector<BodyMotion> bodies;  ///< in the order of the scene
+  Eigen::VectorXd time;           ///< [s]
+  std::vector<BodyTrack> bodies;  ///< in the order of the scene
 };
 
 /// The motion of a simulation at some of its steps.

@@ -17,7 +17,7 @@ constexpr double difference = 1e-4;
 /// The deformed axis.
 class Axis {
  public:
-  Axis(const BodyMotion& motion, Eigen::Index instant) : motion_(motion), instant_(instant) {}
+  Axis(const BodyTrack& motion, Eigen::Index instant) : motion_(motion), instant_(instant) {}
 
   Eigen::Vector3d position(double share) const {
     const auto [k, part] = place(share);
@@ -62,7 +62,7 @@ class Axis {
     return motion_.positions.block<3, 1>(3 * k, instant_);
   }
 
-  const BodyMotion& motion_;
+  const BodyTrack& motion_;
   Eigen::Index instant_;
 };
 
@@ -159,8 +159,8 @@ class Sweep {
 
 }  // namespace
 
-SweptSurface swept_beam(const BeamBody& beam, const Design<double>& design,
-                        const BodyMotion& motion, Eigen::Index instant) {
+SweptSurface swept_beam(const BeamBody& beam, const Design<double>& design, const BodyTrack& motion,
+                        Eigen::Index instant) {
   const Axis axis(motion, instant);
   Sweep sweep(axis);
   const std::vector<double> fractions = length_fractions(beam);

@@ -21,7 +21,7 @@ struct SweptSurface {
 /// between stations positions and stresses are interpolated.
 /// @param motion   of the beam
 /// @param instant  a column of it
-SweptSurface swept_beam(const BeamBody& beam, const Design<double>& design,
-                        const BodyMotion& motion, Eigen::Index instant);
+SweptSurface swept_beam(const BeamBody& beam, const Design<double>& design, const BodyTrack& motion,
+                        Eigen::Index instant);
 
 }  // namespace pleuel

@@ -161,7 +161,7 @@ Json companions_document(const ProblemFile& problem, const Analysis& analysis, c
 /// So many frames that all designs together stay small.
 int frames_for(const Motion& first, std::size_t designs, const Room& room) {
   double numbers = 0.0;
-  for (const BodyMotion& body : first.bodies) {
+  for (const BodyTrack& body : first.bodies) {
     numbers +=
         static_cast<double>(body.positions.rows() + body.rotations.rows() + body.stress.rows());
   }
@@ -174,7 +174,7 @@ Json motion_document(const Scene& scene, const Analysis& analysis, std::size_t d
   const int frames = frames_for(sample_motion(scene, analysis, {0}), designs, room);
   const Motion motion = sample_motion(scene, analysis, frames_of_motion(analysis, frames));
   Json document = {{"time", packed(motion.time.transpose())}, {"bodies", Json::array()}};
-  for (const BodyMotion& body : motion.bodies) {
+  for (const BodyTrack& body : motion.bodies) {
     Json entry = {{"stations", body.stations},
                   {"parts", body.parts},
                   {"positions", packed(body.positions)},

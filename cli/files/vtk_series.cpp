@@ -31,7 +31,7 @@ class Grid {
   }
 
   /// Places of a body that has no surface.
-  void add(const BodyMotion& motion, Eigen::Index instant, int body) {
+  void add(const BodyTrack& motion, Eigen::Index instant, int body) {
     for (Eigen::Index k = 0; 3 * k < motion.positions.rows(); ++k) {
       connectivity_ += fmt::format("{} ", points_);
       add_point(motion.positions.block<3, 1>(3 * k, instant), 0.0);
@@ -98,7 +98,7 @@ Grid grid_at(const ProblemFile& problem, const Design<double>& design, const Mot
              Eigen::Index instant) {
   Grid grid;
   for (std::size_t i = 0; i < problem.scene.bodies.size(); ++i) {
-    const BodyMotion& body = motion.bodies[i];
+    const BodyTrack& body = motion.bodies[i];
     const int number = static_cast<int>(i);
     if (const auto* beam = std::get_if<BeamBody>(&problem.scene.bodies[i].shape)) {
       grid.add(swept_beam(*beam, design, body, instant), number);

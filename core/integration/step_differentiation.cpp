@@ -10,8 +10,7 @@ namespace pleuel {
 
 StepDifferentiation::StepDifferentiation(Mechanism& mechanism, const Trajectory& trajectory,
                                          DerivativesOf of)
-    : mechanism_(mechanism),
-      system_(*mechanism.system),
+    : system_(*mechanism.system),
       rotations_(mechanism.rotations),
       trajectory_(trajectory),
       of_(of),

@@ -39,7 +39,6 @@ class StepDifferentiation {
   void swap_projected();
   void project();
 
-  Mechanism& mechanism_;
   System& system_;
   const std::vector<int>& rotations_;
   const Trajectory& trajectory_;

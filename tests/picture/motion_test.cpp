@@ -21,7 +21,7 @@ std::vector<int> all_steps(const Analysis& analysis) {
   return steps;
 }
 
-Eigen::Quaterniond rotation_at(const BodyMotion& body, Eigen::Index instant) {
+Eigen::Quaterniond rotation_at(const BodyTrack& body, Eigen::Index instant) {
   return Eigen::Quaterniond(Eigen::Vector4d(body.rotations.col(instant).head(4)));
 }
 
@@ -30,7 +30,7 @@ TEST(Motion, OfARigidArmIsACircle) {
   const ProblemFile rigid = turning_arm(R"("rigid": true)");
   const auto analysis = analyze(rigid, start_design(rigid));
   const Motion motion = sample_motion(rigid.scene, *analysis, all_steps(*analysis));
-  const BodyMotion& arm = motion.bodies.front();
+  const BodyTrack& arm = motion.bodies.front();
   const std::size_t last = arm.stations.size() - 1;
   for (Eigen::Index i = 0; i < motion.time.size(); ++i) {
     const double angle = 20.0 * motion.time(i);
@@ -53,7 +53,7 @@ TEST_P(MotionOfBeams, EqualsTheResponsesOfTheSamePlaces) {
   const ProblemFile problem = turning_arm(GetParam());
   const auto analysis = analyze(problem, start_design(problem));
   const Motion motion = sample_motion(problem.scene, *analysis, all_steps(*analysis));
-  const BodyMotion& arm = motion.bodies.front();
+  const BodyTrack& arm = motion.bodies.front();
   for (Eigen::Index i = 0; i < motion.time.size(); ++i) {
     const Eigen::Vector3d tip = arm.positions.col(i).tail<3>();
     EXPECT_NEAR(tip.x(), analysis->histories[2](0, i), 1e-12);

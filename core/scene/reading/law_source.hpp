@@ -11,7 +11,7 @@
 /// A function of time, or of the state of a force element, before it is read.
 namespace pleuel {
 
-enum class Purpose { drive, load };
+enum class LawPurpose { drive, load };
 
 /// What a law may be a function of besides time, by the names that formulas and tables have for it.
 /// The rate is called "speed".
@@ -25,7 +25,7 @@ struct StateNames {
 struct LawSource {
   JsonNode node;
   Quantity value;
-  Purpose purpose = Purpose::load;
+  LawPurpose purpose = LawPurpose::load;
   std::optional<StateNames> state = {};
   std::vector<std::string_view> other_keys = {};  ///< that are not the function's
 

@@ -89,7 +89,7 @@ SpringDamper read_spring(const JsonNode& node, const Scene& scene, NumberReader&
   if (resistance) {
     const StateNames names{"elongation", "elongations", quantities::length, quantities::speed};
     spring.resistance =
-        read_resistance({*resistance, quantities::force, Purpose::load, names}, numbers);
+        read_resistance({*resistance, quantities::force, LawPurpose::load, names}, numbers);
   }
   if (!resistance) node.at("stiffness");
   read_numbers(node, keys, numbers, spring);
@@ -119,7 +119,8 @@ void read_motor(const JsonNode& node, const Joint& joint, NumberReader& numbers,
     return;
   }
   force.motor = read_load_function(
-      {node, along(force.coordinate).force, Purpose::load, names_along(force.coordinate)}, numbers);
+      {node, along(force.coordinate).force, LawPurpose::load, names_along(force.coordinate)},
+      numbers);
 }
 
 JointForce read_joint_force(const JsonNode& node, const Scene& scene, NumberReader& numbers) {
@@ -142,7 +143,7 @@ JointForce read_joint_force(const JsonNode& node, const Scene& scene, NumberRead
   read_numbers(node, number_keys(KeysOf<JointForce>(), measures), numbers, force);
   if (resistance) {
     force.resistance = read_resistance(
-        {*resistance, measures.force, Purpose::load, names_along(force.coordinate)}, numbers);
+        {*resistance, measures.force, LawPurpose::load, names_along(force.coordinate)}, numbers);
   }
   if (motor) read_motor(*motor, joint, numbers, force);
   return force;

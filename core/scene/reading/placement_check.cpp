@@ -46,7 +46,7 @@ std::vector<PointPair> pairs_of(const JsonNode& node, const Scene& scene) {
 }
 
 void check_on_beam(const JsonNode& node, const PlacedPoint& place, const BeamBody& beam,
-                   const std::vector<Sample>& samples) {
+                   const std::vector<SampleDesign>& samples) {
   const Design<double>& start = samples.front().design;
   const Eigen::Vector3d at_start = position(*place.point, start);
   const double share = nearest_share(beam, at_start, start);
@@ -56,7 +56,7 @@ void check_on_beam(const JsonNode& node, const PlacedPoint& place, const BeamBod
         fmt::format("must be on the axis of the beam \"{}\", the nearest point is {} [m], got {}",
                     name, describe(point_at(beam, share, start)), describe(at_start)));
   }
-  for (const Sample& sample : samples) {
+  for (const SampleDesign& sample : samples) {
     const Eigen::Vector3d at = position(*place.point, sample.design);
     if (is_on_beam(beam, share, at, sample.design)) continue;
     node.fail(fmt::format(
@@ -79,8 +79,8 @@ void check_on_imported(const JsonNode& node, const PlacedPoint& place, const Imp
 }
 
 void check_on_mass(const JsonNode& node, const PlacedPoint& place, const PointMass& mass,
-                   const Scene& scene, const std::vector<Sample>& samples) {
-  for (const Sample& sample : samples) {
+                   const Scene& scene, const std::vector<SampleDesign>& samples) {
+  for (const SampleDesign& sample : samples) {
     const Eigen::Vector3d at = position(*place.point, sample.design);
     if (is_on_mass(mass, at, scene, sample.design)) continue;
     const Eigen::Vector3d point = position(mass.at, sample.design);
@@ -89,8 +89,8 @@ void check_on_mass(const JsonNode& node, const PlacedPoint& place, const PointMa
   }
 }
 
-void check_pair(const PointPair& pair, const std::vector<Sample>& samples) {
-  for (const Sample& sample : samples) {
+void check_pair(const PointPair& pair, const std::vector<SampleDesign>& samples) {
+  for (const SampleDesign& sample : samples) {
     const Eigen::Vector3d first = position(*pair.first, sample.design);
     const Eigen::Vector3d second = position(*pair.second, sample.design);
     const double size = std::max(first.stableNorm(), second.stableNorm());
@@ -101,7 +101,8 @@ void check_pair(const PointPair& pair, const std::vector<Sample>& samples) {
 
 }  // namespace
 
-void check_placement(const JsonNode& node, const Scene& scene, const std::vector<Sample>& samples) {
+void check_placement(const JsonNode& node, const Scene& scene,
+                     const std::vector<SampleDesign>& samples) {
   for (const PlacedPoint& place : placed_points(scene)) {
     if (place.body == nullptr) continue;
     const JsonNode at = node_of(node, place);

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/scene/reading/json_node.hpp"
-#include "core/scene/reading/sample.hpp"
+#include "core/scene/reading/sample_design.hpp"
 
 namespace pleuel {
 
@@ -13,6 +13,7 @@ namespace pleuel {
 /// @param node     the scene in the document, to say where it is wrong.
 /// @param samples  the start design first.
 /// @throws InputError
-void check_placement(const JsonNode& node, const Scene& scene, const std::vector<Sample>& samples);
+void check_placement(const JsonNode& node, const Scene& scene,
+                     const std::vector<SampleDesign>& samples);
 
 }  // namespace pleuel

@@ -24,7 +24,7 @@ double time_or(const LawSource& source, const char* key, double otherwise, Range
 
 /// A duration that a drive must have: it cannot move in no time.
 double duration_of_drive(const LawSource& source, const char* key, const NumberReader& numbers) {
-  if (source.purpose == Purpose::drive) {
+  if (source.purpose == LawPurpose::drive) {
     return numbers.fixed(source.node.at(key), quantities::time, Range::positive);
   }
   return time_or(source, key, 0.0, Range::not_negative, numbers);
@@ -89,7 +89,7 @@ HalfSineFunction read_half_sine(const LawSource& source, NumberReader& numbers) 
 
 TableFunction read_trapezoid(const LawSource& source, NumberReader& numbers) {
   source.allow_keys({"value", "base", "begin", "rise", "hold", "fall", "flanks", "period"});
-  const bool is_drive = source.purpose == Purpose::drive;
+  const bool is_drive = source.purpose == LawPurpose::drive;
   const Number base = number_or(source, "base", 0.0, numbers);
   const Number value = numbers.designable(source.node.at("value"), source.value);
   const double begin = time_or(source, "begin", 0.0, Range::any, numbers);

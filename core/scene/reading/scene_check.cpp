@@ -9,7 +9,7 @@
 #include "core/scene/reading/limits.hpp"
 #include "core/scene/reading/mechanism_check.hpp"
 #include "core/scene/reading/placement_check.hpp"
-#include "core/scene/reading/sample.hpp"
+#include "core/scene/reading/sample_design.hpp"
 #include "core/scene/reading/section_check.hpp"
 
 namespace pleuel {
@@ -17,7 +17,7 @@ namespace {
 
 /// A beam, or a body that lies as one.
 template <class Beam>
-void check_axes(const JsonNode& node, const Beam& beam, const Sample& sample) {
+void check_axes(const JsonNode& node, const Beam& beam, const SampleDesign& sample) {
   const Eigen::Vector3d axis =
       position(beam.to, sample.design) - position(beam.from, sample.design);
   const double size = std::max(position(beam.to, sample.design).stableNorm(),
@@ -63,16 +63,17 @@ void check_design(const JsonNode& node, const ImportedBody& body, const Design<d
   }
 }
 
-void check_bodies(const JsonNode& node, const Scene& scene, const std::vector<Sample>& samples) {
+void check_bodies(const JsonNode& node, const Scene& scene,
+                  const std::vector<SampleDesign>& samples) {
   for (const Body& body : scene.bodies) {
     const JsonNode place = node.at(body.name);
     if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
-      for (const Sample& sample : samples) check_axes(place, *beam, sample);
+      for (const SampleDesign& sample : samples) check_axes(place, *beam, sample);
       check_sections(place, *beam, samples.front().design);
     } else if (const auto* rigid = std::get_if<RigidBody>(&body.shape)) {
       check_inertia(place, *rigid, samples.front().design);
     } else if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
-      for (const Sample& sample : samples) check_axes(place, *imported, sample);
+      for (const SampleDesign& sample : samples) check_axes(place, *imported, sample);
       check_design(place, *imported, samples.front().design);
     }
   }
@@ -99,7 +100,7 @@ void check_deflections(const JsonNode& bodies, const ProblemFile& problem) {
 
 void check_scene(const JsonNode& node, const ProblemFile& problem) {
   check_mechanism(node, problem.scene);
-  const std::vector<Sample> samples = make_samples(problem.variables);
+  const std::vector<SampleDesign> samples = sample_designs(problem.variables);
   check_bodies(node.at("bodies"), problem.scene, samples);
   check_placement(node, problem.scene, samples);
   check_deflections(node.at("bodies"), problem);

@@ -75,7 +75,7 @@ class SectionList {
       if (key == "points") {
         for (std::size_t i = 0; i < value.size(); ++i) write_point(value[i], i);
       } else {
-        write(value, [&key](const Json& one) { return one.at(key); });
+        write(value, [name = key](const Json& one) { return one.at(name); });
       }
     }
     return section;
@@ -131,7 +131,7 @@ class SectionList {
   void write_point(Json& point, std::size_t i) const {
     for (auto& [key, value] : point.items()) {
       if (key == "$comment") continue;
-      write(value, [&key, i](const Json& one) { return one.at("points").at(i).at(key); });
+      write(value, [name = key, i](const Json& one) { return one.at("points").at(i).at(name); });
     }
   }
 

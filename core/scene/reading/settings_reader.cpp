@@ -7,7 +7,7 @@
 
 #include "core/base/machine_memory.hpp"
 #include "core/scene/reading/limits.hpp"
-#include "core/scene/reading/sample.hpp"
+#include "core/scene/reading/sample_design.hpp"
 #include "core/scene/reading/tolerance.hpp"
 #include "core/scene/sample_extent.hpp"
 #include "core/scene/shown_unit.hpp"
@@ -167,7 +167,7 @@ UncertainParameter read_parameter(const std::string& name, const JsonNode& node,
 /// The numbers of the scene that depend on the parameter must make sense in all of its range.
 void check_range(const JsonNode& node, const UncertainParameter& parameter,
                  const std::vector<DesignVariable>& variables, const NumberReader& numbers) {
-  const Design<double> start = make_samples(variables).front().design;
+  const Design<double> start = sample_designs(variables).front().design;
   for (const VariableUse& use : numbers.uses()) {
     if (!use.number.depends_on(parameter.variable)) continue;
     for (const double sign : {-1.0, 1.0}) {

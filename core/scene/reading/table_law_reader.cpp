@@ -75,8 +75,8 @@ void read_points(const LawSource& source, const TableArgument& argument, NumberR
   table.values.assign(columns.values.begin(), columns.values.end());
 }
 
-Interpolation read_interpolation(const JsonNode& node, Purpose purpose, LawArgument argument) {
-  if (purpose == Purpose::load && argument == LawArgument::time) {
+Interpolation read_interpolation(const JsonNode& node, LawPurpose purpose, LawArgument argument) {
+  if (purpose == LawPurpose::load && argument == LawArgument::time) {
     return read_choice<Interpolation>(node, {{"linear", Interpolation::linear},
                                              {"step", Interpolation::step},
                                              {"monotone", Interpolation::monotone},
@@ -84,7 +84,7 @@ Interpolation read_interpolation(const JsonNode& node, Purpose purpose, LawArgum
   }
   if (node.value() == "step") {
     node.fail_with_value(
-        purpose == Purpose::drive
+        purpose == LawPurpose::drive
             ? "would move a drive in no time; take \"monotone\", \"spline\" or \"linear\""
             : "is for tables over time: a force that jumps with the motion has no tangent; take "
               "\"monotone\", \"spline\" or \"linear\"");
@@ -139,7 +139,7 @@ TableFunction read_table(const LawSource& source, NumberReader& numbers) {
   table.argument = argument.argument;
   read_points(source, argument, numbers, table);
   const bool is_straight =
-      source.purpose == Purpose::load && argument.argument == LawArgument::time;
+      source.purpose == LawPurpose::load && argument.argument == LawArgument::time;
   table.interpolation = is_straight ? Interpolation::linear : Interpolation::monotone;
   if (const auto interpolation = source.node.find("interpolation")) {
     table.interpolation = read_interpolation(*interpolation, source.purpose, argument.argument);

@@ -174,11 +174,11 @@ TimeFunction read_motion(const LawSource& source, NumberReader& numbers) {
 
 TimeFunction read_drive_function(const JsonNode& node, const Quantity& value,
                                  NumberReader& numbers) {
-  return read_motion({node, value, Purpose::drive, std::nullopt, {"coordinate"}}, numbers);
+  return read_motion({node, value, LawPurpose::drive, std::nullopt, {"coordinate"}}, numbers);
 }
 
 TimeFunction read_target(const JsonNode& node, const Quantity& value, NumberReader& numbers) {
-  return read_motion({node, value, Purpose::drive}, numbers);
+  return read_motion({node, value, LawPurpose::drive}, numbers);
 }
 
 TimeFunction read_load_function(const LawSource& source, NumberReader& numbers) {

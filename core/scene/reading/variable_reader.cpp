@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/scene/reading/sample.hpp"
+#include "core/scene/reading/sample_design.hpp"
 #include "core/scene/reading/symbols.hpp"
 
 namespace pleuel {
@@ -101,8 +101,8 @@ DesignVariable read_variable(const std::string& name, const JsonNode& node,
 }
 
 /// At the start, and with each variable at either bound.
-void check_formula(const VariableUse& use, const std::vector<Sample>& samples) {
-  for (const Sample& sample : samples) {
+void check_formula(const VariableUse& use, const std::vector<SampleDesign>& samples) {
+  for (const SampleDesign& sample : samples) {
     const double value = resolve(use.number, sample.design);
     if (is_within(use.range, value)) continue;
     use.node.fail_with_value(rule_of(use.range, use.quantity),
@@ -140,7 +140,7 @@ std::vector<DesignVariable> read_variables(const JsonNode& node, const NumberRea
     }
     variables.push_back(read_variable(name, member, *quantity, numbers));
   }
-  const std::vector<Sample> samples = make_samples(variables);
+  const std::vector<SampleDesign> samples = sample_designs(variables);
   for (const VariableUse& use : numbers.uses()) {
     if (use.number.expression) {
       check_formula(use, samples);

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/source_folder.hpp"
+
 namespace pleuel::test::floors_test {
 namespace {
 
@@ -19,9 +21,14 @@ struct Include {
   std::string file, folder, header;  ///< relative to the root of the repository
 };
 
-/// All includes of the sources outside tests/.
-std::vector<Include> read_includes() {
-  std::vector<Include> includes;
+/// A line of a source outside tests/.
+struct Line {
+  std::string file;  ///< relative to the root of the repository
+  std::string text;
+};
+
+std::vector<Line> read_lines() {
+  std::vector<Line> lines;
   const fs::path root = pleuel::source_folder();
   for (const char* top :
        {"core", "sensitivity", "optimization", "record", "studies", "picture", "mpi", "cli"}) {
@@ -30,13 +37,19 @@ std::vector<Include> read_includes() {
       if (entry.path().extension() != ".hpp" && entry.path().extension() != ".cpp") continue;
       std::ifstream stream(entry.path());
       const std::string file = fs::relative(entry.path(), root).generic_string();
-      for (std::string line; std::getline(stream, line);) {
-        if (!line.starts_with("#include")) continue;
-        const auto begin = line.find_first_of("<\"") + 1, end = line.find_first_of(">\"", begin);
-        includes.push_back(
-            {file, fs::path(file).parent_path().generic_string(), line.substr(begin, end - begin)});
-      }
+      for (std::string line; std::getline(stream, line);) lines.push_back({file, line});
     }
+  }
+  return lines;
+}
+
+std::vector<Include> read_includes() {
+  std::vector<Include> includes;
+  for (const auto& [file, line] : read_lines()) {
+    if (!line.starts_with("#include")) continue;
+    const auto begin = line.find_first_of("<\"") + 1, end = line.find_first_of(">\"", begin);
+    includes.push_back(
+        {file, fs::path(file).parent_path().generic_string(), line.substr(begin, end - begin)});
   }
   return includes;
 }
@@ -171,6 +184,37 @@ TEST(Files, IncludeEachOtherInNoCircle) {
   for (const auto& [unit, headers] : units) {
     ADD_FAILURE() << unit << " is in a circle, or leads into one";
   }
+}
+
+/// "Marker" of "struct Marker {" or "class Marker final : public Term {" at the start of a line, where
+/// headers define the types of the namespace; empty of declarations and of all other lines.
+std::string defined_type(const std::string& line) {
+  static const std::regex definition(
+      R"(^(?:struct|class|union|enum|enum class) (\w+)(?: final)?(?: : [^;]*)?(?: \{.*)?$)");
+  std::smatch match;
+  return std::regex_match(line, match, definition) ? match[1].str() : "";
+}
+
+/// Two types of one name are taken for one by the linker, which keeps one of the functions that
+/// the compiler makes for both: a vector of the one then grows as a vector of the other.
+TEST(Files, DefineEachTypeOnce) {
+  std::map<std::string, std::string> places;
+  for (const auto& [file, line] : read_lines()) {
+    if (!file.ends_with(".hpp")) continue;
+    const std::string type = defined_type(line);
+    if (type.empty()) continue;
+    const auto [place, is_new] = places.emplace(type, file);
+    EXPECT_TRUE(is_new) << type << " is defined in " << place->second << " and in " << file;
+  }
+  EXPECT_GT(places.size(), 400U);
+}
+
+TEST(Files, OfLinesThatDefineTypesTheNamesAreFound) {
+  EXPECT_EQ(defined_type("struct Marker {"), "Marker");
+  EXPECT_EQ(defined_type("class JointTerm final : public Term {"), "JointTerm");
+  EXPECT_EQ(defined_type("enum class Side { left, right };"), "Side");
+  EXPECT_EQ(defined_type("class Term;"), "");
+  EXPECT_EQ(defined_type("  struct Inner {"), "");
 }
 
 /// The command's rooms: each knows those before it.

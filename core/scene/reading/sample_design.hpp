@@ -8,12 +8,12 @@
 namespace pleuel {
 
 /// A design for which the scene must make sense.
-struct Sample {
+struct SampleDesign {
   Design<double> design;
   std::string where;  ///< end of a message: empty for the start design
 };
 
 /// The start design, then with each variable at either bound.
-std::vector<Sample> make_samples(const std::vector<DesignVariable>& variables);
+std::vector<SampleDesign> sample_designs(const std::vector<DesignVariable>& variables);
 
 }  // namespace pleuel

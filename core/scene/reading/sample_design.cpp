@@ -1,17 +1,17 @@
-#include "core/scene/reading/sample.hpp"
+#include "core/scene/reading/sample_design.hpp"
 
 #include <fmt/format.h>
 
 namespace pleuel {
 
-std::vector<Sample> make_samples(const std::vector<DesignVariable>& variables) {
-  Sample start;
+std::vector<SampleDesign> sample_designs(const std::vector<DesignVariable>& variables) {
+  SampleDesign start;
   for (const DesignVariable& variable : variables) start.design.push_back(variable.start);
-  std::vector<Sample> samples = {start};
+  std::vector<SampleDesign> samples = {start};
   for (std::size_t i = 0; i < variables.size(); ++i) {
     for (const auto& [bound, word] :
          {std::pair(variables[i].lower, "lower"), std::pair(variables[i].upper, "upper")}) {
-      Sample sample = start;
+      SampleDesign sample = start;
       sample.design[i] = bound;
       sample.where =
           fmt::format(", with the variable \"{}\" at its {} bound", variables[i].name, word);
