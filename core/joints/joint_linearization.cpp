@@ -9,44 +9,23 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 JointLinearization::JointLinearization(const JointTopology& topology, const JointData<double>& data,
-                                       int size)
+                                       double time, const double* q, int size)
     : topology_(topology),
       data_(data),
       gradient_(size),
       gradient_rate_(size),
       hessian_(Hessian::Zero(size, size)) {
-  set_constants(0, 0);
-  set_constants(1, markers_[0].size);
+  if (topology_.is_driven) drive_ = data_.drive.at(time);
+  set_marker(0, 0, q);
+  set_marker(1, markers_[0].size, q + markers_[0].size);
 }
 
-void JointLinearization::set_constants(std::size_t m, int start) {
+void JointLinearization::set_marker(std::size_t m, int start, const double* q) {
   const Marker& marker = topology_.markers[m];
   const BodyFrame& frame = marker.frame;
   MarkerState& state = markers_[m];
   state.start = start;
   state.frame = frame.size();
-  state.size =
-      state.frame + static_cast<int>(std::count_if(marker.elastic.begin(), marker.elastic.end(),
-                                                   [](int i) { return i >= 0; }));
-  if (frame.rotation != RotationCoordinates::angle) return;
-  // R v = c v + s n × v + (1 − c)(n·v) n, applied to the columns of A_ref.
-  state.normal = frame.reference.transpose() * frame.axis;
-  state.across = skew<double>(frame.axis) * frame.reference;
-  state.along = frame.axis * state.normal.transpose();
-  state.in_plane = frame.reference - state.along;
-}
-
-void JointLinearization::set_state(double time, const double* q) {
-  if (topology_.is_driven) drive_ = data_.drive.at(time);
-  set_marker(0, q);
-  set_marker(1, q + markers_[0].size);
-  clear_hessian();
-}
-
-void JointLinearization::set_marker(std::size_t m, const double* q) {
-  const Marker& marker = topology_.markers[m];
-  const BodyFrame& frame = marker.frame;
-  MarkerState& state = markers_[m];
   state.r = frame.origin;
   for (int i = 0; i < frame.translations(); ++i) state.r += q[i] * frame.basis.col(i);
   const double* rotation = q + frame.translations();
@@ -54,13 +33,10 @@ void JointLinearization::set_marker(std::size_t m, const double* q) {
     case RotationCoordinates::none:
       state.A.setIdentity();
       break;
-    case RotationCoordinates::angle: {
+    case RotationCoordinates::angle:
       state.angle = rotation[0];
-      const double c = std::cos(state.angle), s = std::sin(state.angle);
-      state.A = state.along + c * state.in_plane + s * state.across;
-      state.A_p[0] = c * state.across - s * state.in_plane;
+      set_planar_rotation(frame, state);
       break;
-    }
     case RotationCoordinates::rotation_vector:
       state.A = rotation_of(Vector3d(rotation));
       for (int i = 0; i < 3; ++i) {
@@ -74,8 +50,18 @@ void JointLinearization::set_marker(std::size_t m, const double* q) {
   for (int i = 0; i < 6; ++i) {
     if (marker.elastic[i] >= 0) (i < 3 ? state.u : state.psi)(i % 3) += *next++;
   }
-  state.has_turn = false;
-  points_[m].reset();
+  state.size = static_cast<int>(next - q);
+}
+
+/// R v = c v + s n × v + (1 − c)(n·v) n, applied to the columns of A_ref.
+void JointLinearization::set_planar_rotation(const BodyFrame& frame, MarkerState& state) {
+  state.normal = frame.reference.transpose() * frame.axis;
+  const Matrix3d across = skew<double>(frame.axis) * frame.reference;
+  const Matrix3d along = frame.axis * state.normal.transpose();
+  const Matrix3d in_plane = frame.reference - along;
+  const double c = std::cos(state.angle), s = std::sin(state.angle);
+  state.A = along + c * in_plane + s * across;
+  state.A_p[0] = c * across - s * in_plane;
 }
 
 void JointLinearization::set_turn(std::size_t m) {

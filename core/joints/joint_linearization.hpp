@@ -7,9 +7,11 @@
 
 namespace pleuel {
 
-/// Value, gradient and Hessian of the equations of a joint, by hand: the step matrix needs them in
-/// every Newton iteration, where dual numbers took a third of the time of a simulation. Tests tie
-/// it to joint_residual.hpp. They serve all levels: with g = Φ_q, H_ij = ∂g_i/∂q_j and g_t = ∂g/∂t,
+/// Value, gradient and Hessian of the equations of a joint at one state, by hand: the step matrix
+/// needs them in every Newton iteration, where dual numbers took a third of the time of a
+/// simulation. Tests tie it to joint_residual.hpp. Made for each state, so that the joints of a
+/// large mechanism share the memory. It serves all levels: with g = Φ_q, H_ij = ∂g_i/∂q_j and
+/// g_t = ∂g/∂t,
 ///     dΦ/dt = gᵀv + Φ_t:         ∂/∂v = g,              ∂/∂q = Hᵀ v + g_t
 ///     d²Φ/dt²:       ∂/∂a = g,   ∂/∂v = (H + Hᵀ) v + 2 g_t
 ///
@@ -23,12 +25,10 @@ class JointLinearization {
   using Hessian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_size, max_size>;
 
   /// @param topology, data  must outlive this
-  /// @param size            number of local coordinates
-  JointLinearization(const JointTopology& topology, const JointData<double>& data, int size);
-
-  /// What follows is that of this state; hessian() is zero.
-  /// @param q  local coordinates: first marker's, then second marker's
-  void set_state(double time, const double* q);
+  /// @param q               local coordinates: first marker's, then second marker's
+  /// @param size            number of them
+  JointLinearization(const JointTopology& topology, const JointData<double>& data, double time,
+                     const double* q, int size);
 
   /// Sets value(), rate(), gradient() and gradient_rate() to those of one equation, and adds weight
   /// times its H to hessian().
@@ -48,14 +48,11 @@ class JointLinearization {
  private:
   using Jacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, max_size>;
 
-  /// Constants of a marker, and its state.
   struct MarkerState {
     int start = 0;  ///< of its local coordinates
     int size = 0;
-    int frame = 0;  ///< number of frame coordinates
-    /// Of planar motion: the normal in local axes, and R A_ref = along + c in_plane + s across.
-    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d along, in_plane, across;
+    int frame = 0;                                     ///< number of frame coordinates
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of planar motion, local axes
 
     Eigen::Vector3d r;
     Eigen::Matrix3d A;
@@ -80,8 +77,8 @@ class JointLinearization {
     Jacobian elastic;
   };
 
-  void set_constants(std::size_t m, int start);
-  void set_marker(std::size_t m, const double* q);
+  void set_marker(std::size_t m, int start, const double* q);
+  static void set_planar_rotation(const BodyFrame& frame, MarkerState& state);
   void set_turn(std::size_t m);
   /// The point of a marker; evaluated once a state.
   const Attached& point(std::size_t m);

@@ -16,10 +16,7 @@ class JointTerm : public Term {
             const std::vector<DesignDerivative<JointData<double>>>& derivatives)
       : topology_(std::move(topology)),
         data_(std::move(data)),
-        wide_data_(cast_data<WideDual>(data_)),
-        narrow_data_(cast_data<NarrowDual>(data_)),
-        coordinates_(coordinate_indices(topology_.markers)),
-        linearization_(topology_, data_, local_size()) {
+        coordinates_(coordinate_indices(topology_.markers)) {
     for (const auto& [variable, derivative] : derivatives) {
       derivatives_.push_back({variable, seed_data(data_, derivative)});
     }
@@ -47,15 +44,14 @@ class JointTerm : public Term {
 
   void linearize(const State& state, const WeightList& weights, ConstraintLevel level,
                  Eigen::VectorXd& residual, const EntryBlocks& entries) override {
+    const int size = local_size(), count = equations();
     const Local<double> local = load<double>(state);
-    linearization_.set_state(state.time, local.q.data());
+    JointLinearization joint(topology_, data_, state.time, local.q.data(), size);
     if (level == ConstraintLevel::position) {
-      linearize_positions(state, weights, residual, entries);
+      linearize_positions(joint, state, weights, residual, entries);
       return;
     }
-    const int size = local_size(), count = equations();
-    JointLinearization& joint = linearization_;
-    curvature_.setZero(size, size);
+    JointLinearization::Hessian curvature = JointLinearization::Hessian::Zero(size, size);
     const auto first = topology_.multiplier - state.q.size();
     for (int i = 0; i < count; ++i) {
       joint.clear_hessian();
@@ -65,14 +61,14 @@ class JointTerm : public Term {
       for (int row = 0; row < size; ++row) {
         residual(coordinate(row)) += lambda * joint.gradient()(row);
       }
-      curvature_ += lambda * joint.hessian();
+      curvature += lambda * joint.hessian();
       const EquationTangent tangent = tangent_of(joint, local, level);
       for (std::size_t k = 0; k < weights.size(); ++k) {
         write_equation(joint, tangent, i, weights[k], entries.block(k));
       }
     }
     for (std::size_t k = 0; k < weights.size(); ++k) {
-      write_curvature(curvature_, weights[k], entries.block(k));
+      write_curvature(curvature, weights[k], entries.block(k));
     }
     if (level != ConstraintLevel::acceleration) return;
     const Result<double> result = evaluate(data_, local, state.time, level);
@@ -142,9 +138,8 @@ class JointTerm : public Term {
   int coordinate(int i) const { return coordinates_[index(i)]; }
 
   /// At position level, where one Hessian of all equations together is enough.
-  void linearize_positions(const State& state, const WeightList& weights, Eigen::VectorXd& residual,
-                           const EntryBlocks& entries) {
-    JointLinearization& joint = linearization_;
+  void linearize_positions(JointLinearization& joint, const State& state, const WeightList& weights,
+                           Eigen::VectorXd& residual, const EntryBlocks& entries) const {
     const int size = local_size(), count = equations(), stride = size + count;
     const auto first = topology_.multiplier - state.q.size();
     for (int i = 0; i < count; ++i) {
@@ -211,14 +206,21 @@ class JointTerm : public Term {
 
   /// ∂(d²Φ/dt²)/∂q, by dual numbers.
   void add_third_derivatives(const State& state, const WeightList& weights,
-                             const EntryBlocks& entries) const {
+                             const EntryBlocks& entries) {
     const auto uses_q = [](const Weights& w) { return w.q != 0.0; };
     if (std::none_of(weights.begin(), weights.end(), uses_q)) return;
     if (local_size() <= narrow) {
-      add_third_derivatives(narrow_data_, state, weights, entries);
+      add_third_derivatives(cast_once(narrow_data_), state, weights, entries);
     } else {
-      add_third_derivatives(wide_data_, state, weights, entries);
+      add_third_derivatives(cast_once(wide_data_), state, weights, entries);
     }
+  }
+
+  /// Tens of kilobytes a joint, which most simulations do without.
+  template <class Scalar>
+  const JointData<Scalar>& cast_once(std::unique_ptr<JointData<Scalar>>& cast) const {
+    if (!cast) cast = std::make_unique<JointData<Scalar>>(cast_data<Scalar>(data_));
+    return *cast;
   }
 
   template <class Scalar>
@@ -263,12 +265,10 @@ class JointTerm : public Term {
 
   JointTopology topology_;
   JointData<double> data_;
-  JointData<WideDual> wide_data_;
-  JointData<NarrowDual> narrow_data_;
+  std::unique_ptr<JointData<WideDual>> wide_data_;      ///< once they are needed
+  std::unique_ptr<JointData<NarrowDual>> narrow_data_;  ///< once they are needed
   std::vector<DesignDerivative<JointData<Dual>>> derivatives_;
   std::vector<int> coordinates_;
-  JointLinearization linearization_;       ///< refers to topology and data
-  JointLinearization::Hessian curvature_;  ///< scratch: (Φ_qᵀ λ)_q
 };
 
 }  // namespace

@@ -71,8 +71,7 @@ class JointEquations : public testing::TestWithParam<EquationKind> {
 /// numbers. Rounding of sums of some ten products of order one.
 TEST_P(JointEquations, ByHandAreThoseOfTheTemplate) {
   constexpr double weight = -1.7;
-  JointLinearization joint(topology_, data_, size);
-  joint.set_state(time_, q_.data());
+  JointLinearization joint(topology_, data_, time_, q_.data(), size);
   joint.evaluate(equation_, weight);
   std::array<Wide, size> q, rest;
   for (std::size_t i = 0; i < size; ++i) {
@@ -96,13 +95,11 @@ TEST_P(JointEquations, ByHandAreThoseOfTheTemplate) {
 }
 
 TEST_P(JointEquations, HaveTheRatesOfTheirGradientAndValue) {
-  JointLinearization joint(topology_, data_, size);
-  joint.set_state(time_, q_.data());
+  JointLinearization joint(topology_, data_, time_, q_.data(), size);
   joint.evaluate(equation_, 1.0);
   const Eigen::VectorXd expected = derivative_at_zero(
       [&](double t) {
-        JointLinearization later(topology_, data_, size);
-        later.set_state(time_ + t, q_.data());
+        JointLinearization later(topology_, data_, time_ + t, q_.data(), size);
         later.evaluate(equation_, 1.0);
         Eigen::VectorXd all(joint.gradient().size() + 1);
         all << later.gradient(), later.value();
@@ -118,15 +115,14 @@ TEST_P(JointEquations, HaveTheRatesOfTheirGradientAndValue) {
 /// Whatever the order, and whether points or directions were asked for before.
 TEST_P(JointEquations, AddTheirHessiansToTheSum) {
   const JointEquation other = equation_of(EquationKind::coincident);
-  JointLinearization first(topology_, data_, size), second = first, both = first;
-  for (JointLinearization* joint : {&first, &second, &both}) joint->set_state(time_, q_.data());
+  JointLinearization first(topology_, data_, time_, q_.data(), size), second = first, both = first;
   first.evaluate(equation_, 2.0);
   second.evaluate(other, -3.0);
   both.evaluate(other, -3.0);
   both.evaluate(equation_, 2.0);
   const Eigen::MatrixXd expected = first.hessian() + second.hessian();
   EXPECT_LE((both.hessian() - expected).lpNorm<Eigen::Infinity>(), 1e-13);
-  both.set_state(time_, q_.data());
+  both.clear_hessian();
   EXPECT_TRUE(both.hessian().isZero(0.0));
 }
 
