@@ -14,6 +14,7 @@
 #include "optimization/design/size_choice.hpp"
 #include "studies/choice_front.hpp"
 #include "studies/front_ends.hpp"
+#include "studies/missing_settings.hpp"
 #include "studies/varied_limit.hpp"
 
 namespace pleuel {
@@ -202,7 +203,7 @@ ParetoFront front_between(ProblemFile problem, const SolveOptions& options,
 
 ParetoFront pareto_front(const ProblemFile& problem, const SolveOptions& options,
                          const Execution& execution, const ParetoObserver& observer) {
-  if (!problem.pareto) throw InputError("/pareto is missing: it says which limit to vary");
+  require_pareto(problem);
   DesignProblem{problem};  // says what is missing
   if (is_enumerable(problem)) return choice_front(problem, options, execution, observer);
   if (has_choices(problem) && problem.pareto->gap > 0.0) {

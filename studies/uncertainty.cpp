@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "core/base/error.hpp"
 #include "core/base/packed.hpp"
 #include "core/base/stop.hpp"
 #include "core/base/stopwatch.hpp"
@@ -16,6 +15,7 @@
 #include "optimization/design/setting_text.hpp"
 #include "sensitivity/history_gradients.hpp"
 #include "sensitivity/method_choice.hpp"
+#include "studies/missing_settings.hpp"
 #include "studies/random_numbers.hpp"
 
 namespace pleuel {
@@ -361,9 +361,7 @@ std::unique_ptr<TaskWork> make_sample_work(const std::string& content) {
 
 UncertaintyStudy uncertainty_study(const ProblemFile& problem, const Execution& execution,
                                    const SampleObserver& observer) {
-  if (!problem.uncertainty) {
-    throw InputError("/uncertainty is missing: it says which parameters are uncertain");
-  }
+  require_uncertainty(problem);
   Study study(problem, *problem.uncertainty);
   study.linearize();
   study.sample(execution, observer);

@@ -17,12 +17,12 @@
 #include "cli/text/console.hpp"
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
-#include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "optimization/prices.hpp"
+#include "studies/missing_settings.hpp"
 #include "studies/pareto.hpp"
 #include "studies/pareto_knee.hpp"
 #include "studies/varied_limit.hpp"
@@ -362,7 +362,7 @@ void show_progress(std::FILE* out, const ProblemFile& problem, const ParetoPoint
 Outcome run_pareto(const Arguments& arguments) {
   const ProblemInput input = read_input_with_accuracy(arguments);
   const ProblemFile problem = trade_off_problem(input.problem);
-  if (!problem.pareto) throw InputError("/pareto is missing: it says which limit to vary");
+  require_pareto(problem);
   const SolveOptions options = solve_options(problem, arguments);
   const Json used = options_document(options, problem);
   RunRecord record(arguments, input, used);

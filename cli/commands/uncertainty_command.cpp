@@ -12,10 +12,10 @@
 #include "cli/reports/error_report.hpp"
 #include "cli/reports/warnings.hpp"
 #include "cli/text/table.hpp"
-#include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "core/trust/doubts.hpp"
+#include "studies/missing_settings.hpp"
 #include "studies/uncertainty.hpp"
 
 namespace pleuel {
@@ -208,9 +208,7 @@ UncertaintyStudy run_study(const ProblemFile& problem, const Arguments& argument
 Outcome run_uncertainty(const Arguments& arguments) {
   const ProblemInput input = read_input_with_accuracy(arguments);
   const ProblemFile& problem = input.problem;
-  if (!problem.uncertainty) {
-    throw InputError("/uncertainty is missing: it says which parameters are uncertain");
-  }
+  require_uncertainty(problem);
   RunRecord record(arguments, input, {{"jobs", arguments.jobs}});
   RunStore store(record, arguments, input, Json::object());
   show_warnings_before(problem);

@@ -37,6 +37,13 @@ bool is_kept(const ConstraintSettings& constraint, double value) {
          !(constraint.lower && exceeds(*constraint.lower - value, *constraint.lower));
 }
 
+/// A difference that value and limit do not show, with their five digits, is none.
+std::string margin_text(const UsedLimit& used, double value, const ShownUnit& unit) {
+  const double margin = used.is_upper ? used.limit - value : value - used.limit;
+  if (std::abs(margin) < 1e-5 * std::abs(used.limit)) return "0";
+  return significant(unit.shown(margin), 3);
+}
+
 std::string sum_text(const ProblemFile& problem, const Eigen::VectorXd& x,
                      const Analysis& analysis) {
   std::vector<std::string> broken;
@@ -91,12 +98,10 @@ std::string limits_text(const ProblemFile& problem, const Eigen::VectorXd& x,
     const double value = value_of(constraint, problem, x, analysis);
     const UsedLimit used = used_limit(constraint, value);
     const ShownUnit unit = unit_of(problem, constraint);
-    const double margin = used.is_upper ? used.limit - value : value - used.limit;
     table.add_row({constraint.name, significant(unit.shown(value)),
                    (used.is_upper ? "≤ " : "≥ ") + significant(unit.shown(used.limit)), unit.name,
                    used.utilisation ? percent(*used.utilisation) : "–",
-                   significant(unit.shown(margin), 3),
-                   is_kept(constraint, value) ? "kept" : "BROKEN"});
+                   margin_text(used, value, unit), is_kept(constraint, value) ? "kept" : "BROKEN"});
   }
   return table.is_empty() ? "" : "\n" + table.text() + "\n" + sum_text(problem, x, analysis);
 }

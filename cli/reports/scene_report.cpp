@@ -100,6 +100,15 @@ std::string freedoms_text(const DegreesOfFreedom& freedoms, const Model& model) 
   return text + (driven > 0 ? "the drives prescribe it\n" : "nothing can move\n");
 }
 
+/// Of elastic coordinates "m".
+std::string_view unit_of_coordinate(const Model& model, Eigen::Index coordinate) {
+  for (const BodyModel& body : model.bodies) {
+    const Eigen::Index in_frame = coordinate - body.frame.offset;
+    if (in_frame >= body.frame.translations() && in_frame < body.frame.size()) return "rad";
+  }
+  return "m";
+}
+
 std::string assembly_text(const Analysis& analysis) {
   if (analysis.trajectory.periodic) return "";  // starts in the midst of its motion
   const Mechanism& mechanism = analysis.model.mechanism;
@@ -122,9 +131,9 @@ std::string assembly_text(const Analysis& analysis) {
   return wrapped(
       fmt::format(
           "{} move the mechanism from where the file places it before the start, most {}, "
-          "by {} m or rad.\n",
+          "by {} {}.\n",
           mechanism.starts_in_equilibrium ? "Loads, joints and drives" : "Joints and drives", name,
-          significant(shift(largest), 3)),
+          significant(shift(largest), 3), unit_of_coordinate(analysis.model, largest)),
       "  ");
 }
 

@@ -20,14 +20,16 @@ std::string magnitude(double value) {
 }
 
 std::string percent(double fraction) {
-  constexpr double longest = 1e7;  // more digits would tear a table
-  const double value = 100.0 * fraction;
-  return std::abs(value) < longest ? fmt::format("{:.1f} %", value)
-                                   : fmt::format("{:.1e} %", value);
+  constexpr double hard_to_read = 10.0;
+  if (std::abs(fraction) >= hard_to_read) return significant(fraction, 3) + " times";
+  constexpr double shown = 0.0005;  // less is rounded to nothing, and then has no sign
+  return fmt::format("{:.1f} %", std::abs(fraction) < shown ? 0.0 : 100.0 * fraction);
 }
 
 std::string signed_percent(double fraction) {
-  return (fraction < 0 ? "−" : "+") + percent(std::abs(fraction));
+  const std::string size = percent(std::abs(fraction));
+  if (size == percent(0.0)) return size;
+  return (fraction < 0 ? "−" : "+") + size;
 }
 
 std::string duration(double seconds) {

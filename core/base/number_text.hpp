@@ -11,10 +11,10 @@ std::string significant(double value, int digits = 5);
 /// Two digits with exponent, for errors and residuals: 3.1e-08; "0" for zero.
 std::string magnitude(double value);
 
-/// "45.2 %"
+/// "45.2 %"; from ten on "2397 times"
 std::string percent(double fraction);
 
-/// "+2.1 %", "−45.2 %"
+/// "+2.1 %", "−45.2 %", "0.0 %"
 std::string signed_percent(double fraction);
 
 /// "0.083 s", "12.4 s", "3 min 20 s"

@@ -1,0 +1,32 @@
+#include "core/base/number_text.hpp"
+
+#include <gtest/gtest.h>
+
+namespace pleuel::test::number_text_test {
+namespace {
+
+TEST(NumberText, SharesArePercentsUntilTheyAreHardToRead) {
+  EXPECT_EQ(percent(0.4517), "45.2 %");
+  EXPECT_EQ(percent(9.99), "999.0 %");
+  EXPECT_EQ(percent(2396.99), "2397 times");
+  EXPECT_EQ(percent(-12.34), "-12.3 times");
+  EXPECT_EQ(percent(3.1e9), "3.10e+09 times");
+}
+
+TEST(NumberText, WhatIsRoundedToNothingHasNoSign) {
+  EXPECT_EQ(percent(-1e-9), "0.0 %");
+  EXPECT_EQ(signed_percent(-4e-4), "0.0 %");
+  EXPECT_EQ(signed_percent(0.0), "0.0 %");
+  EXPECT_EQ(signed_percent(6e-4), "+0.1 %");
+  EXPECT_EQ(signed_percent(-0.021), "−2.1 %");
+}
+
+TEST(NumberText, NumbersKeepTheirSignificantDigits) {
+  EXPECT_EQ(significant(25.13), "25.130");
+  EXPECT_EQ(significant(0.2), "0.20000");
+  EXPECT_EQ(significant(1.2e-7, 2), "1.2e-07");
+  EXPECT_EQ(significant(0.0), "0");
+}
+
+}  // namespace
+}  // namespace pleuel::test::number_text_test
