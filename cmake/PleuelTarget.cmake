@@ -42,6 +42,10 @@ target_compile_options(pleuel_warnings INTERFACE -Wall -Wextra -Wpedantic ${pleu
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(pleuel_warnings INTERFACE -Wno-restrict)
 endif()
+# Clang asks for the braces of a base class, which C++17 leaves out.
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  target_compile_options(pleuel_warnings INTERFACE -Wno-missing-braces)
+endif()
 if(PLEUEL_WERROR)
   target_compile_options(pleuel_warnings INTERFACE -Werror)
 endif()
@@ -83,6 +87,7 @@ if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache$")
   if(PLEUEL_PCH)
     list(APPEND pleuel_ccache CCACHE_SLOPPINESS=pch_defines,time_macros)
     add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+    add_compile_options("$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")
   endif()
   set(CMAKE_CXX_COMPILER_LAUNCHER
       ${CMAKE_COMMAND} -E env ${pleuel_ccache} ${CMAKE_CXX_COMPILER_LAUNCHER})
