@@ -6,6 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
+#include "core/scene/case_goals.hpp"
 #include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
@@ -16,15 +17,17 @@ std::string quantity_text(double value, const ShownUnit& unit) {
   return fmt::format("\"{} {}\"", significant(unit.shown(value), 3), unit.name);
 }
 
-/// From half of a limit to twice of it; empty without a limit that can be varied.
+/// From half of a limit to twice of it, in all load cases; empty without a limit that can be varied.
 std::string pareto_example(const ProblemFile& problem) {
-  for (const ConstraintSettings& constraint : problem.constraints) {
+  for (std::size_t i = 0; i < problem.constraints.size(); ++i) {
+    const ConstraintSettings& constraint = problem.constraints[i];
     const double limit = constraint.upper.value_or(constraint.lower.value_or(0.0));
-    if (constraint.response.empty() || limit == 0.0) continue;
+    const bool has_two = constraint.upper && constraint.lower;
+    if (constraint.response.empty() || has_two || limit == 0.0) continue;
     const ShownUnit unit = unit_of(problem, constraint);
     return fmt::format(
         R"(, for instance "pareto": {{"constraint": "{}", "from": {}, "to": {}, "points": 7}})",
-        constraint.name, quantity_text(0.5 * limit, unit), quantity_text(2.0 * limit, unit));
+        limit_name(problem, i), quantity_text(0.5 * limit, unit), quantity_text(2.0 * limit, unit));
   }
   return "";
 }

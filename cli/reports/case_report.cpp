@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/base/number_text.hpp"
+#include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "optimization/prices.hpp"
@@ -112,16 +113,9 @@ std::size_t first_in_conflict(const ProblemFile& problem, const std::vector<std:
 
 }  // namespace
 
-std::string limit_of(const ProblemFile& problem, std::size_t constraint) {
-  if (!problem.has_cases()) return problem.constraints[constraint].name;
-  const OfCase of_case = problem.case_constraints[constraint];
-  if (is_of_several(of_case)) return problem.constraints[constraint].name;
-  return problem.cases[of_case.load_case].constraints[of_case.index].name;
-}
-
 std::string case_of(const ProblemFile& problem, std::size_t constraint) {
-  const bool is_of_case =
-      problem.has_cases() && limit_of(problem, constraint) != problem.constraints[constraint].name;
+  const bool is_of_case = problem.has_cases() &&
+                          limit_name(problem, constraint) != problem.constraints[constraint].name;
   return is_of_case ? problem.cases[problem.case_constraints[constraint].load_case].load_case : "";
 }
 
@@ -135,7 +129,7 @@ std::vector<bool> deciding_constraints(const ProblemFile& problem, const Eigen::
   std::map<std::string, std::size_t> deciding;
   const auto excess_of = [&](std::size_t i) { return excess(problem.constraints[i], values(i)); };
   for (std::size_t i = 0; i < problem.constraints.size(); ++i) {
-    const auto [known, is_new] = deciding.emplace(limit_of(problem, i), i);
+    const auto [known, is_new] = deciding.emplace(limit_name(problem, i), i);
     if (!is_new && excess_of(i) > excess_of(known->second)) known->second = i;
   }
   std::vector<bool> is_deciding(problem.constraints.size(), false);

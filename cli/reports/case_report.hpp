@@ -12,9 +12,6 @@
 /// What is said of load cases at an optimum: which of them decide.
 namespace pleuel {
 
-/// The limit of the file that a constraint of a joined problem is of; its own name without cases.
-std::string limit_of(const ProblemFile& problem, std::size_t constraint);
-
 /// The case that a constraint is of; empty where it holds in all cases alike.
 std::string case_of(const ProblemFile& problem, std::size_t constraint);
 

@@ -5,6 +5,7 @@
 #include "cli/reports/monitors_report.hpp"
 #include "cli/reports/plain_verdict.hpp"
 #include "cli/reports/scene_report.hpp"
+#include "core/scene/case_goals.hpp"
 #include "core/scene/response_quantity.hpp"
 #include "optimization/prices.hpp"
 
@@ -39,7 +40,7 @@ Json constraint_document(const Optimum& optimum, std::size_t i) {
   if (constraint.deviations > 0.0) document["deviations"] = constraint.deviations;
   const std::string load_case = case_of(optimum.problem, i);
   if (!load_case.empty()) {
-    document["limit_name"] = limit_of(optimum.problem, i);
+    document["limit_name"] = limit_name(optimum.problem, i);
     document["case"] = load_case;
     document["decides"] =
         bool(deciding_constraints(optimum.problem, optimum.result.evaluation.constraints)[i]);

@@ -14,6 +14,7 @@
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
+#include "core/scene/case_goals.hpp"
 #include "optimization/prices.hpp"
 
 namespace pleuel {
@@ -121,7 +122,7 @@ std::vector<std::string> constraint_row(const Optimum& optimum, std::size_t i) {
           ? fmt::format(" {}{:g} σ", constraint.upper ? "+" : "−", constraint.deviations)
           : "";
   std::vector<std::string> cells = {
-      limit_of(optimum.problem, i) + margin, limited_text(unit.shown(value)),
+      limit_name(optimum.problem, i) + margin, limited_text(unit.shown(value)),
       (used.is_upper ? "≤ " : "≥ ") + significant(unit.shown(used.limit)), unit.name,
       used.utilisation ? percent(*used.utilisation) : "–"};
   if (multiplier) {

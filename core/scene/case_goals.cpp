@@ -114,13 +114,6 @@ ConstraintSettings limit_on(const Objective& goal, double value, const std::stri
   return constraint;
 }
 
-/// Name of a constraint in the problem of its case; its own where it is of none.
-const std::string& limit_name(const ProblemFile& problem, std::size_t constraint) {
-  const OfCase of_case = case_of_constraint(problem, constraint);
-  if (!problem.has_cases() || is_of_several(of_case)) return problem.constraints[constraint].name;
-  return problem.cases[of_case.load_case].constraints[of_case.index].name;
-}
-
 }  // namespace
 
 Objective goal_of_problem(ProblemFile& problem, Objective goal) {
@@ -187,6 +180,12 @@ void remove_limit(ProblemFile& problem, const std::string& name) {
     }
     problem.constraints.erase(problem.constraints.begin() + row);
   }
+}
+
+const std::string& limit_name(const ProblemFile& problem, std::size_t constraint) {
+  const OfCase of_case = case_of_constraint(problem, constraint);
+  if (!problem.has_cases() || is_of_several(of_case)) return problem.constraints[constraint].name;
+  return problem.cases[of_case.load_case].constraints[of_case.index].name;
 }
 
 std::vector<std::size_t> constraints_of_limit(const ProblemFile& problem, const std::string& name) {

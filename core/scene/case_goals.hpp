@@ -28,6 +28,9 @@ void add_limit(ProblemFile& problem, const Objective& goal, double value, const 
 /// Takes such a limit away again.
 void remove_limit(ProblemFile& problem, const std::string& name);
 
+/// The limit of the file that a constraint of a joined problem is of; its own name without cases.
+const std::string& limit_name(const ProblemFile& problem, std::size_t constraint);
+
 /// Constraints of the problem that a name means: one of its own, or that of a limit which stands once
 /// for each case.
 std::vector<std::size_t> constraints_of_limit(const ProblemFile& problem, const std::string& name);

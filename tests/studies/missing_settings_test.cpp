@@ -40,6 +40,23 @@ TEST(MissingSettings, ExampleOfAFrontIsOneOfThisProblem) {
   EXPECT_NEAR(written.pareto->to, *limit.upper * 2, 0.02 * *limit.upper);
 }
 
+TEST(MissingSettings, ExampleOfAFrontTakesNoLimitOfTwoSides) {
+  ProblemFile problem = quick_problem();
+  problem.pareto.reset();
+  ASSERT_GT(problem.constraints.size(), 1u);
+  problem.constraints.front().lower = 0.5 * *problem.constraints.front().upper;
+  const std::string example = example_in(complaint(require_pareto, problem), "pareto");
+  EXPECT_THAT(example, testing::HasSubstr(problem.constraints[1].name));
+  EXPECT_THAT(example, testing::Not(testing::HasSubstr(problem.constraints[0].name)));
+}
+
+TEST(MissingSettings, ExampleOfAFrontVariesALimitInAllLoadCases) {
+  ProblemFile problem = read_problem(source_folder() + "/problems/two_loads.json").complete();
+  problem.pareto.reset();
+  EXPECT_THAT(complaint(require_pareto, problem),
+              testing::HasSubstr("\"constraint\": \"crank_strength\", "));
+}
+
 TEST(MissingSettings, ExampleOfUncertainParametersIsOneOfThisProblem) {
   ProblemFile problem = quick_problem();
   problem.uncertainty.reset();
