@@ -29,8 +29,8 @@ std::vector<LimitSide> limit_sides(const Problem& problem, const Eigen::VectorXd
   for (std::size_t i = 0; i < problem.constraints().size(); ++i) {
     const Constraint& limits = problem.constraints()[i];
     const double magnitude = magnitudes[i];
-    if (limits.upper < practically_infinite) sides.push_back({i, 1.0, limits.upper, magnitude});
-    if (limits.lower > -practically_infinite) sides.push_back({i, -1.0, limits.lower, magnitude});
+    if (limits.has_upper()) sides.push_back({i, 1.0, limits.upper, magnitude});
+    if (limits.has_lower()) sides.push_back({i, -1.0, limits.lower, magnitude});
   }
   return sides;
 }

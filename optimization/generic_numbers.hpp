@@ -12,7 +12,11 @@ class GenericNumbers {
   double part() { return static_cast<double>(engine_()) / std::mt19937::max(); }
   /// In [1/2, 1].
   double size() { return 0.5 + 0.5 * part(); }
-  double sign() { return engine_() % 2 == 0 ? 1.0 : -1.0; }
+  /// In [1/2, 1] or [−1, −1/2].
+  double signed_size() {
+    const double magnitude = size();
+    return engine_() % 2 == 0 ? magnitude : -magnitude;
+  }
 
  private:
   std::mt19937 engine_;

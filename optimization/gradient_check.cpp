@@ -43,14 +43,17 @@ Eigen::VectorXd generic_changes(const Room& room, GenericNumbers& numbers) {
   Eigen::VectorXd changes = Eigen::VectorXd::Zero(room.sizes.size());
   for (Eigen::Index i = 0; i < changes.size(); ++i) {
     const bool has_both_sides = room.sizes[i] > 0.0 && room.sides[i] == 0.0;
-    if (has_both_sides) changes[i] = numbers.sign() * numbers.size();
+    if (has_both_sides) changes[i] = numbers.signed_size();
   }
   return changes;
 }
 
 /// Likewise of those at a bound.
 Eigen::VectorXd generic_changes_inwards(const Room& room, GenericNumbers& numbers) {
-  return room.sides.unaryExpr([&](double side) { return side * numbers.size() * numbers.size(); });
+  return room.sides.unaryExpr([&](double side) {
+    const double size = numbers.size();
+    return side * size * numbers.size();
+  });
 }
 
 /// d₁, d₂ and d₃ at 120° to each other in relative changes of the variables with room to both

@@ -133,18 +133,12 @@ class MultiplierSystem {
   Eigen::VectorXd right_;      ///< −s ∘ ∇f
 };
 
-/// |f|, but not nothing where f vanishes at the optimum.
-double objective_value_scale(const EvaluatedDesign& design, const Evaluation& start) {
-  return std::max({std::abs(design.evaluation.objective), 1e-3 * std::abs(start.objective),
-                   std::numeric_limits<double>::min()});
-}
-
 double gradient_scale(const Problem& problem, const EvaluatedDesign& design,
                       const Evaluation& start, const Eigen::VectorXd& scales) {
   const double here = scaled_objective_gradient(problem, design.evaluation, scales).norm();
   const double at_start = std::max(scaled_objective_gradient(problem, start, scales).norm(),
                                    std::abs(start.objective - design.evaluation.objective));
-  const double value = objective_value_scale(design, start);
+  const double value = objective_value_scale(design.evaluation, start);
   return std::max(
       {here, std::min(at_start, 0.1 * value), flat * value, std::numeric_limits<double>::min()});
 }
@@ -175,7 +169,7 @@ KktAudit audit_kkt(const Problem& problem, const EvaluatedDesign& design, const 
                                 -s.cwiseProduct(design.evaluation.objective_gradient));
 
   const double gradients = gradient_scale(problem, design, start, s);
-  const double values = std::min(gradients, objective_value_scale(design, start));
+  const double values = std::min(gradients, objective_value_scale(design.evaluation, start));
   const auto audit_with = [&](const Eigen::VectorXd& weights) {
     KktAudit audit = system.audit(system.solve(weights), scales.size(), s);
     audit.gradient_scale = gradients;

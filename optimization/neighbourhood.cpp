@@ -297,9 +297,8 @@ class Exploration {
 Neighbourhood explore_neighbourhood(EvaluationCache& cache, const EvaluatedDesign& design,
                                     const KktAudit& audit, const Evaluation& start,
                                     double least_gain) {
-  const double value_scale =
-      std::max(std::abs(design.evaluation.objective), 1e-3 * std::abs(start.objective));
-  return Exploration(cache, design, audit).explore(value_scale, least_gain);
+  return Exploration(cache, design, audit)
+      .explore(objective_value_scale(design.evaluation, start), least_gain);
 }
 
 }  // namespace pleuel

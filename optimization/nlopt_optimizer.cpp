@@ -1,6 +1,8 @@
 #include "optimization/nlopt_optimizer.hpp"
 
 #include <algorithm>
+#include <new>
+#include <stdexcept>
 #include <type_traits>
 
 #include <fmt/format.h>
@@ -112,6 +114,12 @@ void evaluate_rows(unsigned m, double* result, unsigned n, const double* y, doub
   jacobian.leftCols(n - bridge.elastic_variables) = (*evaluation).*Jacobian;
 }
 
+/// What NLopt refuses would be optimized without.
+void check(nlopt_result result) {
+  if (result == NLOPT_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (result < 0) throw std::logic_error("NLopt refuses what it is given");
+}
+
 void add_rows(Bridge& bridge) {
   using E = ScaledEvaluation;
   const auto count = [](int rows) { return static_cast<unsigned>(rows); };
@@ -119,14 +127,14 @@ void add_rows(Bridge& bridge) {
   const int equalities = bridge.problem.equalities();
   const std::vector<double> tolerances(std::max(inequalities, equalities), row_tolerance);
   if (inequalities > 0) {
-    nlopt_add_inequality_mconstraint(bridge.handle, count(inequalities),
-                                     evaluate_rows<&E::inequalities, &E::inequality_jacobian>,
-                                     &bridge, tolerances.data());
+    check(nlopt_add_inequality_mconstraint(bridge.handle, count(inequalities),
+                                           evaluate_rows<&E::inequalities, &E::inequality_jacobian>,
+                                           &bridge, tolerances.data()));
   }
   if (equalities > 0) {
-    nlopt_add_equality_mconstraint(bridge.handle, count(equalities),
-                                   evaluate_rows<&E::equalities, &E::equality_jacobian>, &bridge,
-                                   tolerances.data());
+    check(nlopt_add_equality_mconstraint(bridge.handle, count(equalities),
+                                         evaluate_rows<&E::equalities, &E::equality_jacobian>,
+                                         &bridge, tolerances.data()));
   }
 }
 
@@ -167,14 +175,15 @@ class NloptOptimizer : public Optimizer {
       append(y, violation);
     }
     const Handle handle(nlopt_create(algorithm_, static_cast<unsigned>(y.size())), &nlopt_destroy);
+    if (!handle) throw std::bad_alloc();
     const double tiny = takes_equalities() ? 0.0 : options_.tolerance;
     Bridge bridge{problem, handle.get(), TinySteps(tiny), y.size() - problem.variables()};
-    nlopt_set_min_objective(handle.get(), evaluate_objective, &bridge);
-    nlopt_set_lower_bounds(handle.get(), lower.data());
-    nlopt_set_upper_bounds(handle.get(), upper.data());
+    check(nlopt_set_min_objective(handle.get(), evaluate_objective, &bridge));
+    check(nlopt_set_lower_bounds(handle.get(), lower.data()));
+    check(nlopt_set_upper_bounds(handle.get(), upper.data()));
     add_rows(bridge);
-    nlopt_set_ftol_rel(handle.get(), options_.tolerance);
-    nlopt_set_xtol_rel(handle.get(), options_.tolerance);
+    check(nlopt_set_ftol_rel(handle.get(), options_.tolerance));
+    check(nlopt_set_xtol_rel(handle.get(), options_.tolerance));
 
     double objective = 0.0;
     const nlopt_result result = nlopt_optimize(handle.get(), y.data(), &objective);

@@ -32,6 +32,8 @@ struct Variable {
   double magnitude = 0.0;
 
   bool is_fixed() const { return lower == upper; }
+  bool has_lower() const { return lower > -practically_infinite; }
+  bool has_upper() const { return upper < practically_infinite; }
 };
 
 /// lower ≤ c(x) ≤ upper on the raw value of a response; lower == upper asks for equality.
@@ -41,6 +43,8 @@ struct Constraint {
   double upper = infinity;
 
   bool is_equality() const { return lower == upper; }
+  bool has_lower() const { return lower > -practically_infinite; }
+  bool has_upper() const { return upper < practically_infinite; }
   /// How far a value is beyond the limits; below 0 it keeps them, by that much.
   double excess(double value) const { return std::max(value - upper, lower - value); }
 };

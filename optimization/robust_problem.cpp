@@ -1,5 +1,6 @@
 #include "optimization/robust_problem.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <utility>
@@ -23,9 +24,9 @@ RobustProblem::RobustProblem(Problem& problem, Eigen::VectorXd deviations, Eigen
   assert(deviations_.size() == static_cast<Eigen::Index>(variables().size()));
   assert(margins_.size() == static_cast<Eigen::Index>(constraints().size()));
   for (std::size_t j = 0; j < constraints().size(); ++j) {
-    const bool has_upper = constraints()[j].upper < infinity;
-    assert(margins_(j) == 0.0 || has_upper != (constraints()[j].lower > -infinity));
-    if (!has_upper) margins_(j) *= -1.0;
+    const Constraint& limits = constraints()[j];
+    assert(margins_(j) == 0.0 || limits.has_upper() != limits.has_lower());
+    if (!limits.has_upper()) margins_(j) *= -1.0;
   }
 }
 
@@ -43,8 +44,13 @@ Eigen::MatrixXd RobustProblem::deviation_gradients(const Eigen::VectorXd& x,
     if (deviations_(i) == 0.0) continue;
     const double step = relative_step * sizes(i);
     Eigen::VectorXd upper = x, lower = x;
-    upper(i) += step;
-    lower(i) -= step;
+    if (!variables()[i].is_fixed()) {
+      upper(i) = std::min(x(i) + step, variables()[i].upper);
+      lower(i) = std::max(x(i) - step, variables()[i].lower);
+    } else {
+      upper(i) += step;
+      lower(i) -= step;
+    }
     const Eigen::MatrixXd change = neighbour_jacobian(upper, i) - neighbour_jacobian(lower, i);
     const Eigen::VectorXd weights = deviations_(i) * deviations_(i) * jacobian.col(i);
     sum += weights.asDiagonal() * change / (upper(i) - lower(i));

@@ -45,8 +45,8 @@ void ScaledProblem::add_rows(Eigen::Index constraint, const Constraint& limits) 
     equalities_.push_back({constraint, 1.0, limits.upper});
     return;
   }
-  if (std::isfinite(limits.upper)) inequalities_.push_back({constraint, 1.0, limits.upper});
-  if (std::isfinite(limits.lower)) inequalities_.push_back({constraint, -1.0, limits.lower});
+  if (limits.has_upper()) inequalities_.push_back({constraint, 1.0, limits.upper});
+  if (limits.has_lower()) inequalities_.push_back({constraint, -1.0, limits.lower});
 }
 
 Eigen::VectorXd ScaledProblem::lower() const {

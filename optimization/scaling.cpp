@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pleuel {
 
@@ -11,16 +12,12 @@ namespace {
 constexpr double part_of_range_for_backends = 0.1;
 constexpr double part_of_range_for_audit = 0.01;
 
-bool is_limited(double limit) {
-  return std::abs(limit) < practically_infinite;
-}
-
 double positive_or(double value, double fallback) {
   return value > 0.0 ? value : fallback;
 }
 
 bool has_range(const Variable& variable) {
-  return is_limited(variable.lower) && is_limited(variable.upper);
+  return variable.has_lower() && variable.has_upper();
 }
 
 /// Whether its value alone has to say what is much of it.
@@ -47,11 +44,8 @@ Eigen::VectorXd scales_with(double part_of_range, const Problem& problem,
 }
 
 double largest_limit(const Constraint& constraint) {
-  double largest = 0.0;
-  for (const double limit : {constraint.lower, constraint.upper}) {
-    if (is_limited(limit)) largest = std::max(largest, std::abs(limit));
-  }
-  return largest;
+  return std::max(constraint.has_lower() ? std::abs(constraint.lower) : 0.0,
+                  constraint.has_upper() ? std::abs(constraint.upper) : 0.0);
 }
 
 }  // namespace
@@ -101,6 +95,11 @@ double objective_scale(const Problem& problem, const Evaluation& evaluation,
   const double change =
       scaled_objective_gradient(problem, evaluation, scales).lpNorm<Eigen::Infinity>();
   return positive_or(std::max(std::abs(evaluation.objective), change), 1.0);
+}
+
+double objective_value_scale(const Evaluation& evaluation, const Evaluation& start) {
+  return std::max({std::abs(evaluation.objective), 1e-3 * std::abs(start.objective),
+                   std::numeric_limits<double>::min()});
 }
 
 double max_violation(const Problem& problem, const Eigen::VectorXd& constraints,

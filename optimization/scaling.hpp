@@ -34,6 +34,9 @@ Eigen::VectorXd scaled_objective_gradient(const Problem& problem, const Evaluati
 double objective_scale(const Problem& problem, const Evaluation& evaluation,
                        const Eigen::VectorXd& scales);
 
+/// |f|, but not nothing where f vanishes at the optimum: at least a thousandth of that of the start.
+double objective_value_scale(const Evaluation& evaluation, const Evaluation& start);
+
 /// max over constraints of the amount by which c leaves its limits, divided by C; 0 if none does.
 double max_violation(const Problem& problem, const Eigen::VectorXd& constraints,
                      const Eigen::VectorXd& scales);

@@ -16,8 +16,7 @@ constexpr double reach_without_bounds = 10.0;
 
 std::pair<double, double> range_of(const Variable& variable) {
   double lower = variable.lower, upper = variable.upper;
-  const bool has_lower = lower > -practically_infinite, has_upper = upper < practically_infinite;
-  if (has_lower && has_upper) return {lower, upper};
+  if (variable.has_lower() && variable.has_upper()) return {lower, upper};
   const double reach =
       reach_without_bounds * std::max(std::abs(variable.start), variable.magnitude);
   if (reach == 0.0) {
@@ -25,8 +24,8 @@ std::pair<double, double> range_of(const Variable& variable) {
         "/variables/{} has no bounds and starts at 0: nothing says where other starts may lie",
         variable.name));
   }
-  if (!has_lower) lower = variable.start - reach;
-  if (!has_upper) upper = variable.start + reach;
+  if (!variable.has_lower()) lower = variable.start - reach;
+  if (!variable.has_upper()) upper = variable.start + reach;
   return {lower, upper};
 }
 

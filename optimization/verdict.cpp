@@ -88,8 +88,7 @@ void judge_neighbourhood(Verdict& verdict, EvaluationCache& cache, const Evaluat
                          const Tolerances& tolerances) {
   const Neighbourhood around =
       explore_neighbourhood(cache, verdict.design, verdict.audit, start, tolerances.gain);
-  const double value_scale =
-      std::max(std::abs(verdict.design.evaluation.objective), 1e-3 * std::abs(start.objective));
+  const double value_scale = objective_value_scale(verdict.design.evaluation, start);
   verdict.gain_left = around.gain_left + verdict.audit.complementarity / value_scale;
   if (around.better) {
     verdict.status = Status::stalled;

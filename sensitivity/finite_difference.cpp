@@ -39,13 +39,23 @@ double step_scale(const DesignVariable& variable, double x) {
   return scale > 0.0 ? scale : 1.0;
 }
 
+Eigen::VectorXd step_scales(const std::vector<DesignVariable>& variables,
+                            const Eigen::VectorXd& x) {
+  Eigen::VectorXd scales(x.size());
+  for (Eigen::Index j = 0; j < x.size(); ++j) scales(j) = step_scale(variables[j], x(j));
+  return scales;
+}
+
 Eigen::MatrixXd forward_differences(const ProblemFile& problem, const Eigen::VectorXd& x,
                                     const Analysis& at_x, double step, int threads,
                                     const ValuesOf& values) {
   const Eigen::VectorXd base = values(at_x);
   return collect(x.size(), threads, [&](Eigen::Index j) -> Eigen::VectorXd {
-    const double upper = x(j) + step * step_scale(variable(problem, j), x(j));
-    return (values_at(problem, x, j, upper, values) - base) / (upper - x(j));
+    const DesignVariable& changed = variable(problem, j);
+    const double change = step * step_scale(changed, x(j));
+    const bool goes_up = x(j) + change <= changed.upper || x(j) - change < changed.lower;
+    const double other = goes_up ? x(j) + change : x(j) - change;
+    return (values_at(problem, x, j, other, values) - base) / (other - x(j));
   });
 }
 

@@ -13,6 +13,7 @@ using ValuesOf = std::function<Eigen::VectorXd(const Analysis&)>;
 /// What steps of a variable are relative to: |x|, but at least a hundredth of the range between its
 /// bounds, since a value near 0 says nothing of how far it may go. 1 if it is fixed at 0.
 double step_scale(const DesignVariable& variable, double x);
+Eigen::VectorXd step_scales(const std::vector<DesignVariable>& variables, const Eigen::VectorXd& x);
 
 /// Gradients by simulating anew, numbers × variables; Δx_j = step · step_scale(). So many
 /// simulations at a time as there are threads.

@@ -1,13 +1,13 @@
 #include "sensitivity/kinks.hpp"
 
+#include <algorithm>
+
+#include "sensitivity/finite_difference.hpp"
 #include "sensitivity/method_choice.hpp"
 
 namespace pleuel {
 
 namespace {
-
-/// Gradients of two peaks that differ by less move alike, as far as an optimizer can tell.
-constexpr double alike = 1e-2;
 
 /// The other peaks of all ties, in the order of the responses.
 std::vector<SampledValue> other_peaks(const Analysis& analysis) {
@@ -22,8 +22,9 @@ std::vector<SampledValue> other_peaks(const Analysis& analysis) {
 
 /// @param own     gradients of the responses that have ties, a row each
 /// @param others  those of their other peaks
-std::vector<Kink> kinks_of(const Analysis& analysis, const Eigen::MatrixXd& own,
-                           const Eigen::MatrixXd& others) {
+std::vector<Kink> kinks_of(const Analysis& analysis, const std::vector<DesignVariable>& variables,
+                           const Eigen::MatrixXd& own, const Eigen::MatrixXd& others) {
+  const Eigen::VectorXd scales = step_scales(variables, analysis.x);
   std::vector<Kink> kinks;
   Eigen::Index first = 0, row = 0;
   for (std::size_t i = 0; i < analysis.reductions.size(); ++i) {
@@ -31,9 +32,8 @@ std::vector<Kink> kinks_of(const Analysis& analysis, const Eigen::MatrixXd& own,
     if (reduction.ties.empty()) continue;
     const Eigen::RowVectorXd gradient = own.row(first++);
     for (const PeakTie& tie : reduction.ties) {
-      const double size = gradient.norm();
-      const double difference = size > 0.0 ? (others.row(row) - gradient).norm() / size : 0.0;
-      if (difference > alike) kinks.push_back({i, tie, difference});
+      const double difference = gradient_difference(gradient, others.row(row), scales);
+      if (difference > least_kink) kinks.push_back({i, tie, difference});
       ++row;
     }
   }
@@ -51,7 +51,16 @@ std::vector<Eigen::Index> tied_responses(const Analysis& analysis) {
 
 }  // namespace
 
-std::vector<Kink> find_kinks(Analysis& analysis) {
+double gradient_difference(const Eigen::RowVectorXd& g, const Eigen::RowVectorXd& h,
+                           const Eigen::VectorXd& scales) {
+  const auto size = [&](const Eigen::RowVectorXd& gradient) {
+    return gradient.cwiseProduct(scales.transpose()).norm();
+  };
+  const double largest = std::max(size(g), size(h));
+  return largest > 0.0 ? size(g - h) / largest : 0.0;
+}
+
+std::vector<Kink> find_kinks(Analysis& analysis, const std::vector<DesignVariable>& variables) {
   std::vector<SampledValue> values;
   for (const std::size_t i : tied_responses(analysis)) {
     values.push_back({i, analysis.reductions[i].samples});
@@ -62,17 +71,19 @@ std::vector<Kink> find_kinks(Analysis& analysis) {
   values.insert(values.end(), others.begin(), others.end());
   const Eigen::MatrixXd gradients =
       sampled_gradients(analysis, values, choose_method(analysis, values).method);
-  return kinks_of(analysis, gradients.topRows(own), gradients.bottomRows(others.size()));
+  return kinks_of(analysis, variables, gradients.topRows(own), gradients.bottomRows(others.size()));
 }
 
-GradientsAndKinks gradients_and_kinks(Analysis& analysis, ExactMethod method) {
+GradientsAndKinks gradients_and_kinks(Analysis& analysis,
+                                      const std::vector<DesignVariable>& variables,
+                                      ExactMethod method) {
   std::vector<SampledValue> values = response_values(analysis);
   const Eigen::Index responses = values.size();
   const std::vector<SampledValue> others = other_peaks(analysis);
   values.insert(values.end(), others.begin(), others.end());
   const Eigen::MatrixXd all = sampled_gradients(analysis, values, method);
   const Eigen::MatrixXd gradients = all.topRows(responses);
-  return {gradients, kinks_of(analysis, gradients(tied_responses(analysis), Eigen::all),
+  return {gradients, kinks_of(analysis, variables, gradients(tied_responses(analysis), Eigen::all),
                               all.bottomRows(others.size()))};
 }
 

@@ -36,7 +36,8 @@ class Check {
         adjoint_(gradients_by(analysis, ExactMethod::adjoint)),
         noise_(response_noise(problem_, x, options.threads)),
         has_kink_(problem.responses.size(), false) {
-    for (const Kink& kink : find_kinks(analysis)) has_kink_[kink.response] = true;
+    for (const Kink& kink : find_kinks(analysis, problem.variables))
+      has_kink_[kink.response] = true;
   }
 
   std::vector<DerivativeCheck> run() {

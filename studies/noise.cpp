@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/parallel.hpp"
 #include "core/response/analysis.hpp"
+#include "optimization/generic_numbers.hpp"
 #include "sensitivity/finite_difference.hpp"
 
 namespace pleuel {
@@ -38,15 +38,12 @@ std::vector<Level> difference_table(Eigen::VectorXd differences) {
   return levels;
 }
 
-/// Entries of generic size and sign relative to the variables, the same in every run. The engine's
-/// raw numbers are prescribed by the standard, unlike those of its distributions.
+/// Entries of generic size and sign relative to the variables, the same in every run.
 Eigen::VectorXd generic_direction(const ProblemFile& problem, const Eigen::VectorXd& x) {
-  std::mt19937 engine;
+  GenericNumbers numbers;
   Eigen::VectorXd direction(x.size());
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const double size = 0.5 + 0.5 * static_cast<double>(engine()) / std::mt19937::max();
-    const double sign = engine() % 2 == 0 ? 1.0 : -1.0;
-    direction(i) = sign * size * step_scale(problem.variables[i], x(i));
+    direction(i) = numbers.signed_size() * step_scale(problem.variables[i], x(i));
   }
   return direction;
 }

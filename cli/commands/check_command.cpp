@@ -60,7 +60,7 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
   const Model& model = findings.analysis->model;
   findings.freedoms = rigid_degrees_of_freedom(model.mechanism, initial);
   findings.freedoms.blocked = blocked_drives(model.mechanism, initial, drive_rows(model));
-  findings.ties = find_ties(*findings.analysis);
+  findings.ties = find_ties(*findings.analysis, problem.variables);
   warn(texts_of(find_doubts(problem, x, *findings.analysis)));
   ProgressLine progress(arguments, "measuring effects");
   try {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -35,6 +36,20 @@ Names names_in(const RunDatabase& database) {
   return {list("variables"), list("constraints")};
 }
 
+/// The constraints that a front between responses adds to those of the file stand behind them.
+void name_limits_of_front(const RunDatabase& database, Names& names) {
+  Eigen::Index most = 0;
+  database.read_evaluations([&](const NumberedEvaluation& one) {
+    if (one.key.rows == "constraints") {
+      most = std::max(most, one.stored.evaluation.constraints.size());
+    }
+  });
+  for (Eigen::Index i = std::ssize(names.constraints), number = 1; i < most; ++i, ++number) {
+    names.constraints.push_back(number == 1 ? "limit of the front"
+                                            : fmt::format("limit {} of the front", number));
+  }
+}
+
 /// evaluations.csv: a line for each evaluation. Of rows that are not the constraints there are no
 /// values.
 class EvaluationsCsv {
@@ -49,8 +64,9 @@ class EvaluationsCsv {
     csv_.add(one.key.rows).add(one.request).add(one.stored.method);
     has_values ? csv_.add(evaluation.objective) : csv_.add(std::string());
     const bool has_constraints = has_values && one.key.rows == "constraints";
-    for (std::size_t i = 0; i < names_.constraints.size(); ++i) {
-      has_constraints ? csv_.add(evaluation.constraints(i)) : csv_.add(std::string());
+    for (Eigen::Index i = 0; i < std::ssize(names_.constraints); ++i) {
+      const bool has_it = has_constraints && i < evaluation.constraints.size();
+      has_it ? csv_.add(evaluation.constraints(i)) : csv_.add(std::string());
     }
     for (const double value : one.key.x) csv_.add(value);
     csv_.add(one.stored.failure);
@@ -112,7 +128,8 @@ void export_evaluations(const fs::path& file, const fs::path& target, Exported& 
   int count = 0;
   try {
     const RunDatabase database(file);
-    const Names names = names_in(database);
+    Names names = names_in(database);
+    name_limits_of_front(database, names);
     EvaluationsCsv evaluations({target / "evaluations.csv", &exported.failures}, names);
     GradientsCsv gradients({target / "evaluation_gradients.csv", &exported.failures}, names);
     database.read_evaluations([&](const NumberedEvaluation& one) {

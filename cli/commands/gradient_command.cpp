@@ -86,7 +86,8 @@ Computed compute(const ProblemInput& input, Analysis& analysis,
     if (is_difference(method)) {
       result.gradients = gradients(input.problem, input.design, analysis, method, options);
     } else {
-      GradientsAndKinks found = gradients_and_kinks(analysis, exact_method(method));
+      GradientsAndKinks found =
+          gradients_and_kinks(analysis, input.problem.variables, exact_method(method));
       result.gradients = std::move(found.gradients);
       computed.kinks = std::move(found.kinks);
     }
@@ -318,7 +319,7 @@ Outcome run_gradient(const Arguments& arguments) {
   }
   progress.show_share("checking the numbers", 0.0);
   findings.ties = computed.kinks ? make_ties(*findings.analysis, *computed.kinks)
-                                 : find_ties(*findings.analysis);
+                                 : find_ties(*findings.analysis, problem.variables);
   const Monitors monitors = monitor(findings.analysis->model, findings.analysis->trajectory);
   TrustedRun judged{problem, input.design, *findings.analysis, monitors};
   if (input.choice) judged.known = &input.choice->bars;

@@ -166,6 +166,9 @@ std::string derivatives_text(const ProblemFile& problem, const Analysis& analysi
          table.text() + disagreements_text(problem, checks);
 }
 
+/// Below, Newton's method stops at round-off.
+constexpr double least_tolerance = 1e-11;
+
 std::vector<std::string> noise_warnings(const ProblemFile& problem, const Analysis& analysis,
                                         const std::vector<DerivativeCheck>& checks) {
   std::vector<std::string> warnings;
@@ -176,10 +179,15 @@ std::vector<std::string> noise_warnings(const ProblemFile& problem, const Analys
     const double noise = checks[i].noise / size;
     warnings.push_back(fmt::format(
         "the noise of {}, {}, is above /optimizer/tolerance, {:g}: {} cannot tell progress from "
-        "noise there. Tighten /simulation/newton_tolerance ({:g}), or set /optimizer/tolerance to "
-        "{:.0e} or more",
+        "noise there. Set /optimizer/tolerance to {:.0e} or more{}",
         name, magnitude(noise), problem.optimizer.tolerance, problem.optimizer.backend,
-        problem.simulation.newton_tolerance, std::pow(10.0, std::ceil(std::log10(noise)))));
+        std::pow(10.0, std::ceil(std::log10(noise))),
+        problem.simulation.newton_tolerance > least_tolerance
+            ? fmt::format(
+                  "; if rounding does not cause it, a /simulation/newton_tolerance below {:g} "
+                  "makes it less",
+                  problem.simulation.newton_tolerance)
+            : ""));
   }
   return warnings;
 }

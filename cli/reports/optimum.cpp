@@ -1,11 +1,17 @@
 #include "cli/reports/optimum.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace pleuel {
 
 namespace {
 
-double bound_tolerance(const DesignVariable& variable) {
-  return 1e-6 * (variable.upper - variable.lower);
+/// The range says little where one bound is far away.
+bool is_at(double bound, const DesignVariable& variable, double value) {
+  const double range = variable.upper - variable.lower;
+  const double size = std::abs(bound) + std::abs(variable.start);
+  return std::abs(value - bound) <= 1e-6 * (size > 0.0 ? std::min(range, size) : range);
 }
 
 }  // namespace
@@ -22,11 +28,11 @@ UsedLimit used_limit(const ConstraintSettings& constraint, double value) {
 }
 
 bool is_at_lower_bound(const DesignVariable& variable, double value) {
-  return value - variable.lower <= bound_tolerance(variable);
+  return is_at(variable.lower, variable, value);
 }
 
 bool is_at_upper_bound(const DesignVariable& variable, double value) {
-  return variable.upper - value <= bound_tolerance(variable);
+  return is_at(variable.upper, variable, value);
 }
 
 }  // namespace pleuel

@@ -18,15 +18,15 @@ std::string describe(const Tie& tie, const Response& response) {
 
 }  // namespace
 
-Ties find_ties(Analysis& analysis) {
-  return make_ties(analysis, find_kinks(analysis));
+Ties find_ties(Analysis& analysis, const std::vector<DesignVariable>& variables) {
+  return make_ties(analysis, find_kinks(analysis, variables));
 }
 
 Ties make_ties(const Analysis& analysis, const std::vector<Kink>& kinks) {
   Ties ties(analysis.responses.size());
   for (std::size_t i = 0; i < ties.size(); ++i) {
-    const auto& tie = analysis.reductions[i].tie;
-    if (tie) ties[i] = Tie{*tie, std::nullopt};
+    const std::vector<PeakTie>& all = analysis.reductions[i].ties;
+    if (!all.empty()) ties[i] = Tie{all.front(), std::nullopt};
   }
   for (const Kink& kink : kinks) {
     std::optional<Tie>& tie = ties[kink.response];

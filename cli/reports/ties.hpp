@@ -23,7 +23,7 @@ struct Tie {
 using Ties = std::vector<std::optional<Tie>>;
 
 /// Costs one run of direct differentiation if there is any tie.
-Ties find_ties(Analysis& analysis);
+Ties find_ties(Analysis& analysis, const std::vector<DesignVariable>& variables);
 /// The same with kinks that are known.
 Ties make_ties(const Analysis& analysis, const std::vector<Kink>& kinks);
 

@@ -20,6 +20,8 @@ constexpr double plot_left = 74.0, plot_right = 800.0, plot_top = 36.0, plot_bot
 constexpr int most_points = 1600;
 /// A limit farther off than so many ranges of the curves is told, not drawn.
 constexpr double near_limit = 1.5;
+/// Curves that change by less of their size are drawn as constants.
+constexpr double least_change = 1e-9;
 
 constexpr const char* svg_style =
     "text{fill:#17212d;font-size:12px}.soft{fill:#5b6878}.grid{stroke:#dde3ea}"
@@ -192,15 +194,16 @@ std::pair<double, double> range_of(const HistoryChart& chart) {
     low = std::min(low, (curve.values - curve.band).minCoeff());
     high = std::max(high, (curve.values + curve.band).maxCoeff());
   }
-  const double own = std::max(high - low, 1e-9 * std::max(std::abs(low), std::abs(high)));
+  const double size = std::max(std::abs(low), std::abs(high));
+  const double own = std::max(high - low, least_change * size);
   const double first_low = low, first_high = high;
   for (const double limit : chart.limits) {
     if (limit > first_high + near_limit * own || limit < first_low - near_limit * own) continue;
     low = std::min(low, limit);
     high = std::max(high, limit);
   }
-  if (high - low <= 0.0) return {low - 1.0, high + 1.0};
-  const double margin = 0.08 * (high - low);
+  const bool is_constant = high - low <= least_change * size;
+  const double margin = is_constant ? std::max(1.0, 1e-3 * size) : 0.08 * (high - low);
   return {low - margin, high + margin};
 }
 
@@ -210,9 +213,9 @@ std::vector<double> round_ticks(double low, double high, int about) {
   const double share = rough / power;
   const double step = power * (share < 1.5 ? 1.0 : share < 3.5 ? 2.0 : share < 7.5 ? 5.0 : 10.0);
   std::vector<double> ticks;
-  for (double k = std::ceil(low / step); k * step <= high * (1.0 + 1e-12); ++k) {
-    ticks.push_back(k * step);
-  }
+  const double first = std::ceil(low / step - least_change);
+  const int count = static_cast<int>(std::floor(high / step + least_change) - first) + 1;
+  for (int k = 0; k < count; ++k) ticks.push_back((first + k) * step);
   return ticks;
 }
 

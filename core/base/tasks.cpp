@@ -207,6 +207,7 @@ class TaskRun {
   void give_up_slow_ones() {
     if (options_.time_limit <= 0.0) return;
     std::erase_if(running_, [&](Running& one) {
+      if (has_ended(states_[one.task])) return false;  // its answer is here, its process will end
       if (one.stopwatch.seconds() <= options_.time_limit) return false;
       one.place->kill(static_cast<int>(one.task));
       try_again(states_[one.task], fmt::format("it took longer than the {:g} s that it may take",

@@ -36,7 +36,7 @@ PathPoint path_point(const std::vector<double>& values, double at) {
   const std::size_t last = values.size() - 1;
   if (last == 0) return {values.front(), 0.0};
   const auto end = static_cast<double>(last);
-  if (at < 0.0 || at > end) {
+  if (!(at >= 0.0 && at <= end)) {
     const std::size_t nearest = at < 0.0 ? 0 : last;
     const double slope = slope_at(values, nearest);
     return {values[nearest] + slope * (at - (at < 0.0 ? 0.0 : end)), slope};

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <new>
 
 #include <camd.h>
 #include <klu.h>
@@ -35,9 +36,9 @@ std::vector<int> elimination_order(LinearSolver::Matrix& pattern, const std::vec
   const int size = static_cast<int>(pattern.rows());
   std::vector<int> order(size), sets(order.size(), 1);
   for (const int unknown : first) sets[unknown] = 0;
-  [[maybe_unused]] const int status =
-      camd_order(size, pattern.outerIndexPtr(), pattern.innerIndexPtr(), order.data(), nullptr,
-                 nullptr, sets.data());
+  const int status = camd_order(size, pattern.outerIndexPtr(), pattern.innerIndexPtr(),
+                                order.data(), nullptr, nullptr, sets.data());
+  if (status == CAMD_OUT_OF_MEMORY) throw std::bad_alloc();
   assert(status == CAMD_OK);
   return order;
 }

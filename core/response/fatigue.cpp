@@ -74,7 +74,6 @@ class CycleSearch {
     std::stable_sort(reduction.ties.begin(), reduction.ties.end(),
                      [](const PeakTie& a, const PeakTie& b) { return a.gap < b.gap; });
     if (reduction.ties.size() > max_cycle_ties) reduction.ties.resize(max_cycle_ties);
-    if (!reduction.ties.empty()) reduction.tie = reduction.ties.front();
     return reduction;
   }
 

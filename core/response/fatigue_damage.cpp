@@ -208,22 +208,19 @@ Reduction reduce_damage(FatigueCriterion criterion, double exponent, const Eigen
   const auto worst =
       std::max_element(points.begin(), points.end(),
                        [](const Reduction& a, const Reduction& b) { return a.value < b.value; });
-  Reduction reduction{worst->value, worst->samples, {}, {}};
+  Reduction reduction{worst->value, worst->samples, {}};
   gather(reduction.samples);
   for (auto other = points.begin(); other != points.end(); ++other) {
     const double gap = 1.0 - other->value / worst->value;
     if (other == worst || !(gap <= damage_tie_gap)) continue;
-    if (reduction.ties.size() == max_damage_ties) break;
     const double end = time(range.last);
     gather(other->samples);
     reduction.ties.push_back({end, end, 2 * static_cast<int>(worst - points.begin()),
                               2 * static_cast<int>(other - points.begin()), gap, other->samples});
   }
-  if (!reduction.ties.empty()) {
-    reduction.tie =
-        *std::min_element(reduction.ties.begin(), reduction.ties.end(),
-                          [](const PeakTie& a, const PeakTie& b) { return a.gap < b.gap; });
-  }
+  std::stable_sort(reduction.ties.begin(), reduction.ties.end(),
+                   [](const PeakTie& a, const PeakTie& b) { return a.gap < b.gap; });
+  if (reduction.ties.size() > max_damage_ties) reduction.ties.resize(max_damage_ties);
   return reduction;
 }
 

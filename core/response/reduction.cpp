@@ -162,7 +162,6 @@ void record_ties(const Search& search, const std::vector<Peak>& peaks, const Pea
   }
   std::sort(reduction.ties.begin(), reduction.ties.end(),
             [](const PeakTie& one, const PeakTie& other) { return one.gap < other.gap; });
-  if (!reduction.ties.empty()) reduction.tie = reduction.ties.front();
 }
 
 /// The highest sample of a range, where no local maximum lies in it.
@@ -209,7 +208,6 @@ Reduction reduce_stretch(OverTime kind, const Search& search) {
   };
   negate(reduction.samples);
   for (PeakTie& tie : reduction.ties) negate(tie.other_samples);
-  if (reduction.tie) negate(reduction.tie->other_samples);
   return reduction;
 }
 

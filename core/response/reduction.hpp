@@ -30,8 +30,7 @@ struct PeakTie {
 struct Reduction {
   double value = 0.0;
   std::vector<Sample> samples;
-  std::optional<PeakTie> tie;  ///< the closest one
-  std::vector<PeakTie> ties;   ///< of many those that differ most, by gap
+  std::vector<PeakTie> ties;  ///< by gap, the closest first; of many those that differ most
 };
 
 /// Steps first … last of a history.

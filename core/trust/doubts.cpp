@@ -8,6 +8,7 @@
 #include "core/trust/case_doubts.hpp"
 #include "core/trust/energy_balance.hpp"
 #include "core/trust/extrapolation.hpp"
+#include "core/trust/far_bounds.hpp"
 #include "core/trust/far_limits.hpp"
 #include "core/trust/fast_laws.hpp"
 #include "core/trust/frequency_meaning.hpp"
@@ -30,7 +31,10 @@ std::vector<Doubt> find_doubts_before(const ProblemFile& problem) {
   for (const ProblemFile* one : simulated_problems(problem)) {
     doubts.push_back(doubt_fast_laws_before(*one));
   }
-  return joined_doubts(problem, doubts);
+  std::vector<Doubt> joined = joined_doubts(problem, doubts);
+  const std::vector<Doubt> of_variables = doubt_far_bounds(problem);
+  joined.insert(joined.end(), of_variables.begin(), of_variables.end());
+  return joined;
 }
 
 namespace {

@@ -77,6 +77,12 @@ std::vector<DesignCase::Row> DesignCase::rows_at(const Analysis& analysis,
   return all;
 }
 
+GradientMethod DesignCase::method_for(const std::vector<SampledValue>& values) const {
+  const bool may_differ = file_.sensitivity.method == GradientMethod::automatic &&
+                          choice_->method == GradientMethod::adjoint;
+  return may_differ && std::ssize(values) >= x_.size() ? GradientMethod::direct : choice_->method;
+}
+
 /// Of the rows of responses.
 Eigen::MatrixXd DesignCase::gradients_of(Analysis& analysis,
                                          const std::vector<ConstraintRows>& rows) {
@@ -89,9 +95,10 @@ Eigen::MatrixXd DesignCase::gradients_of(Analysis& analysis,
   }
   if (values.empty()) return Eigen::MatrixXd(0, x_.size());
   if (!choice_) choice_ = choose_gradients(file_.sensitivity.method, analysis, values);
-  if (!is_difference(choice_->method)) {
+  used_ = method_for(values);
+  if (!is_difference(used_)) {
     const Eigen::Map<const Eigen::VectorXd> sign(signs.data(), std::ssize(signs));
-    return sign.asDiagonal() * sampled_gradients(analysis, values, exact_method(choice_->method));
+    return sign.asDiagonal() * sampled_gradients(analysis, values, exact_method(used_));
   }
   const ValuesOf numbers = [&](const Analysis& at) {
     std::vector<double> all;
@@ -100,7 +107,7 @@ Eigen::MatrixXd DesignCase::gradients_of(Analysis& analysis,
     }
     return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(all.data(), std::ssize(all)));
   };
-  return gradients_by_differences(file_, x_, analysis, choice_->method, numbers,
+  return gradients_by_differences(file_, x_, analysis, used_, numbers,
                                   {file_.sensitivity.difference_step, threads_});
 }
 
@@ -158,7 +165,7 @@ void DesignCase::keep(Request request, const Answer& answer) {
   } else {
     stored.evaluation = answer.evaluation;
     if (request == Request::values_and_gradients && choice_) {
-      stored.method = to_string(choice_->method);
+      stored.method = to_string(used_);
       stored.reason = choice_->reason;
     }
   }

@@ -88,6 +88,9 @@ class DesignCase {
   EvaluationKey key_of(const Eigen::VectorXd& x, Request request, const std::string& rows) const;
   double linear_value(std::size_t constraint) const;
   std::vector<Row> rows_at(const Analysis& analysis, const std::vector<ConstraintRows>& rows) const;
+  /// That of the choice, which was made for the first rows: the adjoint method, if it was to choose, is
+  /// none for more rows than there are variables.
+  GradientMethod method_for(const std::vector<SampledValue>& values) const;
   Eigen::MatrixXd gradients_of(Analysis& analysis, const std::vector<ConstraintRows>& rows);
   std::size_t response_index(const std::string& name) const;
 
@@ -100,6 +103,7 @@ class DesignCase {
   Eigen::VectorXd x_;
   std::unique_ptr<Analysis> analysis_;
   std::optional<GradientChoice> choice_;
+  GradientMethod used_ = GradientMethod::automatic;  ///< for the gradients evaluated last
 };
 
 }  // namespace pleuel

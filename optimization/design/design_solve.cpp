@@ -108,7 +108,7 @@ std::vector<CaseKink> optimized_kinks(DesignProblem& design, const Eigen::Vector
     for (std::size_t c = 0; c < design.case_count(); ++c) {
       DesignCase& one = design.load_case(c);
       const std::vector<std::size_t> optimized = optimized_responses(design, c);
-      for (const Kink& kink : find_kinks(one.analysis_at(x))) {
+      for (const Kink& kink : find_kinks(one.analysis_at(x), one.file().variables)) {
         const bool counts =
             std::find(optimized.begin(), optimized.end(), kink.response) != optimized.end();
         if (counts) kinks.push_back({c, kink});

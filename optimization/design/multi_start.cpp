@@ -12,6 +12,7 @@
 #include "core/scene/packed_problem.hpp"
 #include "optimization/design/packed_solution.hpp"
 #include "optimization/result.hpp"
+#include "optimization/scaling.hpp"
 #include "optimization/solve.hpp"
 #include "optimization/starts.hpp"
 
@@ -108,16 +109,6 @@ std::string sentence_of(const MultiStart& all) {
     }
   }
   return text;
-}
-
-Eigen::VectorXd scales_of(const ProblemFile& file, const Eigen::VectorXd& x) {
-  Eigen::VectorXd scales(x.size());
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const DesignVariable& variable = file.variables[i];
-    const double range = variable.upper - variable.lower;
-    scales(i) = std::clamp(std::abs(x(i)), 0.1 * range, std::max(range, 1e-300));
-  }
-  return scales;
 }
 
 /// What a search tells.
@@ -282,7 +273,7 @@ MultiStart combined(const std::vector<Eigen::VectorXd>& starts,
   }
   if (solutions[best].problem) {
     all.optima = distinct_optima(
-        solutions, scales_of(solutions[best].problem->file(), solutions[best].result.x));
+        solutions, variable_scales(*solutions[best].problem, solutions[best].result.x));
   }
   for (std::size_t k = 0; k < all.optima.size(); ++k) {
     for (const std::size_t i : all.optima[k].starts) all.runs[i].optimum = k;

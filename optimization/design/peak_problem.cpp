@@ -68,10 +68,8 @@ std::optional<Extreme> PeakProblem::pressed_side(std::optional<std::size_t> cons
     return is_maximized ? Extreme::smallest : Extreme::largest;
   }
   const Constraint& limits = problem_.constraints()[*constraint];
-  const bool has_upper = limits.upper < practically_infinite;
-  const bool has_lower = limits.lower > -practically_infinite;
-  if (has_upper == has_lower) return std::nullopt;
-  return has_upper ? Extreme::largest : Extreme::smallest;
+  if (limits.has_upper() == limits.has_lower()) return std::nullopt;
+  return limits.has_upper() ? Extreme::largest : Extreme::smallest;
 }
 
 std::vector<PeakProblem::Split> PeakProblem::split(std::size_t load_case,

@@ -111,7 +111,6 @@ Reduction of_whole(Reduction peak, Eigen::Index first) {
     tie.other_channel += static_cast<int>(first);
     shift_channels(tie.other_samples, first);
   };
-  if (peak.tie) shift(*peak.tie);
   for (PeakTie& tie : peak.ties) shift(tie);
   return peak;
 }

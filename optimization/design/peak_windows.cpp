@@ -7,6 +7,8 @@
 #include "core/scene/load_cases.hpp"
 #include "core/scene/response_parts.hpp"
 #include "optimization/design/peak_rows.hpp"
+#include "sensitivity/finite_difference.hpp"
+#include "sensitivity/kinks.hpp"
 #include "sensitivity/method_choice.hpp"
 
 namespace pleuel {
@@ -15,8 +17,6 @@ namespace {
 
 /// Peaks further below the highest do not decide.
 constexpr double near_the_highest = 1e-2;
-/// Gradients that differ by less move alike.
-constexpr double alike = 1e-2;
 
 /// The two heights of each tie within a window at one place, one after the other.
 void add_ties(const Analysis& analysis, const ProblemFile& file, std::size_t response, int windows,
@@ -46,9 +46,11 @@ bool have_kinks(const DesignProblem& design, std::size_t load_case, Analysis& an
   if (values.empty()) return false;
   const Eigen::MatrixXd gradients =
       sampled_gradients(analysis, values, choose_method(analysis, values).method);
+  const Eigen::VectorXd scales = step_scales(file.variables, analysis.x);
   for (Eigen::Index row = 0; row < gradients.rows(); row += 2) {
-    const double difference = (gradients.row(row + 1) - gradients.row(row)).norm();
-    if (difference > alike * gradients.row(row).norm()) return true;
+    const double difference =
+        gradient_difference(gradients.row(row), gradients.row(row + 1), scales);
+    if (difference > least_kink) return true;
   }
   return false;
 }

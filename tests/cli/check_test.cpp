@@ -33,7 +33,7 @@ TEST(Check, WarnsOfNoiseAboveTheTolerance) {
       joined(joined({"check", problem("slider_crank_round")}, quick()),
              {"--set", "/simulation/newton_tolerance=1e-4", "--set", "/optimizer/tolerance=1e-8"});
   EXPECT_THAT(run_program(folder.path(), loose).out,
-              ::testing::HasSubstr("Tighten /simulation/newton_tolerance"));
+              ::testing::HasSubstr("Set /optimizer/tolerance to"));
   const ProgramRun run = run_program(folder.path(), joined(loose, {"--json", "--jobs", "2"}));
   EXPECT_FALSE(run.document().at("warnings").empty());
 }

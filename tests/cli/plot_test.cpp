@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "tests/cli/program.hpp"
@@ -52,6 +53,29 @@ TEST_F(Plot, DrawsThePeakOfTheTrajectoryInTheUnitsOfEngineers) {
   EXPECT_NEAR(number_behind(svg, "data-peak=\""), highest / 1e6, 1e-9 * highest / 1e6);
   EXPECT_THAT(svg, HasSubstr("rod_stress [MPa]"));
   EXPECT_THAT(svg, HasSubstr("class=\"band\"")) << "the error band of the trajectory";
+}
+
+/// What the last bits of a number say is no change: ticks that far apart would be without end.
+TEST_F(Plot, DrawsWhatChangesByRoundOffOnlyAsAConstant) {
+  const fs::path copy = folder() / "constant";
+  fs::copy(folder() / "one", copy, fs::copy_options::recursive);
+  const CsvRows rows = read_csv(copy / "trajectory.csv");
+  const auto column = std::find(rows[0].begin(), rows[0].end(), "rod_stress") - rows[0].begin();
+  std::ofstream file(copy / "trajectory.csv");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::vector<std::string> row = rows[i];
+    if (i > 0) row[column] = i % 2 == 0 ? "300000" : "300000.00000000006";
+    file << fmt::format("{}\n", fmt::join(row, ","));
+  }
+  file.close();
+  const ProgramRun run = run_program(folder(), {"plot", "constant", "rod_stress"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const std::string svg = read_file(copy / "plot-rod_stress.svg");
+  EXPECT_NEAR(number_behind(svg, "data-peak=\""), 0.3, 1e-9);
+  std::size_t ticks = 0, at = 0;
+  while ((at = svg.find("class=\"grid\"", at) + 1) != 0) ++ticks;
+  EXPECT_GE(ticks, 2u);
+  EXPECT_LE(ticks, 10u);
 }
 
 TEST_F(Plot, ShowsTheCurveInTheTerminal) {

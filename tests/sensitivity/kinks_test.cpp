@@ -13,10 +13,10 @@ namespace pleuel::test::kinks_test {
 namespace {
 
 /// A block that swings by A about factor · b, at A = 100 mm and b = 0: its greatest distance is
-/// A + factor · b on one side and A − factor · b on the other, and the gradients (1, ± factor)
-/// differ by 2 factor/√(1 + factor²).
-std::unique_ptr<Analysis> block_with(double factor) {
-  const ProblemFile problem = read_problem_text(fmt::format(R"({{"scene": {{
+/// A + factor · b on one side and A − factor · b on the other. Relative to the scales of both, which
+/// are 0.1 m, the gradients (1, ± factor) differ by 2 factor/√(1 + factor²).
+ProblemFile block_with(double factor) {
+  return read_problem_text(fmt::format(R"({{"scene": {{
           "bodies": {{"block": {{"type": "rigid", "at": [0, 0, 0], "mass": 1,
                                 "inertia": [1, 1, 1, 0, 0, 0]}}}},
           "joints": {{"guide": {{"type": "prismatic", "bodies": ["ground", "block"],
@@ -26,17 +26,17 @@ std::unique_ptr<Analysis> block_with(double factor) {
                        "offset": {{"variable": "b", "factor": {}}}}}}}}}}},
         "simulation": {{"end_time": "10 ms", "step": "0.05 ms"}},
         "variables": {{"A": {{"start": "100 mm", "lower": 0, "upper": 1}},
-                       "b": {{"start": 0, "lower": -1, "upper": 1}}}},
+                       "b": {{"start": 0, "lower": -5, "upper": 5}}}},
         "responses": {{"reach": {{"type": "position", "body": "block", "direction": "x",
                                   "over_time": "max-abs"}}}}}})",
-                                                            factor),
-                                                "block.json")
-                                  .complete();
-  return analyze(problem, start_design(problem));
+                                       factor),
+                           "block.json")
+      .complete();
 }
 
 std::vector<Kink> kinks_with(double factor) {
-  return find_kinks(*block_with(factor));
+  const ProblemFile problem = block_with(factor);
+  return find_kinks(*analyze(problem, start_design(problem)), problem.variables);
 }
 
 /// Peaks that tie are a kink where their gradients differ by more than a hundredth.
@@ -51,14 +51,29 @@ TEST(Kinks, AreTiesWhoseGradientsDifferByMoreThanAHundredth) {
   EXPECT_TRUE(kinks_with(0.004).empty());
 }
 
+/// The unit of a variable says nothing: per metre the second change is a millionth of the first.
+TEST(GradientDifference, IsOneOfChangesOfTheDesign) {
+  const Eigen::RowVector2d g(3e6, 4.0), h(3e6, -4.0);
+  EXPECT_NEAR(gradient_difference(g, h, Eigen::Vector2d(1e-6, 1.0)), 8.0 / 5.0, 1e-15);
+}
+
+TEST(GradientDifference, IsWholeWhereOneOfThemVanishes) {
+  const Eigen::RowVector2d g(1.0, 2.0), none(0.0, 0.0);
+  const Eigen::Vector2d scales(1.0, 1.0);
+  EXPECT_EQ(gradient_difference(none, g, scales), 1.0);
+  EXPECT_EQ(gradient_difference(g, none, scales), 1.0);
+  EXPECT_EQ(gradient_difference(none, none, scales), 0.0);
+}
+
 TEST(Kinks, AreTheSameByTheWayOfGradients) {
   for (const ExactMethod method : {ExactMethod::direct, ExactMethod::adjoint}) {
-    const auto analysis = block_with(0.2);
-    const GradientsAndKinks both = gradients_and_kinks(*analysis, method);
+    const ProblemFile problem = block_with(0.2);
+    const auto analysis = analyze(problem, start_design(problem));
+    const GradientsAndKinks both = gradients_and_kinks(*analysis, problem.variables, method);
     const Eigen::MatrixXd gradients =
         sampled_gradients(*analysis, response_values(*analysis), method);
     EXPECT_LE((both.gradients - gradients).lpNorm<Eigen::Infinity>(), 1e-14);
-    const std::vector<Kink> alone = find_kinks(*analysis);
+    const std::vector<Kink> alone = find_kinks(*analysis, problem.variables);
     ASSERT_EQ(both.kinks.size(), alone.size());
     ASSERT_EQ(alone.size(), 1u);
     EXPECT_EQ(both.kinks[0].response, alone[0].response);

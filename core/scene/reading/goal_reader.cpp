@@ -295,7 +295,7 @@ ParetoSettings read_pareto(const JsonNode& node, const ProblemFile& problem,
   if (const auto responses = node.find("responses")) {
     return read_front_between(node, *responses, problem, numbers);
   }
-  node.allow_keys({"constraint", "from", "to", "points", "gap", "most_points"});
+  node.allow_keys({"constraint", "from", "to", "points", "gap", "most_points", "responses"});
   if (!problem.objective) node.fail("needs an objective, and the problem has none");
   ParetoSettings pareto;
   const ConstraintSettings& constraint =

@@ -163,9 +163,13 @@ void NumberReader::check_mention(const VariableMention& mention) const {
 }
 
 Number NumberReader::binding(const JsonNode& node, const Quantity& quantity, Range range) {
-  node.allow_keys({"variable", "factor", "path"});
+  // A path along choices is what catalogues of sections are read as, nothing that a file says.
+  if (const auto path = node.find("path")) {
+    node.allow_keys({"variable", "path"});
+    return path_binding(node, *path, quantity, range);
+  }
+  node.allow_keys({"variable", "factor"});
   const JsonNode name = node.at("variable");
-  if (const auto path = node.find("path")) return path_binding(node, *path, quantity, range);
   const std::optional<JsonNode> factor = node.find("factor");
   if (factor && factor->number() == 0.0) factor->fail_with_value("must not be zero");
   const Number number = Number::bound(variable(name, name.text()), factor ? factor->number() : 1.0);

@@ -150,6 +150,21 @@ TEST(Tasks, ThatHangAreGivenUpAfterTheirTime) {
   EXPECT_LT(stopwatch.seconds(), 20.0);
 }
 
+/// An answer counts, though the process that gave it lives on beyond the time for it (here by a
+/// child of its own).
+TEST(Tasks, ThatHaveAnsweredAreNotGivenUp) {
+  Noted tasks(2, [](int task, const std::string& needed, TaskCaller&) {
+    if (task == 0 && ::fork() == 0) {
+      ::sleep(1);
+      ::_exit(0);
+    }
+    return "done" + needed;
+  });
+  tasks.is_chain = true;
+  run_tasks(tasks, {.jobs = 1, .time_limit = 0.3});
+  EXPECT_THAT(tasks.notes, ElementsAre("0 = done", "1 = donedone"));
+}
+
 /// Of several, what the first one throws, after what the ones before it have told.
 TEST(Tasks, PassOnWhatTheyThrow) {
   for (const int jobs : {1, 2, 4}) {

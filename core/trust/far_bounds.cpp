@@ -1,0 +1,50 @@
+#include "core/trust/far_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/scene/shown_unit.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Ranges of some thousand times the start still lead to the same optimum (a four-bar with bars of
+/// 20 mm and an upper bound of 100 m); of 10⁷ times no backend finds it.
+constexpr double far_times = 1e5;
+
+bool is_far(double bound, double other, double start) {
+  const double size = std::max(std::abs(start), std::abs(other));
+  return start != 0.0 && std::abs(bound) > far_times * size;
+}
+
+Doubt far_bound(const DesignVariable& variable, const char* side, double bound,
+                const ShownUnit& unit) {
+  const std::string name = unit.name == "1" ? "" : " " + unit.name;
+  return {fmt::format(
+      "the {} bound of variable \"{}\" is {:.3g}{}, {:.1g} times its start: steps and scales of a "
+      "search come from the range between the bounds, which says nothing here, and an optimum may "
+      "be "
+      "missed. Is a unit missing? Else give a bound that the design may come near.",
+      side, variable.name, unit.shown(bound), name, std::abs(bound / variable.start))};
+}
+
+}  // namespace
+
+std::vector<Doubt> doubt_far_bounds(const ProblemFile& problem) {
+  std::vector<Doubt> doubts;
+  const std::vector<ShownUnit> units = variable_units(problem);
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    const DesignVariable& variable = problem.variables[i];
+    const double lower = variable.lower, upper = variable.upper, start = variable.start;
+    if (is_far(lower, upper, start))
+      doubts.push_back(far_bound(variable, "lower", lower, units[i]));
+    if (is_far(upper, lower, start))
+      doubts.push_back(far_bound(variable, "upper", upper, units[i]));
+  }
+  return doubts;
+}
+
+}  // namespace pleuel
