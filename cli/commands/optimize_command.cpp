@@ -127,11 +127,12 @@ Solved solve_visibly(const ProblemInput& input, const SolveOptions& options, Run
   auto first = std::make_unique<DesignProblem>(input.problem, arguments.jobs);
   const DesignProblem& problem = *first;
   std::FILE* out = arguments.progress();
-  show(out, wrapped(fmt::format("{}: {} {} by {} variables under {} constraints, with {}\n\n",
-                                problem.file().name,
-                                problem.objective_sign() < 0.0 ? "maximize" : "minimize",
-                                problem.file().objective->response, problem.variables().size(),
-                                problem.constraints().size(), options.backend)));
+  show(out, wrapped(fmt::format(
+                "{}: {} {} by {} variable{} under {} constraint{}, with {}\n\n",
+                problem.file().name, problem.objective_sign() < 0.0 ? "maximize" : "minimize",
+                problem.file().objective->response, problem.variables().size(),
+                problem.variables().size() == 1 ? "" : "s", problem.constraints().size(),
+                problem.constraints().size() == 1 ? "" : "s", options.backend)));
   show(out, warnings_text(impossible_corners(problem.file())));
   std::optional<HistoryCsv> history;  // with the first evaluation
   IterationLines lines(out, problem.file());

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/text/console.hpp"
+#include "cli/text/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
 
 namespace pleuel {
@@ -49,8 +50,9 @@ void IterationLines::see(const EvaluationRecord& record) {
   }
   step_ = std::max(step_, record.step);
   if (record.has_failed()) {
-    show(out_, fmt::format("  evaluation {} failed: {}\n", record.evaluation,
-                           first_clause(record.failure)));
+    show(out_, wrapped(fmt::format("  evaluation {} failed: {}\n", record.evaluation,
+                                   first_clause(record.failure)),
+                       "    "));
   } else if (purpose_ != Purpose::audit && record.iteration > iteration_) {
     show(out_, fmt::format(line_columns, record.iteration,
                            significant(unit_.shown(sign_ * record.objective), 6),

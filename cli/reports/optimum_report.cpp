@@ -188,9 +188,9 @@ std::string effort_text(const Optimum& optimum) {
       result.polished_with.empty()
           ? result.backend
           : fmt::format("{}, polished with {}", result.backend, result.polished_with);
-  return fmt::format("{}: {} evaluations, {} with {}, {} restarts, {}\n", backend,
+  return fmt::format("{}: {} evaluations, {} with {}, {} restart{}, {}\n", backend,
                      result.evaluations, result.gradient_evaluations, gradients, result.restarts,
-                     duration(result.seconds));
+                     result.restarts == 1 ? "" : "s", duration(result.seconds));
 }
 
 }  // namespace

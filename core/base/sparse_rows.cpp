@@ -8,6 +8,7 @@
 #include <Eigen/OrderingMethods>
 
 #include "core/base/dense_solvers.hpp"
+#include "core/base/disjoint_sets.hpp"
 
 namespace pleuel {
 
@@ -217,25 +218,6 @@ Index sparse_rank(SparseRows rows, double threshold) {
   return SparseFactors(rows, threshold).rank();
 }
 
-/// Union of sets, with the smallest member as the name of each.
-class Sets {
- public:
-  explicit Sets(Index size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int find(int i) {
-    while (parent(i) != i) i = parent(i) = parent(parent(i));
-    return i;
-  }
-  void join(int i, int k) {
-    i = find(i);
-    k = find(k);
-    parent(std::max(i, k)) = std::min(i, k);
-  }
-
- private:
-  int& parent(int i) { return parent_[i]; }
-  std::vector<int> parent_;
-};
-
 VectorXd entries_at(const VectorXd& all, const std::vector<int>& indices) {
   return all(indices);
 }
@@ -261,7 +243,7 @@ BlockRank rank_block(const SparseRows& rows, double negligible) {
 }  // namespace
 
 std::vector<RowBlock> connected_blocks(const SparseRows& matrix) {
-  Sets sets(matrix.rows());
+  DisjointSets sets(matrix.rows());
   std::vector<int> row_of_column(matrix.cols(), -1);
   for (int row = 0; row < static_cast<int>(matrix.rows()); ++row) {
     for (SparseRows::InnerIterator entry(matrix, row); entry; ++entry) {

@@ -98,26 +98,105 @@ int count_negative(const Eigen::VectorXcd& eigenvalues) {
       }));
 }
 
-/// Deformations that constraints allow, normal to the motions of the mechanism as rigid bodies.
-/// @param phi  Φ_q in the coordinates of the answer
-Eigen::MatrixXd free_deformations(const Mechanism& mechanism, Eigen::MatrixXd phi) {
-  const Eigen::Index n = mechanism.system->coordinates();
+/// S R_q S of springs alone.
+Eigen::MatrixXd stiffness_of_springs(const Mechanism& mechanism, const State& state) {
+  const int n = mechanism.system->coordinates();
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(n, n);
+  for (Term* term : mechanism.springs) {
+    EntryList places;
+    term->declare_entries(places);
+    std::vector<double> entries(places.size());
+    term->write_tangent(state, {.q = 1.0}, ConstraintLevel::position, entries.data());
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const auto [row, col] = places[k];
+      if (row < n && col < n) stiffness(row, col) += entries[k];
+    }
+  }
+  return mechanism.scale.asDiagonal() * stiffness * mechanism.scale.asDiagonal();
+}
+
+bool is_at_rest(const Mechanism& mechanism, const State& state) {
+  constexpr double nothing = 1e-6;  // [1/s], [1/s²]
+  const auto size = [&](const Eigen::VectorXd& rates) {
+    return rates.cwiseQuotient(mechanism.scale).lpNorm<Eigen::Infinity>();
+  };
+  return size(state.v) <= nothing && size(state.a) <= nothing;
+}
+
+/// The span of the modes of a symmetric matrix with eigenvalues above round-off, and the rest.
+std::pair<Eigen::MatrixXd, Eigen::MatrixXd> positive_modes(const Eigen::MatrixXd& matrix,
+                                                           double round_off) {
+  if (matrix.cols() == 0) return {matrix, matrix};
+  const SymmetricModes modes = symmetric_modes(matrix);
+  const Eigen::Index count = (modes.values.array() > round_off).count();
+  return {modes.vectors.rightCols(count), modes.vectors.leftCols(matrix.cols() - count)};
+}
+
+/// Of motions of the mechanism as rigid bodies, those that springs do not hold. What springs hold
+/// belongs to the deformations: a column buckles with the spring that it stands on. A motion counts as
+/// held where springs have stiffness against it, and all forces together have; at rest the first is
+/// enough: what springs give way to does not stand.
+/// @param motions  orthonormal columns, in coordinates relative to the scale
+Eigen::MatrixXd motions_without_springs(const Mechanism& mechanism, const State& state,
+                                        const Eigen::MatrixXd& motions) {
+  constexpr double round_off = 1e-9;
+  if (mechanism.springs.empty() || motions.cols() == 0) return motions;
+  const Eigen::MatrixXd of_springs = stiffness_of_springs(mechanism, state);
+  const double size = of_springs.cwiseAbs().maxCoeff();
+  const auto [held, loose] =
+      positive_modes(symmetric_part(motions.transpose() * of_springs * motions), round_off * size);
+  if (held.cols() == 0) return motions;
+  if (is_at_rest(mechanism, state)) return motions * loose;
+  const Eigen::MatrixXd directions = motions * held;
+  const auto [stiff, falling] = positive_modes(
+      symmetric_part(deformation_stiffness(mechanism, state, directions)), round_off * size);
+  Eigen::MatrixXd others(motions.rows(), loose.cols() + falling.cols());
+  others << motions * loose, directions * falling;
+  return others;
+}
+
+/// The columns of {x : Φ_q x = 0} without elastic deformation, where Φ_q x = 0 are these rows.
+Eigen::MatrixXd rigid_motions(const Mechanism& mechanism, const Eigen::MatrixXd& phi) {
+  std::vector<bool> is_elastic(phi.cols(), false);
+  for (int i : mechanism.elastic) is_elastic[i] = true;
+  std::vector<Eigen::Index> rigid;
+  for (Eigen::Index i = 0; i < phi.cols(); ++i) {
+    if (!is_elastic[i]) rigid.push_back(i);
+  }
+  const Eigen::MatrixXd of_frames = null_space(phi(Eigen::all, rigid), rigid.size());
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(phi.cols(), of_frames.cols());
+  motions(rigid, Eigen::all) = of_frames;
+  return motions;
+}
+
+/// The rows of constraints, normalised: of lengths, directions and angles none counts more.
+void normalize_rows(const Mechanism& mechanism, Eigen::MatrixXd& phi) {
   for (int i : mechanism.system->left_out()) phi.row(i).setZero();
-  // Rows normalised: of lengths, directions and angles none counts more.
   for (Eigen::Index i = 0; i < phi.rows(); ++i) {
     if (phi.row(i).norm() > 0.0) phi.row(i).normalize();
   }
-  std::vector<bool> is_elastic(n, false);
-  for (int i : mechanism.elastic) is_elastic[i] = true;
-  std::vector<Eigen::Index> rigid;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    if (!is_elastic[i]) rigid.push_back(i);
-  }
-  const Eigen::MatrixXd motions = null_space(phi(Eigen::all, rigid), rigid.size());
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(phi.rows() + motions.cols(), n);
-  rows.topRows(phi.rows()) = phi;
-  rows.bottomRows(motions.cols())(Eigen::all, rigid) = motions.transpose();
-  return null_space(rows, n);
+}
+
+/// Φ_q S, normalised.
+Eigen::MatrixXd constraint_rows(const Mechanism& mechanism, const State& state) {
+  const int m = mechanism.system->multipliers();
+  Eigen::MatrixXd phi = scaled_tangent(mechanism, state, {.q = 1.0}).bottomRows(m);
+  normalize_rows(mechanism, phi);
+  return phi;
+}
+
+/// What constraints allow, normal to some motions.
+Eigen::MatrixXd deformations_beside(const Eigen::MatrixXd& phi, const Eigen::MatrixXd& motions) {
+  Eigen::MatrixXd rows(phi.rows() + motions.cols(), phi.cols());
+  rows << phi, motions.transpose();
+  return null_space(rows, phi.cols());
+}
+
+/// Deformations that constraints allow, normal to the motions of the mechanism as rigid bodies.
+/// @param phi  Φ_q in the coordinates of the answer
+Eigen::MatrixXd free_deformations(const Mechanism& mechanism, Eigen::MatrixXd phi) {
+  normalize_rows(mechanism, phi);
+  return deformations_beside(phi, rigid_motions(mechanism, phi));
 }
 
 /// The matrices of small motions of the deformations of a mechanism that turns, in axes that turn
@@ -273,9 +352,9 @@ ElasticStability standing_stability(const Mechanism& mechanism, const State& sta
 }  // namespace
 
 Eigen::MatrixXd free_deformations(const Mechanism& mechanism, const State& state) {
-  const int m = mechanism.system->multipliers();
-  return free_deformations(
-      mechanism, Eigen::MatrixXd(scaled_tangent(mechanism, state, {.q = 1.0}).bottomRows(m)));
+  const Eigen::MatrixXd phi = constraint_rows(mechanism, state);
+  const Eigen::MatrixXd motions = rigid_motions(mechanism, phi);
+  return deformations_beside(phi, motions_without_springs(mechanism, state, motions));
 }
 
 Eigen::MatrixXd deformation_stiffness(const Mechanism& mechanism, const State& state,
@@ -306,6 +385,9 @@ double buckling_load_factor(const Mechanism& mechanism, const State& unloaded, c
   constexpr double none = std::numeric_limits<double>::infinity();
   const Eigen::MatrixXd z = free_deformations(mechanism, unloaded);
   if (z.cols() == 0) return none;
+  const Eigen::MatrixXd phi = constraint_rows(mechanism, unloaded);
+  const bool are_held = z.cols() > deformations_beside(phi, rigid_motions(mechanism, phi)).cols();
+  if (are_held) return std::nan("");  // dead loads turn with them, which is not of first order
   const AxialStrains strains(*mechanism.system);
   const Eigen::Index n = unloaded.q.size();
   const auto stiffness = [&](const State& state) -> Eigen::MatrixXd {

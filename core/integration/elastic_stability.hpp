@@ -9,7 +9,7 @@
 namespace pleuel {
 
 /// Deformations that joints and drives allow, normal to the motions of the mechanism as rigid
-/// bodies: columns Z in coordinates relative to Mechanism::scale, Φ_q S Z = 0.
+/// bodies that no spring holds: columns Z in coordinates relative to Mechanism::scale, Φ_q S Z = 0.
 Eigen::MatrixXd free_deformations(const Mechanism& mechanism, const State& state);
 
 /// The stiffness R_q of the deformations at a state, Zᵀ S R_q S Z; loads, weight, inertia forces
@@ -37,6 +37,7 @@ bool is_rotor(const Mechanism& mechanism, const State& state);
 
 /// By what factor the loads of a state buckle the members, from how they change the stiffness:
 ///     (K₀ + s (K₁ − K₀)) φ = 0,   the smallest s > 0; infinite if there is none
+/// Not a number where springs hold motions as rigid bodies, which loads turn at once.
 /// Linear buckling: K with the forces that the loads cause, without the coupling of bending with
 /// stretching by deflection, which is of second order in both.
 /// @param unloaded  a state without deformation

@@ -37,6 +37,8 @@ struct Mechanism {
   /// What each equation of the system belongs to, for messages: "the body \"rod\"", "the joint …";
   /// may be empty.
   std::vector<std::string> equation_names;
+  /// Those of the system's terms that are springs, dampers and motors.
+  std::vector<Term*> springs;
   /// Elastic coordinates.
   std::vector<int> elastic;
   /// Whether the elastic coordinates start in equilibrium instead of at the guess.

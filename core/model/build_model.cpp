@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <iterator>
-#include <map>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -17,6 +17,7 @@
 #include "core/model/load_builder.hpp"
 #include "core/model/model.hpp"
 #include "core/model/stiffening_builder.hpp"
+#include "core/scene/body_groups.hpp"
 #include "core/scene/scene_rules.hpp"
 
 namespace pleuel {
@@ -48,7 +49,7 @@ namespace {
 /// Elastic displacements are small against the mechanism, elastic rotations against one.
 constexpr double elastic_scale = 1e-3;
 /// What a moment compares with a force by in the norm of reactions: a joint carries it by a couple
-/// of forces across its bearing, whose breadth is taken as this share of the mechanism's size.
+/// of forces across its bearing, whose breadth is taken as this share of the size of what is tied to it.
 constexpr double bearing_share = 0.1;
 
 bool is_moment(EquationKind kind) {
@@ -66,24 +67,47 @@ bool is_moment(EquationKind kind) {
   return false;
 }
 
-/// The largest distance between bodies and joints [m]: the scale of lengths.
-double size_of(const Scene& scene, const Design<double>& start) {
-  std::vector<Eigen::Vector3d> points;
-  for (const Joint& joint : scene.joints) points.push_back(resolve_point(joint.at, start));
-  for (const Body& body : scene.bodies) {
-    points.push_back(body_pose(body, start).origin);
-    if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
-      points.push_back(resolve_point(beam->to, start));
-    } else if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
-      const Pose<double> pose = beam_pose(*imported, start);
-      for (const BodyPlace& place : imported->file->constants.places) {
-        points.push_back(pose.origin + pose.rotation * place.position);
-      }
+/// Where a body is: its origin, the end of a beam, the places of an imported body.
+void add_points(const Body& body, const Design<double>& start,
+                std::vector<Eigen::Vector3d>& points) {
+  points.push_back(body_pose(body, start).origin);
+  if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
+    points.push_back(resolve_point(beam->to, start));
+  } else if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
+    const Pose<double> pose = beam_pose(*imported, start);
+    for (const BodyPlace& place : imported->file->constants.places) {
+      points.push_back(pose.origin + pose.rotation * place.position);
     }
   }
-  const double size = diameter(points);
-  return size > 0.0 ? size : 1.0;
 }
+
+/// Scales of lengths [m], one a group of bodies: what stands beside a mechanism changes nothing of it.
+class Sizes {
+ public:
+  Sizes(const Scene& scene, const Design<double>& start) : groups_(scene) {
+    std::unordered_map<int, std::vector<Eigen::Vector3d>> points;
+    for (const Body& body : scene.bodies) add_points(body, start, points[groups_.of(body.name)]);
+    for (const Joint& joint : scene.joints) {
+      points[group_of(joint.bodies)].push_back(resolve_point(joint.at, start));
+    }
+    for (const auto& [group, of_group] : points) {
+      const double size = diameter(of_group);
+      sizes_[group] = size > 0.0 ? size : 1.0;
+    }
+  }
+
+  /// The largest distance between bodies and joints of the group of a body.
+  double of(const std::string& body) const { return sizes_.at(groups_.of(body)); }
+  double of(const Joint& joint) const { return sizes_.at(group_of(joint.bodies)); }
+
+ private:
+  int group_of(const std::array<std::string, 2>& bodies) const {
+    return groups_.of(bodies[bodies[0] == ground_name ? 1 : 0]);
+  }
+
+  BodyGroups groups_;
+  std::unordered_map<int, double> sizes_;
+};
 
 class ModelBuilder {
  public:
@@ -249,6 +273,9 @@ class ModelBuilder {
     for (const Load& load : context_.scene.loads) {
       BuiltLoad built = make_load(load, model_.bodies, context_, coordinates_);
       model_.terms.loads.push_back(add_term(std::move(built.term)));
+      const bool is_spring = std::holds_alternative<SpringDamper>(load.element) ||
+                             std::holds_alternative<JointForce>(load.element);
+      if (is_spring) model_.mechanism.springs.push_back(model_.terms.loads.back());
       model_.loads.push_back({load.name, std::move(built.gauge)});
     }
   }
@@ -296,7 +323,7 @@ class ModelBuilder {
 
   void set_guess() {
     Mechanism& mechanism = model_.mechanism;
-    const double size = size_of(scene_, context_.start);
+    const Sizes sizes(context_.scene, context_.start);
     mechanism.guess = State(coordinates_, multipliers_);
     mechanism.guess_q_x.setZero(coordinates_, context_.variables());
     mechanism.guess_v_x.setZero(coordinates_, context_.variables());
@@ -306,6 +333,7 @@ class ModelBuilder {
       const Body& body = context_.scene.bodies[i];
       const BodyModel& built = model_.bodies[i];
       const BodyFrame& frame = built.frame;
+      const double size = sizes.of(body.name);
       mechanism.guess.q.segment(frame.offset, frame.size()) =
           frame_coordinates(frame, body_pose(body, context_.design));
       for (int variable : variables_of(body, context_.scene)) {
@@ -322,17 +350,19 @@ class ModelBuilder {
       set_initial_deflections(i, model_.bodies, context_, mechanism);
     }
     mechanism.assembly_weight.array() /= mechanism.scale.array().square();
-    set_reaction_weight(bearing_share * size);
+    set_reaction_weight(sizes);
   }
 
-  void set_reaction_weight(double length) {
+  void set_reaction_weight(const Sizes& sizes) {
     Eigen::VectorXd& weight = model_.mechanism.reaction_weight;
     weight.setOnes(multipliers_);
-    for (const JointModel& joint : model_.joints) {
+    for (std::size_t j = 0; j < model_.joints.size(); ++j) {
+      const JointModel& joint = model_.joints[j];
       if (joint.is_division) {  // the beam itself: how joints share a load is asked without it
         weight.segment(joint.first_multiplier, joint.equations()).setZero();
         continue;
       }
+      const double length = bearing_share * sizes.of(context_.scene.joints[j]);
       for (int i = 0; i < joint.equations(); ++i) {
         if (!is_moment(joint.topology.equations[i].kind)) continue;
         weight(joint.first_multiplier + i) = 1.0 / (length * length);

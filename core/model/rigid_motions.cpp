@@ -122,6 +122,11 @@ class EndMotions {
     for (const std::string& body : bodies) place_[body] = static_cast<int>(place_.size());
     first_end_ = 6 * std::ssize(bodies);
     size_ = first_end_ + 6 * std::ssize(own_);
+    for (std::size_t j = 0; j < own_.size(); ++j) along_.push_back(j);
+    const auto place_of = [&](std::size_t j) { return axis_.direction.dot(point(j)); };
+    std::ranges::stable_sort(along_, [&](std::size_t one, std::size_t other) {
+      return place_of(one) < place_of(other) - same_motion * axis_.length;
+    });
   }
 
   /// 6 rows an end × motions.
@@ -223,7 +228,7 @@ class EndMotions {
   /// Rows of displacements and turns of ends, as many as there are columns, that tell motions as a
   /// whole from each other. Taken by ends and directions of motion: the global axes play no part.
   /// @param whole  motions of all ends
-  static Eigen::MatrixXd anchors(Eigen::MatrixXd whole) {
+  Eigen::MatrixXd anchors(Eigen::MatrixXd whole) const {
     Eigen::MatrixXd rows(0, whole.rows());
     while (whole.cols() > 0) {
       const Eigen::Index first = largest_block(whole);
@@ -238,16 +243,20 @@ class EndMotions {
     return rows;
   }
 
-  /// The first row of the displacement or turn of an end that is largest; of equal ones the first.
-  static Eigen::Index largest_block(const Eigen::MatrixXd& whole) {
+  /// The first row of the displacement or turn of an end that is largest; of equal ones the first
+  /// along the beam.
+  Eigen::Index largest_block(const Eigen::MatrixXd& whole) const {
     constexpr double clearly = 1.0 + 1e-6;
     Eigen::Index largest = 0;
     double most = 0.0;
-    for (Eigen::Index row = 0; row < whole.rows(); row += 3) {
-      const double size = whole.middleRows<3>(row).norm() * (row % 6 == 0 ? 1.0 : turn_weight);
-      if (size > clearly * most) {
-        most = size;
-        largest = row;
+    for (const std::size_t j : along_) {
+      const Eigen::Index first = 6 * static_cast<Eigen::Index>(j);
+      for (const Eigen::Index row : {first, first + 3}) {
+        const double size = whole.middleRows<3>(row).norm() * (row == first ? 1.0 : turn_weight);
+        if (size > clearly * most) {
+          most = size;
+          largest = row;
+        }
       }
     }
     return largest;
@@ -257,6 +266,7 @@ class EndMotions {
   const std::string& beam_;
   const BeamAxis& axis_;
   const std::vector<int>& own_;
+  std::vector<std::size_t> along_;  ///< numbers of its joints, in their order along the beam
   std::unordered_map<std::string, int> place_;
   Eigen::Index first_end_ = 0, size_ = 0;
   Eigen::MatrixXd rows_;

@@ -1,6 +1,5 @@
 #include "core/response/fatigue_signal.hpp"
 
-#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -10,9 +9,6 @@
 namespace pleuel {
 
 namespace {
-
-/// Of a round outline.
-constexpr int fatigue_outline_points = 24;
 
 /// A point that stays where it is: a stress point of the section, or of a round outline, by number.
 struct FixedPoint {
@@ -31,14 +27,14 @@ class FixedPointStress {
     if (is_planar || !section.is_round()) {
       for (const int i : distinct_stress_points(body, section)) points.push_back({false, i});
     } else {
-      for (int i = 0; i < fatigue_outline_points; ++i) points.push_back({true, i});
+      for (int i = 0; i < fixed_outline_points; ++i) points.push_back({true, i});
     }
     return points;
   }
 
   std::string name(const SectionProperties<double>& section, const Point& point) const {
     if (!point.is_on_outline) return stress_point_name(section, point.number);
-    return fmt::format(", {} degrees from y to z", point.number * 360 / fatigue_outline_points);
+    return outline_point_name(point.number);
   }
 
   template <class Scalar, class Force>
@@ -57,8 +53,9 @@ class FixedPointStress {
       const StressPoint<Scalar>& at = section.points[point.number];
       return {at.y, at.z};
     }
-    const double angle = 2.0 * std::numbers::pi * point.number / fatigue_outline_points;
-    return {section.radius_y * std::cos(angle), section.radius_z * std::sin(angle)};
+    const auto at =
+        outline_point(section, 2.0 * std::numbers::pi * point.number / fixed_outline_points);
+    return {at.y, at.z};
   }
 };
 

@@ -13,6 +13,9 @@ namespace pleuel {
 
 namespace {
 
+/// Shares of a sum above this are more than round-off.
+constexpr double resolved = 1e-10;
+
 /// ∫₀ᵗ power dt in every instant, by the trapezoidal rule.
 Eigen::VectorXd integral(const Eigen::VectorXd& time, const Eigen::VectorXd& power) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(power.size());
@@ -111,8 +114,9 @@ class Monitoring {
     elastic_ -= integral(trajectory_.time, stretching_);
     monitors_.work = integral(trajectory_.time, acting_);
     monitors_.energy = kinetic_ + elastic_ + weight_;
+    // Changes that are lost in the last digits of the potential are none.
+    double largest = resolved * weight_.lpNorm<Eigen::Infinity>();
     weight_.array() -= weight_(0);
-    double largest = 0.0;
     for (const auto* part : {&kinetic_, &elastic_, &weight_, &monitors_.work}) {
       largest = std::max(largest, part->lpNorm<Eigen::Infinity>());
     }

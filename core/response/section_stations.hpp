@@ -24,6 +24,10 @@ struct OneASection {
 };
 
 /// ", y = 0.005 m, z = 0 m": where a stress point of a section is, by its number.
+inline std::string outline_point_name(int point) {
+  return fmt::format(", {} degrees from y to z", point * 360 / fixed_outline_points);
+}
+
 inline std::string stress_point_name(const SectionProperties<double>& section, int point) {
   const StressPoint<double>& at = section.points[point];
   return fmt::format(", y = {:.4g} m, z = {:.4g} m", at.y, at.z);

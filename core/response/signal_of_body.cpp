@@ -142,7 +142,10 @@ class BodySignalMaker {
       return make_point_stress_signal(body_, model_.gravity, settings_.part);
     }
     check_section_forces();
-    return make_stress_signal(body_, model_.gravity, settings_.part,
+    const bool is_averaged = settings_.over_time == OverTime::mean ||
+                             settings_.over_time == OverTime::rms ||
+                             settings_.over_time == OverTime::integral;
+    return make_stress_signal(body_, model_.gravity, settings_.part, is_averaged,
                               {settings_.segment, settings_.station});
   }
 

@@ -1,6 +1,7 @@
 #include "core/response/stress_signal.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "core/response/section_stations.hpp"
 
@@ -8,14 +9,21 @@ namespace pleuel {
 
 namespace {
 
-/// A stress point of the section by its number, or half of a round outline.
+/// A stress point of the section or a point of a round outline, by its number, or half of a round
+/// outline.
 struct OutlinePlace {
-  enum class Kind { point, tension_side, compression_side };
+  enum class Kind { point, outline, tension_side, compression_side };
   Kind kind;
-  int point = 0;
+  int number = 0;
 
-  bool is_point() const { return kind == Kind::point; }
+  bool moves() const { return kind == Kind::tension_side || kind == Kind::compression_side; }
   bool is_tension_side() const { return kind == Kind::tension_side; }
+
+  template <class Scalar>
+  StressPoint<Scalar> at(const SectionProperties<Scalar>& section) const {
+    if (kind == Kind::point) return section.points[number];
+    return outline_point(section, 2.0 * std::numbers::pi * number / fixed_outline_points);
+  }
 };
 
 /// Points that torsion tells apart.
@@ -35,8 +43,8 @@ StressOf<Scalar, Force> bending_stress(const SectionProperties<Scalar>& section,
                                        const SectionForces<Force>& forces,
                                        const OutlinePlace& place) {
   using std::sqrt;
-  if (place.is_point()) {
-    const StressPoint<Scalar>& at = section.points[place.point];
+  if (!place.moves()) {
+    const StressPoint<Scalar> at = place.at(section);
     return forces.moment_y * at.z / section.inertia_y - forces.moment_z * at.y / section.inertia_z;
   }
   // The largest b_y cos θ + b_z sin θ of a round outline.
@@ -51,9 +59,9 @@ template <class Scalar, class Force>
 StressOf<Scalar, Force> von_mises(const SectionProperties<Scalar>& section,
                                   const SectionForces<Force>& forces, const OutlinePlace& place) {
   return von_mises_stress(section, forces,
-                          place.is_point()
-                              ? section.points[place.point]
-                              : most_stressed_point(section, forces, place.is_tension_side()));
+                          place.moves()
+                              ? most_stressed_point(section, forces, place.is_tension_side())
+                              : place.at(section));
 }
 
 class AxialStress : public OneASection {
@@ -70,15 +78,17 @@ class StressQuantity {
  public:
   using Point = OutlinePlace;
 
-  explicit StressQuantity(StressPart part) : part_(part) {}
+  StressQuantity(StressPart part, bool is_averaged) : part_(part), is_averaged_(is_averaged) {}
 
   std::vector<Point> points(const BodyModel& body, const SectionProperties<double>& section) const {
     const bool is_planar = body.frame.rotation == RotationCoordinates::angle;
     const bool is_shear = part_ == StressPart::shear;
-    if (!is_shear && section.is_round() && !is_planar) {
-      return {{Point::Kind::tension_side}, {Point::Kind::compression_side}};
-    }
     std::vector<Point> all;
+    if (!is_shear && section.is_round() && !is_planar) {
+      if (!is_averaged_) return {{Point::Kind::tension_side}, {Point::Kind::compression_side}};
+      for (int i = 0; i < fixed_outline_points; ++i) all.push_back({Point::Kind::outline, i});
+      return all;
+    }
     for (const int point :
          is_shear ? points_of_distinct_shear(section) : distinct_stress_points(body, section)) {
       all.push_back({Point::Kind::point, point});
@@ -87,7 +97,8 @@ class StressQuantity {
   }
 
   std::string name(const SectionProperties<double>& section, const Point& place) const {
-    if (place.is_point()) return stress_point_name(section, place.point);
+    if (place.kind == Point::Kind::point) return stress_point_name(section, place.number);
+    if (!place.moves()) return outline_point_name(place.number);
     return place.is_tension_side() ? ", tension side" : ", compression side";
   }
 
@@ -101,7 +112,7 @@ class StressQuantity {
       case StressPart::bending:
         return bending_stress(section, forces, place);
       case StressPart::shear:
-        return forces.torque * section.points[place.point].shear;
+        return forces.torque * section.points[place.number].shear;
       case StressPart::utilization:  // a beam has one material
         return von_mises(section, forces, place) / beam.elements.front().strength;
       default:
@@ -111,6 +122,7 @@ class StressQuantity {
 
  private:
   StressPart part_;
+  bool is_averaged_;
 };
 
 }  // namespace
@@ -140,11 +152,12 @@ std::vector<int> distinct_stress_points(const BodyModel& body,
 }
 
 std::unique_ptr<Signal> make_stress_signal(const BodyModel& body, const Eigen::Vector3d& gravity,
-                                           StressPart part, const StationChoice& stations) {
+                                           StressPart part, bool is_averaged,
+                                           const StationChoice& stations) {
   if (part == StressPart::axial) {
     return make_section_signal(body, gravity, stations, AxialStress());
   }
-  return make_section_signal(body, gravity, stations, StressQuantity(part));
+  return make_section_signal(body, gravity, stations, StressQuantity(part, is_averaged));
 }
 
 }  // namespace pleuel

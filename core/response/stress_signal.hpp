@@ -17,9 +17,12 @@ namespace pleuel {
 ///     shear        τ, signed as the torque
 ///     utilization  √(σ² + 3τ²) over the strength of the material [–]
 /// On round outlines in space the point moves with the load: normal and bending stress have their
-/// maximum on the half where bending pulls and their minimum on the other one.
+/// maximum on the half where bending pulls and their minimum on the other one. What is averaged over
+/// time is that of points that stay where they are, as on other sections.
+/// @param is_averaged  over time: mean, rms or integral
 std::unique_ptr<Signal> make_stress_signal(const BodyModel& body, const Eigen::Vector3d& gravity,
-                                           StressPart part, const StationChoice& stations);
+                                           StressPart part, bool is_averaged,
+                                           const StationChoice& stations);
 
 /// Points of a section with stresses of their own. In planar motion, points that differ only across
 /// the plane see the same stress, and those in the middle of others see less than them.

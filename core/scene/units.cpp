@@ -116,7 +116,12 @@ double cycles_factor(const std::string& name, const Quantity& quantity, const ut
 void check_dimension(const std::string& name, const ut_unit* from, const ut_unit* to) {
   const bool has_right_dimension = to != nullptr && ut_are_convertible(from, to) != 0;
   if (has_right_dimension && has_angle(to) && !has_angle(from)) {
-    throw UnitError(fmt::format("\"{}\" names no angle; write rad/s, deg/s or rpm", name));
+    const UnitHandle rate = parse_unit(ut_get_system(to), "rad/s");
+    const bool is_rate = rate && ut_are_convertible(rate.get(), to) != 0;
+    throw UnitError(fmt::format("\"{}\" names no angle{}", name,
+                                is_rate
+                                    ? "; write rad/s, deg/s or rpm"
+                                    : ", and what is measured has one: write \"rad\" where it is"));
   }
   if (!has_right_dimension || has_angle(from) != has_angle(to)) {
     throw UnitError(fmt::format("\"{}\" measures something else", name));

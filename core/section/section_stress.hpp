@@ -33,6 +33,20 @@ StressOf<Scalar, Force> von_mises_stress(const SectionProperties<Scalar>& sectio
   return sqrt(normal * normal + 3.0 * shear * shear + tiny);
 }
 
+/// Points of a round outline that stay where they are: between two of them bending is larger by 0.9 % at
+/// most.
+inline constexpr int fixed_outline_points = 24;
+
+/// The point of a round outline at the angle θ from y to z.
+template <class Scalar>
+StressPoint<Scalar> outline_point(const SectionProperties<Scalar>& section, double theta) {
+  using std::sqrt;
+  const Scalar &shear_y = section.points[0].shear, &shear_z = section.points[2].shear;
+  const double c = std::cos(theta), s = std::sin(theta);
+  return {section.radius_y * c, section.radius_z * s,
+          sqrt(c * c * shear_y * shear_y + s * s * shear_z * shear_z)};
+}
+
 /// Stress along a round outline y = r_y cos θ, z = r_z sin θ:
 ///     σ = axial + bending_y cos θ + bending_z sin θ,   τ² = (shear_y cos θ)² + (shear_z sin θ)²
 struct OutlineStress {
@@ -51,7 +65,6 @@ template <class Scalar, class Force>
 StressPoint<Scalar> most_stressed_point(const SectionProperties<Scalar>& section,
                                         const SectionForces<Force>& forces,
                                         bool where_bending_pulls) {
-  using std::sqrt;
   const Scalar &shear_y = section.points[0].shear, &shear_z = section.points[2].shear;
   const double torque = value_of(forces.torque);
   const double theta = angle_of_largest_stress(
@@ -60,9 +73,7 @@ StressPoint<Scalar> most_stressed_point(const SectionProperties<Scalar>& section
        value_of(forces.moment_y) * value_of(section.radius_z) / value_of(section.inertia_y),
        torque * value_of(shear_y), torque * value_of(shear_z)},
       where_bending_pulls);
-  const double c = std::cos(theta), s = std::sin(theta);
-  return {section.radius_y * c, section.radius_z * s,
-          sqrt(c * c * shear_y * shear_y + s * s * shear_z * shear_z)};
+  return outline_point(section, theta);
 }
 
 }  // namespace pleuel

@@ -1,28 +1,17 @@
 #include "core/trust/connections.hpp"
 
 #include <algorithm>
-#include <array>
+
+#include "core/scene/body_groups.hpp"
 
 namespace pleuel {
 
 std::set<std::string> grounded_bodies(const Scene& scene) {
-  std::vector<std::array<std::string, 2>> ties;
-  for (const Joint& joint : scene.joints) ties.push_back(joint.bodies);
-  for (const Load& load : scene.loads) {
-    if (const auto* spring = std::get_if<SpringDamper>(&load.element)) {
-      ties.push_back(spring->bodies);
-    }
+  const BodyGroups groups(scene);
+  std::set<std::string> grounded;
+  for (const Body& body : scene.bodies) {
+    if (groups.is_grounded(groups.of(body.name))) grounded.insert(body.name);
   }
-  std::set<std::string> grounded = {ground_name};
-  for (std::size_t size = 0; size != grounded.size();) {
-    size = grounded.size();
-    for (const auto& [first, second] : ties) {
-      if (grounded.contains(first) || grounded.contains(second)) {
-        grounded.insert({first, second});
-      }
-    }
-  }
-  grounded.erase(ground_name);
   return grounded;
 }
 

@@ -16,6 +16,7 @@
 #include "core/beam/elastic_basis.hpp"
 #include "core/beam/natural_modes.hpp"
 #include "core/model/shear_area.hpp"
+#include "core/scene/body_groups.hpp"
 #include "core/trust/beam_state.hpp"
 
 namespace pleuel {
@@ -179,7 +180,8 @@ namespace {
 
 class ShearDoubts {
  public:
-  explicit ShearDoubts(const TrustedRun& run) : run_(run), model_(run.analysis.model) {}
+  explicit ShearDoubts(const TrustedRun& run)
+      : run_(run), model_(run.analysis.model), groups_(run.problem.scene) {}
 
   std::vector<Doubt> find() {
     is_held_twice_ = is_held_twice();
@@ -291,10 +293,21 @@ class ShearDoubts {
     return std::get<BeamBody>(find_named(run_.problem.scene.bodies, body)->shape);
   }
 
+  /// Whether a body is tied to what a response is about.
+  bool depends_on(const ResponseSettings& response, const std::string& body) const {
+    std::vector<std::string> about = response.bodies;
+    const Joint* joint = find_named(run_.problem.scene.joints, response.joint);
+    if (joint != nullptr) about.insert(about.end(), joint->bodies.begin(), joint->bodies.end());
+    std::erase(about, ground_name);
+    return about.empty() || std::ranges::any_of(about, [&](const std::string& other) {
+             return groups_.of(other) == groups_.of(body);
+           });
+  }
+
   /// What shear that is left out changes of a response, over what it is with shear.
   double error_of(std::size_t index, const std::string& body, const ShearShare& share) const {
     const ResponseSettings& response = run_.problem.responses[index];
-    if (scene_beam(body).has_shear) return 0.0;
+    if (scene_beam(body).has_shear || !depends_on(response, body)) return 0.0;
     const bool is_of_body =
         std::find(response.bodies.begin(), response.bodies.end(), body) != response.bodies.end();
     const double largest = share.largest() / (1.0 + share.largest());
@@ -388,6 +401,7 @@ class ShearDoubts {
 
   const TrustedRun& run_;
   const Model& model_;
+  BodyGroups groups_;
   bool is_held_twice_ = false;
   std::map<std::string, double> known_;  ///< largest rotations [rad]
   std::map<std::string, ShearShare> shares_;

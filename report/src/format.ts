@@ -15,6 +15,14 @@ export function number(value: number | null | undefined, digits = 4): string {
   return text.replace(/-/g, "−");
 }
 
+/** The next number of so many digits above an upper limit, or below a lower one: what is shown suffices. */
+export function roundedOutward(value: number, isUpper: boolean, digits = 4): number {
+  if (value === 0 || !Number.isFinite(value)) return value;
+  const unit = 10 ** (Math.floor(Math.log10(Math.abs(value))) - digits + 1);
+  const slack = 1e-4; // of a unit: 0.5 is not to become 0.5001 by rounding errors
+  return unit * (isUpper ? Math.ceil(value / unit - slack) : Math.floor(value / unit + slack));
+}
+
 /** Of things that are counted. */
 export function count(value: number | null | undefined): string {
   return value === null || value === undefined ? "–" : value.toLocaleString("en").replace(/,/g, "\u202f");

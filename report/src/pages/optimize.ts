@@ -413,7 +413,7 @@ function variablesSection(data: ReportData): HTMLElement | null {
         const range = one.upper - one.lower || 1;
         const at = (x: number) => (100 * (x - one.lower)) / range;
         const [from, to] = [at(one.start), at(one.value)];
-        const bound = one.choice ? "" : to < 0.01 ? "at its lower bound" : to > 99.99 ? "at its upper bound" : "";
+        const bound = one.choice ? "" : one.upper === one.lower ? "fixed" : to < 0.01 ? "at its lower bound" : to > 99.99 ? "at its upper bound" : "";
         return h(
           "li",
           {},

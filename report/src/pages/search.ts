@@ -1,7 +1,7 @@
 // How an optimization was searched: limits that contradict each other, several starts, several methods.
 import type { Document, ReportData } from "../data";
 import { h, section, table } from "../dom";
-import { engineering, number, withUnit, words } from "../format";
+import { engineering, number, roundedOutward, withUnit, words } from "../format";
 import { sentenceCase, unitOf as unitOfResponse, unitOfLimit } from "./parts";
 
 /** Of a problem that no design solves: what its limits would have to be. */
@@ -14,10 +14,12 @@ export function conflictSection(data: ReportData): HTMLElement | null {
   const rows = names.map((name) => {
     const one: Document = least.limits[name];
     const unit = unitOfLimit(data.picture, name, one.unit);
-    const sign = one.side === "upper" ? "≤" : "≥";
+    const isUpper = one.side === "upper";
+    const sign = isUpper ? "≤" : "≥";
+    const enough = (limit: number) => `${sign} ${withUnit(unit.factor * roundedOutward(limit / unit.factor, isUpper), unit)}`;
     const row: (Node | string)[] = [one.in_conflict ? h("b", {}, words(name)) : words(name), `${sign} ${withUnit(one.limit, unit)}`];
-    if (hasAlone) row.push(one.alone === undefined ? "–" : `${sign} ${withUnit(one.alone, unit)}`);
-    row.push(`${sign} ${withUnit(one.together, unit)}`);
+    if (hasAlone) row.push(one.alone === undefined ? "–" : enough(one.alone));
+    row.push(enough(one.together));
     return row;
   });
   return section(

@@ -116,6 +116,7 @@ export function showPage(data: ReportData): HTMLElement[] {
   if (!picture) return [];
   const { scene } = picture;
   const free = result.rigid_motion?.free as number | undefined;
+  const blocked: number = result.rigid_motion?.blocked_drives ?? 0;
   const unheld: string[] = result.unheld_bodies ?? [];
   const shown = viewing(picture, 0, true, true, unheld);
   const time: number | undefined = result.seconds?.simulate;
@@ -134,9 +135,9 @@ export function showPage(data: ReportData): HTMLElement[] {
           ? h(
               "p.verdict",
               {},
-              h(`span.badge.${free > 0 ? "warn" : "good"}`, {}, free > 0 ? `${free} free` : "no freedom left"),
+              h(`span.badge.${free > 0 || blocked > 0 ? "warn" : "good"}`, {}, blocked > 0 ? "blocked" : free > 0 ? `${free} free` : "no freedom left"),
               ` ${result.rigid_motion.coordinates} coordinates of rigid motion, ${result.rigid_motion.constraints} independent constraints, ${result.rigid_motion.drives} of them of drives: ${
-                free > 0 ? `${free} freedom${free > 1 ? "s are" : " is"} left to the forces. Is that meant?` : result.rigid_motion.drives > 0 ? "the drives prescribe the motion." : "nothing can move."
+                blocked > 0 ? "no rigid motion follows the drives." : free > 0 ? `${free} freedom${free > 1 ? "s are" : " is"} left to the forces. Is that meant?` : result.rigid_motion.drives > 0 ? "the drives prescribe the motion." : "nothing can move."
               }`,
             )
           : null,

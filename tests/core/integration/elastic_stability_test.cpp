@@ -349,5 +349,31 @@ TEST(QuasiStaticStart, OfARoundShaftInABearingThatIsSofterOneWayIsFound) {
   }
 }
 
+/// A column that a spring of stiffness k holds at its foot buckles at P = u² EI/L² with u tan u = k L/EI
+/// (Timoshenko & Gere, Theory of Elastic Stability, §2.3), between that of a rigid bar, P L = k, and
+/// that of a clamped column.
+TEST(ElasticStability, OfAColumnOnASpringEndsAtTheLoadOfBothTogether) {
+  for (const double ratio : {0.1, 1.0, 10.0, 1000.0}) {
+    double low = 0.0, high = std::numbers::pi / 2;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (low + high);
+      (middle * std::tan(middle) < ratio ? low : high) = middle;
+    }
+    const double critical = low * low * stiffness;
+    const auto on_spring = [&](double share) {
+      std::string text = beam(joint("foot", "revolute", 0.0), -share * critical, 0.0);
+      const std::string loads = R"("loads": {)";
+      return text.replace(text.find(loads), loads.size(),
+                          loads + fmt::format(R"("k": {{"type": "joint", "joint": "foot",
+                                                       "stiffness": {}}}, )",
+                                              ratio * stiffness));
+    };
+    EXPECT_EQ(error_of(on_spring(0.98)), "") << ratio;
+    EXPECT_THAT(error_of(on_spring(1.02)), HasSubstr("is unstable")) << ratio;
+    // Beyond the load that the spring bears alone, too.
+    EXPECT_THAT(error_of(on_spring(3.0)), HasSubstr("is unstable")) << ratio;
+  }
+}
+
 }  // namespace
 }  // namespace pleuel::test::elastic_stability_test

@@ -165,5 +165,24 @@ TEST(JointHolds, OfASwingingRodDoNotDependOnTheGlobalAxes) {
   }
 }
 
+/// Of a bar on a slide across no axis of it, both ends turn as a whole: which of them counts as still is
+/// said by their places.
+TEST(JointHolds, DoNotDependOnTheOrderOfJoints) {
+  const std::string slide = joint("slide", "prismatic", "ground", "bar", zero,
+                                  R"("axis": [0.2, 1, 0.5])"),
+                    hinge = joint("hinge", "spherical", "bar", "load", tip);
+  const std::string bodies = bar + rigid("load", tip);
+  const auto one = holds_of_bar(bodies, slide + ", " + hinge);
+  auto other = holds_of_bar(bodies, hinge + ", " + slide);
+  ASSERT_EQ(one.size(), 2);
+  ASSERT_EQ(other.size(), 2);
+  if (other[0].at > other[1].at) std::swap(other[0], other[1]);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_DOUBLE_EQ(one[i].at, other[i].at);
+    EXPECT_EQ(one[i].displacements, other[i].displacements) << i;
+    EXPECT_EQ(one[i].rotations, other[i].rotations) << i;
+  }
+}
+
 }  // namespace
 }  // namespace pleuel::test::joint_holds_test

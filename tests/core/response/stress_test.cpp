@@ -33,7 +33,7 @@ void find_rest(Model& model, State& state) {
 
 Eigen::VectorXd stresses(const Model& model, const State& state) {
   const auto signal =
-      make_stress_signal(model.body("beam"), model.gravity, StressPart::von_mises, {});
+      make_stress_signal(model.body("beam"), model.gravity, StressPart::von_mises, false, {});
   Eigen::VectorXd values(signal->channels());
   signal->observe(state, values);
   return values;
