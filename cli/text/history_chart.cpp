@@ -240,7 +240,8 @@ std::string to_braille(const HistoryChart& chart, int width) {
   constexpr int rows = 10, axis = 10;
   Dots dots(std::max(width - axis - 2, 20), rows);
   const HistoryCurve& curve = chart.curves.back();
-  const auto [low, high] = range_of(chart);
+  const std::pair<double, double> range = range_of(chart);
+  const double low = range.first, high = range.second;
   const double begin = curve.time(0), end = curve.time(curve.time.size() - 1);
   const auto dot_y = [&](double value) {
     return static_cast<int>(std::lround((high - value) / (high - low) * (dots.height() - 1)));
