@@ -148,7 +148,8 @@ void add_values(const OlderRun& first, const OlderRun& second, const std::string
   const Json one = part(first), other = part(second);
   Json all = one;
   all.update(other);
-  for (const auto& [name, unused] : all.items()) {
+  for (const auto& entry : all.items()) {
+    const std::string& name = entry.key();
     const auto value_of = [&](const Json& values, const char* key) {
       const Json value = values.value(name, Json());
       return value.is_object() ? value.value(key, Json()) : Json();
