@@ -148,7 +148,9 @@ std::string over_cases_text(const ProblemFile& joined, const Json& document) {
   if (has_deviations) columns.push_back({"deviation"});
   columns.push_back({"unit", Table::Align::left});
   Table responses(std::move(columns));
-  for (const auto& [name, entry] : all.items()) {
+  for (const auto& item : all.items()) {
+    const std::string& name = item.key();
+    const Json& entry = item.value();
     const ShownUnit unit = unit_of(find_response(joined, name));
     const auto cell = [&](const char* key) {
       const Json number = entry.value(key, Json());
