@@ -74,13 +74,16 @@ ExactMethod cheaper_method(double direct, double adjoint) {
   return direct > clear_gain * adjoint ? ExactMethod::adjoint : ExactMethod::direct;
 }
 
+int values_of_motion(const Analysis& analysis, const std::vector<SampledValue>& values) {
+  return static_cast<int>(
+      std::count_if(values.begin(), values.end(),
+                    [&](const SampledValue& value) { return last_step(analysis, value) >= 0; }));
+}
+
 MethodChoice choose_method(Analysis& analysis, const std::vector<SampledValue>& values) {
   Mechanism& mechanism = analysis.model.mechanism;
   const int variables = mechanism.system->variables();
-  const auto functions =
-      static_cast<int>(std::count_if(values.begin(), values.end(), [&](const SampledValue& value) {
-        return last_step(analysis, value) >= 0;
-      }));
+  const int functions = values_of_motion(analysis, values);
   const std::string counts =
       fmt::format("{} variable{}, {} value{} of the motion", variables, variables == 1 ? "" : "s",
                   functions, functions == 1 ? "" : "s");

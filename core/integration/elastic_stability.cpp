@@ -139,7 +139,7 @@ std::pair<Eigen::MatrixXd, Eigen::MatrixXd> positive_modes(const Eigen::MatrixXd
 /// @param motions  orthonormal columns, in coordinates relative to the scale
 Eigen::MatrixXd motions_without_springs(const Mechanism& mechanism, const State& state,
                                         const Eigen::MatrixXd& motions) {
-  constexpr double round_off = 1e-9;
+  constexpr double round_off = 1e-12;
   if (mechanism.springs.empty() || motions.cols() == 0) return motions;
   const Eigen::MatrixXd of_springs = stiffness_of_springs(mechanism, state);
   const double size = of_springs.cwiseAbs().maxCoeff();
@@ -372,7 +372,9 @@ bool is_rotor(const Mechanism& mechanism, const State& state) {
 
 ElasticStability elastic_stability(const Mechanism& mechanism, const State& state) {
   const FastestTurn turn = fastest_turn(mechanism, state);
-  if (turn.omega.isZero(0.0)) return standing_stability(mechanism, state);
+  if (turn.omega.isZero(0.0) || is_at_rest(mechanism, state)) {
+    return standing_stability(mechanism, state);
+  }
   if (is_steady(mechanism, state, turn) || turns_alike(mechanism, state, turn)) {
     return turning_stability(mechanism, state);
   }

@@ -14,7 +14,7 @@ namespace pleuel {
 namespace {
 
 /// Shares of a sum above this are more than round-off.
-constexpr double resolved = 1e-10;
+constexpr double resolved = 1e-12;
 
 /// ∫₀ᵗ power dt in every instant, by the trapezoidal rule.
 Eigen::VectorXd integral(const Eigen::VectorXd& time, const Eigen::VectorXd& power) {

@@ -15,7 +15,7 @@ struct Monitors {
   double position_drift = 0.0;
   double velocity_drift = 0.0;  ///< the same of dΦ/dt [1/s]
   /// Largest |E(t) − E(0) − W(t)| over the largest of kinetic energy, elastic energy, change of
-  /// weight's potential and |W| in any instant, or 1e-10 of that potential; zero if all are.
+  /// weight's potential and |W| in any instant, or 1e-12 of that potential; zero if all are.
   double energy_error = 0.0;
   /// The same |E(t) − E(0) − W(t)| over the largest elastic energy: a heavy body that moves hides
   /// an error of elastic ones in the ratio above. Zero without elastic energy.

@@ -6,6 +6,7 @@
 
 #include "core/base/stopwatch.hpp"
 #include "optimization/design/setting_text.hpp"
+#include "sensitivity/method_choice.hpp"
 
 namespace pleuel {
 
@@ -77,10 +78,12 @@ std::vector<DesignCase::Row> DesignCase::rows_at(const Analysis& analysis,
   return all;
 }
 
-GradientMethod DesignCase::method_for(const std::vector<SampledValue>& values) const {
+GradientMethod DesignCase::method_for(const Analysis& analysis,
+                                      const std::vector<SampledValue>& values) const {
   const bool may_differ = file_.sensitivity.method == GradientMethod::automatic &&
                           choice_->method == GradientMethod::adjoint;
-  return may_differ && std::ssize(values) >= x_.size() ? GradientMethod::direct : choice_->method;
+  const bool has_more_rows = may_differ && values_of_motion(analysis, values) >= x_.size();
+  return has_more_rows ? GradientMethod::direct : choice_->method;
 }
 
 /// Of the rows of responses.
@@ -95,7 +98,7 @@ Eigen::MatrixXd DesignCase::gradients_of(Analysis& analysis,
   }
   if (values.empty()) return Eigen::MatrixXd(0, x_.size());
   if (!choice_) choice_ = choose_gradients(file_.sensitivity.method, analysis, values);
-  used_ = method_for(values);
+  used_ = method_for(analysis, values);
   if (!is_difference(used_)) {
     const Eigen::Map<const Eigen::VectorXd> sign(signs.data(), std::ssize(signs));
     return sign.asDiagonal() * sampled_gradients(analysis, values, exact_method(used_));

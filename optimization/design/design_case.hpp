@@ -90,7 +90,8 @@ class DesignCase {
   std::vector<Row> rows_at(const Analysis& analysis, const std::vector<ConstraintRows>& rows) const;
   /// That of the choice, which was made for the first rows: the adjoint method, if it was to choose, is
   /// none for more rows than there are variables.
-  GradientMethod method_for(const std::vector<SampledValue>& values) const;
+  GradientMethod method_for(const Analysis& analysis,
+                            const std::vector<SampledValue>& values) const;
   Eigen::MatrixXd gradients_of(Analysis& analysis, const std::vector<ConstraintRows>& rows);
   std::size_t response_index(const std::string& name) const;
 
