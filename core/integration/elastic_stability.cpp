@@ -294,10 +294,12 @@ bool changes_with_angle(const Mechanism& mechanism, const State& state,
 /// Of a mechanism that turns in space. Deformations without stiffness may be held by gyroscopic
 /// forces, which is asked of the lowest modes; damping by what turns takes that away (Kelvin, Tait &
 /// Chetaev), and what stands still may give it back.
-ElasticStability turning_stability(const Mechanism& mechanism, const State& state) {
+/// @param shapes  the deformations, if they are known
+ElasticStability turning_stability(const Mechanism& mechanism, const State& state,
+                                   const Eigen::MatrixXd* shapes = nullptr) {
   constexpr double round_off_mass = 1e-12;
   constexpr Eigen::Index more_modes = 20;
-  const TurningDeformations all = turning_deformations(mechanism, state);
+  const TurningDeformations all = turning_deformations(mechanism, state, shapes);
   if (all.shapes.cols() == 0) return {};
   const Eigen::MatrixXd symmetric = symmetric_part(all.stiffness);
   if (is_positive_definite(symmetric)) return {};
@@ -349,6 +351,14 @@ ElasticStability standing_stability(const Mechanism& mechanism, const State& sta
   return result;
 }
 
+/// The deformations, with the motions that springs hold, counted in axes that turn with each body.
+Eigen::MatrixXd in_turning_axes(const Mechanism& mechanism, const State& state) {
+  const Eigen::VectorXd& scale = mechanism.scale;
+  const Eigen::MatrixXd T =
+      scale.cwiseInverse().asDiagonal() * turning_of(mechanism, state).T * scale.asDiagonal();
+  return DenseLu(T).solve(free_deformations(mechanism, state));
+}
+
 }  // namespace
 
 Eigen::MatrixXd free_deformations(const Mechanism& mechanism, const State& state) {
@@ -379,7 +389,9 @@ ElasticStability elastic_stability(const Mechanism& mechanism, const State& stat
     return turning_stability(mechanism, state);
   }
   const ElasticStability standing = standing_stability(mechanism, state);
-  return standing.is_stable ? standing : turning_stability(mechanism, state);
+  if (standing.is_stable) return standing;
+  const Eigen::MatrixXd shapes = in_turning_axes(mechanism, state);
+  return turning_stability(mechanism, state, &shapes);
 }
 
 double buckling_load_factor(const Mechanism& mechanism, const State& unloaded, const State& loaded,

@@ -53,15 +53,17 @@ struct PressedBeam {
   }
 };
 
-/// All beams of a mechanism in space, and when they were pressed most together.
+/// All beams of a mechanism in space or with springs, and when they were pressed most together. In a
+/// plane without springs beams are judged one by one (sideways_buckling.hpp).
 class PressedBeams {
  public:
-  PressedBeams(const Scene& scene, const Model& model) {
+  PressedBeams(const Scene& scene, const Model& model)
+      : harmless_(model.mechanism.springs.empty() ? harmless_press : 0.0) {
     for (const Body& body : scene.bodies) {
       if (!std::holds_alternative<BeamBody>(body.shape)) continue;
       const BodyModel& part = *model.parts(body.name).front();
       const bool is_planar = part.frame.rotation == RotationCoordinates::angle;
-      if (!part.is_elastic || is_planar) continue;
+      if (!part.is_elastic || (is_planar && model.mechanism.springs.empty())) continue;
       beams_.emplace_back(body.name, model);
       length_ += beams_.back().member.full_length();
       has_stiffening_ = has_stiffening_ || part.has_stiffening;
@@ -83,13 +85,14 @@ class PressedBeams {
     std::set<int> instants;
     for (const PressedBeam& beam : beams_) {
       const double share = beam.member.full_length() / length_;
-      if (beam.most > harmless_press * share * share * beam.euler) instants.insert(beam.instant);
+      if (beam.most > harmless_ * share * share * beam.euler) instants.insert(beam.instant);
     }
     if (!instants.empty()) instants.insert(instant_);
     return instants;
   }
 
  private:
+  double harmless_;  ///< with springs, which may be as soft as they like: nothing
   std::vector<PressedBeam> beams_;
   double length_ = 0.0;  ///< of all [m]
   bool has_stiffening_ = false;

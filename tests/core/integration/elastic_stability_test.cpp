@@ -353,7 +353,10 @@ TEST(QuasiStaticStart, OfARoundShaftInABearingThatIsSofterOneWayIsFound) {
 /// (Timoshenko & Gere, Theory of Elastic Stability, §2.3), between that of a rigid bar, P L = k, and
 /// that of a clamped column.
 TEST(ElasticStability, OfAColumnOnASpringEndsAtTheLoadOfBothTogether) {
-  for (const double ratio : {0.1, 1.0, 10.0, 1000.0}) {
+  for (const auto& [ratio, effects] :
+       {std::pair(0.1, "{}"), std::pair(1.0, "{}"), std::pair(10.0, "{}"), std::pair(1000.0, "{}"),
+        std::pair(1.0, R"({"spatial_motion": "on"})"),
+        std::pair(1000.0, R"({"spatial_motion": "on"})")}) {
     double low = 0.0, high = std::numbers::pi / 2;
     for (int i = 0; i < 60; ++i) {
       const double middle = 0.5 * (low + high);
@@ -361,7 +364,7 @@ TEST(ElasticStability, OfAColumnOnASpringEndsAtTheLoadOfBothTogether) {
     }
     const double critical = low * low * stiffness;
     const auto on_spring = [&](double share) {
-      std::string text = beam(joint("foot", "revolute", 0.0), -share * critical, 0.0);
+      std::string text = beam(joint("foot", "revolute", 0.0), -share * critical, 0.0, 8, effects);
       const std::string loads = R"("loads": {)";
       return text.replace(text.find(loads), loads.size(),
                           loads + fmt::format(R"("k": {{"type": "joint", "joint": "foot",

@@ -2,6 +2,7 @@
 
 #include "core/trust/energy_balance.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,6 +28,40 @@ TEST(EnergyBalance, IsDoubtedAboveOnePercent) {
   const auto doubts = doubt_energy_balance(TrustedRun{problem, x, *analysis, monitors});
   ASSERT_THAT(doubts, SizeIs(1));
   EXPECT_THAT(doubts[0].text, HasSubstr("balanced to 1 % of"));
+}
+
+/// What does not move has no energy to be balanced: the last digits of its potential are none.
+TEST(EnergyBalance, IsNotDoubtedWhereNothingMoves) {
+  const ProblemFile problem = read_scene(R"({"scene": {
+      "gravity": [1.336, 8.616, -4.495],
+      "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [0.0525, -0.3823, 0.2024],
+                         "material": "steel", "rigid": true, "elements": 1,
+                         "section": {"type": "circle", "diameter": 0.02}}},
+      "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}},
+    "simulation": {"end_time": 0.15, "step": 0.0007673},
+    "responses": {"mass": {"type": "mass"}}})");
+  EXPECT_THAT(doubts_of(problem, doubt_energy_balance), IsEmpty());
+}
+
+/// An error of a small vibration is not hidden by where a scene stands.
+TEST(EnergyBalance, IsAskedOfSmallMotionsFarFromTheOrigin) {
+  const auto error_at = [](double height) {
+    const ProblemFile problem = read_scene(fmt::format(
+        R"({{"scene": {{"gravity": [0, -9.81, 0],
+              "bodies": {{"block": {{"type": "rigid", "at": [0, {0}, 0], "mass": 1,
+                                    "inertia": [1, 1, 1, 0, 0, 0], "velocity": [1e-3, 0, 0]}}}},
+              "joints": {{"guide": {{"type": "prismatic", "bodies": ["ground", "block"],
+                                    "at": [0, {0}, 0], "axis": [1, 0, 0]}}}},
+              "loads": {{"spring": {{"type": "joint", "joint": "guide", "stiffness": 1e4}}}}}},
+            "simulation": {{"end_time": 0.2, "step": 0.01, "spectral_radius": 0.5}},
+            "responses": {{"mass": {{"type": "mass"}}}}}})",
+        height));
+    const auto analysis = analyze(problem, start_design(problem));
+    return monitor(analysis->model, analysis->trajectory).energy_error;
+  };
+  const double near = error_at(0.0);
+  EXPECT_GT(near, 0.02);
+  EXPECT_NEAR(error_at(1000.0), near, 0.01 * near);
 }
 
 }  // namespace

@@ -15,7 +15,9 @@ namespace {
 constexpr double stiffness = 2.1e11 * 1e-8 / 12;
 
 std::vector<Doubt> doubts_of_column(const std::string& bodies, const std::string& joints,
-                                    const std::string& loaded, double at, double force) {
+                                    const std::string& loaded, double at, double force,
+                                    const std::string& springs = "",
+                                    const std::string& spatial_motion = "on") {
   const std::string text = fmt::format(
       R"j({{"scene": {{
         "materials": {{"light": {{"young": 2.1e11, "poisson": 0.3, "density": 1}}}},
@@ -23,13 +25,13 @@ std::vector<Doubt> doubts_of_column(const std::string& bodies, const std::string
                             "material": "light", "damping": {{"stiffness": 1e-4}},
                             "section": {{"type": "rectangle", "width": 0.01, "height": 0.01}}}}{}}},
         "joints": {{{}}},
-        "loads": {{"press": {{"type": "force", "body": "{}", "at": [{}, 0, 0],
+        "loads": {{{}"press": {{"type": "force", "body": "{}", "at": [{}, 0, 0],
                              "direction": [-1, 0, 0],
                              "value": {{"type": "ramp", "to": {}, "end": 0.05}}}}}}}},
-      "effects": {{"spatial_motion": "on", "geometric_stiffening": "on"}},
+      "effects": {{"spatial_motion": "{}", "geometric_stiffening": "on"}},
       "simulation": {{"end_time": 0.05, "step": 0.0025}},
       "responses": {{"mass": {{"type": "mass"}}}}}})j",
-      bodies, joints, loaded, at, force);
+      bodies, joints, springs, loaded, at, force, spatial_motion);
   return doubts_of(read_scene(text), doubt_unstable_members);
 }
 
@@ -65,6 +67,25 @@ const std::string clamp =
 TEST(UnstableMembers, AreToldFromTheEulerLoadOfACantileverOn) {
   const double euler = std::numbers::pi * std::numbers::pi * stiffness / 4;
   expect_critical(euler, [](double force) { return doubts_of_column("", clamp, "bar", 1, force); });
+}
+
+/// On a hinge with a spring of stiffness k at the foot: P = u² EI/L² with u tan u = k L/EI.
+TEST(UnstableMembers, BuckleWithTheSpringThatTheyStandOn) {
+  const std::string hinge =
+      R"("foot": {"type": "revolute", "bodies": ["ground", "bar"], "at": [0, 0, 0]})";
+  for (const char* spatial_motion : {"off", "on"}) {
+    for (const double ratio : {0.3, 3.0, 30.0}) {
+      SCOPED_TRACE(fmt::format("space {}, k L/EI = {}", spatial_motion, ratio));
+      const double u = root(ratio);
+      expect_critical(u * u * stiffness, [&](double force) {
+        return doubts_of_column("", hinge, "bar", 1, force,
+                                fmt::format(R"("foot_spring": {{"type": "joint", "joint": "foot",
+                                               "stiffness": {}}}, )",
+                                            ratio * stiffness),
+                                spatial_motion);
+      });
+    }
+  }
 }
 
 /// A rigid mast of d on the tip, pressed at its top: P = EI u²/L² with u tan u = L/d (the moment at the
