@@ -353,10 +353,12 @@ TEST(QuasiStaticStart, OfARoundShaftInABearingThatIsSofterOneWayIsFound) {
 /// (Timoshenko & Gere, Theory of Elastic Stability, §2.3), between that of a rigid bar, P L = k, and
 /// that of a clamped column.
 TEST(ElasticStability, OfAColumnOnASpringEndsAtTheLoadOfBothTogether) {
-  for (const auto& [ratio, effects] :
-       {std::pair(0.1, "{}"), std::pair(1.0, "{}"), std::pair(10.0, "{}"), std::pair(1000.0, "{}"),
-        std::pair(1.0, R"({"spatial_motion": "on"})"),
-        std::pair(1000.0, R"({"spatial_motion": "on"})")}) {
+  const std::string in_a_plane = "{}", in_space = R"({"spatial_motion": "on"})";
+  for (const auto& spring :
+       {std::pair(0.1, in_a_plane), std::pair(1.0, in_a_plane), std::pair(10.0, in_a_plane),
+        std::pair(1000.0, in_a_plane), std::pair(1.0, in_space), std::pair(1000.0, in_space)}) {
+    const double ratio = spring.first;
+    const std::string& effects = spring.second;
     double low = 0.0, high = std::numbers::pi / 2;
     for (int i = 0; i < 60; ++i) {
       const double middle = 0.5 * (low + high);
