@@ -5,13 +5,12 @@
 #include <optional>
 #include <utility>
 
-#include "core/base/packed.hpp"
-#include "core/base/tasks.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/packed_problem.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/result.hpp"
 #include "optimization/solve.hpp"
+#include "optimization/stored_tasks.hpp"
 #include "studies/sized_search.hpp"
 
 namespace pleuel {
@@ -42,17 +41,18 @@ double first_value(const History& history) {
 }
 
 /// Searches that each are a file and a start.
-struct EndWork : TaskWork {
+struct EndData {
+  static constexpr const char* kind = end_work_name;
+
   std::vector<ProblemFile> files;
   std::vector<Eigen::VectorXd> starts;
   SolveOptions options;
-  bool has_store = false;
 
-  std::string run(int task, const std::string& /*needed*/, TaskCaller& caller) override {
-    RemoteStore store(caller);
+  std::string run(int task, const std::string& /*needed*/, TaskCaller& /*caller*/,
+                  EvaluationStore* store) const {
     ProblemFile file = files[task];
     start_from(starts[task], file.variables);
-    SizedDesign best = search_with_sizes(file, options, has_store ? &store : nullptr);
+    SizedDesign best = search_with_sizes(file, options, store);
     DesignProblem& design = *best.problem;
     FrontEnd end;
     end.result = std::move(best.result);
@@ -68,43 +68,25 @@ struct EndWork : TaskWork {
   }
 };
 
-class EndSearches : public Tasks {
+class EndSearches : public StoredTasks<EndData> {
  public:
-  EndSearches(std::vector<ProblemFile> files, std::vector<Eigen::VectorXd> starts,
-              const SolveOptions& options, const Execution& execution)
-      : execution_(execution), ends_(files.size()) {
-    work_.files = std::move(files);
-    work_.starts = std::move(starts);
-    work_.options = options;
-    work_.has_store = execution.store != nullptr;
-  }
+  EndSearches(EndData data, EvaluationStore* store)
+      : StoredTasks(std::move(data), store), ends_(this->data().files.size()) {}
 
   int count() const override { return static_cast<int>(ends_.size()); }
 
-  PackedWork packed_work() const override {
-    return {end_work_name, packed(work_.files, work_.starts, work_.options, work_.has_store)};
-  }
-
-  std::string run(int task, const std::string& needed, TaskCaller& caller) override {
-    return work_.run(task, needed, caller);
-  }
-
-  std::string reply(int /*task*/, const std::string& question) override {
-    return reply_of(*execution_.store, question);
-  }
   void take(int task, const std::string& answer) override {
     ends_[task] = unpacked<FrontEnd>(answer);
   }
+
   void fail(int task, const std::string& failure) override {
     ends_[task].result.message = "the search was lost: " + failure;
-    ends_[task].result.x = work_.starts[task];
+    ends_[task].result.x = data().starts[task];
   }
 
   std::vector<FrontEnd> take_ends() { return std::move(ends_); }
 
  private:
-  EndWork work_;
-  const Execution& execution_;
   std::vector<FrontEnd> ends_;
 };
 
@@ -152,9 +134,7 @@ GoalScale end_scale(const std::vector<FrontEnd>& ends, std::size_t goal) {
 }
 
 std::unique_ptr<TaskWork> make_end_work(const std::string& content) {
-  auto work = std::make_unique<EndWork>();
-  unpack(content, work->files, work->starts, work->options, work->has_store);
-  return work;
+  return make_stored_work<EndData>(content);
 }
 
 std::vector<FrontEnd> find_front_ends(const ProblemFile& file, const SolveOptions& options,
@@ -162,8 +142,10 @@ std::vector<FrontEnd> find_front_ends(const ProblemFile& file, const SolveOption
   const std::vector<Objective>& goals = file.pareto->goals;
   const Eigen::VectorXd start = start_design(file);
   EndSearches first(
-      {with_goal(file, goals[0], std::nullopt), with_goal(file, goals[1], std::nullopt)},
-      {start, start}, options, execution);
+      {{with_goal(file, goals[0], std::nullopt), with_goal(file, goals[1], std::nullopt)},
+       {start, start},
+       options},
+      execution.store);
   run_tasks(first, execution.tasks);
   std::vector<FrontEnd> ends = first.take_ends();
   if (!keeps_limits(ends[0].result) || !keeps_limits(ends[1].result)) return ends;
@@ -175,7 +157,7 @@ std::vector<FrontEnd> find_front_ends(const ProblemFile& file, const SolveOption
     const double limit = ends[i].values[i] + goals[i].sign() * slack;
     files.push_back(with_goal(file, goals[1 - i], std::pair(goals[i], limit)));
   }
-  EndSearches second(files, {ends[0].result.x, ends[1].result.x}, options, execution);
+  EndSearches second({files, {ends[0].result.x, ends[1].result.x}, options}, execution.store);
   run_tasks(second, execution.tasks);
   const std::vector<FrontEnd> refined = second.take_ends();
   for (std::size_t i = 0; i < 2; ++i)

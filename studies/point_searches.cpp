@@ -2,10 +2,8 @@
 
 #include <utility>
 
-#include "core/base/packed.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/stop.hpp"
-#include "core/base/tasks.hpp"
 #include "core/scene/packed_problem.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/design/design_solve.hpp"
@@ -13,6 +11,7 @@
 #include "optimization/design/size_trials.hpp"
 #include "optimization/result.hpp"
 #include "optimization/solve.hpp"
+#include "optimization/stored_tasks.hpp"
 #include "studies/front_ends.hpp"
 #include "studies/sized_search.hpp"
 #include "studies/varied_limit.hpp"
@@ -22,17 +21,17 @@ namespace pleuel {
 namespace {
 
 /// A point a task.
-struct PointWork : TaskWork {
+struct PointData {
+  static constexpr const char* kind = point_work_name;
+
   ProblemFile problem;
   std::vector<PointSearch> searches;
   SolveOptions options;
-  bool has_store = false;
 
-  std::string run(int task, const std::string& needed, TaskCaller& caller) override {
+  std::string run(int task, const std::string& needed, TaskCaller& /*caller*/,
+                  EvaluationStore* known) const {
     const PointSearch& search = searches[task];
     if (search.known) return packed(*search.known);
-    RemoteStore store(caller);
-    EvaluationStore* known = has_store ? &store : nullptr;
     FoundPoint found = point_from(start_of(search, needed), search, known);
     if (search.other && !found.point.keeps_limits()) {
       FoundPoint second = point_from(*search.other, search, known);
@@ -98,40 +97,21 @@ struct PointWork : TaskWork {
   }
 };
 
-class PointSearches : public Tasks {
+class PointSearches : public StoredTasks<PointData> {
  public:
-  PointSearches(const ProblemFile& problem, const std::vector<PointSearch>& searches,
-                const SolveOptions& options, const Execution& execution,
-                const ParetoObserver& observer)
-      : execution_(execution), observer_(observer) {
-    work_.problem = problem;
-    work_.searches = searches;
-    work_.options = options;
-    work_.has_store = execution.store != nullptr;
-  }
+  PointSearches(PointData data, EvaluationStore* store, const ParetoObserver& observer)
+      : StoredTasks(std::move(data), store), observer_(observer) {}
 
-  int count() const override { return static_cast<int>(work_.searches.size()); }
+  int count() const override { return static_cast<int>(data().searches.size()); }
 
-  std::optional<int> needed_by(int task) const override { return work_.searches[task].from; }
-
-  PackedWork packed_work() const override {
-    return {point_work_name, packed(work_.problem, work_.searches, work_.options, work_.has_store)};
-  }
-
-  std::string run(int task, const std::string& needed, TaskCaller& caller) override {
-    return work_.run(task, needed, caller);
-  }
-
-  std::string reply(int /*task*/, const std::string& question) override {
-    return reply_of(*execution_.store, question);
-  }
+  std::optional<int> needed_by(int task) const override { return data().searches[task].from; }
 
   void take(int /*task*/, const std::string& answer) override { add(unpacked<FoundPoint>(answer)); }
 
   void fail(int task, const std::string& failure) override {
     FoundPoint found;
-    found.start = work_.start_of(work_.searches[task], "");
-    found.point.limit = work_.searches[task].limit;
+    found.start = data().start_of(data().searches[task], "");
+    found.point.limit = data().searches[task].limit;
     found.point.result.message = "the search was lost: " + failure;
     found.point.result.x = found.start;
     add(std::move(found));
@@ -145,8 +125,6 @@ class PointSearches : public Tasks {
     points_.push_back(std::move(found));
   }
 
-  PointWork work_;
-  const Execution& execution_;
   const ParetoObserver& observer_;
   std::vector<FoundPoint> points_;
 };
@@ -164,15 +142,13 @@ void take_as_point(ParetoPoint& point, const ProblemFile& problem, EvaluationSto
 }
 
 std::unique_ptr<TaskWork> make_point_work(const std::string& content) {
-  auto work = std::make_unique<PointWork>();
-  unpack(content, work->problem, work->searches, work->options, work->has_store);
-  return work;
+  return make_stored_work<PointData>(content);
 }
 
 FoundPoints search_points(const ProblemFile& problem, const std::vector<PointSearch>& searches,
                           const SolveOptions& options, const Execution& execution,
                           const ParetoObserver& observer) {
-  PointSearches tasks(problem, searches, options, execution, observer);
+  PointSearches tasks({problem, searches, options}, execution.store, observer);
   bool is_whole = true;
   try {
     run_tasks(tasks, execution.tasks);

@@ -5,14 +5,13 @@
 
 #include <fmt/format.h>
 
-#include "core/base/packed.hpp"
 #include "core/base/stop.hpp"
 #include "core/base/stopwatch.hpp"
-#include "core/base/tasks.hpp"
 #include "core/scene/packed_problem.hpp"
 #include "core/scene/sample_extent.hpp"
 #include "core/trust/doubts.hpp"
 #include "optimization/design/setting_text.hpp"
+#include "optimization/stored_tasks.hpp"
 #include "sensitivity/history_gradients.hpp"
 #include "sensitivity/method_choice.hpp"
 #include "studies/missing_settings.hpp"
@@ -81,19 +80,19 @@ struct Sample {
 constexpr int task_size = 8;
 
 /// Simulations of samples.
-class SampleWork : public TaskWork {
- public:
+struct SampleData {
+  static constexpr const char* kind = sample_work_name;
+
   ProblemFile problem;  ///< with the steps of the design that they are drawn around
   std::vector<Eigen::VectorXd> designs;
   Eigen::Index instants = 0;           ///< of that design
   std::vector<std::size_t> responses;  ///< whose histories are sampled
   std::vector<int> places;             ///< of those histories
-  bool has_store = false;
 
-  std::string run(int task, const std::string& /*needed*/, TaskCaller& caller) override {
-    RemoteStore store(caller);
+  std::string run(int task, const std::string& /*needed*/, TaskCaller& caller,
+                  EvaluationStore* store) const {
     for (int i = task * task_size; i < end_of(task); ++i) {
-      caller.tell(packed(has_store ? known(designs[i], store) : simulated(designs[i])));
+      caller.tell(packed(store ? known(designs[i], *store) : simulated(designs[i])));
     }
     return "";
   }
@@ -144,27 +143,12 @@ class SampleWork : public TaskWork {
 };
 
 /// Hears of samples and sums them up, batch by batch.
-class Samples : public Tasks {
+class Samples : public StoredTasks<SampleData> {
  public:
-  Samples(SampleWork work, EvaluationStore* store, const SampleObserver& observer)
-      : work_(std::move(work)), store_(store), observer_(observer) {
-    work_.has_store = store != nullptr;
-  }
+  Samples(SampleData data, EvaluationStore* store, const SampleObserver& observer)
+      : StoredTasks(std::move(data), store), observer_(observer) {}
 
-  int count() const override { return (work_.size() + task_size - 1) / task_size; }
-
-  PackedWork packed_work() const override {
-    return {sample_work_name, packed(work_.problem, work_.designs, work_.instants, work_.responses,
-                                     work_.places, work_.has_store)};
-  }
-
-  std::string run(int task, const std::string& needed, TaskCaller& caller) override {
-    return work_.run(task, needed, caller);
-  }
-
-  std::string reply(int /*task*/, const std::string& question) override {
-    return reply_of(*store_, question);
-  }
+  int count() const override { return (data().size() + task_size - 1) / task_size; }
 
   void hear(int task, const std::string& message) override {
     // After a stop, samples are missing before those of later tasks.
@@ -174,7 +158,7 @@ class Samples : public Tasks {
   void take(int /*task*/, const std::string& /*answer*/) override {}
 
   void fail(int task, const std::string& /*failure*/) override {
-    while (heard_ < work_.end_of(task)) add({});
+    while (heard_ < data().end_of(task)) add({});
   }
 
   int failures() const { return failures_; }
@@ -187,7 +171,7 @@ class Samples : public Tasks {
   void add(Sample sample) {
     batch_.push_back(std::move(sample));
     ++heard_;
-    if (batch_.size() < batch_size && heard_ < work_.size()) return;
+    if (batch_.size() < batch_size && heard_ < data().size()) return;
     for (const Sample& one : batch_) sum_up(one);
     batch_.clear();
     if (observer_) observer_(heard_);
@@ -202,8 +186,6 @@ class Samples : public Tasks {
     if (sample.histories.size() > 0) histories_.add(sample.histories);
   }
 
-  SampleWork work_;
-  EvaluationStore* store_;
   const SampleObserver& observer_;
   std::vector<Sample> batch_;  ///< that is not yet whole
   int heard_ = 0, failures_ = 0;
@@ -249,7 +231,7 @@ class Study {
   void sample(const Execution& execution, const SampleObserver& observer) {
     if (settings_.samples == 0) return;
     const Stopwatch stopwatch;
-    Samples samples(sample_work(), execution.store, observer);
+    Samples samples(sample_data(), execution.store, observer);
     try {
       run_tasks(samples, execution.tasks);
     } catch (const Stopped&) {
@@ -294,16 +276,16 @@ class Study {
     return designs;
   }
 
-  SampleWork sample_work() const {
-    SampleWork work;
-    work.problem = with_same_steps_;
-    work.designs = draw();
-    work.instants = study_.time.size();
+  SampleData sample_data() const {
+    SampleData data;
+    data.problem = with_same_steps_;
+    data.designs = draw();
+    data.instants = study_.time.size();
     for (const UncertainHistory& history : study_.histories) {
-      work.responses.push_back(history.response);
+      data.responses.push_back(history.response);
     }
-    work.places = places_;
-    return work;
+    data.places = places_;
+    return data;
   }
 
   void store(const Moments& responses, const Moments& histories) {
@@ -353,10 +335,7 @@ class Study {
 }  // namespace
 
 std::unique_ptr<TaskWork> make_sample_work(const std::string& content) {
-  auto work = std::make_unique<SampleWork>();
-  unpack(content, work->problem, work->designs, work->instants, work->responses, work->places,
-         work->has_store);
-  return work;
+  return make_stored_work<SampleData>(content);
 }
 
 UncertaintyStudy uncertainty_study(const ProblemFile& problem, const Execution& execution,

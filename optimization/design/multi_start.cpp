@@ -6,15 +6,14 @@
 
 #include <fmt/format.h>
 
-#include "core/base/packed.hpp"
 #include "core/base/parallel.hpp"
-#include "core/base/tasks.hpp"
 #include "core/scene/packed_problem.hpp"
 #include "optimization/design/packed_solution.hpp"
 #include "optimization/result.hpp"
 #include "optimization/scaling.hpp"
 #include "optimization/solve.hpp"
 #include "optimization/starts.hpp"
+#include "optimization/stored_tasks.hpp"
 
 namespace pleuel {
 
@@ -115,15 +114,16 @@ std::string sentence_of(const MultiStart& all) {
 enum class Told : char { record, notice };
 
 /// A search from each of several designs.
-struct SearchWork : TaskWork {
+struct SearchData {
+  static constexpr const char* kind = search_work_name;
+
   ProblemFile file;
   std::vector<Eigen::VectorXd> starts;
   SolveOptions options;
-  bool has_store = false;
 
-  std::string run(int task, const std::string& /*needed*/, TaskCaller& caller) override {
-    RemoteStore store(caller);
-    const Execution here = {{.jobs = available_threads()}, has_store ? &store : nullptr};
+  std::string run(int task, const std::string& /*needed*/, TaskCaller& caller,
+                  EvaluationStore* store) const {
+    const Execution here = {{.jobs = available_threads()}, store};
     const Observer observer = [&](const EvaluationRecord& record) {
       caller.tell(packed(Told::record, record));
     };
@@ -133,31 +133,16 @@ struct SearchWork : TaskWork {
 };
 
 /// Hears of the searches.
-class Searches : public Tasks {
+class Searches : public StoredTasks<SearchData> {
  public:
-  Searches(const ProblemFile& file, const std::vector<Eigen::VectorXd>& starts,
-           const SolveOptions& options, const Execution& execution, const Observer& observer,
+  Searches(SearchData data, const Execution& execution, const Observer& observer,
            const Notice& notice)
-      : execution_(execution), observer_(observer), notice_(notice) {
-    work_.file = file;
-    work_.starts = starts;
-    work_.options = options;
-    work_.has_store = execution.store != nullptr;
-  }
+      : StoredTasks(std::move(data), execution.store),
+        jobs_(execution.tasks.jobs),
+        observer_(observer),
+        notice_(notice) {}
 
-  int count() const override { return static_cast<int>(work_.starts.size()); }
-
-  PackedWork packed_work() const override {
-    return {search_work_name, packed(work_.file, work_.starts, work_.options, work_.has_store)};
-  }
-
-  std::string run(int task, const std::string& needed, TaskCaller& caller) override {
-    return work_.run(task, needed, caller);
-  }
-
-  std::string reply(int /*task*/, const std::string& question) override {
-    return reply_of(*execution_.store, question);
-  }
+  int count() const override { return static_cast<int>(data().starts.size()); }
 
   void hear(int task, const std::string& message) override {
     announce(task);
@@ -178,13 +163,13 @@ class Searches : public Tasks {
 
   void take(int task, const std::string& answer) override {
     announce(task);
-    add(unpack_solution(answer, work_.file, execution_.tasks.jobs));
+    add(unpack_solution(answer, data().file, jobs_));
   }
 
   void fail(int task, const std::string& failure) override {
     announce(task);
     StagedSolution none;
-    none.problem = std::make_unique<DesignProblem>(work_.file);
+    none.problem = std::make_unique<DesignProblem>(data().file);
     none.result.status = Status::failed;
     none.result.message = fmt::format("the search from start {} was lost: {}", task + 1, failure);
     none.result.x = start(task);
@@ -197,14 +182,14 @@ class Searches : public Tasks {
   std::vector<StagedSolution> take_solutions() { return std::move(solutions_); }
 
  private:
-  const Eigen::VectorXd& start(int task) const { return work_.starts[task]; }
+  const Eigen::VectorXd& start(int task) const { return data().starts[task]; }
 
   /// What comes from here on is of this search.
   void announce(int task) {
     if (task < announced_) return;
     count_unfinished();
     announced_ = task + 1;
-    if (notice_) notice_(fmt::format("start {} of {}", task + 1, work_.starts.size()));
+    if (notice_) notice_(fmt::format("start {} of {}", task + 1, data().starts.size()));
   }
 
   /// After a stop, others are heard after a search that did not end.
@@ -224,8 +209,7 @@ class Searches : public Tasks {
     solutions_.push_back(std::move(solution));
   }
 
-  SearchWork work_;
-  const Execution& execution_;
+  int jobs_;
   const Observer& observer_;
   const Notice& notice_;
   std::vector<StagedSolution> solutions_;
@@ -254,9 +238,7 @@ std::vector<Eigen::VectorXd> starts_of(const ProblemFile& file, const Eigen::Vec
 }
 
 std::unique_ptr<TaskWork> make_search_work(const std::string& content) {
-  auto work = std::make_unique<SearchWork>();
-  unpack(content, work->file, work->starts, work->options, work->has_store);
-  return work;
+  return make_stored_work<SearchData>(content);
 }
 
 MultiStart combined(const std::vector<Eigen::VectorXd>& starts,
@@ -295,7 +277,7 @@ MultiStart solve_from_starts(const ProblemFile& file, const std::vector<Eigen::V
     solutions.push_back(
         solve_in_stages(file, starts.front(), options, execution, observer, notice));
   } else {
-    Searches searches(file, starts, options, execution, observer, notice);
+    Searches searches({file, starts, options}, execution, observer, notice);
     run_tasks(searches, execution.tasks);
     solutions = searches.take_solutions();
   }

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/base/packed.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/stopwatch.hpp"
-#include "core/base/tasks.hpp"
 #include "core/scene/packed_problem.hpp"
 #include "optimization/result.hpp"
 #include "optimization/scaling.hpp"
 #include "optimization/solve.hpp"
+#include "optimization/stored_tasks.hpp"
 
 namespace pleuel {
 
@@ -25,19 +24,18 @@ EvaluationRecord failed_record(const Eigen::VectorXd& x, const std::string& fail
 }
 
 /// Choices to be tried, one a task.
-class TrialWork : public TaskWork {
- public:
+struct TrialData {
+  static constexpr const char* kind = trial_work_name;
+
   ProblemFile file;
   std::vector<Eigen::VectorXd> designs;
   Eigen::VectorXd scales;
   SolveOptions options;
-  bool has_store = false;
 
-  std::string run(int task, const std::string& /*needed*/, TaskCaller& caller) override {
-    RemoteStore store(caller);
-    EvaluationStore* known = has_store ? &store : nullptr;
+  std::string run(int task, const std::string& /*needed*/, TaskCaller& /*caller*/,
+                  EvaluationStore* store) const {
     const Eigen::VectorXd& x = designs[task];
-    return packed(needs_optimization(file) ? optimized(x, known) : simulated(x, known));
+    return packed(needs_optimization(file) ? optimized(x, store) : simulated(x, store));
   }
 
  private:
@@ -77,47 +75,25 @@ class TrialWork : public TaskWork {
 };
 
 /// Hears of the trials.
-class Trials : public Tasks {
+class Trials : public StoredTasks<TrialData> {
  public:
-  Trials(const ProblemFile& file, const std::vector<Eigen::VectorXd>& designs,
-         const Eigen::VectorXd& scales, const SolveOptions& options, const Execution& execution)
-      : execution_(execution), trials_(designs.size()) {
-    work_.file = file;
-    work_.designs = designs;
-    work_.scales = scales;
-    work_.options = options;
-    work_.has_store = execution.store != nullptr;
-  }
+  Trials(TrialData data, EvaluationStore* store)
+      : StoredTasks(std::move(data), store), trials_(this->data().designs.size()) {}
 
   int count() const override { return static_cast<int>(trials_.size()); }
-
-  PackedWork packed_work() const override {
-    return {trial_work_name,
-            packed(work_.file, work_.designs, work_.scales, work_.options, work_.has_store)};
-  }
-
-  std::string run(int task, const std::string& needed, TaskCaller& caller) override {
-    return work_.run(task, needed, caller);
-  }
-
-  std::string reply(int /*task*/, const std::string& question) override {
-    return reply_of(*execution_.store, question);
-  }
 
   void take(int task, const std::string& answer) override {
     trials_[task] = unpacked<SizeTrial>(answer);
   }
 
   void fail(int task, const std::string& failure) override {
-    trials_[task].x = work_.designs[task];
-    trials_[task].history = {failed_record(work_.designs[task], failure)};
+    trials_[task].x = data().designs[task];
+    trials_[task].history = {failed_record(data().designs[task], failure)};
   }
 
   std::vector<SizeTrial> take_trials() { return std::move(trials_); }
 
  private:
-  TrialWork work_;
-  const Execution& execution_;
   std::vector<SizeTrial> trials_;
 };
 
@@ -150,15 +126,13 @@ std::vector<SizeTrial> try_sizes(const ProblemFile& file,
                                  const std::vector<Eigen::VectorXd>& designs,
                                  const Eigen::VectorXd& scales, const SolveOptions& options,
                                  const Execution& execution) {
-  Trials trials(file, designs, scales, options, execution);
+  Trials trials({file, designs, scales, options}, execution.store);
   run_tasks(trials, execution.tasks);
   return trials.take_trials();
 }
 
 std::unique_ptr<TaskWork> make_trial_work(const std::string& content) {
-  auto work = std::make_unique<TrialWork>();
-  unpack(content, work->file, work->designs, work->scales, work->options, work->has_store);
-  return work;
+  return make_stored_work<TrialData>(content);
 }
 
 }  // namespace pleuel
