@@ -1,7 +1,8 @@
 #include "core/scene/problem_reader.hpp"
 
-#include <optional>
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 #include "core/scene/reading/case_reader.hpp"
 #include "core/scene/reading/catalogue.hpp"
 #include "core/scene/reading/document_reader.hpp"
+#include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/shared_by_cases.hpp"
 #include "core/scene/reading/text_file.hpp"
 
@@ -24,14 +26,14 @@ ProblemFile read_expanded(Json document, const std::string& file, const UnitSyst
   return read_document(root, numbers);
 }
 
-std::optional<std::string> failure_of(const Json& document, const std::string& file,
-                                      const UnitSystem& units) {
+std::vector<std::string> mistakes_in(const Json& document, const std::string& file,
+                                     const UnitSystem& units) {
   try {
     read_expanded(document, file, units);
   } catch (const InputError& error) {
-    return error.what();
+    return mistakes_of(error);
   }
-  return std::nullopt;
+  return {};
 }
 
 /// What is wrong with a case only is told with its name.
@@ -42,8 +44,13 @@ ProblemFile read_case_problem(const Json& document, const CaseChanges& changes,
     return read_expanded(std::move(of_case), file, units);
   } catch (const InputError& error) {
     const Json without = document_of_case(document, CaseChanges(), file);
-    if (failure_of(without, file, units) == error.what()) throw;
-    throw InputError(fmt::format("{} (in the case \"{}\")", error.what(), changes.name));
+    const std::vector<std::string> shared = mistakes_in(without, file, units);
+    std::vector<std::string> mistakes = mistakes_of(error);
+    for (std::string& mistake : mistakes) {
+      const bool is_shared = std::find(shared.begin(), shared.end(), mistake) != shared.end();
+      if (!is_shared) mistake += fmt::format(" (in the case \"{}\")", changes.name);
+    }
+    fail_with(std::move(mistakes));
   }
 }
 

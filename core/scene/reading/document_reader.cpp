@@ -10,6 +10,7 @@
 #include "core/scene/reading/catalogue.hpp"
 #include "core/scene/reading/effects_reader.hpp"
 #include "core/scene/reading/goal_reader.hpp"
+#include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/override.hpp"
 #include "core/scene/reading/response_reader.hpp"
 #include "core/scene/reading/scene_check.hpp"
@@ -97,23 +98,31 @@ void count_mentioned(const JsonNode& root, NumberReader& numbers) {
   }
 }
 
-/// The variables come late: where they are used tells what they measure.
+/// The variables come late: where they are used tells what they measure. What follows from a part with
+/// mistakes is not read.
 ProblemFile read_document(const JsonNode& root, NumberReader& numbers) {
   ProblemFile problem;
-  read_heading(root, problem);
+  MistakeCollector mistakes;
+  mistakes.collect([&] { read_heading(root, problem); });
   numbers.declare(root);
   count_mentioned(root, numbers);
-  problem.scene = read_scene(root.at("scene"), numbers);
-  problem.simulation = read_simulation(root.at("simulation"), numbers);
+  mistakes.collect([&] { problem.scene = read_scene(root.at("scene"), numbers); });
+  mistakes.collect([&] { problem.simulation = read_simulation(root.at("simulation"), numbers); });
+  mistakes.fail_if_any();
   if (const auto responses = root.find("responses")) {
     problem.responses = read_responses(*responses, {problem.scene, problem.simulation, numbers});
   }
-  if (const auto objective = root.find("objective")) {
-    problem.objective = read_objective(*objective, problem.responses, numbers);
-  }
-  if (const auto constraints = root.find("constraints")) {
-    problem.constraints = read_constraints(*constraints, problem.responses, numbers);
-  }
+  mistakes.collect([&] {
+    if (const auto objective = root.find("objective")) {
+      problem.objective = read_objective(*objective, problem.responses, numbers);
+    }
+  });
+  mistakes.collect([&] {
+    if (const auto constraints = root.find("constraints")) {
+      problem.constraints = read_constraints(*constraints, problem.responses, numbers);
+    }
+  });
+  mistakes.fail_if_any();
   if (const auto variables = root.find("variables")) {
     problem.variables = read_variables(*variables, numbers);
   }

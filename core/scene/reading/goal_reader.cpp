@@ -9,6 +9,7 @@
 #include "core/scene/load_cases.hpp"
 #include "core/scene/reading/case_suffix.hpp"
 #include "core/scene/reading/expression_response_reader.hpp"
+#include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/response_quantity.hpp"
 
@@ -161,9 +162,9 @@ std::vector<ConstraintSettings> read_constraints(const JsonNode& node,
                                                  std::vector<ResponseSettings>& responses,
                                                  NumberReader& numbers) {
   std::vector<ConstraintSettings> constraints;
-  for (const auto& [name, constraint] : node.members()) {
+  read_each(node, [&](const std::string& name, const JsonNode& constraint) {
     constraints.push_back(read_constraint(name, constraint, responses, numbers));
-  }
+  });
   return constraints;
 }
 

@@ -8,6 +8,7 @@
 #include "core/scene/reading/expression_response_reader.hpp"
 #include "core/scene/reading/joint_type.hpp"
 #include "core/scene/reading/limits.hpp"
+#include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/response_kind.hpp"
 
@@ -275,15 +276,19 @@ ResponseSettings read_response(const std::string& name, const JsonNode& node,
 
 std::vector<ResponseSettings> read_responses(const JsonNode& node, const ResponseContext& context) {
   std::vector<ResponseSettings> responses;
-  for (const auto& [name, response] : node.members()) {
+  read_each(node, [&](const std::string& name, const JsonNode& response) {
     check_column(name, response);
     responses.push_back(read_response(name, response, context));
-  }
+  });
+  MistakeCollector mistakes;
   for (ResponseSettings& response : responses) {
     if (response.type != ResponseType::expression) continue;
-    response =
-        read_expression_response(response.name, node.at(response.name), responses, context.numbers);
+    mistakes.collect([&] {
+      response = read_expression_response(response.name, node.at(response.name), responses,
+                                          context.numbers);
+    });
   }
+  mistakes.fail_if_any();
   return responses;
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/scene/material_library.hpp"
 #include "core/scene/reading/keyed_numbers.hpp"
+#include "core/scene/reading/mistakes.hpp"
 
 namespace pleuel {
 namespace {
@@ -59,45 +60,66 @@ void add_library_materials(Scene& scene) {
 
 void read_bodies(const JsonNode& node, Scene& scene, NumberReader& numbers) {
   const std::vector<std::string> materials = material_names(scene);
-  for (const auto& [name, body] : node.members()) {
+  read_each(node, [&](const std::string& name, const JsonNode& body) {
     if (name == ground_name) body.fail("has the name that is kept for the ground");
     scene.bodies.push_back(read_body(name, body, materials, numbers));
-  }
+  });
   if (scene.bodies.empty()) node.fail("has no body");
   add_library_materials(scene);
 }
 
-void read_joints(const JsonNode& node, Scene& scene, NumberReader& numbers) {
-  std::vector<std::string> bodies = names_of(scene.bodies);
-  bodies.emplace_back(ground_name);
-  for (const auto& [name, joint] : node.members()) {
-    scene.joints.push_back(read_joint(name, joint, bodies, numbers));
+/// @param bodies  by whose names joints find them
+void read_joints(const JsonNode& node, const JsonNode& bodies, Scene& scene,
+                 NumberReader& numbers) {
+  std::vector<std::string> names;
+  for (const auto& member : bodies.members()) names.push_back(member.first);
+  names.emplace_back(ground_name);
+  read_each(node, [&](const std::string& name, const JsonNode& joint) {
+    scene.joints.push_back(read_joint(name, joint, names, numbers));
+  });
+}
+
+void read_materials(const JsonNode& node, Scene& scene, NumberReader& numbers) {
+  read_each(node, [&](const std::string& name, const JsonNode& material) {
+    scene.materials.push_back(read_material(name, material, numbers));
+  });
+}
+
+/// They look at bodies and joints.
+void read_loads(const JsonNode& node, Scene& scene, NumberReader& numbers) {
+  read_each(node, [&](const std::string& name, const JsonNode& load) {
+    scene.loads.push_back(read_load(name, load, scene, numbers));
+  });
+}
+
+void read_gravity(const JsonNode& node, Scene& scene, NumberReader& numbers) {
+  scene.gravity = numbers.triple(node, quantities::acceleration);
+  for (const Number& component : scene.gravity) {
+    if (component.is_bound()) node.fail("cannot be bound to a design variable");
   }
 }
 
 }  // namespace
 
 Scene read_scene(const JsonNode& node, NumberReader& numbers) {
-  node.allow_keys({"gravity", "catalogue", "materials", "bodies", "joints", "loads"});
   Scene scene;
-  if (const auto gravity = node.find("gravity")) {
-    scene.gravity = numbers.triple(*gravity, quantities::acceleration);
-    for (const Number& component : scene.gravity) {
-      if (component.is_bound()) gravity->fail("cannot be bound to a design variable");
-    }
-  }
-  if (const auto materials = node.find("materials")) {
-    for (const auto& [name, material] : materials->members()) {
-      scene.materials.push_back(read_material(name, material, numbers));
-    }
-  }
-  read_bodies(node.at("bodies"), scene, numbers);
-  if (const auto joints = node.find("joints")) read_joints(*joints, scene, numbers);
-  if (const auto loads = node.find("loads")) {
-    for (const auto& [name, load] : loads->members()) {
-      scene.loads.push_back(read_load(name, load, scene, numbers));
-    }
-  }
+  const auto read_with = [&](const char* key, const auto& read) {
+    if (const auto member = node.find(key)) read(*member, scene, numbers);
+  };
+  MistakeCollector mistakes;
+  mistakes.collect([&] {
+    node.allow_keys({"gravity", "catalogue", "materials", "bodies", "joints", "loads"});
+  });
+  mistakes.collect([&] { read_with("gravity", read_gravity); });
+  mistakes.collect([&] { read_with("materials", read_materials); });
+  mistakes.fail_if_any();
+  const JsonNode bodies = node.at("bodies");
+  mistakes.collect([&] { read_bodies(bodies, scene, numbers); });
+  mistakes.collect([&] {
+    if (const auto joints = node.find("joints")) read_joints(*joints, bodies, scene, numbers);
+  });
+  mistakes.fail_if_any();
+  read_with("loads", read_loads);
   return scene;
 }
 
