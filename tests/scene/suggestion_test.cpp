@@ -1,6 +1,16 @@
 #include "core/scene/reading/suggestion.hpp"
 
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include "core/scene/material_library.hpp"
+#include "core/scene/reading/other_names.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace pleuel::test::suggestion_test {
 namespace {
@@ -23,6 +33,31 @@ TEST(EditDistance, IsSymmetric) {
 TEST(Suggestion, IsTheNearestOfTheNearWords) {
   EXPECT_EQ(closest("diamter", {"type", "diameter", "outer_diameter"}), "diameter");
   EXPECT_EQ(closest("rod_2", {"rod_10", "rod_21", "crank"}), "rod_21");
+}
+
+TEST(Suggestion, IsWhatOthersCallSo) {
+  EXPECT_EQ(closest("E", {"young", "poisson", "density"}), "young");
+  EXPECT_EQ(closest("rho", {"young", "poisson", "density"}), "density");
+  EXPECT_EQ(closest("hinge", {"fixed", "prismatic", "revolute"}), "revolute");
+  EXPECT_EQ(closest("aluminum", {"steel", "aluminium-6082-T6"}), "aluminium-6082-T6");
+  EXPECT_EQ(closest("STEEL", {"steel", "pom"}), "steel");
+  EXPECT_EQ(closest("von_mises", {"mass", "stress"}), "stress");
+  EXPECT_EQ(closest("hinge", {"mass", "stress"}), "");
+  EXPECT_EQ(closest("yields", {"height", "width"}), "");
+}
+
+/// Names that other_names.hpp leads to are words of the schema or of the materials.
+TEST(Suggestion, LeadsToWordsThatThereAre) {
+  std::ifstream stream(source_folder() + "/problems/problem.schema.json");
+  const std::string schema{std::istreambuf_iterator<char>(stream), {}};
+  ASSERT_FALSE(schema.empty());
+  for (const auto& [other, name] : other_names) {
+    const bool is_material =
+        std::any_of(material_library().begin(), material_library().end(),
+                    [&](const Material& material) { return material.name.starts_with(name); });
+    const bool is_word = schema.find(fmt::format("\"{}\"", name)) != std::string::npos;
+    EXPECT_TRUE(is_material || is_word) << name;
+  }
 }
 
 TEST(Suggestion, IsAbsentForWordsThatHaveNothingInCommon) {

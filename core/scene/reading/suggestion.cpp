@@ -5,11 +5,43 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/reading/other_names.hpp"
+
 namespace pleuel {
 namespace {
 
 /// Words longer than this are not compared: nobody misspells a paragraph.
 constexpr std::size_t longest_word = 100;
+
+/// Small letters, and "-" between words.
+std::string plain(std::string_view word) {
+  std::string result(word);
+  for (char& letter : result) {
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+    if (letter == '_' || letter == ' ' || letter == '\'') letter = '-';
+  }
+  return result;
+}
+
+bool is_called(std::string_view candidate, std::string_view name) {
+  return candidate.starts_with(name) &&
+         (candidate.size() == name.size() || candidate[name.size()] == '-');
+}
+
+/// The known word that others call so, or an empty string.
+std::string by_other_name(std::string_view word, const std::vector<std::string>& known) {
+  const std::string sought = plain(word);
+  for (const std::string& candidate : known) {
+    if (plain(candidate) == sought) return candidate;
+  }
+  for (const auto& [other, name] : other_names) {
+    if (other != sought) continue;
+    for (const std::string& candidate : known) {
+      if (is_called(candidate, name)) return candidate;
+    }
+  }
+  return "";
+}
 
 }  // namespace
 
@@ -31,9 +63,10 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string closest(std::string_view word, const std::vector<std::string>& known) {
-  std::string best;
+  if (word.size() > longest_word) return "";
+  std::string best = by_other_name(word, known);
+  if (!best.empty()) return best;
   std::size_t best_distance = longest_word;
-  if (word.size() > longest_word) return best;
   for (const std::string& candidate : known) {
     const std::size_t length = std::max(word.size(), candidate.size());
     if (length > longest_word) continue;
