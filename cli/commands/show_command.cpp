@@ -140,8 +140,7 @@ Outcome run_show(const Arguments& arguments) {
   if (!page_template) return show_in_words(arguments, input);
   const fs::path page = arguments.output.value_or(free_page(arguments.file));
   if (fs::is_directory(page)) throw InputError(fmt::format("-o {}: is a folder", page.string()));
-  std::error_code error;  // shows when the file is written
-  if (page.has_parent_path()) fs::create_directories(page.parent_path(), error);
+  make_folder_of(page);
   Shown shown = describe(input.problem, input.design);
   const Json card = {{"command", "show"},
                      {"arguments", arguments.words},

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "cli/text/console.hpp"
+#include "core/base/error.hpp"
 
 namespace pleuel {
 
@@ -17,8 +18,20 @@ namespace fs = std::filesystem;
 
 void WriteFailures::note(const fs::path& path, const std::string& reason) {
   if (std::find(files_.begin(), files_.end(), path.string()) != files_.end()) return;
+  if (files_.empty()) reason_ = reason;
   files_.push_back(path.string());
+  if (is_silent_) return;
   show(stderr, fmt::format("pleuel: {} cannot be written: {}\n", path.string(), reason));
+}
+
+void make_folder_of(const fs::path& file) {
+  if (!file.has_parent_path()) return;
+  std::error_code error;
+  fs::create_directories(file.parent_path(), error);
+  if (error) {
+    throw InputError(
+        fmt::format("{}: cannot be created: {}", file.parent_path().string(), error.message()));
+  }
 }
 
 OutputFile::OutputFile(ResultFile file, const fs::path& draft) : file_(std::move(file)) {

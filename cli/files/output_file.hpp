@@ -9,15 +9,27 @@ namespace pleuel {
 /// Results that could not be written: a run goes on without them, and says so.
 class WriteFailures {
  public:
-  /// Also tells standard error, the first time for each file.
+  /// Also tells standard error, the first time for each file, unless silenced.
   void note(const std::filesystem::path& path, const std::string& reason);
 
   /// The files.
   const std::vector<std::string>& files() const { return files_; }
 
+  /// Of the first one.
+  const std::string& reason() const { return reason_; }
+
+  /// For those who tell it themselves.
+  void silence() { is_silent_ = true; }
+
  private:
   std::vector<std::string> files_;
+  std::string reason_;
+  bool is_silent_ = false;
 };
+
+/// Makes the folder that a file is to be written to, where it is not there.
+/// @throws InputError if it cannot be made
+void make_folder_of(const std::filesystem::path& file);
 
 /// Where a result is to be written, and who is to hear if it cannot be.
 struct ResultFile {

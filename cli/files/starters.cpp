@@ -32,10 +32,11 @@ void write_given_file(const fs::path& path, const std::string& text, const Argum
     if (fs::is_regular_file(path, error) && read_text_file(path) == text) return;
     throw InputError(fmt::format("{}: is there already; --overwrite replaces it", path.string()));
   }
-  if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
+  make_folder_of(path);
   WriteFailures failures;
-  write_file({path, &failures}, text);
-  if (!failures.files().empty()) throw InputError(path.string() + ": could not be written");
+  failures.silence();
+  if (write_file({path, &failures}, text)) return;
+  throw InputError(fmt::format("{}: cannot be written: {}", path.string(), failures.reason()));
 }
 
 }  // namespace pleuel

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -51,7 +52,8 @@ TEST(Suggestion, LeadsToWordsThatThereAre) {
   std::ifstream stream(source_folder() + "/problems/problem.schema.json");
   const std::string schema{std::istreambuf_iterator<char>(stream), {}};
   ASSERT_FALSE(schema.empty());
-  for (const auto& [other, name] : other_names) {
+  for (const auto& row : other_names) {
+    const std::string_view name = row.second;
     const bool is_material =
         std::any_of(material_library().begin(), material_library().end(),
                     [&](const Material& material) { return material.name.starts_with(name); });
