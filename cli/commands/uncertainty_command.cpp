@@ -206,7 +206,10 @@ UncertaintyStudy run_study(const ProblemFile& problem, const Arguments& argument
 }  // namespace
 
 Outcome run_uncertainty(const Arguments& arguments) {
-  const ProblemInput input = read_input_with_accuracy(arguments);
+  ProblemInput input = read_input_with_accuracy(arguments);
+  for (std::size_t i = 0; i < input.problem.variables.size(); ++i) {
+    input.problem.variables[i].start = input.design(i);  // that of --design, if there is one
+  }
   const ProblemFile& problem = input.problem;
   require_uncertainty(problem);
   RunRecord record(arguments, input, {{"jobs", arguments.jobs}});

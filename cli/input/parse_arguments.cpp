@@ -52,6 +52,7 @@ void add_uncertainty(CLI::App& app, Arguments& arguments) {
   CLI::App* uncertainty =
       add_file_command(app, arguments, "uncertainty",
                        "deviations and bounds of responses; Monte Carlo as the check");
+  add_design(uncertainty, arguments);
   add_output(uncertainty, arguments);
   add_resume(uncertainty, arguments);
   add_accuracy(uncertainty, arguments);

@@ -34,6 +34,20 @@ TEST(BadInput, WrongValueIsNamedByItsPointer) {
                    "/simulation/step");
 }
 
+TEST(BadInput, SeveralMistakesAreALineEach) {
+  const ProgramRun run =
+      run_program(TemporaryFolder().path(),
+                  {"simulate", problem("slider_crank"), "--set", "/scene/bodies/crank/elements=0",
+                   "--set", "/scene/bodies/rod/elements=0", "--set", "/simulation/step=-1"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, AllOf(StartsWith("pleuel: 3 mistakes:\n"),
+                             HasSubstr("\n" + problem("slider_crank") +
+                                       ": /scene/bodies/crank/elements must be "),
+                             HasSubstr(": /scene/bodies/rod/elements must be "),
+                             HasSubstr(": /simulation/step must be ")));
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 4);
+}
+
 TEST(BadInput, OverrideOfNothingIsRefused) {
   expect_complaint({"check", problem("slider_crank_round"), "--set", "/simulation/stp/x=1"}, "stp");
 }

@@ -89,6 +89,14 @@ TEST(New, ReplacesNoWorkWithoutBeingTold) {
   EXPECT_THAT(read_file(schema), HasSubstr("\"definitions\""));
 }
 
+TEST(New, SaysOnceWhyItCannotWrite) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "file") << "";
+  const ProgramRun run = run_program(folder.path(), {"new", "press", "file/mine.json"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_EQ(run.err, "pleuel: file: cannot be created: Not a directory\n");
+}
+
 TEST(New, NamesTheKindThatWasProbablyMeant) {
   const TemporaryFolder folder;
   const ProgramRun run = run_program(folder.path(), {"new", "fourbar", "mine.json"});

@@ -166,6 +166,26 @@ TEST(UncertaintyCommand, ReportsDeviationsAndWritesHistories) {
   EXPECT_GT(rows.size(), 10u);
 }
 
+/// d mass = ρ π/2 d l · 0.1 mm grows with the diameter.
+TEST(UncertaintyCommand, IsOfTheDesignThatIsGiven) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "thick.json")
+      << R"({"crank_diameter": "30 mm", "rod_diameter": "40 mm"})";
+  const std::string block =
+      R"(/uncertainty={"parameters": {"rod_diameter": {"deviation": "0.1 mm"}}, "samples": 2})";
+  const auto deviation = [&](const std::vector<std::string>& more) {
+    const ProgramRun run = run_program(
+        folder.path(), joined(joined({"uncertainty", problem("slider_crank_round"), "--json", "-o",
+                                      "study", "--overwrite", "--set", block},
+                                     quick()),
+                              more));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return run.document().at("responses").at("crank_and_rod").at("deviation").get<double>();
+  };
+  const double at_start = deviation({});  // 30 mm
+  EXPECT_NEAR(deviation({"--design", "thick.json"}), at_start * 40.0 / 30.0, 1e-9 * at_start);
+}
+
 TEST(UncertaintyCommand, AsksForItsSettings) {
   const TemporaryFolder folder;
   const ProgramRun run = run_program(folder.path(), {"uncertainty", problem("slider_crank_round")});
