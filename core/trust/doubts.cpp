@@ -17,6 +17,7 @@
 #include "core/trust/joint_turns.hpp"
 #include "core/trust/left_out_effects.hpp"
 #include "core/trust/misaligned_joints.hpp"
+#include "core/trust/other_side.hpp"
 #include "core/trust/proportions.hpp"
 #include "core/trust/resolution.hpp"
 #include "core/trust/shear_range.hpp"
@@ -55,13 +56,13 @@ Trust judge_run(const TrustedRun& run) {
     doubts.insert(doubts.end(), found.begin(), found.end());
   };
   for (const auto find : {
-           doubt_bending_range,     doubt_blocked_drives,   doubt_energy_balance,
-           doubt_extrapolation,     doubt_far_limits,       doubt_fast_laws,
-           doubt_frequencies,       doubt_idle_freedoms,    doubt_initial_motion,
-           doubt_joint_turns,       doubt_left_out_effects, doubt_lost_stiffening,
-           doubt_misaligned_joints, doubt_proportions,      doubt_shear_range,
-           doubt_sideways_buckling, doubt_sliding_contacts, doubt_unconnected_bodies,
-           doubt_unstable_members,
+           doubt_bending_range,      doubt_blocked_drives,    doubt_energy_balance,
+           doubt_extrapolation,      doubt_far_limits,        doubt_fast_laws,
+           doubt_frequencies,        doubt_idle_freedoms,     doubt_initial_motion,
+           doubt_joint_turns,        doubt_left_out_effects,  doubt_lost_stiffening,
+           doubt_misaligned_joints,  doubt_other_side,        doubt_proportions,
+           doubt_shear_range,        doubt_sideways_buckling, doubt_sliding_contacts,
+           doubt_unconnected_bodies, doubt_unstable_members,
        }) {
     add(find(run));
   }

@@ -1,0 +1,99 @@
+#include "core/trust/other_side.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/scene/shown_unit.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Its zero is its middle: what loads a part to one side loads it to the other.
+bool has_two_sides(ResponseType type) {
+  switch (type) {
+    case ResponseType::deflection:
+    case ResponseType::drive_torque:
+    case ResponseType::drive_force:
+    case ResponseType::reaction_force:
+    case ResponseType::reaction_moment:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool have_one_history(const ResponseSettings& one, const ResponseSettings& other) {
+  return one.type == other.type && one.bodies == other.bodies && one.at == other.at &&
+         one.place == other.place && one.chord == other.chord && one.against == other.against &&
+         one.direction == other.direction && one.joint == other.joint &&
+         one.coordinate == other.coordinate;
+}
+
+/// How far a limit lets a history go to one side, +1 or -1; infinity: any way.
+double reach_of(const ConstraintSettings& limit, const ResponseSettings& response, double side) {
+  constexpr double any_way = std::numeric_limits<double>::infinity();
+  const bool is_of_side = response.over_time == (side > 0.0 ? OverTime::max : OverTime::min) ||
+                          response.over_time == OverTime::max_abs;
+  if (!is_of_side) return any_way;
+  const bool has_signed_bound = response.over_time == OverTime::min;
+  const std::optional<double>& bound = has_signed_bound ? limit.lower : limit.upper;
+  return bound ? (has_signed_bound ? -*bound : *bound) : any_way;
+}
+
+/// The same of all limits on a history.
+double reach_of_all(const ProblemFile& problem, const ResponseSettings& response, double side) {
+  double reach = std::numeric_limits<double>::infinity();
+  for (const ConstraintSettings& limit : problem.constraints) {
+    for (const ResponseSettings& other : problem.responses) {
+      if (other.name != limit.response || !have_one_history(response, other)) continue;
+      reach = std::min(reach, reach_of(limit, other, side));
+    }
+  }
+  return reach;
+}
+
+/// The furthest that a history goes to one side, within the window of its response.
+double furthest(const TrustedRun& run, std::size_t response, double side) {
+  const ResponseSettings& settings = run.problem.responses[response];
+  const Eigen::VectorXd& time = run.analysis.trajectory.time;
+  const Eigen::MatrixXd& history = run.analysis.histories[response];
+  double far = 0.0;
+  for (Eigen::Index n = 0; n < history.cols(); ++n) {
+    const bool is_within =
+        time(n) >= settings.from.value_or(time(n)) && time(n) <= settings.to.value_or(time(n));
+    if (is_within) far = std::max(far, side * history(0, n));
+  }
+  return far;
+}
+
+}  // namespace
+
+std::vector<Doubt> doubt_other_side(const TrustedRun& run) {
+  std::vector<Doubt> doubts;
+  for (const ConstraintSettings& limit : run.problem.constraints) {
+    for (std::size_t i = 0; i < run.problem.responses.size(); ++i) {
+      const ResponseSettings& response = run.problem.responses[i];
+      if (response.name != limit.response || !has_two_sides(response.type)) continue;
+      if (response.over_time != OverTime::max && response.over_time != OverTime::min) continue;
+      const double side = response.over_time == OverTime::max ? 1.0 : -1.0;
+      const double reach = reach_of(limit, response, side);
+      const double beyond = furthest(run, i, -side);
+      const bool is_beyond = reach > 0.0 && beyond > reach;
+      if (!is_beyond || std::isfinite(reach_of_all(run.problem, response, -side))) continue;
+      const ShownUnit unit = unit_of(response);
+      doubts.push_back({fmt::format(
+          "the limit \"{}\" holds \"{}\" at {:.4g} {} to one side only, and it comes to {:.4g} {} "
+          "on the other one. Where both sides count: \"over_time\": \"max-abs\".",
+          limit.name, response.name, unit.shown(side * reach), unit.name,
+          unit.shown(-side * beyond), unit.name)});
+      doubts.back().responses = {response.name};
+    }
+  }
+  return doubts;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,73 @@
+#include "core/trust/other_side.hpp"
+
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/core/trust/doubts_of.hpp"
+
+namespace pleuel::test::other_side_test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+/// A cantilever with a force downwards at its tip.
+const std::string scene = R"({
+  "scene": {
+    "bodies": {"beam": {"type": "beam", "from": [0, 0, 0], "to": [0.3, 0, 0], "material": "steel",
+                        "section": {"type": "circle", "diameter": {"variable": "d"}}, "elements": 2}},
+    "joints": {"wall": {"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}},
+    "loads": {"tool": {"type": "force", "body": "beam", "at": [0.3, 0, 0], "direction": [0, -1, 0],
+                       "value": {"type": "constant", "value": "100 N"}}}
+  },
+  "simulation": {"end_time": 0.05, "step": 0.001},
+  "variables": {"d": {"start": "10 mm", "lower": "5 mm", "upper": "30 mm"}},
+  "responses": {
+    "mass": {"type": "mass"},
+    "sag": {"type": "deflection", "body": "beam", "at": 1, "direction": "y", "over_time": "max"},
+    "low": {"type": "deflection", "body": "beam", "at": 1, "direction": "y", "over_time": "min"},
+    "far": {"type": "deflection", "body": "beam", "at": 1, "direction": "y", "over_time": "max-abs"},
+    "height": {"type": "position", "body": "beam", "at": 1, "direction": "y", "over_time": "max"}
+  },
+  "objective": {"minimize": "mass"}
+})";
+
+std::vector<Doubt> doubts_with_limits(const std::string& limits) {
+  return doubts_of(read_scene(scene, {"/constraints=" + limits}), doubt_other_side);
+}
+
+TEST(OtherSide, IsNotLimitedByTheLargestValue) {
+  const auto doubts = doubts_with_limits(R"({"stiff": {"response": "sag", "upper": "1 mm"}})");
+  ASSERT_THAT(doubts, SizeIs(1));
+  EXPECT_THAT(doubts[0].text, HasSubstr("holds \"sag\" at 1 mm to one side only"));
+  EXPECT_THAT(doubts[0].text, HasSubstr("comes to -"));
+  EXPECT_FALSE(doubts[0].is_serious);
+}
+
+TEST(OtherSide, IsNoneWhereItIsLimitedToo) {
+  EXPECT_THAT(doubts_with_limits(R"({"stiff": {"response": "sag", "upper": "1 mm"},
+                                     "other": {"response": "low", "lower": "-20 mm"}})"),
+              IsEmpty());
+  EXPECT_THAT(doubts_with_limits(R"({"stiff": {"response": "sag", "upper": "1 mm"},
+                                     "other": {"response": "far", "upper": "20 mm"}})"),
+              IsEmpty());
+  EXPECT_THAT(doubts_with_limits(R"({"stiff": {"response": "far", "upper": "1 mm"}})"), IsEmpty());
+}
+
+TEST(OtherSide, IsNoneWhereTheMotionKeepsTheLimitThere) {
+  EXPECT_THAT(doubts_with_limits(R"({"stiff": {"response": "sag", "upper": "200 mm"}})"),
+              IsEmpty());
+  EXPECT_THAT(doubts_with_limits(R"({"stiff": {"response": "low", "lower": "-1 mm"}})"), IsEmpty());
+}
+
+/// Heights are from where the axes are.
+TEST(OtherSide, IsNoneOfPositions) {
+  EXPECT_THAT(doubts_with_limits(R"({"low": {"response": "height", "upper": "1 mm"}})"), IsEmpty());
+}
+
+}  // namespace
+}  // namespace pleuel::test::other_side_test
