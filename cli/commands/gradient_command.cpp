@@ -15,6 +15,7 @@
 #include "cli/reports/ties.hpp"
 #include "cli/reports/warnings.hpp"
 #include "cli/text/table.hpp"
+#include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/stopwatch.hpp"
@@ -232,7 +233,8 @@ std::string gradients_text(const ProblemFile& problem, const std::vector<MethodR
 
 std::string choice_text(const std::optional<MethodChoice>& choice) {
   if (!choice) return "";
-  return fmt::format("\nMethod: {} ({})\n", to_string(choice->method), choice->reason);
+  return wrapped(fmt::format("\nMethod: {} ({})\n", to_string(choice->method), choice->reason),
+                 "  ");
 }
 
 /// What it took that the trajectory does not fit into the memory.

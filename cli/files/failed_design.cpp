@@ -8,6 +8,7 @@
 #include "cli/files/command_text.hpp"
 #include "cli/files/history_csv.hpp"
 #include "cli/reports/scene_report.hpp"
+#include "cli/text/wrapped_text.hpp"
 
 namespace pleuel {
 
@@ -43,11 +44,11 @@ std::string failed_design_text(const RunRecord& record, const Arguments& argumen
   const auto last =
       std::find_if(history.rbegin(), history.rend(), std::mem_fn(&EvaluationRecord::has_failed));
   if (last == history.rend()) return "";
-  return fmt::format(
-      "{} of {} evaluations failed; the last such design is in {}, and this runs it again:\n"
-      "  {}\n",
-      count_failures(history), history.size(), (record.folder() / dossier_name).string(),
-      command_again(record, arguments, problem, *last));
+  const std::string sentence = fmt::format(
+      "{} of {} evaluations failed; the last such design is in {}, and this runs it again:\n",
+      count_failures(history), history.size(), (record.folder() / dossier_name).string());
+  return wrapped(sentence, "  ") +
+         fmt::format("  {}\n", command_again(record, arguments, problem, *last));
 }
 
 }  // namespace pleuel
