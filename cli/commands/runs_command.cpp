@@ -34,17 +34,17 @@ std::vector<OlderRun> runs_in(const fs::path& folder) {
 std::string table_text(const std::vector<OlderRun>& runs) {
   Table table({{"run", Table::Align::left},
                {"command", Table::Align::left},
-               {"problem", Table::Align::left},
                {"status", Table::Align::left},
                {"objective"},
                {"", Table::Align::left},
                {"time"},
-               {"date"}});
+               {"date"},
+               {"problem", Table::Align::left}});
   for (const OlderRun& run : runs) {
     const auto objective = run.objective(), seconds = run.seconds();
-    table.add_row({run.folder.filename().string(), run.command(), run.problem(), run.status(),
-                   objective ? significant(*objective) : "", run.objective_name(),
-                   seconds ? duration(*seconds) : "", run.date()});
+    table.add_row({run.folder.filename().string(), run.command(), run.status(),
+                   objective ? significant(*objective) : "", run.objective_unit(),
+                   seconds ? duration(*seconds) : "", run.date(), run.problem()});
   }
   return table.text();
 }
@@ -58,7 +58,7 @@ Json run_document(const OlderRun& run) {
   if (run.objective()) {
     document["objective"] = {{"name", run.result["objective"].value("name", "")},
                              {"value", *run.objective()},
-                             {"unit", run.result["objective"].value("unit", "")}};
+                             {"unit", run.objective_unit()}};
   }
   if (run.seconds()) document["seconds"] = *run.seconds();
   return document;

@@ -64,10 +64,8 @@ std::optional<double> OlderRun::objective() const {
   return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
 }
 
-std::string OlderRun::objective_name() const {
-  if (!objective()) return "";
-  const Json& objective = result["objective"];
-  return fmt::format("{} [{}]", objective.value("name", ""), objective.value("unit", ""));
+std::string OlderRun::objective_unit() const {
+  return objective() ? result["objective"].value("unit", "") : "";
 }
 
 std::optional<double> OlderRun::seconds() const {
