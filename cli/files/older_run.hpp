@@ -21,7 +21,7 @@ struct OlderRun {
   std::string status() const;
   /// Of the result, [SI]; none where it has no objective.
   std::optional<double> objective() const;
-  /// "mass [kg]"; empty likewise.
+  /// "kg"; empty likewise.
   std::string objective_unit() const;
   std::optional<double> seconds() const;  ///< wall time of the whole run
   /// Local time at which its card was written last: "2025-03-01 17:04".
