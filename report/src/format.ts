@@ -62,6 +62,15 @@ export function timeUnit(end: number): Unit {
   return end < 1 ? { si: "s", name: "ms", factor: 1e-3 } : { si: "s", name: "s", factor: 1 };
 }
 
+export function sentenceCase(text: string): string {
+  return text ? text[0].toUpperCase() + text.slice(1) : text;
+}
+
+/** With a capital, and a full stop unless it has an end already. */
+export function sentence(text: string): string {
+  return sentenceCase(text) + (!text || /[.!?…]$/.test(text) ? "" : ".");
+}
+
 /** Names of the file as words: "rod_bow" → "rod bow". */
 export function words(name: string): string {
   return name.replace(/_/g, " ");

@@ -2,12 +2,14 @@
 import { lineChart } from "../charts";
 import { type Companion, type Document, type Picture, parseCsv, type ReportData, type Shown, type Unit } from "../data";
 import { h, section, table } from "../dom";
-import { engineering, errorText, number, pair, percent, placeText, seconds, share, withUnit, words } from "../format";
+import { engineering, errorText, number, pair, percent, placeText, seconds, sentence, share, withUnit, words } from "../format";
+import { boundText } from "./bounds";
 import { influenceSection } from "./influence";
 import { addMarks, type Mark } from "../mechanism/marks";
-import { change, effectsSection, endName, fact, filesSection, monitorsText, responsesTable, sentenceCase, unitOf, unitOfLimit, verdict, warnings } from "./parts";
+import { change, effectsSection, endName, fact, filesSection, monitorsText, responsesTable, unitOf, unitOfLimit, verdict } from "./parts";
 import { conflictSection, partsNote, startsSection } from "./search";
 import { type Viewing, viewing } from "./viewing";
+import { warningsBox } from "./warnings";
 
 /** Shows another load case; of a limit also its instant. */
 type ChooseCase = (name: string, limit?: string) => void;
@@ -141,9 +143,9 @@ function headline(data: ReportData): HTMLElement {
             objective.error?.total ? h("span.soft", {}, ` ${errorText(objective.error, unit)}`) : null,
           )
         : null,
-      h("p.verdict", {}, verdict(result.status, result.choices), h("span", {}, ` ${sentenceCase(result.message ?? "")}.`)),
-      result.checked ? h("p.verdict", {}, h("b", {}, "In plain words: "), `${result.checked}.`) : null,
-      warnings(result),
+      h("p.verdict", {}, verdict(result.status, result.choices), h("span", {}, ` ${sentence(result.message ?? "")}`)),
+      result.checked ? h("p.verdict", {}, h("b", {}, "In plain words: "), sentence(result.checked)) : null,
+      warningsBox(result.warnings),
     ),
     h(
       "div.facts",
@@ -413,7 +415,7 @@ function variablesSection(data: ReportData): HTMLElement | null {
         const range = one.upper - one.lower || 1;
         const at = (x: number) => (100 * (x - one.lower)) / range;
         const [from, to] = [at(one.start), at(one.value)];
-        const bound = one.choice ? "" : one.upper === one.lower ? "fixed" : to < 0.01 ? "at its lower bound" : to > 99.99 ? "at its upper bound" : "";
+        const bound = one.choice ? "" : boundText(one.value, data.picture?.variables[name] ?? one);
         return h(
           "li",
           {},
@@ -479,6 +481,11 @@ function convergenceSection(data: ReportData): HTMLElement | null {
   );
 }
 
+function evidenceTitle(result: Document): string {
+  if (result.status === "verified") return "Why to believe it";
+  return result.objective?.value === undefined ? "What was tried" : "How far to believe it";
+}
+
 function evidenceSection(data: ReportData): HTMLElement | null {
   const { result } = data;
   const rows: (string | HTMLElement)[][] = [];
@@ -492,7 +499,7 @@ function evidenceSection(data: ReportData): HTMLElement | null {
   if (result.polished_with) add("polished with", result.polished_with, "refined the answer of the backend");
   const stages: Document[] = result.stages ?? [];
   return section(
-    "Why to believe it",
+    evidenceTitle(result),
     monitorsText(result),
     table([{ title: "evidence", left: true }, { title: "" }, { title: "what it says", left: true }], rows),
     h("h3", {}, "All responses"),

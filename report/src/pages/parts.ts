@@ -1,7 +1,7 @@
-// Parts that several pages have: headline, warnings, evidence, effects, files.
+// Parts that several pages have: headline, evidence, effects, files.
 import { curveOf, type Document, type Picture, type ReportData, type Unit } from "../data";
 import { details, download, h, section, table } from "../dom";
-import { count, engineering, errorText, number, percent, seconds, withUnit, words } from "../format";
+import { count, engineering, errorText, number, percent, seconds, sentence, withUnit, words } from "../format";
 
 const verdicts: Record<string, { text: string; tone: string }> = {
   verified: { text: "Verified local optimum", tone: "good" },
@@ -25,22 +25,6 @@ export function verdict(status: string, choices?: Document): HTMLElement {
 /** What the last design of an optimization is called. */
 export function endName(result: Document): string {
   return result.status === "verified" ? "optimum" : "end";
-}
-
-export function sentenceCase(text: string): string {
-  return text ? text[0].toUpperCase() + text.slice(1) : text;
-}
-
-export function warnings(result: Document): HTMLElement | null {
-  const list: string[] = result.warnings ?? [];
-  if (!list.length) return null;
-  return h(
-    "div.warnings",
-    { role: "note" },
-    list.length > 2
-      ? h("details", {}, h("summary", {}, `${list.length} warnings`), h("ul", {}, list.map((text) => h("li", {}, sentenceCase(text)))))
-      : list.map((text) => h("p", {}, h("b", {}, "Warning: "), sentenceCase(text))),
-  );
 }
 
 /** Units of responses; those that no picture tells, by their SI unit. */
@@ -224,7 +208,7 @@ function restText(effects: Document[], important: Document[], responses: Record<
   if (measured.length) parts.push(`${measured.length} further ${measured.length === 1 ? "effect changes" : "effects change"} nothing by more than ${number(100 * most, 2)} %`);
   if (built) parts.push(`${built} ${built === 1 ? "is" : "are"} built without question`);
   if (left) parts.push(`${left} ${left === 1 ? "is" : "are"} left out because ${left === 1 ? "it" : "they"} would change nothing`);
-  return parts.length ? `${sentenceCase(parts.join("; "))}.` : "";
+  return sentence(parts.join("; "));
 }
 
 /** Grams say more than thousandths of a kilogram. */
@@ -253,7 +237,7 @@ export function monitorsText(result: Document): string {
   if (monitors.elastic_rotation !== undefined) {
     parts.push(`elastic rotations are at most ${number((180 / Math.PI) * monitors.elastic_rotation, 2)}°`);
   }
-  return parts.length ? sentenceCase(parts.join("; ")) + "." : "";
+  return sentence(parts.join("; "));
 }
 
 export function filesSection(data: ReportData): HTMLElement {

@@ -1,8 +1,8 @@
 // How an optimization was searched: limits that contradict each other, several starts, several methods.
 import type { Document, ReportData } from "../data";
 import { h, section, table } from "../dom";
-import { engineering, number, roundedOutward, withUnit, words } from "../format";
-import { sentenceCase, unitOf as unitOfResponse, unitOfLimit } from "./parts";
+import { engineering, number, roundedOutward, sentence, withUnit, words } from "../format";
+import { unitOf as unitOfResponse, unitOfLimit } from "./parts";
 
 /** Of a problem that no design solves: what its limits would have to be. */
 export function conflictSection(data: ReportData): HTMLElement | null {
@@ -77,5 +77,5 @@ export function partsNote(result: Document): HTMLElement | null {
   const parts: Document[] = result.parts ?? [];
   if (parts.length < 2) return null;
   const text = parts.map((part) => `${part.method} (${part.evaluations} simulations: ${part.status})`).join(", then ");
-  return h("p.note", {}, `${sentenceCase(text)}.`);
+  return h("p.note", {}, sentence(text));
 }

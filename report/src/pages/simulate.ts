@@ -5,7 +5,8 @@ import { h, section, table } from "../dom";
 import { count, engineering, number, seconds, share, timeUnit, withUnit, words } from "../format";
 import { curveMeaning, limitsOn, profiles, signed } from "./inspector";
 import { type Viewing, viewing } from "./viewing";
-import { effectsSection, fact, filesSection, monitorsText, responsesTable, unitOfLimit, warnings, withoutRoundOff } from "./parts";
+import { effectsSection, fact, filesSection, monitorsText, responsesTable, unitOfLimit, withoutRoundOff } from "./parts";
+import { warningsBox } from "./warnings";
 
 export function simulatePage(data: ReportData): HTMLElement[] {
   const { picture, result } = data;
@@ -13,7 +14,7 @@ export function simulatePage(data: ReportData): HTMLElement[] {
     h(
       "section.hero",
       {},
-      h("div", {}, h("p.eyebrow", {}, "simulation"), h("h1", {}, picture?.name ?? ""), h("p.lead", {}, picture?.description ?? ""), limitsSentence(result), warnings(result)),
+      h("div", {}, h("p.eyebrow", {}, "simulation"), h("h1", {}, picture?.name ?? ""), h("p.lead", {}, picture?.description ?? ""), limitsSentence(result), warningsBox(result.warnings)),
       h(
         "div.facts",
         {},
@@ -141,7 +142,7 @@ export function showPage(data: ReportData): HTMLElement[] {
               }`,
             )
           : null,
-        warnings(result),
+        warningsBox(result.warnings),
       ),
       h(
         "div.facts",

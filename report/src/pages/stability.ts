@@ -5,6 +5,7 @@ import { count, number, seconds } from "../format";
 import { color, onTheme } from "../theme";
 import { fact, filesSection } from "./parts";
 import { hero } from "./studies";
+import { sharedWarnings } from "./warnings";
 
 interface Measure {
   key: string;
@@ -65,6 +66,18 @@ function heatMap(runs: Document[], files: string[], formulations: string[], meas
   );
 }
 
+/** "four bar: augmented, minimal; slider crank: all formulations" */
+function whose(concerned: Document[], runs: Document[], files: string[]): string {
+  const parts = files.flatMap((file) => {
+    const own = concerned.filter((run) => run.file === file);
+    if (!own.length) return [];
+    const isOfAll = own.length === runs.filter((run) => run.file === file && !run.failure).length;
+    const names = isOfAll ? "all formulations" : own.map((run) => run.formulation).join(", ");
+    return [files.length > 1 ? `${nameOf(file)}: ${names}` : names];
+  });
+  return parts.join("; ");
+}
+
 export function stabilityPage(data: ReportData): HTMLElement[] {
   const { result } = data;
   const runs: Document[] = result.runs ?? [];
@@ -87,7 +100,7 @@ export function stabilityPage(data: ReportData): HTMLElement[] {
     hero(data, failed.length ? `${failed.length} of ${runs.length} runs failed.` : `All ${runs.length} runs came to their ends.`, [
       fact(count(files.length), files.length === 1 ? "file" : "files"),
       fact(count(formulations.length), "formulations and schemes"),
-    ]),
+    ], [...sharedWarnings(runs)].map(([text, of]) => `${text} (${whose(of, runs, files)})`)),
     section("Formulations side by side", "", h("label.choice.bordered", {}, h("span.soft", {}, "measure"), select), note, place),
     failed.length
       ? section("What failed", "", table([{ title: "file", left: true }, { title: "formulation", left: true }, { title: "because", left: true }], failed.map((run) => [nameOf(run.file), run.formulation, run.failure])))

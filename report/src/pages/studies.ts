@@ -2,13 +2,17 @@
 import { lineChart, type Series } from "../charts";
 import { type Document, parseCsv, type Picture, type ReportData, type Unit } from "../data";
 import { h, section, table } from "../dom";
-import { engineering, number, timeUnit, withUnit, words } from "../format";
+import { engineering, number, sentence, sentenceCase, timeUnit, withUnit, words } from "../format";
 import { makePlayer } from "../mechanism/player";
-import { effectsSection, filesSection, responsesTable, sentenceCase, verdict, warnings } from "./parts";
+import { effectsSection, filesSection, responsesTable, verdict } from "./parts";
 import { profiles } from "./inspector";
+import { sharedWarnings, warningsBox } from "./warnings";
 
-/** What a study is of, its verdict and some facts. */
-export function hero(data: ReportData, lead: string, facts: HTMLElement[] = []): HTMLElement {
+/**
+ * What a study is of, its verdict and some facts.
+ * @param warnings  of the result, unless it has them run by run
+ */
+export function hero(data: ReportData, lead: string, facts: HTMLElement[] = [], warnings: string[] = data.result.warnings): HTMLElement {
   const { result, card, picture } = data;
   return h(
     "section.hero",
@@ -19,8 +23,8 @@ export function hero(data: ReportData, lead: string, facts: HTMLElement[] = []):
       h("p.eyebrow", {}, card.command),
       h("h1", {}, picture?.name ?? filesOf(card.inputs ?? [])),
       lead ? h("p.lead", {}, lead) : null,
-      result.status ? h("p.verdict", {}, verdict(result.status), result.message ? ` ${sentenceCase(result.message)}.` : "") : null,
-      warnings(result),
+      result.status ? h("p.verdict", {}, verdict(result.status), ` ${sentence(result.message ?? result.verdict ?? "")}`) : null,
+      warningsBox(warnings),
     ),
     facts.length ? h("div.facts", {}, facts) : null,
   );
@@ -56,7 +60,7 @@ export function paretoPage(data: ReportData): HTMLElement[] {
     }
     drawing.replaceChildren(
       h("h3", {}, `Point ${chosen.number}${chosen.point.knee ? ", the knee" : ""}: `, withUnit(chosen.point.objectives[objective], unit(objective)), h("span.soft", {}, ` at ${withUnit(chosen.point.objectives[limited], unit(limited))}`)),
-      h("p.note", {}, sentenceCase(chosen.point.message ?? "")),
+      h("p.note", {}, sentence(chosen.point.message ?? "")),
       ...(players.has(index) ? [players.get(index)!] : []),
     );
     players.get(index)?.dispatchEvent(new Event("shown"));
@@ -88,7 +92,7 @@ export function paretoPage(data: ReportData): HTMLElement[] {
   show(knee >= 0 ? knee : Math.floor(known.length / 2));
   const isPartly = result.status === "done" && verified < points.length;
   return [
-    hero({ ...data, result: { ...result, status: isPartly ? "partly" : result.status } }, `${words(objective ?? "")} against ${isOfResponses ? words(limited ?? "") : `the limit of ${words(result.constraint ?? "")}`}: ${verified} of ${points.length} points verified.`),
+    hero({ ...data, result: { ...result, status: isPartly ? "partly" : result.status } }, `${words(objective ?? "")} against ${isOfResponses ? words(limited ?? "") : `the limit of ${words(result.constraint ?? "")}`}: ${verified} of ${points.length} points verified.`, [], pointWarnings(points)),
     h("section.card.front", { "aria-label": "front" }, h("div", {}, h("p.note", {}, "Point at a mark to see its mechanism.", knee >= 0 ? ` The knee is point ${known[knee].number}: a further gain of either goal costs more of the other.` : ""), front.element), drawing),
     section(
       "Points",
@@ -109,6 +113,13 @@ export function paretoPage(data: ReportData): HTMLElement[] {
     ),
     filesSection(data),
   ];
+}
+
+function pointWarnings(points: Document[]): string[] {
+  return [...sharedWarnings(points)].map(([text, of]) => {
+    const numbers = of.map((point) => points.indexOf(point) + 1);
+    return `${text} (${numbers.length === 1 ? "point" : "points"} ${numbers.join(", ")})`;
+  });
 }
 
 /** A short line through each point: what the objective gains by more of the limit. */
