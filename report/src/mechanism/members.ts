@@ -222,58 +222,68 @@ export class BeamMember implements Member {
   }
 }
 
-/** A rigid body or a point mass: a block or ball at its centre of mass, and rods to its joints. */
+/** Joints that a body slides in: it is drawn as a block. */
+const guides = ["prismatic", "point-on-line", "cylindrical", "planar"];
+
+/** In the frame of a body: where joints and loads hold it. */
+function heldPoints(motion: Motion, body: number): Vector3[] {
+  const { joints, loads } = motion.design.geometry;
+  const places = [...joints, ...loads].flatMap((one) => one.places).filter((place) => place.body === body);
+  return places.map((place) => new Vector3(...(place.point ?? [0, 0, 0])));
+}
+
+/** In the frame of a body: where the joint that it slides in holds it, turned along that. */
+function guideOf(motion: Motion, body: number): { point: Vector3; turn: Quaternion } | null {
+  const { joints } = motion.design.geometry;
+  for (const [j, joint] of motion.scene.joints.entries()) {
+    const place = joints[j].places.find((one) => one.body === body);
+    if (!place || !guides.includes(joint.type)) continue;
+    const axis = new Vector3(...joint.axis).normalize().applyQuaternion(motion.startFrame(body).invert());
+    return { point: new Vector3(...(place.point ?? [0, 0, 0])), turn: new Quaternion().setFromUnitVectors(new Vector3(1, 0, 0), axis) };
+  }
+  return null;
+}
+
+/** A rigid body or a point mass: struts from its centre of mass to where it is held, a block where it slides. */
 export class LumpMember implements Member {
   readonly object = new Group();
-  private readonly lump: Mesh;
   private readonly edges: LineSegments | null = null;
-  private readonly rods: { mesh: Mesh; point: Vector3 }[] = [];
   private readonly material = new MeshLambertMaterial({ transparent: true });
-  private readonly turns: boolean;
 
   constructor(
     readonly body: number,
     motion: Motion,
     size: number,
   ) {
-    const scene = motion.scene;
-    const guide = scene.joints.find(
-      (joint, j) =>
-        ["prismatic", "point-on-line", "cylindrical", "planar"].includes(joint.type) &&
-        motion.design.geometry.joints[j].places.some((place) => place.body === body),
-    );
     const r = 0.028 * size;
-    this.turns = scene.bodies[body].type === "rigid";
-    if (guide || scene.bodies[body].type === "rigid") {
+    const points = heldPoints(motion, body).filter((point) => point.length() > 0.1 * r);
+    const guide = guideOf(motion, body);
+    const isBlock = guide !== null || (motion.scene.bodies[body].type === "rigid" && !points.length);
+    if (isBlock) {
       const box = new BoxGeometry(2.4 * r, 1.7 * r, 1.7 * r);
-      this.lump = new Mesh(box, this.material);
-      if (guide && scene.bodies[body].type === "point-mass") {
-        this.lump.quaternion.setFromUnitVectors(new Vector3(1, 0, 0), new Vector3(...guide.axis).normalize());
-      }
+      const block = new Mesh(box, this.material);
       this.edges = new LineSegments(new EdgesGeometry(box), new LineBasicMaterial({ transparent: true }));
-      this.lump.add(this.edges);
-    } else this.lump = new Mesh(new SphereGeometry(1.1 * r, 24, 16), this.material);
-    this.object.add(this.lump);
-    const { joints, loads } = motion.design.geometry;
-    for (const held of [...joints, ...loads]) {
-      for (const place of held.places) {
-        const point = new Vector3(...(place.point ?? [0, 0, 0]));
-        if (place.body !== body || point.length() < 2 * r) continue;
-        const rod = new Mesh(new CylinderGeometry(0.3 * r, 0.3 * r, 1, 12), this.material);
-        this.rods.push({ mesh: rod, point });
-        this.object.add(rod);
+      block.add(this.edges);
+      if (guide) {
+        block.position.copy(guide.point);
+        block.quaternion.copy(guide.turn);
       }
+      this.object.add(block);
+    }
+    if (!isBlock || points.length) {
+      this.object.add(new Mesh(new SphereGeometry(points.length ? 0.6 * r : 1.1 * r, 24, 16), this.material));
+    }
+    for (const point of points) {
+      const strut = new Mesh(new CylinderGeometry(0.3 * r, 0.3 * r, 1, 12), this.material);
+      placeBetween(strut, new Vector3(), point);
+      this.object.add(strut);
     }
     this.object.traverse((part) => (part.userData.body = body));
   }
 
   update(pose: BodyPose): void {
-    this.lump.position.copy(pose.origin);
-    if (this.turns) this.lump.quaternion.copy(pose.frames[0]);
-    for (const rod of this.rods) {
-      const end = rod.point.clone().applyQuaternion(pose.frames[0]).add(pose.origin);
-      placeBetween(rod.mesh, pose.origin, end);
-    }
+    this.object.position.copy(pose.origin);
+    this.object.quaternion.copy(pose.frames[0]);
   }
 
   setLook(look: Look, isSelected: boolean): void {

@@ -34,6 +34,9 @@ export interface Player {
 }
 
 const scales = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
+const largestDefault = 100;
+/** Of the mechanism, that deformation is enlarged to. */
+const shownDeformation = 0.05;
 const secondsOfLoop = 8;
 
 /** Largest stress that colours reach: the limit of the body, else its strength, else what it sees. */
@@ -83,11 +86,13 @@ export function makePlayer(options: PlayerOptions): Player {
   const slider = h("input", {
     type: "range", min: 0, max: 1000, step: 1, value: 0, "aria-label": "time",
   }) as HTMLInputElement;
+  const factor = h("p.note.on-paper", {}); // where there is no list to choose it from
   const playButton = h("button.play", { "aria-label": "play or stop (space)", title: "play or stop (space)" }, "▶");
 
   const show = () => {
     stage?.show(time, scale);
     slider.value = String(Math.round((1000 * time) / end));
+    factor.textContent = `deformation × ${scale}`;
     clock.textContent = `${seconds(time)} / ${seconds(end)}`;
     for (const listener of listeners) listener(time);
   };
@@ -134,7 +139,7 @@ export function makePlayer(options: PlayerOptions): Player {
 
   const element = h("div.player", {}, host);
   if (stage) {
-    host.append(overlay(stage));
+    stage.setToolbar(toolbar(stage));
     if (options.showsNames !== undefined) addNames(stage, options.showsNames);
   }
   if (isMoving) {
@@ -159,8 +164,8 @@ export function makePlayer(options: PlayerOptions): Player {
     );
   }
 
-  /** Buttons and the legend that lie over the drawing. */
-  function overlay(shown: Stage): HTMLElement {
+  /** Buttons that lie over the drawing. */
+  function toolbar(shown: Stage): HTMLElement {
     const corner = h("div.corner", {});
     if (picture.designs.length === 2 && isMoving) {
       const names = picture.designs.map((design) => design.name);
@@ -254,8 +259,9 @@ export function makePlayer(options: PlayerOptions): Player {
     });
   }
 
-  const legend = legendOf(picture, options.main, () => scale);
+  const legend = legendOf(picture, options.main);
   if (legend && stage) element.append(legend);
+  if (hasStress && stage) element.append(factor);
   show();
   if (isMoving && stage && !window.matchMedia("(prefers-reduced-motion: reduce)").matches) setPlaying(true);
   const stopTheme = onTheme(() => stage?.show(time, scale));
@@ -298,15 +304,15 @@ function speeds(end: number): string[][] {
   return [0.1, 0.25, 0.5, 1, 2].map((factor) => [String(factor), name(factor)]);
 }
 
-/** So that the largest deflection is some percent of the mechanism. */
+/** So that the largest deformation is seen and stands in proportion to the mechanism. */
 function usefulScale(stage: Stage): number {
   const largest = Math.max(...stage.motions.map((motion) => motion.largestDeviation()));
   if (!(largest > 0)) return 1;
-  const wanted = (0.035 * stage.view.size) / largest;
+  const wanted = Math.min((shownDeformation * stage.view.size) / largest, largestDefault);
   return scales.filter((s) => s <= wanted).pop() ?? 1;
 }
 
-function legendOf(picture: Picture, main: number, scale: () => number): HTMLElement | null {
+function legendOf(picture: Picture, main: number): HTMLElement | null {
   const limits = stressLimits(picture, main);
   const known = [...new Set(limits.filter((limit): limit is number => limit !== null))];
   if (!picture.designs[main].motion || !known.length) return null;
@@ -314,7 +320,6 @@ function legendOf(picture: Picture, main: number, scale: () => number): HTMLElem
   const isLimit = bodies.some((body, i) => limits[i] !== null && body.stress_limit);
   const last = known.length === 1 ? `${number(known[0] / 1e6, 3)} MPa` : "100 %";
   const what = isLimit ? "von Mises stress, up to its limit" : "von Mises stress, up to the strength of the material";
-  void scale;
   return h(
     "div.legend",
     {},

@@ -60,6 +60,12 @@ export class Motion {
     return point.applyQuaternion(pose.frames[0]).add(pose.origin);
   }
 
+  /** How the frame of a body stands at the start. */
+  startFrame(body: number): Quaternion {
+    const [x, y, z, w] = this.bodies[body].rotations;
+    return new Quaternion(x, y, z, w);
+  }
+
   /** The largest deviation of a member from its straight line over all instants [m]. */
   largestDeviation(): number {
     let largest = 0;

@@ -45,11 +45,11 @@ interface Box {
   height: number;
 }
 
-/** Where a label goes that wants to be at x, y: inside the drawing, beside those placed before. */
-function clearOf(taken: Box[], x: number, y: number, element: HTMLElement, width: number, height: number): [number, number] {
+/** Where a label goes that wants to be at x, y: inside the free area, beside those placed before. */
+function clearOf(taken: Box[], x: number, y: number, element: HTMLElement, free: Box): [number, number] {
   const own = { width: element.offsetWidth, height: element.offsetHeight };
-  const left = Math.max(4, Math.min(x, width - own.width - 10));
-  let top = Math.max(4, Math.min(y, height - own.height - 4));
+  const left = Math.max(4, Math.min(x, free.width - own.width - 10));
+  let top = Math.max(free.y + 4, Math.min(y, free.y + free.height - own.height - 4));
   const meets = (box: Box) => left < box.x + box.width && box.x < left + own.width && top < box.y + box.height && box.y < top + own.height;
   for (let tries = 0; tries < 12; tries++) {
     const box = taken.find(meets);
@@ -81,6 +81,7 @@ export class Stage {
   private poses: BodyPose[][] = [];
   private selected: number | null = null;
   private visible: boolean[];
+  private toolbar: HTMLElement | null = null;
   private isStressShown = true;
   private isDue = false;
   private isDisposed = false;
@@ -173,6 +174,14 @@ export class Stage {
     this.relook();
   }
 
+  /** Buttons along the upper edge: the mechanism is drawn below them. */
+  setToolbar(element: HTMLElement): void {
+    this.toolbar = element;
+    this.host.append(element);
+    this.sizes.observe(element);
+    this.resize();
+  }
+
   /** An HTML element that stays at a place of the drawing. */
   addLabel(element: HTMLElement, at: () => Vector3 | null, avoids = false): void {
     element.classList.add("pin-label");
@@ -218,6 +227,7 @@ export class Stage {
   private draw(): void {
     this.renderer.render(this.space, this.camera);
     const { clientWidth: width, clientHeight: height } = this.host;
+    const free = this.freeArea();
     const taken: Box[] = [];
     for (const label of this.labels) {
       const at = label.at();
@@ -226,7 +236,7 @@ export class Stage {
       const p = at.clone().project(this.camera);
       let x = Math.round(((p.x + 1) / 2) * width);
       let y = Math.round(((1 - p.y) / 2) * height);
-      if (label.avoids) [x, y] = clearOf(taken, x, y, label.element, width, height);
+      if (label.avoids) [x, y] = clearOf(taken, x, y, label.element, free);
       label.element.style.transform = `translate(${x}px, ${y}px)`;
     }
   }
@@ -379,13 +389,20 @@ export class Stage {
     });
   }
 
+  /** Of the host, what no button lies over [px]. */
+  private freeArea(): Box {
+    const { clientWidth: width, clientHeight: height } = this.host;
+    const top = this.toolbar ? this.toolbar.offsetTop + this.toolbar.offsetHeight : 0;
+    return { x: 0, y: top, width, height: Math.max(height - top, 1) };
+  }
+
   private resize(): void {
     const width = this.host.clientWidth;
     const height = this.host.clientHeight;
     if (!width || !height) return;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.renderer.setSize(width, height);
-    // What all motions reach fills the picture, with a margin for symbols and names.
+    // What all motions reach fills the free area, with a margin for symbols and names.
     this.camera.updateMatrixWorld();
     const right = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 0);
     const upwards = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 1);
@@ -400,11 +417,12 @@ export class Stage {
     }
     const margin = (this.options.showsAxes ? 0.16 : 0.085) * this.view.size;
     const [middleX, middleY] = [0, 1].map((i) => (low[i] + high[i]) / 2);
-    const half = Math.max((high[1] - low[1]) / 2 + margin, (((high[0] - low[0]) / 2 + margin) * height) / width);
-    this.camera.top = middleY + half;
-    this.camera.bottom = middleY - half;
-    this.camera.right = middleX + (half * width) / height;
-    this.camera.left = middleX - (half * width) / height;
+    const free = this.freeArea();
+    const perPixel = Math.max(((high[1] - low[1]) + 2 * margin) / free.height, ((high[0] - low[0]) + 2 * margin) / width);
+    this.camera.top = middleY + perPixel * (free.height / 2 + free.y);
+    this.camera.bottom = middleY - (perPixel * free.height) / 2;
+    this.camera.right = middleX + (perPixel * width) / 2;
+    this.camera.left = middleX - (perPixel * width) / 2;
     this.camera.near = 0.01 * this.view.size;
     this.camera.far = 12 * this.view.size;
     this.camera.updateProjectionMatrix();

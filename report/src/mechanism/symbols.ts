@@ -210,7 +210,6 @@ export function jointSymbol(motion: Motion, j: number, view: View): Symbol3 {
 
   const turned = new Quaternion();
   const own = front.quaternion.clone();
-  const startFrames = motion.bodies.map((body) => new Quaternion(...(body.rotations.slice(0, 4) as unknown as [number, number, number, number])));
   return {
     object,
     update(_time, poses) {
@@ -220,7 +219,7 @@ export function jointSymbol(motion: Motion, j: number, view: View): Symbol3 {
       front.position.copy(isSlider ? at : first);
       const carrier = axisBody(motion, j);
       if (carrier >= 0 && !view.isPlanar) {
-        turned.copy(poses[carrier].frames[0]).multiply(startFrames[carrier].clone().invert());
+        turned.copy(poses[carrier].frames[0]).multiply(motion.startFrame(carrier).invert());
         front.quaternion.copy(turned).multiply(own);
       }
       if (second) {
@@ -288,12 +287,10 @@ export function loadSymbol(motion: Motion, l: number, view: View): Symbol3 | nul
   const shareAt = (time: number) => (!value ? 0.7 : largest > 0 ? valueAt(value, time) / largest : 0);
   const direction = new Vector3(...load.direction);
   const place = geometry.places[0];
-  const body = motion.bodies[place.body];
-  const startFrame = body ? new Quaternion(body.rotations[0], body.rotations[1], body.rotations[2], body.rotations[3]) : null;
   const along = (poses: BodyPose[]) => {
     const d = direction.clone();
-    if (load.follows_body && startFrame) {
-      d.applyQuaternion(startFrame.clone().invert()).applyQuaternion(poses[place.body].frames[0]);
+    if (load.follows_body && place.body >= 0) {
+      d.applyQuaternion(motion.startFrame(place.body).invert()).applyQuaternion(poses[place.body].frames[0]);
     }
     return d;
   };
