@@ -68,7 +68,11 @@ export interface Chart {
 const mostEagerCharts = 40;
 let charts = 0;
 
-function axis(options: ChartOptions, which: "x" | "y") {
+/** By its name: the place that labels need is measured with it. */
+const fontFamily = () => getComputedStyle(document.documentElement).fontFamily;
+
+/** @param range  of a vertical axis: its end has a number if that is a whole one of its steps */
+function axis(options: ChartOptions, which: "x" | "y", range: AxisRange = {}) {
   const isLog = which === "x" ? options.logX : options.logY;
   const line = color("line");
   return {
@@ -86,8 +90,9 @@ function axis(options: ChartOptions, which: "x" | "y") {
     axisLabel: {
       color: color("soft"),
       fontSize: 11,
+      fontFamily: fontFamily(),
       hideOverlap: true,
-      showMaxLabel: isLog ? true : false,
+      showMaxLabel: isLog || isWhole(range),
       formatter: (value: number) => number(isLog ? 10 ** value : value, isLog ? 1 : 6).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, ""),
     },
     splitNumber: 4,
@@ -189,7 +194,6 @@ function bandOption(s: Series) {
   };
 }
 
-/** Whether a mark is at the lower side of the curves. */
 /** Where a value stands between the first and the last of all curves, 0 … 1. */
 function placeAcross(options: ChartOptions, x: number): number {
   let [first, last] = [Infinity, -Infinity];
@@ -197,6 +201,7 @@ function placeAcross(options: ChartOptions, x: number): number {
   return last > first ? (x - first) / (last - first) : 0.5;
 }
 
+/** Whether a mark is at the lower side of the curves. */
 function isLow(options: ChartOptions, y: number): boolean {
   let [low, high] = [Infinity, -Infinity];
   for (const s of options.series) for (const one of s.y) if (one !== null) [low, high] = [Math.min(low, one), Math.max(high, one)];
@@ -231,7 +236,18 @@ function pointOf(options: ChartOptions, x: number, y: number | null): [number | 
   return [along(x, options.logX), along(y, options.logY)];
 }
 
-function rangeOf(options: ChartOptions): { min?: number; max?: number; interval?: number } {
+interface AxisRange {
+  min?: number;
+  max?: number;
+  interval?: number;
+}
+
+function isWhole({ max, interval }: AxisRange): boolean {
+  if (max === undefined || !interval) return false;
+  return Math.abs(max / interval - Math.round(max / interval)) < 1e-6;
+}
+
+function rangeOf(options: ChartOptions): AxisRange {
   // A limit that nothing comes near would flatten the curves: it is drawn within twice their range.
   if (options.logY) return logRange(options.series.flatMap((s) => s.y));
   let [low, high] = [Infinity, -Infinity];
@@ -282,38 +298,56 @@ function tooltip(options: ChartOptions) {
   };
 }
 
-const legendHeight = 30;
+const legendHeight = 30; // of its first row
+const legendRowHeight = 26;
+const legendPadding = 5;
+const legendStyle = { left: 0, padding: legendPadding, itemWidth: 16, itemHeight: 8, itemGap: 14, icon: "roundRect" };
 const axisHeight = 42;
 
 function hasLegend(options: ChartOptions): boolean {
   return options.legend ?? options.series.length > 1;
 }
 
-function optionOf(options: ChartOptions): echarts.EChartsCoreOption {
-  const isNamed = hasLegend(options);
+const legendRoom = (width: number) => width - 2 * legendPadding;
+
+/** What the names of curves need beyond their first row. */
+function furtherRows(options: ChartOptions, width: number): number {
+  if (!hasLegend(options)) return 0;
+  const { itemWidth, itemGap } = legendStyle;
+  const beforeName = 5; // as the library has it
+  let [rows, used] = [0, 0];
+  for (const s of options.series) {
+    const own = itemWidth + beforeName + echarts.format.getTextRect(s.name, `11px ${fontFamily()}`).width;
+    if (used > 0 && used + own > legendRoom(width)) [rows, used] = [rows + 1, 0];
+    used += own + itemGap;
+  }
+  return rows * legendRowHeight;
+}
+
+/** Above the curves: the legend, or some room for numbers. */
+function topOf(options: ChartOptions, width: number): number {
+  return hasLegend(options) ? legendHeight + furtherRows(options, width) : 12;
+}
+
+function optionOf(options: ChartOptions, width: number): echarts.EChartsCoreOption {
   const range = rangeOf(options);
   return {
     animation: false,
-    // By its name: widths of texts are measured with it.
-    textStyle: { fontFamily: getComputedStyle(document.documentElement).fontFamily },
+    textStyle: { fontFamily: fontFamily() },
     aria: { enabled: true },
-    grid: { left: 6, right: 14, top: isNamed ? legendHeight : 12, bottom: 26, containLabel: true },
-    legend: isNamed
+    grid: { left: 6, right: 14, top: topOf(options, width), bottom: 26, containLabel: true },
+    legend: hasLegend(options)
       ? {
+          ...legendStyle,
           top: 0,
-          left: 0,
-          itemWidth: 16,
-          itemHeight: 8,
-          itemGap: 14,
-          type: "scroll" as const,
-          icon: "roundRect",
+          width: legendRoom(width),
           textStyle: { color: color("soft"), fontSize: 11 },
           data: options.series.map((s) => s.name),
         }
       : undefined,
     tooltip: tooltip(options),
     xAxis: { ...axis(options, "x"), ...(options.logX ? logRange(options.series.flatMap((s) => s.x)) : {}) },
-    yAxis: { ...axis(options, "y"), ...range },
+    yAxis: { ...axis(options, "y", range), ...range },
     dataZoom: [{ type: "inside", zoomOnMouseWheel: "ctrl", moveOnMouseMove: false }],
     series: [
       ...options.series.map((s, i) => seriesOption(options, s, i)),
@@ -355,9 +389,10 @@ function savePng(element: HTMLElement, name: string): void {
 }
 
 export function lineChart(options: ChartOptions): Chart {
-  const plot = h("div.plot", { style: `height:${options.height ?? 190}px` });
+  const height = options.height ?? 190;
+  const plot = h("div.plot", { style: `height:${height}px` });
   // Between the legend and the numbers of the axis.
-  const cursor = h("div.cursor", { hidden: true, style: `top:${hasLegend(options) ? legendHeight : 12}px;bottom:${axisHeight}px` });
+  const cursor = h("div.cursor", { hidden: true, style: `bottom:${axisHeight}px` });
   const file = options.title.replace(/[^A-Za-z0-9]+/g, "-").toLowerCase();
   const element = h(
     "figure.chart",
@@ -387,9 +422,17 @@ export function lineChart(options: ChartOptions): Chart {
     cursor.hidden = !Number.isFinite(pixel);
     cursor.style.transform = `translateX(${pixel}px)`;
   };
-  const draw = () => chart?.setOption(optionOf(options), true);
+  let width = 0;
+  const draw = () => chart?.setOption(optionOf(options, width), true);
+  /** Names of curves that need more rows make the chart higher. */
+  const fit = () => {
+    width = plot.clientWidth;
+    plot.style.height = `${height + furtherRows(options, width)}px`;
+    cursor.style.top = `${topOf(options, width)}px`;
+  };
   const begin = () => {
     if (chart || !plot.clientWidth) return;
+    fit();
     chart = echarts.init(plot, undefined, { renderer: "svg" });
     draw();
     // eslint-disable-next-line @typescript-eslint/no-explicit-any
@@ -404,7 +447,11 @@ export function lineChart(options: ChartOptions): Chart {
   new ResizeObserver(() => {
     if (!plot.clientWidth) return;
     if (!chart && isEager) begin();
-    else chart?.resize();
+    else if (chart && width !== plot.clientWidth) {
+      fit();
+      chart.resize();
+      draw();
+    }
     placeCursor();
   }).observe(plot);
   if (!isEager) {

@@ -66,9 +66,12 @@ export function sentenceCase(text: string): string {
   return text ? text[0].toUpperCase() + text.slice(1) : text;
 }
 
+/** An end of a sentence, also before a remark in brackets. */
+const sentenceEnd = /[.!?…]( \([^()]*\))?$/;
+
 /** With a capital, and a full stop unless it has an end already. */
 export function sentence(text: string): string {
-  return sentenceCase(text) + (!text || /[.!?…]$/.test(text) ? "" : ".");
+  return sentenceCase(text) + (!text || sentenceEnd.test(text) ? "" : ".");
 }
 
 /** Names of the file as words: "rod_bow" → "rod bow". */

@@ -96,9 +96,9 @@ function caseChoice(data: ReportData, choose: ChooseCase): HTMLElement {
   select.addEventListener("change", () => choose(select.value));
   const sentence =
     deciding.length === 1
-      ? `${words(deciding[0])} decides it.`
+      ? `The case ${words(deciding[0])} decides it.`
       : deciding.length
-        ? `${deciding.slice(0, -1).map(words).join(", ")} and ${words(deciding[deciding.length - 1])} decide it together.`
+        ? `The cases ${deciding.slice(0, -1).map(words).join(", ")} and ${words(deciding[deciding.length - 1])} decide it together.`
         : "";
   return h(
     "div.case-choice",
@@ -494,7 +494,7 @@ function evidenceSection(data: ReportData): HTMLElement | null {
   if (result.max_violation !== undefined) add("violation", number(result.max_violation, 2), "of the true limits, relative");
   if (result.gradients) add("gradients", result.gradients.method, `because of ${result.gradients.reason}`);
   if (result.evaluations !== undefined) {
-    add("simulations", String(result.evaluations), `${result.gradient_evaluations} of them with gradients, ${result.failed_evaluations} failed, ${result.restarts} restarts`);
+    add("simulations", String(result.evaluations), `${result.gradient_evaluations} of them with gradients, ${result.failed_evaluations} failed, ${result.restarts} restart${result.restarts === 1 ? "" : "s"}`);
   }
   if (result.polished_with) add("polished with", result.polished_with, "refined the answer of the backend");
   const stages: Document[] = result.stages ?? [];

@@ -1,7 +1,7 @@
 // What the optimum would gain by each number of the file.
 import type { Document, ReportData, Unit } from "../data";
 import { h, section } from "../dom";
-import { count, engineering, number, percent, sentence, withUnit, words } from "../format";
+import { count, engineering, number, sentence, withUnit, words } from "../format";
 import { filesSection, unitOf } from "./parts";
 import { hero } from "./studies";
 
@@ -14,8 +14,8 @@ function inBrackets(unit: string): string {
   return /[/ ]/.test(unit) ? `(${unit})` : unit;
 }
 
-function signedNumber(value: number): string {
-  return `${value > 0 ? "+" : ""}${number(value, 3)}`;
+function signedNumber(value: number, digits = 3): string {
+  return `${value > 0 ? "+" : ""}${number(value, digits)}`;
 }
 
 /** "rod › to › x (+2) *" */
@@ -34,8 +34,8 @@ function barOf(price: Price, goal: Unit, gain: number, largest: number): HTMLEle
     {},
     h("span.bar-name", {}, nameOf(price)),
     h("span.bar-numbers", {}, withUnit(one.value, unit), h("span.soft", {}, ` · ${perUnit} ${goal.name}/${inBrackets(unit.name)}`)),
-    h("span.bar-track", {}, h(gain < 0 ? "span.bar.is-less" : "span.bar.is-more", { style: `width:${(100 * Math.abs(gain)) / largest}%` })),
-    h("span.bar-value", {}, one.value === 0 ? "–" : percent(gain, 2)),
+    h("span.bar-track", {}, gain === 0 ? null : h(gain < 0 ? "span.bar.is-less" : "span.bar.is-more", { style: `width:${(100 * Math.abs(gain)) / largest}%` })),
+    h("span.bar-value", {}, one.value === 0 ? "–" : `${signedNumber(100 * gain, 2)} %`),
   );
 }
 
@@ -50,6 +50,14 @@ function notes(priced: Price[], all: number): string[] {
   return list.map(sentence);
 }
 
+/** With the verdict on the optimum that prices are of, unless they are prices of none. */
+function withVerdict(data: ReportData): ReportData {
+  const { result } = data;
+  const [, status, message] = /^(\w+): (.*)$/s.exec(result.verdict ?? "") ?? [];
+  if (!status) return data;
+  return { ...data, result: { ...result, ...(result.status === "done" ? { status, message } : { message: result.verdict }) } };
+}
+
 export function pricesPage(data: ReportData): HTMLElement[] {
   const { result } = data;
   const value = result.objective?.value || 1;
@@ -60,7 +68,7 @@ export function pricesPage(data: ReportData): HTMLElement[] {
   const shown = priced.slice(0, most);
   const largest = Math.max(...shown.map((one) => Math.abs(gainOf(one))), 1e-12);
   return [
-    hero(data, `What one percent more of each number changes of ${words(result.objective?.name ?? "")} (${withUnit(value, goal)}), the design optimal again; behind each number the price of one unit of it.`),
+    hero(withVerdict(data), `What one percent more of each number changes of ${words(result.objective?.name ?? "")} (${withUnit(value, goal)}), the design optimal again; behind each number the price of one unit of it.`),
     section(
       "Prices",
       "",

@@ -1,7 +1,7 @@
 // How an optimization was searched: limits that contradict each other, several starts, several methods.
 import type { Document, ReportData } from "../data";
 import { h, section, table } from "../dom";
-import { engineering, number, roundedOutward, sentence, withUnit, words } from "../format";
+import { engineering, number, roundedOutward, withUnit, words } from "../format";
 import { unitOf as unitOfResponse, unitOfLimit } from "./parts";
 
 /** Of a problem that no design solves: what its limits would have to be. */
@@ -77,5 +77,5 @@ export function partsNote(result: Document): HTMLElement | null {
   const parts: Document[] = result.parts ?? [];
   if (parts.length < 2) return null;
   const text = parts.map((part) => `${part.method} (${part.evaluations} simulations: ${part.status})`).join(", then ");
-  return h("p.note", {}, sentence(text));
+  return h("p.note", {}, `Searched with ${text}.`);
 }
