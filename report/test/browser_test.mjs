@@ -35,7 +35,7 @@ const runs = {
   pareto: ["pareto", problem("slider_crank"), ...quick, "--set", "/pareto/points=3"],
   gradient: ["gradient", problem("slider_crank_round"), ...quick, "--histories", "--compare"],
   check: ["check", problem("slider_crank_round"), ...quick],
-  stability: ["stability", problem("four_bar"), "--set", "/simulation/end_time=50 ms"],
+  stability: ["stability", problem("four_bar"), problem("slider_crank_round"), "--set", "/simulation/end_time=50 ms"],
   uncertainty: ["uncertainty", problem("slider_crank"), ...quick, "--set", "/uncertainty/samples=8"],
   accuracy: ["accuracy", problem("slider_crank_round"), ...quick, "--set", "/accuracy/steps=[\"0.4 ms\", \"0.2 ms\"]", "--set", "/accuracy/elements=[1, 2]"],
 };
@@ -53,18 +53,30 @@ Object.assign(runs, {
   prices: ["prices", problem("slider_crank_round"), ...quicker],
   front: ["pareto", problem("slider_crank_round"), ...quicker, "--set", '/pareto={"responses": ["crank_and_rod", "rod_bow"], "points": 4}'],
 });
+// What novices meet: a search that fails at its start, a wrong unit, bounds far away, stiff and rigid members.
+Object.assign(runs, {
+  failed: ["optimize", problem("hard/impossible_designs"), "--set", "/variables/crank_length/start=140 mm", "--set", "/variables/crank_length/lower=120 mm"],
+  units: ["optimize", problem("slider_crank_round"), ...quicker, "--set", "/scene/materials/steel/density=7.85 kg/m^3"],
+  bounds: ["optimize", problem("slider_crank_round"), ...quicker, "--set", "/variables/rod_diameter/upper=100 m"],
+  stars: ["prices", problem("robot_arm"), "--set", "/simulation/step=2 ms"],
+  stiff: ["simulate", problem("hard/stiff_rod")],
+  rigid: ["simulate", problem("hard/squeezer")],
+  sliding: ["simulate", problem("spatial_slider_crank")],
+});
 const pageOf = (name) => join(folder, name === "show" ? "show.html" : `${name}/report.html`);
 
 let browser;
+const terminal = {}; // what each run said
 
 before(async () => {
   mkdirSync(shots, { recursive: true });
   for (const [name, words] of Object.entries(runs)) {
     const words_ = [...words, "-o", join(folder, name)];
     try {
-      execFileSync(program, words_, { stdio: "pipe" });
+      terminal[name] = execFileSync(program, words_, { stdio: "pipe", encoding: "utf8" });
     } catch (error) {
-      if (error.status !== 4) throw error; // ended without a verified optimum: a page all the same
+      if (![3, 4].includes(error.status)) throw error; // ended without an optimum: a page all the same
+      terminal[name] = error.stdout;
     }
   }
   execFileSync(program, ["show", problem("robot_arm"), "-o", pageOf("show")], { stdio: "pipe" });
@@ -120,9 +132,25 @@ for (const name of [...Object.keys(runs), "show"]) {
       await tab.screenshot({ path: join(shots, `${name}-${width}-${scheme}.png`), fullPage: true });
       assert.deepEqual(complaints, []);
       assert.deepEqual(await barriers(tab), []);
+      assert.deepEqual(await cutTexts(tab), [], `${width} px`);
+      assert.doesNotMatch(await tab.locator("body").innerText(), /\.\.(?!\.)/, "two full stops");
       await tab.close();
     }
   });
+}
+
+/** Texts of charts that are partly beyond their edges. */
+async function cutTexts(tab) {
+  return tab.evaluate(() =>
+    [...document.querySelectorAll(".plot svg")].flatMap((svg) => {
+      const box = svg.getBoundingClientRect();
+      const isCut = (text) => {
+        const { left, right, top, bottom, width } = text.getBoundingClientRect();
+        return width > 0 && Math.max(box.left - left, right - box.right, box.top - top, bottom - box.bottom) > 1;
+      };
+      return [...svg.querySelectorAll("text")].filter(isCut).map((text) => `${svg.closest("figure").dataset.title}: ${text.textContent}`);
+    }),
+  );
 }
 
 /** What would keep people with a keyboard or a reader of screens out, as axe-core sees it. */
@@ -436,6 +464,142 @@ test("a front between two responses names what each point allows, and its knee",
   if (row) assert.match(await row.innerText(), /knee/);
   if (knee >= 0) assert.match(await tab.locator(".front-drawing h3").innerText(), new RegExp(`Point ${knee + 1}, the knee`));
   await tab.close();
+});
+
+test("the mechanism is drawn below the buttons, wherever it moves", async () => {
+  for (const name of ["optimize", "sliding", "rigid", "show"]) {
+    for (const width of [1280, 420]) {
+      const { tab } = await open(name, { width });
+      const [highest, buttons] = await tab.evaluate(() => {
+        const { stage } = window.pleuelPlayer;
+        const box = stage.canvas.getBoundingClientRect();
+        const heights = stage.extent.map((point) => box.top + ((1 - point.clone().project(stage.camera).y) / 2) * box.height);
+        return [Math.min(...heights), document.querySelector(".corner").getBoundingClientRect().bottom];
+      });
+      assert.ok(highest > buttons, `${name}, ${width} px: ${highest} is above ${buttons}`);
+      await tab.close();
+    }
+  }
+});
+
+test("a rigid body is drawn from its centre of mass to each place that holds it", async () => {
+  for (const name of ["rigid", "simulate"]) {
+    const { tab } = await open(name);
+    const gaps = await tab.evaluate(() => {
+      const { stage } = window.pleuelPlayer;
+      const { motion, poses } = stage.mainPoses();
+      const { joints, loads } = motion.design.geometry;
+      const gapOf = (place) => {
+        const { origin } = poses[place.body];
+        const there = motion.place(place, poses);
+        const ends = [];
+        stage.actors[0].members[place.body].object.traverse((part) => {
+          if (part.geometry?.type !== "CylinderGeometry") return;
+          part.updateWorldMatrix(true, false);
+          ends.push(part.localToWorld(origin.clone().set(0, 0.5, 0)), part.localToWorld(origin.clone().set(0, -0.5, 0)));
+        });
+        const reaches = (point) => Math.min(...ends.map((end) => end.distanceTo(point))) / stage.view.size;
+        return there.distanceTo(origin) < 0.01 * stage.view.size ? 0 : Math.max(reaches(there), reaches(origin));
+      };
+      return [...joints, ...loads].flatMap((one) => one.places).filter((place) => motion.scene.bodies[place.body]?.type === "rigid").map(gapOf);
+    });
+    assert.ok(gaps.length > 1);
+    for (const gap of gaps) assert.ok(gap < 1e-4, `${name}: ${gap} of the mechanism`);
+    await tab.close();
+  }
+});
+
+test("deformation is enlarged by some percent of the mechanism and 100 times at most, and more if wanted", async () => {
+  for (const name of ["stiff", "optimize", "simulate"]) {
+    const { tab } = await open(name);
+    const { scale, shown } = await tab.evaluate(() => {
+      const { stage, state } = window.pleuelPlayer;
+      const { scale } = state();
+      return { scale, shown: (scale * Math.max(...stage.motions.map((motion) => motion.largestDeviation()))) / stage.view.size };
+    });
+    assert.ok(scale >= 1 && scale <= 100 && shown <= 0.05, `${name}: × ${scale}, ${shown} of the mechanism`);
+    const choice = tab.getByLabel("deformation");
+    assert.equal(await choice.inputValue(), String(scale));
+    await choice.selectOption("1000");
+    assert.equal(await tab.evaluate(() => window.pleuelPlayer.state().scale), 1000);
+    await tab.close();
+  }
+});
+
+test("warnings of the runs of a study stand on its page", async () => {
+  for (const [name, list] of [["stability", result("stability").runs], ["pareto", result("pareto").points]]) {
+    const { tab } = await open(name);
+    const all = new Set(list.flatMap((one) => one.warnings ?? []));
+    assert.ok(all.size > 0);
+    const text = await tab.locator(".warnings").textContent();
+    for (const warning of all) assert.ok(text.includes(warning.slice(1)), warning);
+    await tab.close();
+  }
+});
+
+test("a unit that is probably wrong is the first warning", async () => {
+  assert.doesNotMatch(result("units").warnings[0], /Is a unit missing/);
+  const { tab } = await open("units");
+  assert.match(await tab.locator(".warnings p").first().innerText(), /density.*Is a unit missing/);
+  await tab.close();
+});
+
+test("prices that hold for less than a percent have a star, and a note says why", async () => {
+  const { tab } = await open("stars");
+  const shown = Object.values(result("stars").prices).filter((one) => one.per_unit !== 0).slice(0, 25);
+  const rows = await tab.locator(".bars li .bar-name").allInnerTexts();
+  assert.equal(rows.length, shown.length);
+  shown.forEach((one, i) => assert.equal(rows[i].endsWith("*"), !!one.next_limit, rows[i]));
+  const starred = shown.find((one) => one.next_limit);
+  assert.ok(starred);
+  const note = await tab.locator(".note", { hasText: "* holds for less than 1 %" }).innerText();
+  assert.ok(note.includes(starred.next_limit.replace(/_/g, " ")), note);
+  await tab.close();
+});
+
+test("prices have the verdict on the optimum that they are of", async () => {
+  const { tab } = await open("prices");
+  const [status, message] = result("prices").verdict.split(/: (.*)/s);
+  const hero = await tab.locator(".hero").innerText();
+  assert.equal(/Verified/.test(hero), status === "verified");
+  assert.ok(hero.includes(message.slice(1)));
+  await tab.close();
+});
+
+test("what speaks for a result has a title that fits its verdict", async () => {
+  const titles = { optimize: "Why to believe it", conflict: "How far to believe it", units: "How far to believe it", failed: "What was tried" };
+  for (const [name, title] of Object.entries(titles)) {
+    const { tab } = await open(name);
+    const found = (await tab.getByRole("heading", { level: 2 }).allInnerTexts()).filter((one) => Object.values(titles).includes(one));
+    assert.deepEqual(found, [title], name);
+    await tab.close();
+  }
+});
+
+test("a search that failed shows no numbers of a design", async () => {
+  const { tab } = await open("failed");
+  assert.equal(result("failed").status, "failed");
+  const text = await tab.locator("body").innerText();
+  assert.match(text, /No design was found/);
+  assert.doesNotMatch(text, /KKT residual|All responses|the end\b/);
+  assert.match(text, /failed_design\.json/);
+  await tab.close();
+});
+
+test("variables are at their bounds where the terminal says so", async () => {
+  let found = 0;
+  for (const name of ["bounds", "conflict", "optimize"]) {
+    const { tab } = await open(name);
+    for (const variable of Object.keys(result(name).variables)) {
+      const line = terminal[name].split("\n").find((one) => one.trimStart().startsWith(`${variable} `));
+      const said = line.match(/at its (lower|upper) bound/)?.[0] ?? "";
+      const row = await tab.locator(".variables li", { hasText: variable.replace(/_/g, " ") }).innerText();
+      assert.equal(row.match(/at its (lower|upper) bound/)?.[0] ?? "", said, `${name}, ${variable}`);
+      found += said ? 1 : 0;
+    }
+    await tab.close();
+  }
+  assert.ok(found > 0);
 });
 
 test("a page of a damaged result says so", async () => {

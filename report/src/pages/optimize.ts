@@ -108,30 +108,35 @@ function caseChoice(data: ReportData, choose: ChooseCase): HTMLElement {
   );
 }
 
+/** A search that failed at its start has none. */
+function hasDesign(result: Document): boolean {
+  return result.objective?.value !== undefined;
+}
+
 function headline(data: ReportData): HTMLElement {
   const { result, picture } = data;
   const objective = result.objective ?? {};
   const unit = unitOf(picture, objective.name, objective.unit);
-  const hasDesign = objective.value !== undefined;
-  const gain = hasDesign ? objective.value / objective.start - 1 : NaN;
+  const isDesign = hasDesign(result);
+  const gain = isDesign ? objective.value / objective.start - 1 : NaN;
   const time = result.seconds ?? 0;
   // A number that is won beyond the limits is no gain.
-  const isBroken = hasDesign && result.status !== "infeasible" && (result.max_violation ?? 0) > 1e-3;
+  const isBroken = isDesign && result.status !== "infeasible" && (result.max_violation ?? 0) > 1e-3;
   return h(
     "section.hero",
     {},
     h(
       "div",
       {},
-      h("p.eyebrow", {}, data.picture?.name ?? ""),
+      h("p.eyebrow", {}, picture?.name ?? data.card.problem?.name ?? ""),
       result.status === "infeasible"
         ? h("h1", {}, "No design keeps all limits")
         : isBroken
         ? h("h1", {}, "Limits are broken")
-        : hasDesign
+        : isDesign
         ? h("h1", {}, h("span.gain", {}, percent(gain)), h("span.what", {}, ` ${words(objective.name)}`))
         : h("h1", {}, "No design was found"),
-      hasDesign
+      isDesign
         ? h(
             "p.numbers",
             {},
@@ -144,7 +149,7 @@ function headline(data: ReportData): HTMLElement {
           )
         : null,
       h("p.verdict", {}, verdict(result.status, result.choices), h("span", {}, ` ${sentence(result.message ?? "")}`)),
-      result.checked ? h("p.verdict", {}, h("b", {}, "In plain words: "), sentence(result.checked)) : null,
+      result.checked ? h("p.verdict", {}, h("b", {}, "In plain words: "), `${result.checked}.`) : null,
       warningsBox(result.warnings),
     ),
     h(
@@ -403,9 +408,10 @@ function variablesSection(data: ReportData): HTMLElement | null {
   const variables: Record<string, Document> = data.result.variables ?? {};
   const names = Object.keys(variables);
   if (!names.length) return null;
+  const isDesign = hasDesign(data.result);
   return section(
     "Variables between their bounds",
-    `The open mark is the start, the full one the ${endName(data.result)}.`,
+    isDesign ? `The open mark is the start, the full one the ${endName(data.result)}.` : "The mark is the start.",
     h(
       "ul.variables",
       {},
@@ -423,7 +429,7 @@ function variablesSection(data: ReportData): HTMLElement | null {
             "div.limit-head",
             {},
             h("span.bar-name", {}, words(name)),
-            h("span", {}, h("span.soft", {}, `${number(one.start / unit.factor)} → `), h("b", {}, one.choice ?? withUnit(one.value, unit))),
+            h("span", {}, isDesign ? h("span.soft", {}, `${number(one.start / unit.factor)} → `) : null, h("b", {}, one.choice ?? withUnit(one.value, unit))),
           ),
           h(
             "div.range",
@@ -483,27 +489,28 @@ function convergenceSection(data: ReportData): HTMLElement | null {
 
 function evidenceTitle(result: Document): string {
   if (result.status === "verified") return "Why to believe it";
-  return result.objective?.value === undefined ? "What was tried" : "How far to believe it";
+  return hasDesign(result) ? "How far to believe it" : "What was tried";
 }
 
 function evidenceSection(data: ReportData): HTMLElement | null {
   const { result } = data;
   const rows: (string | HTMLElement)[][] = [];
   const add = (what: string, value: string, meaning: string) => rows.push([what, value, h("span.soft", {}, meaning)]);
-  if (result.kkt_residual !== undefined) add("KKT residual", number(result.kkt_residual, 2), "how far the optimality conditions are off, relative: below 1e−3 counts");
-  if (result.max_violation !== undefined) add("violation", number(result.max_violation, 2), "of the true limits, relative");
+  if (hasDesign(result) && result.kkt_residual !== undefined) add("KKT residual", number(result.kkt_residual, 2), "how far the optimality conditions are off, relative: below 1e−3 counts");
+  if (hasDesign(result) && result.max_violation !== undefined) add("violation", number(result.max_violation, 2), "of the true limits, relative");
   if (result.gradients) add("gradients", result.gradients.method, `because of ${result.gradients.reason}`);
   if (result.evaluations !== undefined) {
     add("simulations", String(result.evaluations), `${result.gradient_evaluations} of them with gradients, ${result.failed_evaluations} failed, ${result.restarts} restart${result.restarts === 1 ? "" : "s"}`);
   }
   if (result.polished_with) add("polished with", result.polished_with, "refined the answer of the backend");
   const stages: Document[] = result.stages ?? [];
+  const responses = responsesTable(data);
   return section(
     evidenceTitle(result),
     monitorsText(result),
     table([{ title: "evidence", left: true }, { title: "" }, { title: "what it says", left: true }], rows),
-    h("h3", {}, "All responses"),
-    responsesTable(data),
+    ...(responses ? [h("h3", {}, "All responses"), responses] : []),
+    result.failed_evaluations ? h("p.note", {}, "The last design that could not be simulated is failed_design.json in the run folder.") : null,
     stages.length > 1
       ? h("p.note", {}, `In ${stages.length} stages, each with the steps and elements that its accuracy needs: ${stages.map((stage) => `${seconds(stage.step ?? 0)} steps, ${stage.elements ?? "–"} elements`).join("; ")}.`)
       : null,

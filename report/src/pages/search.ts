@@ -76,6 +76,6 @@ export function startsSection(data: ReportData): HTMLElement | null {
 export function partsNote(result: Document): HTMLElement | null {
   const parts: Document[] = result.parts ?? [];
   if (parts.length < 2) return null;
-  const text = parts.map((part) => `${part.method} (${part.evaluations} simulations: ${part.status})`).join(", then ");
+  const text = parts.map((part) => `${part.method} (${part.evaluations} simulation${part.evaluations === 1 ? "" : "s"}: ${part.status})`).join(", then ");
   return h("p.note", {}, `Searched with ${text}.`);
 }

@@ -110,9 +110,15 @@ export function paretoPage(data: ReportData): HTMLElement[] {
           marks(point),
         ]),
       ),
+      unverifiedNotes(points),
     ),
     filesSection(data),
   ];
+}
+
+/** Why points are not verified. */
+function unverifiedNotes(points: Document[]): HTMLElement[] {
+  return points.flatMap((point, i) => (point.status === "verified" ? [] : [h("p.note", {}, h("b", {}, `Point ${i + 1}, ${point.status}: `), sentence(point.message ?? ""))]));
 }
 
 function pointWarnings(points: Document[]): string[] {

@@ -5,6 +5,13 @@ import { count, engineering, number, words } from "../format";
 import { fact, filesSection } from "./parts";
 import { csvCharts, hero } from "./studies";
 
+/** With so many digits that the width of the range is seen. */
+function boundsText(low: number, high: number): string {
+  const size = Math.max(Math.abs(low), Math.abs(high));
+  const digits = high > low ? Math.ceil(Math.log10(size / (high - low))) + 2 : 4;
+  return [low, high].map((one) => number(one, Math.min(Math.max(digits, 4), 9))).join(" … ");
+}
+
 export function uncertaintyPage(data: ReportData): HTMLElement[] {
   const { result, picture } = data;
   const rows = Object.entries((result.responses ?? {}) as Record<string, Document>).map(([name, one]) => {
@@ -16,7 +23,7 @@ export function uncertaintyPage(data: ReportData): HTMLElement[] {
       shown(one.value),
       shown(one.deviation, 3),
       one.sampled ? shown(one.sampled.deviation, 3) : "–",
-      one.bounds ? `${shown(one.bounds[0])} … ${shown(one.bounds[1])}` : "–",
+      one.bounds ? boundsText(one.bounds[0] / unit.factor, one.bounds[1] / unit.factor) : "–",
       unit.name,
       shares.filter(({ part }, i) => i === 0 || part >= 0.005).slice(0, 2).map(({ who, part }) => `${words(who)} ${(100 * part).toFixed(0)} %`).join(", "),
     ];
