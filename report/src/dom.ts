@@ -36,11 +36,12 @@ export function section(title: string, note: string, ...children: (Child | Child
 export interface Column {
   title: string;
   left?: boolean;
+  short?: boolean; // a word or two: no broader than that on a narrow page
 }
 
 export function table(columns: Column[], rows: (Child | Child[])[][]): HTMLElement {
   const cell = (tag: string, i: number, ...content: (Child | Child[])[]) =>
-    h(columns[i].left ? `${tag}.left` : tag, {}, ...content);
+    h(`${tag}${columns[i].left ? ".left" : ""}${columns[i].short ? ".short" : ""}`, {}, ...content);
   return h(
     "div.scroll",
     { tabindex: 0 },

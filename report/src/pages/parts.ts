@@ -162,9 +162,9 @@ export function effectsSection(data: ReportData): HTMLElement | null {
     table(
       [
         { title: "effect", left: true },
-        { title: "of", left: true },
+        { title: "of", left: true, short: true },
         ...(hasCases ? [{ title: "in", left: true }] : []),
-        { title: "", left: true },
+        { title: "", left: true, short: true },
         ...(hasInfluence ? [{ title: "changes most", left: true }] : []),
         ...(hasWorth ? [{ title: "worth" }] : []),
         ...(hasInfluence ? [{ title: "time" }] : []),
