@@ -177,7 +177,9 @@ TEST(BadText, NestedTooDeeplyIsRefusedWithoutOverflow) {
 TEST(BadText, OtherThanAnObjectIsRefused) {
   EXPECT_EQ(complaint_about_text("[]"), "bad.json: the problem must be an object {…}, got []");
   EXPECT_EQ(complaint_about_text("null"), "bad.json: the problem must be an object {…}, got null");
-  EXPECT_EQ(complaint_about_text("{}"), "bad.json: the problem is missing the key \"scene\"");
+  EXPECT_EQ(complaint_about_text("{}"),
+            "2 mistakes:\nbad.json: the problem is missing the key \"scene\"\n"
+            "bad.json: the problem is missing the key \"simulation\"");
 }
 
 TEST(BadText, LongValuesAreShortenedBetweenCharacters) {
@@ -194,7 +196,7 @@ TEST(BadText, WithManyMembersIsRefusedInTimeProportionalToItsSize) {
   std::string text = "{\"scene\": {";
   for (int i = 0; i < 200000; ++i) text += "\"" + std::to_string(i) + "\": 0, ";
   EXPECT_THAT(complaint_about_text(text + "\"end\": 0}}"),  // takes minutes if it is quadratic
-              StartsWith("bad.json: /scene has the unknown key \"0\""));
+              StartsWith("2 mistakes:\nbad.json: /scene has the unknown key \"0\""));
 }
 
 TEST(BadText, OfAMechanismTruncatedAnywhereIsRefusedByAMessage) {
