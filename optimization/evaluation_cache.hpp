@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "core/base/int_size.hpp"
 #include "optimization/history.hpp"
 #include "optimization/problem.hpp"
 
@@ -60,7 +61,7 @@ class EvaluationCache {
   Problem& problem() const { return problem_; }
   const Scales& scales() const { return scales_; }
   const History& history() const { return history_; }
-  int evaluations() const { return static_cast<int>(history_.size()); }
+  int evaluations() const { return int_size(history_); }
   int gradient_evaluations() const { return gradient_evaluations_; }
   int iterations() const { return iterations_; }
   int consecutive_failures() const { return consecutive_failures_; }

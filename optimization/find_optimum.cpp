@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/int_size.hpp"
 #include "core/base/number_text.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/broken_limits.hpp"
@@ -172,7 +173,7 @@ class Search {
         *rows.problem, [&](EvaluationRecord record) { return completed(rows, std::move(record)); },
         observer);
     Outcome outcome = work(LimitRows{&problem, rows.constraint_of_row});
-    SearchPart part{"restoration", Status::stalled, static_cast<int>(problem.history().size())};
+    SearchPart part{"restoration", Status::stalled, int_size(problem.history())};
     Result effort;
     effort.history = problem.history();
     effort.evaluations = part.evaluations;

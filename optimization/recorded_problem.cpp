@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "core/base/int_size.hpp"
+
 namespace pleuel {
 
 Evaluation RecordedProblem::evaluate(const Eigen::VectorXd& x, Request request) {
@@ -23,7 +25,7 @@ double RecordedProblem::seconds() const {
 void RecordedProblem::record(const Eigen::VectorXd& x, Request request,
                              const Evaluation* evaluation, const std::string& failure) {
   EvaluationRecord record;
-  record.evaluation = static_cast<int>(history_.size()) + 1;
+  record.evaluation = int_size(history_) + 1;
   record.iteration = gradients_;
   record.purpose = Purpose::restoration;
   record.request = request;

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "core/base/int_size.hpp"
 #include "optimization/evaluation_cache.hpp"
 
 namespace pleuel {
@@ -42,9 +43,9 @@ class ScaledProblem {
   ScaledProblem(EvaluationCache& cache, const EvaluatedDesign& around, Budget budget,
                 const Eigen::VectorXd& factors = {});
 
-  int variables() const { return static_cast<int>(free_.size()); }
-  int inequalities() const { return static_cast<int>(inequalities_.size()); }
-  int equalities() const { return static_cast<int>(equalities_.size()); }
+  int variables() const { return int_size(free_); }
+  int inequalities() const { return int_size(inequalities_); }
+  int equalities() const { return int_size(equalities_); }
   Eigen::VectorXd start() const { return to_scaled(around_); }
   Eigen::VectorXd lower() const;
   Eigen::VectorXd upper() const;

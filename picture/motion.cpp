@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "core/base/error.hpp"
+#include "core/base/int_size.hpp"
 #include "core/frame/body_frame.hpp"
 #include "core/response/signal_of_body.hpp"
 
@@ -76,7 +77,7 @@ int part_at(const std::vector<const BodyModel*>& parts, double share) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (share <= parts[i]->stretch.end + 1e-9) return static_cast<int>(i);
   }
-  return static_cast<int>(parts.size()) - 1;
+  return int_size(parts) - 1;
 }
 
 /// Observes one body instant by instant.

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/base/int_size.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "picture/section_outline.hpp"
 
@@ -82,8 +83,8 @@ class Sweep {
 
   void add_segment(const SectionOutline& outline, const std::vector<double>& shares) {
     const int outer = add_rings(outline.outer, shares);
-    const int around = static_cast<int>(outline.outer.size());
-    const int last = static_cast<int>(shares.size()) - 1;
+    const int around = int_size(outline.outer);
+    const int last = int_size(shares) - 1;
     add_sides(outer, around, last, 1);
     const bool has_hole = !outline.inner.empty() && outline.inner.size() == outline.outer.size();
     if (!has_hole) {
@@ -110,7 +111,7 @@ class Sweep {
  private:
   /// @returns number of the first point
   int add_rings(const std::vector<Eigen::Vector2d>& outline, const std::vector<double>& shares) {
-    const int first = static_cast<int>(points_.size());
+    const int first = int_size(points_);
     for (const double share : shares) {
       const Eigen::Vector3d position = axis_.position(share);
       const Eigen::Matrix<double, 3, 2> axes = axis_.section_axes(share);

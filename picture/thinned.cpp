@@ -4,10 +4,12 @@
 #include <numeric>
 #include <set>
 
+#include "core/base/int_size.hpp"
+
 namespace pleuel {
 
 std::vector<int> thinned(const Eigen::VectorXd& values, int most, const std::vector<int>& kept) {
-  const int points = static_cast<int>(values.size());
+  const int points = int_size(values);
   if (points <= most) {
     std::vector<int> all(points);
     std::iota(all.begin(), all.end(), 0);

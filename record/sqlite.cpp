@@ -2,6 +2,8 @@
 
 #include <sqlite3.h>
 
+#include "core/base/int_size.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -48,8 +50,7 @@ Statement& Statement::bind(int parameter, std::int64_t value) {
 }
 
 Statement& Statement::bind(int parameter, const std::string& text) {
-  check(::sqlite3_bind_text(handle_, parameter, text.data(), static_cast<int>(text.size()),
-                            SQLITE_TRANSIENT));
+  check(::sqlite3_bind_text(handle_, parameter, text.data(), int_size(text), SQLITE_TRANSIENT));
   return *this;
 }
 

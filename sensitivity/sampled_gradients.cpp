@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "core/base/int_size.hpp"
 #include "core/response/linearized_expression.hpp"
 #include "sensitivity/adjoint.hpp"
 #include "sensitivity/direct.hpp"
@@ -119,7 +120,7 @@ class SampledGradients {
       return static_cast<int>(active);
     };
     const Eigen::MatrixXd found =
-        adjoint_gradients(mechanism_, analysis_.trajectory, static_cast<int>(order.size()), set);
+        adjoint_gradients(mechanism_, analysis_.trajectory, int_size(order), set);
     for (std::size_t i = 0; i < order.size(); ++i) {
       gradients_.row(order[i]) += found.col(i).transpose();
     }

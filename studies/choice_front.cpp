@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/int_size.hpp"
 #include "core/base/number_text.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/design/size_choice.hpp"
@@ -99,7 +100,7 @@ ParetoFront choice_front(const ProblemFile& problem, const SolveOptions& options
     designs.push_back(lists.design(sizes, start_design(problem)));
   }
   ParetoFront front;
-  front.choices = ChoiceCounts{.all = static_cast<int>(designs.size())};
+  front.choices = ChoiceCounts{.all = int_size(designs)};
   const auto scales = scales_at(any, designs, execution);
   if (!scales) {
     front.choices->failed = front.choices->all;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/int_size.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/packed_problem.hpp"
 #include "optimization/design/design_problem.hpp"
@@ -73,7 +74,7 @@ class EndSearches : public StoredTasks<EndData> {
   EndSearches(EndData data, EvaluationStore* store)
       : StoredTasks(std::move(data), store), ends_(this->data().files.size()) {}
 
-  int count() const override { return static_cast<int>(ends_.size()); }
+  int count() const override { return int_size(ends_); }
 
   void take(int task, const std::string& answer) override {
     ends_[task] = unpacked<FrontEnd>(answer);

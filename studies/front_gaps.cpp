@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "core/base/int_size.hpp"
 #include "studies/front_scale.hpp"
 
 namespace pleuel {
@@ -243,7 +244,7 @@ class GapFinder {
     for (const auto& [size, between] : open) {
       if (size < 0.5 * open.front().first) break;
       for (const FrontProbe& probe : probes_of(between)) {
-        if (static_cast<int>(all.size()) == room) return all;
+        if (int_size(all) == room) return all;
         all.push_back(probe);
       }
     }

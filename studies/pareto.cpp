@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/int_size.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/stop.hpp"
 #include "core/scene/case_goals.hpp"
@@ -23,13 +24,13 @@ ParetoOrder pareto_order(int points) {
   ParetoOrder order;
   std::map<int, int> places;  // of the points that are in the order
   const auto add = [&](int point, std::optional<int> from) {
-    places[point] = static_cast<int>(order.points.size());
+    places[point] = int_size(order.points);
     order.points.push_back(point);
     order.from.push_back(from);
   };
   if (points > 0) add(0, std::nullopt);
   if (points > 1) add(points - 1, std::nullopt);
-  while (static_cast<int>(order.points.size()) < points) {
+  while (int_size(order.points) < points) {
     const std::map<int, int> before = places;
     for (auto low = before.begin(), high = std::next(low); high != before.end(); low = high++) {
       const int middle = (low->first + high->first) / 2;
@@ -102,7 +103,7 @@ class Front {
     bool is_whole = search(first_searches(std::move(ends)));
     ParetoFront front;
     while (is_whole && settings_.gap > 0.0) {
-      const int room = settings_.most_points - static_cast<int>(found_.size());
+      const int room = settings_.most_points - int_size(found_);
       front.gaps = find_front_gaps(
           points(), side_, settings_.gap, std::max(room, 0),
           can_exchange_goals(problem_) ? ObjectiveLimits::possible : ObjectiveLimits::impossible);

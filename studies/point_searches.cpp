@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/base/int_size.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/stop.hpp"
 #include "core/scene/packed_problem.hpp"
@@ -102,7 +103,7 @@ class PointSearches : public StoredTasks<PointData> {
   PointSearches(PointData data, EvaluationStore* store, const ParetoObserver& observer)
       : StoredTasks(std::move(data), store), observer_(observer) {}
 
-  int count() const override { return static_cast<int>(data().searches.size()); }
+  int count() const override { return int_size(data().searches); }
 
   std::optional<int> needed_by(int task) const override { return data().searches[task].from; }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/int_size.hpp"
 #include "core/base/stop.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/scene/packed_problem.hpp"
@@ -97,7 +98,7 @@ struct SampleData {
     return "";
   }
 
-  int size() const { return static_cast<int>(designs.size()); }
+  int size() const { return int_size(designs); }
   int end_of(int task) const { return std::min((task + 1) * task_size, size()); }
 
  private:

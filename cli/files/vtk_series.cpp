@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/int_size.hpp"
 #include "picture/frames_of_motion.hpp"
 #include "picture/motion.hpp"
 #include "picture/swept_beam.hpp"
@@ -26,7 +27,7 @@ class Grid {
     }
     for (const std::vector<int>& face : surface.faces) {
       for (const int point : face) connectivity_ += fmt::format("{} ", first + point);
-      end_cell(static_cast<int>(face.size()), polygon_cell, body);
+      end_cell(int_size(face), polygon_cell, body);
     }
   }
 
@@ -126,7 +127,7 @@ int write_vtk_series(const std::filesystem::path& folder, const std::string& nam
              fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
                          "version=\"0.1\">\n<Collection>\n{}</Collection>\n</VTKFile>\n",
                          entries));
-  return static_cast<int>(motion.time.size());
+  return int_size(motion.time);
 }
 
 }  // namespace pleuel

@@ -8,6 +8,7 @@
 
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
+#include "core/base/int_size.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/shown_unit.hpp"
 
@@ -107,7 +108,7 @@ std::string small_text(const MeasuredEffects& effects, const std::vector<bool>& 
     most = std::max(most, most_changed(effects, effects.influences[i]));
   }
   if (count == 0) return "";
-  const bool is_all = count == static_cast<int>(matters.size());
+  const bool is_all = count == int_size(matters);
   const std::string subject =
       fmt::format("{}{}effect{} change{}", is_all ? "" : fmt::format("{} ", count),
                   is_all ? "all " : "further ", count == 1 ? "" : "s", count == 1 ? "s" : "");

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/text/xml_text.hpp"
+#include "core/base/int_size.hpp"
 #include "core/base/number_text.hpp"
 #include "picture/thinned.hpp"
 
@@ -274,7 +275,7 @@ std::string to_braille(const HistoryChart& chart, int width) {
   }
   const std::string first = fmt::format("{:.4g}", begin);
   const std::string last = fmt::format("{:.4g} {}", end, chart.time_unit);
-  const int space = dots.width() / 2 - static_cast<int>(first.size());
+  const int space = dots.width() / 2 - int_size(first);
   return text + fmt::format("{:>{}}  {}{:>{}}\n", "", axis, first, last, space);
 }
 

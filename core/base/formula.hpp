@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/expression.hpp"
+#include "core/base/int_size.hpp"
 #include "core/base/jet.hpp"
 
 /// Expressions as functions of time: values with two derivatives, in any scalar type.
@@ -18,7 +19,7 @@ class Formula {
   Formula(const Expression& expression, const Argument& argument)
       : expression_(expression), argument_(argument) {}
 
-  TimeValue<Scalar> value() const { return at(static_cast<int>(expression_.steps.size()) - 1); }
+  TimeValue<Scalar> value() const { return at(int_size(expression_.steps) - 1); }
 
  private:
   using Value = TimeValue<Scalar>;

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/base/int_size.hpp"
 #include "core/section/section_properties.hpp"
 
 namespace pleuel {
@@ -30,7 +31,7 @@ struct Beam {
   Scalar mass_damping = Scalar(0);       ///< α [1/s] of D = α S_ff + β K
   Scalar stiffness_damping = Scalar(0);  ///< β [s]
 
-  int node_count() const { return static_cast<int>(elements.size()) + 1; }
+  int node_count() const { return int_size(elements) + 1; }
 
   /// Local x of a node [m].
   Scalar node_position(int node) const {

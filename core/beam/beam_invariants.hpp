@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "core/base/dual.hpp"
+#include "core/base/int_size.hpp"
 #include "core/beam/beam.hpp"
 #include "core/beam/beam_shape.hpp"
 #include "core/beam/elastic_coordinates.hpp"
@@ -164,7 +165,7 @@ Invariants<Scalar> no_invariants(const ElasticCoordinates& coordinates) {
   const int n = sum.size(), nonzeros = sum.pattern.nonzeros();
   sum.shape.setConstant(3, n, zero);
   sum.mixed.setConstant(9, n, zero);
-  sum.moments.setConstant(nonzeros, static_cast<int>(sum.pairs.size()), zero);
+  sum.moments.setConstant(nonzeros, int_size(sum.pairs), zero);
   sum.stiffness.setConstant(nonzeros, zero);
   sum.mass_matrix.setConstant(nonzeros, zero);
   return sum;
@@ -199,7 +200,7 @@ Invariants<Scalar> sum_elements(const Beam<Scalar>& beam, const ElasticCoordinat
                                 RotaryInertia rotary, const Predicate& counts) {
   Invariants<Scalar> sum = no_invariants<Scalar>(coordinates);
   Scalar start(0);
-  for (int e = 0; e < static_cast<int>(beam.elements.size()); ++e) {
+  for (int e = 0; e < int_size(beam.elements); ++e) {
     const BeamElement<Scalar>& element = beam.elements[e];
     if (counts(element, start)) {
       const auto indices = coordinates.element_indices(e);

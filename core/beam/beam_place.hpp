@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/base/int_size.hpp"
 #include "core/beam/beam.hpp"
 #include "core/beam/beam_shape.hpp"
 
@@ -19,7 +20,7 @@ struct BeamPlace {
 
 /// @param at  share of the length, 0 … 1; what is a node up to round-off becomes one
 inline BeamPlace find_place(const Beam<double>& beam, double at) {
-  const int elements = static_cast<int>(beam.elements.size());
+  const int elements = int_size(beam.elements);
   const double x = at * beam.node_position(elements);
   for (int e = 0; e < elements; ++e) {
     const double start = beam.node_position(e);

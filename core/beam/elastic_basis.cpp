@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "core/base/int_size.hpp"
 #include "core/beam/natural_modes.hpp"
 
 namespace pleuel {
@@ -96,7 +97,7 @@ BasisWithDerivatives craig_bampton_basis(const NodalMatrices& matrices,
 }
 
 int complete_modes(const NodalMatrices& matrices, const std::vector<int>& family, int modes) {
-  const int all = static_cast<int>(family.size());
+  const int all = int_size(family);
   if (modes <= 0 || modes >= all) return std::clamp(modes, 0, all);
   const VectorXd lambda = modes_of(matrices, family).lambda;
   while (modes < all && lambda(modes) - lambda(modes - 1) < cluster_gap * lambda(modes)) ++modes;
@@ -167,7 +168,7 @@ Invariants<double> transform(const Invariants<double>& nodal, Eigen::Index size,
   result.shape = linear(&Invariants<double>::shape);
   result.mixed = linear(&Invariants<double>::mixed);
   const auto matrix = [&](auto entries) { return entries_of(bilinear(entries)); };
-  result.moments.resize(result.pattern.nonzeros(), static_cast<int>(nodal.pairs.size()));
+  result.moments.resize(result.pattern.nonzeros(), int_size(nodal.pairs));
   for (std::size_t p = 0; p < nodal.pairs.size(); ++p) {
     result.moments.col(p) =
         matrix([p](const Invariants<double>& i) { return VectorXd(i.moments.col(p)); });

@@ -3,6 +3,8 @@
 #include <array>
 #include <vector>
 
+#include "core/base/int_size.hpp"
+
 /// Which nodal displacements of a beam are its elastic coordinates q_f.
 namespace pleuel {
 
@@ -19,7 +21,7 @@ class ElasticCoordinates {
   void clamp(int node, int displacement);
 
   int size() const { return size_; }
-  int node_count() const { return static_cast<int>(index_.size()); }
+  int node_count() const { return int_size(index_); }
 
   /// Index in q_f of a nodal displacement, or −1 where it is zero.
   int index(int node, int displacement) const { return index_[node][displacement]; }

@@ -1,10 +1,12 @@
 #include "core/beam/invariant_vector.hpp"
 
+#include "core/base/int_size.hpp"
+
 namespace pleuel {
 
 InvariantLayout::InvariantLayout(const Invariants<double>& invariants)
     : coordinates_(invariants.size()),
-      pairs_(static_cast<int>(invariants.pairs.size())),
+      pairs_(int_size(invariants.pairs)),
       nonzeros_(invariants.pattern.nonzeros()),
       mixed_(shape_ + 3 * coordinates_),
       moments_(mixed_ + 9 * coordinates_),
@@ -61,7 +63,7 @@ PartialInvariants without_zeros(const Invariants<double>& invariants) {
   std::vector<int> place(used.size(), -1);
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (!used[i]) continue;
-    place[i] = static_cast<int>(partial.coordinates.size());
+    place[i] = int_size(partial.coordinates);
     partial.coordinates.push_back(static_cast<int>(i));
   }
   Invariants<double>& data = partial.data;
@@ -71,7 +73,7 @@ PartialInvariants without_zeros(const Invariants<double>& invariants) {
   data.second_moment = invariants.second_moment;
   data.shape = invariants.shape(Eigen::all, partial.coordinates);
   data.mixed = invariants.mixed(Eigen::all, partial.coordinates);
-  data.pattern.size = static_cast<int>(partial.coordinates.size());
+  data.pattern.size = int_size(partial.coordinates);
   data.pattern.row_start.assign(1, 0);
   std::vector<int> entries;
   for (int row : partial.coordinates) {

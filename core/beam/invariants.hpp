@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "core/base/int_size.hpp"
+
 /// The invariants (inertia shape integrals) of a flexible body: all that the equations of motion
 /// know of its finite-element model.
 namespace pleuel {
@@ -15,7 +17,7 @@ struct ElasticPattern {
   std::vector<int> row_start;  ///< size + 1
   std::vector<int> column;
 
-  int nonzeros() const { return static_cast<int>(column.size()); }
+  int nonzeros() const { return int_size(column); }
   /// Position of an entry, or −1.
   int find(int row, int col) const;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/int_size.hpp"
 #include "core/frame/marker_kinematics.hpp"
 #include "core/frame/number_data.hpp"
 #include "core/system/term.hpp"
@@ -48,7 +49,7 @@ class ForceTerm : public Term {
       for (std::size_t col = 0; col < coordinates_.size(); ++col) {
         if (!law_.couples(coordinates_[row], coordinates_[col])) continue;
         if (slots[col] < 0) {
-          slots[col] = static_cast<int>(columns_.size());
+          slots[col] = int_size(columns_);
           columns_.push_back(col);
         }
         pattern_.emplace_back(row, slots[col]);
@@ -93,7 +94,7 @@ class ForceTerm : public Term {
     }
   }
 
-  int parameter_adjoint_count() const override { return static_cast<int>(derivatives_.size()); }
+  int parameter_adjoint_count() const override { return int_size(derivatives_); }
 
   void add_parameter_adjoints(const State& state, ConstraintLevel, const ConstColumns& mu,
                               Columns sums) override {
@@ -139,7 +140,7 @@ class ForceTerm : public Term {
   void write_entries(const State& state, const Weights& weights, double* entries) const {
     std::fill_n(entries, pattern_.size(), 0.0);
     if (weights.q == 0.0 && weights.v == 0.0) return;
-    const auto count = static_cast<int>(columns_.size());
+    const auto count = int_size(columns_);
     for (int first = 0; first < count; first += width)
       write_columns(state, weights, first, entries);
   }
@@ -148,7 +149,7 @@ class ForceTerm : public Term {
   void write_columns(const State& state, const Weights& weights, int first, double* entries) const {
     Local<Wide> q, v;
     load<Wide>(state, q, v);
-    const int count = std::min(width, static_cast<int>(columns_.size()) - first);
+    const int count = std::min(width, int_size(columns_) - first);
     for (int i = 0; i < count; ++i) {
       const std::size_t column = columns_[first + i];
       q[column].derivatives()[i] = weights.q;

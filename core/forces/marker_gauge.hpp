@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/int_size.hpp"
 #include "core/frame/marker_kinematics.hpp"
 #include "core/frame/number_data.hpp"
 #include "core/system/gauge.hpp"
@@ -42,7 +43,7 @@ class MarkerGauge final : public Gauge {
 
   void add_gradient(const State& state, Reading reading, double weight, Eigen::VectorXd& q,
                     Eigen::VectorXd& v, Eigen::VectorXd& design) const override {
-    const auto count = static_cast<int>(coordinates_.size());
+    const auto count = int_size(coordinates_);
     for (int first = 0; first < 2 * count; first += width) {
       add_columns(state, reading, weight, first, q, v);
     }
@@ -81,7 +82,7 @@ class MarkerGauge final : public Gauge {
                    Eigen::VectorXd& q, Eigen::VectorXd& v) const {
     Local<Wide> local_q, local_v;
     load<Wide>(state, local_q, local_v);
-    const auto count = static_cast<int>(coordinates_.size());
+    const auto count = int_size(coordinates_);
     const int end = std::min(first + width, 2 * count);
     for (int i = first; i < end; ++i) {
       Wide& seeded = i < count ? local_q[i] : local_v[i - count];

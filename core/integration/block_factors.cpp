@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/int_size.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -46,7 +48,7 @@ class Rows {
   template <class Columns>
   void take(const std::vector<int>& order, const Columns& x) const {
     const Eigen::Index count = x.cols();
-    for (int k = 0; k < static_cast<int>(order.size()); ++k) {
+    for (int k = 0; k < int_size(order); ++k) {
       Row row = Row::Zero();
       for (Eigen::Index j = 0; j < count; ++j) row(j) = x(at(order, k), j);
       (*this)(k) = row;
@@ -55,7 +57,7 @@ class Rows {
   template <class Columns>
   void give(const std::vector<int>& order, Columns& x) const {
     const Eigen::Index count = x.cols();
-    for (int k = 0; k < static_cast<int>(order.size()); ++k) {
+    for (int k = 0; k < int_size(order); ++k) {
       const auto row = (*this)(k);
       for (Eigen::Index j = 0; j < count; ++j) x(at(order, k), j) = row(j);
     }
@@ -105,7 +107,7 @@ template <int Width>
 void BlockFactors::solve_group(Block x) {
   const Rows<Width> rows(rows_);
   rows.take(row_order, x);
-  for (int block = static_cast<int>(blocks.size()) - 2; block >= 0; --block) {
+  for (int block = int_size(blocks) - 2; block >= 0; --block) {
     const int begin = at(blocks, block), end = at(blocks, block + 1);
     for (int k = begin; k < end; ++k) {
       rows.subtract_row(k, lower, at(lower.starts, k) + 1, at(lower.starts, k + 1));

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "core/base/int_size.hpp"
+
 namespace pleuel {
 
 /// A factor by compressed columns.
@@ -34,7 +36,7 @@ struct BlockFactors {
   void solve_transposed(Block x);
 
  private:
-  int size() const { return static_cast<int>(row_order.size()); }
+  int size() const { return int_size(row_order); }
   // Of up to `Width` columns, with rows in rows_.
   template <int Width>
   void solve_group(Block x);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/int_size.hpp"
 
 namespace pleuel {
 
@@ -40,7 +41,7 @@ class CheckpointedLoop : public RecomputedStates {
     loop_.window().load_record(step, state);
   }
 
-  int checkpoints() const override { return static_cast<int>(checkpoints_.size()); }
+  int checkpoints() const override { return int_size(checkpoints_); }
   int most_held() const override { return static_cast<int>(most_held_); }
   int recomputed_steps() const override { return static_cast<int>(recomputed_steps_); }
 

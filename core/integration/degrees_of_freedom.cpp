@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/int_size.hpp"
 #include "core/base/sparse_rows.hpp"
 #include "core/integration/assembly.hpp"
 #include "core/integration/configuration.hpp"
@@ -85,7 +86,7 @@ bool close(const Mechanism& mechanism, const std::vector<int>& rigid, State& sta
 DegreesOfFreedom rigid_degrees_of_freedom(const Mechanism& mechanism, const State& state) {
   const std::vector<int> rigid = rigid_coordinates(mechanism);
   DegreesOfFreedom freedoms;
-  freedoms.coordinates = static_cast<int>(rigid.size());
+  freedoms.coordinates = int_size(rigid);
   if (rigid.empty() || mechanism.system->multipliers() == 0) return freedoms;
   freedoms.constraints =
       static_cast<int>(rank_of_rows(rigid_jacobian(mechanism, state, rigid), independent));
@@ -102,7 +103,7 @@ int blocked_drives(const Mechanism& mechanism, const State& state, const std::ve
   joints.prune(0.0);
   const Eigen::Index added = rank_of_rows(std::move(all), clearly_independent) -
                              rank_of_rows(std::move(joints), clearly_independent);
-  return static_cast<int>(drives.size()) - static_cast<int>(added);
+  return int_size(drives) - static_cast<int>(added);
 }
 
 Eigen::MatrixXd free_motions(const Mechanism& mechanism, const State& state) {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/int_size.hpp"
 #include "core/integration/damped_start.hpp"
 #include "core/integration/local_error_control.hpp"
 #include "core/integration/newton_corrector.hpp"
@@ -26,7 +27,7 @@ class TimeLoop {
            const SchemeState* start = nullptr);
 
   /// Regular steps, or instants to be repeated: what the loop can be stopped after.
-  int units() const { return static_cast<int>(grid_.size()) - 1; }
+  int units() const { return int_size(grid_) - 1; }
 
   /// Stores the initial state. To be called once, first.
   /// @param capacity  of the window of states

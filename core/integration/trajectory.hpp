@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "core/base/int_size.hpp"
 #include "core/base/time_integration.hpp"
 #include "core/integration/scheme.hpp"
 #include "core/integration/state_columns.hpp"
@@ -67,7 +68,7 @@ struct Trajectory {
   int newton_iterations = 0;
   int factorizations = 0;
 
-  int steps() const { return static_cast<int>(time.size()) - 1; }
+  int steps() const { return int_size(time) - 1; }
   bool is_projected() const { return formulation.is_projected; }
   /// The states, where memory holds all of them.
   /// @throws std::logic_error if it does not

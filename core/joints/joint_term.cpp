@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/int_size.hpp"
 #include "core/frame/number_data.hpp"
 #include "core/joints/joint_linearization.hpp"
 #include "core/joints/joint_residual.hpp"
@@ -91,7 +92,7 @@ class JointTerm : public Term {
     }
   }
 
-  int parameter_adjoint_count() const override { return static_cast<int>(derivatives_.size()); }
+  int parameter_adjoint_count() const override { return int_size(derivatives_); }
 
   void add_parameter_adjoints(const State& state, ConstraintLevel level, const ConstColumns& mu,
                               Columns sums) override {
@@ -133,8 +134,8 @@ class JointTerm : public Term {
   };
 
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
-  int local_size() const { return static_cast<int>(coordinates_.size()); }
-  int equations() const { return static_cast<int>(topology_.equations.size()); }
+  int local_size() const { return int_size(coordinates_); }
+  int equations() const { return int_size(topology_.equations); }
   int coordinate(int i) const { return coordinates_[index(i)]; }
 
   /// At position level, where one Hessian of all equations together is enough.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/int_size.hpp"
 #include "core/model/attached_points.hpp"
 #include "core/model/scene_geometry.hpp"
 
@@ -60,12 +61,12 @@ BeamMesh make_mesh(const Body& body, const Scene& scene, const Design<double>& s
   const std::vector<double> attached = attached_shares(body, scene, start);
   for (double share : attached) divide(mesh.elements, share);
   double node_share = 0.0;
-  for (int node = 0; node <= static_cast<int>(mesh.elements.size()); ++node) {
+  for (int node = 0; node <= int_size(mesh.elements); ++node) {
     const bool is_attached = std::any_of(attached.begin(), attached.end(), [&](double share) {
       return std::abs(share - node_share) <= node_tolerance;
     });
     if (is_attached) mesh.attached_nodes.push_back(node);
-    if (node < static_cast<int>(mesh.elements.size())) {
+    if (node < int_size(mesh.elements)) {
       node_share += mesh.elements[node].share;
     }
   }

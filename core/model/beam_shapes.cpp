@@ -1,5 +1,6 @@
 #include "core/model/beam_shapes.hpp"
 
+#include "core/base/int_size.hpp"
 #include "core/beam/beam_shape.hpp"
 #include "core/beam/element_stretching.hpp"
 
@@ -53,7 +54,7 @@ class ShapeBuilder {
   Stretching stretching(const Beam<Scalar>& beam, const Number& number,
                         const SparseMatrix& displacements) const {
     Stretching result{number(beam.stiffness_damping), displacements, {}};
-    for (int e = 0; e < static_cast<int>(beam.elements.size()); ++e) {
+    for (int e = 0; e < int_size(beam.elements); ++e) {
       const BeamElement<Scalar>& element = beam.elements[e];
       const std::vector<int> active = active_displacements(model_.coordinates, e);
       std::vector<int> indices;

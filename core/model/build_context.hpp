@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/base/int_size.hpp"
 #include "core/model/effect_decisions.hpp"
 #include "core/model/motion_plane.hpp"
 
@@ -32,7 +33,7 @@ struct BuildContext {
   std::unordered_map<std::string, std::size_t> body_numbers = numbers_by_name(scene.bodies);
 
   const BeamEffects& effects_of(const std::string& beam) const { return beam_effects.at(beam); }
-  int variables() const { return static_cast<int>(design.size()); }
+  int variables() const { return int_size(design); }
   /// The design with one variable seeded.
   Design<Dual> seeded(int variable) const;
 };

@@ -7,6 +7,7 @@
 #include "core/base/diameter.hpp"
 #include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
+#include "core/base/int_size.hpp"
 #include "core/integration/redundancy.hpp"
 #include "core/model/body_builder.hpp"
 #include "core/model/divided_beams.hpp"
@@ -261,7 +262,7 @@ class ModelBuilder {
       model_.joints.push_back(
           make_joint(joint, model_.bodies, context_, coordinates_, multipliers_));
       JointModel& added = model_.joints.back();
-      added.is_division = static_cast<int>(model_.joints.size()) <= divisions_;
+      added.is_division = int_size(model_.joints) <= divisions_;
       add_gauges(joint, model_.bodies, context_, added);
       multipliers_ += added.equations();
       if (added.equations() == 0) continue;

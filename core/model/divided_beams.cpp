@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/find_named.hpp"
+#include "core/base/int_size.hpp"
 #include "core/model/beam_mesh.hpp"
 #include "core/model/effect_decisions.hpp"
 #include "core/model/scene_geometry.hpp"
@@ -49,7 +50,7 @@ std::vector<double> node_shares(const std::vector<Segment>& segments) {
 
 /// Nodes at which stretches end: those nearest to equal shares, each stretch with an element.
 std::vector<int> cut_nodes(const std::vector<double>& shares, int frames) {
-  const int last = static_cast<int>(shares.size()) - 1;
+  const int last = int_size(shares) - 1;
   std::vector<int> nodes{0};
   for (int k = 1; k < frames; ++k) {
     const double wanted = static_cast<double>(k) / frames;
@@ -95,7 +96,7 @@ class Division {
     std::vector<Joint> joints = std::move(divided.scene.joints);
     std::vector<Body> bodies = std::move(divided.scene.bodies);
     divided.scene = scene_;
-    divided.divisions = static_cast<int>(joints.size());
+    divided.divisions = int_size(joints);
     divided.scene.bodies = std::move(bodies);
     if (!parts_.empty()) move_attachments(divided.scene);
     divided.scene.joints.insert(divided.scene.joints.begin(), joints.begin(), joints.end());

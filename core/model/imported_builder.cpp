@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/int_size.hpp"
 #include "core/model/imported_constants.hpp"
 
 namespace pleuel {
@@ -97,7 +98,7 @@ Invariants<double> invariants_of(const BodyConstants& constants, const Arrangeme
   invariants.mass_matrix = entries_of(constants.mass_matrix, pattern);
   invariants.stiffness = entries_of(constants.stiffness, pattern);
   invariants.damping = entries_of(constants.damping, pattern);
-  invariants.moments.resize(pattern.nonzeros(), static_cast<int>(arrangement.pairs.size()));
+  invariants.moments.resize(pattern.nonzeros(), int_size(arrangement.pairs));
   for (std::size_t p = 0; p < arrangement.pairs.size(); ++p) {
     invariants.moments.col(p) = moment_entries(constants, arrangement.pairs[p], pattern);
   }

@@ -1,5 +1,6 @@
 #include "core/model/joint_builder.hpp"
 
+#include "core/base/int_size.hpp"
 #include "core/frame/number_data.hpp"
 #include "core/joints/joint_term.hpp"
 #include "core/scene/joint_kind.hpp"
@@ -62,7 +63,7 @@ class JointBuilder {
 
   int add_direction(std::size_t marker, const Eigen::Vector3d& global) {
     directions_.push_back({marker, global});
-    return static_cast<int>(directions_.size()) - 1;
+    return int_size(directions_) - 1;
   }
 
   void add(const JointEquation& equation) { model_.topology.equations.push_back(equation); }

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "core/base/int_size.hpp"
 #include "core/frame/number_data.hpp"
 #include "core/joints/joint_residual.hpp"
 
@@ -67,7 +68,7 @@ JointReaction::JointReaction(const JointModel& joint)
 JointReaction::~JointReaction() = default;
 
 int JointReaction::multiplier(const State& state) const {
-  return joint_.topology.multiplier - static_cast<int>(state.q.size());
+  return joint_.topology.multiplier - int_size(state.q);
 }
 
 JointReaction::Wrench JointReaction::wrench(const State& state) const {
@@ -75,7 +76,7 @@ JointReaction::Wrench JointReaction::wrench(const State& state) const {
 }
 
 JointReaction::Derivatives JointReaction::derivatives(const State& state) const {
-  const auto coordinates = static_cast<int>(coordinates_.size());
+  const auto coordinates = int_size(coordinates_);
   Local<WideDual> local = load<WideDual>(*this, state);
   for (int i = 0; i < coordinates; ++i) {
     local.q[i].derivatives()[i] = 1.0;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/int_size.hpp"
 #include "core/beam/beam_invariants.hpp"
 #include "core/frame/body_frame.hpp"
 #include "core/integration/mechanism.hpp"
@@ -99,7 +100,7 @@ struct JointModel {
   /// Of its relative coordinates, as far as it has them.
   std::optional<GaugeModel> angle, displacement;
 
-  int equations() const { return static_cast<int>(topology.equations.size()); }
+  int equations() const { return int_size(topology.equations); }
 };
 
 /// One line of the table of effects.

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/base/dense_solvers.hpp"
+#include "core/base/int_size.hpp"
 #include "core/scene/joint_kind.hpp"
 
 namespace pleuel {
@@ -119,7 +120,7 @@ class EndMotions {
   EndMotions(const RigidMotions& motions, const std::string& beam, const BeamAxis& axis,
              const std::vector<std::string>& bodies)
       : motions_(motions), beam_(beam), axis_(axis), own_(motions.joints_of(beam)) {
-    for (const std::string& body : bodies) place_[body] = static_cast<int>(place_.size());
+    for (const std::string& body : bodies) place_[body] = int_size(place_);
     first_end_ = 6 * std::ssize(bodies);
     size_ = first_end_ + 6 * std::ssize(own_);
     for (std::size_t j = 0; j < own_.size(); ++j) along_.push_back(j);
@@ -278,7 +279,7 @@ RigidMotions::RigidMotions(const Scene& scene, const Design<double>& start) {
   for (const Joint& joint : scene.joints) {
     const Eigen::Vector3d at = resolve_point(joint.at, start);
     for (const std::string& body : joint.bodies) {
-      of_body_[body].push_back(static_cast<int>(joints_.size()));
+      of_body_[body].push_back(int_size(joints_));
     }
     joints_.push_back(
         {joint.type, joint.bodies, at, resolve_point(second_point(joint), start),

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/base/int_size.hpp"
 #include "core/response/section_stations.hpp"
 
 namespace pleuel {
@@ -79,7 +80,7 @@ class BucklingSignal final : public Signal {
         loads_(std::move(loads)),
         values_(compression_->channels()) {}
 
-  int channels() const override { return static_cast<int>(loads_.size()) * places(); }
+  int channels() const override { return int_size(loads_) * places(); }
   std::string describe(int channel) const override {
     return compression_->describe(channel % places()) + load_of(channel).name;
   }
@@ -102,7 +103,7 @@ class BucklingSignal final : public Signal {
   }
 
  private:
-  int places() const { return static_cast<int>(values_.size()); }
+  int places() const { return int_size(values_); }
   const EulerLoad& load_of(int channel) const {
     return loads_[static_cast<std::size_t>(channel / places())];
   }

@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
+#include "core/base/int_size.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/model/effect_decisions.hpp"
@@ -92,7 +93,7 @@ std::vector<EffectInfluence> effect_influences(const ProblemFile& problem,
   const std::vector<Turned> turned = turned_problems(fixed, model);
   std::vector<Timed> runs(turned.size() + 1);  // the last as it is
   const auto run_all = [&] {
-    for_each_in_parallel(static_cast<int>(runs.size()), available_threads(), [&](int i) {
+    for_each_in_parallel(int_size(runs), available_threads(), [&](int i) {
       Timed run = simulate(i < std::ssize(turned) ? turned[i].problem : fixed, x);
       if (runs[i].seconds > 0.0) run.seconds = std::min(run.seconds, runs[i].seconds);
       runs[i] = std::move(run);

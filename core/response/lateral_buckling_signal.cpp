@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/int_size.hpp"
 #include "core/beam/beam_place.hpp"
 #include "core/response/recovered_signal.hpp"
 #include "core/response/section_forces.hpp"
@@ -20,7 +21,7 @@ class PlaneForces final : public Stations {
  public:
   PlaneForces(const BodyModel& body, BendingPlane plane)
       : body_(body), moment_(plane == BendingPlane::xy ? 2 : 1) {
-    for (int e = 0; e < static_cast<int>(body.beam.elements.size()); ++e) {
+    for (int e = 0; e < int_size(body.beam.elements); ++e) {
       stations_.push_back({{e}, double(e)});
       stations_.push_back({{e}, e + 1.0});
     }
@@ -31,7 +32,7 @@ class PlaneForces final : public Stations {
   Recovery recovery_derivative(std::size_t k) const override {
     return section_force_derivative(body_, stations_, k);
   }
-  int channels() const override { return 2 * static_cast<int>(stations_.size()); }
+  int channels() const override { return 2 * int_size(stations_); }
   int station(int channel) const override { return channel / 4 * 2 + channel % 2; }
   std::string describe(int channel) const override {
     return pleuel::describe(stations_[station(channel)], body_);

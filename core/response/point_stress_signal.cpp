@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/base/int_size.hpp"
 #include "core/response/recovered_signal.hpp"
 
 namespace pleuel {
@@ -40,7 +41,7 @@ class StressPoints final : public Stations {
     return rows_of(body_.stress_x[k].data);
   }
 
-  int channels() const override { return static_cast<int>(stress_.points.size()); }
+  int channels() const override { return int_size(stress_.points); }
   int station(int channel) const override { return channel; }
   std::string describe(int channel) const override { return stress_.points[channel]; }
 

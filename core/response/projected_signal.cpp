@@ -1,12 +1,14 @@
 #include "core/response/projected_signal.hpp"
 
+#include "core/base/int_size.hpp"
+
 namespace pleuel {
 
 ProjectedSignal::ProjectedSignal(std::unique_ptr<Signal> inner, CoordinateMap map, int variables)
     : inner_(std::move(inner)),
       map_(std::move(map)),
       state_(map_),
-      local_(map_.size(), static_cast<int>(map_.multipliers.size()), variables) {}
+      local_(map_.size(), int_size(map_.multipliers), variables) {}
 
 void ProjectedSignal::observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) {
   state_.set(map_, state);

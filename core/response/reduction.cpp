@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/base/int_size.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -271,7 +273,7 @@ BrokenInstants instants_at(const std::vector<double>& breaks, const Eigen::Vecto
 }
 
 StepRange whole_range(const Eigen::VectorXd& time) {
-  return {0, static_cast<int>(time.size()) - 1};
+  return {0, int_size(time) - 1};
 }
 
 StepRange steps_between(const Eigen::VectorXd& time, std::optional<double> from,

@@ -1,5 +1,6 @@
 #include "core/response/section_force_signal.hpp"
 
+#include "core/base/int_size.hpp"
 #include "core/response/section_stations.hpp"
 
 namespace pleuel {
@@ -41,7 +42,7 @@ class ShearStations final : public Stations {
   Recovery recovery_derivative(std::size_t k) const override {
     return shear_force_derivative(body_, stations_, direction_, k);
   }
-  int channels() const override { return static_cast<int>(stations_.size()); }
+  int channels() const override { return int_size(stations_); }
   int station(int channel) const override { return channel; }
   std::string describe(int channel) const override {
     return pleuel::describe(stations_[channel], body_);

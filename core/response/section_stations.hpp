@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/int_size.hpp"
 #include "core/response/recovered_signal.hpp"
 #include "core/response/section_forces.hpp"
 
@@ -46,7 +47,7 @@ class SectionStations final : public Stations {
  public:
   SectionStations(const BodyModel& body, const StationChoice& choice, Quantity quantity)
       : body_(body), quantity_(std::move(quantity)), stations_(find_stations(body, choice)) {
-    for (int s = 0; s < static_cast<int>(stations_.size()); ++s) {
+    for (int s = 0; s < int_size(stations_); ++s) {
       for (const Point& point : quantity_.points(body, section_of(body.beam, s))) {
         channels_.push_back({s, point});
       }
@@ -59,7 +60,7 @@ class SectionStations final : public Stations {
     return section_force_derivative(body_, stations_, k);
   }
 
-  int channels() const override { return static_cast<int>(channels_.size()); }
+  int channels() const override { return int_size(channels_); }
   int station(int channel) const override { return at(channel).station; }
   std::string describe(int channel) const override {
     const auto& [station, point] = at(channel);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/int_size.hpp"
 #include "core/response/recovered_signal.hpp"
 #include "core/response/section_forces.hpp"
 
@@ -38,7 +39,7 @@ class ShearPlaces final : public Stations {
  public:
   ShearPlaces(const BodyModel& body, const StationChoice& choice)
       : body_(body), stations_(find_stations(body, choice)) {
-    for (int station = 0; station < static_cast<int>(stations_.size()); ++station) {
+    for (int station = 0; station < int_size(stations_); ++station) {
       for (const int point : points_of(section(body.beam, station))) {
         channels_.push_back({station, point});
       }
@@ -51,7 +52,7 @@ class ShearPlaces final : public Stations {
     return shearing_force_derivative(body_, stations_, k);
   }
 
-  int channels() const override { return static_cast<int>(channels_.size()); }
+  int channels() const override { return int_size(channels_); }
   int station(int channel) const override { return at(channel).first; }
   std::string describe(int channel) const override {
     const auto& [station, point] = at(channel);
@@ -85,7 +86,7 @@ class ShearPlaces final : public Stations {
   std::vector<int> points_of(const SectionProperties<double>& section) const {
     const std::vector<ShearPoint<double>>& points = section.shear_points;
     std::vector<int> all;
-    for (int i = 0; i < static_cast<int>(points.size()); ++i) all.push_back(i);
+    for (int i = 0; i < int_size(points); ++i) all.push_back(i);
     if (body_.frame.rotation != RotationCoordinates::angle) return all;
     const Eigen::Vector3d normal = body_.frame.reference.transpose() * body_.frame.axis;
     const auto share = [&](const ShearPoint<double>& point) {

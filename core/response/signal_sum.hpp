@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/int_size.hpp"
 #include "core/response/signal.hpp"
 
 namespace pleuel {
@@ -21,7 +22,7 @@ class SignalSum final : public Signal {
   explicit SignalSum(std::vector<Part> parts, std::string name = "")
       : parts_(std::move(parts)), name_(std::move(name)), own_(parts_.front().signal->channels()) {}
 
-  int channels() const override { return static_cast<int>(own_.size()); }
+  int channels() const override { return int_size(own_); }
 
   void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
     values.setZero();

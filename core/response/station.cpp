@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/int_size.hpp"
 #include "core/beam/beam_place.hpp"
 
 namespace pleuel {
@@ -40,7 +41,7 @@ class StationFinder {
   }
 
  private:
-  int elements() const { return static_cast<int>(body_.beam.elements.size()); }
+  int elements() const { return int_size(body_.beam.elements); }
   int segment_of(int e) const { return body_.mesh.elements[e].segment; }
   /// Whether an element continues the segment of the one before, and nothing acts between them.
   bool continues(int e) const {

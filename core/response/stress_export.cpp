@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/int_size.hpp"
 #include "core/response/section_forces.hpp"
 #include "core/response/stress_signal.hpp"
 
@@ -26,7 +27,7 @@ StressExport::StressExport(const BodyModel& body, const std::vector<NamedPlace>&
 
 void StressExport::find_stress_places() {
   const bool is_planar = body_.frame.rotation == RotationCoordinates::angle;
-  for (int s = 0; s < static_cast<int>(stations_.size()); ++s) {
+  for (int s = 0; s < int_size(stations_); ++s) {
     const std::string node = fmt::format("node {}", stations_[s].place);
     const SectionProperties<double>& section = section_of(body_.beam, s);
     if (section.is_round() && !is_planar) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "core/base/int_size.hpp"
 #include "core/response/section_stations.hpp"
 
 namespace pleuel {
@@ -29,7 +30,7 @@ struct OutlinePlace {
 /// Points that torsion tells apart.
 std::vector<int> points_of_distinct_shear(const SectionProperties<double>& section) {
   std::vector<int> distinct;
-  for (int i = 0; i < static_cast<int>(section.points.size()); ++i) {
+  for (int i = 0; i < int_size(section.points); ++i) {
     const auto is_same = [&](int other) {
       return section.points[other].shear == section.points[i].shear;
     };
@@ -132,7 +133,7 @@ std::vector<int> distinct_stress_points(const BodyModel& body,
   const bool is_planar = body.frame.rotation == RotationCoordinates::angle;
   const Eigen::Vector3d normal = body.frame.reference.transpose() * body.frame.axis;
   const bool bends_along_y = std::abs(normal.z()) > 0.5;
-  const int points = static_cast<int>(section.points.size());
+  const int points = int_size(section.points);
   const auto lever = [&](int k) {
     const StressPoint<double>& point = section.points[k];
     return bends_along_y ? point.y : point.z;

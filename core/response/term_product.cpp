@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/int_size.hpp"
+
 namespace pleuel {
 
 TermProduct::TermProduct(std::vector<Term*> terms, const System& system)
@@ -27,7 +29,7 @@ const Eigen::VectorXd& TermProduct::residual(const State& state, ConstraintLevel
 void TermProduct::add_gradient(const State& state, ConstraintLevel level,
                                const Eigen::VectorXd& rows, SignalGradient& gradient) {
   static constexpr std::array<Weights, 3> by_q_v_a = {{{.q = 1.0}, {.v = 1.0}, {.a = 1.0}}};
-  const auto n = static_cast<int>(state.q.size());
+  const auto n = int_size(state.q);
   residual_.setZero();
   design_.setZero();
   for (std::size_t i = 0; i < terms_.size(); ++i) {

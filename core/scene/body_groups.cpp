@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/disjoint_sets.hpp"
+#include "core/base/int_size.hpp"
 
 namespace pleuel {
 
@@ -26,7 +27,7 @@ std::vector<std::array<std::string, 2>> ties_of(const Scene& scene) {
 BodyGroups::BodyGroups(const Scene& scene) {
   std::unordered_map<std::string, int> numbers;
   for (const Body& body : scene.bodies) {
-    numbers.try_emplace(body.name, static_cast<int>(numbers.size()));
+    numbers.try_emplace(body.name, int_size(numbers));
   }
   const auto ties = ties_of(scene);
   DisjointSets sets(numbers.size());

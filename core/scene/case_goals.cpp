@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/find_named.hpp"
+#include "core/base/int_size.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/response_quantity.hpp"
 
@@ -51,7 +52,7 @@ class FormulaOverCases {
  private:
   int add_step(const ExpressionStep& step) {
     whole_.steps.push_back(step);
-    return static_cast<int>(whole_.steps.size()) - 1;
+    return int_size(whole_.steps) - 1;
   }
 
   void add(std::size_t load_case, std::size_t index) {
@@ -59,7 +60,7 @@ class FormulaOverCases {
     if (weight == 0.0) return;
     const std::size_t response = joined_response(joined_, {load_case, index});
     whole_.arguments.push_back({ExpressionArgument::Kind::response, response});
-    const auto argument = static_cast<int>(whole_.arguments.size()) - 1;
+    const auto argument = int_size(whole_.arguments) - 1;
     int term = add_step({Operation::argument, 0.0, argument});
     if (weight != 1.0) {
       const int factor = add_step({Operation::constant, weight});

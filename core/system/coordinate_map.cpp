@@ -1,9 +1,11 @@
 #include "core/system/coordinate_map.hpp"
 
+#include "core/base/int_size.hpp"
+
 namespace pleuel {
 
 LocalState::LocalState(const CoordinateMap& map)
-    : local(map.size(), static_cast<int>(map.multipliers.size())),
+    : local(map.size(), int_size(map.multipliers)),
       q(map.columns()),
       v(map.columns()),
       a(map.columns()) {}

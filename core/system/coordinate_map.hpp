@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "core/base/int_size.hpp"
 #include "core/system/term.hpp"
 
 namespace pleuel {
@@ -20,7 +21,7 @@ struct CoordinateMap {
   std::vector<int> multipliers;  ///< indices in λ of the local multipliers
 
   int size() const { return static_cast<int>(rows.rows()); }
-  int columns() const { return static_cast<int>(coordinates.size()); }
+  int columns() const { return int_size(coordinates); }
 
   /// Local part of a vector of generalized coordinates or of their rates.
   template <class Vector>

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "core/base/int_size.hpp"
 #include "core/system/coordinate_map.hpp"
 #include "core/system/term.hpp"
 
@@ -33,7 +34,7 @@ class ProjectedTerm final : public Term {
 
  private:
   int locals() const { return map_.size(); }
-  int multipliers() const { return static_cast<int>(map_.multipliers.size()); }
+  int multipliers() const { return int_size(map_.multipliers); }
   int row_of_multiplier(int i) const { return coordinates_ + map_.multipliers[i]; }
   void scatter(Eigen::VectorXd& residual);
   void set_tangent(std::size_t block);
@@ -42,9 +43,7 @@ class ProjectedTerm final : public Term {
   void add_moving_map(ConstraintLevel level, Eigen::MatrixXd& columns);
   /// Residual and the tangents for weights one on q, v and a at the local state.
   void linearize_inner(ConstraintLevel level);
-  int map_sum_count() const {
-    return map_.derivatives.empty() ? 0 : static_cast<int>(map_.rows.size());
-  }
+  int map_sum_count() const { return map_.derivatives.empty() ? 0 : int_size(map_.rows); }
   void add_map_sums(ConstraintLevel level, const ConstColumns& mu, Columns sums);
 
   std::unique_ptr<Term> inner_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "core/base/int_size.hpp"
+
 namespace pleuel {
 
 System::System(int coordinates, int multipliers, int variables,
@@ -35,7 +37,7 @@ void System::build_pattern() {
   pattern_.setFromTriplets(triplets.begin(), triplets.end());
   pattern_.makeCompressed();
   entry_count_ = entries.size();
-  const auto none = static_cast<int>(entries.size());
+  const auto none = int_size(entries);
   first_of_value_.assign(pattern_.nonZeros(), none);
   more_of_values_.clear();
   for (int entry = 0; entry < none; ++entry) {

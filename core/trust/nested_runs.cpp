@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "core/base/error.hpp"
+#include "core/base/int_size.hpp"
 #include "core/base/parallel.hpp"
 
 namespace pleuel {
@@ -86,7 +87,7 @@ NestedRun make_nested_run(const ProblemFile& problem, const Eigen::VectorXd& x,
 std::vector<NestedRun> make_nested_runs(const ProblemFile& problem, const Eigen::VectorXd& x,
                                         const std::vector<Refinement>& refinements) {
   std::vector<NestedRun> runs(refinements.size());
-  for_each_in_parallel(static_cast<int>(runs.size()), available_threads(),
+  for_each_in_parallel(int_size(runs), available_threads(),
                        [&](int i) { runs[i] = make_nested_run(problem, x, refinements[i]); });
   return runs;
 }

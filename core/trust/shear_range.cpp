@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/base/find_named.hpp"
+#include "core/base/int_size.hpp"
 #include "core/base/sparse_rows.hpp"
 #include "core/beam/beam_shape.hpp"
 #include "core/beam/elastic_basis.hpp"
@@ -229,7 +230,7 @@ class ShearDoubts {
     for (int row = 0; row < m; ++row) {
       int& of_row = place[row];
       if (of_row < 0) continue;
-      of_row = static_cast<int>(rows.size());
+      of_row = int_size(rows);
       rows.push_back(row);
     }
     std::vector<bool> is_elastic(n, false);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/int_size.hpp"
 #include "core/integration/elastic_stability.hpp"
 #include "core/integration/equilibrium.hpp"
 #include "core/integration/turning.hpp"
@@ -118,7 +119,7 @@ PressedBeams pressed_beams(const Scene& scene, const Analysis& analysis) {
   PressedBeams beams(scene, analysis.model);
   if (beams.is_empty()) return beams;
   State state;
-  for (int i = 0; i < static_cast<int>(analysis.trajectory.time.size()); ++i) {
+  for (int i = 0; i < int_size(analysis.trajectory.time); ++i) {
     analysis.trajectory.states->load(i, state);
     beams.see(state, i);
   }
@@ -172,7 +173,7 @@ std::optional<Instability> find_instability(const Scene& scene, const Analysis& 
   const Trajectory& trajectory = analysis.trajectory;
   State state;
   FastestRotor rotor;
-  for (int i = 0; i < static_cast<int>(trajectory.time.size()); ++i) {
+  for (int i = 0; i < int_size(trajectory.time); ++i) {
     trajectory.states->load(i, state);
     rotor.see(mechanism, state, i);
   }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/int_size.hpp"
 #include "core/base/parallel.hpp"
 #include "core/scene/load_cases.hpp"
 
@@ -38,7 +39,7 @@ DesignProblem::DesignProblem(ProblemFile file, int threads, EvaluationStore* sto
                             constraint.upper.value_or(infinity)});
   }
   const auto problems = simulated_problems(std::as_const(file_));
-  const auto count = static_cast<int>(problems.size());
+  const auto count = int_size(problems);
   const int inner_threads = std::max(1, threads_ / count);
   for (const ProblemFile* problem : problems) {
     cases_.push_back(std::make_unique<DesignCase>(*problem, inner_threads, store));
@@ -148,7 +149,7 @@ std::vector<DesignCase::Answer> DesignProblem::answers_of(const Eigen::VectorXd&
       open.push_back(c);
     }
   }
-  for_each_in_parallel(static_cast<int>(open.size()), threads_, [&](int i) {
+  for_each_in_parallel(int_size(open), threads_, [&](int i) {
     answers[open[i]] = cases_[open[i]]->compute(x, request, rows.cases[open[i]].of);
   });
   for (const std::size_t c : open) cases_[c]->keep(request, answers[c]);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/int_size.hpp"
 #include "core/base/parallel.hpp"
 #include "core/scene/packed_problem.hpp"
 #include "optimization/design/packed_solution.hpp"
@@ -142,7 +143,7 @@ class Searches : public StoredTasks<SearchData> {
         observer_(observer),
         notice_(notice) {}
 
-  int count() const override { return static_cast<int>(data().starts.size()); }
+  int count() const override { return int_size(data().starts); }
 
   void hear(int task, const std::string& message) override {
     announce(task);
@@ -174,7 +175,7 @@ class Searches : public StoredTasks<SearchData> {
     none.result.message = fmt::format("the search from start {} was lost: {}", task + 1, failure);
     none.result.x = start(task);
     none.result.history = std::move(seen_);
-    none.result.evaluations = static_cast<int>(none.result.history.size());
+    none.result.evaluations = int_size(none.result.history);
     if (notice_) notice_(none.result.message);
     add(std::move(none));
   }
@@ -271,7 +272,7 @@ MultiStart combined(const std::vector<Eigen::VectorXd>& starts,
 MultiStart solve_from_starts(const ProblemFile& file, const std::vector<Eigen::VectorXd>& starts,
                              SolveOptions options, const Execution& execution,
                              const Observer& observer, const Notice& notice) {
-  options.starts = static_cast<int>(starts.size());
+  options.starts = int_size(starts);
   std::vector<StagedSolution> solutions;
   if (starts.size() == 1) {
     solutions.push_back(

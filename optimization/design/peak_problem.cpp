@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/int_size.hpp"
 #include "core/scene/load_cases.hpp"
 #include "optimization/scaling.hpp"
 
@@ -144,7 +145,7 @@ PeakDivision PeakProblem::division_of(std::size_t load_case,
   if (is_fatigue(response)) return {1, places};
   const int windows = std::min(windows_, step_count(file.simulation) + 1);
   const int fewest = std::min(least_windows, windows);
-  const auto limits = static_cast<int>(problem_.file().constraints.size());
+  const auto limits = int_size(problem_.file().constraints);
   const int rows = most_rows_of_all / std::max(1, limits);
   if (places == 1) return {std::clamp(rows, fewest, windows), 1};
   return {std::clamp(std::min(most_rows, rows) / places, fewest, windows), places};

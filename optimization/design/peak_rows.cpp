@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/int_size.hpp"
 #include "core/model/motion_plane.hpp"
 #include "core/response/fatigue_damage.hpp"
 #include "core/response/signal_of_body.hpp"
@@ -96,7 +97,7 @@ std::vector<ChannelRange> places_of_segments(const Analysis& analysis,
 int segments_of(const ProblemFile& file, const ResponseSettings& response) {
   const auto* beam = std::get_if<BeamBody>(&body_of(file, response).shape);
   if (beam == nullptr) return 0;
-  return response.segment ? 1 : static_cast<int>(beam->segments.size());
+  return response.segment ? 1 : int_size(beam->segments);
 }
 
 void shift_channels(std::vector<Sample>& samples, Eigen::Index first) {
@@ -159,7 +160,7 @@ int place_count(const ProblemFile& file, const ResponseSettings& response) {
   if (!is_of_stress(response)) return planes_of(file, response);
   if (response.station) return 1;
   if (response.bodies.size() > 1) {
-    return std::min(places_of_a_part * static_cast<int>(response.bodies.size()), most_places);
+    return std::min(places_of_a_part * int_size(response.bodies), most_places);
   }
   const int segments = segments_of(file, response);
   return segments > 1 ? std::min(segments, most_places) : places_of_a_part;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "core/base/int_size.hpp"
 #include "core/scene/problem_file.hpp"
 #include "optimization/linear_choice.hpp"
 
@@ -19,7 +20,7 @@ class SizeLists {
   std::size_t count() const { return lists_.size(); }
   /// Index of the k-th chosen variable among all.
   Eigen::Index variable(std::size_t k) const { return lists_[k].variable; }
-  int sizes(std::size_t k) const { return static_cast<int>(lists_[k].values.size()); }
+  int sizes(std::size_t k) const { return int_size(lists_[k].values); }
   double value(std::size_t k, int size) const { return lists_[k].values[size]; }
   /// Mean distance of the sizes in a list; zero of one.
   double mean_gap(std::size_t k) const;

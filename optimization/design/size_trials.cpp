@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/int_size.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/scene/packed_problem.hpp"
@@ -80,7 +81,7 @@ class Trials : public StoredTasks<TrialData> {
   Trials(TrialData data, EvaluationStore* store)
       : StoredTasks(std::move(data), store), trials_(this->data().designs.size()) {}
 
-  int count() const override { return static_cast<int>(trials_.size()); }
+  int count() const override { return int_size(trials_); }
 
   void take(int task, const std::string& answer) override {
     trials_[task] = unpacked<SizeTrial>(answer);

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/int_size.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/scene/load_cases.hpp"
 
@@ -139,7 +140,7 @@ class StagedSolve {
       is_new = is_new || !is_same(choice.chosen.setting, from[c]);
       stage.settings.push_back(choice.chosen);
       stage.is_met = stage.is_met && choice.is_met;
-      stage.settings_tried += static_cast<int>(choice.tried.size());
+      stage.settings_tried += int_size(choice.tried);
       *problems[c] = std::move(choice.problem);
       notices.push_back(choice_text(target, stage.settings.back(), choice.is_met, *problems[c]));
     }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/int_size.hpp"
 #include "core/scene/magnitude_direction.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/response_names.hpp"
@@ -126,7 +127,7 @@ void read_stretch(const JsonNode& node, const BeamBody& beam, ResponseSettings& 
   const std::optional<JsonNode> segment = node.find("segment"), place = node.find("at");
   if (segment && place) node.fail("has both \"segment\" and \"at\"");
   if (segment) {
-    response.segment = segment->whole_number(0, static_cast<int>(beam.segments.size()) - 1);
+    response.segment = segment->whole_number(0, int_size(beam.segments) - 1);
   }
   if (place) response.station = read_place(*place);
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/int_size.hpp"
 #include "core/scene/reading/suggestion.hpp"
 
 namespace pleuel {
@@ -95,7 +96,7 @@ ReadExpression ExpressionBuilder::take(int last) {
 int ExpressionBuilder::add(const ExpressionStep& step, const StepFacts& facts) {
   expression_.steps.push_back(step);
   facts_.push_back(facts);
-  return static_cast<int>(facts_.size()) - 1;
+  return int_size(facts_) - 1;
 }
 
 int ExpressionBuilder::add_constant(double value, const Dimension& dimension) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/int_size.hpp"
 #include "core/scene/reading/case_suffix.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/symbols.hpp"
@@ -94,7 +95,7 @@ class Extract {
       if (copy.second >= 0) copy.second = add(copy.second);
     }
     part_.steps.push_back(copy);
-    return static_cast<int>(part_.steps.size()) - 1;
+    return int_size(part_.steps) - 1;
   }
 
   int argument(const ExpressionArgument& asked) {
@@ -103,7 +104,7 @@ class Extract {
       if (known.kind == asked.kind && known.index == asked.index) return static_cast<int>(i);
     }
     part_.arguments.push_back(asked);
-    return static_cast<int>(part_.arguments.size()) - 1;
+    return int_size(part_.arguments) - 1;
   }
 
   const Expression& whole_;
@@ -143,7 +144,7 @@ void split_extreme(ResponseSettings& whole, std::vector<ResponseSettings>& respo
   const Operation extreme = expression.steps.back().operation;
   if (extreme != Operation::larger && extreme != Operation::smaller) return;
   std::vector<int> leaves;
-  add_leaves(expression, static_cast<int>(expression.steps.size()) - 1, extreme, leaves);
+  add_leaves(expression, int_size(expression.steps) - 1, extreme, leaves);
   std::vector<std::string> texts = operand_texts(whole.name);
   const bool has_texts = texts.size() == leaves.size();
   std::vector<ResponseSettings> parts;
@@ -167,7 +168,7 @@ void split_extreme(ResponseSettings& whole, std::vector<ResponseSettings>& respo
     }
     of_parts.arguments.push_back(argument);
     of_parts.steps.push_back({Operation::argument, 0.0, static_cast<int>(i)});
-    const int here = static_cast<int>(of_parts.steps.size()) - 1;
+    const int here = int_size(of_parts.steps) - 1;
     if (i > 0) of_parts.steps.push_back({extreme, 0.0, here - 1, here});
   }
   whole.expression = std::make_shared<const Expression>(std::move(of_parts));

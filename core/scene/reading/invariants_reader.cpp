@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "core/base/int_size.hpp"
 #include "core/scene/invariants_file.hpp"
 #include "core/scene/reading/constants_check.hpp"
 #include "core/scene/reading/constants_reader.hpp"
@@ -72,7 +73,7 @@ InvariantsFile read_invariants_text(const std::string& text, const std::string& 
   const JsonNode root(document, name, "", "the file of invariants");
   InvariantsFile file;
   read_heading(root, file);
-  file.constants = read_constants(root, static_cast<int>(file.coordinates.size()));
+  file.constants = read_constants(root, int_size(file.coordinates));
   check_constants(root, file.constants);
   file.design = read_design(root);
   read_derivatives(root, file);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/int_size.hpp"
 #include "core/base/machine_memory.hpp"
 #include "core/scene/reading/limits.hpp"
 #include "core/scene/reading/sample_design.hpp"
@@ -78,7 +79,7 @@ void read_starts(const JsonNode& node, const std::vector<DesignVariable>& variab
   for (const JsonNode& item : node.items()) {
     settings.given_starts.push_back(read_start(item, variables, numbers));
   }
-  settings.starts = 1 + static_cast<int>(settings.given_starts.size());
+  settings.starts = 1 + int_size(settings.given_starts);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/int_size.hpp"
 #include "core/scene/reading/sample_design.hpp"
 #include "core/scene/reading/symbols.hpp"
 
@@ -133,7 +134,7 @@ std::vector<DesignVariable> read_variables(const JsonNode& node, const NumberRea
   for (const VariableMention& mention : numbers.mentions()) numbers.check_mention(mention);
   std::vector<DesignVariable> variables;
   for (const auto& [name, member] : node.members()) {
-    const auto quantity = numbers.quantity_of(static_cast<int>(variables.size()));
+    const auto quantity = numbers.quantity_of(int_size(variables));
     if (!quantity) {
       member.fail(
           "is not used: no number of the scene, no formula and no linear constraint names it");
