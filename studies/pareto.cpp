@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/stop.hpp"
@@ -49,11 +50,9 @@ namespace {
 /// Of the worst case it stands in all of them, and bears the name that the response has there.
 std::string name_of_limit_on(const Objective& goal, const ProblemFile& problem) {
   if (goal.over_cases != OverCases::worst) return goal.response;
-  for (std::size_t i = 0; i < problem.responses.size(); ++i) {
-    if (problem.responses[i].name != goal.response) continue;
-    return problem.cases.front().responses[problem.case_responses[i].index].name;
-  }
-  return goal.response;
+  const auto index = index_of_named(problem.responses, goal.response);
+  if (!index) return goal.response;
+  return problem.cases.front().responses[problem.case_responses[*index].index].name;
 }
 
 }  // namespace

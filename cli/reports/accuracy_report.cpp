@@ -10,6 +10,7 @@
 #include "cli/reports/warnings.hpp"
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
+#include "core/base/find_named.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/shown_unit.hpp"
 
@@ -145,11 +146,8 @@ std::string worst_change(const ProblemFile& problem, const AccuracyStudy& study,
 }
 
 double objective_size(const ProblemFile& problem, const AccuracyStudy& study) {
-  for (std::size_t i = 0; i < problem.responses.size(); ++i) {
-    if (problem.responses[i].name != problem.objective->response) continue;
-    return std::abs(study.reference.values(i));
-  }
-  return 0.0;
+  const auto index = index_of_named(problem.responses, problem.objective->response);
+  return index ? std::abs(study.reference.values(*index)) : 0.0;
 }
 
 std::string words_of(std::string name) {
@@ -364,8 +362,7 @@ std::string target_text(double target) {
 std::string change_text(const ResponseSettings& response, double change) {
   ShownUnit unit = unit_of(response);
   if (unit.si == "kg" && std::abs(change) < 1.0) unit = {"kg", "g", 1e-3};
-  const std::string name = unit.name == "1" ? "" : " " + unit.name;
-  return (change < 0.0 ? "−" : "+") + significant(std::abs(unit.shown(change)), 2) + name;
+  return (change < 0.0 ? "−" : "+") + significant(std::abs(unit.shown(change)), 2) + unit.suffix();
 }
 
 std::string accuracy_text(const ProblemFile& problem, const AccuracyStudy& study,

@@ -60,8 +60,7 @@ std::string gaps_message(const ProblemFile& problem, const ParetoFront& front,
       return significant(unit.shown(front.points[i].limited_value));
     };
     text += fmt::format("; between {} = {} and {}{} ({}) {}", limited, value(gap.tight),
-                        value(gap.loose), unit.name == "1" ? "" : " " + unit.name,
-                        percent(gap.size), reason(gap.cause));
+                        value(gap.loose), unit.suffix(), percent(gap.size), reason(gap.cause));
   }
   if (is_open) {
     text += fmt::format("; no more than {} points were allowed (\"most_points\")",

@@ -8,6 +8,7 @@
 
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
+#include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/shown_unit.hpp"
@@ -64,11 +65,8 @@ std::string largest_change_text(const MeasuredEffects& effects, const EffectInfl
 double most_changed(const MeasuredEffects& effects, const EffectInfluence& influence) {
   const double change = largest_change(effects.values, influence).relative;
   if (!effects.price) return change;
-  double objective = 0.0;
-  for (std::size_t i = 0; i < effects.problem.responses.size(); ++i) {
-    if (effects.problem.responses[i].name != effects.problem.objective->response) continue;
-    objective = std::abs(effects.values(i));
-  }
+  const auto index = index_of_named(effects.problem.responses, effects.problem.objective->response);
+  const double objective = index ? std::abs(effects.values(*index)) : 0.0;
   const double worth = std::abs(effects.price(influence.changes));
   return objective > 0.0 ? std::max(change, worth / objective) : change;
 }

@@ -10,6 +10,7 @@
 #include "cli/reports/optimum.hpp"
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
+#include "core/base/find_named.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "optimization/verdict.hpp"
@@ -23,9 +24,8 @@ double value_of(const ConstraintSettings& constraint, const ProblemFile& problem
   double value = 0.0;
   for (const auto& [variable, coefficient] : constraint.linear) value += coefficient * x(variable);
   if (!constraint.linear.empty()) return value;
-  const ResponseSettings& response = find_response(problem, constraint.response);
   return without_round_off(analysis,
-                           static_cast<std::size_t>(&response - problem.responses.data()));
+                           index_of_named(problem.responses, constraint.response).value());
 }
 
 /// As exactly as a verified optimum keeps its limits.

@@ -15,8 +15,7 @@ namespace {
 /// "25 mm", or between which sections: "IPE 80 + 0.31".
 std::string relaxed_text(const DesignVariable& variable, const ShownUnit& unit, double value) {
   if (!is_section(variable)) {
-    return fmt::format("{}{}", significant(unit.shown(value)),
-                       unit.name == "1" ? "" : " " + unit.name);
+    return significant(unit.shown(value)) + unit.suffix();
   }
   const double whole = std::floor(value);
   const std::string name = variable.choices[static_cast<std::size_t>(whole)].text;

@@ -15,7 +15,7 @@ namespace pleuel {
 namespace {
 
 std::size_t index_of(const std::vector<ResponseSettings>& responses, const std::string& name) {
-  return static_cast<std::size_t>(find_named(responses, name) - responses.data());
+  return index_of_named(responses, name).value();
 }
 
 std::string word_of(const Objective& goal) {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/base/find_named.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
 
@@ -13,9 +14,7 @@ namespace pleuel {
 namespace {
 
 std::size_t index_of(const ProblemFile& problem, const std::string& response) {
-  for (std::size_t i = 0; i < problem.responses.size(); ++i) {
-    if (problem.responses[i].name == response) return i;
-  }
+  if (const auto index = index_of_named(problem.responses, response)) return *index;
   throw std::logic_error("no response " + response);
 }
 

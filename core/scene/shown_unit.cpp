@@ -51,7 +51,7 @@ std::vector<ShownUnit> variable_units(const ProblemFile& problem) {
 std::string bounds_text(const DesignVariable& variable, const Quantity& quantity) {
   const ShownUnit unit = unit_of(variable, quantity, UnitSystem());
   return fmt::format("{:g} to {:g}{}", unit.shown(variable.lower), unit.shown(variable.upper),
-                     unit.name == "1" ? "" : " " + unit.name);
+                     unit.suffix());
 }
 
 ShownUnit unit_of(const ResponseSettings& response) {

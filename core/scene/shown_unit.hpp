@@ -16,6 +16,9 @@ struct ShownUnit {
   double factor = 1.0;  ///< SI value of one shown unit: 0.001
 
   double shown(double value) const { return value / factor; }
+
+  /// What stands behind a number: " mm", or nothing for pure numbers.
+  std::string suffix() const { return name == "1" ? "" : " " + name; }
 };
 
 /// The unit that mechanical engineers use: mm, MPa, else SI.

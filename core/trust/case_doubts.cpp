@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/find_named.hpp"
 #include "core/scene/load_cases.hpp"
 
 namespace pleuel {
@@ -33,10 +34,8 @@ Doubt named_doubt(const ProblemFile& problem, const SharedDoubt& shared) {
   for (const std::size_t c : shared.cases) {
     const std::vector<ResponseSettings>& all = problem.cases[c].responses;
     for (const std::string& name : shared.doubt.responses) {
-      for (std::size_t i = 0; i < all.size(); ++i) {
-        if (all[i].name == name) {
-          doubt.responses.push_back(problem.responses[joined_response(problem, {c, i})].name);
-        }
+      if (const auto i = index_of_named(all, name)) {
+        doubt.responses.push_back(problem.responses[joined_response(problem, {c, *i})].name);
       }
     }
   }

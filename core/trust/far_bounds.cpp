@@ -22,12 +22,11 @@ bool is_far(double bound, double other, double start) {
 
 Doubt far_bound(const DesignVariable& variable, const char* side, double bound,
                 const ShownUnit& unit) {
-  const std::string name = unit.name == "1" ? "" : " " + unit.name;
   return {fmt::format(
       "the {} bound of variable \"{}\" is {:.3g}{}, {:.1g} times its start: steps and scales of a "
       "search come from the range between the bounds, which says nothing here, and an optimum may "
       "be missed. Is a unit missing? Else give a bound that the design may come near.",
-      side, variable.name, unit.shown(bound), name, std::abs(bound / variable.start))};
+      side, variable.name, unit.shown(bound), unit.suffix(), std::abs(bound / variable.start))};
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/find_named.hpp"
 #include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
@@ -44,11 +45,10 @@ std::vector<Doubt> doubt_far_limits(const TrustedRun& run) {
   std::vector<Doubt> doubts;
   const Eigen::VectorXd values = values_of(run.analysis);
   for (const ConstraintSettings& constraint : run.problem.constraints) {
-    for (std::size_t i = 0; i < run.problem.responses.size(); ++i) {
-      if (run.problem.responses[i].name != constraint.response) continue;
-      const auto text = far_limit_text(run.problem, constraint, values(i));
-      if (text) doubts.push_back({*text, false, {constraint.response}});
-    }
+    const auto index = index_of_named(run.problem.responses, constraint.response);
+    if (!index) continue;
+    const auto text = far_limit_text(run.problem, constraint, values(*index));
+    if (text) doubts.push_back({*text, false, {constraint.response}});
   }
   return doubts;
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/find_named.hpp"
 #include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
@@ -75,23 +76,23 @@ double furthest(const TrustedRun& run, std::size_t response, double side) {
 std::vector<Doubt> doubt_other_side(const TrustedRun& run) {
   std::vector<Doubt> doubts;
   for (const ConstraintSettings& limit : run.problem.constraints) {
-    for (std::size_t i = 0; i < run.problem.responses.size(); ++i) {
-      const ResponseSettings& response = run.problem.responses[i];
-      if (response.name != limit.response || !has_two_sides(response.type)) continue;
-      if (response.over_time != OverTime::max && response.over_time != OverTime::min) continue;
-      const double side = response.over_time == OverTime::max ? 1.0 : -1.0;
-      const double reach = reach_of(limit, response, side);
-      const double beyond = furthest(run, i, -side);
-      const bool is_beyond = reach > 0.0 && beyond > reach;
-      if (!is_beyond || std::isfinite(reach_of_all(run.problem, response, -side))) continue;
-      const ShownUnit unit = unit_of(response);
-      doubts.push_back({fmt::format(
-          "the limit \"{}\" holds \"{}\" at {:.4g} {} to one side only, and it comes to {:.4g} {} "
-          "on the other one. Where both sides count: \"over_time\": \"max-abs\".",
-          limit.name, response.name, unit.shown(side * reach), unit.name,
-          unit.shown(-side * beyond), unit.name)});
-      doubts.back().responses = {response.name};
-    }
+    const auto index = index_of_named(run.problem.responses, limit.response);
+    if (!index) continue;
+    const ResponseSettings& response = run.problem.responses[*index];
+    if (!has_two_sides(response.type)) continue;
+    if (response.over_time != OverTime::max && response.over_time != OverTime::min) continue;
+    const double side = response.over_time == OverTime::max ? 1.0 : -1.0;
+    const double reach = reach_of(limit, response, side);
+    const double beyond = furthest(run, *index, -side);
+    const bool is_beyond = reach > 0.0 && beyond > reach;
+    if (!is_beyond || std::isfinite(reach_of_all(run.problem, response, -side))) continue;
+    const ShownUnit unit = unit_of(response);
+    doubts.push_back({fmt::format(
+        "the limit \"{}\" holds \"{}\" at {:.4g}{} to one side only, and it comes to {:.4g}{} "
+        "on the other one. Where both sides count: \"over_time\": \"max-abs\".",
+        limit.name, response.name, unit.shown(side * reach), unit.suffix(),
+        unit.shown(-side * beyond), unit.suffix())});
+    doubts.back().responses = {response.name};
   }
   return doubts;
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/find_named.hpp"
 #include "core/base/stopwatch.hpp"
 #include "optimization/design/setting_text.hpp"
 #include "sensitivity/method_choice.hpp"
@@ -16,9 +17,7 @@ DesignCase::DesignCase(ProblemFile file, int threads, EvaluationStore* store)
 }
 
 std::size_t DesignCase::response_index(const std::string& name) const {
-  for (std::size_t i = 0; i < file_.responses.size(); ++i) {
-    if (file_.responses[i].name == name) return i;
-  }
+  if (const auto index = index_of_named(file_.responses, name)) return *index;
   throw InputError(fmt::format("there is no response \"{}\"", name));
 }
 

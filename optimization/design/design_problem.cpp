@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/parallel.hpp"
 #include "core/scene/load_cases.hpp"
@@ -14,8 +15,7 @@ namespace pleuel {
 namespace {
 
 std::string text_in(const ShownUnit& unit, double value) {
-  const std::string name = unit.name == "1" ? "" : " " + unit.name;
-  return fmt::format("{:.6g}{}", unit.shown(value), name);
+  return fmt::format("{:.6g}{}", unit.shown(value), unit.suffix());
 }
 
 }  // namespace
@@ -70,9 +70,7 @@ std::string DesignProblem::objective_text(double value) const {
 }
 
 std::size_t DesignProblem::response_index(const std::string& name) const {
-  for (std::size_t i = 0; i < file_.responses.size(); ++i) {
-    if (file_.responses[i].name == name) return i;
-  }
+  if (const auto index = index_of_named(file_.responses, name)) return *index;
   throw InputError(fmt::format("there is no response \"{}\"", name));
 }
 

@@ -352,8 +352,7 @@ void check_accurate_names(const JsonNode& root, const ProblemFile& joined) {
 /// What is minimized or limited over several cases has to be accurate in each of them.
 void ask_for_goals(ProblemFile& joined, const AcrossCases& across) {
   const auto ask = [&](const std::string& name) {
-    ask_for_accuracy(joined, static_cast<std::size_t>(find_named(joined.responses, name) -
-                                                      joined.responses.data()));
+    ask_for_accuracy(joined, index_of_named(joined.responses, name).value());
   };
   if (across.has_objective) ask(joined.objective->response);
   for (const std::string& name : across.constraints) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/find_named.hpp"
 #include "core/base/plain_file_name.hpp"
 #include "core/scene/joined_cases.hpp"
 #include "core/scene/load_cases.hpp"
@@ -270,8 +271,7 @@ std::vector<bool> same_responses(const ProblemFile& problem,
 void check_objective(const JsonNode& root, const ProblemFile& problem,
                      const std::vector<bool>& is_same) {
   const Objective& objective = *problem.objective;
-  std::size_t index = 0;
-  while (problem.responses[index].name != objective.response) ++index;
+  const std::size_t index = index_of_named(problem.responses, objective.response).value();
   const JsonNode node = root.at("objective");
   if (is_same[index] && objective.over_cases != OverCases::same) {
     node.at("over_cases")
