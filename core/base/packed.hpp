@@ -126,20 +126,29 @@ class Unpacker {
       with_members(value, *this);
     }
   }
+  /// So many parts of so many bytes have to be there, before room is made for them.
+  void require(std::size_t count, std::size_t bytes) const {
+    if (count > left_ / bytes) throw std::runtime_error("packed values end too early");
+  }
   void raw(void* data, std::size_t size) {
-    if (size > left_) throw std::runtime_error("packed values end too early");
+    require(size, 1);
     if (size > 0) std::memcpy(data, next_, size);
     next_ += size;
     left_ -= size;
   }
   friend void transfer(Unpacker& archive, std::string& text) {
-    text.resize(archive.size());
+    const std::size_t size = archive.size();
+    archive.require(size, 1);
+    text.resize(size);
     archive.raw(text.data(), text.size());
   }
   template <int Rows, int Columns>
   friend void transfer(Unpacker& archive, Eigen::Matrix<double, Rows, Columns>& matrix) {
-    const Eigen::Index rows = archive.size();
-    const Eigen::Index columns = archive.size();
+    const std::size_t rows = archive.size(), columns = archive.size();
+    if (rows > 0 && columns > 0) {
+      archive.require(columns, sizeof(double));
+      archive.require(rows, columns * sizeof(double));
+    }
     matrix.resize(rows, columns);
     archive.raw(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(double));
   }

@@ -40,6 +40,15 @@ TEST(Packed, EmptyMatricesKeepTheirShape) {
   EXPECT_EQ(same.cols(), 4);
 }
 
+TEST(Packed, SizesBeyondTheBytesTakeNoMemory) {
+  const std::uint64_t huge = std::uint64_t{1} << 60;
+  const std::string size(reinterpret_cast<const char*>(&huge), sizeof huge);
+  EXPECT_THROW(unpacked<std::string>(size), std::runtime_error);
+  EXPECT_THROW(unpacked<Eigen::MatrixXd>(size + size), std::runtime_error);
+  EXPECT_THROW(unpacked<Eigen::MatrixXd>(packed(std::uint64_t{1}) + size), std::runtime_error);
+  EXPECT_THROW(unpacked<std::vector<double>>(size), std::runtime_error);
+}
+
 TEST(Packed, BytesThatEndTooEarlyAreAnError) {
   const std::string bytes = packed(std::string("words"), 1.0);
   std::string text;
