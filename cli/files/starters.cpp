@@ -22,7 +22,9 @@ std::vector<Starter> starters() {
 }
 
 std::string problem_schema() {
-  return given_files::schema;
+  std::string schema;
+  for (const char* part : given_files::schema) schema += part;
+  return schema;
 }
 
 void write_given_file(const fs::path& path, const std::string& text, const Arguments& arguments) {
