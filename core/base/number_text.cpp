@@ -26,6 +26,11 @@ std::string percent(double fraction) {
   return fmt::format("{:.1f} %", std::abs(fraction) < shown ? 0.0 : 100.0 * fraction);
 }
 
+std::string rough_percent(double share) {
+  const double number = 100.0 * share;
+  return number < 99.5 ? fmt::format("{:.2g} %", number) : fmt::format("{:.0f} %", number);
+}
+
 std::string signed_percent(double fraction) {
   const std::string size = percent(std::abs(fraction));
   if (size == percent(0.0)) return size;

@@ -14,6 +14,9 @@ std::string magnitude(double value);
 /// "45.2 %"; from ten on "2397 times"
 std::string percent(double fraction);
 
+/// Two digits at most, and no exponent: "0.031 %", "5 %", "230 %".
+std::string rough_percent(double share);
+
 /// "+2.1 %", "−45.2 %", "0.0 %"
 std::string signed_percent(double fraction);
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/trust/percent.hpp"
+#include "core/base/number_text.hpp"
 
 namespace pleuel {
 
@@ -43,10 +43,10 @@ std::string what_may_jump(const Scene& scene) {
 std::vector<Doubt> doubt_energy_balance(const TrustedRun& run) {
   const double error = run.monitors.energy_error;
   if (error <= small_energy_error) return {};
-  return {{fmt::format("energy is balanced to {} % of the largest in the motion only: steps are "
+  return {{fmt::format("energy is balanced to {} of the largest in the motion only: steps are "
                        "too long for what moves here{}. Compare with a smaller "
                        "/simulation/step.",
-                       percent(error), what_may_jump(run.problem.scene)),
+                       rough_percent(error), what_may_jump(run.problem.scene)),
            error > large_energy_error}};
 }
 

@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "core/base/number_text.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "core/scene/time_breaks.hpp"
-#include "core/trust/percent.hpp"
 
 namespace pleuel {
 
@@ -85,11 +85,11 @@ void add_missed(const Subject& subject, const Missed& missed, double scale,
   if (!(missed.largest > subject.most_missed * scale)) return;
   doubts.push_back(
       {fmt::format("{} changes faster than the steps can follow: within the step of {:.3g} s at "
-                   "t = {:.4g} s its {} is {} % of the largest away from what the steps see. "
+                   "t = {:.4g} s its {} is {} of the largest away from what the steps see. "
                    "Give an oscillation 22 steps or more, a revolution 32: a smaller "
                    "/simulation/step.",
                    subject.who, missed.step, missed.time, subject.what,
-                   percent(missed.largest / scale)),
+                   rough_percent(missed.largest / scale)),
        true});
 }
 

@@ -6,13 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "core/base/number_text.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/response/linearized_expression.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/trust/asked_responses.hpp"
 #include "core/trust/error_bands.hpp"
 #include "core/trust/nested_runs.hpp"
-#include "core/trust/percent.hpp"
 #include "core/trust/round_off.hpp"
 
 namespace pleuel {
@@ -377,7 +377,7 @@ std::vector<Doubt> doubt_about(const TrustedRun& run, const std::vector<Unresolv
     doubt.responses.push_back(name);
     doubt.is_serious =
         doubt.is_serious || (one.error > serious_error && counts(run.problem, one.response));
-    changes.push_back(fmt::format("\"{}\" by {} %", name, percent(one.change)));
+    changes.push_back(fmt::format("\"{}\" by {}", name, rough_percent(one.change)));
   }
   doubt.text =
       fmt::format("{} changes {}: not resolved. {}", what, fmt::join(changes, ", "), advice);

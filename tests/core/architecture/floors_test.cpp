@@ -217,6 +217,44 @@ TEST(Files, OfLinesThatDefineTypesTheNamesAreFound) {
   EXPECT_EQ(defined_type("  struct Inner {"), "");
 }
 
+/// "text_of(double, int)" of "std::string text_of(double value, int digits = 5);" at the start of a line,
+/// where headers declare the functions of the namespace; empty of all other lines.
+std::string declared_function(const std::string& line) {
+  static const std::regex declaration(
+      R"(^(?:inline |constexpr )*(?!return |using |typedef )[A-Za-z][\w:<>&*, ]* (\w+)\(([^()]*)\) ?[;{].*$)");
+  static const std::regex name_of_parameter(R"(( ?\w+)?( = [^,]*)?(,|$))");
+  std::smatch match;
+  if (!std::regex_match(line, match, declaration)) return "";
+  return match[1].str() + "(" +
+         std::regex_replace(match[2].str(), name_of_parameter, "$3",
+                            std::regex_constants::format_default) +
+         ")";
+}
+
+/// Two functions of one name and of the same parameters are taken for one, too: which of them is called
+/// is left to the linker.
+TEST(Files, DeclareEachFunctionOnce) {
+  std::map<std::string, std::string> places;
+  for (const auto& [file, line] : read_lines()) {
+    if (!file.ends_with(".hpp")) continue;
+    const std::string function = declared_function(line);
+    if (function.empty()) continue;
+    const auto [place, is_new] = places.emplace(function, file);
+    EXPECT_TRUE(is_new || place->second == file)
+        << function << " is in " << place->second << " and in " << file;
+  }
+  EXPECT_GT(places.size(), 400U);
+}
+
+TEST(Files, OfLinesThatDeclareFunctionsTheParametersAreFound) {
+  EXPECT_EQ(declared_function("std::string text_of(double value, int digits = 5);"),
+            "text_of(double, int)");
+  EXPECT_EQ(declared_function("inline std::string text_of(double share) {"), "text_of(double)");
+  EXPECT_EQ(declared_function("int count();"), "count()");
+  EXPECT_EQ(declared_function("  int count() const;"), "");
+  EXPECT_EQ(declared_function("return count();"), "");
+}
+
 /// The command's rooms: each knows those before it.
 TEST(Rooms, OfTheCommandKnowOnlyThoseBefore) {
   const std::vector<std::string> rooms = {"cli/text",  "cli/input",    "cli/reports",
