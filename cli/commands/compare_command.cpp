@@ -211,7 +211,7 @@ std::string change_text(const Compared& value, const ShownUnit& unit) {
   if (before == 0.0) return "";
   const double share = (after - before) / std::abs(before);
   if (std::abs(share) < hardly) return "< 0.01 %";
-  return (share < 0.0 ? "−" : "+") + significant(100.0 * std::abs(share), 3) + " %";
+  return signed_significant(100.0 * share, 3) + " %";
 }
 
 std::string outcomes_text(const OlderRun& first, const OlderRun& second,

@@ -110,11 +110,6 @@ void write_csv(const ResultFile& file, const PriceList& list) {
   }
 }
 
-std::string signed_number(double value) {
-  if (value == 0.0) return "0";
-  return (value < 0.0 ? "−" : "+") + significant(std::abs(value), 4);
-}
-
 std::string shown_name(const NumberPrice& price) {
   std::string name = price.name;
   if (name.starts_with("/scene/")) name = name.substr(7);
@@ -139,9 +134,9 @@ std::string prices_text(const ProblemFile& problem, const PriceList& list) {
     const double percent = price.per_percent();
     const double share = list.objective == 0.0 ? 0.0 : 100.0 * percent / std::abs(list.objective);
     table.add_row({shown_name(price), significant(price.unit.shown(price.value)), price.unit.name,
-                   signed_number(objective.shown(price.per_unit) * price.unit.factor),
-                   signed_number(objective.shown(percent)),
-                   price.value == 0.0 ? "–" : signed_number(share) + " %",
+                   signed_significant(objective.shown(price.per_unit) * price.unit.factor, 4),
+                   signed_significant(objective.shown(percent), 4),
+                   price.value == 0.0 ? "–" : signed_significant(share, 4) + " %",
                    price.next_limit.empty() ? "" : "*"});
   }
   return table.text();

@@ -127,7 +127,7 @@ std::string time_text(double change) {
 }
 
 std::string signed_share(double share) {
-  return (share < 0.0 ? "−" : "+") + significant(100.0 * std::abs(share), 2) + " %";
+  return signed_significant(100.0 * share, 2) + " %";
 }
 
 /// Of the response that counts and changes most: "rod_bow −18 %".
@@ -362,7 +362,7 @@ std::string target_text(double target) {
 std::string change_text(const ResponseSettings& response, double change) {
   ShownUnit unit = unit_of(response);
   if (unit.si == "kg" && std::abs(change) < 1.0) unit = {"kg", "g", 1e-3};
-  return (change < 0.0 ? "−" : "+") + significant(std::abs(unit.shown(change)), 2) + unit.suffix();
+  return signed_significant(unit.shown(change), 2) + unit.suffix();
 }
 
 std::string accuracy_text(const ProblemFile& problem, const AccuracyStudy& study,

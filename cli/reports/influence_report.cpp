@@ -22,11 +22,6 @@ constexpr double round_off = 1e-8;
 /// What counts where the file gives no tolerance of effects.
 constexpr double usual_tolerance = 1e-3;
 
-std::string signed_text(double value) {
-  if (value == 0.0) return "0";
-  return (value < 0.0 ? "−" : "+") + significant(std::abs(value), 2);
-}
-
 /// Whole percents: times of single runs are not known better.
 std::string percent_text(double share) {
   const double percents = std::round(100.0 * share);
@@ -57,8 +52,9 @@ std::string largest_change_text(const MeasuredEffects& effects, const EffectInfl
   const ResponseSettings& response = effects.problem.responses[largest.response];
   const ShownUnit unit = unit_of(response);
   const double change = influence.changes(largest.response);
-  return fmt::format("{} {} {} ({} %)", response.name, signed_text(unit.shown(change)), unit.name,
-                     signed_text(std::copysign(100.0 * largest.relative, change)));
+  return fmt::format("{} {} {} ({} %)", response.name, signed_significant(unit.shown(change), 2),
+                     unit.name,
+                     signed_significant(std::copysign(100.0 * largest.relative, change), 2));
 }
 
 /// Of a response or of the optimum, relative.
@@ -90,7 +86,7 @@ std::vector<std::string> row_of(const MeasuredEffects& effects, const EffectInfl
   if (price) {
     const std::string& objective = effects.problem.objective->response;
     const ShownUnit unit = unit_of(find_response(effects.problem, objective));
-    row.push_back(signed_text(unit.shown(price(one.changes))) + " " + unit.name);
+    row.push_back(signed_significant(unit.shown(price(one.changes)), 2) + " " + unit.name);
   }
   row.push_back(largest_change_text(effects, one));
   return row;

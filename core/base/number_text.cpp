@@ -15,6 +15,11 @@ std::string significant(double value, int digits) {
   return fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent));
 }
 
+std::string signed_significant(double value, int digits) {
+  if (value == 0.0) return "0";
+  return (value < 0.0 ? "−" : "+") + significant(std::abs(value), digits);
+}
+
 std::string magnitude(double value) {
   return value == 0.0 ? "0" : fmt::format("{:.1e}", value);
 }

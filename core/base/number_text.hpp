@@ -8,6 +8,9 @@ namespace pleuel {
 /// `digits` significant digits without exponent where that is readable: 25.130, 0.20000, 1.2e-07.
 std::string significant(double value, int digits = 5);
 
+/// The same with its sign: "+25.130", "−0.20000"; "0" for zero.
+std::string signed_significant(double value, int digits = 5);
+
 /// Two digits with exponent, for errors and residuals: 3.1e-08; "0" for zero.
 std::string magnitude(double value);
 

@@ -28,5 +28,18 @@ TEST(NumberText, NumbersKeepTheirSignificantDigits) {
   EXPECT_EQ(significant(0.0), "0");
 }
 
+TEST(NumberText, HasItsSignWhereThatIsAsked) {
+  EXPECT_EQ(signed_significant(25.13), "+25.130");
+  EXPECT_EQ(signed_significant(-0.2, 2), "−0.20");
+  EXPECT_EQ(signed_significant(0.0), "0");
+}
+
+TEST(NumberText, OfRoughPercentsHasTwoDigits) {
+  EXPECT_EQ(rough_percent(0.000311), "0.031 %");
+  EXPECT_EQ(rough_percent(0.05), "5 %");
+  EXPECT_EQ(rough_percent(0.996), "100 %");
+  EXPECT_EQ(rough_percent(2.347), "235 %");
+}
+
 }  // namespace
 }  // namespace pleuel::test::number_text_test
