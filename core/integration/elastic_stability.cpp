@@ -3,8 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "core/base/dense_solvers.hpp"
+#include "core/base/disjoint_sets.hpp"
+#include "core/base/int_size.hpp"
 #include "core/base/rotation_vector.hpp"
 #include "core/integration/axial_strains.hpp"
 #include "core/integration/turning.hpp"
@@ -98,21 +103,42 @@ int count_negative(const Eigen::VectorXcd& eigenvalues) {
       }));
 }
 
-/// S R_q S of springs alone.
-Eigen::MatrixXd stiffness_of_springs(const Mechanism& mechanism, const State& state) {
+/// S R_q S of one term.
+Eigen::SparseMatrix<double> scaled_stiffness(Term& term, const Mechanism& mechanism,
+                                             const State& state) {
   const int n = mechanism.system->coordinates();
-  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(n, n);
-  for (Term* term : mechanism.springs) {
-    EntryList places;
-    term->declare_entries(places);
-    std::vector<double> entries(places.size());
-    term->write_tangent(state, {.q = 1.0}, ConstraintLevel::position, entries.data());
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      const auto [row, col] = places[k];
-      if (row < n && col < n) stiffness(row, col) += entries[k];
-    }
+  EntryList places;
+  term.declare_entries(places);
+  std::vector<double> values(places.size());
+  term.write_tangent(state, {.q = 1.0}, ConstraintLevel::position, values.data());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const auto [row, col] = places[k];
+    if (row >= n || col >= n) continue;
+    entries.emplace_back(row, col, mechanism.scale(row) * values[k] * mechanism.scale(col));
   }
-  return mechanism.scale.asDiagonal() * stiffness * mechanism.scale.asDiagonal();
+  Eigen::SparseMatrix<double> stiffness(n, n);
+  stiffness.setFromTriplets(entries.begin(), entries.end());
+  return stiffness;
+}
+
+/// S R_q S of springs alone: of each what resists. One that presses pushes what it presses aside, which
+/// takes nothing away from what the others hold.
+Eigen::MatrixXd resistance_of_springs(const Mechanism& mechanism, const State& state) {
+  const int n = mechanism.system->coordinates();
+  Eigen::MatrixXd resistance = Eigen::MatrixXd::Zero(n, n);
+  for (Term* term : mechanism.springs) {
+    const Eigen::SparseMatrix<double> all = scaled_stiffness(*term, mechanism, state);
+    std::vector<int> own;
+    for (int col = 0; col < n; ++col) {
+      if (all.col(col).nonZeros() > 0) own.push_back(col);
+    }
+    if (own.empty()) continue;
+    const SymmetricModes modes = symmetric_modes(symmetric_part(Eigen::MatrixXd(all)(own, own)));
+    resistance(own, own) +=
+        modes.vectors * modes.values.cwiseMax(0.0).asDiagonal() * modes.vectors.transpose();
+  }
+  return resistance;
 }
 
 bool is_at_rest(const Mechanism& mechanism, const State& state) {
@@ -132,26 +158,54 @@ std::pair<Eigen::MatrixXd, Eigen::MatrixXd> positive_modes(const Eigen::MatrixXd
   return {modes.vectors.rightCols(count), modes.vectors.leftCols(matrix.cols() - count)};
 }
 
+/// Of directions that springs hold, those in which the mechanism falls all the same: loads turn it faster
+/// than the springs turn it back, and it is on its way. Where it is not, since it stands in
+/// equilibrium, the motion does not show that this is unstable.
+/// @param directions  orthonormal columns, in coordinates relative to the scale
+Eigen::MatrixXd falling_motions(const Mechanism& mechanism, const State& state,
+                                const Eigen::MatrixXd& directions) {
+  constexpr double hardly = 0.01;  // of a length or a radian, while the fall grows e-fold
+  const int n = mechanism.system->coordinates();
+  const SymmetricModes modes =
+      symmetric_modes(symmetric_part(deformation_stiffness(mechanism, state, directions)));
+  const double limit = -eigenvalue_round_off * modes.values.cwiseAbs().maxCoeff();
+  const Eigen::MatrixXd masses = scaled_tangent(mechanism, state, {.a = 1.0}).topRows(n);
+  std::vector<Eigen::Index> falling;
+  for (Eigen::Index i = 0; i < modes.values.size() && modes.values(i) < limit; ++i) {
+    const Eigen::VectorXd shape = directions * modes.vectors.col(i);
+    const double square = -modes.values(i) / shape.dot(masses * shape);  // of the rate of growth
+    const auto part = [&](const Eigen::VectorXd& rates) {
+      return std::abs(shape.dot(rates.cwiseQuotient(mechanism.scale))) *
+             shape.cwiseAbs().maxCoeff();
+    };
+    const double way = part(state.v) / std::sqrt(square) + part(state.a) / square;
+    if (!(way <= hardly)) falling.push_back(i);
+  }
+  return directions * modes.vectors(Eigen::all, falling);
+}
+
+/// The motions as rigid bodies that springs resist, and the others.
+/// @param motions  orthonormal columns
+std::pair<Eigen::MatrixXd, Eigen::MatrixXd> parted_by_springs(const Eigen::MatrixXd& resistance,
+                                                              const Eigen::MatrixXd& motions) {
+  constexpr double round_off = 1e-12;
+  const auto [held, loose] =
+      positive_modes(symmetric_part(motions.transpose() * resistance * motions),
+                     round_off * resistance.cwiseAbs().maxCoeff());
+  return {motions * held, motions * loose};
+}
+
 /// Of motions of the mechanism as rigid bodies, those that springs do not hold. What springs hold
-/// belongs to the deformations: a column buckles with the spring that it stands on. A motion counts as
-/// held where springs have stiffness against it, and all forces together have; at rest the first is
-/// enough: what springs give way to does not stand.
+/// belongs to the deformations: a column buckles with the spring that it stands on.
 /// @param motions  orthonormal columns, in coordinates relative to the scale
 Eigen::MatrixXd motions_without_springs(const Mechanism& mechanism, const State& state,
                                         const Eigen::MatrixXd& motions) {
-  constexpr double round_off = 1e-12;
   if (mechanism.springs.empty() || motions.cols() == 0) return motions;
-  const Eigen::MatrixXd of_springs = stiffness_of_springs(mechanism, state);
-  const double size = of_springs.cwiseAbs().maxCoeff();
-  const auto [held, loose] =
-      positive_modes(symmetric_part(motions.transpose() * of_springs * motions), round_off * size);
+  const auto [held, loose] = parted_by_springs(resistance_of_springs(mechanism, state), motions);
   if (held.cols() == 0) return motions;
-  if (is_at_rest(mechanism, state)) return motions * loose;
-  const Eigen::MatrixXd directions = motions * held;
-  const auto [stiff, falling] = positive_modes(
-      symmetric_part(deformation_stiffness(mechanism, state, directions)), round_off * size);
+  const Eigen::MatrixXd falling = falling_motions(mechanism, state, held);
   Eigen::MatrixXd others(motions.rows(), loose.cols() + falling.cols());
-  others << motions * loose, directions * falling;
+  others << loose, falling;
   return others;
 }
 
@@ -185,6 +239,14 @@ Eigen::MatrixXd constraint_rows(const Mechanism& mechanism, const State& state) 
   return phi;
 }
 
+/// Constraint rows, with others that leave some coordinates where they are.
+Eigen::MatrixXd with_fixed(const Eigen::MatrixXd& phi, const std::vector<int>& fixed) {
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(phi.rows() + fixed.size(), phi.cols());
+  rows.topRows(phi.rows()) = phi;
+  for (std::size_t i = 0; i < fixed.size(); ++i) rows(phi.rows() + i, fixed[i]) = 1.0;
+  return rows;
+}
+
 /// What constraints allow, normal to some motions.
 Eigen::MatrixXd deformations_beside(const Eigen::MatrixXd& phi, const Eigen::MatrixXd& motions) {
   Eigen::MatrixXd rows(phi.rows() + motions.cols(), phi.cols());
@@ -192,11 +254,38 @@ Eigen::MatrixXd deformations_beside(const Eigen::MatrixXd& phi, const Eigen::Mat
   return null_space(rows, phi.cols());
 }
 
-/// Deformations that constraints allow, normal to the motions of the mechanism as rigid bodies.
-/// @param phi  Φ_q in the coordinates of the answer
-Eigen::MatrixXd free_deformations(const Mechanism& mechanism, Eigen::MatrixXd phi) {
-  normalize_rows(mechanism, phi);
-  return deformations_beside(phi, rigid_motions(mechanism, phi));
+/// Deformations that constraint rows allow, with the motions that springs hold.
+Eigen::MatrixXd free_deformations(const Mechanism& mechanism, const State& state,
+                                  const Eigen::MatrixXd& phi) {
+  return deformations_beside(
+      phi, motions_without_springs(mechanism, state, rigid_motions(mechanism, phi)));
+}
+
+/// Whether a mechanism turns at a constant speed in elastic equilibrium.
+bool is_steady(const Mechanism& mechanism, const State& state, const FastestTurn& turn) {
+  constexpr double round_off = 1e-6;
+  const double limit = round_off * turn.omega.squaredNorm();
+  return turn.alpha.norm() <= limit &&
+         std::all_of(mechanism.elastic.begin(), mechanism.elastic.end(),
+                     [&](int i) { return std::abs(state.a(i)) <= limit * mechanism.scale(i); });
+}
+
+/// Of a mechanism that turns: deformations that constraints allow, normal to its motions as rigid bodies;
+/// of a steady turn, which is an equilibrium, to those that no spring holds.
+/// @param own    Φ_q in the coordinates of the answer
+/// @param T      changes of the coordinates relative to the scale from those of the answer
+/// @param fixed  coordinates that are not looked at
+Eigen::MatrixXd turning_shapes(const Mechanism& mechanism, const State& state, Eigen::MatrixXd own,
+                               const Eigen::MatrixXd& T, bool is_steady,
+                               const std::vector<int>& fixed) {
+  normalize_rows(mechanism, own);
+  const Eigen::MatrixXd phi = with_fixed(own, fixed);
+  const Eigen::MatrixXd motions = rigid_motions(mechanism, phi);
+  if (!is_steady || mechanism.springs.empty() || motions.cols() == 0) {
+    return deformations_beside(phi, motions);
+  }
+  const Eigen::MatrixXd resistance = T.transpose() * resistance_of_springs(mechanism, state) * T;
+  return deformations_beside(phi, parted_by_springs(resistance, motions).second);
 }
 
 /// The matrices of small motions of the deformations of a mechanism that turns, in axes that turn
@@ -206,8 +295,10 @@ struct TurningDeformations {
 };
 
 /// @param shapes  the deformations, if they are known
+/// @param fixed   else: coordinates that are not looked at
 TurningDeformations turning_deformations(const Mechanism& mechanism, const State& state,
-                                         const Eigen::MatrixXd* shapes = nullptr) {
+                                         const Eigen::MatrixXd* shapes,
+                                         const std::vector<int>& fixed = {}) {
   const int n = mechanism.system->coordinates(), m = mechanism.system->multipliers();
   const Turning turning =
       is_rotor(mechanism, state) ? rotor_turning(mechanism, state) : turning_of(mechanism, state);
@@ -219,9 +310,11 @@ TurningDeformations turning_deformations(const Mechanism& mechanism, const State
   const Eigen::MatrixXd of_v = scaled_tangent(mechanism, state, {.v = 1.0}).topRows(n);
   const Eigen::MatrixXd of_a = scaled_tangent(mechanism, state, {.a = 1.0}).topRows(n);
   TurningDeformations result;
-  result.shapes = shapes != nullptr
-                      ? *shapes
-                      : free_deformations(mechanism, Eigen::MatrixXd(of_q.bottomRows(m) * T));
+  result.shapes =
+      shapes != nullptr
+          ? *shapes
+          : turning_shapes(mechanism, state, of_q.bottomRows(m) * T, T,
+                           is_steady(mechanism, state, fastest_turn(mechanism, state)), fixed);
   const Eigen::MatrixXd& z = result.shapes;
   const Eigen::MatrixXd left = (T * z).transpose();
   result.mass = symmetric_part(left * (of_a * (T * z)));
@@ -229,15 +322,6 @@ TurningDeformations turning_deformations(const Mechanism& mechanism, const State
   result.stiffness = left * (of_a * (scaled(turning.Q) * z) + of_v * (scaled(turning.V) * z) +
                              of_q.topRows(n) * (T * z));
   return result;
-}
-
-/// Whether a mechanism turns at a constant speed in elastic equilibrium.
-bool is_steady(const Mechanism& mechanism, const State& state, const FastestTurn& turn) {
-  constexpr double round_off = 1e-6;
-  const double limit = round_off * turn.omega.squaredNorm();
-  return turn.alpha.norm() <= limit &&
-         std::all_of(mechanism.elastic.begin(), mechanism.elastic.end(),
-                     [&](int i) { return std::abs(state.a(i)) <= limit * mechanism.scale(i); });
 }
 
 /// Whether all that turns does so alike and at a constant speed, but for small vibrations.
@@ -295,11 +379,13 @@ bool changes_with_angle(const Mechanism& mechanism, const State& state,
 /// forces, which is asked of the lowest modes; damping by what turns takes that away (Kelvin, Tait &
 /// Chetaev), and what stands still may give it back.
 /// @param shapes  the deformations, if they are known
+/// @param fixed   else: coordinates that are not looked at
 ElasticStability turning_stability(const Mechanism& mechanism, const State& state,
-                                   const Eigen::MatrixXd* shapes = nullptr) {
+                                   const Eigen::MatrixXd* shapes,
+                                   const std::vector<int>& fixed = {}) {
   constexpr double round_off_mass = 1e-12;
   constexpr Eigen::Index more_modes = 20;
-  const TurningDeformations all = turning_deformations(mechanism, state, shapes);
+  const TurningDeformations all = turning_deformations(mechanism, state, shapes, fixed);
   if (all.shapes.cols() == 0) return {};
   const Eigen::MatrixXd symmetric = symmetric_part(all.stiffness);
   if (is_positive_definite(symmetric)) return {};
@@ -329,8 +415,9 @@ ElasticStability turning_stability(const Mechanism& mechanism, const State& stat
 }
 
 /// In the axes in which the coordinates are counted.
-ElasticStability standing_stability(const Mechanism& mechanism, const State& state) {
-  const Eigen::MatrixXd z = free_deformations(mechanism, state);
+/// @param z  the deformations that are looked at
+ElasticStability standing_stability(const Mechanism& mechanism, const State& state,
+                                    const Eigen::MatrixXd& z) {
   if (z.cols() == 0) return {};
   const Eigen::MatrixXd stiffness = deformation_stiffness(mechanism, state, z);
   const Eigen::MatrixXd symmetric = symmetric_part(stiffness);
@@ -351,20 +438,66 @@ ElasticStability standing_stability(const Mechanism& mechanism, const State& sta
   return result;
 }
 
-/// The deformations, with the motions that springs hold, counted in axes that turn with each body.
-Eigen::MatrixXd in_turning_axes(const Mechanism& mechanism, const State& state) {
+/// The coordinates of a mechanism, by whether something turns in the part that they belong to; nothing
+/// connects one part with another.
+struct Parts {
+  std::vector<int> standing, turning;
+};
+
+Parts parts_of(const Mechanism& mechanism, const State& state, const FastestTurn& turn) {
+  constexpr double standing = 0.01;
+  System& system = *mechanism.system;
+  const System::Matrix matrix = system.make_matrix();
+  DisjointSets parts(static_cast<std::size_t>(matrix.cols()));
+  for (int col = 0; col < matrix.outerSize(); ++col) {
+    for (System::Matrix::InnerIterator entry(matrix, col); entry; ++entry) {
+      parts.join(static_cast<int>(entry.row()), col);
+    }
+  }
+  std::set<int> turning;
+  for (const int rotation : mechanism.rotations) {
+    const bool turns = state.v.segment<3>(rotation).norm() > standing * turn.omega.norm();
+    if (turns) turning.insert(parts.find(rotation));
+  }
+  Parts result;
+  for (int i = 0; i < system.coordinates(); ++i) {
+    (turning.contains(parts.find(i)) ? result.turning : result.standing).push_back(i);
+  }
+  return result;
+}
+
+/// The deformations, with the motions that springs hold, of what is not fixed.
+Eigen::MatrixXd free_deformations(const Mechanism& mechanism, const State& state,
+                                  const std::vector<int>& fixed) {
+  return free_deformations(mechanism, state, with_fixed(constraint_rows(mechanism, state), fixed));
+}
+
+/// Deformations counted in axes that turn with each body.
+Eigen::MatrixXd in_turning_axes(const Mechanism& mechanism, const State& state,
+                                const Eigen::MatrixXd& deformations) {
   const Eigen::VectorXd& scale = mechanism.scale;
   const Eigen::MatrixXd T =
       scale.cwiseInverse().asDiagonal() * turning_of(mechanism, state).T * scale.asDiagonal();
-  return DenseLu(T).solve(free_deformations(mechanism, state));
+  return DenseLu(T).solve(deformations);
+}
+
+/// Of the parts in which something turns.
+ElasticStability stability_of_turning(const Mechanism& mechanism, const State& state,
+                                      const FastestTurn& turn, const std::vector<int>& fixed) {
+  if (is_steady(mechanism, state, turn) || turns_alike(mechanism, state, turn)) {
+    return turning_stability(mechanism, state, nullptr, fixed);
+  }
+  const Eigen::MatrixXd deformations = free_deformations(mechanism, state, fixed);
+  const ElasticStability standing = standing_stability(mechanism, state, deformations);
+  if (standing.is_stable) return standing;
+  const Eigen::MatrixXd shapes = in_turning_axes(mechanism, state, deformations);
+  return turning_stability(mechanism, state, &shapes);
 }
 
 }  // namespace
 
 Eigen::MatrixXd free_deformations(const Mechanism& mechanism, const State& state) {
-  const Eigen::MatrixXd phi = constraint_rows(mechanism, state);
-  const Eigen::MatrixXd motions = rigid_motions(mechanism, phi);
-  return deformations_beside(phi, motions_without_springs(mechanism, state, motions));
+  return free_deformations(mechanism, state, constraint_rows(mechanism, state));
 }
 
 Eigen::MatrixXd deformation_stiffness(const Mechanism& mechanism, const State& state,
@@ -383,15 +516,15 @@ bool is_rotor(const Mechanism& mechanism, const State& state) {
 ElasticStability elastic_stability(const Mechanism& mechanism, const State& state) {
   const FastestTurn turn = fastest_turn(mechanism, state);
   if (turn.omega.isZero(0.0) || is_at_rest(mechanism, state)) {
-    return standing_stability(mechanism, state);
+    return standing_stability(mechanism, state, free_deformations(mechanism, state));
   }
-  if (is_steady(mechanism, state, turn) || turns_alike(mechanism, state, turn)) {
-    return turning_stability(mechanism, state);
+  const Parts parts = parts_of(mechanism, state, turn);
+  if (!parts.standing.empty()) {
+    const ElasticStability standing =
+        standing_stability(mechanism, state, free_deformations(mechanism, state, parts.turning));
+    if (!standing.is_stable) return standing;
   }
-  const ElasticStability standing = standing_stability(mechanism, state);
-  if (standing.is_stable) return standing;
-  const Eigen::MatrixXd shapes = in_turning_axes(mechanism, state);
-  return turning_stability(mechanism, state, &shapes);
+  return stability_of_turning(mechanism, state, turn, parts.standing);
 }
 
 double buckling_load_factor(const Mechanism& mechanism, const State& unloaded, const State& loaded,

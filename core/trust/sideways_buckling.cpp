@@ -50,7 +50,7 @@ class SidewaysBuckling {
     const Beam<double>& beam = judged_.beam();
     length_ = beam.node_position(beam.node_count() - 1);
     full_length_ = judged_.full_length();
-    lateral_ = twisting_ = std::numeric_limits<double>::infinity();
+    lateral_ = twisting_ = weakest_ = std::numeric_limits<double>::infinity();
     bool is_equal = true;
     for (const BeamElement<double>& element : beam.elements) {
       const SectionProperties<double>& s = element.section;
@@ -59,6 +59,7 @@ class SidewaysBuckling {
       const double bending = is_xy ? s.inertia_z : s.inertia_y;
       lateral_ = std::min(lateral_, element.young * weak);
       twisting_ = std::min(twisting_, element.shear * s.torsion);
+      weakest_ = std::min({weakest_, element.young * weak, element.young * bending});
       shearing_ =
           std::max(shearing_, is_xy ? element.shear_compliance_z : element.shear_compliance_y);
       is_equal = is_equal && weak >= (1.0 - 1e-9) * bending;
@@ -74,7 +75,7 @@ class SidewaysBuckling {
   void see(const State& state, double time) {
     if (is_over_) return;
     PlaneLoad load = observed_.observe(state);
-    pressed_ = std::max(pressed_, largest_press(load) / euler_load());
+    pressed_ = std::max(pressed_, largest_press(load) / (euler_load() * weakest_ / lateral_));
     if (way_ == Way::in_plane) {
       is_over_ = largest_moment(load) > straight_offset * length_ * euler_load();
       load.bottomRows<2>().setZero();
@@ -102,12 +103,17 @@ class SidewaysBuckling {
   /// 0: nothing is worth a word.
   double share() const { return share_ > near_critical ? share_ : 0.0; }
 
+  /// Whether the bending moment takes part.
   /// @pre share() > 0
-  Doubt doubt() {
+  bool is_bent() {
     PlaneLoad pressed = load_;
     pressed.bottomRows<2>().setZero();
-    return doubt(1.0 / share_, share_ > 1.01 * judged_.buckling().share(pressed));
+    return share_ > 1.01 * judged_.buckling().share(pressed);
   }
+  bool is_planar() const { return is_planar_; }
+
+  /// @pre share() > 0
+  Doubt doubt() { return doubt(1.0 / share_, is_bent()); }
 
  private:
   /// No share is larger: 1/s of b² s² + p s = harmless_load.
@@ -171,9 +177,10 @@ class SidewaysBuckling {
   bool moments_matter_ = true;
   bool is_over_ = false;  ///< nothing holds it, or it bends in its plane, as the motion shows
   double length_ = 0.0, full_length_ = 0.0, lateral_ = 0.0, twisting_ = 0.0;
+  double weakest_ = 0.0;  ///< smallest bending stiffness, of both planes [N m²]
   double shearing_ = 0.0, depth_ = 0.0;
   double share_ = near_critical, time_ = 0.0;
-  double pressed_ = 0.0;  ///< largest press over the Euler load of two pins
+  double pressed_ = 0.0;  ///< largest press over the smallest Euler load of two pins
   PlaneLoad load_;
 };
 
@@ -183,7 +190,11 @@ std::vector<SidewaysBuckling> ways_of(const TrustedRun& run, const BodyModel& pa
   const std::vector<BendingPlane> planes = bending_planes(part);
   std::vector<SidewaysBuckling> ways;
   for (const BendingPlane plane : planes) ways.emplace_back(run, part, plane, Way::out_of_plane);
-  if (planes.size() == 1) ways.emplace_back(run, part, planes.front(), Way::in_plane);
+  // With springs, which hold members or give way under them, see unstable_members.hpp.
+  const bool has_springs = !run.analysis.model.mechanism.springs.empty();
+  if (planes.size() == 1 && !has_springs) {
+    ways.emplace_back(run, part, planes.front(), Way::in_plane);
+  }
   return ways;
 }
 
@@ -228,13 +239,17 @@ std::vector<Doubt> doubt_sideways_buckling(const TrustedRun& run) {
   double all = 0.0;
   for (const auto& ways : members) all += ways.front().full_length();
   const bool is_leaning = may_lean(run.problem.scene);
+  const bool has_springs = !run.analysis.model.mechanism.springs.empty();
   std::vector<Doubt> doubts;
   std::vector<std::string> pressed;
   for (auto& ways : members) {
     auto worst = std::max_element(ways.begin(), ways.end(), [](const auto& one, const auto& other) {
       return one.share() < other.share();
     });
-    if (worst->share() > 0.0) doubts.push_back(worst->doubt());
+    if (worst->share() > 0.0) {
+      const bool is_judged_with_springs = has_springs && !worst->is_planar() && !worst->is_bent();
+      if (!is_judged_with_springs) doubts.push_back(worst->doubt());
+    }
     const std::string& name = ways.front().name();
     if (ways.front().is_pressed_in_plane(all) &&
         (is_leaning || has_elastic_neighbour(run.analysis.model, name))) {

@@ -349,6 +349,25 @@ TEST(QuasiStaticStart, OfARoundShaftInABearingThatIsSofterOneWayIsFound) {
   }
 }
 
+/// A spring that presses a stiff column towards a point d beyond its tip pushes the tip aside, with
+/// P w/d: a soft spring k at the foot holds it up to P L (1 + L/d) = k.
+TEST(ElasticStability, OfAColumnThatASpringPressesAsideEndsEarlier) {
+  const double k = 0.01 * stiffness, d = 0.5, K = 100.0;
+  const double critical = k / (1.0 + 1.0 / d);
+  for (const double share : {0.95, 1.05, 2.0, 4.0}) {
+    std::string text = beam(joint("foot", "revolute", 0.0), 0.0, 0.0);
+    const std::string loads = R"("loads": {)";
+    text.replace(text.find(loads), loads.size(),
+                 loads + fmt::format(
+                             R"("k": {{"type": "joint", "joint": "foot", "stiffness": {}}},
+                                "s": {{"type": "spring", "bodies": ["ground", "b"],
+                                      "at": [[{}, 0, 0], [1, 0, 0]], "stiffness": {},
+                                      "free_length": {}}}, )",
+                             k, 1.0 + d, K, d + share * critical / K));
+    EXPECT_EQ(error_of(text).find("is unstable") != std::string::npos, share > 1.0) << share;
+  }
+}
+
 /// A column that a spring of stiffness k holds at its foot buckles at P = u² EI/L² with u tan u = k L/EI
 /// (Timoshenko & Gere, Theory of Elastic Stability, §2.3), between that of a rigid bar, P L = k, and
 /// that of a clamped column.

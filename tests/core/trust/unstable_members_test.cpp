@@ -1,11 +1,13 @@
 #include "core/trust/unstable_members.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/trust/sideways_buckling.hpp"
 #include "tests/core/trust/doubts_of.hpp"
 
 /// A square column of 1 m × 10 mm, pressed slowly: EI = 175 N m².
@@ -17,7 +19,8 @@ constexpr double stiffness = 2.1e11 * 1e-8 / 12;
 std::vector<Doubt> doubts_of_column(const std::string& bodies, const std::string& joints,
                                     const std::string& loaded, double at, double force,
                                     const std::string& springs = "",
-                                    const std::string& spatial_motion = "on") {
+                                    const std::string& spatial_motion = "on",
+                                    FindDoubts find = doubt_unstable_members) {
   const std::string text = fmt::format(
       R"j({{"scene": {{
         "materials": {{"light": {{"young": 2.1e11, "poisson": 0.3, "density": 1}}}},
@@ -32,7 +35,7 @@ std::vector<Doubt> doubts_of_column(const std::string& bodies, const std::string
       "simulation": {{"end_time": 0.05, "step": 0.0025}},
       "responses": {{"mass": {{"type": "mass"}}}}}})j",
       bodies, joints, springs, loaded, at, force, spatial_motion);
-  return doubts_of(read_scene(text), doubt_unstable_members);
+  return doubts_of(read_scene(text), find);
 }
 
 std::string rigid(const std::string& name, double at) {
@@ -69,22 +72,71 @@ TEST(UnstableMembers, AreToldFromTheEulerLoadOfACantileverOn) {
   expect_critical(euler, [](double force) { return doubts_of_column("", clamp, "bar", 1, force); });
 }
 
-/// On a hinge with a spring of stiffness k at the foot: P = u² EI/L² with u tan u = k L/EI.
+const std::string hinge =
+    R"("foot": {"type": "revolute", "bodies": ["ground", "bar"], "at": [0, 0, 0]})";
+
+/// On a hinge with a spring of stiffness k at the foot: P = u² EI/L² with u tan u = k L/EI; beyond the
+/// load k/L, too, at which a rigid bar would fall.
 TEST(UnstableMembers, BuckleWithTheSpringThatTheyStandOn) {
-  const std::string hinge =
-      R"("foot": {"type": "revolute", "bodies": ["ground", "bar"], "at": [0, 0, 0]})";
   for (const char* spatial_motion : {"off", "on"}) {
     for (const double ratio : {0.3, 3.0, 30.0}) {
       SCOPED_TRACE(fmt::format("space {}, k L/EI = {}", spatial_motion, ratio));
       const double u = root(ratio);
-      expect_critical(u * u * stiffness, [&](double force) {
+      const auto doubts_at = [&](double force) {
         return doubts_of_column("", hinge, "bar", 1, force,
                                 fmt::format(R"("foot_spring": {{"type": "joint", "joint": "foot",
                                                "stiffness": {}}}, )",
                                             ratio * stiffness),
                                 spatial_motion);
-      });
+      };
+      expect_critical(u * u * stiffness, doubts_at);
+      EXPECT_EQ(doubts_at(1.3 * std::max(u * u, ratio) * stiffness).size(), 1);
     }
+  }
+}
+
+/// The same column beside a wheel that turns and that nothing connects with it.
+TEST(UnstableMembers, BuckleBesideWhatTurns) {
+  const std::string wheel = R"(, "wheel": {"type": "rigid", "at": [3, 0, 0], "mass": 1,
+      "inertia": [0.01, 0.01, 0.01, 0, 0, 0], "angular_velocity": [0, 0, 10]})";
+  const std::string shaft = R"(, "shaft": {"type": "revolute", "bodies": ["ground", "wheel"],
+      "at": [3, 0, 0], "drive": {"type": "constant-speed", "speed": 10}})";
+  for (const char* spatial_motion : {"off", "on"}) {
+    SCOPED_TRACE(spatial_motion);
+    const double u = root(3.0);
+    const auto doubts_at = [&](double force) {
+      return doubts_of_column(wheel, hinge + shaft, "bar", 1, force,
+                              fmt::format(R"("foot_spring": {{"type": "joint", "joint": "foot",
+                                             "stiffness": {}}}, )",
+                                          3.0 * stiffness),
+                              spatial_motion);
+    };
+    expect_critical(u * u * stiffness, doubts_at);
+    EXPECT_EQ(doubts_at(4.0 * stiffness).size(), 1);
+  }
+}
+
+/// Clamped at the foot and held by stiff springs at the tip: P = 20.19 EI/L², u tan u = u²  with
+/// tan u = u (Timoshenko & Gere, §2.1), eight times that of a free tip, by which none is judged.
+TEST(UnstableMembers, BuckleBetweenSpringsThatHoldTheTip) {
+  const std::string springs = R"(
+      "y": {"type": "spring", "bodies": ["ground", "bar"], "at": [[1, 10, 0], [1, 0, 0]],
+            "stiffness": 1e7},
+      "z": {"type": "spring", "bodies": ["ground", "bar"], "at": [[1, 0, 10], [1, 0, 0]],
+            "stiffness": 1e7}, )";
+  const double critical = 20.1907 * stiffness;
+  expect_critical(critical, [&](double force) {
+    return doubts_of_column("", clamp, "bar", 1, force, springs);
+  });
+  const auto by_itself = [&](const std::string& held, const std::string& spatial_motion) {
+    return doubts_of_column("", clamp, "bar", 1, 0.5 * critical, held, spatial_motion,
+                            doubt_sideways_buckling);
+  };
+  EXPECT_TRUE(by_itself(springs, "on").empty());
+  // In a plane only out of it, where nothing holds the tip.
+  const std::string in_plane = springs.substr(0, springs.find("\"z\""));
+  for (const Doubt& doubt : by_itself(in_plane, "auto")) {
+    EXPECT_EQ(doubt.text.find("in the plane of motion"), std::string::npos) << doubt.text;
   }
 }
 
