@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/find_named.hpp"
+#include "core/scene/response_parts.hpp"
 #include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
@@ -14,14 +15,15 @@ namespace pleuel {
 namespace {
 
 /// Its zero is its middle: what loads a part to one side loads it to the other.
-bool has_two_sides(ResponseType type) {
-  switch (type) {
+bool has_two_sides(const ResponseSettings& response) {
+  switch (response.type) {
     case ResponseType::deflection:
     case ResponseType::drive_torque:
     case ResponseType::drive_force:
-    case ResponseType::reaction_force:
     case ResponseType::reaction_moment:
       return true;
+    case ResponseType::section_force:
+      return response.section_part != SectionForcePart::axial;
     default:
       return false;
   }
@@ -31,7 +33,14 @@ bool have_one_history(const ResponseSettings& one, const ResponseSettings& other
   return one.type == other.type && one.bodies == other.bodies && one.at == other.at &&
          one.place == other.place && one.chord == other.chord && one.against == other.against &&
          one.direction == other.direction && one.joint == other.joint &&
-         one.coordinate == other.coordinate;
+         one.coordinate == other.coordinate && one.section_part == other.section_part &&
+         one.side == other.side;
+}
+
+/// Whether one looks at all instants that the other looks at.
+bool sees_as_long(const ResponseSettings& one, const ResponseSettings& other) {
+  return (!one.from || (other.from && *one.from <= *other.from)) &&
+         (!one.to || (other.to && *one.to >= *other.to));
 }
 
 /// How far a limit lets a history go to one side, +1 or -1; infinity: any way.
@@ -45,16 +54,20 @@ double reach_of(const ConstraintSettings& limit, const ResponseSettings& respons
   return bound ? (has_signed_bound ? -*bound : *bound) : any_way;
 }
 
-/// The same of all limits on a history.
-double reach_of_all(const ProblemFile& problem, const ResponseSettings& response, double side) {
-  double reach = std::numeric_limits<double>::infinity();
-  for (const ConstraintSettings& limit : problem.constraints) {
-    for (const ResponseSettings& other : problem.responses) {
-      if (other.name != limit.response || !have_one_history(response, other)) continue;
-      reach = std::min(reach, reach_of(limit, other, side));
-    }
-  }
-  return reach;
+/// Whether a limit counts for a side of a history. What a formula limits is taken for what is meant.
+bool is_limited(const ProblemFile& problem, const ResponseSettings& response, double side) {
+  return std::any_of(problem.constraints.begin(), problem.constraints.end(),
+                     [&](const ConstraintSettings& limit) {
+                       const auto index = index_of_named(problem.responses, limit.response);
+                       if (!index) return false;
+                       const std::vector<std::size_t> parts = parts_of(problem, *index);
+                       return std::any_of(parts.begin(), parts.end(), [&](std::size_t part) {
+                         const ResponseSettings& other = problem.responses[part];
+                         if (!have_one_history(response, other) || !sees_as_long(other, response))
+                           return false;
+                         return part != *index || std::isfinite(reach_of(limit, other, side));
+                       });
+                     });
 }
 
 /// The furthest that a history goes to one side, within the window of its response.
@@ -79,13 +92,13 @@ std::vector<Doubt> doubt_other_side(const TrustedRun& run) {
     const auto index = index_of_named(run.problem.responses, limit.response);
     if (!index) continue;
     const ResponseSettings& response = run.problem.responses[*index];
-    if (!has_two_sides(response.type)) continue;
+    if (!has_two_sides(response)) continue;
     if (response.over_time != OverTime::max && response.over_time != OverTime::min) continue;
     const double side = response.over_time == OverTime::max ? 1.0 : -1.0;
     const double reach = reach_of(limit, response, side);
     const double beyond = furthest(run, *index, -side);
     const bool is_beyond = reach > 0.0 && beyond > reach;
-    if (!is_beyond || std::isfinite(reach_of_all(run.problem, response, -side))) continue;
+    if (!is_beyond || is_limited(run.problem, response, -side)) continue;
     const ShownUnit unit = unit_of(response);
     doubts.push_back({fmt::format(
         "the limit \"{}\" holds \"{}\" at {:.4g}{} to one side only, and it comes to {:.4g}{} "

@@ -31,6 +31,12 @@ const std::string scene = R"({
     "sag": {"type": "deflection", "body": "beam", "at": 1, "direction": "y", "over_time": "max"},
     "low": {"type": "deflection", "body": "beam", "at": 1, "direction": "y", "over_time": "min"},
     "far": {"type": "deflection", "body": "beam", "at": 1, "direction": "y", "over_time": "max-abs"},
+    "early": {"type": "deflection", "body": "beam", "at": 1, "direction": "y",
+              "over_time": "max-abs", "to": 0.01},
+    "moment": {"type": "section-force", "body": "beam", "at": 0.01, "part": "moment-z",
+               "over_time": "min"},
+    "axial": {"type": "section-force", "body": "beam", "at": 0.01, "part": "axial",
+              "over_time": "max"},
     "height": {"type": "position", "body": "beam", "at": 1, "direction": "y", "over_time": "max"}
   },
   "objective": {"minimize": "mass"}
@@ -56,6 +62,21 @@ TEST(OtherSide, IsNoneWhereItIsLimitedToo) {
                                      "other": {"response": "far", "upper": "20 mm"}})"),
               IsEmpty());
   EXPECT_THAT(doubts_with_limits(R"({"stiff": {"response": "far", "upper": "1 mm"}})"), IsEmpty());
+  EXPECT_THAT(doubts_with_limits(R"({"stiff": {"response": "sag", "upper": "1 mm"},
+                                     "other": {"response": "= -low", "upper": "20 mm"}})"),
+              IsEmpty());
+}
+
+TEST(OtherSide, IsLimitedByWhatLooksAtAllInstants) {
+  EXPECT_THAT(doubts_with_limits(R"({"stiff": {"response": "sag", "upper": "1 mm"},
+                                     "other": {"response": "early", "upper": "20 mm"}})"),
+              SizeIs(1));
+}
+
+TEST(OtherSide, IsThatOfMomentsButNotOfPress) {
+  EXPECT_THAT(doubts_with_limits(R"({"weak": {"response": "moment", "lower": "-1 N m"},
+                                     "press": {"response": "axial", "upper": "1 nN"}})"),
+              SizeIs(1));
 }
 
 TEST(OtherSide, IsNoneWhereTheMotionKeepsTheLimitThere) {
