@@ -54,6 +54,19 @@ TEST(Mistakes, OfResponsesAndConstraintsAreToldAtOnce) {
                                    HasSubstr("/constraints/stiffness/response")));
 }
 
+TEST(Mistakes, OfVariablesAndOfSettingsAreToldAtOnce) {
+  Json document = good_json();
+  document["variables"]["width"]["lower"] = "4 kg";
+  document["variables"]["load"]["upper"] = "1 m";
+  EXPECT_THAT(mistakes(document), testing::ElementsAre(HasSubstr("/variables/width/lower"),
+                                                       HasSubstr("/variables/load/upper")));
+  document = good_json();
+  document["optimizer"]["starts"] = 0;
+  document["accuracy"]["target"] = -1;
+  EXPECT_THAT(mistakes(document),
+              testing::ElementsAre(HasSubstr("/optimizer/starts"), HasSubstr("/accuracy/target")));
+}
+
 /// A body that cannot be read is still one that joints may name, and responses are not asked of it.
 TEST(Mistakes, ThatFollowFromAnotherAreNotTold) {
   Json document = good_json();

@@ -35,24 +35,28 @@ void read_heading(const JsonNode& root, ProblemFile& problem) {
 }
 
 void read_settings(const JsonNode& root, const NumberReader& numbers, ProblemFile& problem) {
-  if (const auto effects = root.find("effects")) problem.effects = read_effects(*effects);
-  if (const auto sensitivity = root.find("sensitivity")) {
-    problem.sensitivity = read_sensitivity(*sensitivity, numbers);
-  } else {
-    problem.sensitivity.memory = default_memory();
-  }
-  if (const auto optimizer = root.find("optimizer")) {
-    problem.optimizer = read_optimizer(*optimizer, problem.variables, numbers);
-  }
-  if (const auto pareto = root.find("pareto")) {
-    problem.pareto = read_pareto(*pareto, problem, numbers);
-  }
-  if (const auto accuracy = root.find("accuracy")) {
-    problem.accuracy = read_accuracy(*accuracy, problem.responses, numbers);
-  }
-  if (const auto uncertainty = root.find("uncertainty")) {
-    problem.uncertainty = read_uncertainty(*uncertainty, numbers, problem.variables);
-  }
+  problem.sensitivity.memory = default_memory();
+  MistakeCollector mistakes;
+  const auto read = [&](const char* key, const auto& read_block) {
+    mistakes.collect([&] {
+      if (const auto node = root.find(key)) read_block(*node);
+    });
+  };
+  read("effects", [&](const JsonNode& node) { problem.effects = read_effects(node); });
+  read("sensitivity",
+       [&](const JsonNode& node) { problem.sensitivity = read_sensitivity(node, numbers); });
+  read("optimizer", [&](const JsonNode& node) {
+    problem.optimizer = read_optimizer(node, problem.variables, numbers);
+  });
+  read("pareto",
+       [&](const JsonNode& node) { problem.pareto = read_pareto(node, problem, numbers); });
+  read("accuracy", [&](const JsonNode& node) {
+    problem.accuracy = read_accuracy(node, problem.responses, numbers);
+  });
+  read("uncertainty", [&](const JsonNode& node) {
+    problem.uncertainty = read_uncertainty(node, numbers, problem.variables);
+  });
+  mistakes.fail_if_any();
 }
 
 void check_margins(const JsonNode& root, const ProblemFile& problem) {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/int_size.hpp"
+#include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/sample_design.hpp"
 #include "core/scene/reading/symbols.hpp"
 
@@ -133,14 +133,15 @@ void check_range(const VariableUse& use, const DesignVariable& variable) {
 std::vector<DesignVariable> read_variables(const JsonNode& node, const NumberReader& numbers) {
   for (const VariableMention& mention : numbers.mentions()) numbers.check_mention(mention);
   std::vector<DesignVariable> variables;
-  for (const auto& [name, member] : node.members()) {
-    const auto quantity = numbers.quantity_of(int_size(variables));
+  int index = 0;
+  read_each(node, [&](const std::string& name, const JsonNode& member) {
+    const auto quantity = numbers.quantity_of(index++);
     if (!quantity) {
       member.fail(
           "is not used: no number of the scene, no formula and no linear constraint names it");
     }
     variables.push_back(read_variable(name, member, *quantity, numbers));
-  }
+  });
   const std::vector<SampleDesign> samples = sample_designs(variables);
   for (const VariableUse& use : numbers.uses()) {
     if (use.number.expression) {
