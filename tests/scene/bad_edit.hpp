@@ -7,11 +7,13 @@
 
 namespace pleuel::test {
 
-/// An edit of a good document and what the reader must say of it, after the name of the file.
+/// An edit of a good document and what the reader must say of it, after the name of the file: of several
+/// mistakes that follow from the edit, the first.
 struct BadEdit {
   std::string pointer;
   std::string value;  ///< JSON, or "remove"
   std::string message;
+  int mistakes = 1;
 };
 
 void PrintTo(const BadEdit& bad, std::ostream* stream);

@@ -107,7 +107,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "constraint names it"},
         BadEdit{
             "/variables", "remove",
-            R"(/scene/bodies/crank/section/width/variable names the unknown variable "width"; there are none)"},
+            R"(/scene/bodies/crank/section/width/variable names the unknown variable "width"; there are none)",
+            3},
         BadEdit{"/responses/weight/bodies", R"(["rod", "crank", "rod"])",
                 R"(/responses/weight/bodies/2 names the body "rod" a second time)"},
         BadEdit{"/responses/weight/bodies", "[]",

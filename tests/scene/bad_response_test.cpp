@@ -141,7 +141,8 @@ INSTANTIATE_TEST_SUITE_P(
             R"(/responses/jolt/from must be a time [s], got "1 m": "m" measures something else)"},
         BadEdit{"/simulation/end_time", "0.05",
                 "/responses/jolt/to must not be after the end of the simulation, 0.05 [s], "
-                "got 0.1"}),
+                "got 0.1",
+                3}),
     named_by(&BadEdit::pointer));
 
 }  // namespace

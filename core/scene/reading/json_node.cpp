@@ -119,7 +119,7 @@ bool JsonNode::truth() const {
 void fail_choice(const JsonNode& node, const std::vector<std::string>& words) {
   const std::string rule = fmt::format("must be {}", quoted_list(words, "or"));
   if (!node.value().is_string()) node.fail_with_value(rule);
-  const std::string meant = closest(node.value().get<std::string>(), words);
+  const std::string meant = meant_by(node.value().get<std::string>(), words);
   node.fail_with_value(rule, meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant));
 }
 

@@ -64,7 +64,6 @@ void read_bodies(const JsonNode& node, Scene& scene, NumberReader& numbers) {
     if (name == ground_name) body.fail("has the name that is kept for the ground");
     scene.bodies.push_back(read_body(name, body, materials, numbers));
   });
-  if (scene.bodies.empty()) node.fail("has no body");
   add_library_materials(scene);
 }
 
@@ -114,6 +113,7 @@ Scene read_scene(const JsonNode& node, NumberReader& numbers) {
   mistakes.collect([&] { read_with("materials", read_materials); });
   mistakes.fail_if_any();
   const JsonNode bodies = node.at("bodies");
+  if (bodies.members().empty()) bodies.fail("has no body");
   mistakes.collect([&] { read_bodies(bodies, scene, numbers); });
   mistakes.collect([&] {
     if (const auto joints = node.find("joints")) read_joints(*joints, bodies, scene, numbers);

@@ -63,10 +63,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string closest(std::string_view word, const std::vector<std::string>& known) {
-  if (word.size() > longest_word) return "";
-  std::string best = by_other_name(word, known);
-  if (!best.empty()) return best;
+  std::string best;
   std::size_t best_distance = longest_word;
+  if (word.size() > longest_word) return best;
   for (const std::string& candidate : known) {
     const std::size_t length = std::max(word.size(), candidate.size());
     if (length > longest_word) continue;
@@ -80,6 +79,11 @@ std::string closest(std::string_view word, const std::vector<std::string>& known
   return best;
 }
 
+std::string meant_by(std::string_view word, const std::vector<std::string>& known) {
+  const std::string name = word.size() > longest_word ? "" : by_other_name(word, known);
+  return name.empty() ? closest(word, known) : name;
+}
+
 std::string quoted_list(const std::vector<std::string>& words, std::string_view conjunction) {
   std::string list;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -91,7 +95,7 @@ std::string quoted_list(const std::vector<std::string>& words, std::string_view 
 
 std::string hint(std::string_view word, const std::vector<std::string>& known) {
   if (known.empty()) return "; there are none";
-  const std::string meant = closest(word, known);
+  const std::string meant = meant_by(word, known);
   if (!meant.empty()) return fmt::format("; did you mean \"{}\"?", meant);
   return fmt::format("; known {} {}", known.size() == 1 ? "is" : "are", quoted_list(known, "and"));
 }

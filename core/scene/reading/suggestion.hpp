@@ -11,9 +11,11 @@ namespace pleuel {
 /// the other (optimal string alignment).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The known word that is probably meant, as misspelt or by another name (other_names.hpp), or an empty
-/// string.
+/// The known word that is probably misspelt, or an empty string.
 std::string closest(std::string_view word, const std::vector<std::string>& known);
+
+/// The known word that is probably meant, by another name (other_names.hpp) or misspelt, or an empty string.
+std::string meant_by(std::string_view word, const std::vector<std::string>& known);
 
 /// `"a", "b" and "c"`, the last two joined by `conjunction`.
 std::string quoted_list(const std::vector<std::string>& words, std::string_view conjunction);
