@@ -8,15 +8,6 @@
 /// loads they buckle.
 namespace pleuel {
 
-/// Deformations that joints and drives allow, normal to the motions of the mechanism as rigid
-/// bodies that no spring holds: columns Z in coordinates relative to Mechanism::scale, Φ_q S Z = 0.
-Eigen::MatrixXd free_deformations(const Mechanism& mechanism, const State& state);
-
-/// The stiffness R_q of the deformations at a state, Zᵀ S R_q S Z; loads, weight, inertia forces
-/// and multipliers take part.
-Eigen::MatrixXd deformation_stiffness(const Mechanism& mechanism, const State& state,
-                                      const Eigen::MatrixXd& deformations);
-
 struct ElasticStability {
   bool is_stable = true;
   int negative = 0;   ///< real negative eigenvalues of the stiffness
