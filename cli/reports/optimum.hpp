@@ -46,8 +46,4 @@ struct UsedLimit {
 
 UsedLimit used_limit(const ConstraintSettings& constraint, double value);
 
-/// Within a millionth of the range of a variable.
-bool is_at_lower_bound(const DesignVariable& variable, double value);
-bool is_at_upper_bound(const DesignVariable& variable, double value);
-
 }  // namespace pleuel

@@ -9,6 +9,7 @@
 #include "cli/reports/error_report.hpp"
 #include "cli/reports/monitors_report.hpp"
 #include "cli/reports/plain_verdict.hpp"
+#include "cli/reports/reached_bound.hpp"
 #include "cli/reports/sizes_report.hpp"
 #include "cli/reports/warnings.hpp"
 #include "cli/text/table.hpp"
@@ -56,9 +57,10 @@ std::string objective_text(const Optimum& optimum) {
 
 std::string bound_mark(const DesignVariable& variable, double value) {
   if (const auto choice = size_text(variable, value)) return *choice;
-  if (variable.lower == variable.upper) return "fixed";
-  if (is_at_lower_bound(variable, value)) return "at its lower bound";
-  return is_at_upper_bound(variable, value) ? "at its upper bound" : "";
+  const ReachedBound reached = reached_bound(variable, value);
+  if (reached == ReachedBound::none) return "";
+  if (reached == ReachedBound::both) return "fixed";
+  return fmt::format("at its {} bound", to_string(reached));
 }
 
 /// Of a section its name, if it is one of the list.

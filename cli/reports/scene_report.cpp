@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/reports/reached_bound.hpp"
 #include "cli/reports/sizes_report.hpp"
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
@@ -161,6 +162,8 @@ Json variables_document(const ProblemFile& problem, const Eigen::VectorXd& x) {
                                {"upper", variable.upper},
                                {"start", variable.start}};
     if (const auto choice = size_text(variable, x(i))) document[variable.name]["choice"] = *choice;
+    const ReachedBound reached = reached_bound(variable, x(i));
+    if (reached != ReachedBound::none) document[variable.name]["at_bound"] = to_string(reached);
   }
   return document;
 }

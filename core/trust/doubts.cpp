@@ -47,6 +47,21 @@ void leave_steps_unresolved(const TrustedRun& run, std::vector<std::optional<Err
   }
 }
 
+/// Members that buckle leave no trace in a motion without their elasticity: what a tolerance leaves
+/// out takes part here.
+std::vector<Doubt> doubt_buckling(const TrustedRun& run,
+                                  const std::optional<CompleteRun>& complete) {
+  const auto doubts_of = [](const TrustedRun& pressed) {
+    std::vector<Doubt> doubts = doubt_sideways_buckling(pressed);
+    const std::vector<Doubt> others = doubt_unstable_members(pressed);
+    doubts.insert(doubts.end(), others.begin(), others.end());
+    return doubts;
+  };
+  if (!complete || !complete->analysis) return doubts_of(run);
+  const Monitors monitors = monitor(complete->analysis->model, complete->analysis->trajectory);
+  return doubts_of({complete->problem, run.x, *complete->analysis, monitors});
+}
+
 }  // namespace
 
 Trust judge_run(const TrustedRun& run) {
@@ -56,23 +71,36 @@ Trust judge_run(const TrustedRun& run) {
     doubts.insert(doubts.end(), found.begin(), found.end());
   };
   for (const auto find : {
-           doubt_bending_range,      doubt_blocked_drives,    doubt_energy_balance,
-           doubt_extrapolation,      doubt_far_limits,        doubt_fast_laws,
-           doubt_frequencies,        doubt_idle_freedoms,     doubt_initial_motion,
-           doubt_joint_turns,        doubt_left_out_effects,  doubt_lost_stiffening,
-           doubt_misaligned_joints,  doubt_other_side,        doubt_proportions,
-           doubt_shear_range,        doubt_sideways_buckling, doubt_sliding_contacts,
-           doubt_unconnected_bodies, doubt_unstable_members,
+           doubt_bending_range,
+           doubt_blocked_drives,
+           doubt_energy_balance,
+           doubt_extrapolation,
+           doubt_far_limits,
+           doubt_fast_laws,
+           doubt_frequencies,
+           doubt_idle_freedoms,
+           doubt_initial_motion,
+           doubt_joint_turns,
+           doubt_lost_stiffening,
+           doubt_misaligned_joints,
+           doubt_other_side,
+           doubt_proportions,
+           doubt_shear_range,
+           doubt_sliding_contacts,
+           doubt_unconnected_bodies,
        }) {
     add(find(run));
   }
+  const std::optional<CompleteRun> complete = simulate_completely(run);
+  if (complete) add(doubt_left_out_effects(run, *complete));
+  add(doubt_buckling(run, complete));
   Resolution resolution = judge_resolution(run);
   add(doubt_resolution(run, resolution));
   trust.errors = std::move(resolution.bars);
   trust.evidence = std::move(resolution.evidence);
   trust.bands = std::move(resolution.bands);
   if (!doubt_fast_laws(run).empty()) leave_steps_unresolved(run, trust.errors);
-  add_left_out_effects(run, trust.errors);
+  if (complete) add_left_out_effects(run, *complete, trust.errors);
   std::stable_partition(doubts.begin(), doubts.end(),
                         [](const Doubt& doubt) { return doubt.is_serious; });
   return trust;

@@ -24,25 +24,33 @@ bool leaves_out_by_measurement(const Model& model) {
 
 }  // namespace
 
-std::vector<Doubt> doubt_left_out_effects(const TrustedRun& run) {
+std::optional<CompleteRun> simulate_completely(const TrustedRun& run) {
   if (!leaves_out_by_measurement(run.analysis.model)) return {};
-  if (run.x == start_design(run.problem)) return {};
+  CompleteRun complete{with_all_effects(run.problem), nullptr, ""};
   try {
-    const auto complete = analyze(with_all_effects(run.problem), run.x);
-    const LargestChange change = largest_change(run.problem, *complete, run.analysis);
-    if (change.relative <= run.problem.effects.tolerance) return {};
-    return {{fmt::format("effects that were left out at the start design change \"{}\" by {:.2g} "
-                         "at this one, more than /effects/tolerance = {:g}. Start from this "
-                         "design, or with a smaller tolerance.",
-                         change.response, change.relative, run.problem.effects.tolerance),
-             true,
-             {change.response}}};
+    complete.analysis = analyze(complete.problem, run.x);
   } catch (const SimulationError& error) {
+    complete.failure = error.what();
+  }
+  return complete;
+}
+
+std::vector<Doubt> doubt_left_out_effects(const TrustedRun& run, const CompleteRun& complete) {
+  if (!complete.analysis) {
     return {{fmt::format("with the effects that were left out at the start design this one cannot "
                          "be simulated: {}",
-                         error.what()),
+                         complete.failure),
              true}};
   }
+  if (run.x == start_design(run.problem)) return {};
+  const LargestChange change = largest_change(run.problem, *complete.analysis, run.analysis);
+  if (change.relative <= run.problem.effects.tolerance) return {};
+  return {{fmt::format("effects that were left out at the start design change \"{}\" by {:.2g} "
+                       "at this one, more than /effects/tolerance = {:g}. Start from this "
+                       "design, or with a smaller tolerance.",
+                       change.response, change.relative, run.problem.effects.tolerance),
+           true,
+           {change.response}}};
 }
 
 std::vector<Doubt> doubt_lost_stiffening(const TrustedRun& run) {
@@ -67,21 +75,16 @@ std::vector<Doubt> doubt_lost_stiffening(const TrustedRun& run) {
   return doubts;
 }
 
-void add_left_out_effects(const TrustedRun& run, std::vector<std::optional<ErrorBar>>& errors) {
-  if (!leaves_out_by_measurement(run.analysis.model) || errors.empty()) return;
-  std::unique_ptr<Analysis> complete;
-  try {
-    complete = analyze(with_all_effects(run.problem), run.x);
-  } catch (const SimulationError&) {  // the bar says so
-  }
+void add_left_out_effects(const TrustedRun& run, const CompleteRun& complete,
+                          std::vector<std::optional<ErrorBar>>& errors) {
   for (std::size_t i = 0; i < errors.size(); ++i) {
     if (!errors[i]) continue;
     ErrorPart& effects = errors[i]->effects;
-    if (!complete) {
+    if (!complete.analysis) {  // the bar says so
       effects.is_resolved = false;
       continue;
     }
-    effects.change = complete->reductions[i].value - run.analysis.reductions[i].value;
+    effects.change = complete.analysis->reductions[i].value - run.analysis.reductions[i].value;
     effects.bound = std::abs(effects.change);
   }
 }

@@ -1,20 +1,33 @@
 #pragma once
 
+#include <memory>
+#include <string>
+
 #include "core/trust/doubt.hpp"
 #include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
 
-/// Effects that were left out because little changed without them at the start design: at another
-/// design the mechanism is simulated once more with all of them.
-std::vector<Doubt> doubt_left_out_effects(const TrustedRun& run);
+/// A design simulated once more with all effects, where a tolerance leaves some out.
+struct CompleteRun {
+  ProblemFile problem;
+  std::unique_ptr<Analysis> analysis;  ///< null: it cannot be simulated
+  std::string failure;                 ///< why not
+};
+
+/// @returns none where no effect is left out by measurement
+std::optional<CompleteRun> simulate_completely(const TrustedRun& run);
+
+/// Effects that were left out because little changed without them at the start design, and change
+/// more at this one.
+std::vector<Doubt> doubt_left_out_effects(const TrustedRun& run, const CompleteRun& complete);
 
 /// Geometric stiffening that the file does not forbid, but is not there because axial elasticity
 /// is switched off: judged by the estimate of the axial force against Euler's load.
 std::vector<Doubt> doubt_lost_stiffening(const TrustedRun& run);
 
-/// Adds to the error of each response what the effects change that are left out by a tolerance: by
-/// one more simulation with all of them.
-void add_left_out_effects(const TrustedRun& run, std::vector<std::optional<ErrorBar>>& errors);
+/// Adds to the error of each response what the effects change that are left out by a tolerance.
+void add_left_out_effects(const TrustedRun& run, const CompleteRun& complete,
+                          std::vector<std::optional<ErrorBar>>& errors);
 
 }  // namespace pleuel

@@ -196,6 +196,24 @@ TEST_F(RoundedDesign, IsOnTheCommandLineByTheNamesOfVariables) {
             nlohmann::json({0.055, 0.02}));
 }
 
+TEST_F(RoundedDesign, SaysWhichOfItsSizesAreAtABound) {
+  const auto reached = [&](const std::string& rest) {
+    const nlohmann::json size = simulate(joined({"--set", "crank_length=55 mm"}, {"--set", rest}))
+                                    .document()
+                                    .at("variables")
+                                    .at("crank_length");
+    return size.value("at_bound", "none");
+  };
+  EXPECT_EQ(reached("/variables/crank_length/lower=50 mm"), "none");
+  EXPECT_EQ(reached("/variables/crank_length/lower=55 mm"), "lower");
+  EXPECT_EQ(reached("/variables/crank_length/upper=55 mm"), "upper");
+  EXPECT_EQ(reached(R"(/variables/crank_length={"start": "55 mm", "lower": "55 mm",
+                                                "upper": "55 mm"})"),
+            "both");
+  // Far bounds are compared with themselves and with the start, 5 cm, not with the range.
+  EXPECT_EQ(reached("/variables/crank_length/upper=100 km"), "none");
+}
+
 TEST_F(RoundedDesign, ThatBreaksALimitIsNoSuccess) {
   for (const auto& [value, code] : {std::pair{"61 mm", 4}, std::pair{"60 mm", 0}}) {
     const ProgramRun run = simulate({"--set", std::string("crank_length=") + value});

@@ -3,7 +3,6 @@ import { lineChart } from "../charts";
 import { type Companion, type Document, type Picture, parseCsv, type ReportData, type Shown, type Unit } from "../data";
 import { h, section, table } from "../dom";
 import { engineering, errorText, number, pair, percent, placeText, seconds, sentence, share, withUnit, words } from "../format";
-import { boundText } from "./bounds";
 import { influenceSection } from "./influence";
 import { addMarks, type Mark } from "../mechanism/marks";
 import { change, effectsSection, endName, fact, filesSection, monitorsText, responsesTable, unitOf, unitOfLimit, verdict } from "./parts";
@@ -421,7 +420,7 @@ function variablesSection(data: ReportData): HTMLElement | null {
         const range = one.upper - one.lower || 1;
         const at = (x: number) => (100 * (x - one.lower)) / range;
         const [from, to] = [at(one.start), at(one.value)];
-        const bound = one.choice ? "" : boundText(one.value, data.picture?.variables[name] ?? one);
+        const bound = one.choice ? "" : boundText(one.at_bound);
         return h(
           "li",
           {},
@@ -443,6 +442,11 @@ function variablesSection(data: ReportData): HTMLElement | null {
       }),
     ),
   );
+}
+
+function boundText(reached: "lower" | "upper" | "both" | undefined): string {
+  if (!reached) return "";
+  return reached === "both" ? "fixed" : `at its ${reached} bound`;
 }
 
 function convergenceSection(data: ReportData): HTMLElement | null {

@@ -1,13 +1,15 @@
-/// Stiffening that goes with axial elasticity.
+/// Stiffening that goes with axial elasticity, and buckling of what a tolerance makes rigid.
 
 #include "core/trust/left_out_effects.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/response/effect_measurement.hpp"
 #include "tests/core/trust/doubts_of.hpp"
 
 namespace pleuel::test::left_out_effects_test {
@@ -41,6 +43,52 @@ TEST(LostStiffening, IsADoubtWhereAxialForcesAreLarge) {
   ASSERT_THAT(doubts, SizeIs(1));
   EXPECT_TRUE(doubts[0].is_serious);
   EXPECT_THAT(doubts[0].text, HasSubstr("0.28 of its Euler load"));
+}
+
+/// A square column of 1 m × 10 mm, clamped, pressed slowly at its tip, which moves by less than 1e-3 of
+/// its length: no response calls for its elasticity.
+ProblemFile pressed_column(double force, const char* spatial_motion, double tolerance) {
+  ProblemFile problem = read_scene(fmt::format(
+      R"j({{"scene": {{
+        "materials": {{"light": {{"young": 2.1e11, "poisson": 0.3, "density": 1}}}},
+        "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "elements": 6,
+                            "material": "light", "damping": {{"stiffness": 1e-4}},
+                            "section": {{"type": "rectangle", "width": 0.01, "height": 0.01}}}}}},
+        "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}}},
+        "loads": {{"press": {{"type": "force", "body": "bar", "at": [1, 0, 0],
+                             "direction": [-1, 0, 0],
+                             "value": {{"type": "ramp", "to": {}, "end": 0.05}}}}}}}},
+      "effects": {{"spatial_motion": "{}", "tolerance": {}}},
+      "simulation": {{"end_time": 0.05, "step": 0.0025}},
+      "responses": {{"tip": {{"type": "position", "body": "bar", "at": 1, "direction": "x",
+                             "over_time": "final"}}}}}})j",
+      force, spatial_motion, tolerance));
+  decide_effects(problem);
+  return problem;
+}
+
+std::vector<std::string> buckling_of(const std::vector<Doubt>& doubts) {
+  std::vector<std::string> texts = texts_of(doubts);
+  std::erase_if(texts,
+                [](const std::string& text) { return text.find("buckle") == std::string::npos; });
+  return texts;
+}
+
+/// A cantilever buckles at π² EI/4L².
+TEST(BucklingOfWhatIsLeftOut, IsThatOfTheCompleteMechanism) {
+  const double critical = std::pow(std::numbers::pi / 2, 2) * 2.1e11 * 1e-8 / 12;
+  for (const char* spatial_motion : {"auto", "on"}) {
+    for (double share : {0.6, 1.02}) {
+      const ProblemFile lean = pressed_column(share * critical, spatial_motion, 1e-2);
+      const auto analysis = analyze(lean, start_design(lean));
+      EXPECT_FALSE(analysis->model.bodies[0].is_elastic);
+      const std::vector<std::string> told =
+          buckling_of(find_doubts(lean, start_design(lean), *analysis));
+      EXPECT_EQ(told,
+                buckling_of(doubts_of(pressed_column(share * critical, spatial_motion, 0.0))));
+      EXPECT_EQ(told.empty(), share < 1.0) << spatial_motion << " " << share;
+    }
+  }
 }
 
 }  // namespace
