@@ -125,11 +125,11 @@ std::string simulation_text(const ProblemFile& problem, const std::string& desig
                             const Eigen::VectorXd& x, const Simulated& run) {
   const Analysis& analysis = run.analysis;
   const Trajectory& trajectory = analysis.trajectory;
-  std::string text =
-      fmt::format("{}{}: {}\n\n{}\n{}", problem.name, design, size_text(analysis),
-                  responses_text(problem, analysis, run.errors) + limits_text(problem, x, analysis),
-                  monitors_text(run.monitors, analysis.model.mechanism.system->multipliers()) +
-                      assembly_text(analysis) + warnings_text(run.warnings));
+  std::string text = fmt::format(
+      "{}{}: {}\n\n{}\n{}", problem.name, design, size_text(analysis),
+      responses_text(problem, analysis, run.errors) + limits_text(problem, x, analysis, run.errors),
+      monitors_text(run.monitors, analysis.model.mechanism.system->multipliers()) +
+          assembly_text(analysis) + warnings_text(run.warnings));
   if (!run.influences.empty()) {
     text += influences_text({problem, values_of(analysis), run.influences}, true) + "\n";
   }
@@ -191,7 +191,8 @@ Outcome run_simulate(const Arguments& arguments) {
   mark_effects({input.problem, values_of(*analysis), run.influences}, outcome.document["effects"]);
   if (input.choice) outcome.document["setting"] = setting_document(input, *input.choice);
   outcome.document["variables"] = variables_document(input.problem, input.design);
-  outcome.document["constraints"] = limits_document(input.problem, input.design, *analysis);
+  outcome.document["constraints"] =
+      limits_document(input.problem, input.design, *analysis, run.errors);
   record.write("result.json", outcome.document);
   write_trajectory(record.result("trajectory.csv"), *analysis, run.bands);
   record.show_picture([&] {

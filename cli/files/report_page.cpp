@@ -40,6 +40,13 @@ std::string without_tags(const std::string& json) {
   return text;
 }
 
+/// Where it was looked for.
+std::string template_place() {
+  if (const char* given = std::getenv("PLEUEL_REPORT_TEMPLATE")) return given;
+  return fmt::format("../report/{} from the program on (PLEUEL_REPORT_TEMPLATE may name it)",
+                     report_name);
+}
+
 }  // namespace
 
 std::optional<fs::path> find_report_template() {
@@ -56,8 +63,8 @@ std::optional<fs::path> find_report_template() {
 std::string missing_template_text(const std::string& program, const fs::path& folder) {
   return wrapped(
       fmt::format("No report.html: its template is not built, which takes nodejs and npm "
-                  "(docs/report.md). Afterwards: {} report {}\n",
-                  program, folder.string()),
+                  "(docs/report.md), or not at {}. Afterwards: {} report {}\n",
+                  template_place(), program, folder.string()),
       "  ");
 }
 

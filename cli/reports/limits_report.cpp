@@ -37,6 +37,20 @@ bool is_kept(const ConstraintSettings& constraint, double value) {
          !(constraint.lower && exceeds(*constraint.lower - value, *constraint.lower));
 }
 
+using Errors = std::vector<std::optional<ErrorBar>>;
+
+/// Whether a limit that is broken may be kept as far as the error of its response is known.
+bool is_within_error(const ProblemFile& problem, const ConstraintSettings& constraint, double value,
+                     const Errors& errors) {
+  const auto index = index_of_named(problem.responses, constraint.response);
+  if (!index || *index >= errors.size() || !errors[*index]) return false;
+  const ErrorBar& bar = *errors[*index];
+  if (!bar.is_resolved() || !std::isfinite(bar.bound())) return false;
+  const bool is_high = constraint.upper && value > *constraint.upper;
+  const double excess = is_high ? value - *constraint.upper : *constraint.lower - value;
+  return excess <= bar.bound();
+}
+
 /// A difference that value and limit do not show, with their five digits, is none.
 std::string margin_text(const UsedLimit& used, double value, const ShownUnit& unit) {
   const double margin = used.is_upper ? used.limit - value : value - used.limit;
@@ -75,18 +89,20 @@ Json limit_document(const ProblemFile& problem, const ConstraintSettings& constr
   return entry;
 }
 
-Json limits_document(const ProblemFile& problem, const Eigen::VectorXd& x,
-                     const Analysis& analysis) {
+Json limits_document(const ProblemFile& problem, const Eigen::VectorXd& x, const Analysis& analysis,
+                     const Errors& errors) {
   Json document = Json::object();
   for (const ConstraintSettings& constraint : problem.constraints) {
     const double value = value_of(constraint, problem, x, analysis);
-    document[constraint.name] = limit_document(problem, constraint, value);
+    Json& entry = document[constraint.name] = limit_document(problem, constraint, value);
+    if (is_kept(constraint, value)) continue;
+    entry["within_error"] = is_within_error(problem, constraint, value, errors);
   }
   return document;
 }
 
 std::string limits_text(const ProblemFile& problem, const Eigen::VectorXd& x,
-                        const Analysis& analysis) {
+                        const Analysis& analysis, const Errors& errors) {
   Table table({{"constraint", Table::Align::left},
                {"value"},
                {"limit"},
@@ -98,10 +114,13 @@ std::string limits_text(const ProblemFile& problem, const Eigen::VectorXd& x,
     const double value = value_of(constraint, problem, x, analysis);
     const UsedLimit used = used_limit(constraint, value);
     const ShownUnit unit = unit_of(problem, constraint);
-    table.add_row({constraint.name, significant(unit.shown(value)),
-                   (used.is_upper ? "≤ " : "≥ ") + significant(unit.shown(used.limit)), unit.name,
-                   used.utilisation ? percent(*used.utilisation) : "–",
-                   margin_text(used, value, unit), is_kept(constraint, value) ? "kept" : "BROKEN"});
+    table.add_row(
+        {constraint.name, significant(unit.shown(value)),
+         (used.is_upper ? "≤ " : "≥ ") + significant(unit.shown(used.limit)), unit.name,
+         used.utilisation ? percent(*used.utilisation) : "–", margin_text(used, value, unit),
+         is_kept(constraint, value)                            ? "kept"
+         : is_within_error(problem, constraint, value, errors) ? "BROKEN, within its error"
+                                                               : "BROKEN"});
   }
   return table.is_empty() ? "" : "\n" + table.text() + "\n" + sum_text(problem, x, analysis);
 }

@@ -63,6 +63,12 @@ std::string bound_mark(const DesignVariable& variable, double value) {
   return fmt::format("at its {} bound", to_string(reached));
 }
 
+/// Whether neither the objective nor a limit depends on a variable at the last design.
+bool changes_nothing(const Evaluation& evaluation, Eigen::Index variable) {
+  return evaluation.has_gradients() && evaluation.objective_gradient(variable) == 0.0 &&
+         evaluation.constraint_jacobian.col(variable).isZero(0.0);
+}
+
 /// Of a section its name, if it is one of the list.
 std::string value_text(const DesignVariable& variable, const ShownUnit& unit, double value) {
   const auto name = is_section(variable) ? size_text(variable, value) : std::nullopt;
@@ -84,9 +90,13 @@ std::string variables_text(const Optimum& optimum) {
     const double value = optimum.result.x(i);
     const auto text = [&](double number) { return value_text(variable, unit, number); };
     const bool is_name = is_section(variable) && size_text(variable, value);
+    std::string mark = is_name ? "" : bound_mark(variable, value);
+    if (mark.empty() && !is_name &&
+        changes_nothing(optimum.result.evaluation, static_cast<Eigen::Index>(i))) {
+      mark = "changes nothing here";
+    }
     table.add_row({variable.name, text(optimum.start(i)), text(value), text(variable.lower),
-                   text(variable.upper), is_section(variable) ? "" : unit.name,
-                   is_name ? "" : bound_mark(variable, value)});
+                   text(variable.upper), is_section(variable) ? "" : unit.name, mark});
   }
   return table.text();
 }

@@ -97,8 +97,12 @@ std::string freedoms_text(const DegreesOfFreedom& freedoms, const Model& model) 
                                       freedoms.free() == 1 ? " is" : "s are"),
                    "  ");
   }
-  if (freedoms.blocked > 0) return text + "no rigid motion follows the drives\n";
-  return text + (driven > 0 ? "the drives prescribe it\n" : "nothing can move\n");
+  if (freedoms.blocked > 0) {
+    text += "no rigid motion follows the drives\n";
+  } else {
+    text += driven > 0 ? "the drives prescribe it\n" : "nothing can move\n";
+  }
+  return wrapped(text, "  ");
 }
 
 /// Of elastic coordinates "m".

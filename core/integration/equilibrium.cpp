@@ -30,6 +30,9 @@ constexpr double stuck_share = 1e-9;
 constexpr double balance_round_off = 1e-12;
 /// Where the whole load is too much for Newton's method it comes in parts, down to this one.
 constexpr double smallest_part = 1.0 / 1024;
+/// Where members turn far there are other equilibria, to which loads that grow slowly do not lead.
+constexpr double slow_part = 1.0 / 32;
+constexpr double far_deformed = 0.5;  ///< of lengths, and in rad
 /// The share of the loads from which their effect on the stiffness is taken.
 constexpr double small_load = 1e-3;
 /// Rows of Φ_q of the frames that depend on the others by less than this are closed by deformation.
@@ -310,10 +313,7 @@ bool Equilibrium::solve_from(const Eigen::VectorXd& target, InitialState& at) {
     const bool is_met = is_stuck && backward_error(matrix, unknowns(at), left) < balance_round_off;
     strains = strains_.predicted(at.state.q, step.head(n_));
     advance_by(step, at);
-    const double deformation = at.state.q(mechanism_.elastic)
-                                   .cwiseQuotient(mechanism_.scale(mechanism_.elastic))
-                                   .lpNorm<Eigen::Infinity>();
-    const bool is_round_off = is_stuck && size < stuck_share * std::max(1.0, deformation);
+    const bool is_round_off = is_stuck && size < stuck_share * std::max(1.0, deformation(at.state));
     if (size < newton_tolerance || is_round_off || is_met) return true;
     previous = size;
   }
@@ -322,23 +322,41 @@ bool Equilibrium::solve_from(const Eigen::VectorXd& target, InitialState& at) {
 
 InitialState Equilibrium::solve(InitialState start) {
   start.position_multipliers = of_frames(start.position_multipliers);
+  InitialState reached = follow(start, 1.0);
+  const bool is_plausible = deformation(reached.state) < far_deformed &&
+                            elastic_stability(mechanism_, reached.state).is_stable;
+  if (is_plausible) return reached;
+  try {
+    reached = follow(start, slow_part);
+  } catch (const SimulationError&) {  // what was found at once is judged
+  }
+  refuse_unstable(start, reached);
+  return reached;
+}
+
+InitialState Equilibrium::follow(const InitialState& start, double largest_part) {
   const Eigen::VectorXd unloaded = residual(start);
   InitialState reached = start;
-  double share = 0.0, part = 1.0;
+  double share = 0.0, part = largest_part;
   while (share < 1.0) {
     const double next = std::min(1.0, share + part);
     InitialState trial = reached;
     if (solve_from((1.0 - next) * unloaded, trial)) {
       reached = std::move(trial);
       share = next;
-      part *= 2.0;
+      part = std::min(2.0 * part, largest_part);
     } else {
       part /= 2.0;
       if (part < smallest_part) fail(start, share);
     }
   }
-  refuse_unstable(start, reached);
   return reached;
+}
+
+double Equilibrium::deformation(const State& state) const {
+  return state.q(mechanism_.elastic)
+      .cwiseQuotient(mechanism_.scale(mechanism_.elastic))
+      .lpNorm<Eigen::Infinity>();
 }
 
 double Equilibrium::load_factor(const InitialState& start) {

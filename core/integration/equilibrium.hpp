@@ -29,7 +29,8 @@ class UnstableEquilibrium : public SimulationError {
 ///
 /// Newton's method for F(z) = 0 treats axial forces as unknowns (axial_strains.hpp). Where it does
 /// not converge, loads come in parts,
-/// F(z) = (1 − s) F(z₀), s → 1. An equilibrium that is unstable is refused, with the load factor
+/// F(z) = (1 − s) F(z₀), s → 1. Where it ends far deformed, or in an equilibrium that is not stable,
+/// loads grow slowly instead; what is unstable then is refused, with the load factor
 /// (elastic_stability.hpp). The derivatives with respect to the design use the same Jacobian.
 class Equilibrium {
  public:
@@ -64,6 +65,11 @@ class Equilibrium {
                                              const Eigen::VectorXd& strains) const;
   /// Newton's method for F(z) = target. @returns whether it converged; if not, z is anything
   bool solve_from(const Eigen::VectorXd& target, InitialState& at);
+  /// Newton's method with loads that come in parts, of this share of them at most.
+  /// @throws SimulationError if it fails
+  InitialState follow(const InitialState& start, double largest_part);
+  /// The largest elastic coordinate over its scale.
+  double deformation(const State& state) const;
   /// At what share of the loads members buckle; not a number if that cannot be said.
   double load_factor(const InitialState& start);
   [[noreturn]] void fail(const InitialState& start, double share);

@@ -83,11 +83,11 @@ class PeriodicSearch {
     try {
       attempt = search();
     } catch (const SimulationError&) {
-      if (!complaint_.empty()) throw SimulationError(complaint_);
+      if (!complaint_.empty()) throw SimulationError(complaint_ + advice_);
       throw;
     }
     complaint_ = complaint_about_repetition(mechanism_, attempt.trajectory, one_.period);
-    if (!complaint_.empty()) throw SimulationError(complaint_);
+    if (!complaint_.empty()) throw SimulationError(complaint_ + advice_);
     return attempt;
   }
 
@@ -127,6 +127,7 @@ class PeriodicSearch {
     ++simulations_;
     const Trajectory transient = simulate_plainly(mechanism_, one_, {});
     complaint_ = complaint_about_repetition(mechanism_, transient, one_.period);
+    advice_ = advice_to_be_exact(mechanism_, transient);
     return simulated(end_of(transient));
   }
 
@@ -207,6 +208,7 @@ class PeriodicSearch {
   std::shared_ptr<const PeriodMap> map_;
   int simulations_ = 0, differentiations_ = 0;
   std::string complaint_;  ///< about what does not repeat itself
+  std::string advice_;     ///< besides, from a period that begins as the file says
 };
 
 void observe(const Trajectory& trajectory, const InstantObserver& observer) {

@@ -1,6 +1,8 @@
 #include "core/integration/repetition.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -117,13 +119,30 @@ const Term* find_unrepeated(Mechanism& mechanism, const Trajectory& trajectory, 
 
 }  // namespace
 
+std::string advice_to_be_exact(const Mechanism& mechanism, const Trajectory& trajectory) {
+  constexpr double nearly = 1e-2, degree = std::numbers::pi / 180.0;
+  State start, end;
+  trajectory.states->load(0, start);
+  trajectory.states->load(trajectory.steps(), end);
+  const Eigen::VectorXd turns = whole_turns(mechanism.angles, start.q, end.q);
+  for (const int angle : mechanism.angles) {
+    const double turned = end.q(angle) - start.q(angle);
+    if (turns(angle) == 0.0 || std::abs(turned - turns(angle)) > nearly) continue;
+    return fmt::format(
+        ". What turns goes through {:.9g} deg: if that is to be {:.9g}, write the period as a "
+        "formula, as in \"= 1 rev/(900 rpm)\"",
+        turned / degree, turns(angle) / degree);
+  }
+  return "";
+}
+
 std::string complaint_about_repetition(Mechanism& mechanism, const Trajectory& trajectory,
                                        double period) {
   const Term* term = find_unrepeated(mechanism, trajectory, trajectory.steps(), period,
                                      Compared::residual, most_samples);
   if (term == nullptr) return "";
   return fmt::format(
-      "/simulation/initial_state: the motion cannot repeat itself after {:.6g} s: {} does not. "
+      "/simulation/initial_state: the motion cannot repeat itself after {:.9g} s: {} does not. "
       "Laws of time must repeat with the period, drives make whole turns in it "
       "(a constant speed of 2 pi over the period), and what counts turns act alike in each",
       period, term->name());

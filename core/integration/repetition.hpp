@@ -21,4 +21,9 @@ std::string complaint_about_repetition(Mechanism& mechanism, const Trajectory& t
 std::string complaint_about_repeated_derivatives(Mechanism& mechanism, const Trajectory& trajectory,
                                                  int steps, double period);
 
+/// Of a period that is rounded: a sentence, with its full stop before it, that says what nearly makes
+/// whole turns in it; or nothing.
+/// @param trajectory  of a period whose beginning is that of the file
+std::string advice_to_be_exact(const Mechanism& mechanism, const Trajectory& trajectory);
+
 }  // namespace pleuel

@@ -7,13 +7,13 @@
 
 namespace pleuel {
 
-/// A component (0 … 2) of a vector, or its magnitude √(x² + y² + z² + ε²). ε = 1e-12 in the unit of
+/// A component (0 … 2) of a vector, or its magnitude √(x² + y² + z² + ε²). ε = 1e-30 in the unit of
 /// the vector keeps the root differentiable at zero; its share is below round-off elsewhere.
 template <class Scalar>
 Scalar component_of(const Vector3<Scalar>& vector, int direction) {
   using std::sqrt;
   if (direction != magnitude_direction) return vector(direction);
-  constexpr double epsilon = 1e-12;
+  constexpr double epsilon = 1e-30;
   return sqrt(Scalar(vector.dot(vector)) + epsilon * epsilon);
 }
 

@@ -15,6 +15,7 @@
 #include "core/trust/idle_freedoms.hpp"
 #include "core/trust/initial_motion.hpp"
 #include "core/trust/joint_turns.hpp"
+#include "core/trust/laws_over_joints.hpp"
 #include "core/trust/left_out_effects.hpp"
 #include "core/trust/misaligned_joints.hpp"
 #include "core/trust/other_side.hpp"
@@ -23,6 +24,7 @@
 #include "core/trust/shear_range.hpp"
 #include "core/trust/sideways_buckling.hpp"
 #include "core/trust/sliding_contact.hpp"
+#include "core/trust/taut_members.hpp"
 #include "core/trust/unstable_members.hpp"
 
 namespace pleuel {
@@ -39,6 +41,15 @@ std::vector<Doubt> find_doubts_before(const ProblemFile& problem) {
 }
 
 namespace {
+
+/// What changes faster than the steps can follow.
+std::vector<Doubt> doubt_all_too_fast(const TrustedRun& run) {
+  std::vector<Doubt> doubts = doubt_fast_laws(run);
+  if (doubts.empty()) doubts = doubt_fast_turning(run);
+  const std::vector<Doubt> over_joints = doubt_laws_over_joints(run);
+  doubts.insert(doubts.end(), over_joints.begin(), over_joints.end());
+  return doubts;
+}
 
 /// What acts between two instants is seen by no run with larger steps, which judge the error.
 void leave_steps_unresolved(const TrustedRun& run, std::vector<std::optional<ErrorBar>>& errors) {
@@ -76,7 +87,6 @@ Trust judge_run(const TrustedRun& run) {
            doubt_energy_balance,
            doubt_extrapolation,
            doubt_far_limits,
-           doubt_fast_laws,
            doubt_frequencies,
            doubt_idle_freedoms,
            doubt_initial_motion,
@@ -87,10 +97,13 @@ Trust judge_run(const TrustedRun& run) {
            doubt_proportions,
            doubt_shear_range,
            doubt_sliding_contacts,
+           doubt_taut_members,
            doubt_unconnected_bodies,
        }) {
     add(find(run));
   }
+  const std::vector<Doubt> too_fast = doubt_all_too_fast(run);
+  add(too_fast);
   const std::optional<CompleteRun> complete = simulate_completely(run);
   if (complete) add(doubt_left_out_effects(run, *complete));
   add(doubt_buckling(run, complete));
@@ -99,7 +112,7 @@ Trust judge_run(const TrustedRun& run) {
   trust.errors = std::move(resolution.bars);
   trust.evidence = std::move(resolution.evidence);
   trust.bands = std::move(resolution.bands);
-  if (!doubt_fast_laws(run).empty()) leave_steps_unresolved(run, trust.errors);
+  if (!too_fast.empty()) leave_steps_unresolved(run, trust.errors);
   if (complete) add_left_out_effects(run, *complete, trust.errors);
   std::stable_partition(doubts.begin(), doubts.end(),
                         [](const Doubt& doubt) { return doubt.is_serious; });

@@ -11,6 +11,7 @@
 #include "core/base/find_named.hpp"
 #include "core/integration/degrees_of_freedom.hpp"
 #include "core/model/body_energy.hpp"
+#include "core/model/drive_rows.hpp"
 #include "core/scene/joint_kind.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/trust/connections.hpp"
@@ -74,18 +75,26 @@ class IdleFreedoms {
     state_.lambda.setZero();
     const Eigen::MatrixXd free = free_motions(model_.mechanism, state_);
     if (floats_and_moves()) return {};
-    Eigen::MatrixXd idle = free;
-    for (const BodyModel& body : model_.bodies) {
-      if (is_acted_on(body, free) || !is_grounded(body)) {
-        idle = at_rest(idle, rows_of(body, idle));
-      }
-    }
-    idle = without_harmless_spins(std::move(idle));
-    if (idle.cols() == 0) return {};
-    return {describe(idle)};
+    const Eigen::MatrixXd idle = idle_motions(free, true);
+    if (idle.cols() > 0) return {describe(idle)};
+    if (drive_rows(model_).empty()) return {};
+    const Eigen::MatrixXd hanging = idle_motions(free, false);
+    if (hanging.cols() == 0) return {};
+    return {describe_hanging(hanging)};
   }
 
  private:
+  /// Free motions that move only bodies on which nothing acts.
+  Eigen::MatrixXd idle_motions(const Eigen::MatrixXd& free, bool weight_counts) {
+    Eigen::MatrixXd idle = free;
+    for (const BodyModel& body : model_.bodies) {
+      if (is_acted_on(body, free, weight_counts) || !is_grounded(body)) {
+        idle = at_rest(idle, rows_of(body, idle));
+      }
+    }
+    return without_harmless_spins(std::move(idle));
+  }
+
   /// Frequencies and masses need no motion.
   bool looks_at_no_motion() const {
     const auto& responses = run_.problem.responses;
@@ -129,10 +138,10 @@ class IdleFreedoms {
     return false;
   }
 
-  bool is_acted_on(const BodyModel& body, const Eigen::MatrixXd& free) {
+  bool is_acted_on(const BodyModel& body, const Eigen::MatrixXd& free, bool weight_counts) {
     if (rows_of(body, free).lpNorm<Eigen::Infinity>() <= visible) return false;
-    return has_given_velocity(scene_body(body), design_) || has_weight(body, free) ||
-           has_force(body, free);
+    return has_given_velocity(scene_body(body), design_) ||
+           (weight_counts && has_weight(body, free)) || has_force(body, free);
   }
 
   bool does_work(const Eigen::VectorXd& force, const BodyModel& body,
@@ -226,22 +235,41 @@ class IdleFreedoms {
     return count >= 2;
   }
 
-  Doubt describe(const Eigen::MatrixXd& idle) const {
+  /// The bodies that some of these motions move.
+  std::vector<std::string> names_of(const Eigen::MatrixXd& motions) const {
     std::vector<std::string> names;
-    bool is_moved = false;
     for (const BodyModel& body : model_.bodies) {
-      if (rows_of(body, idle).lpNorm<Eigen::Infinity>() <= visible) continue;
+      if (rows_of(body, motions).lpNorm<Eigen::Infinity>() <= visible) continue;
       if (names.empty() || names.back() != body.name) names.push_back(body.name);
-      is_moved = is_moved || moves(body);
     }
+    return names;
+  }
+
+  static std::string count_text(const Eigen::MatrixXd& motions) {
+    return motions.cols() == 1 ? "one free motion" : fmt::format("{} free motions", motions.cols());
+  }
+
+  /// A payload that swings is meant, a linkage that lacks a joint is not.
+  Doubt describe_hanging(const Eigen::MatrixXd& hanging) const {
+    const std::vector<std::string> names = names_of(hanging);
+    return {fmt::format("beside the drives {} can move freely ({}), with nothing but weight that "
+                        "acts on {}. Is a joint missing?",
+                        quoted(names), count_text(hanging), names.size() == 1 ? "it" : "them"),
+            false, concerned(names), names};
+  }
+
+  Doubt describe(const Eigen::MatrixXd& idle) const {
+    const std::vector<std::string> names = names_of(idle);
+    const bool is_moved =
+        std::any_of(model_.bodies.begin(), model_.bodies.end(), [&](const BodyModel& body) {
+          return std::find(names.begin(), names.end(), body.name) != names.end() && moves(body);
+        });
     Doubt doubt;
     doubt.text = fmt::format(
         "{} can move freely ({}), and no drive, load, spring, damper, weight or initial velocity "
         "acts on {}: {}. Is a joint or a drive missing? If it is meant, put a damper, however "
         "weak, into the joint that is free.",
-        quoted(names),
-        idle.cols() == 1 ? "one free motion" : fmt::format("{} free motions", idle.cols()),
-        names.size() == 1 ? "it" : "them",
+        quoted(names), count_text(idle), names.size() == 1 ? "it" : "them",
         is_moved ? "only the inertia of the rest moves what is free" : "nothing moves there");
     doubt.responses = concerned(names);
     doubt.bodies = names;

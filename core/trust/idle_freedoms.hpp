@@ -11,7 +11,8 @@ namespace pleuel {
 /// A body is acted on if its free motion does work against its weight, a load, a spring, a damper
 /// or a motor, or if the file gives it a velocity. Free motions of the mechanism (all drives held)
 /// that move only bodies on which nothing acts are idle: at most inertia moves them. They are
-/// looked for in a position near the start that is no special one.
+/// looked for in a position near the start that is no special one. Of a mechanism with drives those
+/// are told, too, on which only weight acts: a linkage that hangs where a joint is missing.
 ///
 /// Not idle: a mechanism that touches the ground nowhere but moves; the spin of a body about an
 /// axis through its centre of mass, where its joints are points or the body moves otherwise (a rod

@@ -366,6 +366,19 @@ std::string proposed_step(const ProblemFile& problem, double error) {
   return fmt::format("{:.2g} s", problem.simulation.step * factor);
 }
 
+/// Vibrations that nothing damps never die out: the smaller the steps, the more of them are seen.
+const char* advice_to_damp(const Model& model) {
+  const bool is_damped = std::any_of(
+      model.effects.begin(), model.effects.end(),
+      [](const EffectRecord& record) { return record.name == "damping" && record.is_built; });
+  const bool is_elastic =
+      std::any_of(model.bodies.begin(), model.bodies.end(),
+                  [](const BodyModel& body) { return body.elastic_size() > 0; });
+  if (is_damped || !is_elastic) return "";
+  return ", or give the beams \"damping\": no body has any, and vibrations that nothing damps may "
+         "need ever smaller steps";
+}
+
 /// The doubt about some responses, or none.
 std::vector<Doubt> doubt_about(const TrustedRun& run, const std::vector<Unresolved>& unresolved,
                                const std::string& what, const std::string& advice) {
@@ -400,8 +413,9 @@ std::vector<Doubt> doubt_resolution(const TrustedRun& run, const Resolution& fou
                                            [](const Unresolved& one) { return one.is_of_quarter; });
     add(doubt_about(run, found.in_time,
                     is_of_quarter ? "half or a quarter of the step" : "half the step",
-                    fmt::format("Try a /simulation/step of {}",
-                                proposed_step(run.problem, found.in_time.front().error))));
+                    fmt::format("Try a /simulation/step of {}{}",
+                                proposed_step(run.problem, found.in_time.front().error),
+                                advice_to_damp(run.analysis.model))));
   }
   add(doubt_about(run, found.in_space, "twice the elements", "Try more elements"));
   add(doubt_about(run, found.in_modes,

@@ -15,6 +15,7 @@
 #include "core/trust/asked_responses.hpp"
 #include "core/trust/doubts.hpp"
 #include "core/trust/error_bars.hpp"
+#include "core/trust/laws_over_joints.hpp"
 
 namespace pleuel {
 
@@ -42,6 +43,12 @@ constexpr double share_of_bars = 0.35;
 /// The error of the finer run over its difference from the one that it confirms, with the order
 /// that is promised (twice Richardson's 1 / (4ᵖ − 1), rounded up), and without one.
 constexpr double left_of_order_2 = 0.15, left_of_order_1 = 0.7, left_without_order = 1.0;
+
+/// Of steps that are doubted for another reason than errors. Where these do not help, as of undamped
+/// vibrations after jumps, more would not.
+constexpr int most_halvings = 3;
+/// A third of what is serious (energy_balance.hpp): the designs of an optimization differ from this.
+constexpr double most_missing_energy = 0.03;
 
 /// Of the target, for effects that are left out.
 constexpr double effects_share = 0.2;
@@ -76,6 +83,7 @@ class Search {
   SettingChoice run(const Refinement& first) {
     Trial best = refine(first);
     if (is_met(best)) best = coarsened(std::move(best));
+    if (is_met(best)) best = with_trusted_steps(std::move(best));
     SettingChoice choice;
     choice.is_met = is_met(best);
     choice.is_out_of_reach = std::isfinite(best.by_step) && best.by_others > target_;
@@ -161,6 +169,28 @@ class Search {
     grow(growths[1]);
     grow(growths[2]);
     return best;
+  }
+
+  /// Smaller steps where something else than the errors speaks against them: nothing that rests on
+  /// such steps would be verified.
+  Trial with_trusted_steps(Trial best) {
+    for (int i = 0; i < most_halvings && are_steps_doubted(best.setting()); ++i) {
+      const Refinement next{0.5 * best.setting().step, best.setting().elements};
+      if (!is_within_bounds(next)) break;
+      Trial finer = measure(next);
+      if (!is_met(finer)) break;
+      best = std::move(finer);
+    }
+    return best;
+  }
+
+  bool are_steps_doubted(const Refinement& setting) const {
+    const ProblemFile divided = refined(problem_, setting);
+    const auto analysis = analyze(divided, x_);
+    const Monitors monitors = monitor(analysis->model, analysis->trajectory);
+    const TrustedRun run{divided, x_, *analysis, monitors};
+    return monitors.energy_error > most_missing_energy ||
+           has_serious(doubt_laws_over_joints(run)) || has_serious(doubt_fast_turning(run));
   }
 
   /// A coarser setting, if its errors are still small: those of the finer one with what differs.

@@ -52,7 +52,8 @@ Refinement coarse_setting(const ProblemFile& problem);
 /// each other, as vibrations that they do not see are damped out. Then the way goes back to fewer
 /// elements and to larger steps, by comparison with these runs: differences are added to the errors
 /// that are known. The step may end up larger or smaller than that of the file.
-/// Steps that loads and drives are too fast for (fast_laws.hpp) are not taken.
+/// Steps that loads and drives are too fast for (fast_laws.hpp) are not taken; where the balance of
+/// energy or loads over joints speak against the steps in the end, they are halved up to three times.
 /// @param target  relative error, in (0, 1)
 /// @throws Stopped
 SettingChoice choose_setting(const ProblemFile& problem, const Eigen::VectorXd& x, double target,

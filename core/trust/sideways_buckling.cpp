@@ -155,8 +155,10 @@ class SidewaysBuckling {
     const char* unseen = (is_planar_ && is_out_of_plane) || is_bent
                              ? "The equations of motion do not have this buckling."
                              : "In the motion a member that is exactly straight stays so.";
-    const char* remedy = is_out_of_plane ? " Make it stiffer sideways or in torsion, or hold it."
-                                         : " Make it stiffer, or hold it.";
+    const char* remedy = is_out_of_plane
+                             ? " Make it stiffer sideways or in torsion, hold it, or limit a "
+                               "response of the type \"lateral-buckling\"."
+                             : " Make it stiffer, or hold it.";
     const std::string column =
         fmt::format("as a column, along local {}", plane_ == BendingPlane::xy ? "z" : "y");
     return {fmt::format(

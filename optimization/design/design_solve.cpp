@@ -15,6 +15,7 @@
 #include "core/trust/nested_runs.hpp"
 #include "optimization/broken_limits.hpp"
 #include "optimization/design/case_trust.hpp"
+#include "optimization/design/margin_doubts.hpp"
 #include "optimization/design/margin_problem.hpp"
 #include "optimization/design/optimum_error.hpp"
 #include "optimization/design/peak_problem.hpp"
@@ -373,6 +374,9 @@ void judge_numbers(DesignProblem& design, Result& result) {
   if (!result.evaluation.has_gradients()) return;
   result.case_objectives = objectives_in_cases(design, result.x);
   Trust trust = judge_cases(design, result.x, Scrutiny::close);
+  const std::vector<Doubt> of_margins = doubt_margins(design, result.x);
+  trust.doubts.insert(has_serious(of_margins) ? trust.doubts.begin() : trust.doubts.end(),
+                      of_margins.begin(), of_margins.end());
   result.warnings = texts_of(trust.doubts);
   result.error = optimum_error(design, result, trust);
   if (result.status == Status::verified) {

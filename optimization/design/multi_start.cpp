@@ -8,6 +8,7 @@
 
 #include "core/base/int_size.hpp"
 #include "core/base/parallel.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/scene/packed_problem.hpp"
 #include "optimization/design/packed_solution.hpp"
 #include "optimization/result.hpp"
@@ -273,16 +274,18 @@ MultiStart solve_from_starts(const ProblemFile& file, const std::vector<Eigen::V
                              SolveOptions options, const Execution& execution,
                              const Observer& observer, const Notice& notice) {
   options.starts = int_size(starts);
-  std::vector<StagedSolution> solutions;
   if (starts.size() == 1) {
+    std::vector<StagedSolution> solutions;
     solutions.push_back(
         solve_in_stages(file, starts.front(), options, execution, observer, notice));
-  } else {
-    Searches searches({file, starts, options}, execution, observer, notice);
-    run_tasks(searches, execution.tasks);
-    solutions = searches.take_solutions();
+    return combined(starts, std::move(solutions));
   }
-  return combined(starts, std::move(solutions));
+  const Stopwatch all_searches;
+  Searches searches({file, starts, options}, execution, observer, notice);
+  run_tasks(searches, execution.tasks);
+  MultiStart all = combined(starts, searches.take_solutions());
+  all.best.result.seconds = all_searches.seconds();  // they run at the same time
+  return all;
 }
 
 }  // namespace pleuel

@@ -74,9 +74,40 @@ TEST_F(TableFile, MayHaveOtherSeparatorsAndLineEnds) {
       push("  0    0\n 20  1.5\n 50  -0.02\n", R"("columns": [1, 2], "units": ["ms", "kN"])"));
 }
 
-TEST_F(TableFile, TakesUnitsOfTheProblemBeforeThoseOfTheFile) {
-  expect_push(push("time [s],force [N]\n0,0\n20,1.5\n50,-0.02\n",
-                   R"("columns": ["time", "force"], "units": ["ms", "kN"])"));
+TEST_F(TableFile, MustNotContradictTheUnitsOfTheProblem) {
+  const std::string rows = "0,0\n20,1.5\n50,-0.02\n";
+  const std::string keys = R"("columns": ["time", "force"], "units": ["ms", "kN"])";
+  expect_push(push("time [ms],force (kN)\n" + rows, keys));
+  expect_push(push("time,force (measured)\n" + rows, keys));
+  EXPECT_THAT(refusal("time [s],force [kN]\n" + rows, keys),
+              testing::HasSubstr("/value/units/0 must be the unit of the first line of push.csv, "
+                                 "\"time [s]\""));
+}
+
+/// A comma for decimals between commas that separate, and names that stand above other columns, as
+/// of an index without a name.
+TEST_F(TableFile, MustHaveNoMoreValuesThanColumns) {
+  const std::string head = "time [s],force [N]\n";
+  EXPECT_THAT(refusal(head + "0,0,0,5\n1,0,50,5\n", by_name),
+              testing::HasSubstr("line 2: it has 4 values, but the first line 2"));
+  EXPECT_THAT(refusal(head + "1,0,0\n2,1,50\n", by_name), testing::HasSubstr("it has 3 values"));
+  EXPECT_THAT(refusal("0,1\n1,2,3\n", R"("columns": [1, 2], "units": ["ms", "kN"])"),
+              testing::HasSubstr("line 2: it has 3 values, but the first line 2"));
+  expect_push(push("time [ms],force [kN],\n0,0,\n20,1.5,\n50,-0.02,,\n", by_name));
+}
+
+TEST_F(TableFile, KeepsWhatIsQuotedTogether) {
+  const std::string head = "\"time [ms]\",\"force [kN]\"\n";
+  expect_push(push(head + "\"0\",\"0\"\n\"20\",\"1.5\"\n\"50\",\"-0.02\"\n", by_name));
+  EXPECT_THAT(refusal(head + "\"0,0\",\"0\"\n\"20,0\",\"1,5\"\n", by_name),
+              testing::HasSubstr("line 2: \"0,0\" is no number (decimals have a point)"));
+  EXPECT_THAT(refusal(head + "0,0\n20,\"1,200\"\n", by_name),
+              testing::HasSubstr("line 3: \"1,200\" is no number"));
+}
+
+TEST_F(TableFile, HasNoTwoColumnsOfOneName) {
+  EXPECT_THAT(refusal("time [s],force [N],force [N]\n0,1,2\n1,2,3\n", by_name),
+              testing::HasSubstr("has two columns of that name"));
 }
 
 TEST_F(TableFile, IsAnsweredWithTheLineThatIsWrong) {

@@ -112,7 +112,9 @@ TEST(MultiStart, SearchesFromEachDesignAsIfThatWereTheOnlyOne) {
 }
 
 TEST(MultiStart, CountsASearchThatTakesTooLongAsOneThatFailed) {
-  const MultiStart all = solved(held_arm(R"({"starts": 2})"), {{.jobs = 2, .time_limit = 1e-6}});
+  ProblemFile slow = held_arm(R"({"starts": 2})");
+  slow.simulation.end_time = 1000.0;  // minutes of work
+  const MultiStart all = solved(slow, {{.jobs = 2, .time_limit = 1e-6}});
   EXPECT_EQ(all.best.result.status, Status::failed);
   EXPECT_THAT(all.best.result.message, HasSubstr("start 1 was lost: it took longer than"));
   EXPECT_TRUE(all.optima.empty());

@@ -227,6 +227,24 @@ TEST(LoadCase, KeepsVariablesTheSameWhereTheyFollowFromConstants) {
               HasSubstr("/variables/thick/upper must be the same in all cases"));
 }
 
+/// Of a constant that only a drive uses, a mass knows nothing; of one that a body uses it does, also by
+/// way of another constant.
+TEST(LoadCase, HasTheSameMassesWhereConstantsDoNotReachThem) {
+  Json document = with(rail(), "/constants/speed", R"("100 rpm")");
+  document["constants"]["long_reach"] = "= 2*reach";
+  document["scene"]["joints"]["hub"]["drive"]["speed"] = "= speed";
+  document["cases"]["fast"] = Json::parse(R"({"/constants/speed": "300 rpm"})");
+  EXPECT_EQ(complaint(document), "");
+  document["objective"]["over_cases"] = "worst";
+  EXPECT_EQ(complaint(document), "") << "who says how they count may";
+  document["objective"].erase("over_cases");
+  document["cases"]["fast"] = Json::parse(R"({"/constants/reach": "50 mm"})");
+  EXPECT_EQ(complaint(document), "");
+  document["scene"]["bodies"]["bar"]["section"] =
+      Json::parse(R"({"type": "circle", "diameter": "= thick + 0.01*long_reach"})");
+  EXPECT_THAT(complaint(document), HasSubstr("/objective needs \"over_cases\""));
+}
+
 TEST(LoadCase, ChangesConstantsThatThereAre) {
   Json document = with(rail(), "/variables/thick/upper", "\"= reach\"");
   EXPECT_THAT(complaint(with(document, "/cases/fast", R"({"/constants/reech": "20 mm"})")),

@@ -321,6 +321,14 @@ TEST(SteadyMachineErrors, NameADriveThatDoesNotRepeatItself) {
   EXPECT_THAT(failure, testing::HasSubstr("whole turns"));
 }
 
+/// A period that somebody rounded: the crank goes on by 1e-6 of a turn.
+TEST(SteadyMachineErrors, TellARoundedPeriod) {
+  const std::string failure =
+      failure_of(four_bar({"/scene/joints/crank_bearing/drive/speed=50.00005 rad/s"}));
+  EXPECT_THAT(failure, testing::HasSubstr("goes through 360.00036 deg: if that is to be 360, write "
+                                          "the period as a formula"));
+}
+
 TEST(SteadyMachineErrors, NameALoadThatDoesNotRepeatItself) {
   const std::string failure = failure_of(
       four_bar({R"(/scene/loads/push={"type": "force", "body": "rocker", "at": ["400 mm", 0, 0],

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <optional>
+#include <set>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -28,9 +31,9 @@ constexpr int most_cases = 1000;
 
 /// Blocks that a case may change.
 constexpr std::array changeable = {"/scene", "/simulation", "/effects", "/constants"};
-/// Places that masses do not depend on.
-constexpr std::array massless = {"/scene/joints", "/scene/loads", "/scene/gravity", "/simulation",
-                                 "/effects"};
+/// Places that masses do not depend on by themselves: constants count where they are used.
+constexpr std::array massless = {"/scene/joints", "/scene/loads", "/scene/gravity",
+                                 "/simulation",   "/effects",     "/constants"};
 
 /// Whether a pointer is this place, or leads into it.
 bool leads_into(const std::string& pointer, std::string_view place) {
@@ -226,6 +229,32 @@ void forget_missing_limit(Json& document) {
   }
 }
 
+bool is_letter_of_names(char letter) {
+  return std::isalnum(static_cast<unsigned char>(letter)) || letter == '_';
+}
+
+/// Whether a text has a name as a word of its own.
+bool has_word(const std::string& text, const std::string& word) {
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    const bool begins = at == 0 || !is_letter_of_names(text[at - 1]);
+    if (begins && (end == text.size() || !is_letter_of_names(text[end]))) return true;
+  }
+  return false;
+}
+
+/// Whether a text in a value has one of the names: formulas that use it do.
+bool mentions_any(const Json& value, const std::set<std::string>& names) {
+  if (value.is_string()) {
+    const std::string& text = value.get_ref<const std::string&>();
+    return std::any_of(names.begin(), names.end(),
+                       [&](const std::string& name) { return has_word(text, name); });
+  }
+  return value.is_structured() && std::any_of(value.begin(), value.end(), [&](const Json& inner) {
+           return mentions_any(inner, names);
+         });
+}
+
 /// Whether a change leaves the masses of these bodies as they are (none: of all bodies).
 bool keeps_masses(const std::string& pointer, const std::vector<std::string>& bodies) {
   if (leads_into_any(pointer, massless)) return true;
@@ -235,20 +264,43 @@ bool keeps_masses(const std::string& pointer, const std::vector<std::string>& bo
   });
 }
 
-bool change_constants(const std::vector<CaseChanges>& changes) {
-  return std::any_of(changes.begin(), changes.end(), [](const CaseChanges& one) {
-    return std::any_of(one.values.begin(), one.values.end(),
-                       [](const auto& value) { return leads_into(value.first, "/constants"); });
-  });
+/// The constants that cases change, and those that are made of them.
+std::set<std::string> changed_constants(const Json& document,
+                                        const std::vector<CaseChanges>& changes) {
+  std::set<std::string> names;
+  for (const CaseChanges& one : changes) {
+    for (const auto& [pointer, value] : one.values) {
+      if (pointer == "/constants") {
+        for (const auto& constant : value.items()) names.insert(constant.key());
+      } else if (leads_into(pointer, "/constants")) {
+        names.insert(Json::json_pointer(pointer).back());
+      }
+    }
+  }
+  if (names.empty()) return names;
+  const Json constants = document.value("constants", Json::object());
+  for (std::size_t before = 0; before != names.size();) {
+    before = names.size();
+    for (const auto& constant : constants.items()) {
+      if (mentions_any(constant.value(), names)) names.insert(constant.key());
+    }
+  }
+  return names;
 }
 
 /// Whether the value of a response is the same in all cases at each design.
-bool is_same_response(const ProblemFile& problem, std::size_t response,
+bool is_same_response(const ProblemFile& problem, std::size_t response, const Json& document,
                       const std::vector<CaseChanges>& changes) {
   if (!depends_on_masses_only(problem, response)) return false;
-  if (problem.responses[response].type == ResponseType::expression && change_constants(changes)) {
-    return false;
-  }
+  const std::set<std::string> constants = changed_constants(document, changes);
+  const auto is_used_in = [&](const char* place) {
+    const Json::json_pointer pointer(place);
+    return document.contains(pointer) && mentions_any(document.at(pointer), constants);
+  };
+  if (is_used_in("/scene/materials") || is_used_in("/scene/bodies")) return false;
+  if (is_used_in("/constraints")) return false;  // there may be another limit in each case
+  const bool is_formula = problem.responses[response].type == ResponseType::expression;
+  if (is_formula && is_used_in("/responses")) return false;
   for (const std::size_t part : parts_of(problem, response)) {
     for (const CaseChanges& one : changes) {
       for (const auto& [pointer, value] : one.values) {
@@ -259,11 +311,16 @@ bool is_same_response(const ProblemFile& problem, std::size_t response,
   return true;
 }
 
-std::vector<bool> same_responses(const ProblemFile& problem,
+std::vector<bool> same_responses(const ProblemFile& problem, const Json& document,
                                  const std::vector<CaseChanges>& changes) {
   std::vector<bool> is_same;
   for (std::size_t i = 0; i < problem.responses.size(); ++i) {
-    is_same.push_back(is_same_response(problem, i, changes));
+    is_same.push_back(is_same_response(problem, i, document, changes));
+  }
+  // Who says how the masses of cases with other constants count may say so.
+  const bool is_said = problem.objective && problem.objective->over_cases != OverCases::same;
+  if (is_said && !changed_constants(document, changes).empty()) {
+    is_same[index_of_named(problem.responses, problem.objective->response).value()] = false;
   }
   return is_same;
 }
@@ -360,7 +417,7 @@ ProblemFile join_cases(const JsonNode& root, const std::vector<CaseChanges>& cha
                        std::vector<ProblemFile> cases) {
   check_limit_names(root, cases);
   const ProblemFile& first = cases.front();
-  const std::vector<bool> is_same = same_responses(first, changes);
+  const std::vector<bool> is_same = same_responses(first, root.value(), changes);
   std::vector<double> weights;
   if (first.objective) {
     check_objective(root, first, is_same);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -15,8 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string trimmed(std::string text) {
-  const auto is_cover = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '"'; };
+/// Without blanks around it, and, of a cell, quotes.
+std::string trimmed(std::string text, std::string_view covers = " \t\r\"") {
+  const auto is_cover = [&](char c) { return covers.find(c) != std::string_view::npos; };
   while (!text.empty() && is_cover(text.back())) text.pop_back();
   text.erase(text.begin(), std::find_if_not(text.begin(), text.end(), is_cover));
   return text;
@@ -44,15 +46,27 @@ char separator_of(const std::string& line) {
   return ' ';
 }
 
+/// Where the cell that begins here ends: separators between quotes are its own.
+std::size_t end_of_cell(const std::string& line, std::size_t begin, char separator) {
+  bool is_quoted = false;
+  for (std::size_t i = begin; i < line.size(); ++i) {
+    if (line[i] == '"') is_quoted = !is_quoted;
+    if (line[i] == separator && !is_quoted) return i;
+  }
+  return line.size();
+}
+
+/// Without empty cells at the end, which some programs write.
 std::vector<std::string> split(const std::string& line, char separator) {
   std::vector<std::string> cells;
   std::size_t begin = 0;
   while (begin <= line.size()) {
-    const std::size_t end = std::min(line.find(separator, begin), line.size());
+    const std::size_t end = end_of_cell(line, begin, separator);
     const std::string cell = trimmed(line.substr(begin, end - begin));
     if (separator != ' ' || !cell.empty()) cells.push_back(cell);
     begin = end + 1;
   }
+  while (!cells.empty() && cells.back().empty()) cells.pop_back();
   return cells;
 }
 
@@ -63,10 +77,10 @@ std::vector<Row> rows_of(const std::string& text) {
   std::size_t begin = 0;
   while (begin < text.size()) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string line = trimmed(text.substr(begin, end - begin));
+    const std::string line = trimmed(text.substr(begin, end - begin), " \r");
     ++line_number;
     begin = end + 1;
-    if (line.empty() || line.starts_with('#')) continue;
+    if (trimmed(line).empty() || line.starts_with('#')) continue;
     rows.push_back({line_number, split(line, separator_of(line))});
   }
   return rows;
@@ -118,6 +132,7 @@ class TableFile {
     }
     TableColumns table;
     for (const Row& row : rows_) {
+      check_length(row);
       table.arguments.push_back(scales[0] * entry(row, places[0]));
       table.values.push_back(scales[1] * entry(row, places[1]));
       const std::size_t n = table.arguments.size();
@@ -134,6 +149,14 @@ class TableFile {
   }
 
  private:
+  /// More cells than columns are decimal commas, or names that stand above the wrong columns.
+  void check_length(const Row& row) const {
+    const std::size_t columns = heads_.empty() ? rows_.front().cells.size() : heads_.size();
+    if (row.cells.size() <= columns) return;
+    fail(row, fmt::format("it has {} values, but the first line {} (decimals have a point)",
+                          row.cells.size(), columns));
+  }
+
   [[noreturn]] void fail(const Row& row, const std::string& why) const {
     name_.fail(fmt::format("names the file {}, line {}: {}", name_.text(), row.line, why));
   }
@@ -145,9 +168,14 @@ class TableFile {
     }
     const std::string name = column.text();
     std::vector<std::string> known;
-    for (const Head& head : heads_) {
-      if (head.name == name) return known.size();
-      known.push_back(head.name);
+    for (const Head& head : heads_) known.push_back(head.name);
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found != known.end()) {
+      if (std::find(found + 1, known.end(), name) != known.end()) {
+        column.fail_with_value(fmt::format(
+            "must be a number from 1, as the file {} has two columns of that name", name_.text()));
+      }
+      return static_cast<std::size_t>(found - known.begin());
     }
     if (known.empty()) {
       column.fail_with_value(fmt::format(
@@ -167,11 +195,29 @@ class TableFile {
                       name_.text(), is_head ? heads_[place].name : "value", quantity.unit));
     }
     try {
-      return units_.scale(unit, quantity);
+      const double scale = units_.scale(unit, quantity);
+      check_unit_of_file(at, place, scale, quantity);
+      return scale;
     } catch (const UnitError& error) {
       at.fail(fmt::format("has the unit \"{}\", but must be {}: {}", unit, describe(quantity),
                           error.what()));
     }
+  }
+
+  /// What the problem file says must not contradict the first line of the table.
+  void check_unit_of_file(const JsonNode& at, std::size_t place, double scale,
+                          const Quantity& quantity) const {
+    if (!units_node_ || place >= heads_.size() || heads_[place].unit.empty()) return;
+    const Head& head = heads_[place];
+    try {
+      if (units_.scale(head.unit, quantity) == scale) return;
+    } catch (const UnitError&) {  // a remark in brackets
+      return;
+    }
+    at.fail_with_value(
+        fmt::format("must be the unit of the first line of {}, \"{} [{}]\", or "
+                    "leave \"units\" out",
+                    name_.text(), head.name, head.unit));
   }
 
   double entry(const Row& row, std::size_t place) const {

@@ -85,6 +85,37 @@ TEST(QuasiStaticStart, IsFoundForLargeBending) {
   }
 }
 
+/// A blade of 5 m at 40 rad/s, far stiffer by its pull than by itself, with a lift at its tip: Newton's
+/// method at once comes to an equilibrium with its tip turned by radians, which is not stable. The tip
+/// rises by as much as the lift grows.
+TEST(QuasiStaticStart, OfATurningBladeIsThatOfLoadsThatGrow) {
+  const auto rise = [](double lift) {
+    const ProblemFile problem = read_problem_text(fmt::format(
+                                                      R"j({{"scene": {{"gravity": [0, 0, 0],
+                  "materials": {{"m": {{"young": 7.17e10, "poisson": 0.33, "density": 2810}}}},
+                  "bodies": {{"blade": {{"type": "beam", "from": [0, 0, 0], "to": [5, 0, 0],
+                      "material": "m", "elements": 8, "frame": "tangent",
+                      "section": {{"type": "rectangle", "width": 0.01, "height": 0.2}},
+                      "angular_velocity": [0, 0, 40]}}}},
+                  "joints": {{"hub": {{"type": "revolute", "bodies": ["ground", "blade"],
+                      "at": [0, 0, 0], "axis": [0, 0, 1],
+                      "drive": {{"type": "constant-speed", "speed": 40}}}}}},
+                  "loads": {{"lift": {{"type": "force", "body": "blade", "at": [5, 0, 0],
+                      "direction": [0, 0, 1], "value": {}}}}}}},
+                "simulation": {{"end_time": 5e-4, "step": 5e-4, "initial_state": "quasi-static"}},
+                "responses": {{"tip": {{"type": "position", "body": "blade", "at": 1,
+                                       "direction": "z", "over_time": "final"}}}}}})j",
+                                                      lift),
+                                                  "blade.json")
+                                    .complete();
+    return analyze(problem, start_design(problem))->histories[0](0, 0);
+  };
+  const double little = rise(10.0);
+  for (double lift : {150.0, 200.0, 300.0, 400.0}) {
+    EXPECT_NEAR(rise(lift) / little, lift / 10.0, 1e-2 * lift / 10.0) << lift;
+  }
+}
+
 /// Round-off grows with the fourth power of the number of elements: some 1e-6 here.
 TEST(QuasiStaticStart, IsFoundForFineMeshes) {
   for (int elements : {96, 160}) {

@@ -43,6 +43,26 @@ TEST(IdleFreedoms, OfAForgottenJointAreNamedByBody) {
   EXPECT_THAT(doubts[0].text, HasSubstr("only the inertia"));
 }
 
+/// With weight what a forgotten joint leaves hangs on the crank, which may be meant; with friction it is.
+TEST(IdleFreedoms, ThatHangBesideADriveAreMentioned) {
+  const std::string weight = "[0, -9.81, 0]";
+  const std::vector<Doubt> doubts =
+      doubts_of(read_scene(crank_rocker(driven, "", weight)), doubt_idle_freedoms);
+  ASSERT_THAT(doubts, SizeIs(1));
+  EXPECT_FALSE(doubts[0].is_serious);
+  EXPECT_THAT(doubts[0].text,
+              HasSubstr("beside the drives \"coupler\", \"rocker\" can move freely (2 "
+                        "free motions), with nothing but weight that acts on them"));
+  EXPECT_THAT(doubts_of(read_scene(crank_rocker(driven, closed, weight)), doubt_idle_freedoms),
+              IsEmpty());
+  const std::string friction =
+      R"(/scene/loads={"b": {"type": "joint", "joint": "B", "damping": 0.1},
+                       "c": {"type": "joint", "joint": "C", "damping": 0.1}})";
+  EXPECT_THAT(
+      doubts_of(read_scene(crank_rocker(driven, "", weight), {friction}), doubt_idle_freedoms),
+      IsEmpty());
+}
+
 /// Weight, a spring, a damper or a motor, a push, a start that moves: all of these are meant.
 TEST(IdleFreedoms, AreNotWhereSomethingActs) {
   const auto load = [](const std::string& text) { return "/scene/loads={\"load\": " + text + "}"; };

@@ -74,6 +74,17 @@ TEST(Resolution, NamesWhatRingsUnseenAndHowMuchHalfTheStepChanges) {
                                              HasSubstr("Try a /simulation/step of")));
 }
 
+TEST(Resolution, AdvisesDampingWhereNothingDamps) {
+  const auto advice = [](const char* damping) {
+    return doubts_of({sudden, "/simulation/step=2e-3",
+                      fmt::format(R"(/scene/bodies/b/damping={{"stiffness": {}}})", damping)})
+        .at(0)
+        .text;
+  };
+  EXPECT_THAT(advice("0"), HasSubstr("s, or give the beams \"damping\": no body has any"));
+  EXPECT_THAT(advice("1e-4"), testing::Not(HasSubstr("damping")));
+}
+
 /// A minimized mass rests on nothing that moves; what nobody limits may be as wrong as it is.
 TEST(Resolution, IsSeriousForWhatIsMinimizedOrLimited) {
   const auto seriousness = [&](const char* limited) {

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/trust/doubt.hpp"
+
+/// What happens between the instants of a simulation, which sees the instants only.
+namespace pleuel {
+
+/// A function of time, of two components.
+using ObservedValues = std::array<double, 2>;
+using ObservedFunction = std::function<ObservedValues(double time)>;
+
+/// How far a function of time is from the straight lines between the instants, and where most.
+struct MissedValues {
+  double largest = 0.0, time = 0.0, step = 0.0;
+  double scale = 0.0;  ///< largest distance from a value
+};
+
+/// @param time   the instants [s]
+/// @param knots  ascending: times that are looked at besides some in each step
+MissedValues missed_by(const Eigen::VectorXd& time, const ObservedFunction& value,
+                       const std::vector<double>& knots);
+
+/// What is said of a law: who, and what of it.
+struct MissedSubject {
+  std::string who;   ///< `the load "push"`
+  std::string what;  ///< "value"
+  double most;       ///< share of the scale that may be missed
+};
+
+/// A serious doubt where more than may be is missed.
+void add_missed(const MissedSubject& subject, const MissedValues& missed, double scale,
+                std::vector<Doubt>& doubts);
+
+}  // namespace pleuel

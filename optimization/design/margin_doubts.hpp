@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "core/trust/doubt.hpp"
+#include "optimization/design/design_problem.hpp"
+
+namespace pleuel {
+
+/// Margins of limits (`deviations`) are those of first order: of what an uncertain parameter changes
+/// the same way on both sides, as a side force does at zero, they know nothing. By simulations at k
+/// deviations of each parameter to either side, two a parameter, for
+///     ½ (c(x + kσᵢ) + c(x − kσᵢ)) − c(x)
+/// towards the limit. Told from a hundredth of the limit on, serious from a twentieth.
+std::vector<Doubt> doubt_margins(DesignProblem& design, const Eigen::VectorXd& x);
+
+}  // namespace pleuel

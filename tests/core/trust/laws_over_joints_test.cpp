@@ -1,0 +1,86 @@
+#include "core/trust/laws_over_joints.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/core/trust/doubts_of.hpp"
+
+/// Forces over the angle of a joint, and rotors, that turn too far in a step.
+namespace pleuel::test::laws_over_joints_test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+/// A rotor of 1250 rpm in 96 ms, two turns, with a resistance over its angle.
+ProblemFile rotor(const std::string& resistance, double step, const std::string& plane = "auto") {
+  return read_scene(fmt::format(
+      R"j({{"scene": {{
+        "bodies": {{"rotor": {{"type": "rigid", "at": [0, 0, 0], "mass": 1,
+                              "inertia": [0.01, 0.01, 0.02, 0, 0, 0],
+                              "angular_velocity": [0, 0, "1250 rpm"]}}}},
+        "joints": {{"b": {{"type": "revolute", "bodies": ["ground", "rotor"], "at": [0, 0, 0],
+                          "drive": {{"type": "constant-speed", "speed": "1250 rpm"}}}}}},
+        "loads": {{"cogging": {{"type": "joint", "joint": "b", "resistance": {}}}}}}},
+      "effects": {{"spatial_motion": "{}"}},
+      "simulation": {{"end_time": "96 ms", "step": {}}},
+      "responses": {{"mean": {{"type": "drive-torque", "joint": "b", "over_time": "mean"}}}}}})j",
+      resistance, plane, step));
+}
+
+/// 48 teeth a turn are 1000 a second: one a step of 1 ms, whose torque each step and each half of one
+/// sees alike.
+TEST(LawsOverJoints, AreDoubtedWhereAStepPassesATooth) {
+  const std::string teeth = R"j({"type": "expression", "value": "= 1 N m*sin(48*angle + 1 rad)"})j";
+  for (const char* plane : {"auto", "on"}) {
+    const std::vector<Doubt> doubts = doubts_of(rotor(teeth, 1e-3, plane), doubt_laws_over_joints);
+    ASSERT_THAT(doubts, SizeIs(1)) << plane;
+    EXPECT_TRUE(doubts[0].is_serious);
+    EXPECT_THAT(doubts[0].text, HasSubstr("the load \"cogging\" changes faster than the steps"));
+    EXPECT_THAT(doubts_of(rotor(teeth, 1e-4, plane), doubt_laws_over_joints), IsEmpty()) << plane;
+  }
+}
+
+/// A peak of 0.2 rad in a table, at 6 rad a turn: steps of 1 ms are 0.13 rad, those of 4 ms 0.52.
+TEST(LawsOverJoints, AreDoubtedWhereAStepPassesThePeakOfATable) {
+  const std::string table =
+      R"({"type": "table", "angles": [0, 2.9, 3.0, 3.1, 6.283185307179586],
+          "values": [0, 0, 5, 0, 0], "period": 6.283185307179586, "interpolation": "linear"})";
+  EXPECT_THAT(doubts_of(rotor(table, 4e-3), doubt_laws_over_joints), SizeIs(1));
+  EXPECT_THAT(doubts_of(rotor(table, 2e-4), doubt_laws_over_joints), IsEmpty());
+}
+
+/// Friction that changes its sign within a step is none of these.
+TEST(LawsOverJoints, AreNotDoubtedForTheirRates) {
+  EXPECT_THAT(
+      doubts_of(
+          rotor(R"j({"type": "expression", "value": "= 1 N m*tanh(speed/(1 rad/s))"})j", 1e-3),
+          doubt_laws_over_joints),
+      IsEmpty());
+}
+
+/// A wheel that nothing drives: at a turn a step it seems to stand still.
+TEST(FastTurning, IsDoubtedBeyondAQuarterOfATurn) {
+  const auto doubts_at = [](double step) {
+    return doubts_of(read_scene(fmt::format(
+                         R"j({{"scene": {{
+              "bodies": {{"wheel": {{"type": "rigid", "at": [0, 0, 0], "mass": 1,
+                                    "inertia": [0.01, 0.01, 0.02, 0, 0, 0],
+                                    "angular_velocity": [0, 0, "100 rev/s"]}}}},
+              "joints": {{"b": {{"type": "revolute", "bodies": ["ground", "wheel"],
+                                "at": [0, 0, 0]}}}}}},
+            "simulation": {{"end_time": 0.1, "step": {}}}}})j",
+                         step)),
+                     doubt_fast_turning);
+  };
+  EXPECT_THAT(doubts_at(2.4e-3), IsEmpty());  // 86 deg
+  const std::vector<Doubt> doubts = doubts_at(1e-2);
+  ASSERT_THAT(doubts, SizeIs(1));
+  EXPECT_TRUE(doubts[0].is_serious);
+  EXPECT_THAT(doubts[0].text, HasSubstr("\"wheel\" turns by 360 deg within the step of 0.01 s"));
+}
+
+}  // namespace
+}  // namespace pleuel::test::laws_over_joints_test
