@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/relative_error.hpp"
+#include "core/response/monitors.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/asked_responses.hpp"
 
