@@ -1,12 +1,15 @@
 #include "optimization/design/margin_doubts.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
+#include "core/scene/body_rules.hpp"
 
 namespace pleuel {
 
@@ -38,19 +41,46 @@ std::vector<Margin> margins_of(DesignProblem& design, const Eigen::VectorXd& x) 
   return margins;
 }
 
+const std::string& name_of(const DesignProblem& design, const UncertainParameter& parameter) {
+  return design.file().variables[static_cast<std::size_t>(parameter.variable)].name;
+}
+
+/// So many deviations; of an interval no further than its ends.
+double looked_at(const UncertainParameter& parameter, double deviations) {
+  const double far = deviations * parameter.standard_deviation();
+  return parameter.interval > 0.0 ? std::min(far, parameter.half_width()) : far;
+}
+
+/// @throws InputError where bodies cannot be as a design says, or a size that is always positive is not
+void refuse_impossible(const DesignProblem& design, const UncertainParameter& parameter,
+                       const Eigen::VectorXd& x) {
+  const Design<double> values(x.begin(), x.end());
+  for (const Body& body : design.file().scene.bodies) {
+    if (const auto why = find_impossible(body, values)) throw InputError(*why);
+  }
+  const auto index = static_cast<std::size_t>(parameter.variable);
+  const DesignVariable& variable = design.file().variables[index];
+  if (variable.lower > 0.0 && values[index] <= 0.0) {
+    throw InputError(fmt::format("it would be {:.3g} [SI]", values[index]));
+  }
+}
+
 /// Of one parameter, into `margins`.
-void look_beside(DesignProblem& design, const Eigen::VectorXd& x, Eigen::Index parameter,
-                 double deviation, std::vector<Margin>& margins) {
+void look_beside(DesignProblem& design, const Eigen::VectorXd& x,
+                 const UncertainParameter& parameter, std::vector<Margin>& margins) {
   for (Margin& margin : margins) {
+    const double change = looked_at(parameter, margin.constraint->deviations);
     Eigen::VectorXd above = x, below = x;
-    above(parameter) += margin.constraint->deviations * deviation;
-    below(parameter) -= margin.constraint->deviations * deviation;
+    above(parameter.variable) += change;
+    below(parameter.variable) -= change;
+    refuse_impossible(design, parameter, above);
+    refuse_impossible(design, parameter, below);
     const double mean =
         0.5 * (design.value_at(above, margin.response) + design.value_at(below, margin.response));
     const double missed = margin.side() * (mean - margin.value) / std::abs(margin.limit());
     if (!(missed > margin.missed)) continue;
     margin.missed = missed;
-    margin.parameter = design.file().variables[static_cast<std::size_t>(parameter)].name;
+    margin.parameter = name_of(design, parameter);
   }
 }
 
@@ -58,19 +88,21 @@ void look_beside(DesignProblem& design, const Eigen::VectorXd& x, Eigen::Index p
 
 std::vector<Doubt> doubt_margins(DesignProblem& design, const Eigen::VectorXd& x) {
   std::vector<Margin> margins = margins_of(design, x);
-  if (margins.empty()) return {};
-  const Eigen::VectorXd deviations = design.variable_deviations();
+  if (margins.empty() || !design.file().uncertainty) return {};
   std::vector<Doubt> doubts;
-  for (Eigen::Index i = 0; i < deviations.size(); ++i) {
-    if (deviations(i) == 0.0) continue;
+  const auto refuse = [&](const UncertainParameter& parameter, const std::string& why) {
+    doubts.push_back({fmt::format("at the deviations of \"{}\" that limits ask for the mechanism "
+                                  "cannot be simulated: {}",
+                                  name_of(design, parameter), why),
+                      true});
+  };
+  for (const UncertainParameter& parameter : design.file().uncertainty->parameters) {
     try {
-      look_beside(design, x, i, deviations(i), margins);
+      look_beside(design, x, parameter, margins);
     } catch (const SimulationError& error) {
-      doubts.push_back(
-          {fmt::format("at the deviations of \"{}\" that limits ask for the mechanism "
-                       "cannot be simulated: {}",
-                       design.file().variables[static_cast<std::size_t>(i)].name, error.what()),
-           true});
+      refuse(parameter, error.what());
+    } catch (const InputError& error) {  // a section that there cannot be
+      refuse(parameter, error.what());
     }
   }
   for (const Margin& margin : margins) {

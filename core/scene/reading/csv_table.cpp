@@ -80,7 +80,7 @@ std::vector<Row> rows_of(const std::string& text) {
     const std::string line = trimmed(text.substr(begin, end - begin), " \r");
     ++line_number;
     begin = end + 1;
-    if (trimmed(line).empty() || line.starts_with('#')) continue;
+    if (trimmed(line).empty() || trimmed(line).starts_with('#')) continue;
     rows.push_back({line_number, split(line, separator_of(line))});
   }
   return rows;
