@@ -63,6 +63,21 @@ TEST(RobustConstraints, LeaveTheDeviationsThatAreAskedFor) {
   EXPECT_NEAR(result.evaluation.constraints(worst), *active.upper, 1e-4 * *active.upper);
 }
 
+/// A diameter of 2 mm that scatters by 1 mm: three deviations below there is none.
+TEST(RobustConstraints, AreNotVerifiedWhereDeviationsLeaveNoSection) {
+  ProblemFile file = robust_problem();
+  for (ConstraintSettings& constraint : file.constraints) {
+    if (constraint.upper) *constraint.upper *= 1e6;
+  }
+  for (DesignVariable& variable : file.variables) variable.lower = 0.002;
+  file.uncertainty->parameters[0].deviation = 0.001;
+  DesignProblem problem(std::move(file));
+  const Result result = solve_design(problem, {.backend = "nlopt-slsqp"});
+  EXPECT_EQ(result.status, Status::unresolved);
+  EXPECT_NE(result.message.find("cannot be simulated: it would be -0.001"), std::string::npos)
+      << result.message;
+}
+
 /// A round cantilever under 100 N down and a force aside of 0 ± f N: the stress 32 L √(F² + S²)/πd³ does
 /// not change with S to first order, but at three deviations of 20 N by √1.36 = 1.166, of 4 N by 1.007.
 TEST(RobustConstraints, AreNotVerifiedWhereFirstOrderMissesThem) {
