@@ -333,19 +333,20 @@ ElasticStability elastic_stability(const Mechanism& mechanism, const State& stat
   return stability_of_turning(mechanism, state, turn, parts.standing);
 }
 
-double buckling_load_factor(const Mechanism& mechanism, const State& unloaded, const State& loaded,
+double buckling_load_factor(const MechanismState& unloaded, const MechanismState& loaded,
                             double share) {
   constexpr double none = std::numeric_limits<double>::infinity();
-  const Eigen::MatrixXd z = free_deformations(mechanism, unloaded);
+  const Eigen::MatrixXd z = free_deformations(unloaded.mechanism, unloaded.state);
   if (z.cols() == 0) return none;
-  const Eigen::MatrixXd phi = constraint_rows(mechanism, unloaded);
-  const bool are_held = z.cols() > deformations_beside(phi, rigid_motions(mechanism, phi)).cols();
+  const Eigen::MatrixXd phi = constraint_rows(unloaded.mechanism, unloaded.state);
+  const bool are_held =
+      z.cols() > deformations_beside(phi, rigid_motions(unloaded.mechanism, phi)).cols();
   if (are_held) return std::nan("");  // dead loads turn with them, which is not of first order
-  const AxialStrains strains(*mechanism.system);
-  const Eigen::Index n = unloaded.q.size();
-  const auto stiffness = [&](const State& state) -> Eigen::MatrixXd {
+  const Eigen::Index n = unloaded.state.q.size();
+  const auto stiffness = [&](const MechanismState& at) -> Eigen::MatrixXd {
+    const auto& [mechanism, state] = at;
     std::vector<Eigen::Triplet<double>> entries;
-    strains.add_coupling(state.q, entries);
+    AxialStrains(*mechanism.system).add_coupling(state.q, entries);
     Eigen::SparseMatrix<double> coupling(n, n);
     coupling.setFromTriplets(entries.begin(), entries.end());
     const Eigen::MatrixXd scaled = mechanism.scale.asDiagonal() * z;

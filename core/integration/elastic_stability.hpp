@@ -26,14 +26,20 @@ ElasticStability elastic_stability(const Mechanism& mechanism, const State& stat
 /// Whether all that turns in space turns alike and at a constant speed, but for small vibrations.
 bool is_rotor(const Mechanism& mechanism, const State& state);
 
+/// A mechanism at a state.
+struct MechanismState {
+  const Mechanism& mechanism;
+  const State& state;
+};
+
 /// By what factor the loads of a state buckle the members, from how they change the stiffness:
 ///     (K₀ + s (K₁ − K₀)) φ = 0,   the smallest s > 0; infinite if there is none
 /// Not a number where springs hold motions as rigid bodies, which loads turn at once.
 /// Linear buckling: K with the forces that the loads cause, without the coupling of bending with
 /// stretching by deflection, which is of second order in both.
-/// @param unloaded  a state without deformation
-/// @param loaded    in equilibrium with `share` of the loads
-double buckling_load_factor(const Mechanism& mechanism, const State& unloaded, const State& loaded,
+/// @param unloaded  at a state without deformation
+/// @param loaded    in equilibrium with `share` of the loads, in the same coordinates
+double buckling_load_factor(const MechanismState& unloaded, const MechanismState& loaded,
                             double share);
 
 }  // namespace pleuel

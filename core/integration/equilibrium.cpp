@@ -363,7 +363,7 @@ double Equilibrium::load_factor(const InitialState& start) {
   InitialState loaded = start;
   const Eigen::VectorXd unloaded = residual(start);
   if (!solve_from((1.0 - small_load) * unloaded, loaded)) return std::nan("");
-  return buckling_load_factor(mechanism_, start.state, loaded.state, small_load);
+  return buckling_load_factor({mechanism_, start.state}, {mechanism_, loaded.state}, small_load);
 }
 
 void Equilibrium::fail(const InitialState& start, double share) {

@@ -19,6 +19,7 @@
 #include "core/trust/left_out_effects.hpp"
 #include "core/trust/misaligned_joints.hpp"
 #include "core/trust/other_side.hpp"
+#include "core/trust/promised_buckling.hpp"
 #include "core/trust/proportions.hpp"
 #include "core/trust/resolution.hpp"
 #include "core/trust/shear_range.hpp"
@@ -94,6 +95,7 @@ Trust judge_run(const TrustedRun& run) {
            doubt_lost_stiffening,
            doubt_misaligned_joints,
            doubt_other_side,
+           doubt_promised_buckling,
            doubt_proportions,
            doubt_shear_range,
            doubt_sliding_contacts,
