@@ -16,10 +16,10 @@ namespace {
 /// Accelerations and multipliers of the step before went on linearly; positions and velocities
 /// belong to the accelerations by the scheme:  y⁺ = history · y + correction z.
 TEST(Predictor, GoesOnAlongAStraightLine) {
-  const Model model = all_samples()[0].build();
-  const Mechanism& mechanism = model.mechanism;
+  Model model = all_samples()[0].build();
+  Mechanism& mechanism = model.mechanism;
   const Scheme scheme = make_scheme(alpha, 2e-3, 0.8);
-  StepEquations equations(model.mechanism, scheme, index_3);
+  StepEquations equations(mechanism, scheme, index_3);
   StepState older = equations.make_state(random_state(model, 3));
   StepState old = equations.make_state(random_state(model, 4));
   older.time = 0.0;
