@@ -32,7 +32,8 @@ constexpr double balance_round_off = 1e-12;
 constexpr double smallest_part = 1.0 / 1024;
 /// Where members turn far there are other equilibria, to which loads that grow slowly do not lead.
 constexpr double slow_part = 1.0 / 32;
-constexpr double far_deformed = 0.5;  ///< of lengths, and in rad
+constexpr double far_deformed =
+    500.0;  ///< of the scale of elastic coordinates: half of a length, or rad
 /// The share of the loads from which their effect on the stiffness is taken.
 constexpr double small_load = 1e-3;
 /// Rows of Φ_q of the frames that depend on the others by less than this are closed by deformation.
