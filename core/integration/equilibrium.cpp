@@ -12,6 +12,7 @@
 #include "core/base/rotation_vector.hpp"
 #include "core/integration/configuration.hpp"
 #include "core/integration/elastic_stability.hpp"
+#include "core/integration/free_deformations.hpp"
 #include "core/system/linear_forces.hpp"
 
 namespace pleuel {
@@ -325,14 +326,28 @@ InitialState Equilibrium::solve(InitialState start) {
   start.position_multipliers = of_frames(start.position_multipliers);
   InitialState reached = follow(start, 1.0);
   const bool is_plausible = deformation(reached.state) < far_deformed &&
+                            !is_dead_point(start, reached) &&
                             elastic_stability(mechanism_, reached.state).is_stable;
   if (is_plausible) return reached;
   try {
     reached = follow(start, slow_part);
   } catch (const SimulationError&) {  // what was found at once is judged
   }
+  if (is_dead_point(start, reached)) {
+    throw UnstableEquilibrium(
+        "the loads at t = 0 press the mechanism into a dead point, where its joints leave a motion "
+        "free that they hold before: it snaps through (/simulation/initial_state is "
+        "\"quasi-static\")");
+  }
   refuse_unstable(start, reached);
   return reached;
+}
+
+bool Equilibrium::is_dead_point(const InitialState& start, const InitialState& found) const {
+  const auto free_motions = [&](const State& state) {
+    return rigid_motions(mechanism_, constraint_rows(mechanism_, state)).cols();
+  };
+  return free_motions(found.state) > free_motions(start.state);
 }
 
 InitialState Equilibrium::follow(const InitialState& start, double largest_part) {

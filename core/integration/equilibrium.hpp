@@ -73,6 +73,8 @@ class Equilibrium {
   /// At what share of the loads members buckle; not a number if that cannot be said.
   double load_factor(const InitialState& start);
   [[noreturn]] void fail(const InitialState& start, double share);
+  /// Whether joints leave a motion free there that they held at the start.
+  bool is_dead_point(const InitialState& start, const InitialState& found) const;
   void refuse_unstable(const InitialState& start, const InitialState& found);
 
   Mechanism& mechanism_;

@@ -17,6 +17,8 @@ namespace {
 
 /// Of the largest value: peaks and teeth, where runs with other steps see no more of them.
 constexpr double most_passed_over = 0.3;
+/// The same of a ripple that swings within most steps: so much is left of it where they are halved.
+constexpr double most_ripple = 0.01, left_by_halves = 0.5;
 /// A direction is known from what it was a step before [rad].
 constexpr double most_turned = 0.5 * std::numbers::pi;
 
@@ -148,8 +150,11 @@ std::vector<Doubt> doubt_laws_over_joints(const TrustedRun& run) {
               0.0};
     };
     const MissedValues missed = missed_by(time, value, passages(one, history, time));
-    add_missed({fmt::format("the load \"{}\"", one.load), "value", most_passed_over}, missed,
-               missed.scale, doubts);
+    const bool is_ripple = missed.median_of_halves > left_by_halves * missed.median &&
+                           missed.median > most_ripple * missed.scale;
+    add_missed({fmt::format("the load \"{}\"", one.load), "value",
+                is_ripple ? most_ripple : most_passed_over},
+               missed, missed.scale, doubts);
   }
   return doubts;
 }

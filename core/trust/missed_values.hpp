@@ -19,6 +19,9 @@ using ObservedFunction = std::function<ObservedValues(double time)>;
 /// How far a function of time is from the straight lines between the instants, and where most.
 struct MissedValues {
   double largest = 0.0, time = 0.0, step = 0.0;
+  /// Medians of the largest of each step, and of that from the lines between its ends and its middle:
+  /// a quarter of it where steps resolve the function, no less where it swings within each.
+  double median = 0.0, median_of_halves = 0.0;
   double scale = 0.0;  ///< largest distance from a value
 };
 

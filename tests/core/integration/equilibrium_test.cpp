@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/integration/configuration.hpp"
+#include "core/scene/problem_reader.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
 #include "tests/support/differences.hpp"
@@ -172,6 +175,49 @@ TEST_P(EquilibriumOfASample, HasOnePatternOfItsJacobian) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, EquilibriumOfASample, testing::Values(0, 2), sample_name);
+
+/// Two bars between hinges 1 m apart, 20 mm flat, pressed down where they meet. With the height y left,
+/// they bear P = 2 EA (L₀ − L)/L₀ · y/L, at most some 3651 N. Flat, they would be in line with nothing to
+/// bear the load; with shares of four elements Newton's method ends there.
+std::string flat_truss(double load) {
+  return fmt::format(
+      R"({{"scene": {{"gravity": [0, 0, 0],
+        "materials": {{"steel": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
+        "bodies": {{
+          "l": {{"type": "beam", "from": [-0.5, 0, 0], "to": [0, 0.02, 0], "material": "steel",
+                "section": {{"type": "circle", "diameter": 0.03}}, "elements": 4, "frame": "chord"}},
+          "r": {{"type": "beam", "from": [0.5, 0, 0], "to": [0, 0.02, 0], "material": "steel",
+                "section": {{"type": "circle", "diameter": 0.03}}, "elements": 4,
+                "frame": "chord"}}}},
+        "joints": {{
+          "a": {{"type": "revolute", "bodies": ["ground", "l"], "at": [-0.5, 0, 0]}},
+          "c": {{"type": "revolute", "bodies": ["ground", "r"], "at": [0.5, 0, 0]}},
+          "t": {{"type": "revolute", "bodies": ["l", "r"], "at": [0, 0.02, 0]}}}},
+        "loads": {{"f": {{"type": "force", "body": "l", "at": [0, 0.02, 0],
+                         "direction": [0, -1, 0], "value": {}}}}}}},
+      "simulation": {{"end_time": 0.001, "step": 0.0005, "initial_state": "quasi-static"}},
+      "responses": {{"y": {{"type": "position", "body": "l", "at": 1, "direction": "y",
+                          "over_time": "min"}}}}}})",
+      load);
+}
+
+TEST(QuasiStaticStart, IsNotFoundAtADeadPoint) {
+  const double L0 = std::hypot(0.5, 0.02), stiffness = 2.1e11 * std::numbers::pi * 0.015 * 0.015;
+  const auto borne = [&](double y) {
+    const double L = std::hypot(0.5, y);
+    return 2 * stiffness * (L0 - L) / L0 * y / L;
+  };
+  double most = 0.0;
+  for (int i = 0; i <= 1000; ++i) most = std::max(most, borne(0.02 * i / 1000));
+  EXPECT_NEAR(most, 3650.8, 0.1);
+  const auto height = [](double load) {
+    const ProblemFile problem = read_problem_text(flat_truss(load), "truss.json").complete();
+    return values_of(*analyze(problem, start_design(problem)))(0);
+  };
+  EXPECT_NEAR(borne(height(0.9 * most)), 0.9 * most, 1e-6 * most);
+  EXPECT_THROW(height(1.2 * most), UnstableEquilibrium);
+  EXPECT_THROW(height(1.3 * most), UnstableEquilibrium);
+}
 
 }  // namespace
 }  // namespace pleuel::test::equilibrium_test

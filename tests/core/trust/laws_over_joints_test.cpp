@@ -43,6 +43,21 @@ TEST(LawsOverJoints, AreDoubtedWhereAStepPassesATooth) {
   }
 }
 
+/// The same teeth as a ripple of a fifth, with a whole number of them in each step: 48 teeth a turn of
+/// 48 ms; and one that is resolved, or that is next to nothing.
+TEST(LawsOverJoints, AreDoubtedWhereARippleIsInStepWithTheSteps) {
+  const auto doubts_at = [](double ripple, double step) {
+    const std::string torque = fmt::format(
+        R"j({{"type": "expression", "value": "= 1 N m + {} N m*sin(48*angle)"}})j", ripple);
+    return doubts_of(rotor(torque, step), doubt_laws_over_joints);
+  };
+  EXPECT_THAT(doubts_at(0.2, 1e-3), SizeIs(1));
+  EXPECT_THAT(doubts_at(0.2, 2e-3), SizeIs(1));
+  EXPECT_THAT(doubts_at(0.02, 1e-3), SizeIs(1));
+  EXPECT_THAT(doubts_at(0.2, 1e-3 / 6), IsEmpty());
+  EXPECT_THAT(doubts_at(0.005, 1e-3), IsEmpty());
+}
+
 /// A peak of 0.2 rad in a table, at 6 rad a turn: steps of 1 ms are 0.13 rad, those of 4 ms 0.52.
 TEST(LawsOverJoints, AreDoubtedWhereAStepPassesThePeakOfATable) {
   const std::string table =
