@@ -98,7 +98,7 @@ class AdjointRun {
     left = stacked();
     Eigen::MatrixXd whole = left.cwiseAbs();
     PeriodicCorrection progress;
-    while (!progress.is_done(left, whole) || !adjoint_.lambda.isZero(0.0)) {
+    while (!progress.is_done(left, sizes_of(whole)) || !adjoint_.lambda.isZero(0.0)) {
       const Eigen::MatrixXd end = periodic.map->solve_transposed(left);
       const Eigen::MatrixXd columns = units.cwiseInverse().asDiagonal() * end;
       adjoint_.q = columns.topRows(n);

@@ -15,19 +15,19 @@ constexpr double left_at_the_end = 1e-13;
 constexpr double left_of_round_off = 1e-8;
 constexpr int most_corrections = 30;
 
-double largest_share(const Eigen::MatrixXd& left, const Eigen::MatrixXd& whole) {
+double largest_share(const Eigen::MatrixXd& left, const Eigen::RowVectorXd& sizes) {
   double largest = 0.0;
   for (Eigen::Index j = 0; j < left.cols(); ++j) {
     const double size = left.col(j).lpNorm<Eigen::Infinity>();
-    if (size > 0.0) largest = std::max(largest, size / whole.col(j).lpNorm<Eigen::Infinity>());
+    if (size > 0.0) largest = std::max(largest, size / sizes(j));
   }
   return largest;
 }
 
 }  // namespace
 
-bool PeriodicCorrection::is_done(const Eigen::MatrixXd& left, const Eigen::MatrixXd& whole) {
-  const double share = largest_share(left, whole);
+bool PeriodicCorrection::is_done(const Eigen::MatrixXd& left, const Eigen::RowVectorXd& sizes) {
+  const double share = largest_share(left, sizes);
   if (share <= left_at_the_end) return true;
   const bool shrinks = count_++ == 0 || share < 0.5 * before_;
   before_ = share;

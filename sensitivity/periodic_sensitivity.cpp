@@ -18,6 +18,22 @@ StateSensitivity zero_sensitivity(const System& system) {
   return {zero, zero, zero, zero, Eigen::MatrixXd::Zero(system.multipliers(), system.variables())};
 }
 
+/// Variables that change forces only, as the mass of a counterweight that a drive turns, have
+/// derivatives of the motion that are round-off from end to end. Those of the size at which the motion
+/// would change by this share of what the forces change count as such.
+constexpr double next_to_nothing = 1e-6;
+
+/// What is left of derivatives is compared with, one a variable.
+/// @param end     of the states at the end of the period, stacked
+/// @param lambda  of the multipliers there
+Eigen::RowVectorXd compared_sizes(const Eigen::MatrixXd& end, const Eigen::MatrixXd& lambda,
+                                  const Eigen::VectorXd& multipliers) {
+  const Eigen::RowVectorXd sizes = sizes_of(end);
+  const double forces = multipliers.lpNorm<Eigen::Infinity>();
+  if (!(forces > 0.0)) return sizes;
+  return sizes.cwiseMax(next_to_nothing / forces * sizes_of(lambda));
+}
+
 }  // namespace
 
 void require_repeated_derivatives(Mechanism& mechanism, const Trajectory& trajectory) {
@@ -34,12 +50,14 @@ StateSensitivity periodic_sensitivity(Mechanism& mechanism, const Trajectory& tr
   StateSensitivity start = zero_sensitivity(*mechanism.system);
   StepDifferentiation motion(mechanism, trajectory, DerivativesOf::design);
   PeriodicCorrection progress;
+  State last;
+  trajectory.states->load(periodic.steps, last);
   while (true) {
     motion.begin(start);
     while (motion.step() < periodic.steps) motion.advance();
     const Eigen::MatrixXd end = states.stack(motion.sensitivity()), gap = end - states.stack(start);
     start.lambda = motion.sensitivity().lambda;
-    if (progress.is_done(gap, end)) return start;
+    if (progress.is_done(gap, compared_sizes(end, start.lambda, last.lambda))) return start;
     const StateSensitivity step = states.unstack(periodic.map->solve(gap));
     start.q += step.q;
     start.v += step.v;

@@ -12,6 +12,7 @@
 #include "core/base/error.hpp"
 #include "core/integration/periodic_start.hpp"
 #include "core/response/analysis.hpp"
+#include "core/scene/problem_reader.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"
@@ -312,6 +313,41 @@ std::string failure_of(const ProblemFile& file) {
     return error.what();
   }
   return "none";
+}
+
+/// The mass of a counterweight on the driven end of an arm changes no motion, whose derivatives are
+/// round-off then: only the weight that the bearing carries, one g a kilogram, and with its lever of
+/// 0.1 m the largest torque, as long as the arm's is larger and turns the other way.
+TEST(SteadyMachine, HasGradientsOfAVariableThatChangesForcesOnly) {
+  const ProblemFile problem = read_problem_text(R"({"scene": {"gravity": [0, "-9.81 m/s^2", 0],
+      "bodies": {
+        "arm": {"type": "beam", "from": [0, 0, 0], "to": ["0.5 m", 0, 0], "material": "steel",
+          "section": {"type": "rectangle", "width": "20 mm", "height": "20 mm"}, "elements": 2,
+          "damping": {"stiffness": "1e-3 s"}},
+        "weight": {"type": "rigid", "at": ["-100 mm", 0, 0], "mass": {"variable": "M"},
+          "inertia": [0.01, 0.01, 0.01, 0, 0, 0]}},
+      "joints": {
+        "bearing": {"type": "revolute", "bodies": ["ground", "arm"], "at": [0, 0, 0],
+          "drive": {"type": "constant-speed", "speed": "60 rpm"}},
+        "weld": {"type": "fixed", "bodies": ["arm", "weight"], "at": [0, 0, 0]}}},
+    "simulation": {"end_time": "1 s", "step": "2 ms", "initial_state": "periodic"},
+    "variables": {"M": {"start": "5 kg", "lower": "1 kg", "upper": "20 kg"}},
+    "responses": {
+      "torque": {"type": "drive-torque", "joint": "bearing", "over_time": "max-abs"},
+      "weight": {"type": "reaction-force", "joint": "bearing", "direction": "y",
+                 "over_time": "mean"}}})",
+                                                "arm.json")
+                                  .complete();
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const auto gradients_by = [&](GradientMethod method) {
+    return gradients(problem, x, *analysis, method);
+  };
+  const Eigen::MatrixXd direct = gradients_by(GradientMethod::direct),
+                        adjoint = gradients_by(GradientMethod::adjoint);
+  EXPECT_LE((direct - adjoint).norm(), 1e-8 * adjoint.norm());
+  EXPECT_NEAR(std::abs(direct(0, 0)), 9.81 * 0.1, 1e-6);
+  EXPECT_NEAR(std::abs(direct(1, 0)), 9.81, 1e-6);
 }
 
 TEST(SteadyMachineErrors, NameADriveThatDoesNotRepeatItself) {
