@@ -46,12 +46,11 @@ void add_unstable(const TrustedRun& run, const std::vector<const Response*>& res
 }
 
 /// Frequencies of the same mechanism whose members are in equilibrium with the motion.
-Eigen::VectorXd stressed_frequencies(const TrustedRun& run) {
-  ProblemFile problem = run.problem;
+Eigen::VectorXd stressed_frequencies(ProblemFile problem, const Eigen::VectorXd& x) {
   problem.simulation.quasi_static_start = true;
   const Eigen::VectorXd start = start_design(problem);
   const auto full = make_full_mechanism(problem, Design<double>(start.begin(), start.end()),
-                                        Design<double>(run.x.begin(), run.x.end()));
+                                        Design<double>(x.begin(), x.end()));
   return mechanism_frequencies(full->model.mechanism, full->initial->state);
 }
 
@@ -65,7 +64,7 @@ void add_missing_stress(const TrustedRun& run, const std::vector<const Response*
   if (state.v.isZero(0.0) && state.a.isZero(0.0)) return;
   Eigen::VectorXd stressed;
   try {
-    stressed = stressed_frequencies(run);
+    stressed = stressed_frequencies(run.problem, run.x);
   } catch (const SimulationError& error) {
     doubts.push_back({fmt::format("natural frequencies are those of undeformed members; under the "
                                   "motion and the loads at t = 0 they would be stressed, and with "
@@ -86,6 +85,53 @@ void add_missing_stress(const TrustedRun& run, const std::vector<const Response*
                      "is {:.5g} rad/s: /simulation/initial_state \"quasi-static\" has it.",
                      response->name, shown, stressed(mode)),
          false,
+         {response->name}});
+  }
+}
+
+/// The problem with beams counted in other body frames, which leaves the mechanism the same.
+ProblemFile with_other_frames(const ProblemFile& problem) {
+  ProblemFile other = problem;
+  for (Body& body : other.scene.bodies) {
+    auto* beam = std::get_if<BeamBody>(&body.shape);
+    if (!beam) continue;
+    const bool is_mean = beam->frame == ReferenceCondition::mean_axis;
+    beam->frame = is_mean ? ReferenceCondition::chord : ReferenceCondition::mean_axis;
+  }
+  return other;
+}
+
+/// What moments do to the stiffness of a member that is bent or twisted is in the equations only as far as
+/// its frame turns with it: of first order in the load, and in none of the error bars of steps and
+/// elements. Other frames have another part of it.
+void add_frames(const TrustedRun& run, const std::vector<const Response*>& responses,
+                std::vector<Doubt>& doubts) {
+  const bool is_stressed =
+      run.problem.simulation.quasi_static_start && !run.analysis.model.mechanism.elastic.empty();
+  if (!is_stressed || !run.analysis.modes_left_out.empty() || run.analysis.trajectory.periodic) {
+    return;
+  }
+  Eigen::VectorXd found;
+  try {
+    found = stressed_frequencies(with_other_frames(run.problem), run.x);
+  } catch (const SimulationError&) {
+    return;
+  } catch (const InputError&) {  // reduced to modes that the frame has to suit
+    return;
+  }
+  for (const Response* response : responses) {
+    const int mode = response->frequency()->mode;
+    if (mode >= found.size()) continue;
+    const double shown = run.analysis.mechanism_frequencies(mode);
+    const double change = std::abs(found(mode) - shown);
+    if (change <= small_shift * std::abs(shown)) continue;
+    doubts.push_back(
+        {fmt::format("the frequency \"{}\" is {:.5g} rad/s with the body frames as they are, and "
+                     "{:.5g} rad/s with \"mean-axis\" ones (\"chord\" in place of those): "
+                     "members are bent or twisted so much at the start that what it does to their "
+                     "stiffness is not resolved. Divide them: \"frames\".",
+                     response->name, shown, found(mode)),
+         true,
          {response->name}});
   }
 }
@@ -161,6 +207,7 @@ std::vector<Doubt> doubt_frequencies(const TrustedRun& run) {
   add_flutter(run, responses, doubts);
   add_turning(run, responses, doubts);
   add_missing_stress(run, responses, doubts);
+  add_frames(run, responses, doubts);
   return doubts;
 }
 
