@@ -101,6 +101,17 @@ ProblemFile with_other_frames(const ProblemFile& problem) {
   return other;
 }
 
+/// The model and the state that frequencies of the mechanism are those of.
+const Model& model_of_modes(const Analysis& analysis) {
+  return analysis.full ? analysis.full->model : analysis.model;
+}
+State state_of_modes(const Analysis& analysis) {
+  if (analysis.full) return analysis.full->initial->state;
+  State state;
+  analysis.trajectory.states->load(0, state);
+  return state;
+}
+
 /// What moments do to the stiffness of a member that is bent or twisted is in the equations only as far as
 /// its frame turns with it: of first order in the load, and in none of the error bars of steps and
 /// elements. Other frames have another part of it.
@@ -108,9 +119,8 @@ void add_frames(const TrustedRun& run, const std::vector<const Response*>& respo
                 std::vector<Doubt>& doubts) {
   const bool is_stressed =
       run.problem.simulation.quasi_static_start && !run.analysis.model.mechanism.elastic.empty();
-  if (!is_stressed || !run.analysis.modes_left_out.empty() || run.analysis.trajectory.periodic) {
-    return;
-  }
+  if (!is_stressed || !run.analysis.modes_left_out.empty()) return;
+  if (!state_of_modes(run.analysis).v.isZero(0.0)) return;  // where axes matter, too
   Eigen::VectorXd found;
   try {
     found = stressed_frequencies(with_other_frames(run.problem), run.x);
@@ -134,17 +144,6 @@ void add_frames(const TrustedRun& run, const std::vector<const Response*>& respo
          true,
          {response->name}});
   }
-}
-
-/// The model and the state that frequencies of the mechanism are those of.
-const Model& model_of_modes(const Analysis& analysis) {
-  return analysis.full ? analysis.full->model : analysis.model;
-}
-State state_of_modes(const Analysis& analysis) {
-  if (analysis.full) return analysis.full->initial->state;
-  State state;
-  analysis.trajectory.states->load(0, state);
-  return state;
 }
 
 /// Vibrations that grow, as follower forces make them, where the mechanism is at rest: about a
