@@ -1,6 +1,5 @@
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <gmock/gmock.h>
 
@@ -8,6 +7,7 @@
 #include "tests/hard/hard_problems.hpp"
 #include "tests/hard/rigid_references.hpp"
 #include "tests/support/convergence.hpp"
+#include "tests/support/dense_algebra.hpp"
 
 /// Settings at their ends: step, spectral radius, number of steps.
 namespace pleuel::test::scheme_test {
@@ -162,7 +162,7 @@ Eigen::Matrix3d amplification(double radius, double frequency, double damping, d
 
 /// The principal one of the two that are conjugate; the third is real and belongs to no vibration.
 std::complex<double> principal_root(double radius, double frequency, double damping, double h) {
-  const Eigen::Vector3cd roots = amplification(radius, frequency, damping, h).eigenvalues();
+  const Eigen::VectorXcd roots = eigenvalues(amplification(radius, frequency, damping, h));
   Eigen::Index principal = 0;
   roots.imag().maxCoeff(&principal);
   return roots(principal);

@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,6 +12,7 @@
 #include "optimization/backends.hpp"
 #include "optimization/lowest_curvature.hpp"
 #include "optimization/solve.hpp"
+#include "tests/support/dense_algebra.hpp"
 
 namespace pleuel::test::stationary_test {
 namespace {
@@ -168,7 +167,7 @@ TEST(StationaryDesign, WithOneWayDownAmongTwentyIsNotVerified) {
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) generic(i, j) = std::sin(1.0 + 3.0 * i * i + 7.0 * j + i * j);
   }
-  const Eigen::MatrixXd rotation = generic.householderQr().householderQ();
+  const Eigen::MatrixXd rotation = orthonormal_columns(generic);
   std::vector<Variable> variables;
   for (int i = 0; i < n; ++i) variables.push_back({"x" + std::to_string(i), 0.0, -1.0, 1.0});
   FunctionProblem problem(variables, {}, by_complex_step([&](const auto& x) {
@@ -259,12 +258,12 @@ TEST(LowestCurvature, IsTheSmallestEigenvalueInTheSubspace) {
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 4; ++j) generic(i, j) = std::sin(1.0 + 2.0 * i * j + i);
   }
-  const Eigen::MatrixXd basis = Eigen::MatrixXd(generic.householderQr().householderQ()).leftCols(4);
+  const Eigen::MatrixXd basis = orthonormal_columns(generic);
   const HessianProduct product = [&](const Eigen::VectorXd& d) { return matrix * d; };
   const LowestCurvature found = lowest_curvature(product, basis, 6);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> exact(basis.transpose() * matrix * basis);
+  const Eigen::VectorXd exact = eigenvalues_of_symmetric(basis.transpose() * matrix * basis);
   EXPECT_EQ(found.products, 4);
-  EXPECT_NEAR(found.curvature, exact.eigenvalues()[0], 1e-12);
+  EXPECT_NEAR(found.curvature, exact[0], 1e-12);
   EXPECT_NEAR(found.direction.dot(matrix * found.direction), found.curvature, 1e-12);
   EXPECT_NEAR((found.direction - basis * (basis.transpose() * found.direction)).norm(), 0, 1e-12);
 }

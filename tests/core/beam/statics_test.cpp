@@ -1,6 +1,7 @@
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
+#include "tests/support/dense_algebra.hpp"
 #include "tests/support/sample_beams.hpp"
 
 namespace pleuel::test::statics_test {
@@ -22,7 +23,7 @@ struct Cantilever {
   double tip(int displacement, int loaded) const {
     const auto body = beam_invariants(beam, coordinates);
     const Eigen::VectorXd load = Eigen::VectorXd::Unit(body.size(), coordinates.index(3, loaded));
-    const Eigen::VectorXd q = dense(body.pattern, body.stiffness).fullPivLu().solve(load);
+    const Eigen::VectorXd q = solve_dense(dense(body.pattern, body.stiffness), load);
     return q(coordinates.index(3, displacement));
   }
 };
@@ -57,7 +58,7 @@ TEST(BeamStatics, OwnWeightBendsByQL4Over8EI) {
   const Cantilever cantilever;
   const auto body = beam_invariants(cantilever.beam, cantilever.coordinates);
   const Eigen::VectorXd load = body.shape.transpose() * Eigen::Vector3d(0, 9.81, 0);
-  const Eigen::VectorXd q = dense(body.pattern, body.stiffness).fullPivLu().solve(load);
+  const Eigen::VectorXd q = solve_dense(dense(body.pattern, body.stiffness), load);
   const double per_length = density * width * height * 9.81;
   const double inertia = width * std::pow(height, 3) / 12;
   EXPECT_NEAR(q(cantilever.coordinates.index(3, 1)) * 8 * young * inertia /

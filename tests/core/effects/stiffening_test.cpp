@@ -1,9 +1,10 @@
 #include <random>
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include "tests/support/dense.hpp"
+#include "tests/support/dense_algebra.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_beams.hpp"
 #include "tests/support/sample_scenes.hpp"
@@ -104,10 +105,9 @@ struct RotatingCantilever {
     const BodyModel& body = model.body("beam");
     const int first = body.elastic_offset(), n = body.coordinates.size();
     for (int iteration = 0; iteration < 5; ++iteration) {
-      state.q.segment(first, n) -= tangent(model, state, {.q = 1.0})
-                                       .block(first, first, n, n)
-                                       .fullPivLu()
-                                       .solve(forces(model, state).segment(first, n));
+      state.q.segment(first, n) -=
+          solve_dense(tangent(model, state, {.q = 1.0}).block(first, first, n, n),
+                      forces(model, state).segment(first, n));
     }
   }
   Eigen::VectorXd numbers(Model& model, const State& state, double unit) const {

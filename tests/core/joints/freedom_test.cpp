@@ -1,9 +1,10 @@
-#include <Eigen/LU>
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "core/integration/simulate.hpp"
 #include "core/scene/joint_kind.hpp"
 #include "tests/support/dense.hpp"
+#include "tests/support/dense_algebra.hpp"
 #include "tests/support/sample_scenes.hpp"
 
 namespace pleuel::test::freedom_test {
@@ -51,7 +52,7 @@ int freedom_of(const Scene& scene, EffectChoice spatial) {
   system.tangent(state, {.q = 1.0}, ConstraintLevel::position, matrix);
   const Eigen::MatrixXd jacobian =
       Eigen::MatrixXd(matrix).bottomLeftCorner(system.multipliers(), system.coordinates());
-  const auto rank = Eigen::FullPivLU<Eigen::MatrixXd>(jacobian).rank();
+  const auto rank = rank_of(jacobian);
   EXPECT_EQ(rank, system.multipliers()) << "no equation says what another one says";
   return system.coordinates() - static_cast<int>(rank);
 }
@@ -195,8 +196,7 @@ void check(const Pair& pair, EffectChoice spatial) {
   system.tangent(end, {.q = 1.0}, ConstraintLevel::position, matrix);
   const Eigen::MatrixXd jacobian =
       Eigen::MatrixXd(matrix).bottomLeftCorner(system.multipliers(), system.coordinates());
-  const auto rank =
-      system.multipliers() > 0 ? Eigen::FullPivLU<Eigen::MatrixXd>(jacobian).rank() : 0;
+  const auto rank = system.multipliers() > 0 ? rank_of(jacobian) : 0;
   EXPECT_EQ(system.coordinates(), spatial == EffectChoice::off ? all_in_plane : all_in_space);
   EXPECT_EQ(rank, pair.equations + (pair.driven ? 1 : 0));
   EXPECT_EQ(rank, system.multipliers()) << "no equation says what another one says";

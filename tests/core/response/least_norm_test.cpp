@@ -1,12 +1,12 @@
 #include "core/integration/least_norm.hpp"
 
-#include <Eigen/QR>
 #include <gtest/gtest.h>
 
 #include "core/integration/initial_state.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/core/response/response_samples.hpp"
+#include "tests/support/dense_algebra.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"
 
@@ -98,11 +98,9 @@ TEST(LeastNorm, IsThePseudoinverseOfAllConstraints) {
       system.tangent(state, {.q = 1.0}, ConstraintLevel::position, matrix);
       const Eigen::MatrixXd pull = Eigen::MatrixXd(matrix).topRightCorner(n, m);
       const Eigen::VectorXd root = mechanism.reaction_weight.cwiseSqrt();
-      Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition(
-          pull * root.cwiseInverse().asDiagonal());
-      decomposition.setThreshold(1e-8);
-      ASSERT_EQ(decomposition.rank(), m - static_cast<int>(system.left_out().size())) << name;
-      const Eigen::VectorXd expected = decomposition.solve(pull * state.lambda).cwiseQuotient(root);
+      const Pseudoinverse inverse = pseudoinverse(pull * root.cwiseInverse().asDiagonal(), 1e-8);
+      ASSERT_EQ(inverse.rank, m - static_cast<int>(system.left_out().size())) << name;
+      const Eigen::VectorXd expected = (inverse.matrix * (pull * state.lambda)).cwiseQuotient(root);
       norm.set(state);
       const Eigen::VectorXd found = norm.apply(state.lambda);
       EXPECT_LE((pull * (found - state.lambda)).norm(), 1e-8 * (pull * state.lambda).norm())

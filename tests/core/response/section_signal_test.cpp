@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
@@ -10,6 +10,7 @@
 #include "core/section/rectangle_section.hpp"
 #include "tests/core/response/response_samples.hpp"
 #include "tests/support/dense.hpp"
+#include "tests/support/dense_algebra.hpp"
 
 namespace pleuel::test::section_signal_test {
 namespace {
@@ -194,7 +195,7 @@ TEST(Buckling, OfAPushedBarIsThatOfItsInertia) {
       tangent +=
           tangent_of(*term, state, {.q = 1.0}, ConstraintLevel::position).block(first, first, n, n);
     }
-    state.q.segment(first, n) -= tangent.fullPivLu().solve(force);
+    state.q.segment(first, n) -= solve_dense(tangent, force);
     const double press = density * width * height * length * push;
     EXPECT_NEAR(buckling(model, state) *
                     euler_load(std::min(height, width), std::max(height, width)) / press,

@@ -2,11 +2,12 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include "core/response/stress_signal.hpp"
 #include "tests/support/dense.hpp"
+#include "tests/support/dense_algebra.hpp"
 #include "tests/support/sample_scenes.hpp"
 
 namespace pleuel::test::stress_test {
@@ -27,7 +28,7 @@ void find_rest(Model& model, State& state) {
       tangent +=
           tangent_of(*term, state, {.q = 1.0}, ConstraintLevel::position).block(first, first, n, n);
     }
-    state.q.segment(first, n) -= tangent.fullPivLu().solve(force);
+    state.q.segment(first, n) -= solve_dense(tangent, force);
   }
 }
 
