@@ -23,7 +23,8 @@ ProblemFile problem_of(const GradientCase& hard, const std::string& formulation)
 }
 
 /// Central differences of several steps and Richardson's extrapolation of two: the best of them is
-/// as good as the round-off and the truncation of differences allow.
+/// as good as the round-off and the truncation of differences allow. Those
+/// that are left when it is good enough are not taken.
 TEST_P(HardGradient, IsThatOfCentralDifferencesAtTheBestStep) {
   const auto& [formulation, hard] = GetParam();
   const ProblemFile problem = problem_of(hard, formulation);
@@ -39,11 +40,12 @@ TEST_P(HardGradient, IsThatOfCentralDifferencesAtTheBestStep) {
       best(i) = std::min(best(i), std::abs(differences(i) - direct(i)) / size);
     }
   };
-  for (const double step : {1e-2, 1e-3, 1e-4}) {
+  for (const double step : {1e-3, 1e-2, 1e-4}) {
     const Eigen::VectorXd wide = central_differences(problem, x, step) * x;
     const Eigen::VectorXd narrow = central_differences(problem, x, step / 2) * x;
     compare(narrow);
     compare((4 * narrow - wide) / 3);
+    if (best.maxCoeff() <= hard.tolerance) break;
   }
   for (Eigen::Index i = 0; i < direct.size(); ++i) {
     const std::string& name = problem.responses[i].name;

@@ -29,9 +29,9 @@ class GradientsOfAProblem : public testing::TestWithParam<Case> {
   Eigen::VectorXd x_;
 };
 
-/// V-curve of central differences and of their extrapolation: at the best step the error is ≤ 1e-7
-/// of the largest entry (per relative change of a variable) for peaks and ends, ≤ 1e-9 for mass and
-/// rms.
+/// V-curve of central differences and of their extrapolation: at the best step, or the first that is
+/// good enough, the error is ≤ 1e-7 of the largest entry (per relative change of a variable) for
+/// peaks and ends, ≤ 1e-9 for mass and rms.
 TEST_P(GradientsOfAProblem, AreThoseOfCentralDifferencesAtTheBestStep) {
   const auto analysis = analyze(problem_, x_);
   const Eigen::MatrixXd direct = direct_gradients(*analysis) * x_.asDiagonal();
@@ -39,6 +39,13 @@ TEST_P(GradientsOfAProblem, AreThoseOfCentralDifferencesAtTheBestStep) {
   // Positions hardly depend on the sections: what counts there is the round-off of the mechanism's
   // size (0.3 m) over the narrowest step.
   const double round_off = 1e-16 * 0.3 / 2.5e-5;
+  Eigen::VectorXd allowed(direct.rows());
+  for (Eigen::Index i = 0; i < direct.rows(); ++i) {
+    const auto& response = problem_.responses[i];
+    const bool is_smooth =
+        response.type == ResponseType::mass || response.over_time == OverTime::rms;
+    allowed(i) = is_smooth ? 1e-9 : 1e-7;
+  }
   const auto compare = [&](const Eigen::MatrixXd& differences) {
     for (Eigen::Index i = 0; i < direct.rows(); ++i) {
       const bool is_position = problem_.responses[i].type == ResponseType::position;
@@ -53,14 +60,13 @@ TEST_P(GradientsOfAProblem, AreThoseOfCentralDifferencesAtTheBestStep) {
     compare(wide);
     compare(narrow);
     compare((4 * narrow - wide) / 3);
+    if ((best.array() <= allowed.array()).all()) break;
   }
   for (Eigen::Index i = 0; i < direct.rows(); ++i) {
     const auto& response = problem_.responses[i];
     const auto& ties = analysis->reductions[i].ties;
     EXPECT_TRUE(ties.empty()) << response.name << ": no kink may be here";
-    const bool is_smooth =
-        response.type == ResponseType::mass || response.over_time == OverTime::rms;
-    EXPECT_LE(best(i), is_smooth ? 1e-9 : 1e-7) << response.name;
+    EXPECT_LE(best(i), allowed(i)) << response.name;
   }
 }
 

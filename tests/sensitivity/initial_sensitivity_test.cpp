@@ -1,5 +1,6 @@
 #include "sensitivity/initial_sensitivity.hpp"
 
+#include <algorithm>
 #include <array>
 #include <random>
 
@@ -8,6 +9,7 @@
 #include "core/base/rotation_vector.hpp"
 #include "core/integration/configuration.hpp"
 #include "tests/support/common_basis.hpp"
+#include "tests/support/dense_algebra.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_scenes.hpp"
 
@@ -58,8 +60,8 @@ class StartSensitivity : public testing::TestWithParam<StartCase> {
   }
 };
 
-/// At the best of three steps: accelerations of stiff bodies leave little room between truncation
-/// and round-off.
+/// At the best of three steps, or the first that is good enough: accelerations of stiff bodies leave
+/// little room between truncation and round-off.
 TEST_P(StartSensitivity, IsTheDifferenceOfStartsOfNeighbouringDesigns) {
   Model model = sample_.build();
   const auto size = model.mechanism.guess.q.size();
@@ -77,10 +79,9 @@ TEST_P(StartSensitivity, IsTheDifferenceOfStartsOfNeighbouringDesigns) {
       const Eigen::MatrixXd basis = change_of_basis(model, moved, j, step);
       loosen(moved, model.mechanism.scale, basis);
       State state = initial_state(moved.mechanism).state;
-      const auto back = basis.partialPivLu();
-      state.q = back.solve(state.q).eval();
-      state.v = back.solve(state.v).eval();
-      state.a = back.solve(state.a).eval();
+      state.q = solve_dense(basis, state.q);
+      state.v = solve_dense(basis, state.v);
+      state.a = solve_dense(basis, state.a);
       state.q = difference(model.mechanism.rotations, state.q, initial.state.q);
       return stacked(state);
     };
@@ -88,7 +89,8 @@ TEST_P(StartSensitivity, IsTheDifferenceOfStartsOfNeighbouringDesigns) {
     found << s.q.col(j), s.v.col(j), s.a.col(j), s.lambda.col(j);
     const std::array<Eigen::Index, 5> parts = {0, size, 2 * size, 3 * size, at.size()};
     std::array<double, 4> best = {1.0, 1.0, 1.0, 1.0};
-    for (double relative : {1e-2, 3e-3, 1e-3}) {
+    constexpr double tolerance = 1e-7;
+    for (double relative : {3e-3, 1e-2, 1e-3}) {
       const Eigen::VectorXd expected = derivative_at_zero(start_at, relative * std::abs(x));
       for (std::size_t i = 0; i < 4; ++i) {
         const auto part = [&](const Eigen::VectorXd& all) {
@@ -99,10 +101,11 @@ TEST_P(StartSensitivity, IsTheDifferenceOfStartsOfNeighbouringDesigns) {
         const double error = (part(found) - part(expected)).lpNorm<Eigen::Infinity>();
         best[i] = std::min(best[i], scale > 0.0 ? error / scale : error);
       }
+      if (*std::max_element(best.begin(), best.end()) <= tolerance) break;
     }
     for (std::size_t i = 0; i < 4; ++i) {
-      EXPECT_LE(best[i], 1e-7) << std::array{"q", "v", "a", "lambda"}[i] << ", variable "
-                               << sample_.variables[index];
+      EXPECT_LE(best[i], tolerance)
+          << std::array{"q", "v", "a", "lambda"}[i] << ", variable " << sample_.variables[index];
     }
   }
 }

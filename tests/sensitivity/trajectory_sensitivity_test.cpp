@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <array>
+#include <functional>
 #include <ostream>
 #include <tuple>
 
@@ -7,6 +9,7 @@
 #include "core/integration/configuration.hpp"
 #include "sensitivity/direct.hpp"
 #include "tests/support/common_basis.hpp"
+#include "tests/support/dense_algebra.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_scenes.hpp"
 
@@ -53,9 +56,9 @@ class DirectDifferentiation : public testing::TestWithParam<DirectCase> {
 class DifferentiatedConstraints : public DirectDifferentiation {};
 
 /// The whole state after ten steps, every variable, against simulating anew: central differences at
-/// the best step of a V-curve. Fast modes change their phase quickly with a design, and
-/// accelerations have the round-off of positions over h². Measured at worst 1e-9, 3e-7, 1e-6, 2e-6;
-/// times ten.
+/// the best step of a V-curve, or the first that is good enough. Fast modes change their phase
+/// quickly with a design, and accelerations have the round-off of positions over h². Measured at
+/// worst 1e-9, 3e-7, 1e-6, 2e-6; times ten.
 TEST_P(DirectDifferentiation, IsTheDifferenceOfNeighbouringTrajectories) {
   Model model = sample_.build();
   const Trajectory trajectory = simulate(model.mechanism, options_);
@@ -72,14 +75,17 @@ TEST_P(DirectDifferentiation, IsTheDifferenceOfNeighbouringTrajectories) {
     const std::array<Eigen::VectorXd, 4> found = {s.q.col(j), s.v.col(j), s.a.col(j),
                                                   s.lambda.col(j)};
     std::array<double, 4> best = {1.0, 1.0, 1.0, 1.0};
-    for (double relative : {1e-3, 1e-4, 1e-5}) {
+    const auto is_found = [&] {
+      return std::equal(best.begin(), best.end(), tolerance.begin(), std::less_equal<>());
+    };
+    for (double relative : {1e-4, 1e-5, 1e-3}) {
       const auto end_at = [&](double change) {
         auto design = sample_.design;
         design[index] += change;
         Model neighbour = sample_.build_at(design);
         auto end = end_of(simulate(neighbour.mechanism, options_));
-        const auto basis = change_of_basis(model, neighbour, j, change).partialPivLu();
-        for (std::size_t i = 0; i < 3; ++i) end[i] = basis.solve(end[i]).eval();
+        const Eigen::MatrixXd basis = change_of_basis(model, neighbour, j, change);
+        for (std::size_t i = 0; i < 3; ++i) end[i] = solve_dense(basis, end[i]);
         return end;
       };
       const double h = relative * std::abs(x);
@@ -95,6 +101,7 @@ TEST_P(DirectDifferentiation, IsTheDifferenceOfNeighbouringTrajectories) {
         const double error = (found[i] - expected).lpNorm<Eigen::Infinity>() / scale;
         best[i] = std::min(best[i], error);
       }
+      if (is_found()) break;
     }
     for (std::size_t i = 0; i < 4; ++i) {
       EXPECT_LE(best[i], tolerance[i])

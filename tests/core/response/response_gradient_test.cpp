@@ -55,27 +55,33 @@ double noise_of(ResponseType type) {
 }
 
 /// Direct differentiation against differences of fourth order of re-simulated designs, both as
-/// changes per relative change of a variable, at the better of two steps. 5e-6: measured 2.4e-6 of
-/// an acceleration, 1e-6 of all else.
+/// changes per relative change of a variable, at the better of two steps, the second of which is taken
+/// where the first is not good enough. 5e-6: measured 2.4e-6 of an acceleration, 1e-6 of all else.
 TEST_P(GradientsOfResponses, AreThoseOfDifferencesOfSimulations) {
   const Eigen::VectorXd x = start_design(problem_);
   const auto analysis = analyze(problem_, x);
   const Eigen::MatrixXd direct = direct_gradients(*analysis) * x.asDiagonal();
-  Eigen::VectorXd best = Eigen::VectorXd::Constant(direct.rows(), 1e300);
-  for (double step : {8e-3, 1e-3}) {
-    const Eigen::MatrixXd wide = central_differences(problem_, x, step) * x.asDiagonal();
-    const Eigen::MatrixXd narrow = central_differences(problem_, x, step / 2) * x.asDiagonal();
-    const Eigen::MatrixXd error = (4.0 * narrow - wide) / 3.0 - direct;
-    best = best.cwiseMin(error.cwiseAbs().rowwise().maxCoeff());
-  }
+  constexpr double any = 1e300;
+  Eigen::VectorXd allowed = Eigen::VectorXd::Constant(direct.rows(), any);
   for (Eigen::Index i = 0; i < direct.rows(); ++i) {
     const ResponseSettings& response = problem_.responses[i];
     const double value = std::abs(analysis->reductions[i].value);
     // The magnitude of what vanishes has a kink.
     if (response.direction == magnitude_direction && value < 1e-6) continue;
-    const double slope = direct.row(i).lpNorm<Eigen::Infinity>(), scale = slope + value;
+    const double slope = direct.row(i).lpNorm<Eigen::Infinity>();
     if (response.type == ResponseType::shear_stress && value < 1e-2 * slope) continue;
-    EXPECT_LE(best(i), 5e-6 * scale + noise_of(response.type)) << response.name << " of " << scale;
+    allowed(i) = 5e-6 * (slope + value) + noise_of(response.type);
+  }
+  Eigen::VectorXd best = Eigen::VectorXd::Constant(direct.rows(), any);
+  for (double step : {8e-3, 1e-3}) {
+    const Eigen::MatrixXd wide = central_differences(problem_, x, step) * x.asDiagonal();
+    const Eigen::MatrixXd narrow = central_differences(problem_, x, step / 2) * x.asDiagonal();
+    const Eigen::MatrixXd error = (4.0 * narrow - wide) / 3.0 - direct;
+    best = best.cwiseMin(error.cwiseAbs().rowwise().maxCoeff());
+    if ((best.array() <= allowed.array()).all()) break;
+  }
+  for (Eigen::Index i = 0; i < direct.rows(); ++i) {
+    EXPECT_LE(best(i), allowed(i)) << problem_.responses[i].name;
   }
 }
 
