@@ -22,6 +22,7 @@
 #include "core/trust/promised_buckling.hpp"
 #include "core/trust/proportions.hpp"
 #include "core/trust/resolution.hpp"
+#include "core/trust/section_axes.hpp"
 #include "core/trust/shear_range.hpp"
 #include "core/trust/sideways_buckling.hpp"
 #include "core/trust/sliding_contact.hpp"
@@ -97,6 +98,7 @@ Trust judge_run(const TrustedRun& run) {
            doubt_other_side,
            doubt_promised_buckling,
            doubt_proportions,
+           doubt_section_axes,
            doubt_shear_range,
            doubt_sliding_contacts,
            doubt_taut_members,

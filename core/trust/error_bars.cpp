@@ -108,13 +108,13 @@ ErrorPart step_by_finer(const Evidence& evidence, double fine, double middle, do
 }
 
 ErrorPart step_part(const Evidence& runs, std::optional<double>& order) {
+  if (is_there(runs.half_step) && is_there(runs.quarter_step)) {
+    return step_by_finer(runs, *runs.quarter_step, *runs.half_step, runs.value, order);
+  }
   if (!is_there(runs.twice_step)) return unresolved(unknown);
   const double twice = *runs.twice_step;
   if (is_there(runs.half_step)) {
-    const double half = *runs.half_step;
-    return is_there(runs.quarter_step)
-               ? step_by_finer(runs, *runs.quarter_step, half, runs.value, order)
-               : step_by_finer(runs, half, runs.value, twice, order);
+    return step_by_finer(runs, *runs.half_step, runs.value, twice, order);
   }
   if (!is_there(runs.four_steps)) {
     return unresolved(std::max(std::abs(runs.value - twice), runs.local));

@@ -205,19 +205,26 @@ class Judgement {
     });
   }
 
+  /// Those with larger steps: one step has none above it.
+  void set_coarse(JudgingRuns& runs) const {
+    const auto is_coarser = [](const NestedRun& one, const NestedRun& other) {
+      return one.has_failed() || one.time.size() < other.time.size();
+    };
+    if (is_coarser(coarse_, found_)) runs.twice_step = &coarse_;
+    if (is_coarser(coarsest_, coarse_)) runs.four_steps = &coarsest_;
+  }
+
   /// Where four times the step is far from any order, half of it has to tell.
   bool do_coarse_runs_suffice() const {
     JudgingRuns runs;
-    runs.twice_step = &coarse_;
-    runs.four_steps = &coarsest_;
+    set_coarse(runs);
     return suffice(runs);
   }
 
   void make_bars(Resolution& resolution) {
     JudgingRuns runs;
     if (needs_half_step_) runs.half_step = &half_step_;
-    runs.twice_step = &coarse_;
-    runs.four_steps = &coarsest_;
+    set_coarse(runs);
     if (quarter_step_ || (needs_half_step_ && !suffice(runs))) {
       runs.quarter_step = &quarter_step();
     }

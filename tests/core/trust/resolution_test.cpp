@@ -1,6 +1,7 @@
 #include "core/trust/resolution.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <variant>
 
 #include <fmt/format.h>
@@ -349,6 +350,30 @@ TEST(EnergyBalance, IsSeriousWhereSuddenLoadsLookSlow) {
   const std::vector<Doubt> coarse = doubts("1", "0.1");
   ASSERT_EQ(coarse.size(), 1U);
   EXPECT_TRUE(coarse[0].is_serious);
+}
+
+/// A mass on a spring, ω = 2π/s, starts at 1 m/s: x(t) = sin(ωt)/ω. No step is larger than one step, and
+/// smaller ones have to tell how far it is off.
+TEST(Resolution, OfASingleStepComesFromFinerOnes) {
+  const ProblemFile problem = read_problem_text(R"({"scene": {
+      "bodies": {"m": {"type": "point-mass", "at": [0, 0, 0], "mass": 1, "velocity": [1, 0, 0]}},
+      "joints": {"g": {"type": "point-on-line", "bodies": ["ground", "m"], "at": [0, 0, 0],
+                       "axis": [1, 0, 0]}},
+      "loads": {"s": {"type": "joint", "joint": "g", "stiffness": 39.47841760435743}}},
+    "simulation": {"end_time": 0.2, "step": 0.2},
+    "responses": {"x": {"type": "joint-position", "joint": "g", "over_time": "final"}}})",
+                                                "oscillator.json")
+                                  .complete();
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const Monitors monitors = monitor(analysis->model, analysis->trajectory);
+  const Resolution found = judge_resolution({problem, x, *analysis, monitors});
+  const double omega = 2 * std::numbers::pi;
+  const double off = std::abs(values_of(*analysis)(0) - std::sin(0.2 * omega) / omega);
+  EXPECT_GT(off, 0.008);
+  ASSERT_TRUE(found.bars[0]);
+  EXPECT_GE(found.bars[0]->bound(), off);
+  EXPECT_LE(found.bars[0]->bound(), 3 * off);
 }
 
 }  // namespace
