@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -17,6 +18,8 @@ namespace {
 
 /// Of the limit.
 constexpr double worth_a_word = 0.01, serious = 0.05;
+/// The same where a value changes to one side of a parameter only, at a kink.
+constexpr double notable_kink = 1e-3;
 
 /// A limit with a margin, and what of a parameter its first order misses most.
 struct Margin {
@@ -25,6 +28,7 @@ struct Margin {
   double value;
   double missed = 0.0;  ///< of the limit
   std::string parameter{};
+  std::string kink{};  ///< a parameter to one side of which alone the value changes
 
   double limit() const { return constraint->upper ? *constraint->upper : *constraint->lower; }
   double side() const { return constraint->upper ? 1.0 : -1.0; }
@@ -75,9 +79,14 @@ void look_beside(DesignProblem& design, const Eigen::VectorXd& x,
     below(parameter.variable) -= change;
     refuse_impossible(design, parameter, above);
     refuse_impossible(design, parameter, below);
-    const double mean =
-        0.5 * (design.value_at(above, margin.response) + design.value_at(below, margin.response));
+    const double value_above = design.value_at(above, margin.response),
+                 value_below = design.value_at(below, margin.response);
+    const double mean = 0.5 * (value_above + value_below);
     const double missed = margin.side() * (mean - margin.value) / std::abs(margin.limit());
+    const double seen = 0.5 * std::abs(value_above - value_below) / std::abs(margin.limit());
+    if (missed > notable_kink && missed > 0.7 * seen && missed < 1.4 * seen) {
+      margin.kink = name_of(design, parameter);
+    }
     if (!(missed > margin.missed)) continue;
     margin.missed = missed;
     margin.parameter = name_of(design, parameter);
@@ -106,6 +115,19 @@ std::vector<Doubt> doubt_margins(DesignProblem& design, const Eigen::VectorXd& x
     }
   }
   for (const Margin& margin : margins) {
+    if (!margin.kink.empty() && margin.limit() != 0.0) {
+      doubts.push_back(
+          {fmt::format(
+               "the margin of the limit \"{}\" is made from a mean of two slopes: \"{}\" "
+               "changes with \"{}\" to one side only, as where two frequencies or peaks "
+               "coincide, and there twice as much. See `pleuel uncertainty` with samples, or "
+               "ask for {:.3g} deviations.",
+               margin.constraint->name, margin.constraint->response, margin.kink,
+               std::numbers::sqrt2 * margin.constraint->deviations),
+           false,
+           {margin.constraint->response}});
+      continue;
+    }
     if (margin.missed <= worth_a_word || margin.limit() == 0.0) continue;
     doubts.push_back(
         {fmt::format(

@@ -4,6 +4,7 @@
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/design/design_solve.hpp"
+#include "optimization/design/margin_doubts.hpp"
 #include "studies/uncertainty.hpp"
 #include "tests/support/source_folder.hpp"
 
@@ -112,6 +113,41 @@ TEST(RobustConstraints, AreNotVerifiedWhereFirstOrderMissesThem) {
             std::string::npos)
       << far.message;
   EXPECT_EQ(result_of(4.0).status, Status::verified);
+}
+
+/// A square bar whose sides a + e₁ and a + e₂ scatter by 0.1 mm each: its first frequency is
+/// c (a + min e), 1.875²/(2π L²) √(E/12ρ) = c, and falls by c σ with either side. The gradient of two
+/// frequencies that coincide is that of their mean, which falls by c σ/√2: three deviations of this are
+/// 2.1 of the other. A bar that is 1 mm higher has no such frequencies.
+TEST(RobustConstraints, TellMarginsOfFrequenciesThatCoincide) {
+  const auto doubts_of = [](double higher) {
+    const ProblemFile problem =
+        read_problem_text(
+            fmt::format(R"j({{"scene": {{"bodies": {{"b": {{"type": "beam", "from": [0, 0, 0],
+                  "to": [0.5, 0, 0], "material": "steel", "elements": 4,
+                  "section": {{"type": "rectangle", "width": "= a + e1",
+                              "height": "= a + e2 + {} mm"}}}}}},
+                "joints": {{"w": {{"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}}}}}},
+              "simulation": {{"end_time": "10 ms", "step": "1 ms"}},
+              "variables": {{"a": {{"start": "18.2 mm", "lower": "5 mm", "upper": "60 mm"}},
+                            "e1": {{"start": "0 mm", "lower": "0 mm", "upper": "0 mm"}},
+                            "e2": {{"start": "0 mm", "lower": "0 mm", "upper": "0 mm"}}}},
+              "responses": {{"f": {{"type": "frequency"}}, "m": {{"type": "mass"}}}},
+              "objective": {{"minimize": "m"}},
+              "constraints": {{"high": {{"response": "f", "lower": "60 Hz", "deviations": 3}}}},
+              "uncertainty": {{"parameters": {{"e1": {{"deviation": "0.1 mm"}},
+                                             "e2": {{"deviation": "0.1 mm"}}}}}}}})j",
+                        higher),
+            "bar.json")
+            .complete();
+    DesignProblem design(problem);
+    return doubt_margins(design, start_design(problem));
+  };
+  const std::vector<Doubt> doubts = doubts_of(0.0);
+  ASSERT_EQ(doubts.size(), 1);
+  EXPECT_NE(doubts[0].text.find("to one side only"), std::string::npos) << doubts[0].text;
+  EXPECT_NE(doubts[0].text.find("ask for 4.24 deviations"), std::string::npos) << doubts[0].text;
+  EXPECT_TRUE(doubts_of(1.0).empty());
 }
 
 TEST(RobustConstraints, CostMassThatPlainLimitsDoNot) {
