@@ -6,43 +6,11 @@
 #include <fmt/format.h>
 
 #include "core/base/int_size.hpp"
-#include "core/integration/elastic_stability.hpp"
-#include "core/trust/unstable_members.hpp"
+#include "core/trust/load_factor.hpp"
 
 namespace pleuel {
 
 namespace {
-
-/// The model without weight and loads.
-Model unloaded_model(const TrustedRun& run, EffectChoice spatial_motion) {
-  Scene scene = run.problem.scene;
-  scene.gravity = {0.0, 0.0, 0.0};
-  scene.loads.clear();
-  EffectSettings effects = run.problem.effects;
-  effects.spatial_motion = spatial_motion;
-  const Eigen::VectorXd start = start_design(run.problem);
-  return build_model(scene, effects, {start.begin(), start.end()}, {run.x.begin(), run.x.end()});
-}
-
-/// In the coordinates of the run. What moves in space because of its loads may move in a plane without.
-std::optional<Model> unloaded_model(const TrustedRun& run) {
-  const int coordinates = run.analysis.model.mechanism.system->coordinates();
-  for (const EffectChoice choice : {run.problem.effects.spatial_motion, EffectChoice::on}) {
-    Model model = unloaded_model(run, choice);
-    if (model.mechanism.system->coordinates() == coordinates) return model;
-  }
-  return {};
-}
-
-/// The same position without deformation, motion and forces.
-State without_forces(const Mechanism& mechanism, const State& loaded) {
-  State state = loaded;
-  for (const int i : mechanism.elastic) state.q(i) = 0.0;
-  state.v.setZero();
-  state.a.setZero();
-  state.lambda.setZero();
-  return state;
-}
 
 /// When a history is largest, within the window of its response.
 int instant_of_peak(const TrustedRun& run, std::size_t response) {
@@ -72,17 +40,13 @@ double largest_allowed(const ProblemFile& problem, const std::string& response) 
 
 std::vector<Doubt> doubt_promised_buckling(const TrustedRun& run) {
   constexpr double notable = 1.1;
-  const Mechanism& mechanism = run.analysis.model.mechanism;
   const auto& responses = run.problem.responses;
   const bool is_asked = std::any_of(responses.begin(), responses.end(), [](const auto& response) {
     return response.type == ResponseType::buckling;
   });
-  if (!is_asked || !mechanism.springs.empty() ||
-      mechanism.system->coordinates() > most_judged_coordinates) {
-    return {};
-  }
-  const std::optional<Model> free = unloaded_model(run);
-  if (!free) return {};
+  if (!is_asked) return {};
+  const LoadFactor load_factor(run.problem, run.x, run.analysis);
+  if (!load_factor.is_known()) return {};
   std::vector<Doubt> doubts;
   for (std::size_t i = 0; i < responses.size(); ++i) {
     const ResponseSettings& response = responses[i];
@@ -90,11 +54,7 @@ std::vector<Doubt> doubt_promised_buckling(const TrustedRun& run) {
     const int peak = instant_of_peak(run, i);
     if (peak < 0) continue;
     const double promised = run.analysis.histories[i](0, peak);
-    State loaded;
-    run.analysis.trajectory.states->load(peak, loaded);
-    const State unloaded = without_forces(mechanism, loaded);
-    const double factor =
-        buckling_load_factor({free->mechanism, unloaded}, {mechanism, loaded}, 1.0);
+    const double factor = load_factor.at(peak);
     const double allowed = largest_allowed(run.problem, response.name);
     if (!(factor > 0.0) || 1.0 / factor < std::max(allowed, notable * promised)) continue;
     doubts.push_back(

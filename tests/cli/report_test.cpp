@@ -318,7 +318,9 @@ TEST_F(OptimizationReport, OfADamagedResultIsRefused) {
 
 TEST_F(OptimizationReport, OfADamagedTrajectorySaysWhatIsMissing) {
   const std::string whole = read_file(folder() / "one/trajectory-optimum.csv");
-  const ProgramRun torn = report_with(folder(), "trajectory-optimum.csv", whole.substr(0, 3000));
+  const std::size_t within_a_line = whole.find('\n', 3000) + 10;
+  const ProgramRun torn =
+      report_with(folder(), "trajectory-optimum.csv", whole.substr(0, within_a_line));
   EXPECT_EQ(torn.exit_code, 0) << torn.err;
   EXPECT_THAT(unwrapped(torn.out), HasSubstr("Note: histories have no error bands: "
                                              "copy/trajectory-optimum.csv: is damaged: line "));
