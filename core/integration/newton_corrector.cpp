@@ -11,9 +11,6 @@ namespace {
 constexpr double slow_rate = 0.1;
 /// Scaled corrections below this that no longer shrink are round-off.
 constexpr double round_off = 1e-9;
-/// Errors that are foreseen are those of the coordinates, from other steps or other iterations; stiff
-/// members make more of them in the forces of joints, and many steps add them up.
-constexpr double safety_of_first = 100.0, safety_of_others = 10.0;
 
 }  // namespace
 
@@ -45,9 +42,9 @@ std::optional<StepFailure> NewtonCorrector::correct(StepEquations& equations, St
     equations.apply(correction_, state);
     const double size = size_of_correction(state);
     if (!std::isfinite(size)) return StepFailure{"the solution is not finite", iteration};
-    double error = std::min(size, safety_of_first * experience_.curvature * size * size);
+    double error = std::min(size, experience_.curvature * size * size);
     if (iteration > 1) {
-      error = size * std::min(1.0, safety_of_others * size / previous);
+      error = size * std::min(1.0, size / previous);
       if (iteration == 2) record_curvature(size / (previous * previous));
     } else if (trust == Trust::none) {
       error = size;  // go on, to see the curvature

@@ -98,9 +98,7 @@ std::vector<LinearSolver*> TimeLoop::solvers() {
 TimeLoop::Checkpoint TimeLoop::checkpoint(int unit) {
   const std::vector<LinearSolver*> all = solvers();
   pivot_records_.resize(all.size());
-  Checkpoint checkpoint{
-      instant(),        unit, state_, corrector_.experience(), predictor_.experience(),
-      control_.level(), {}};
+  Checkpoint checkpoint{instant(), unit, state_, corrector_.experience(), control_.level(), {}};
   for (std::size_t i = 0; i < all.size(); ++i) {
     checkpoint.pivots.push_back(pivot_records_[i].of(*all[i]));
   }
@@ -110,7 +108,6 @@ TimeLoop::Checkpoint TimeLoop::checkpoint(int unit) {
 void TimeLoop::restore(const Checkpoint& checkpoint) {
   state_ = checkpoint.state;
   corrector_.set_experience(checkpoint.experience);
-  predictor_.set_experience(checkpoint.prediction);
   control_.set_level(checkpoint.level);
   const std::vector<LinearSolver*> all = solvers();
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -200,7 +197,6 @@ void TimeLoop::correct_start() {
 
 void TimeLoop::accept() {
   check_drift();
-  predictor_.record(old_, state_);
   store();
 }
 
