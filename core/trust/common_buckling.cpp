@@ -70,10 +70,7 @@ std::vector<Doubt> doubt_common_buckling(const TrustedRun& run,
     const std::unique_ptr<Analysis> analysis = analyze(space, run.x);
     const auto found = find_instability(
         space.scene, *analysis, [&](double time) { return unstable_in_plane(run.analysis, time); });
-    if (!found) {
-      const auto near = doubt_near_instability(space, run.x, *analysis);
-      return near ? std::vector<Doubt>{*near} : std::vector<Doubt>{};
-    }
+    if (!found) return {};
     return {found->is_new ? out_of_plane(found->text) : in_plane(found->text)};
   } catch (const UnstableEquilibrium& error) {
     return {out_of_plane(fmt::format("In space {}", error.what()))};

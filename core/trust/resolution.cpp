@@ -240,7 +240,10 @@ class Judgement {
     if (has_modes_of_more_elements_) runs.modes = {&modes_of_more_elements_, &other_elements_};
     if (are_modes_suspicious_) runs.modes = {&more_modes_, &found_};
     if (has_tolerance_) runs.newton = {&other_newton_, &coarsest_};
-    resolution.bands = error_bands(run_.analysis, runs, order());
+    JudgingRuns of_bands = runs;  // histories of one step have bands, too
+    of_bands.twice_step = &coarse_;
+    of_bands.four_steps = &coarsest_;
+    resolution.bands = error_bands(run_.analysis, of_bands, order());
     resolution.bars.resize(run_.analysis.responses.size());
     resolution.evidence.resize(run_.analysis.responses.size());
     for (const std::size_t i : judged_) {

@@ -13,7 +13,6 @@
 #include "core/integration/equilibrium.hpp"
 #include "core/integration/turning.hpp"
 #include "core/response/lateral_buckling_signal.hpp"
-#include "core/trust/load_factor.hpp"
 
 namespace pleuel {
 
@@ -200,32 +199,6 @@ std::optional<Instability> find_instability(const Scene& scene, const Analysis& 
   return found;
 }
 
-std::optional<Doubt> doubt_near_instability(const ProblemFile& problem, const Eigen::VectorXd& x,
-                                            const Analysis& analysis) {
-  constexpr double near = 0.75;  // of the loads
-  const PressedBeams beams = pressed_beams(problem.scene, analysis);
-  if (!beams.has_stiffening() || beams.instants().empty()) return {};
-  const LoadFactor load_factor(problem, x, analysis);
-  if (!load_factor.is_known()) return {};
-  double share = near, time = 0.0;
-  State state;
-  for (const int i : beams.instants()) {
-    analysis.trajectory.states->load(i, state);
-    if (is_rotor(analysis.model.mechanism, state)) continue;  // its own forces may hold it
-    const double here = 1.0 / load_factor.at(i);
-    if (!(here > share)) continue;
-    share = here;
-    time = analysis.trajectory.time(i);
-  }
-  if (share == near) return {};
-  return Doubt{
-      fmt::format("At t = {:.4g} s the mechanism is near buckling: it would buckle at some "
-                  "{:.3g} times its loads, and what is not quite straight bends far more "
-                  "than a straight member does.",
-                  time, 1.0 / share),
-      false};
-}
-
 std::vector<Doubt> doubt_unstable_members(const TrustedRun& run) {
   const Model& model = run.analysis.model;
   const bool is_too_large = model.mechanism.system->coordinates() > most_judged_coordinates;
@@ -236,9 +209,8 @@ std::vector<Doubt> doubt_unstable_members(const TrustedRun& run) {
     return {not_judged(fmt::format("it has more than {} coordinates.", most_judged_coordinates))};
   }
   const auto found = find_instability(run.problem.scene, run.analysis);
-  if (found) return {{found->text + unseen, true}};
-  const auto near = doubt_near_instability(run.problem, run.x, run.analysis);
-  return near ? std::vector<Doubt>{*near} : std::vector<Doubt>{};
+  if (!found) return {};
+  return {{found->text + unseen, true}};
 }
 
 }  // namespace pleuel

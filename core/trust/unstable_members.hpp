@@ -13,13 +13,12 @@ namespace pleuel {
 /// A mechanism of more coordinates is not judged: its stiffness would have to be a dense matrix.
 constexpr int most_judged_coordinates = 600;
 
-/// Straight members in space, or in a plane on springs, that buckle without a trace in the motion: the
-/// stiffness of the whole mechanism with its loads, rigid parts and inertia forces
-/// (elastic_stability.hpp), at the instants at which beams are pressed most, each of them and all
-/// together, and where all that turns does so alike, as shafts with disks, when that is fastest.
-/// Serious; from three quarters of the loads on mentioned. Where geometric stiffening is off, the
-/// mechanism is simulated once more with it. Without springs nothing is looked for below a twentieth
-/// of the Euler load of a column as long as all beams together; mechanisms of more than
+/// Straight members in space, or in a plane on springs, that buckle without a trace in the motion: the stiffness of the whole
+/// mechanism with its loads, rigid parts and inertia forces (elastic_stability.hpp), at the
+/// instants at which beams are pressed most, each of them and all together, and where all that turns
+/// does so alike, as shafts with disks, when that is fastest. Serious. Where geometric stiffening is
+/// off, the mechanism is simulated once more with it. Without springs nothing is looked for below
+/// a twentieth of the Euler load of a column as long as all beams together; mechanisms of more than
 /// most_judged_coordinates are told of.
 std::vector<Doubt> doubt_unstable_members(const TrustedRun& run);
 
@@ -34,10 +33,5 @@ struct Instability {
 ///               may be empty: none
 std::optional<Instability> find_instability(const Scene& scene, const Analysis& analysis,
                                             const std::function<int(double)>& known = {});
-
-/// A mechanism that is stable, but buckles by less than a third more than its loads.
-/// @param analysis  of the problem at the design x
-std::optional<Doubt> doubt_near_instability(const ProblemFile& problem, const Eigen::VectorXd& x,
-                                            const Analysis& analysis);
 
 }  // namespace pleuel
