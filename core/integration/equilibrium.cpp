@@ -33,8 +33,8 @@ constexpr double balance_round_off = 1e-12;
 constexpr double smallest_part = 1.0 / 1024;
 /// Where members turn far there are other equilibria, to which loads that grow slowly do not lead.
 constexpr double slow_part = 1.0 / 32;
-constexpr double far_deformed =
-    500.0;  ///< of the scale of elastic coordinates: half of a length, or rad
+/// That is half of a length, or of a radian; the scale of elastic coordinates is a thousandth.
+constexpr double far_deformed = 500.0;  ///< of the scale
 /// The share of the loads from which their effect on the stiffness is taken.
 constexpr double small_load = 1e-3;
 /// Rows of Φ_q of the frames that depend on the others by less than this are closed by deformation.

@@ -15,7 +15,7 @@ namespace pleuel {
 
 namespace {
 
-/// Relative change of a frequency by the stress of the start that is worth a word.
+/// Relative change of a frequency that is worth a word.
 constexpr double small_shift = 1e-2;
 
 std::vector<const Response*> frequencies_of_mechanism(const TrustedRun& run) {
@@ -30,6 +30,26 @@ std::vector<std::string> names_of(const std::vector<const Response*>& responses)
   std::vector<std::string> names;
   for (const Response* response : responses) names.push_back(response->name);
   return names;
+}
+
+/// A frequency that is another one by more than is worth a word, as it may be looked at otherwise.
+struct Shift {
+  const Response* response;
+  double shown, other;  ///< [rad/s]
+};
+
+/// @param others  frequencies of the mechanism, one a mode
+std::vector<Shift> shifts(const TrustedRun& run, const std::vector<const Response*>& responses,
+                          const Eigen::VectorXd& others) {
+  std::vector<Shift> found;
+  for (const Response* response : responses) {
+    const int mode = response->frequency()->mode;
+    if (mode >= others.size()) continue;
+    const double shown = run.analysis.mechanism_frequencies(mode);
+    if (std::abs(others(mode) - shown) <= small_shift * std::abs(shown)) continue;
+    found.push_back({response, shown, others(mode)});
+  }
+  return found;
 }
 
 void add_unstable(const TrustedRun& run, const std::vector<const Response*>& responses,
@@ -73,17 +93,12 @@ void add_missing_stress(const TrustedRun& run, const std::vector<const Response*
                       false, names_of(responses)});
     return;
   }
-  for (const Response* response : responses) {
-    const int mode = response->frequency()->mode;
-    if (mode >= stressed.size()) continue;
-    const double shown = run.analysis.mechanism_frequencies(mode);
-    const double change = std::abs(stressed(mode) - shown);
-    if (change <= small_shift * std::abs(shown)) continue;
+  for (const auto& [response, shown, other] : shifts(run, responses, stressed)) {
     doubts.push_back(
         {fmt::format("the frequency \"{}\" is {:.5g} rad/s for members that start undeformed; the "
                      "stress of the motion and the loads at t = 0 is missing in it, with which it "
                      "is {:.5g} rad/s: /simulation/initial_state \"quasi-static\" has it.",
-                     response->name, shown, stressed(mode)),
+                     response->name, shown, other),
          false,
          {response->name}});
   }
@@ -129,18 +144,13 @@ void add_frames(const TrustedRun& run, const std::vector<const Response*>& respo
   } catch (const InputError&) {  // reduced to modes that the frame has to suit
     return;
   }
-  for (const Response* response : responses) {
-    const int mode = response->frequency()->mode;
-    if (mode >= found.size()) continue;
-    const double shown = run.analysis.mechanism_frequencies(mode);
-    const double change = std::abs(found(mode) - shown);
-    if (change <= small_shift * std::abs(shown)) continue;
+  for (const auto& [response, shown, other] : shifts(run, responses, found)) {
     doubts.push_back(
         {fmt::format("the frequency \"{}\" is {:.5g} rad/s with the body frames as they are, and "
                      "{:.5g} rad/s with \"mean-axis\" ones (\"chord\" in place of those): "
                      "members are bent or twisted so much at the start that what it does to their "
                      "stiffness is not resolved. Divide them: \"frames\".",
-                     response->name, shown, found(mode)),
+                     response->name, shown, other),
          true,
          {response->name}});
   }
@@ -172,18 +182,13 @@ void add_turning(const TrustedRun& run, const std::vector<const Response*>& resp
   const State state = state_of_modes(analysis);
   if (!analysis.modes_left_out.empty() || state.v.isZero(0.0)) return;
   const Eigen::VectorXd turning = frequencies_in_turning_axes(model_of_modes(analysis), state);
-  for (const Response* response : responses) {
-    const int mode = response->frequency()->mode;
-    if (mode >= turning.size()) continue;
-    const double shown = analysis.mechanism_frequencies(mode);
-    const double change = std::abs(turning(mode) - shown);
-    if (change <= small_shift * std::abs(shown)) continue;
+  for (const auto& [response, shown, other] : shifts(run, responses, turning)) {
     doubts.push_back(
         {fmt::format("the frequency \"{}\" is not high against the speed at which the mechanism "
                      "moves at t = 0: it is {:.5g} rad/s in axes that stand still, and {:.5g} "
                      "rad/s in axes that turn with the bodies, which is right where all turn "
                      "alike. Do not rely on it.",
-                     response->name, shown, turning(mode)),
+                     response->name, shown, other),
          true,
          {response->name}});
   }
