@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include "core/base/int_size.hpp"
 #include "core/base/rotation_vector.hpp"
 #include "core/beam/beam_shape.hpp"
 #include "core/trust/beam_state.hpp"
@@ -30,8 +32,15 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Pieces of an element that are integrated as one.
-constexpr int pieces = 4;
+/// What is integrated as one piece: so many of them an element, and a beam. With n in a beam its
+/// shortening by bending is 1/(4n²) off.
+constexpr int least_of_element = 4, least_of_beam = 48;
+
+int pieces_of_element(const BodyModel& body) {
+  const int elements = int_size(body.beam.elements);
+  return std::max(least_of_element, (least_of_beam + elements - 1) / elements);
+}
+
 /// Rotations, and displacements over the length, that say nothing.
 constexpr double shape_round_off = 1e-9;
 
@@ -57,7 +66,7 @@ struct Shape {
 class ExactBeam {
  public:
   ExactBeam(const BodyModel& body, const Eigen::MatrixXd& nodal)
-      : body_(body), in_frame_(nodal), nodal_(nodal) {
+      : body_(body), in_frame_(nodal), nodal_(nodal), pieces_an_element_(pieces_of_element(body)) {
     if (body.condition == ReferenceCondition::mean_axis) lay_on_chord(nodal_);
     for (int e = 0; e + 1 < nodal.cols(); ++e) add_element(e);
   }
@@ -85,7 +94,7 @@ class ExactBeam {
     const auto& section = element.section;
     const double length = element.length;
     Piece piece;
-    piece.length = length / pieces;
+    piece.length = length / pieces_an_element_;
     piece.stiffness << element.shear * section.torsion, element.young * section.inertia_y,
         element.young * section.inertia_z;
     const bool stretches = has_coordinate(0);
@@ -98,8 +107,8 @@ class ExactBeam {
     const auto rates = rates_of_curvature(q, form);
     piece.linear_rate =
         Vector3d(0.0, -piece.stiffness(1) * rates[0], -piece.stiffness(2) * rates[1]);
-    for (int i = 0; i < pieces; ++i) {
-      const double xi = (i + 0.5) / pieces;
+    for (int i = 0; i < pieces_an_element_; ++i) {
+      const double xi = (i + 0.5) / pieces_an_element_;
       const double slope_y = deflection_y_row(xi, form, 1).dot(q);
       const double slope_z = deflection_z_row(xi, form, 1).dot(q);
       piece.curvature << (q(9) - q(3)) / length, -deflection_z_row(xi, form, 2).dot(q),
@@ -169,6 +178,7 @@ class ExactBeam {
       changes.push_back(sum + half);
       sum += 2.0 * half;
     }
+    const Vector3d relief = relief_by_tension();
     double x = 0.0;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       Piece& piece = pieces_[i];
@@ -181,7 +191,7 @@ class ExactBeam {
       }
       x += 0.5 * piece.length;
       const Vector3d before = piece.stiffness.cwiseProduct(piece.curvature);
-      const Vector3d local = rotations[i].transpose() * (before + moment);
+      const Vector3d local = rotations[i].transpose() * (before + relief.cwiseProduct(moment));
       for (int k = 0; k < 3; ++k) {
         if (!has_coordinate(3 + k)) continue;
         piece.curvature(k) += (local(k) - before(k)) / piece.stiffness(k);
@@ -191,6 +201,27 @@ class ExactBeam {
       const double force = rotations[i].col(0).dot(piece.load);
       piece.strain += (force - piece.axial * piece.strain) / piece.axial;
     }
+  }
+
+  /// What a beam takes of moments, as curvature, where the rest is taken by its tension: that which
+  /// a half sine against the chord (a quarter against a tangent) makes of it,  1/(1 + N/P),
+  /// P = π² EI/L² (a quarter of it). Of a taut one that bends little it is next to nothing.
+  Vector3d relief_by_tension() const {
+    const double waves = is_chord() ? 1.0 : 0.5;
+    double work = 0.0;  // N L
+    Vector3d flexibility = Vector3d::Zero();
+    for (const Piece& piece : pieces_) {
+      work += piece.length * piece.axial * piece.strain;
+      flexibility += piece.length * piece.stiffness.cwiseInverse();
+    }
+    const double tension = std::max(0.0, work / length());
+    Vector3d relief = Vector3d::Ones();
+    if (!body_.has_stiffening) return relief;
+    for (int k : {1, 2}) {
+      const double buckling = std::pow(waves * std::numbers::pi, 2) / (flexibility(k) * length());
+      relief(k) = 1.0 / (1.0 + tension / buckling);
+    }
+    return relief;
   }
 
   /// Whether the model has a nodal displacement (0 … 5) at all.
@@ -217,7 +248,7 @@ class ExactBeam {
     double sideways = 0.0, sideways_error = 0.0, along_error = 0.0, turned = 0.0,
            turned_error = 0.0, x = 0.0;
     for (Eigen::Index node = 0; node <= last; ++node) {
-      const std::size_t i = pieces * node;
+      const std::size_t i = pieces_an_element_ * node;
       const Vector3d displacement = exact.position[i] - x * Vector3d::UnitX();
       const Vector3d change = displacement - nodal_.col(node).head<3>();
       // Twist displaces the edges of the sections.
@@ -278,6 +309,7 @@ class ExactBeam {
   const BodyModel& body_;
   const Eigen::MatrixXd& in_frame_;
   Eigen::MatrixXd nodal_;  ///< against the tangent or chord that shapes are aligned to
+  int pieces_an_element_;
   std::vector<Piece> pieces_;
 };
 

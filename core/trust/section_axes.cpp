@@ -13,6 +13,8 @@ namespace {
 
 /// Closer to z than this, small changes of the design turn the section far [rad].
 constexpr double close = 0.02;
+/// Moments of inertia that differ by less are the same.
+constexpr double same_inertia = 1e-9;
 
 Eigen::Vector3d direction_of(const BeamBody& beam, const Design<double>& design) {
   Eigen::Vector3d direction;
@@ -37,10 +39,9 @@ const DesignVariable* turning_variable(const TrustedRun& run, const BeamBody& be
 }
 
 bool bends_alike(const BodyModel& body) {
-  constexpr double same = 1e-9;
   return std::all_of(body.beam.elements.begin(), body.beam.elements.end(), [](const auto& element) {
     const auto& section = element.section;
-    return std::abs(section.inertia_y - section.inertia_z) <= same * section.inertia_y;
+    return std::abs(section.inertia_y - section.inertia_z) <= same_inertia * section.inertia_y;
   });
 }
 

@@ -96,6 +96,31 @@ TEST(GeometricError, IsOfTheSameSizeInSpaceAndWithModes) {
   EXPECT_NEAR(BentBeam(oblique).error().deflection, alone, 0.02 * alone);
 }
 
+/// A beam that its tension holds, N L²/EI = 20 and 100: what many frames change, where an estimate
+/// without the tension is some ten times too large.
+TEST(GeometricError, OfATautBeamIsThatAgainstManyFrames) {
+  for (const double tension : {20.0, 100.0}) {
+    for (const double slope : {0.1, 0.2, 0.3}) {
+      BentCantilever cantilever;
+      cantilever.force_x = tension * BentCantilever::bending_stiffness;
+      cantilever.force_y = slope * cantilever.force_x;
+      cantilever.elements = 32;
+      const BentBeam run(cantilever);
+      cantilever.frames = 8;
+      const BentBeam divided(cantilever);
+      const auto change = [&](const char* response) {
+        return relative(run.value(response), divided.value(response));
+      };
+      const double shortening = relative(1.0 - run.value("x"), 1.0 - divided.value("x"));
+      const double expected = std::max({change("y"), change("root"), shortening});
+      GeometricError error = run.error();
+      error.strain = 0.0;
+      EXPECT_LT(std::abs(std::log(error.largest() / expected)), std::log(1.6))
+          << tension << " " << slope;
+    }
+  }
+}
+
 /// A beam as soft in shear as in bending, 3EI/(κGAL²) = 1: the estimate is what a division into 16
 /// frames changes, and no shear is taken for an error.
 TEST(GeometricError, OfABeamThatShearsIsThatAgainstManyFrames) {
@@ -149,6 +174,20 @@ TEST(BendingRange, NamesFramesThatCure) {
     const BentBeam cured(cantilever);
     EXPECT_LE(relative(cured.value("y"), exact.deflection), 0.01) << exact.load;
     EXPECT_TRUE(cured.doubts().empty()) << exact.load;
+  }
+}
+
+/// One element a frame: the elastica's deflection and shortening are met, and nothing is said. What
+/// the quadrature of an element's shortening leaves is no error of the frames.
+TEST(BendingRange, IsNotLeftByElementsWithFramesOfTheirOwn) {
+  for (const int frames : {6, 12}) {
+    BentCantilever cantilever = pushed(1.0);
+    cantilever.frames = cantilever.elements = frames;
+    const BentBeam run(cantilever);
+    const ElasticaTip& exact = elastica_tips[2];
+    EXPECT_LT(relative(run.value("y"), exact.deflection), 1e-3) << frames;
+    EXPECT_LT(relative(1.0 - run.value("x"), exact.shortening), 2e-3) << frames;
+    EXPECT_TRUE(run.doubts().empty()) << run.doubts().front().text;
   }
 }
 
