@@ -4,10 +4,12 @@
 
 using namespace sample_parts;
 
-std::vector<SampleScene> all_samples() {
-  return {planar_sample(),           planar_sample_in_space(),  spatial_sample(),
-          spatial_joints_sample(),   planar_joints_sample(),    reduced_sample(),
-          reduced_sample_in_space(), sheared_sample_in_space(), sheared_reduced_sample()};
+const std::vector<SampleScene>& all_samples() {
+  static const std::vector<SampleScene> samples = {
+      planar_sample(),           planar_sample_in_space(),  spatial_sample(),
+      spatial_joints_sample(),   planar_joints_sample(),    reduced_sample(),
+      reduced_sample_in_space(), sheared_sample_in_space(), sheared_reduced_sample()};
+  return samples;
 }
 
 Scene swinging_beam(double length, const Section& section, int elements) {

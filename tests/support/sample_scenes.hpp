@@ -67,7 +67,8 @@ SampleScene reduced_sample_in_space();
 SampleScene sheared_sample_in_space();
 SampleScene sheared_reduced_sample();
 
-std::vector<SampleScene> all_samples();
+/// Made once: every test of a suite is named after one.
+const std::vector<SampleScene>& all_samples();
 /// How many there are, for instantiating test suites.
 inline constexpr int sample_count = 9;
 
