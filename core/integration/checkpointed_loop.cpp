@@ -79,7 +79,8 @@ class CheckpointedLoop : public RecomputedStates {
     return fmt::format(
         "/sensitivity/memory is too little: {:.3g} MB do not hold the checkpoints of {} steps; at "
         "least {:.3g} MB do",
-        plan_.memory * 1e-6, states - 1, rounded_up * plan_.least_memory(capacity) * 1e-6);
+        plan_.memory * 1e-6, states - 1,
+        rounded_up * std::max(plan_.least_memory(capacity), 2.0 * plan_.memory) * 1e-6);
   }
 
   /// Simulates the stretch of a step again if it is not at hand.

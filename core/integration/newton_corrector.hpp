@@ -31,6 +31,8 @@ class NewtonCorrector {
   /// Of the equations, at the beginning of the last iteration.
   const Eigen::VectorXd& residual() const { return residual_; }
   int iterations() const { return iterations_; }
+  /// Of the last step.
+  int iterations_of_step() const { return iterations_of_step_; }
   int factorizations() const { return solver_.factorizations(); }
   /// The worst of the step matrices, scaled: see LinearSolver.
   double worst_condition() const { return worst_condition_; }
@@ -62,7 +64,7 @@ class NewtonCorrector {
   LinearSolver solver_;
   Eigen::VectorXd correction_, residual_;
   Experience experience_;
-  int iterations_ = 0;
+  int iterations_ = 0, iterations_of_step_ = 0;
   double worst_condition_ = 0.0;
 };
 

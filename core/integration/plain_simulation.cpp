@@ -13,8 +13,9 @@ CheckpointPlan make_plan(const Mechanism& mechanism, const SimulationOptions& op
   const bool is_stabilized = options.formulation.constraints == ConstraintForm::stabilized_index_2;
   const double extra = is_stabilized ? m : options.formulation.is_projected ? 2 * n : 0;
   const double state = 3 * n + m + extra;
-  return {sizeof(double) * state, sizeof(double) * (state + (is_stabilized ? 3 : 2) * n),
-          options.memory};
+  // Besides the state: w, the increment, the shift, and how a and λ changed last.
+  const double more = (is_stabilized ? 4 : 3) * n + m;
+  return {sizeof(double) * state, sizeof(double) * (state + more), options.memory};
 }
 
 /// All states, or nothing if they turn out not to fit into the memory.

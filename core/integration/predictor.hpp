@@ -5,7 +5,9 @@
 namespace pleuel {
 
 /// The state that Newton's method begins a step with: y⁺ = history · y (for q as q ⊕ increment),
-/// then the correction that keeps the acceleration.
+/// then the correction that leads to the acceleration expected. a and λ are expected on a straight
+/// line through the last two states. Coordinates in which the equations are linear may ring or
+/// jump: they are right after one iteration wherever it begins.
 class Predictor {
  public:
   explicit Predictor(const StepEquations& equations) : correction_(equations.size()) {}
@@ -13,22 +15,26 @@ class Predictor {
   /// @param time       the end of the step [s]
   /// @param equations  those of the step
   void predict(const StepState& old, double time, const Scheme& scheme,
-               const StepEquations& equations, StepState& state) {
-    const Eigen::Matrix4d& h = scheme.history;
-    state.increment = h(0, 1) * old.v + h(0, 2) * old.a + h(0, 3) * old.w;
-    state.v = h(1, 0) * old.q + h(1, 1) * old.v + h(1, 2) * old.a + h(1, 3) * old.w;
-    state.a = h(2, 0) * old.q + h(2, 1) * old.v + h(2, 2) * old.a + h(2, 3) * old.w;
-    state.w = h(3, 0) * old.q + h(3, 1) * old.v + h(3, 2) * old.a + h(3, 3) * old.w;
-    state.shift.setZero();
-    state.eta.setZero();
-    correction_.setZero();
-    correction_.head(old.q.size()) = (old.a - state.a) / scheme.correction(2);
-    equations.apply(correction_, state);
-    state.time = time;
-  }
+               const StepEquations& equations, StepState& state);
+
+  /// Takes note of a step that was accepted.
+  void record(const StepState& old, const StepState& state);
+  bool looks_ahead() const { return experience_.step > 0.0; }
+  /// Expects the accelerations that are, until a step is recorded.
+  void forget() { experience_.step = 0.0; }
+
+  /// How the last step went.
+  struct Experience {
+    double step = 0.0;                 ///< its size [s]; 0: there is none
+    Eigen::VectorXd change_of_a;       ///< from its start to its end (n)
+    Eigen::VectorXd change_of_lambda;  ///< (m)
+  };
+  const Experience& experience() const { return experience_; }
+  void set_experience(const Experience& experience) { experience_ = experience; }
 
  private:
-  Eigen::VectorXd correction_;
+  Experience experience_;
+  Eigen::VectorXd correction_;  ///< scratch
 };
 
 }  // namespace pleuel

@@ -15,6 +15,9 @@ constexpr double most_drift = 1e-2;
 /// A step is halved so often at most.
 constexpr int max_splits = 6;
 
+/// Motions that take more iterations of a step turn so far in it that a straight line leads astray.
+constexpr int most_of_a_resolved_step = 2;
+
 /// Every so many steps Newton's method makes a second iteration, to see how fast it converges.
 constexpr int curvature_interval = 16;
 
@@ -98,7 +101,9 @@ std::vector<LinearSolver*> TimeLoop::solvers() {
 TimeLoop::Checkpoint TimeLoop::checkpoint(int unit) {
   const std::vector<LinearSolver*> all = solvers();
   pivot_records_.resize(all.size());
-  Checkpoint checkpoint{instant(), unit, state_, corrector_.experience(), control_.level(), {}};
+  Checkpoint checkpoint{
+      instant(),        unit, state_, corrector_.experience(), predictor_.experience(),
+      control_.level(), {}};
   for (std::size_t i = 0; i < all.size(); ++i) {
     checkpoint.pivots.push_back(pivot_records_[i].of(*all[i]));
   }
@@ -108,6 +113,7 @@ TimeLoop::Checkpoint TimeLoop::checkpoint(int unit) {
 void TimeLoop::restore(const Checkpoint& checkpoint) {
   state_ = checkpoint.state;
   corrector_.set_experience(checkpoint.experience);
+  predictor_.set_experience(checkpoint.prediction);
   control_.set_level(checkpoint.level);
   const std::vector<LinearSolver*> all = solvers();
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -166,7 +172,14 @@ std::optional<StepFailure> TimeLoop::make_step(double time, NewtonCorrector::Tru
   equations_.begin(old_);
   predictor_.predict(old_, time, scheme_, equations_, state_);
   if (step_ <= 2 || step_ % curvature_interval == 1) trust = NewtonCorrector::Trust::none;
-  if (const auto failure = corrector_.correct(equations_, state_, trust)) return failure;
+  std::optional<StepFailure> failure = corrector_.correct(equations_, state_, trust);
+  if (failure && predictor_.looks_ahead()) {
+    predictor_.forget();
+    state_ = old_;
+    predictor_.predict(old_, time, scheme_, equations_, state_);
+    failure = corrector_.correct(equations_, state_, trust);
+  }
+  if (failure) return failure;
   if (!projection_) return std::nullopt;
   state_.drifted_q = state_.q;
   state_.drifted_v = state_.v;
@@ -197,6 +210,8 @@ void TimeLoop::correct_start() {
 
 void TimeLoop::accept() {
   check_drift();
+  const bool is_resolved = corrector_.iterations_of_step() <= most_of_a_resolved_step;
+  is_resolved ? predictor_.record(old_, state_) : predictor_.forget();
   store();
 }
 

@@ -51,6 +51,7 @@ class TimeLoop {
     int unit;
     StepState state;
     NewtonCorrector::Experience experience;
+    Predictor::Experience prediction;
     int level;                                ///< of the control of the local error
     std::vector<PivotRecord::Pivots> pivots;  ///< one a solver
   };

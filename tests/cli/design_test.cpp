@@ -1,3 +1,4 @@
+#include <cmath>
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -98,6 +99,38 @@ TEST_F(FailedDesign, OrAnyOtherOfAResultIsSimulatedExactly) {
           << command << " " << name;
     }
   }
+}
+
+/// An optimum with steps and elements that were chosen for an accuracy: the commands that look at it
+/// see its numbers, whatever the file has.
+TEST(DesignOfARun, IsSimulatedWithTheSettingOfTheRun) {
+  const TemporaryFolder folder;
+  const std::string file = problem("hard/impossible_designs");
+  const auto run = [&](const std::vector<std::string>& words) {
+    const ProgramRun ended = run_program(folder.path(), joined(words, {"--json"}));
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    return ended;
+  };
+  const nlohmann::json optimum =
+      run({"optimize", file, "-o", "run", "--accuracy", "5%"}).document();
+  const int steps =
+      static_cast<int>(std::lround(0.4 / optimum.at("setting").at("step").get<double>()));
+  ASSERT_NE(steps, 400);  // those of the file
+  const char* note = "steps and elements that this optimum was found with";
+  for (const char* command : {"simulate", "check"}) {
+    const ProgramRun looked = run({command, file, "--design", "run"});
+    EXPECT_THAT(looked.err, HasSubstr(note));
+    for (const auto& [name, response] : optimum.at("responses").items()) {
+      EXPECT_EQ(looked.document().at("responses").at(name).at("value"), response.at("value"))
+          << name;
+    }
+  }
+  const ProgramRun others =
+      run({"simulate", file, "--design", "run", "--set", "/simulation/step=1 ms"});
+  EXPECT_EQ(others.document().at("steps"), 400);
+  const ProgramRun anew =  // which may find that it breaks a limit by a little
+      run_program(folder.path(), {"simulate", file, "--design", "run", "--accuracy", "2%"});
+  EXPECT_THAT(anew.err, testing::Not(HasSubstr(note)));
 }
 
 class WrongDesign : public testing::Test {

@@ -21,7 +21,8 @@ double least_memory(const Mechanism& mechanism, const SimulationOptions& options
   const bool is_stabilized = options.formulation.constraints == ConstraintForm::stabilized_index_2;
   const double projected = options.formulation.is_projected ? 2 * n : 0;
   const double state = 3 * n + (is_stabilized ? 2 : 1) * m + projected;
-  const double checkpoint = state + (is_stabilized ? 3 : 2) * n;
+  // Besides the state: w, the increment, the shift, and how a and λ changed last.
+  const double checkpoint = state + (is_stabilized ? 4 : 3) * n + m;
   const CheckpointPlan plan{8 * state, 8 * checkpoint, 0.0};
   return plan.least_memory(step_count(options) + 1);
 }

@@ -1,0 +1,84 @@
+#include "cli/input/run_setting.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/text/console.hpp"
+#include "cli/text/json.hpp"
+#include "cli/text/wrapped_text.hpp"
+#include "core/base/error.hpp"
+#include "core/scene/reading/json_text.hpp"
+#include "core/scene/reading/text_file.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Commands whose answer is about the design as it is.
+constexpr std::array<std::string_view, 5> commands = {"simulate", "gradient", "check", "prices",
+                                                      "uncertainty"};
+
+Json document_of(const std::filesystem::path& file) {
+  return parse_json(read_text_file(file), file.string());
+}
+
+/// Whether the setting was chosen for an accuracy: stages have a target then.
+bool was_chosen(const Json& result) {
+  const Json stages = result.value("stages", Json::array());
+  return !stages.empty() && stages.back().contains("target");
+}
+
+bool asks_for_accuracy(const Json& problem, const Arguments& arguments) {
+  const bool is_in_file = problem.contains(Json::json_pointer("/accuracy/target"));
+  return is_in_file || std::any_of(arguments.overrides.begin(), arguments.overrides.end(),
+                                   [](const std::string& assignment) {
+                                     return assignment.starts_with("/accuracy/target=");
+                                   });
+}
+
+/// The chosen setting as overrides; nothing if a place of it is not in the problem.
+std::vector<std::string> overrides_of(const Json& chosen, const Json& problem) {
+  std::vector<std::string> overrides;
+  for (const auto& [place, value] : chosen.items()) {
+    const Json::json_pointer pointer(place);
+    if (!problem.contains(pointer.parent_pointer())) return {};
+    overrides.push_back(place + "=" + value.dump());
+  }
+  return overrides;
+}
+
+std::vector<std::string> setting_of_run(const Arguments& arguments) {
+  const std::filesystem::path& design = *arguments.design;
+  const Json result =
+      document_of(std::filesystem::is_directory(design) ? design / "result.json" : design);
+  const Json::json_pointer place("/setting/overrides");
+  if (!result.contains(place) || !was_chosen(result)) return {};
+  const Json problem = document_of(arguments.file);
+  if (asks_for_accuracy(problem, arguments)) return {};
+  return overrides_of(result.at(place), problem);
+}
+
+}  // namespace
+
+void take_setting_of_run(Arguments& arguments) {
+  const bool looks_at_it =
+      std::find(commands.begin(), commands.end(), arguments.command) != commands.end();
+  if (!looks_at_it || !arguments.design) return;
+  std::vector<std::string> setting;
+  try {
+    setting = setting_of_run(arguments);
+  } catch (const InputError&) {
+    return;  // who reads the design says more of it
+  }
+  if (setting.empty()) return;
+  show(stderr, wrapped(fmt::format("{}: note: simulated with the steps and elements that this "
+                                   "optimum was found with ({}); --set takes others\n",
+                                   arguments.design->string(), fmt::join(setting, ", "))));
+  arguments.overrides.insert(arguments.overrides.begin(), setting.begin(), setting.end());
+}
+
+}  // namespace pleuel
