@@ -20,10 +20,6 @@ double damped_violation_slope(double violation) {
   return violation > 0.0 ? 1.0 / (1.0 + violation) : 1.0;
 }
 
-double undamped_violation(double damped) {
-  return damped > 0.0 ? std::expm1(damped) : damped;
-}
-
 std::vector<LimitSide> limit_sides(const Problem& problem, const Eigen::VectorXd& magnitudes) {
   std::vector<LimitSide> sides;
   for (std::size_t i = 0; i < problem.constraints().size(); ++i) {

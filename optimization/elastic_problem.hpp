@@ -13,8 +13,6 @@ namespace pleuel {
 double damped_violation(double violation);
 /// dψ/dg
 double damped_violation_slope(double violation);
-/// g of ψ
-double undamped_violation(double damped);
 
 /// One side of a limit as g = sign · (c − limit) / C ≤ 0.
 struct LimitSide {

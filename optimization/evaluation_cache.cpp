@@ -74,7 +74,7 @@ const Evaluation* EvaluationCache::evaluate(const Eigen::VectorXd& x, Request re
 }
 
 double EvaluationCache::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - watch_.begin).count();
+  return watch_.time.seconds();
 }
 
 bool EvaluationCache::has_values(const Eigen::VectorXd& x) const {

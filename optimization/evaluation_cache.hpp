@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <deque>
 #include <optional>
 #include <string>
@@ -8,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "core/base/int_size.hpp"
+#include "core/base/stopwatch.hpp"
 #include "optimization/history.hpp"
 #include "optimization/problem.hpp"
 
@@ -43,7 +43,7 @@ class EvaluationCache {
   /// Who watches, and since when the time runs.
   struct Watch {
     Observer observer;
-    std::chrono::steady_clock::time_point begin;
+    Stopwatch time = {};
   };
 
   /// The first evaluation, that of the start, has been made: the scales follow from it.

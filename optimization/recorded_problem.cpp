@@ -18,10 +18,6 @@ Evaluation RecordedProblem::evaluate(const Eigen::VectorXd& x, Request request) 
   }
 }
 
-double RecordedProblem::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-}
-
 void RecordedProblem::record(const Eigen::VectorXd& x, Request request,
                              const Evaluation* evaluation, const std::string& failure) {
   EvaluationRecord record;

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <chrono>
 #include <functional>
 
+#include "core/base/stopwatch.hpp"
 #include "optimization/forwarding_problem.hpp"
 #include "optimization/history.hpp"
 
@@ -16,16 +16,13 @@ class RecordedProblem : public ForwardingProblem {
 
   /// @param problem  must outlive this, and so must the observer
   RecordedProblem(Problem& problem, Completed completed, const Observer& observer)
-      : ForwardingProblem(problem),
-        completed_(std::move(completed)),
-        observer_(observer),
-        begin_(std::chrono::steady_clock::now()) {}
+      : ForwardingProblem(problem), completed_(std::move(completed)), observer_(observer) {}
 
   Evaluation evaluate(const Eigen::VectorXd& x, Request request) override;
 
   const History& history() const { return history_; }
   int gradient_evaluations() const { return gradients_; }
-  double seconds() const;
+  double seconds() const { return watch_.seconds(); }
 
  private:
   void record(const Eigen::VectorXd& x, Request request, const Evaluation* evaluation,
@@ -33,7 +30,7 @@ class RecordedProblem : public ForwardingProblem {
 
   Completed completed_;
   const Observer& observer_;
-  std::chrono::steady_clock::time_point begin_;
+  Stopwatch watch_;
   History history_;
   int gradients_ = 0;
 };

@@ -1,7 +1,6 @@
 #include "optimization/solve.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -18,8 +17,6 @@
 namespace pleuel {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 void check_backend(const Problem& problem, const SolveOptions& options) {
   const auto backend = make_optimizer(options.backend, {options.tolerance});
@@ -39,7 +36,7 @@ Result failed_start(const Problem& problem, const Eigen::VectorXd& x, const std:
   record.request = Request::values_and_gradients;
   record.x = x;
   record.failure = failure;
-  record.seconds = std::chrono::duration<double>(Clock::now() - watch.begin).count();
+  record.seconds = watch.time.seconds();
   if (watch.observer) watch.observer(record);
 
   Result result;
@@ -359,7 +356,7 @@ class Run {
 Result run(Problem& problem, const SolveOptions& options, const Observer& observer,
            Result (Run::*work)()) {
   check_backend(problem, options);
-  const EvaluationCache::Watch watch{observer, Clock::now()};
+  const EvaluationCache::Watch watch{observer};
   const Eigen::VectorXd x = checked_start(problem);
   Attempt first = attempt_evaluation(problem, x, Request::values_and_gradients);
   if (!first.evaluation) return failed_start(problem, x, first.failure, options.backend, watch);

@@ -43,17 +43,4 @@ DrawnPlace drawn_place(const Scene& scene, const std::string& body, const Point&
   return place;
 }
 
-Eigen::Vector3d position_at_start(const Scene& scene, const DrawnPlace& place,
-                                  const Design<double>& design) {
-  if (place.body < 0) return place.point;
-  const Body& holder = scene.bodies[place.body];
-  if (const auto* beam = std::get_if<BeamBody>(&holder.shape); beam && place.share >= 0.0) {
-    const Eigen::Vector3d from = resolve_point(beam->from, design),
-                          to = resolve_point(beam->to, design);
-    return from + place.share * (to - from);
-  }
-  const Pose<double> pose = body_pose(holder, design);
-  return pose.origin + pose.rotation * place.point;
-}
-
 }  // namespace pleuel

@@ -24,8 +24,4 @@ struct DrawnPlace {
 DrawnPlace drawn_place(const Scene& scene, const std::string& body, const Point& at,
                        const Design<double>& start, const Design<double>& design);
 
-/// The place at t = 0 where the file puts it, global axes [m].
-Eigen::Vector3d position_at_start(const Scene& scene, const DrawnPlace& place,
-                                  const Design<double>& design);
-
 }  // namespace pleuel

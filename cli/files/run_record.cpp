@@ -12,8 +12,6 @@ namespace pleuel {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 Json input_document(const ProblemInput& input, const Arguments& arguments) {
   Json document = {
       {"file", input.file.string()}, {"overrides", arguments.overrides}, {"hash", input.hash}};
@@ -29,17 +27,12 @@ void wrap_list_of_files(std::string& text) {
   text.replace(begin, end - begin, wrapped(text.substr(begin, end - begin), "  "));
 }
 
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
 }  // namespace
 
 RunRecord::RunRecord(const Arguments& arguments, Json options)
     : folder_(arguments),
       program_(arguments.program),
-      makes_report_(!arguments.leaves_out_report && arguments.command != "invariants"),
-      begin_(Clock::now()) {
+      makes_report_(!arguments.leaves_out_report && arguments.command != "invariants") {
   card_["finished"] = false;
   card_["command"] = arguments.command;
   card_["arguments"] = arguments.words;
@@ -71,11 +64,11 @@ RunRecord::RunRecord(const Arguments& arguments, const std::vector<ProblemInput>
 void RunRecord::begin_phase(const std::string& name) {
   end_phase();
   phase_ = name;
-  phase_begin_ = Clock::now();
+  of_phase_ = {};
 }
 
 void RunRecord::end_phase() {
-  if (!phase_.empty()) phases_[phase_] = phases_.value(phase_, 0.0) + seconds_since(phase_begin_);
+  if (!phase_.empty()) phases_[phase_] = phases_.value(phase_, 0.0) + of_phase_.seconds();
   phase_.clear();
 }
 
@@ -97,7 +90,7 @@ void RunRecord::finish(Outcome& outcome) {
   write("result.json", outcome.document);
   write_report(outcome);
   wrap_list_of_files(outcome.text);
-  phases_["total"] = seconds_since(begin_);
+  phases_["total"] = total_.seconds();
   card_["finished"] = true;
   outcome.unwritten = failures_.files();
   card_["exit_code"] = outcome.final_code();
@@ -125,7 +118,7 @@ void RunRecord::write_report(Outcome& outcome) {
   card["finished"] = true;
   card["exit_code"] = outcome.final_code();
   card["seconds"] = phases_;
-  card["seconds"]["total"] = seconds_since(begin_);
+  card["seconds"]["total"] = total_.seconds();
   const std::string text =
       report_page(*page, report_data(card, outcome.document, picture_, folder()));
   if (write_file(result(report_name), text)) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -12,6 +11,7 @@
 #include "cli/input/arguments.hpp"
 #include "cli/input/problem_input.hpp"
 #include "cli/reports/outcome.hpp"
+#include "core/base/stopwatch.hpp"
 
 namespace pleuel {
 
@@ -67,7 +67,7 @@ class RunRecord {
   bool makes_report_ = true;
   std::string phase_;
   bool has_results_ = false;
-  std::chrono::steady_clock::time_point begin_, phase_begin_;
+  Stopwatch total_, of_phase_;
 };
 
 }  // namespace pleuel

@@ -132,9 +132,10 @@ void project_velocities(Mechanism& mechanism, LinearSolver& solver, System::Matr
 void factorize_for_start(LinearSolver& solver, const System::Matrix& matrix, const char* what) {
   if (solver.factorize(matrix)) return;
   throw SimulationError(fmt::format(
-      "the mechanism cannot be started: the equations of its initial {} are singular; look for "
-      "joints that constrain the same motion twice, or for a body that nothing holds and that has "
-      "no inertia",
+      "the mechanism cannot be started: the equations of its initial {} are singular. Perhaps it "
+      "stands at a dead centre (members in line, which a drive cannot move, or which may go two "
+      "ways: begin beside it), joints constrain the same motion twice, or nothing holds a body "
+      "that has no inertia",
       what));
 }
 

@@ -13,7 +13,7 @@ constexpr double slow_rate = 0.1;
 constexpr double round_off = 1e-9;
 /// The error that one iteration leaves is foreseen from those of other steps, and in the coordinates:
 /// stiff members make more of it in the forces of joints, and many steps add it up.
-constexpr double foreseen_safety = 100.0;
+constexpr double foreseen_safety = 10.0;
 
 }  // namespace
 

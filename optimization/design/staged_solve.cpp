@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/int_size.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/scene/load_cases.hpp"
 
@@ -16,18 +16,12 @@ namespace pleuel {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// The first stage has so many times the target, but no more than this.
 constexpr double coarse_factor = 10.0, coarsest_target = 1e-2;
 /// How often the setting is chosen at an optimum.
 constexpr int most_rounds = 3;
 /// Of the target: the tolerance of a search that is not the last.
 constexpr double search_share = 0.1;
-
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 bool is_same(const Refinement& one, const Refinement& other) {
   return one.elements == other.elements && std::abs(std::log(one.step / other.step)) < 0.1;
@@ -123,7 +117,7 @@ class StagedSolve {
   /// @returns whether the stage differs from the one before; one that does not is not begun if that
   /// has solved already
   bool choose_stage(const Eigen::VectorXd& x, double target, const std::vector<Refinement>& from) {
-    const auto begin = Clock::now();
+    const Stopwatch watch;
     Stage stage;
     stage.target = target;
     stage.is_met = true;
@@ -146,7 +140,7 @@ class StagedSolve {
     }
     is_new = is_new || left_out(chosen) != left_out(solution_.problem->file());
     if (!is_new && solution_.result.evaluation.has_gradients()) return false;
-    stage.choice_seconds = seconds_since(begin);
+    stage.choice_seconds = watch.seconds();
     for (const std::string& text : notices) {
       if (notice_) notice_(text);
     }

@@ -41,13 +41,12 @@ LeastViolation least_violation_of(Problem& problem) {
   return find_least_violation(rows_of(problem), problem.constraints(), checked_start(problem), 60);
 }
 
-TEST(DampedViolation, HasTheSlopeOfDifferencesAndAnInverse) {
+TEST(DampedViolation, HasTheSlopeOfDifferences) {
   for (const double g : {-3.0, -0.1, 0.2, 5.0, 400.0}) {
     const double h = 1e-6 * std::max(1.0, std::abs(g));
     const double difference = (damped_violation(g + h) - damped_violation(g - h)) / (2.0 * h);
     // Central differences of a smooth function of order one: 1e-10 of rounding over h.
     EXPECT_NEAR(damped_violation_slope(g), difference, 1e-8);
-    EXPECT_NEAR(undamped_violation(damped_violation(g)), g, 1e-12 * std::abs(g));
   }
 }
 

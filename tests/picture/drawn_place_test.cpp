@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/model/scene_geometry.hpp"
 #include "core/response/analysis.hpp"
 #include "tests/picture/picture_problems.hpp"
 
@@ -11,6 +12,20 @@ namespace {
 Design<double> start_of(const ProblemFile& problem) {
   const Eigen::VectorXd x = start_design(problem);
   return {x.begin(), x.end()};
+}
+
+/// The place at t = 0, global axes [m]: the inverse of drawn_place().
+Eigen::Vector3d position_at_start(const Scene& scene, const DrawnPlace& place,
+                                  const Design<double>& design) {
+  if (place.body < 0) return place.point;
+  const Body& holder = scene.bodies[place.body];
+  if (const auto* beam = std::get_if<BeamBody>(&holder.shape); beam && place.share >= 0.0) {
+    const Eigen::Vector3d from = resolve_point(beam->from, design),
+                          to = resolve_point(beam->to, design);
+    return from + place.share * (to - from);
+  }
+  const Pose<double> pose = body_pose(holder, design);
+  return pose.origin + pose.rotation * place.point;
 }
 
 TEST(DrawnPlace, LiesWhereTheFilePutsIt) {

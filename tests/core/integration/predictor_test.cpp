@@ -67,7 +67,7 @@ TEST(Predictor, LetsCoarseStepsNeedFewerIterations) {
                                   .complete();
   const auto analysis = analyze(problem, Eigen::VectorXd());
   EXPECT_EQ(analysis->trajectory.steps(), 1500);
-  EXPECT_LE(analysis->trajectory.newton_iterations, 1.4 * 1500);
+  EXPECT_LE(analysis->trajectory.newton_iterations, 1.2 * 1500);
 }
 
 }  // namespace
