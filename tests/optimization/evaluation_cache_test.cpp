@@ -30,7 +30,7 @@ class CacheOfEvaluations : public testing::Test {
     start_.evaluation = problem_.evaluate(start_.x, Request::values_and_gradients);
     requests_.clear();
     const Eigen::VectorXd ones = Eigen::VectorXd::Ones(1);
-    return EvaluationCache(problem_, start_, {2.0 * ones, ones}, {{}, {}});
+    return EvaluationCache(problem_, start_, {2.0 * ones, ones}, {});
   }
 
   const Evaluation* at(double x, Request request) {

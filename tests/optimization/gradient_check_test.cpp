@@ -29,7 +29,7 @@ class TwoVariables {
 
   GradientCheck check() {
     const EvaluatedDesign design{start_, problem_.evaluate(start_, Request::values_and_gradients)};
-    EvaluationCache cache(problem_, design, {variable_scales(problem_, start_), {}}, {{}, {}});
+    EvaluationCache cache(problem_, design, {variable_scales(problem_, start_), {}}, {});
     KktAudit audit;
     audit.gradient_scale =
         scaled_objective_gradient(problem_, design.evaluation, local_scales(problem_, start_))

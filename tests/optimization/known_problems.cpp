@@ -208,8 +208,7 @@ Verdict judge_anew(Problem& problem, const Eigen::VectorXd& start, const Eigen::
   const Evaluation first = problem.evaluate(start, Request::values_and_gradients);
   const Eigen::VectorXd variables = variable_scales(problem, start);
   const Eigen::VectorXd constraints = constraint_scales(problem, first, variables);
-  EvaluationCache cache(problem, {start, first}, {variables, constraints},
-                        {{}, std::chrono::steady_clock::now()});
+  EvaluationCache cache(problem, {start, first}, {variables, constraints}, {});
   const Evaluation evaluation = problem.evaluate(x, Request::values_and_gradients);
   const double violation = max_violation(problem, evaluation.constraints, constraints);
   return judge(cache, {x, evaluation, violation}, first, {});

@@ -33,10 +33,8 @@ class EveryKind : public testing::Test {
   Eigen::VectorXd start_ = checked_start(problem_);
   EvaluatedDesign design_{start_, problem_.evaluate(start_, Request::values_and_gradients)};
   Eigen::VectorXd scales_ = variable_scales(problem_, start_);
-  EvaluationCache cache_{problem_,
-                         design_,
-                         {scales_, constraint_scales(problem_, design_.evaluation, scales_)},
-                         {{}, {}}};
+  EvaluationCache cache_{
+      problem_, design_, {scales_, constraint_scales(problem_, design_.evaluation, scales_)}, {}};
   ScaledProblem scaled_{cache_, design_, {100, 100, 10, 30}};
 };
 
@@ -104,8 +102,8 @@ TEST(NumbersThatAreNotFinite, ReachNoBackend) {
                             });
     const EvaluatedDesign design{start, problem.evaluate(start, Request::values_and_gradients)};
     const Eigen::VectorXd scales = variable_scales(problem, start);
-    EvaluationCache cache(
-        problem, design, {scales, constraint_scales(problem, design.evaluation, scales)}, {{}, {}});
+    EvaluationCache cache(problem, design,
+                          {scales, constraint_scales(problem, design.evaluation, scales)}, {});
     ScaledProblem scaled(cache, design, {100, 100, 10, 30});
     EXPECT_TRUE(scaled.evaluate(scaled.start(), Request::values_and_gradients));
     EXPECT_FALSE(scaled.evaluate(1.1 * scaled.start(), Request::values_and_gradients));

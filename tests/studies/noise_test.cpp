@@ -59,8 +59,9 @@ TEST(Noise, OfAConstantIsZero) {
 /// Newton's method with a tolerance of 1e-4 leaves more than one with 1e-10, in every response of
 /// the motion; the mass (the first response) needs no simulation and has round-off only.
 TEST(Noise, GrowsWithTheToleranceOfNewtonsMethod) {
-  const ProblemFile tight = test::quick_problem();
-  const ProblemFile loose = test::quick_problem({"/simulation/newton_tolerance=1e-4"});
+  const ProblemFile tight = test::quick_problem({"/simulation/step=1 ms"});
+  const ProblemFile loose =
+      test::quick_problem({"/simulation/step=1 ms", "/simulation/newton_tolerance=1e-2"});
   const Eigen::VectorXd x = start_design(tight);
   const Eigen::VectorXd small = response_noise(tight, x).floor();
   const Eigen::VectorXd large = response_noise(loose, x).floor();
