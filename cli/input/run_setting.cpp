@@ -40,12 +40,12 @@ bool asks_for_accuracy(const Json& problem, const Arguments& arguments) {
                                    });
 }
 
-/// The chosen setting as overrides; nothing if a place of it is not in the problem.
+/// The chosen setting as overrides; nothing if a body of it is not in the problem.
 std::vector<std::string> overrides_of(const Json& chosen, const Json& problem) {
   std::vector<std::string> overrides;
   for (const auto& [place, value] : chosen.items()) {
-    const Json::json_pointer pointer(place);
-    if (!problem.contains(pointer.parent_pointer())) return {};
+    const bool is_of_body = place.starts_with("/scene/");
+    if (is_of_body && !problem.contains(Json::json_pointer(place).parent_pointer())) return {};
     overrides.push_back(place + "=" + value.dump());
   }
   return overrides;

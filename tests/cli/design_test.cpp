@@ -128,6 +128,11 @@ TEST(DesignOfARun, IsSimulatedWithTheSettingOfTheRun) {
   const ProgramRun others =
       run({"simulate", file, "--design", "run", "--set", "/simulation/step=1 ms"});
   EXPECT_EQ(others.document().at("steps"), 400);
+  // Of a file without the key "effects", whose tolerance is part of the setting.
+  run({"new", "four-bar", "starter.json"});
+  run({"optimize", "starter.json", "-o", "starter", "--accuracy", "1%"});
+  EXPECT_THAT(run({"simulate", "starter.json", "--design", "starter"}).err,
+              HasSubstr("/effects/tolerance="));
   const ProgramRun anew =  // which may find that it breaks a limit by a little
       run_program(folder.path(), {"simulate", file, "--design", "run", "--accuracy", "2%"});
   EXPECT_THAT(anew.err, testing::Not(HasSubstr(note)));
