@@ -11,7 +11,7 @@ namespace {
 constexpr double slow_rate = 0.1;
 /// Scaled corrections below this that no longer shrink are round-off.
 constexpr double round_off = 1e-9;
-/// The error that one iteration leaves is foreseen from those of other steps, and in the coordinates:
+/// The error that one iteration leaves is foreseen from those of other steps, in the coordinates:
 /// stiff members make more of it in the forces of joints, and many steps add it up.
 constexpr double foreseen_safety = 10.0;
 

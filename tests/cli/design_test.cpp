@@ -101,8 +101,8 @@ TEST_F(FailedDesign, OrAnyOtherOfAResultIsSimulatedExactly) {
   }
 }
 
-/// An optimum with steps and elements that were chosen for an accuracy: the commands that look at it
-/// see its numbers, whatever the file has.
+/// An optimum with steps and elements that were chosen for an accuracy: the commands that look at
+/// it see its numbers, whatever the file has.
 TEST(DesignOfARun, IsSimulatedWithTheSettingOfTheRun) {
   const TemporaryFolder folder;
   const std::string file = problem("hard/impossible_designs");
