@@ -10,6 +10,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/commands/each_case.hpp"
 #include "cli/input/parse_arguments.hpp"
+#include "cli/input/run_setting.hpp"
 #include "cli/interruption.hpp"
 #include "cli/rank_of_job.hpp"
 #include "cli/ranks.hpp"
@@ -127,6 +128,7 @@ int guarded_main(int argc, const char* const* argv) {
     const std::optional<Arguments> parsed = parse_arguments(argc, argv);
     if (!parsed) return 0;
     arguments = *parsed;
+    take_setting_of_run(arguments);
     limit_threads(arguments.jobs);
     std::vector<RankPlace> others;
     if (ranks) others = places_of(*ranks, arguments);

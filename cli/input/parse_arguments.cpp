@@ -11,7 +11,6 @@
 
 #include "cli/input/command_options.hpp"
 #include "cli/input/help_texts.hpp"
-#include "cli/input/run_setting.hpp"
 #include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "cli/versions.hpp"
@@ -389,7 +388,6 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
     arguments.overrides.push_back("/accuracy/target=" + *arguments.accuracy);
   }
   if (arguments.gap) arguments.overrides.push_back("/pareto/gap=" + *arguments.gap);
-  take_setting_of_run(arguments);
   return arguments;
 }
 

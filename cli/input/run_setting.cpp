@@ -12,6 +12,7 @@
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
 #include "core/scene/reading/json_text.hpp"
+#include "core/scene/reading/override.hpp"
 #include "core/scene/reading/text_file.hpp"
 
 namespace pleuel {
@@ -32,14 +33,6 @@ bool was_chosen(const Json& result) {
   return !stages.empty() && stages.back().contains("target");
 }
 
-bool asks_for_accuracy(const Json& problem, const Arguments& arguments) {
-  const bool is_in_file = problem.contains(Json::json_pointer("/accuracy/target"));
-  return is_in_file || std::any_of(arguments.overrides.begin(), arguments.overrides.end(),
-                                   [](const std::string& assignment) {
-                                     return assignment.starts_with("/accuracy/target=");
-                                   });
-}
-
 /// The chosen setting as overrides; nothing if a body of it is not in the problem.
 std::vector<std::string> overrides_of(const Json& chosen, const Json& problem) {
   std::vector<std::string> overrides;
@@ -57,8 +50,11 @@ std::vector<std::string> setting_of_run(const Arguments& arguments) {
       document_of(std::filesystem::is_directory(design) ? design / "result.json" : design);
   const Json::json_pointer place("/setting/overrides");
   if (!result.contains(place) || !was_chosen(result)) return {};
-  const Json problem = document_of(arguments.file);
-  if (asks_for_accuracy(problem, arguments)) return {};
+  Json problem = document_of(arguments.file);
+  for (const std::string& assignment : arguments.overrides) {
+    apply_override(problem, assignment, arguments.file.string());
+  }
+  if (problem.contains(Json::json_pointer("/accuracy/target"))) return {};
   return overrides_of(result.at(place), problem);
 }
 
@@ -73,6 +69,8 @@ void take_setting_of_run(Arguments& arguments) {
     setting = setting_of_run(arguments);
   } catch (const InputError&) {
     return;  // who reads the design says more of it
+  } catch (const Json::exception&) {
+    return;  // a damaged document
   }
   if (setting.empty()) return;
   show(stderr, wrapped(fmt::format("{}: note: simulated with the steps and elements that this "

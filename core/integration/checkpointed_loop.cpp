@@ -16,7 +16,8 @@ class CheckpointedLoop : public RecomputedStates {
   CheckpointedLoop(TimeLoop loop, const CheckpointPlan& plan)
       : loop_(std::move(loop)), plan_(plan) {
     const int states = loop_.units() + 1;
-    if (plan_.most_states() < states) throw InputError(too_little(states, states));
+    if (plan_.most_states() < states)
+      throw InputError(too_little(states, plan_.least_memory(states)));
     stretch_ = plan_.stretch_for(states);
   }
 
@@ -69,18 +70,18 @@ class CheckpointedLoop : public RecomputedStates {
     if (states > plan_.longest_stretch()) {
       // Giving up every second checkpoint may leave half of the memory unused.
       const int so_far = static_cast<int>(loop_.instant()) + 1;
-      throw SimulationError(too_little(so_far, 2 * so_far));
+      const double guess = std::max(plan_.least_memory(2 * so_far), 2.0 * plan_.memory);
+      throw SimulationError(too_little(so_far, guess));
     }
     most_held_ = std::max(most_held_, states + 1);
   }
 
-  std::string too_little(int states, int capacity) const {
+  std::string too_little(int states, double needed) const {
     constexpr double rounded_up = 1.01;  // of three digits
     return fmt::format(
         "/sensitivity/memory is too little: {:.3g} MB do not hold the checkpoints of {} steps; at "
         "least {:.3g} MB do",
-        plan_.memory * 1e-6, states - 1,
-        rounded_up * std::max(plan_.least_memory(capacity), 2.0 * plan_.memory) * 1e-6);
+        plan_.memory * 1e-6, states - 1, rounded_up * needed * 1e-6);
   }
 
   /// Simulates the stretch of a step again if it is not at hand.

@@ -13,13 +13,13 @@ namespace pleuel {
 /// A mechanism of more coordinates is not judged: its stiffness would have to be a dense matrix.
 constexpr int most_judged_coordinates = 600;
 
-/// Straight members in space, or in a plane on springs, that buckle without a trace in the motion: the stiffness of the whole
-/// mechanism with its loads, rigid parts and inertia forces (elastic_stability.hpp), at the
-/// instants at which beams are pressed most, each of them and all together, and where all that turns
-/// does so alike, as shafts with disks, when that is fastest. Serious. Where geometric stiffening is
-/// off, the mechanism is simulated once more with it. Without springs nothing is looked for below
-/// a twentieth of the Euler load of a column as long as all beams together; mechanisms of more than
-/// most_judged_coordinates are told of.
+/// Straight members in space, or in a plane on springs, that buckle without a trace in the motion:
+/// the stiffness of the whole mechanism with its loads, rigid parts and inertia forces
+/// (elastic_stability.hpp), at the instants at which beams are pressed most, each of them and all
+/// together, and where all that turns does so alike, as shafts with disks, when that is fastest.
+/// Serious. Where geometric stiffening is off, the mechanism is simulated once more with it.
+/// Without springs nothing is looked for below a twentieth of the Euler load of a column as long as
+/// all beams together; mechanisms of more than most_judged_coordinates are told of.
 std::vector<Doubt> doubt_unstable_members(const TrustedRun& run);
 
 /// Where and how a mechanism is not in stable equilibrium.

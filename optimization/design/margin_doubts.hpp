@@ -11,9 +11,9 @@ namespace pleuel {
 /// the same way on both sides, as a side force does at zero, they know nothing. By simulations at k
 /// deviations of each parameter to either side, two a parameter, for
 ///     ½ (c(x + kσᵢ) + c(x − kσᵢ)) − c(x)
-/// towards the limit; of an interval no further than its ends. Told from a hundredth of the limit on,
-/// serious from a twentieth. Told, too, where a value changes to one side only: at frequencies or peaks
-/// that coincide the gradient is a mean.
+/// towards the limit; of an interval no further than its ends. Told from a hundredth of the limit
+/// on, serious from a twentieth. Told, too, where a value changes to one side only: at frequencies
+/// or peaks that coincide the gradient is a mean.
 std::vector<Doubt> doubt_margins(DesignProblem& design, const Eigen::VectorXd& x);
 
 }  // namespace pleuel
