@@ -319,9 +319,9 @@ class Run {
       result.message += fmt::format("; the budget of {} iterations ({} evaluations) is used up",
                                     iterations, evaluations_per_iteration * iterations);
     } else {
-      result.message +=
-          fmt::format("; {} said after {} restarts: {}", options_.backend,
-                      restarts_ + escapes_ + options_.earlier.restarts, backend_reason_);
+      const int restarts = restarts_ + escapes_ + options_.earlier.restarts;
+      result.message += fmt::format("; {} said after {} restart{}: {}", options_.backend, restarts,
+                                    restarts == 1 ? "" : "s", backend_reason_);
     }
     result.message += describe_failures();
   }

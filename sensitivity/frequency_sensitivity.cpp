@@ -1,11 +1,10 @@
 #include "sensitivity/frequency_sensitivity.hpp"
 
-#include <random>
-
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 #include "core/integration/configuration.hpp"
+#include "core/response/modal_vectors.hpp"
+#include "core/response/motion_along.hpp"
 
 namespace pleuel {
 
@@ -13,10 +12,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Eigenvalues that differ by less are one, several times.
-constexpr double coincidence = 1e-6;
-/// Relative distance from the eigenvalue at which its vectors are sought.
-constexpr double detuning = 1e-9;
 /// Size of the steps of differences, relative to the scales of the coordinates.
 constexpr double step_size = 1e-3;
 
@@ -25,25 +20,24 @@ struct Direction {
   Eigen::VectorXd q, v, a, lambda;
 };
 
-/// Vectors of one eigenvalue and all that coincide with it, one a column.
-struct ModalVectors {
-  Complex s;
-  Eigen::MatrixXcd right, left;                          ///< n × k
-  Eigen::MatrixXcd right_multipliers, left_multipliers;  ///< m × k
-};
-
 class FrequencySensitivity {
  public:
-  FrequencySensitivity(const Mechanism& mechanism, const State& state)
-      : mechanism_(mechanism),
+  FrequencySensitivity(const Model& model, const State& state, const ModeChoice& choice)
+      : mechanism_(model.mechanism),
         state_(state),
         n_(state.q.size()),
         m_(state.lambda.size()),
-        frozen_(freeze(mechanism, state)) {}
-
-  Eigen::VectorXd run(const StateSensitivity& sensitivity, int mode) {
-    find_vectors(mode);
+        frozen_(freeze(mechanism_, state)),
+        vectors_(modal_vectors(frozen_, modes_of(frozen_), find_mode(model, state, choice))) {
     const Eigen::Index count = vectors_.right.cols();
+    counted_ = choice.axis ? combinations_along(vectors_.right, frozen_.M,
+                                                mass_along(model, state, *choice.axis))
+                           : Eigen::MatrixXcd::Identity(count, count).eval();
+    const Eigen::MatrixXcd inertia = vectors_.right.adjoint() * frozen_.M * vectors_.right;
+    components_ = choice.axis ? (counted_.adjoint() * inertia).eval() : counted_;
+  }
+
+  Eigen::VectorXd run(const StateSensitivity& sensitivity) const {
     const Complex s = vectors_.s;
     const Eigen::MatrixXcd slope =
         vectors_.left.adjoint() * (2.0 * s * frozen_.M + frozen_.G) * vectors_.right;
@@ -53,49 +47,14 @@ class FrequencySensitivity {
     for (std::size_t j = 0; j < changes.size(); ++j) {
       changes[j] += change_along({sensitivity.q.col(j), sensitivity.v.col(j), sensitivity.a.col(j),
                                   sensitivity.lambda.col(j)});
-      const Complex change = -solver.solve(changes[j]).trace() / static_cast<double>(count);
+      const Complex sum = (components_ * solver.solve(changes[j]) * counted_).trace();
+      const Complex change = -sum / static_cast<double>(counted_.cols());
       result(j) = frequency_of(s) > 0.0 ? change.imag() : -change.real();
     }
     return result;
   }
 
  private:
-  void find_vectors(int mode) {
-    const Eigen::VectorXcd all = modes_of(frozen_);
-    vectors_.s = all(mode);
-    const Eigen::Index count =
-        ((all.array() - vectors_.s).abs() < coincidence * std::abs(vectors_.s)).count();
-    // Not exactly at the eigenvalue, where the pencil is singular.
-    const Complex s = vectors_.s * (1.0 + detuning);
-    const Pencil pencil = pencil_at(frozen_, s);
-    Eigen::MatrixXcd slope = Eigen::MatrixXcd::Zero(n_ + m_, n_ + m_);
-    slope.topLeftCorner(n_, n_) = 2.0 * s * frozen_.M + frozen_.G;
-    const Eigen::MatrixXcd right = null_vectors(pencil.matrix, slope, count);
-    const Eigen::MatrixXcd left = null_vectors(pencil.matrix.adjoint(), slope.adjoint(), count);
-    vectors_.right = right.topRows(n_);
-    vectors_.left = left.topRows(n_);
-    vectors_.right_multipliers = pencil.kappa * right.bottomRows(m_);
-    vectors_.left_multipliers = pencil.kappa * left.bottomRows(m_);
-  }
-
-  /// Inverse iteration of a block of vectors, x ← P⁻¹ P_s x: others shrink by the detuning over
-  /// their distance, a thousandth and less.
-  Eigen::MatrixXcd null_vectors(const Eigen::MatrixXcd& pencil, const Eigen::MatrixXcd& slope,
-                                Eigen::Index count) const {
-    const Eigen::PartialPivLU<Eigen::MatrixXcd> solver(pencil);
-    std::mt19937 random(1);
-    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-    Eigen::MatrixXcd x = Eigen::MatrixXcd::NullaryExpr(
-        n_ + m_, count, [&] { return Complex(uniform(random), uniform(random)); });
-    for (int iteration = 0; iteration < 5; ++iteration) {
-      x = solver.solve(slope * x);
-      const Eigen::HouseholderQR<Eigen::MatrixXcd> qr(x.topRows(n_));
-      const Eigen::MatrixXcd triangle = qr.matrixQR().topRows(count);
-      x = triangle.triangularView<Eigen::Upper>().solve<Eigen::OnTheRight>(x);
-    }
-    return x;
-  }
-
   /// d/dε of a function along a direction, from what it is at ± two steps.
   template <class Function>
   auto derivative_along(const Direction& direction, const Function& function) const {
@@ -214,13 +173,16 @@ class FrequencySensitivity {
   Eigen::Index n_, m_;
   FrozenMechanism frozen_;
   ModalVectors vectors_;
+  /// Combinations of the vectors that count, k × p, and what of each is in a combination, p × k.
+  Eigen::MatrixXcd counted_, components_;
 };
 
 }  // namespace
 
-Eigen::VectorXd frequency_sensitivity(const Mechanism& mechanism, const State& state,
-                                      const StateSensitivity& sensitivity, int mode) {
-  return FrequencySensitivity(mechanism, state).run(sensitivity, mode);
+Eigen::VectorXd frequency_sensitivity(const Model& model, const State& state,
+                                      const StateSensitivity& sensitivity,
+                                      const ModeChoice& choice) {
+  return FrequencySensitivity(model, state, choice).run(sensitivity);
 }
 
 }  // namespace pleuel

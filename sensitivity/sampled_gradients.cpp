@@ -140,7 +140,7 @@ class SampledGradients {
     if (const auto* constant = std::get_if<DesignConstant>(&response.source)) {
       gradients_.row(row) += part.weight * constant->derivatives.transpose();
     } else if (response.frequency()) {
-      gradients_.row(row) += part.weight * frequency_gradient(response.frequency()->mode);
+      gradients_.row(row) += part.weight * frequency_gradient(response.frequency()->choice);
     } else {
       Signal* signal = response.history()->signal.get();
       for (const Sample& sample : *part.samples) {
@@ -149,14 +149,14 @@ class SampledGradients {
     }
   }
 
-  Eigen::RowVectorXd frequency_gradient(int mode) {
+  Eigen::RowVectorXd frequency_gradient(const ModeChoice& choice) {
     if (gradients_.cols() == 0) return Eigen::RowVectorXd(0);
-    Mechanism& mechanism = analysis_.full ? analysis_.full->model.mechanism : mechanism_;
+    Model& model = analysis_.full ? analysis_.full->model : analysis_.model;
     if (!start_) {
-      start_ = analysis_.full ? *analysis_.full->initial : initial_state(mechanism);
-      start_sensitivity_ = initial_sensitivity(mechanism, *start_);
+      start_ = analysis_.full ? *analysis_.full->initial : initial_state(model.mechanism);
+      start_sensitivity_ = initial_sensitivity(model.mechanism, *start_);
     }
-    return frequency_sensitivity(mechanism, start_->state, start_sensitivity_, mode).transpose();
+    return frequency_sensitivity(model, start_->state, start_sensitivity_, choice).transpose();
   }
 
   /// Calls visit(use) for what is sampled at a step and wanted, with its derivatives in part_.

@@ -72,6 +72,11 @@ SymmetricModes symmetric_modes(const Eigen::MatrixXd& a, const Eigen::MatrixXd& 
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
+HermitianModes hermitian_modes(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd> solver(a, b);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a, Eigen::EigenvaluesOnly).eigenvalues();
 }

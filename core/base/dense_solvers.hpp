@@ -65,6 +65,14 @@ SymmetricModes symmetric_modes(const Eigen::MatrixXd& a);
 /// A φ = μ B φ of a symmetric A and a positive definite B; φᵀ B φ = 1.
 SymmetricModes symmetric_modes(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
+/// The same of Hermitian matrices.
+struct HermitianModes {
+  Eigen::VectorXd values;
+  Eigen::MatrixXcd vectors;
+};
+
+HermitianModes hermitian_modes(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);
+
 /// The eigenvalues alone, in rising order.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a);
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);

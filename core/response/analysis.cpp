@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,7 @@
 #include "core/response/make_responses.hpp"
 #include "core/response/mechanism_modes.hpp"
 #include "core/response/misalignment.hpp"
+#include "core/response/modal_vectors.hpp"
 #include "core/response/recorder.hpp"
 #include "core/response/validity.hpp"
 #include "core/response/whole_turns.hpp"
@@ -40,27 +42,32 @@ void set_full_mechanism(const ProblemFile& problem, const Design<double>& start,
   }
 }
 
-/// The whole mechanism's frequencies at the initial state; where that is one of a motion that
-/// repeats itself, at the state as the file places it.
+/// The model whose frequencies are those of the mechanism, and its state: the initial one, and where
+/// that is one of a motion that repeats itself, the state as the file places it.
+std::pair<Model*, State> modelled_start(Analysis& analysis) {
+  if (analysis.full) return {&analysis.full->model, analysis.full->initial->state};
+  Model& model = analysis.model;
+  if (analysis.trajectory.periodic) return {&model, initial_state(model.mechanism).state};
+  State initial;
+  analysis.trajectory.states->load(0, initial);
+  return {&model, initial};
+}
+
 void set_mechanism_frequencies(Analysis& analysis) {
-  Eigen::VectorXd& frequencies = analysis.mechanism_frequencies;
-  for (const Response& response : analysis.responses) {
+  analysis.mechanism_modes.assign(analysis.responses.size(), 0);
+  if (!std::any_of(analysis.responses.begin(), analysis.responses.end(),
+                   [](const Response& response) { return response.frequency(); })) {
+    return;
+  }
+  const auto [model, state] = modelled_start(analysis);
+  analysis.mechanism_frequencies = mechanism_frequencies(model->mechanism, state);
+  for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
+    const Response& response = analysis.responses[i];
     if (!response.frequency()) continue;
-    if (frequencies.size() == 0 && analysis.full) {
-      frequencies =
-          mechanism_frequencies(analysis.full->model.mechanism, analysis.full->initial->state);
-    } else if (frequencies.size() == 0 && analysis.trajectory.periodic) {
-      Mechanism& mechanism = analysis.model.mechanism;
-      frequencies = mechanism_frequencies(mechanism, initial_state(mechanism).state);
-    } else if (frequencies.size() == 0) {
-      State initial;
-      analysis.trajectory.states->load(0, initial);
-      frequencies = mechanism_frequencies(analysis.model.mechanism, initial);
-    }
-    const int mode = response.frequency()->mode;
-    if (mode >= frequencies.size()) {
-      refuse_response(response.name, fmt::format("the mechanism has {} natural frequencies, not {}",
-                                                 frequencies.size(), mode + 1));
+    try {
+      analysis.mechanism_modes[i] = find_mode(*model, state, response.frequency()->choice);
+    } catch (const InputError& error) {
+      refuse_response(response.name, error.what());
     }
   }
 }
@@ -192,8 +199,9 @@ Reduction reduce_response(std::size_t i, Analysis& analysis) {
     constant.value = expression_value(analysis.responses, analysis.reductions, analysis.x, i);
     return constant;
   }
-  constant.value = response.frequency() ? analysis.mechanism_frequencies(response.frequency()->mode)
-                                        : std::get<DesignConstant>(response.source).value;
+  constant.value = response.frequency()
+                       ? analysis.mechanism_frequencies(analysis.mechanism_modes[i])
+                       : std::get<DesignConstant>(response.source).value;
   return constant;
 }
 

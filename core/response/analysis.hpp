@@ -27,6 +27,8 @@ struct Analysis {
   /// Natural frequencies of the whole mechanism, where a response asks for one
   /// (mechanism_modes.hpp).
   Eigen::VectorXd mechanism_frequencies;
+  /// Which of them a response asks for, one a response; of those that ask for none, 0.
+  std::vector<int> mechanism_modes;
   /// The same without elasticity, where a response is measured against it; else null.
   std::unique_ptr<Analysis> rigid;
 };

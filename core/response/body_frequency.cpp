@@ -5,6 +5,7 @@
 #include "core/base/error.hpp"
 #include "core/beam/elastic_basis.hpp"
 #include "core/beam/natural_modes.hpp"
+#include "core/response/motion_along.hpp"
 
 namespace pleuel {
 
@@ -13,33 +14,69 @@ namespace {
 /// Squares of frequencies that differ by less are one, several times.
 constexpr double coincidence = 1e-6;
 
+class BodyModes {
+ public:
+  explicit BodyModes(const BodyModel& body)
+      : body_(body),
+        mass_(dense(body.invariants.mass_matrix)),
+        modes_(natural_modes(dense(body.invariants.stiffness), mass_)) {}
+
+  Eigen::MatrixXd dense(const Eigen::VectorXd& entries) const {
+    return dense_matrix(body_.invariants.pattern, entries);
+  }
+
+  BodyMode find(const ModeChoice& choice) const {
+    Eigen::Index counted = 0;
+    for (Eigen::Index first = 0, end = 0; first < modes_.lambda.size(); first = end) {
+      end = end_of_coinciding(first);
+      Eigen::MatrixXcd shapes = modes_.shapes.middleCols(first, end - first);
+      if (choice.axis) shapes = shapes * combinations(shapes, *choice.axis);
+      if (choice.number < counted + shapes.cols()) {
+        return {modes_.lambda(first + choice.number - counted), shapes};
+      }
+      counted += shapes.cols();
+    }
+    throw InputError(missing_mode(fmt::format("the body \"{}\"", body_.name), counted, choice));
+  }
+
+ private:
+  Eigen::Index end_of_coinciding(Eigen::Index first) const {
+    Eigen::Index end = first + 1;
+    const double square = modes_.lambda(first);
+    while (end < modes_.lambda.size() &&
+           modes_.lambda(end) - square <= coincidence * std::abs(square)) {
+      ++end;
+    }
+    return end;
+  }
+
+  Eigen::MatrixXcd combinations(const Eigen::MatrixXcd& shapes, int axis) const {
+    return combinations_along(shapes, mass_, elastic_mass_along(body_.invariants, axis));
+  }
+
+  const BodyModel& body_;
+  Eigen::MatrixXd mass_;
+  NaturalModes modes_;
+};
+
 }  // namespace
 
-DesignConstant body_frequency(const BodyModel& body, int mode, int variables) {
-  if (mode >= body.elastic_size()) {
-    throw InputError(fmt::format("the body \"{}\" has {} natural frequencies, not {}", body.name,
-                                 body.elastic_size(), mode + 1));
-  }
-  const auto dense = [&](const Eigen::VectorXd& entries) {
-    return dense_matrix(body.invariants.pattern, entries);
-  };
-  const NaturalModes modes =
-      natural_modes(dense(body.invariants.stiffness), dense(body.invariants.mass_matrix));
-  const double square = modes.lambda(mode);
-  const Eigen::Array<bool, Eigen::Dynamic, 1> coincides =
-      (modes.lambda.array() - square).abs() <= coincidence * square;
+BodyMode body_mode(const BodyModel& body, const ModeChoice& choice) {
+  return BodyModes(body).find(choice);
+}
+
+DesignConstant body_frequency(const BodyModel& body, const ModeChoice& choice, int variables) {
+  const BodyModes modes(body);
+  const auto [square, shapes] = modes.find(choice);
   DesignConstant frequency;
   frequency.value = std::sqrt(square);
   frequency.derivatives = Eigen::VectorXd::Zero(variables);
   for (const auto& [variable, change] : body.invariants_x) {
-    const Eigen::MatrixXd matrix = dense(change.stiffness) - square * dense(change.mass_matrix);
-    double sum = 0.0;
-    for (Eigen::Index i = 0; i < coincides.size(); ++i) {
-      const auto shape = modes.shapes.col(i);
-      if (coincides(i)) sum += shape.dot(matrix * shape);
-    }
-    frequency.derivatives(variable) =
-        sum / static_cast<double>(coincides.count()) / (2.0 * frequency.value);
+    const Eigen::MatrixXd matrix =
+        modes.dense(change.stiffness) - square * modes.dense(change.mass_matrix);
+    const double mean =
+        (shapes.adjoint() * matrix * shapes).trace().real() / static_cast<double>(shapes.cols());
+    frequency.derivatives(variable) = mean / (2.0 * frequency.value);
   }
   return frequency;
 }

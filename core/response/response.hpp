@@ -7,6 +7,7 @@
 
 #include "core/response/reduction.hpp"
 #include "core/response/signal.hpp"
+#include "core/scene/mode_choice.hpp"
 
 namespace pleuel {
 
@@ -18,7 +19,7 @@ struct DesignConstant {
 
 /// A natural frequency of the whole mechanism at its initial state, whose derivatives it takes.
 struct InitialFrequency {
-  int mode = 0;  ///< from 0
+  ModeChoice choice;  ///< its axis is a global one
 };
 
 /// A formula of other responses and of design variables (core/response/linearized_expression.hpp).

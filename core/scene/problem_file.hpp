@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/time_integration.hpp"
+#include "core/scene/mode_choice.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/sensitivity_settings.hpp"
 
@@ -186,7 +187,7 @@ struct ResponseSettings {
   std::string joint;  ///< drive torque and power, reactions, position and velocity of a joint
   DrivenCoordinate coordinate = DrivenCoordinate::angle;  ///< position and velocity of a joint
   std::string load;                                       ///< spring length and force, motor power
-  int mode = 0;                                           ///< frequency: from 0 for the lowest
+  ModeChoice mode;                                        ///< frequency
   DriftLevel level = DriftLevel::position;                ///< constraint drift
   OverTime over_time = OverTime::max;
   std::optional<double> from, to;                     ///< window of time [s]

@@ -43,7 +43,7 @@ std::vector<Shift> shifts(const TrustedRun& run, const std::vector<const Respons
                           const Eigen::VectorXd& others) {
   std::vector<Shift> found;
   for (const Response* response : responses) {
-    const int mode = response->frequency()->mode;
+    const int mode = run.analysis.mechanism_modes[response - run.analysis.responses.data()];
     if (mode >= others.size()) continue;
     const double shown = run.analysis.mechanism_frequencies(mode);
     if (std::abs(others(mode) - shown) <= small_shift * std::abs(shown)) continue;

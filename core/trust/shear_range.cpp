@@ -14,9 +14,8 @@
 #include "core/base/int_size.hpp"
 #include "core/base/sparse_rows.hpp"
 #include "core/beam/beam_shape.hpp"
-#include "core/beam/elastic_basis.hpp"
-#include "core/beam/natural_modes.hpp"
 #include "core/model/shear_area.hpp"
+#include "core/response/body_frequency.hpp"
 #include "core/scene/body_groups.hpp"
 #include "core/trust/beam_state.hpp"
 
@@ -378,17 +377,13 @@ class ShearDoubts {
   }
 
   /// Half of the ratio of the energies of a mode: ω² is stiffness.
-  double mode_share(const std::string& name, int mode) const {
-    const BodyModel& body = model_.body(name);
-    if (mode >= body.elastic_size()) return 0.0;
-    const auto dense = [&](const Eigen::VectorXd& entries) {
-      return dense_matrix(body.invariants.pattern, entries);
-    };
-    const NaturalModes modes =
-        natural_modes(dense(body.invariants.stiffness), dense(body.invariants.mass_matrix));
+  double mode_share(const std::string& name, const ModeChoice& choice) const {
+    const auto& full = run_.analysis.full;
+    const BodyModel& body = (full ? full->model : model_).body(name);
+    const BodyMode mode = body_mode(body, choice);
     const BendingReader reader(run_.problem, run_.x, name);
     State state(body.elastic_offset() + body.elastic_size(), 0);
-    state.q.tail(body.elastic_size()) = modes.shapes.col(mode);
+    state.q.tail(body.elastic_size()) = mode.shapes.col(0).real();
     const Eigen::MatrixXd nodal = nodal_displacements(body, state);
     double shear = 0.0;
     for (int plane = 0; plane < 2; ++plane) {
@@ -396,7 +391,7 @@ class ShearDoubts {
         shear += element.shear_energy();
       }
     }
-    const double of_mode = 0.5 * modes.lambda(mode);  // all energy of a mode with unit mass
+    const double of_mode = 0.5 * mode.square;  // all energy of a mode with unit mass
     return 0.5 * shear / (of_mode + shear);
   }
 

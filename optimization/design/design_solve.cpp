@@ -17,6 +17,7 @@
 #include "optimization/design/case_trust.hpp"
 #include "optimization/design/margin_doubts.hpp"
 #include "optimization/design/margin_problem.hpp"
+#include "optimization/design/meeting_frequencies.hpp"
 #include "optimization/design/optimum_error.hpp"
 #include "optimization/design/peak_problem.hpp"
 #include "optimization/design/peak_windows.hpp"
@@ -174,7 +175,9 @@ Result solve_peaks(DesignProblem& design, int windows, const SolveOptions& optio
   }
   Result result = solve_folded(peaks, design, options, following_observer,
                                [&] { return Folding(peaks, design, before); });
-  result.message += fmt::format("; peaks over time were told apart by {} windows", windows);
+  if (peaks.divides_time()) {
+    result.message += fmt::format("; peaks over time were told apart by {} windows", windows);
+  }
   return result;
 }
 
@@ -273,6 +276,8 @@ Result attempt_optimum(DesignProblem& design, const SolveOptions& options, const
   if (result.status == Status::stalled) {
     const std::vector<CaseKink> kinks = optimized_kinks(design, result.x);
     if (!kinks.empty()) result.message += "; " + describe(kinks, design, result.x);
+    const std::string advice = advise_on_meeting_frequencies(design, result.x);
+    if (!advice.empty()) result.message += "; " + advice;
   }
   return result;
 }

@@ -283,6 +283,16 @@ Evaluation PeakProblem::evaluate(const Eigen::VectorXd& x, Request request) {
   return evaluation;
 }
 
+bool PeakProblem::divides_time() const {
+  const auto divides = [](const Split& split) {
+    return split.division && split.division->windows > 1;
+  };
+  return std::ranges::any_of(splits_, divides) ||
+         std::ranges::any_of(bounds_, [&](const Bound& bound) {
+           return std::ranges::any_of(bound.splits, divides);
+         });
+}
+
 Eigen::VectorXd PeakProblem::objective_shares(const Eigen::VectorXd& multipliers) const {
   if (!problem_.minimizes_worst() || bounds_.empty()) return {};
   Eigen::VectorXd shares = Eigen::VectorXd::Zero(problem_.case_count());

@@ -53,6 +53,9 @@ class PeakProblem : public Problem {
   std::string constraint_text(std::size_t constraint, double value) const override;
   Evaluation evaluate(const Eigen::VectorXd& x, Request request) override;
 
+  /// Whether any row stands for one window of time of several.
+  bool divides_time() const;
+
   /// The constraint of the file that each row is of; none for those of the objective.
   const std::vector<std::optional<std::size_t>>& constraint_of_row() const {
     return constraint_of_row_;

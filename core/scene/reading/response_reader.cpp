@@ -173,14 +173,18 @@ void read_mass(const JsonNode& node, const Scene& scene, ResponseSettings& respo
 }
 
 void read_frequency(const JsonNode& node, const Scene& scene, ResponseSettings& response) {
-  node.allow_keys({"type", "body", "mode", "over_time"});
+  node.allow_keys({"type", "body", "mode", "direction", "over_time"});
   if (const auto over_time = node.find("over_time")) {
     over_time->fail("is not for a frequency, which does not change in time");
   }
   if (node.find("body") && find_imported(node, scene, response) == nullptr) {
     read_elastic_beam(node, scene, response);
   }
-  if (const auto mode = node.find("mode")) response.mode = mode->whole_number(1, most_modes) - 1;
+  if (const auto mode = node.find("mode"))
+    response.mode.number = mode->whole_number(1, most_modes) - 1;
+  if (const auto axis = node.find("direction")) {
+    response.mode.axis = read_choice<int>(*axis, {{"x", 0}, {"y", 1}, {"z", 2}});
+  }
 }
 
 /// Names of columns in files of histories (docs/reference/responses.md).

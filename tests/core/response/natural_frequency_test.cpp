@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
@@ -36,7 +38,7 @@ Scene cantilever() {
 TEST(Frequency, OfACantileverIsTheTabulatedOne) {
   const Model model = build_model(cantilever(), {}, {}, {});
   for (int mode = 0; mode < 3; ++mode) {
-    const double found = body_frequency(model.body("beam"), mode, 0).value;
+    const double found = body_frequency(model.body("beam"), {mode}, 0).value;
     const double stiffer = std::pow(cantilever_numbers[mode] / 100.0, 2) / 1440;
     EXPECT_NEAR(found / cantilever_frequency(mode, height), 1.0 + stiffer, 1e-5 + 0.1 * stiffer);
   }
@@ -46,8 +48,8 @@ TEST(Frequency, OfACantileverIsTheTabulatedOne) {
 TEST(Frequency, OfACantileverInSpaceComesInTwoSeries) {
   const Model model = build_model(cantilever(), in_motion(EffectChoice::on), {}, {});
   const BodyModel& beam = model.body("beam");
-  EXPECT_NEAR(body_frequency(beam, 0, 0).value / cantilever_frequency(0, height), 1.0, 5e-5);
-  EXPECT_NEAR(body_frequency(beam, 1, 0).value / cantilever_frequency(0, width), 1.0, 5e-5);
+  EXPECT_NEAR(body_frequency(beam, {0}, 0).value / cantilever_frequency(0, height), 1.0, 5e-5);
+  EXPECT_NEAR(body_frequency(beam, {1}, 0).value / cantilever_frequency(0, width), 1.0, 5e-5);
 }
 
 /// A drive that stands still clamps the root. 1e-9: eigenvalues of matrices whose frequencies span
@@ -59,7 +61,7 @@ TEST(Frequency, OfAClampedMechanismIsThatOfItsBody) {
         mechanism_frequencies(model.mechanism, initial_state(model.mechanism).state);
     ASSERT_GE(found.size(), 4);
     for (int mode = 0; mode < 4; ++mode) {
-      EXPECT_NEAR(found(mode) / body_frequency(model.body("beam"), mode, 0).value, 1.0, 1e-8);
+      EXPECT_NEAR(found(mode) / body_frequency(model.body("beam"), {mode}, 0).value, 1.0, 1e-8);
     }
   }
 }
@@ -75,6 +77,32 @@ TEST(Frequency, OfAMechanismLeavesOutFreeMotions) {
   const double expected =
       std::pow(3.92660231204792 / length, 2) * std::sqrt(young * height * height / 12.0 / density);
   EXPECT_NEAR(found(0) / expected, 1.0, 5e-5);
+}
+
+/// Local y is along the height, z along the width: each axis has its own series.
+TEST(Frequency, AlongAnAxisIsThatOfBendingInIt) {
+  const Model model = build_model(cantilever(), in_motion(EffectChoice::on), {}, {});
+  const BodyModel& beam = model.body("beam");
+  for (int mode = 0; mode < 3; ++mode) {
+    const double stiffer = std::pow(cantilever_numbers[mode] / 100.0, 2) / 1440;
+    const double along_y = body_frequency(beam, {mode, 1}, 0).value;
+    const double along_z = body_frequency(beam, {mode, 2}, 0).value;
+    EXPECT_NEAR(along_y / cantilever_frequency(mode, height), 1.0 + stiffer, 3e-5 + 0.1 * stiffer);
+    EXPECT_NEAR(along_z / cantilever_frequency(mode, width), 1.0 + stiffer, 3e-5 + 0.1 * stiffer);
+  }
+  // ω = π/2 √(E/ρ)/L of a rod that is clamped at one end; ten elements: (π/20)²/24 = 1e-3 too high.
+  const double along_x = body_frequency(beam, {0, 0}, 0).value;
+  EXPECT_NEAR(along_x * 2.0 * length / std::numbers::pi / std::sqrt(young / density), 1.0, 1.1e-3);
+}
+
+TEST(Frequency, ThatIsNotAlongAnAxisIsAnErrorThatSaysSo) {
+  const Model model = build_model(cantilever(), in_motion(EffectChoice::off), {}, {});
+  try {
+    body_frequency(model.body("beam"), {0, 2}, 0);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "the body \"beam\" has 0 natural frequencies along z, not 1");
+  }
 }
 
 Scene hanging_body() {
@@ -128,7 +156,7 @@ TEST(Frequency, ThatDoesNotExistIsAnErrorThatSaysHowManyThereAre) {
   ResponseSettings settings;
   settings.name = "fifth";
   settings.type = ResponseType::frequency;
-  settings.mode = 4;
+  settings.mode.number = 4;
   problem.responses = {settings};
   try {
     analyze(problem, {});
@@ -136,7 +164,7 @@ TEST(Frequency, ThatDoesNotExistIsAnErrorThatSaysHowManyThereAre) {
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
                  "the response \"fifth\" cannot be computed: the mechanism has 1 natural "
-                 "frequencies, not 5");
+                 "frequency, not 5");
   }
 }
 
@@ -147,7 +175,7 @@ Eigen::VectorXd low_frequencies(const Model& model) {
   std::vector<double> all;
   for (const BodyModel& body : model.bodies) {
     for (int mode = 0; mode < std::min(3, body.elastic_size()); ++mode) {
-      all.push_back(body_frequency(body, mode, model.mechanism.system->variables()).value);
+      all.push_back(body_frequency(body, {mode}, model.mechanism.system->variables()).value);
     }
   }
   return Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
@@ -159,7 +187,7 @@ Eigen::MatrixXd low_derivatives(const Model& model) {
   Eigen::Index row = 0;
   for (const BodyModel& body : model.bodies) {
     for (int mode = 0; mode < std::min(3, body.elastic_size()); ++mode) {
-      all.row(row++) = body_frequency(body, mode, variables).derivatives.transpose();
+      all.row(row++) = body_frequency(body, {mode}, variables).derivatives.transpose();
     }
   }
   return all;

@@ -31,7 +31,7 @@ class GradientsOfResponses : public testing::TestWithParam<int> {
       ResponseSettings frequency;
       frequency.type = ResponseType::frequency;
       frequency.name = "frequency " + std::to_string(mode);
-      frequency.mode = mode;
+      frequency.mode.number = mode;
       problem_.responses.push_back(frequency);
     }
   }

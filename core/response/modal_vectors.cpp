@@ -1,0 +1,96 @@
+#include "core/response/modal_vectors.hpp"
+
+#include <random>
+#include <vector>
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+#include "core/base/error.hpp"
+#include "core/base/int_size.hpp"
+#include "core/response/motion_along.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Eigenvalues that differ by less, relatively, are one, several times.
+constexpr double coincidence_of_eigenvalues = 1e-6;
+/// Relative distance from the eigenvalue at which its vectors are sought.
+constexpr double detuning = 1e-9;
+
+/// Inverse iteration of a block of vectors, x ← P⁻¹ P_s x: others shrink by the detuning over their
+/// distance, a thousandth and less.
+/// @param n  number of coordinates, which come first
+Eigen::MatrixXcd null_vectors(const Eigen::MatrixXcd& pencil, const Eigen::MatrixXcd& slope,
+                              Eigen::Index n, Eigen::Index count) {
+  const Eigen::PartialPivLU<Eigen::MatrixXcd> solver(pencil);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Eigen::MatrixXcd x = Eigen::MatrixXcd::NullaryExpr(
+      pencil.rows(), count, [&] { return std::complex<double>(uniform(random), uniform(random)); });
+  for (int iteration = 0; iteration < 5; ++iteration) {
+    x = solver.solve(slope * x);
+    const Eigen::HouseholderQR<Eigen::MatrixXcd> qr(x.topRows(n));
+    const Eigen::MatrixXcd triangle = qr.matrixQR().topRows(count);
+    x = triangle.triangularView<Eigen::Upper>().solve<Eigen::OnTheRight>(x);
+  }
+  return x;
+}
+
+/// Which eigenvalues coincide with one.
+std::vector<int> coinciding(const Eigen::VectorXcd& modes, int mode) {
+  std::vector<int> found;
+  for (int i = 0; i < int_size(modes); ++i) {
+    const double distance = std::abs(modes(i) - modes(mode));
+    if (distance < coincidence_of_eigenvalues * std::abs(modes(mode)) || i == mode) {
+      found.push_back(i);
+    }
+  }
+  return found;
+}
+
+[[noreturn]] void refuse_mode(Eigen::Index count, const ModeChoice& choice) {
+  throw InputError(missing_mode("the mechanism", count, choice));
+}
+
+}  // namespace
+
+ModalVectors modal_vectors(const FrozenMechanism& frozen, const Eigen::VectorXcd& modes, int mode) {
+  const Eigen::Index n = frozen.M.rows(), m = frozen.phi.rows();
+  ModalVectors vectors;
+  vectors.s = modes(mode);
+  const auto count = std::ssize(coinciding(modes, mode));
+  // Not exactly at the eigenvalue, where the pencil is singular.
+  const std::complex<double> s = vectors.s * (1.0 + detuning);
+  const Pencil pencil = pencil_at(frozen, s);
+  Eigen::MatrixXcd slope = Eigen::MatrixXcd::Zero(n + m, n + m);
+  slope.topLeftCorner(n, n) = 2.0 * s * frozen.M + frozen.G;
+  const Eigen::MatrixXcd right = null_vectors(pencil.matrix, slope, n, count);
+  const Eigen::MatrixXcd left = null_vectors(pencil.matrix.adjoint(), slope.adjoint(), n, count);
+  vectors.right = right.topRows(n);
+  vectors.left = left.topRows(n);
+  vectors.right_multipliers = pencil.kappa * right.bottomRows(m);
+  vectors.left_multipliers = pencil.kappa * left.bottomRows(m);
+  return vectors;
+}
+
+int find_mode(const Model& model, const State& state, const ModeChoice& choice) {
+  const FrozenMechanism frozen = freeze(model.mechanism, state);
+  const Eigen::VectorXcd modes = modes_of(frozen);
+  if (!choice.axis) {
+    if (choice.number >= modes.size()) refuse_mode(modes.size(), choice);
+    return choice.number;
+  }
+  const Eigen::MatrixXd along = mass_along(model, state, *choice.axis);
+  Eigen::Index counted = 0;
+  for (int mode = 0; mode < int_size(modes); ++mode) {
+    if (coinciding(modes, mode).front() != mode) continue;
+    const Eigen::MatrixXcd vectors = modal_vectors(frozen, modes, mode).right;
+    counted += combinations_along(vectors, frozen.M, along).cols();
+    if (choice.number < counted) return mode;
+  }
+  refuse_mode(counted, choice);
+}
+
+}  // namespace pleuel

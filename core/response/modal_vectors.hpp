@@ -1,0 +1,27 @@
+#pragma once
+
+#include "core/model/model.hpp"
+#include "core/response/mechanism_modes.hpp"
+#include "core/scene/mode_choice.hpp"
+
+namespace pleuel {
+
+/// Vectors of one eigenvalue of a frozen mechanism and of all that coincide with it, one a column:
+/// P φ = 0, ψᴴ P = 0 with multipliers (pencil_at()).
+struct ModalVectors {
+  std::complex<double> s;
+  Eigen::MatrixXcd right, left;                          ///< n × k
+  Eigen::MatrixXcd right_multipliers, left_multipliers;  ///< m × k
+};
+
+/// @param modes  modes_of(frozen)
+/// @param mode   from 0, one of them
+ModalVectors modal_vectors(const FrozenMechanism& frozen, const Eigen::VectorXcd& modes, int mode);
+
+/// Which of the modes of a mechanism is meant; of those that coincide the first.
+/// @param state   that is frozen
+/// @param choice  its axis is a global one
+/// @throws InputError `the mechanism has … natural frequencies …, not …`
+int find_mode(const Model& model, const State& state, const ModeChoice& choice);
+
+}  // namespace pleuel

@@ -1,0 +1,71 @@
+#include "optimization/design/meeting_frequencies.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/error.hpp"
+#include "core/response/body_frequency.hpp"
+#include "optimization/design/peak_windows.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Relative difference of frequencies that meet, as far as a search that stalls comes to the kink.
+constexpr double meeting = 1e-3;
+
+/// The natural frequency of a mode of what a response looks at [rad/s]; none if there is no such
+/// mode.
+std::optional<double> frequency_of_mode(const Analysis& analysis, const ResponseSettings& response,
+                                        int number) {
+  if (number < 0) return std::nullopt;
+  if (response.bodies.empty()) {
+    const Eigen::VectorXd& all = analysis.mechanism_frequencies;
+    return number < all.size() ? std::optional(all(number)) : std::nullopt;
+  }
+  const Model& model = analysis.full ? analysis.full->model : analysis.model;
+  const BodyModel& body = model.body(response.bodies.front());
+  if (number >= body.elastic_size()) return std::nullopt;
+  return std::sqrt(body_mode(body, {number}).square);
+}
+
+bool meets_another(const Analysis& analysis, const ResponseSettings& response) {
+  if (response.type != ResponseType::frequency || response.mode.axis) return false;
+  const double shown = *frequency_of_mode(analysis, response, response.mode.number);
+  return std::ranges::any_of(std::array{-1, 1}, [&](int step) {
+    const auto other = frequency_of_mode(analysis, response, response.mode.number + step);
+    return other && std::abs(*other - shown) <= meeting * std::abs(shown);
+  });
+}
+
+}  // namespace
+
+std::string advise_on_meeting_frequencies(DesignProblem& design, const Eigen::VectorXd& x) {
+  std::vector<std::string> names;
+  try {
+    for (std::size_t c = 0; c < design.case_count(); ++c) {
+      DesignCase& one = design.load_case(c);
+      for (const std::size_t response : optimized_responses(design, c)) {
+        const ResponseSettings& settings = one.file().responses[response];
+        if (!meets_another(one.analysis_at(x), settings)) continue;
+        if (std::ranges::find(names, settings.name) == names.end()) names.push_back(settings.name);
+      }
+    }
+  } catch (const SimulationError&) {
+    return {};
+  }
+  if (names.empty()) return {};
+  return fmt::format(
+      "{} coincide{} with the frequency of another mode, which makes a kink: ask for the lowest "
+      "mode "
+      "along each axis instead (\"direction\" \"y\", and \"z\") and limit each, or their min()",
+      fmt::join(names, " and "), names.size() == 1 ? "s" : "");
+}
+
+}  // namespace pleuel

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "optimization/design/design_problem.hpp"
+
+namespace pleuel {
+
+/// What to do about natural frequencies that are optimized and coincide with that of the next or the
+/// last mode at a design: modes are counted by their frequencies, so that each has a kink where two
+/// meet, and an optimum there is none of first order. Empty where none does, or if the design cannot
+/// be simulated.
+std::string advise_on_meeting_frequencies(DesignProblem& design, const Eigen::VectorXd& x);
+
+}  // namespace pleuel

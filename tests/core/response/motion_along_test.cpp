@@ -1,0 +1,86 @@
+#include "core/response/motion_along.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/base/dense_solvers.hpp"
+#include "core/beam/elastic_basis.hpp"
+#include "core/response/mechanism_modes.hpp"
+#include "tests/support/random_state.hpp"
+#include "tests/support/sample_name.hpp"
+#include "tests/support/sample_scenes.hpp"
+
+namespace pleuel::test::motion_along_test {
+namespace {
+
+class MotionAlong : public testing::TestWithParam<int> {
+ protected:
+  Model model_ = all_samples()[GetParam()].build();
+};
+
+/// Of elastic coordinates: S_11 + S_22 + S_33 = S_ff.
+TEST_P(MotionAlong, OfAllAxesIsTheMassMatrixOfABody) {
+  for (const BodyModel& body : model_.bodies) {
+    const Invariants<double>& constants = body.invariants;
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(body.elastic_size(), body.elastic_size());
+    for (int axis = 0; axis < 3; ++axis) sum += elastic_mass_along(constants, axis);
+    const Eigen::MatrixXd mass = dense_matrix(constants.pattern, constants.mass_matrix);
+    EXPECT_LE((sum - mass).norm(), 1e-14 * mass.norm()) << body.name;
+  }
+}
+
+/// In any state, of turned and deformed bodies: the mass matrix of the equations of motion, R_a.
+TEST_P(MotionAlong, OfAllAxesIsTheMassMatrixOfAMechanism) {
+  const State state = random_state(model_, 7);
+  const Eigen::MatrixXd mass = freeze(model_.mechanism, state).M;
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(mass.rows(), mass.cols());
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::MatrixXd along = mass_along(model_, state, axis);
+    EXPECT_LE((along - along.transpose()).norm(), 1e-14 * mass.norm());
+    EXPECT_GE(symmetric_eigenvalues(along).minCoeff(), -1e-12 * mass.norm());
+    sum += along;
+  }
+  EXPECT_LE((sum - mass).norm(), 1e-12 * mass.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(Samples, MotionAlong, testing::Range(0, sample_count), sample_name);
+
+/// A point mass at 3 m/s along y and 4 m/s along z: m v² along each.
+TEST(MotionAlong, OfAPointMassIsThatOfItsVelocity) {
+  Scene scene;
+  PointMass body;
+  body.mass = 2.0;
+  scene.bodies = {{"ball", body}};
+  EffectSettings effects;
+  effects.spatial_motion = EffectChoice::on;
+  const Model model = build_model(scene, effects, {}, {});
+  const State state(model.mechanism.system->coordinates(), 0);
+  const Eigen::Vector3d velocity(0.0, 3.0, 4.0);
+  const double squares[] = {0.0, 9.0, 16.0};
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_DOUBLE_EQ(velocity.dot(mass_along(model, state, axis) * velocity), 2.0 * squares[axis]);
+  }
+}
+
+/// Two modes that are halves of motion along x and of motion along y are turned until one is all of
+/// it.
+TEST(CombinationsAlong, TellModesThatCoincideApart) {
+  const Eigen::Matrix2d mass = Eigen::Vector2d(2.0, 2.0).asDiagonal(),
+                        along = Eigen::Vector2d(2.0, 0.0).asDiagonal();
+  Eigen::Matrix2cd modes;
+  modes << 0.5, 0.5, 0.5, -0.5;
+  const Eigen::MatrixXcd found = modes * combinations_along(modes, mass, along);
+  ASSERT_EQ(found.cols(), 1);
+  EXPECT_NEAR(std::abs(found(0, 0)), std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(std::abs(found(1, 0)), 0.0, 1e-15);
+}
+
+/// What moves along two axes alike is along none.
+TEST(CombinationsAlong, LeaveOutWhatIsAlongNoAxis) {
+  const Eigen::Matrix2d mass = Eigen::Matrix2d::Identity(),
+                        along = Eigen::Vector2d(1.0, 0.0).asDiagonal();
+  const Eigen::MatrixXcd mode = Eigen::Vector2cd::Constant(std::sqrt(0.5));
+  EXPECT_EQ(combinations_along(mode, mass, along).cols(), 0);
+}
+
+}  // namespace
+}  // namespace pleuel::test::motion_along_test
