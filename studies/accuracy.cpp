@@ -94,7 +94,7 @@ class RefinementStudy {
   AccuracyStudy run() {
     study_.counted = asked_responses(problem_);
     const std::vector<Discretization> grid = accuracy_grid(problem_);
-    find_reference(finer_than(grid));
+    find_reference(finer_than(problem_, grid));
     try {
       of_reference_ = lagrangian_of_reference(problem_, design_, study_, parts_);
       for (const Discretization& settings : grid) add_run(settings);

@@ -10,6 +10,10 @@ namespace pleuel {
 
 namespace {
 
+/// How much larger the mesh of a reference is at least, and how often elements are doubled for it.
+constexpr double least_growth = 1.5;
+constexpr int most_doublings = 4;
+
 /// Of a segment of an elastic beam; 0 without any.
 int most_elements(const Scene& scene) {
   int most = 0;
@@ -80,7 +84,7 @@ std::vector<Discretization> accuracy_grid(const ProblemFile& problem) {
   return grid;
 }
 
-Discretization finer_than(const std::vector<Discretization>& grid) {
+Discretization finer_than(const ProblemFile& problem, const std::vector<Discretization>& grid) {
   Discretization finest = grid.front();
   for (const Discretization& one : grid) {
     finest.step = std::min(finest.step, one.step);
@@ -88,8 +92,12 @@ Discretization finer_than(const std::vector<Discretization>& grid) {
     finest.factor = std::max(finest.factor, one.factor);
   }
   finest.step *= 0.5;
-  finest.elements *= 2;
-  finest.factor *= 2.0;
+  const int size = mesh_size(discretized(problem, finest));
+  for (int doubling = 0; doubling < most_doublings; ++doubling) {
+    finest.elements *= 2;
+    finest.factor *= 2.0;
+    if (mesh_size(discretized(problem, finest)) >= least_growth * size) break;
+  }
   return finest;
 }
 

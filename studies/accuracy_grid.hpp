@@ -20,8 +20,9 @@ ProblemFile discretized(ProblemFile problem, const Discretization& settings);
 /// the step, half to twice the elements.
 std::vector<Discretization> accuracy_grid(const ProblemFile& problem);
 
-/// Half the finest step of a grid, twice its most elements.
-Discretization finer_than(const std::vector<Discretization>& grid);
+/// Half the finest step of a grid, twice its most elements; more where those are the same mesh, since
+/// frames divide the beams anyway.
+Discretization finer_than(const ProblemFile& problem, const std::vector<Discretization>& grid);
 
 /// 4/3 of the step, 3/4 of the elements.
 Discretization slightly_coarser(Discretization settings);

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -33,29 +36,108 @@ bool was_chosen(const Json& result) {
   return !stages.empty() && stages.back().contains("target");
 }
 
-/// The chosen setting as overrides; nothing if a body of it is not in the problem.
-std::vector<std::string> overrides_of(const Json& chosen, const Json& problem) {
-  std::vector<std::string> overrides;
-  for (const auto& [place, value] : chosen.items()) {
-    const bool is_of_body = place.starts_with("/scene/");
-    if (is_of_body && !problem.contains(Json::json_pointer(place).parent_pointer())) return {};
-    overrides.push_back(place + "=" + value.dump());
-  }
-  return overrides;
+/// Chosen numbers by their places in the file of a case, or in the whole file.
+using Setting = std::vector<std::pair<Json::json_pointer, Json>>;
+
+/// Whether the problem has what a chosen number is of.
+bool has_place(const Json& problem, const Json::json_pointer& place) {
+  const std::string text = place.to_string();
+  if (!text.starts_with("/scene/")) return true;
+  if (!problem.contains(place.parent_pointer())) return false;
+  const Json& owner = problem.at(place.parent_pointer());
+  return place.back() != "elements" || !owner.is_object() || !owner.contains("segments");
 }
 
-std::vector<std::string> setting_of_run(const Arguments& arguments) {
+/// @returns nothing if something of it is not in the problem
+std::optional<Setting> setting_of(const Json& chosen, const Json& problem) {
+  Setting setting;
+  for (const auto& [text, value] : chosen.at("overrides").items()) {
+    const Json::json_pointer place(text);
+    if (!has_place(problem, place)) return std::nullopt;
+    setting.emplace_back(place, value);
+  }
+  return setting;
+}
+
+/// The place in a whole file at which a load case changes another place.
+std::string place_in_case(const std::string& load_case, const Json::json_pointer& place) {
+  return (Json::json_pointer("/cases") / load_case / place.to_string()).to_string();
+}
+
+/// What the command line itself says stands above it.
+bool is_given(const std::string& place, const std::vector<std::string>& assignments) {
+  return std::any_of(assignments.begin(), assignments.end(), [&](const std::string& assignment) {
+    return assignment.starts_with(place + "=");
+  });
+}
+
+class RunSetting {
+ public:
+  /// @param result   of the optimization
+  /// @param problem  the file with the assignments of the command line
+  RunSetting(const Arguments& arguments, const Json& result, const Json& problem)
+      : arguments_(arguments), result_(result), problem_(problem) {}
+
+  /// Assignments; nothing if the problem is not that of the run.
+  std::optional<std::vector<std::string>> find() {
+    const Json& setting = result_.at("setting");
+    if (!problem_.contains("cases") || problem_.at("cases").empty()) {
+      return setting.contains("overrides") && add(setting, "") ? std::optional(assignments_)
+                                                               : std::nullopt;
+    }
+    for (const auto& [name, changes] : problem_.at("cases").items()) {
+      if (arguments_.load_case && name != *arguments_.load_case) continue;
+      if (!changes.is_object() || !add_of_case(setting, name)) return std::nullopt;
+    }
+    return assignments_;
+  }
+
+ private:
+  /// Of an optimization for all cases, or for this one alone.
+  bool add_of_case(const Json& setting, const std::string& name) {
+    if (setting.contains("cases")) {
+      return setting.at("cases").contains(name) && add(setting.at("cases").at(name), name);
+    }
+    return arguments_.load_case && setting.contains("overrides") && add(setting, name);
+  }
+
+  bool add(const Json& chosen, const std::string& load_case) {
+    const std::optional<Setting> setting = setting_of(chosen, problem_);
+    if (!setting) return false;
+    for (const auto& [place, value] : *setting) {
+      const std::string in_case = load_case.empty() ? "" : place_in_case(load_case, place);
+      const bool is_given_otherwise = is_given(place.to_string(), arguments_.overrides) ||
+                                      (!in_case.empty() && is_given(in_case, arguments_.overrides));
+      if (is_given_otherwise) continue;
+      assignments_.push_back((in_case.empty() ? place.to_string() : in_case) + "=" + value.dump());
+    }
+    return true;
+  }
+
+  const Arguments& arguments_;
+  const Json &result_, &problem_;
+  std::vector<std::string> assignments_;
+};
+
+struct FoundSetting {
+  bool fits = true;  ///< otherwise the run is of another mechanism
+  std::vector<std::string> assignments;
+};
+
+/// Nothing where no accuracy was asked of the run, or where one is asked for now.
+FoundSetting setting_of_run(const Arguments& arguments) {
   const std::filesystem::path& design = *arguments.design;
   const Json result =
       document_of(std::filesystem::is_directory(design) ? design / "result.json" : design);
-  const Json::json_pointer place("/setting/overrides");
-  if (!result.contains(place) || !was_chosen(result)) return {};
+  if (!result.contains("setting") || !was_chosen(result)) return {};
   Json problem = document_of(arguments.file);
   for (const std::string& assignment : arguments.overrides) {
     apply_override(problem, assignment, arguments.file.string());
   }
   if (problem.contains(Json::json_pointer("/accuracy/target"))) return {};
-  return overrides_of(result.at(place), problem);
+  const auto found = RunSetting(arguments, result, problem).find();
+  if (!found) return {false, {}};
+  return {true, *found};
 }
 
 }  // namespace
@@ -64,19 +146,26 @@ void take_setting_of_run(Arguments& arguments) {
   const bool looks_at_it =
       std::find(commands.begin(), commands.end(), arguments.command) != commands.end();
   if (!looks_at_it || !arguments.design) return;
-  std::vector<std::string> setting;
+  FoundSetting found;
   try {
-    setting = setting_of_run(arguments);
+    found = setting_of_run(arguments);
   } catch (const InputError&) {
     return;  // who reads the design says more of it
   } catch (const Json::exception&) {
     return;  // a damaged document
   }
-  if (setting.empty()) return;
+  const std::string run = arguments.design->string();
+  if (!found.fits) {
+    show(stderr, wrapped(fmt::format("{}: note: simulated with the steps and elements of the file, "
+                                     "since those of this optimum do not fit it\n",
+                                     run)));
+  }
+  if (found.assignments.empty()) return;
   show(stderr, wrapped(fmt::format("{}: note: simulated with the steps and elements that this "
                                    "optimum was found with ({}); --set takes others\n",
-                                   arguments.design->string(), fmt::join(setting, ", "))));
-  arguments.overrides.insert(arguments.overrides.begin(), setting.begin(), setting.end());
+                                   run, fmt::join(found.assignments, ", "))));
+  arguments.overrides.insert(arguments.overrides.begin(), found.assignments.begin(),
+                             found.assignments.end());
 }
 
 }  // namespace pleuel

@@ -171,7 +171,8 @@ std::optional<StepFailure> TimeLoop::make_step(double time, NewtonCorrector::Tru
   if (stored_ == 1 && !is_continued_) correct_start();
   equations_.begin(old_);
   predictor_.predict(old_, time, scheme_, equations_, state_);
-  if (step_ <= 2 || step_ % curvature_interval == 1) trust = NewtonCorrector::Trust::none;
+  const bool is_foreseeable = step_ > 2 && step_ % curvature_interval != 1;
+  if (!is_foreseeable || mechanism_.has_laws_of_motion) trust = NewtonCorrector::Trust::none;
   std::optional<StepFailure> failure = corrector_.correct(equations_, state_, trust);
   if (failure && predictor_.looks_ahead()) {
     predictor_.forget();

@@ -44,6 +44,16 @@ void divide(std::vector<MeshElement>& elements, double at) {
   }
 }
 
+/// Each element into so many of the same size.
+std::vector<MeshElement> in_pieces(const std::vector<MeshElement>& elements, int pieces) {
+  std::vector<MeshElement> all;
+  for (const MeshElement& element : elements) {
+    all.insert(all.end(), static_cast<std::size_t>(pieces),
+               {element.segment, element.share / pieces});
+  }
+  return all;
+}
+
 }  // namespace
 
 BeamMesh make_mesh(const Body& body, const Scene& scene, const Design<double>& start,
@@ -60,6 +70,7 @@ BeamMesh make_mesh(const Body& body, const Scene& scene, const Design<double>& s
   if (!is_elastic) return mesh;
   const std::vector<double> attached = attached_shares(body, scene, start);
   for (double share : attached) divide(mesh.elements, share);
+  if (beam.pieces > 1) mesh.elements = in_pieces(mesh.elements, beam.pieces);
   double node_share = 0.0;
   for (int node = 0; node <= int_size(mesh.elements); ++node) {
     const bool is_attached = std::any_of(attached.begin(), attached.end(), [&](double share) {

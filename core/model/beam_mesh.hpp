@@ -21,7 +21,8 @@ struct BeamMesh {
 /// The elements of a beam: those that the file asks for. Where a joint or a load acts inside one it
 /// is divided: section forces are recovered with the fixed-end terms of inertia loads only, and so
 /// have no kinks or jumps inside elements. A place nearer to a node than a hundredth of the element
-/// is left inside: the node would make the element too stiff beside the others.
+/// is left inside: the node would make the element too stiff beside the others. Each of these
+/// elements is divided into the `pieces` of the beam.
 /// @param start      at which attached points are looked at; their share of the length is fixed
 /// @param is_elastic otherwise nothing is divided
 BeamMesh make_mesh(const Body& body, const Scene& scene, const Design<double>& start,

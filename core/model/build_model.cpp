@@ -277,8 +277,22 @@ class ModelBuilder {
       const bool is_spring = std::holds_alternative<SpringDamper>(load.element) ||
                              std::holds_alternative<JointForce>(load.element);
       if (is_spring) model_.mechanism.springs.push_back(model_.terms.loads.back());
+      if (follows_motion(load)) model_.mechanism.has_laws_of_motion = true;
       model_.loads.push_back({load.name, std::move(built.gauge)});
     }
+  }
+
+  /// Whether a force is a law of the motion that is more than a stiffness and a damping.
+  static bool follows_motion(const Load& load) {
+    struct Visitor {
+      bool operator()(const PointForce& force) const { return force.over.has_value(); }
+      bool operator()(const PointTorque& torque) const { return torque.over.has_value(); }
+      bool operator()(const SpringDamper& spring) const { return spring.resistance.has_value(); }
+      bool operator()(const JointForce& force) const {
+        return force.resistance || (force.motor && depends_on_state(*force.motor));
+      }
+    };
+    return std::visit(Visitor(), load.element);
   }
 
   void name_equations() {

@@ -42,30 +42,23 @@ void set_full_mechanism(const ProblemFile& problem, const Design<double>& start,
   }
 }
 
-/// The model whose frequencies are those of the mechanism, and its state: the initial one, and where
-/// that is one of a motion that repeats itself, the state as the file places it.
-std::pair<Model*, State> modelled_start(Analysis& analysis) {
-  if (analysis.full) return {&analysis.full->model, analysis.full->initial->state};
-  Model& model = analysis.model;
-  if (analysis.trajectory.periodic) return {&model, initial_state(model.mechanism).state};
-  State initial;
-  analysis.trajectory.states->load(0, initial);
-  return {&model, initial};
-}
-
 void set_mechanism_frequencies(Analysis& analysis) {
   analysis.mechanism_modes.assign(analysis.responses.size(), 0);
   if (!std::any_of(analysis.responses.begin(), analysis.responses.end(),
                    [](const Response& response) { return response.frequency(); })) {
     return;
   }
-  const auto [model, state] = modelled_start(analysis);
-  analysis.mechanism_frequencies = mechanism_frequencies(model->mechanism, state);
+  if (analysis.trajectory.periodic && !analysis.full) {
+    analysis.placed = initial_state(analysis.model.mechanism).state;
+  }
+  const Model& model = model_of_modes(analysis);
+  const State state = state_of_modes(analysis);
+  analysis.mechanism_frequencies = mechanism_frequencies(model.mechanism, state);
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     const Response& response = analysis.responses[i];
     if (!response.frequency()) continue;
     try {
-      analysis.mechanism_modes[i] = find_mode(*model, state, response.frequency()->choice);
+      analysis.mechanism_modes[i] = find_mode(model, state, response.frequency()->choice);
     } catch (const InputError& error) {
       refuse_response(response.name, error.what());
     }
@@ -231,6 +224,18 @@ ProblemFile with_steps_of(const Trajectory& trajectory, ProblemFile problem) {
   if (is_regular) return problem;
   problem.simulation.instants.assign(trajectory.time.begin(), trajectory.time.end());
   return problem;
+}
+
+const Model& model_of_modes(const Analysis& analysis) {
+  return analysis.full ? analysis.full->model : analysis.model;
+}
+
+State state_of_modes(const Analysis& analysis) {
+  if (analysis.full) return analysis.full->initial->state;
+  if (analysis.placed) return *analysis.placed;
+  State state;
+  analysis.trajectory.states->load(0, state);
+  return state;
 }
 
 Eigen::VectorXd values_of(const Analysis& analysis) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/integration/simulate.hpp"
@@ -24,6 +25,9 @@ struct Analysis {
   std::unique_ptr<FullMechanism> full;
   /// Why natural frequencies are those of the model, though it leaves modes out; else empty.
   std::string modes_left_out;
+  /// The state as the file places it, where frequencies of the mechanism are asked for of a motion
+  /// that begins elsewhere, as one that repeats itself.
+  std::optional<State> placed;
   /// Natural frequencies of the whole mechanism, where a response asks for one
   /// (mechanism_modes.hpp).
   Eigen::VectorXd mechanism_frequencies;
@@ -32,6 +36,12 @@ struct Analysis {
   /// The same without elasticity, where a response is measured against it; else null.
   std::unique_ptr<Analysis> rigid;
 };
+
+/// The model whose natural frequencies those of the mechanism are.
+const Model& model_of_modes(const Analysis& analysis);
+/// The state about which it vibrates: the initial one, and where that is one of a motion that repeats
+/// itself, the state as the file places it.
+State state_of_modes(const Analysis& analysis);
 
 /// One a response [SI].
 Eigen::VectorXd values_of(const Analysis& analysis);

@@ -140,6 +140,8 @@ struct BeamBody {
   bool has_shear = false;
   std::optional<CraigBampton> reduction;
   int frames = 1;  ///< floating frames that share the beam, welded to each other
+  /// Not of a file: into how many each element of the mesh is divided, whatever made it.
+  int pieces = 1;
   std::optional<BeamPart> part = {};
 };
 

@@ -116,17 +116,6 @@ ProblemFile with_other_frames(const ProblemFile& problem) {
   return other;
 }
 
-/// The model and the state that frequencies of the mechanism are those of.
-const Model& model_of_modes(const Analysis& analysis) {
-  return analysis.full ? analysis.full->model : analysis.model;
-}
-State state_of_modes(const Analysis& analysis) {
-  if (analysis.full) return analysis.full->initial->state;
-  State state;
-  analysis.trajectory.states->load(0, state);
-  return state;
-}
-
 /// What moments do to the stiffness of a member that is bent or twisted is in the equations only as far as
 /// its frame turns with it: of first order in the load, and in none of the error bars of steps and
 /// elements. Other frames have another part of it.

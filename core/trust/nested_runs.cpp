@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <variant>
 
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/parallel.hpp"
+#include "core/model/beam_mesh.hpp"
+#include "core/model/divided_beams.hpp"
 
 namespace pleuel {
 
@@ -40,6 +43,26 @@ void change_elements(Scene& scene, double factor) {
   }
 }
 
+void divide_meshes(Scene& scene, int pieces) {
+  for (Body& body : scene.bodies) {
+    if (auto* beam = std::get_if<BeamBody>(&body.shape)) beam->pieces *= pieces;
+  }
+}
+
+/// How many elements the mesh of a beam has, with all its frames, as if it were elastic.
+std::map<std::string, int> mesh_sizes(const ProblemFile& problem) {
+  const Eigen::VectorXd start = start_design(problem);
+  const Design<double> design(start.begin(), start.end());
+  const Scene scene = divide_beams(problem.scene, problem.effects, design).scene;
+  std::map<std::string, int> sizes;
+  for (const Body& body : scene.bodies) {
+    const auto* beam = std::get_if<BeamBody>(&body.shape);
+    if (!beam || beam->is_rigid) continue;
+    sizes[name_in_scene(body)] += int_size(make_mesh(body, scene, design, true).elements);
+  }
+  return sizes;
+}
+
 void add_modes(Scene& scene, int more) {
   for (Body& body : scene.bodies) {
     auto* beam = std::get_if<BeamBody>(&body.shape);
@@ -52,6 +75,7 @@ void add_modes(Scene& scene, int more) {
 ProblemFile refined(ProblemFile problem, const Refinement& refinement) {
   if (refinement.step != 1.0) change_steps(problem.simulation, refinement.step);
   if (refinement.elements != 1.0) change_elements(problem.scene, refinement.elements);
+  if (refinement.pieces > 1) divide_meshes(problem.scene, refinement.pieces);
   if (refinement.more_modes > 0) add_modes(problem.scene, refinement.more_modes);
   problem.simulation.newton_tolerance *= refinement.newton;
   return problem;
@@ -98,6 +122,22 @@ bool has_reduced_beams(const Model& model, const ProblemFile& problem) {
                        const auto* beam = std::get_if<BeamBody>(&body.shape);
                        return beam && beam->reduction && model.body(body.name).is_elastic;
                      });
+}
+
+int mesh_size(const ProblemFile& problem) {
+  int sum = 0;
+  for (const auto& [name, size] : mesh_sizes(problem)) sum += size;
+  return sum;
+}
+
+bool can_be_halved(const Model& model, const ProblemFile& problem) {
+  const std::map<std::string, int> sizes = mesh_sizes(problem),
+                                   halves = mesh_sizes(refined(problem, {.elements = 0.5}));
+  return std::all_of(sizes.begin(), sizes.end(), [&](const auto& one) {
+    const auto& [name, size] = one;
+    const int most = (size + 1) / 2 + size / 8;
+    return !model.body(name).is_elastic || halves.at(name) <= most;
+  });
 }
 
 std::optional<int> fewest_elements(const Model& model, const ProblemFile& problem) {

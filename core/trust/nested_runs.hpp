@@ -15,6 +15,9 @@ struct Refinement {
   double elements = 1.0;  ///< times the elements of every segment: 2 or 0.5
   int more_modes = 0;     ///< of each family of every reduced beam
   double newton = 1.0;    ///< times the tolerance of Newton's method
+  /// Into how many each element of the mesh is divided. Twice the elements of the file may be the
+  /// same mesh, where joints, loads or frames divide the beam anyway.
+  int pieces = 1;
 };
 
 /// Refinements that judge what is not divided: so many modes more in each family (with one the next
@@ -53,6 +56,14 @@ bool has_reduced_beams(const Model& model, const ProblemFile& problem);
 
 /// The elements of all beams that the file does not call rigid.
 int beam_elements(const ProblemFile& problem);
+
+/// The elements of the meshes of all beams that the file does not call rigid, with what joints, loads
+/// and frames divide.
+int mesh_size(const ProblemFile& problem);
+
+/// Whether half the elements of every elastic beam is a mesh with about half the elements: joints,
+/// loads and frames may divide it as it is.
+bool can_be_halved(const Model& model, const ProblemFile& problem);
 
 /// The fewest elements of a segment of an elastic beam; none without such a beam.
 std::optional<int> fewest_elements(const Model& model, const ProblemFile& problem);

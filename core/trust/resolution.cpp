@@ -73,7 +73,7 @@ class Judgement {
     needs_half_step_ = is_close() || is_time_suspicious_ || !do_coarse_runs_suffice();
     std::vector<Refinement> fine;
     if (needs_half_step_) fine.push_back({0.5, 1.0});
-    if (is_space_suspicious_) fine.push_back({1.0, 2.0});
+    if (is_space_suspicious_) fine.push_back(twice);
     if (are_modes_suspicious_) fine.push_back({1.0, 1.0, judging_modes});
     Resolution found = weigh(make_nested_runs(problem_, run_.x, fine));
     make_bars(found);
@@ -81,12 +81,21 @@ class Judgement {
   }
 
  private:
+  static constexpr Refinement twice{.pieces = 2}, half{.elements = 0.5};
+
   bool is_close() const { return run_.scrutiny == Scrutiny::close; }
+  /// Of the run that is always made.
+  bool has_finer_division() const { return other_division_.pieces > 1; }
+
+  static Refinement at_twice_the_step(Refinement division) {
+    division.step = 2.0;
+    return division;
+  }
 
   void plan_coarse_runs() {
     const std::optional<int> fewest = fewest_elements(run_.analysis.model, problem_);
-    const bool has_few = fewest.value_or(1) <= 2;
-    space_factor_ = has_few ? 2.0 : 0.5;
+    const bool has_few = fewest.value_or(1) <= 2 || !can_be_halved(run_.analysis.model, problem_);
+    other_division_ = has_few ? twice : half;
     has_elements_ = fewest.has_value();
     has_more_elements_ = is_close() && has_elements_ && !has_few;
     has_modes_ = has_reduced_beams(run_.analysis.model, problem_);
@@ -97,10 +106,12 @@ class Judgement {
 
   void make_coarse_runs() {
     std::vector<Refinement> refinements = {{2.0, 1.0}, {4.0, 1.0}};
-    if (has_elements_) refinements.push_back({2.0, space_factor_});
-    if (has_more_elements_) refinements.push_back({2.0, 2.0});
+    if (has_elements_) refinements.push_back(at_twice_the_step(other_division_));
+    if (has_more_elements_) refinements.push_back(at_twice_the_step(twice));
     if (has_modes_) refinements.push_back({2.0, 1.0, judging_modes});
-    if (has_modes_of_more_elements_) refinements.push_back({2.0, 2.0, judging_modes});
+    if (has_modes_of_more_elements_) {
+      refinements.push_back({.step = 2.0, .more_modes = judging_modes, .pieces = 2});
+    }
     if (has_tolerance_) refinements.push_back({4.0, 1.0, 0, judging_newton});
     std::vector<NestedRun> runs = make_nested_runs(problem_, run_.x, refinements);
     std::size_t next = 0;
@@ -143,7 +154,7 @@ class Judgement {
                                       [&](std::size_t i) { return is_suspicious_in_time(i); });
     // Half the elements have four times the error (order 2, bending has more), twice a quarter of
     // it.
-    const double share = space_factor_ < 1.0 ? 1.0 / 3.0 : 4.0 / 3.0;
+    const double share = has_finer_division() ? 4.0 / 3.0 : 1.0 / 3.0;
     if (has_elements_) is_space_suspicious_ = is_suspicious_beside(other_elements_, share);
     if (has_modes_) are_modes_suspicious_ = is_suspicious_beside(other_modes_, 1.0);
   }
@@ -229,8 +240,8 @@ class Judgement {
       runs.quarter_step = &quarter_step();
     }
     if (has_elements_) {
-      (space_factor_ > 1.0 ? runs.more_elements : runs.fewer_elements) = {&other_elements_,
-                                                                          &coarse_};
+      (has_finer_division() ? runs.more_elements : runs.fewer_elements) = {&other_elements_,
+                                                                           &coarse_};
     }
     if (has_more_elements_) runs.more_elements = {&more_elements_, &coarse_};
     if (is_space_suspicious_) runs.more_elements = {&twice_elements_, &found_};
@@ -363,7 +374,7 @@ class Judgement {
   NestedRun half_step_, twice_elements_, more_modes_;
   std::optional<NestedRun> quarter_step_;
   std::vector<std::size_t> judged_;
-  double space_factor_ = 0.5;
+  Refinement other_division_ = half;
   bool has_elements_ = false, has_more_elements_ = false, has_modes_ = false,
        has_modes_of_more_elements_ = false, has_tolerance_ = false;
   bool needs_half_step_ = false;

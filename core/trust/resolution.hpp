@@ -32,8 +32,9 @@ struct Resolution {
 };
 
 /// Judges which responses are resolved, in two stages:
-/// 1. Suspicion. A run of twice the step, and one of it with half the elements (twice, where there
-///    are only one or two), together cost about as much as the simulation; where beams are reduced,
+/// 1. Suspicion. A run of twice the step, and one of it with half the elements (each in two, where
+///    there are only one or two, or where joints, loads or frames divide the beam anyway, so that
+///    half were the same mesh), together cost about as much as the simulation; where beams are reduced,
 ///    one with more modes joins them. A response is suspicious
 ///    if the values differ by more than a percent (a percent of its error in space, of order 2), if
 ///    the histories differ by some percent of their largest value (peaks can agree by accident), or

@@ -248,10 +248,13 @@ class Search {
       if (is_asked) refinements.push_back(one);
       return is_asked ? refinements.size() - 1 : 0;
     };
-    const std::size_t elements = add(trial.fewest_elements.has_value(), {2.0, 2.0});
-    const std::size_t fewer = add(trial.fewest_elements.value_or(1) > 1, {2.0, 0.5});
+    const bool has_fewer =
+        trial.fewest_elements.value_or(1) > 1 && can_be_halved(analysis.model, divided);
+    const std::size_t elements = add(trial.fewest_elements.has_value(), {.step = 2.0, .pieces = 2});
+    const std::size_t fewer = add(has_fewer, {.step = 2.0, .elements = 0.5});
     // With twice the elements, of which there may be too few for more modes.
-    const std::size_t modes = add(has_modes, {2.0, 2.0, judging_modes});
+    const std::size_t modes =
+        add(has_modes, {.step = 2.0, .more_modes = judging_modes, .pieces = 2});
     const std::size_t newton = add(has_tolerance, {4.0, 1.0, 0, judging_newton});
     const std::vector<NestedRun> runs = make_nested_runs(divided, x_, refinements);
     JudgingRuns judging;

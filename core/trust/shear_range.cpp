@@ -14,8 +14,10 @@
 #include "core/base/int_size.hpp"
 #include "core/base/sparse_rows.hpp"
 #include "core/beam/beam_shape.hpp"
+#include "core/model/body_energy.hpp"
 #include "core/model/shear_area.hpp"
 #include "core/response/body_frequency.hpp"
+#include "core/response/modal_vectors.hpp"
 #include "core/scene/body_groups.hpp"
 #include "core/trust/beam_state.hpp"
 
@@ -143,12 +145,20 @@ double displacement_ratio(const BodyModel& body, const BeamBending& elements) {
   return std::max(chord, ratio(shear.against_node(clamped), bending.against_node(clamped)));
 }
 
+/// Between nodes, too: by its curvature, which one element between the ends of a frame has alone.
 double largest_deflection(const BeamBending& elements) {
-  double largest = 0.0;
+  double largest = 0.0, slope = 0.0;
+  Course bent;  // v'' = κ, from a straight beginning
+  bent.value = {0.0};
   for (const ElementBending& element : elements) {
     for (double v : element.deflection) largest = std::max(largest, std::abs(v));
+    const auto [a, b] = element.curvature;
+    const double l = element.length;
+    bent.x.push_back(bent.x.back() + l);
+    bent.value.push_back(bent.value.back() + slope * l + l * l * (2.0 * a + b) / 6.0);
+    slope += 0.5 * l * (a + b);
   }
-  return largest;
+  return std::max(largest, bent.against_chord());
 }
 
 }  // namespace
@@ -191,6 +201,7 @@ class ShearDoubts {
       const BodyModel& body = model_.bodies[i];
       if (!body.is_beam() || !body.is_elastic || largest[i].bending <= known_[body.name]) continue;
       known_[body.name] = largest[i].bending;
+      steps_[body.name] = largest[i].bending_step;
       run_.analysis.trajectory.states->load(largest[i].bending_step, state);
       shares_[body.name] = shear_share(run_.problem, run_.x, model_, body.name, state);
     }
@@ -323,11 +334,13 @@ class ShearDoubts {
       case ResponseType::position:
         return moved(index, share);
       case ResponseType::elastic_energy:
+        if (response.bodies.empty()) return largest * energy_share(body);
         return is_of_body ? largest : 0.0;
       case ResponseType::buckling:
       case ResponseType::lateral_buckling:
         return is_of_body ? euler_share(body) : 0.0;
       case ResponseType::frequency:
+        if (response.bodies.empty()) return mode_share(body, index);
         return is_of_body ? mode_share(body, response.mode) : 0.0;
       case ResponseType::stress:
       case ResponseType::fatigue:
@@ -384,15 +397,71 @@ class ShearDoubts {
     const BendingReader reader(run_.problem, run_.x, name);
     State state(body.elastic_offset() + body.elastic_size(), 0);
     state.q.tail(body.elastic_size()) = mode.shapes.col(0).real();
-    const Eigen::MatrixXd nodal = nodal_displacements(body, state);
-    double shear = 0.0;
-    for (int plane = 0; plane < 2; ++plane) {
-      for (const ElementBending& element : reader.read(body, nodal, plane)) {
-        shear += element.shear_energy();
-      }
-    }
+    const double shear = shear_energy(reader, body, state);
     const double of_mode = 0.5 * mode.square;  // all energy of a mode with unit mass
     return 0.5 * shear / (of_mode + shear);
+  }
+
+  /// The same of a mode of the whole mechanism.
+  double mode_share(const std::string& name, std::size_t response) const {
+    const Analysis& analysis = run_.analysis;
+    const Model& model = model_of_modes(analysis);
+    const BendingReader reader(run_.problem, run_.x, name);
+    State shape(model.mechanism.system->coordinates(), model.mechanism.system->multipliers());
+    const Vibration& mode = vibration_of(response);
+    shape.q = mode.shape;
+    double shear = 0.0;
+    for (const BodyModel* part : model.parts(name)) shear += shear_energy(reader, *part, shape);
+    return mode.energy > 0.0 ? 0.5 * shear / (mode.energy + shear) : 0.0;
+  }
+
+  /// A mode of the mechanism, with its energy.
+  struct Vibration {
+    Eigen::VectorXd shape;
+    double energy = 0.0;  ///< ½ ω² φᵀ M φ; 0 of what does not vibrate
+  };
+
+  const Vibration& vibration_of(std::size_t response) const {
+    const auto known = vibrations_.find(response);
+    if (known != vibrations_.end()) return known->second;
+    const Analysis& analysis = run_.analysis;
+    const FrozenMechanism frozen =
+        freeze(model_of_modes(analysis).mechanism, state_of_modes(analysis));
+    const ModalVectors vectors =
+        modal_vectors(frozen, modes_of(frozen), analysis.mechanism_modes[response]);
+    const Eigen::VectorXcd first = vectors.right.col(0);
+    Eigen::Index largest = 0;
+    first.cwiseAbs().maxCoeff(&largest);
+    const Eigen::VectorXd shape = (first / first(largest)).real();
+    const double frequency = std::max(frequency_of(vectors.s), 0.0);
+    const double energy = 0.5 * frequency * frequency * shape.dot(frozen.M * shape);
+    return vibrations_[response] = {shape, energy};
+  }
+
+  /// What shear stores in a body of the model that is deformed as in a state.
+  double shear_energy(const BendingReader& reader, const BodyModel& body,
+                      const State& state) const {
+    const Eigen::MatrixXd nodal = nodal_displacements(body, state);
+    double energy = 0.0;
+    for (int plane = 0; plane < 2; ++plane) {
+      for (const ElementBending& element : reader.read(body, nodal, plane)) {
+        energy += element.shear_energy();
+      }
+    }
+    return energy;
+  }
+
+  /// How much of the elastic energy of all bodies is in one, where it bends most.
+  double energy_share(const std::string& name) const {
+    State state;
+    run_.analysis.trajectory.states->load(steps_.at(name), state);
+    double own = 0.0, all = 0.0;
+    for (const BodyModel& body : model_.bodies) {
+      const double energy = body_energy(body, body.invariants, model_.gravity, state).elastic;
+      all += energy;
+      if (body.name == name) own += energy;
+    }
+    return all > 0.0 ? own / all : 0.0;
   }
 
   const TrustedRun& run_;
@@ -400,7 +469,9 @@ class ShearDoubts {
   BodyGroups groups_;
   bool is_held_twice_ = false;
   std::map<std::string, double> known_;  ///< largest rotations [rad]
+  std::map<std::string, int> steps_;     ///< of these
   std::map<std::string, ShearShare> shares_;
+  mutable std::map<std::size_t, Vibration> vibrations_;  ///< of responses, as they are asked for
 };
 
 }  // namespace

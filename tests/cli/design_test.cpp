@@ -138,6 +138,60 @@ TEST(DesignOfARun, IsSimulatedWithTheSettingOfTheRun) {
   EXPECT_THAT(anew.err, testing::Not(HasSubstr(note)));
 }
 
+/// Each load case with its own setting, which stands above what the case says of the step; and the
+/// command line above that.
+TEST(DesignOfARun, IsSimulatedWithTheSettingOfEachLoadCase) {
+  const TemporaryFolder folder;
+  const auto run = [&](const std::vector<std::string>& words) {
+    const ProgramRun ended = run_program(folder.path(), joined(words, {"--json"}));
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    return ended;
+  };
+  nlohmann::json problem_of_cases = nlohmann::json::parse(read_file(problem("two_loads")));
+  problem_of_cases["cases"]["heavy"]["/simulation/step"] = "2 ms";
+  std::ofstream(folder.path() / "two.json") << problem_of_cases;
+  const nlohmann::json optimum =
+      run({"optimize", "two.json", "-o", "run", "--accuracy", "1%"}).document();
+  const ProgramRun looked = run({"simulate", "two.json", "--design", "run"});
+  for (const char* name : {"fast", "heavy"}) {
+    const double step = optimum.at("setting").at("cases").at(name).at("step").get<double>();
+    const double end = std::string(name) == "heavy" ? 0.2 : 0.1;
+    const nlohmann::json& found = looked.document().at("cases").at(name);
+    EXPECT_EQ(found.at("steps"), std::lround(end / step)) << name;
+  }
+  const ProgramRun alone = run({"simulate", "two.json", "--design", "run", "--case", "heavy"});
+  EXPECT_EQ(alone.document().at("steps"), looked.document().at("cases").at("heavy").at("steps"));
+  const ProgramRun others = run({"simulate", "two.json", "--design", "run", "--case", "heavy",
+                                 "--set", "/cases/heavy/~1simulation~1step=1 ms"});
+  EXPECT_EQ(others.document().at("steps"), 200);
+  EXPECT_THAT(others.err, testing::Not(HasSubstr("~1simulation~1step")));
+  // Of one case alone.
+  const nlohmann::json heavy =
+      run({"optimize", "two.json", "--case", "heavy", "-o", "heavy", "--accuracy", "1%"})
+          .document();
+  const ProgramRun seen = run({"simulate", "two.json", "--case", "heavy", "--design", "heavy"});
+  EXPECT_EQ(seen.document().at("steps"),
+            std::lround(0.2 / heavy.at("setting").at("step").get<double>()));
+}
+
+/// A body that has segments now has no number of elements of its own.
+TEST(DesignOfARun, ThatDoesNotFitTheFileLeavesItsSettingWithANote) {
+  const TemporaryFolder folder;
+  const std::string file = problem("hard/impossible_designs");
+  run_program(folder.path(), {"optimize", file, "-o", "run", "--accuracy", "5%"});
+  nlohmann::json other = nlohmann::json::parse(read_file(file));
+  for (auto& [name, body] : other["scene"]["bodies"].items()) {
+    if (!body.contains("elements")) continue;
+    body["segments"] = {{{"section", body["section"]}, {"elements", body["elements"]}}};
+    body.erase("section");
+    body.erase("elements");
+  }
+  std::ofstream(folder.path() / "other.json") << other;
+  const ProgramRun run = run_program(folder.path(), {"simulate", "other.json", "--design", "run"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("those of this optimum do not fit it"));
+}
+
 class WrongDesign : public testing::Test {
  protected:
   void expect_complaint(const std::string& design, const std::string& part) const {

@@ -39,7 +39,7 @@ TEST(AccuracyOptimum, KnowsHowFarItsReferenceIsOff) {
   const OptimumStudy optima = optimum_study(problem, x, study, options);
   ASSERT_FALSE(optima.reference.has_failed()) << optima.reference.failure;
   ASSERT_TRUE(optima.reference_error);
-  const Discretization finer = finer_than({study.reference.settings});
+  const Discretization finer = finer_than(problem, {study.reference.settings});
   const Result better = plain_optimum(discretized(problem, finer), options);
   const double error = std::abs(better.evaluation.objective - optima.reference.objective);
   EXPECT_LE(error, 2.0 * *optima.reference_error);

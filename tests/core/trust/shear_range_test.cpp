@@ -25,7 +25,7 @@ struct StubbyBeam {
   bool is_pinned = false;  ///< at both ends, with the force in the middle; else a cantilever
   std::string frame = "tangent",
               response = R"({"type": "deflection", "body": "beam", "at": 1, "over_time": "max"})";
-  int frames = 1;
+  int frames = 1, elements = 8;
   std::string more = "";  ///< further keys of the beam, with a comma in front
 
   ProblemFile problem() const {
@@ -38,13 +38,13 @@ struct StubbyBeam {
     return read_problem_text(fmt::format(R"({{"name": "stubby", "scene": {{"gravity": [0, 0, 0],
           "materials": {{"steel": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
           "bodies": {{"beam": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
-            "material": "steel", "section": {}, "elements": 8, "frames": {}, "frame": "{}"{}}}}},
+            "material": "steel", "section": {}, "elements": {}, "frames": {}, "frame": "{}"{}}}}},
           "joints": {}, "loads": {{"push": {{"type": "force", "body": "beam", "at": [{}, 0, 0],
             "direction": [0, 1, 0], "value": 1}}}}}},
         "simulation": {{"end_time": 2e-6, "step": 1e-6, "initial_state": "quasi-static"}},
         "responses": {{"asked": {}}}}})",
-                                         section, frames, frame, more, is_pinned ? pins : clamp,
-                                         is_pinned ? 0.5 : 1.0, response),
+                                         section, elements, frames, frame, more,
+                                         is_pinned ? pins : clamp, is_pinned ? 0.5 : 1.0, response),
                              "stubby.json")
         .complete();
   }
@@ -135,7 +135,39 @@ TEST(ShearRange, ConcernsWhatRestsOnStiffness) {
   };
   EXPECT_EQ(doubts(R"({"type": "stress", "body": "beam", "over_time": "max"})"), 0u);
   EXPECT_EQ(doubts(R"({"type": "mass"})"), 0u);
-  EXPECT_EQ(doubts(R"({"type": "frequency", "body": "beam"})"), 1u);
+  EXPECT_EQ(doubts(R"({"type": "elastic-energy", "body": "beam", "over_time": "max"})"), 1u);
+  EXPECT_EQ(doubts(R"({"type": "elastic-energy", "over_time": "max"})"), 1u);
+}
+
+/// The lowest mode bends the plate of 50 by 500 mm its thin way, in which it is slender; along y it is
+/// stubby. So it is for the mechanism, which is this beam at a clamp.
+TEST(ShearRange, OfAFrequencyIsThatOfItsMode) {
+  for (const std::string owner : {R"(, "body": "beam")", ""}) {
+    const auto texts = [&](const std::string& direction) {
+      StubbyBeam beam{rectangle(0.5)};
+      beam.response = R"({"type": "frequency")" + owner + direction + "}";
+      std::vector<std::string> found;
+      for (const Doubt& doubt : ShearedBeam(beam).doubts()) found.push_back(doubt.text);
+      return found;
+    };
+    EXPECT_TRUE(texts("").empty());
+    EXPECT_TRUE(texts(R"(, "direction": "z")").empty());
+    ASSERT_EQ(texts(R"(, "direction": "y")").size(), 1u);
+    // ω² falls by the share of shear in the energy of the mode, of which half is that of ω.
+    EXPECT_EQ(texts(R"(, "direction": "y")"), texts(R"(, "mode": 2)"));
+  }
+}
+
+/// Nodes at the ends of a frame do not leave its chord: that it bends, its curvature says.
+TEST(ShearRange, IsSeenWithOneElementAFrame) {
+  StubbyBeam beam{rectangle(0.4), true, "chord"};
+  beam.response =
+      R"({"type": "deflection", "body": "beam", "at": 0.5, "against": "chord", "over_time": "max"})";
+  beam.frames = 4;
+  const double share = ShearedBeam(beam).share();
+  beam.elements = 4;
+  EXPECT_NEAR(ShearedBeam(beam).share(), share, 0.05 * share);
+  EXPECT_EQ(ShearedBeam(beam).doubts().size(), 1u);
 }
 
 /// Shear lowers Euler's load P by P/(κGA) (Timoshenko & Gere, Theory of Elastic Stability, art.
