@@ -2,7 +2,9 @@
 
 #include <array>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/time_law.hpp"
@@ -20,6 +22,31 @@ enum class EquationKind {
   distance,  ///< ½ (|P₂ − P₁|²/ℓ − ℓ) = 0, ℓ = length + f(t): to first order |P₂ − P₁| − ℓ
   planar_angle,  ///< ±(φ₂ − φ₁ − offset) = f(t) (0 without a drive), about ± the plane's normal
 };
+
+/// What is to be known of a kind of equation besides its formula.
+struct EquationTraits {
+  EquationKind kind;
+  std::string_view word;
+  bool is_moment;  ///< whether its multiplier is a moment [N m], and no force [N]
+};
+
+inline constexpr EquationTraits equation_kinds[] = {
+    {EquationKind::coincident, "coincident", false},
+    {EquationKind::on_plane, "on_plane", false},
+    {EquationKind::perpendicular, "perpendicular", true},
+    {EquationKind::drive, "drive", true},
+    {EquationKind::slide, "slide", false},
+    {EquationKind::distance, "distance", false},
+    {EquationKind::planar_angle, "planar_angle", true},
+};
+
+/// @throws std::logic_error for a kind without a row, as soon as a model has such an equation
+constexpr const EquationTraits& traits_of(EquationKind kind) {
+  for (const EquationTraits& traits : equation_kinds) {
+    if (traits.kind == kind) return traits;
+  }
+  throw std::logic_error("a kind of joint equation has no row in equation_kinds");
+}
 
 struct JointEquation {
   EquationKind kind;

@@ -53,21 +53,6 @@ constexpr double elastic_scale = 1e-3;
 /// of forces across its bearing, whose breadth is taken as this share of the size of what is tied to it.
 constexpr double bearing_share = 0.1;
 
-bool is_moment(EquationKind kind) {
-  switch (kind) {
-    case EquationKind::perpendicular:
-    case EquationKind::drive:
-    case EquationKind::planar_angle:
-      return true;
-    case EquationKind::coincident:
-    case EquationKind::on_plane:
-    case EquationKind::slide:
-    case EquationKind::distance:
-      break;
-  }
-  return false;
-}
-
 /// Where a body is: its origin, the end of a beam, the places of an imported body.
 void add_points(const Body& body, const Design<double>& start,
                 std::vector<Eigen::Vector3d>& points) {
@@ -379,7 +364,7 @@ class ModelBuilder {
       }
       const double length = bearing_share * sizes.of(context_.scene.joints[j]);
       for (int i = 0; i < joint.equations(); ++i) {
-        if (!is_moment(joint.topology.equations[i].kind)) continue;
+        if (!traits_of(joint.topology.equations[i].kind).is_moment) continue;
         weight(joint.first_multiplier + i) = 1.0 / (length * length);
       }
     }

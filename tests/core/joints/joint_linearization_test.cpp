@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/int_size.hpp"
+#include "core/frame/marker_kinematics.hpp"
 #include "core/frame/number_data.hpp"
 #include "core/joints/joint_residual.hpp"
 #include "tests/support/differences.hpp"
@@ -12,21 +14,37 @@
 namespace pleuel::test::joint_linearization_test {
 namespace {
 
-constexpr int size = JointLinearization::max_size;
-using Wide = DualOf<size>;
+constexpr int max_size = JointLinearization::max_size;
+using Wide = DualOf<max_size>;
 
-/// Between two bodies in space whose places have all elastic coordinates.
+/// On a body in space, at a place that has all elastic coordinates.
+Marker spatial_marker() {
+  Marker marker;
+  marker.frame.rotation = RotationCoordinates::rotation_vector;
+  marker.elastic = {6, 7, 8, 9, 10, 11};
+  return marker;
+}
+
+/// On a body that moves in a plane, at a place that has the elastic coordinates of this motion.
+Marker planar_marker() {
+  Marker marker;
+  BodyFrame& frame = marker.frame;
+  frame.rotation = RotationCoordinates::angle;
+  frame.axis = Eigen::Vector3d(0.6, 0.0, 0.8);
+  frame.reference << Eigen::Vector3d(0.0, 1.0, 0.0), Eigen::Vector3d(-0.8, 0.0, 0.6), frame.axis;
+  frame.basis = frame.reference.leftCols<2>();
+  marker.elastic = {3, 4, -1, -1, -1, 5};
+  return marker;
+}
+
+/// Between two bodies that move in space, or in a plane where the equation has a meaning there only.
 JointTopology topology_with(const JointEquation& equation) {
+  const bool is_planar = equation.kind == EquationKind::planar_angle;
   JointTopology topology;
-  for (int m = 0; m < 2; ++m) {
-    Marker& marker = topology.markers[m];
-    marker.frame.offset = 12 * m;
-    marker.frame.rotation = RotationCoordinates::rotation_vector;
-    for (int i = 0; i < 6; ++i) marker.elastic[i] = 12 * m + 6 + i;
-  }
+  topology.markers[0] = is_planar ? planar_marker() : spatial_marker();
+  topology.markers[1] = topology.markers[0];
   topology.equations = {equation};
   topology.is_driven = true;
-  topology.multiplier = size;
   return topology;
 }
 
@@ -35,6 +53,7 @@ JointData<double> data() {
   data.points = {Eigen::Vector3d(0.3, -0.2, 0.5), Eigen::Vector3d(-0.7, 0.1, 0.4)};
   data.directions = {Eigen::Vector3d(0.8, 0.6, 0.0), Eigen::Vector3d(-0.48, 0.64, 0.6),
                      Eigen::Vector3d(0.36, -0.48, 0.8)};
+  data.offset = 0.4;
   data.length = 0.9;
   data.drive = {TimeLaw<double>::Kind::harmonic, {0.3, 5.0, 0.4, 0.2}, {}};
   return data;
@@ -46,37 +65,44 @@ JointEquation equation_of(EquationKind kind) {
   equation.first = 0;
   equation.second = 1;
   equation.third = 2;
+  equation.sense = -1.0;
+  equation.is_driven = true;
   return equation;
 }
 
 /// Lengths, rotations of frames and elastic rotations of up to one.
-std::array<double, size> random_coordinates() {
+std::array<double, max_size> random_coordinates() {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  std::array<double, size> q{};
+  std::array<double, max_size> q{};
   for (double& entry : q) entry = uniform(random);
   return q;
 }
 
-class JointEquations : public testing::TestWithParam<EquationKind> {
+class JointEquations : public testing::TestWithParam<EquationTraits> {
  protected:
+  JointLinearization linearization_at(double time) const {
+    return JointLinearization(topology_, data_, time, q_.data(), size_);
+  }
+
   static constexpr double time_ = 0.13;
-  JointEquation equation_ = equation_of(GetParam());
+  JointEquation equation_ = equation_of(GetParam().kind);
   JointTopology topology_ = topology_with(equation_);
   JointData<double> data_ = data();
-  std::array<double, size> q_ = random_coordinates();
+  std::array<double, max_size> q_ = random_coordinates();
+  int size_ = int_size(local_coordinates(topology_.markers));
 };
 
 /// Value and gradient are those of the template, and gradient and Hessian its derivatives in dual
 /// numbers. Rounding of sums of some ten products of order one.
 TEST_P(JointEquations, ByHandAreThoseOfTheTemplate) {
   constexpr double weight = -1.7;
-  JointLinearization joint(topology_, data_, time_, q_.data(), size);
+  JointLinearization joint = linearization_at(time_);
   joint.evaluate(equation_, weight);
-  std::array<Wide, size> q, rest;
-  for (std::size_t i = 0; i < size; ++i) {
+  std::array<Wide, max_size> q, rest;
+  for (int i = 0; i < max_size; ++i) {
     q[i] = Wide(q_[i]);
-    q[i].derivatives()[static_cast<int>(i)] = 1.0;
+    q[i].derivatives()[i] = 1.0;
     rest[i] = Wide(0.0);
   }
   const JointData<Wide> wide_data = cast_data<Wide>(data_);
@@ -85,21 +111,22 @@ TEST_P(JointEquations, ByHandAreThoseOfTheTemplate) {
   Wide value;
   evaluation.evaluate(ConstraintLevel::position, &one, &value);
   EXPECT_NEAR(value.value(), joint.value(), 1e-14);
-  EXPECT_LE((value.derivatives() - joint.gradient()).lpNorm<Eigen::Infinity>(), 1e-13);
-  for (int i = 0; i < size; ++i) {
+  const Eigen::VectorXd gradient = value.derivatives().head(size_);
+  EXPECT_LE((gradient - joint.gradient()).lpNorm<Eigen::Infinity>(), 1e-13);
+  for (int i = 0; i < size_; ++i) {
     const Wide& force = evaluation.forces()[i];
     EXPECT_NEAR(force.value(), joint.gradient()(i), 1e-13) << i;
-    const Eigen::VectorXd row = joint.hessian().row(i);
-    EXPECT_LE((weight * force.derivatives() - row).lpNorm<Eigen::Infinity>(), 2e-13) << i;
+    const Eigen::VectorXd row = joint.hessian().row(i), slope = force.derivatives().head(size_);
+    EXPECT_LE((weight * slope - row).lpNorm<Eigen::Infinity>(), 2e-13) << i;
   }
 }
 
 TEST_P(JointEquations, HaveTheRatesOfTheirGradientAndValue) {
-  JointLinearization joint(topology_, data_, time_, q_.data(), size);
+  JointLinearization joint = linearization_at(time_);
   joint.evaluate(equation_, 1.0);
   const Eigen::VectorXd expected = derivative_at_zero(
       [&](double t) {
-        JointLinearization later(topology_, data_, time_ + t, q_.data(), size);
+        JointLinearization later = linearization_at(time_ + t);
         later.evaluate(equation_, 1.0);
         Eigen::VectorXd all(joint.gradient().size() + 1);
         all << later.gradient(), later.value();
@@ -115,7 +142,7 @@ TEST_P(JointEquations, HaveTheRatesOfTheirGradientAndValue) {
 /// Whatever the order, and whether points or directions were asked for before.
 TEST_P(JointEquations, AddTheirHessiansToTheSum) {
   const JointEquation other = equation_of(EquationKind::coincident);
-  JointLinearization first(topology_, data_, time_, q_.data(), size), second = first, both = first;
+  JointLinearization first = linearization_at(time_), second = first, both = first;
   first.evaluate(equation_, 2.0);
   second.evaluate(other, -3.0);
   both.evaluate(other, -3.0);
@@ -126,26 +153,8 @@ TEST_P(JointEquations, AddTheirHessiansToTheSum) {
   EXPECT_TRUE(both.hessian().isZero(0.0));
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, JointEquations,
-                         testing::Values(EquationKind::coincident, EquationKind::on_plane,
-                                         EquationKind::perpendicular, EquationKind::drive,
-                                         EquationKind::slide, EquationKind::distance),
-                         named_by([](EquationKind kind) {
-                           switch (kind) {
-                             case EquationKind::coincident:
-                               return "coincident";
-                             case EquationKind::on_plane:
-                               return "on_plane";
-                             case EquationKind::perpendicular:
-                               return "perpendicular";
-                             case EquationKind::drive:
-                               return "drive";
-                             case EquationKind::slide:
-                               return "slide";
-                             default:
-                               return "distance";
-                           }
-                         }));
+INSTANTIATE_TEST_SUITE_P(Kinds, JointEquations, testing::ValuesIn(equation_kinds),
+                         named_by(&EquationTraits::word));
 
 }  // namespace
 }  // namespace pleuel::test::joint_linearization_test
