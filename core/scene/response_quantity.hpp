@@ -9,4 +9,7 @@ namespace pleuel {
 /// [N m]; an integral over time multiplies by [s]. `.unit` is the SI unit of values and limits.
 Quantity quantity_of(const ResponseSettings& response);
 
+/// The quantity of the integral over time of what a response measures: "Pa s".
+Quantity times_time(const Quantity& quantity);
+
 }  // namespace pleuel

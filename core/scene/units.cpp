@@ -329,35 +329,13 @@ const std::vector<DerivedQuantity>& time_derivatives() {
   return table;
 }
 
-const std::vector<DerivedQuantity>& time_integrals() {
-  using namespace quantities;
-  static const std::vector<DerivedQuantity> table = [] {
-    std::vector<DerivedQuantity> rows = {{"1", "a time", "s"}, {"W", "an energy", "J"}};
-    for (const Quantity& quantity : {length, speed, acceleration, mass, stress, force, torque,
-                                     energy, angle, angular_speed, per_time(angular_speed)}) {
-      rows.push_back({std::string(quantity.unit), fmt::format("{} times a time", quantity.name),
-                      fmt::format("{} s", quantity.unit)});
-    }
-    return rows;
-  }();
-  return table;
-}
-
-Quantity find_derived(const std::vector<DerivedQuantity>& table, const Quantity& quantity) {
-  for (const DerivedQuantity& row : table) {
-    if (row.base == quantity.unit) return {row.name, row.unit};
-  }
-  throw std::logic_error(fmt::format("no quantity is derived from {}", quantity.name));
-}
-
 }  // namespace
 
 Quantity per_time(const Quantity& quantity) {
-  return find_derived(time_derivatives(), quantity);
-}
-
-Quantity times_time(const Quantity& quantity) {
-  return find_derived(time_integrals(), quantity);
+  for (const DerivedQuantity& row : time_derivatives()) {
+    if (row.base == quantity.unit) return {row.name, row.unit};
+  }
+  throw std::logic_error(fmt::format("no quantity is derived from {}", quantity.name));
 }
 
 std::string describe(const Quantity& quantity) {

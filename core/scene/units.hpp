@@ -53,9 +53,6 @@ std::string describe(const Quantity& quantity);
 /// The quantity of d/dt, up to the tenth derivative of an angle, a length, a force or a torque.
 Quantity per_time(const Quantity& quantity);
 
-/// The quantity of an integral over time: "Pa s".
-Quantity times_time(const Quantity& quantity);
-
 /// Why a unit or a text with unit cannot be used, as the end of a sentence.
 class UnitError : public std::runtime_error {
  public:

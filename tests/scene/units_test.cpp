@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/common_units.hpp"
+#include "core/scene/dimension.hpp"
 #include "core/scene/response_kind.hpp"
 #include "core/scene/response_quantity.hpp"
 #include "tests/support/parameter_name.hpp"
@@ -141,7 +142,32 @@ TEST(Integrals, HaveAUnitForEveryResponse) {
       response.coordinate = along;
       EXPECT_NO_THROW(quantity_of(response)) << kind.word;
     }
+    for (const auto part : {SectionForcePart::axial, SectionForcePart::torque}) {
+      response.section_part = part;
+      EXPECT_NO_THROW(quantity_of(response)) << kind.word;
+    }
   }
+}
+
+TEST(Integrals, AreMeasuredInTheUnitOfTheResponseTimesASecond) {
+  const UnitSystem units;
+  const Dimension second = units.measure("s").dimension;
+  for (const ResponseKind& kind : response_kinds) {
+    const MeasuredUnit unit = units.measure(std::string(kind.quantity.unit));
+    const MeasuredUnit integral = units.measure(std::string(times_time(kind.quantity).unit));
+    EXPECT_TRUE(integral.dimension == unit.dimension * second) << kind.word;
+    EXPECT_DOUBLE_EQ(integral.scale, unit.scale) << kind.word;
+  }
+}
+
+/// Several quantities have one unit, and several responses one quantity.
+TEST(Integrals, AreCalledByTheQuantityThatUsuallyHasTheUnit) {
+  EXPECT_EQ(describe(times_time(torque)), "a torque times a time [N m s]");
+  EXPECT_EQ(describe(times_time(power)), "an energy [J]");
+  EXPECT_EQ(describe(times_time(pure_number)), "a time [s]");
+  EXPECT_EQ(describe(times_time(angular_frequency)), "an angular speed times a time [rad/s s]");
+  EXPECT_EQ(describe(times_time(kind_of(ResponseType::angular_acceleration).quantity)),
+            "an angular acceleration times a time [rad/s^2 s]");
 }
 
 TEST(Units, MayNotHideASecondNumber) {  // the library would read 30 mm, 0 m, −20 mm, …
