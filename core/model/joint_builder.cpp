@@ -104,16 +104,13 @@ class JointBuilder {
   }
   void add_distance() { add(JointEquation{EquationKind::distance}); }
 
-  bool drives(DrivenCoordinate coordinate) const {
-    return joint_.drive && joint_.drive->coordinate == coordinate;
-  }
   /// The last equation is the drive's.
   void record_drive() {
     drive_equation_ = model_.equations() - 1;
     model_.topology.equations.back().is_driven = true;
   }
   void add_driven_slide(const Eigen::Vector3d& axis) {
-    if (!drives(DrivenCoordinate::displacement)) return;
+    if (!is_driven(joint_, DrivenCoordinate::displacement)) return;
     JointEquation equation{EquationKind::slide};
     equation.first = add_direction(0, axis);
     add(equation);
@@ -121,7 +118,7 @@ class JointBuilder {
   }
   /// @param reference  turns about the axis with the second body
   void add_driven_angle(const Eigen::Vector3d& axis, const Eigen::Vector3d& reference) {
-    if (!drives(DrivenCoordinate::angle)) return;
+    if (!is_driven(joint_, DrivenCoordinate::angle)) return;
     JointEquation equation{EquationKind::drive};
     equation.first = add_direction(0, reference);
     equation.second = add_direction(1, reference);
@@ -134,13 +131,13 @@ class JointBuilder {
   void add_planar_equations(const MotionPlane& plane) {
     const Eigen::Vector3d axis = to_vector(joint_.axis).normalized();
     hold_planar_displacements(axis, plane);
-    if (drives(DrivenCoordinate::angle)) {
+    if (is_driven(joint_, DrivenCoordinate::angle)) {
       add_planar_angle(axis, plane.normal);
       record_drive();
     } else if (holds_planar_angle(axis, plane)) {
       add_planar_angle(plane.normal, plane.normal);
     }
-    if (!drives(DrivenCoordinate::displacement)) return;
+    if (!is_driven(joint_, DrivenCoordinate::displacement)) return;
     if (kind_.has_length()) {
       record_drive();
     } else {

@@ -5,6 +5,7 @@
 #include "core/base/error.hpp"
 #include "core/model/imported_constants.hpp"
 #include "core/scene/held_points.hpp"
+#include "core/scene/joint_kind.hpp"
 
 namespace pleuel {
 
@@ -126,7 +127,7 @@ class PlaneCheck {
     const Eigen::Vector3d axis = to_vector(joint.axis);
     const bool is_normal_axis = are_parallel(axis, normal_);
     const bool is_axis_in_plane = are_normal(axis, normal_);
-    const bool turns = joint.drive && joint.drive->coordinate == DrivenCoordinate::angle;
+    const bool turns = is_driven(joint, DrivenCoordinate::angle);
     const JointKind& kind = kind_of(joint.type);
     if (kind.has_axis()) {
       const bool may_be_normal = kind.has_angle(), may_lie_in_plane = !kind.only_turns_about_axis();

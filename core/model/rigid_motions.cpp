@@ -46,10 +46,6 @@ MotionSpace space_of(const Eigen::MatrixXd& columns) {
   return qr.q().leftCols(qr.rank());
 }
 
-bool is_driven(const Joint& joint, DrivenCoordinate coordinate) {
-  return joint.drive && joint.drive->coordinate == coordinate;
-}
-
 bool is_point_mass(const Scene& scene, const std::string& name) {
   const Body* body = find_named(scene.bodies, name);
   return body != nullptr && std::holds_alternative<PointMass>(body->shape);

@@ -82,6 +82,11 @@ constexpr const JointKind& kind_of(JointType type) {
   return joint_kinds[static_cast<std::size_t>(type)];
 }
 
+/// Whether the drive of a joint prescribes this coordinate.
+inline bool is_driven(const Joint& joint, DrivenCoordinate coordinate) {
+  return joint.drive && joint.drive->coordinate == coordinate;
+}
+
 /// Where a joint holds its second body: apart from the first one only if it has a length.
 inline const Point& second_point(const Joint& joint) {
   return kind_of(joint.type).has_length() ? joint.to : joint.at;

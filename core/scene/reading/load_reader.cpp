@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/joint_kind.hpp"
 #include "core/scene/reading/joint_type.hpp"
 #include "core/scene/reading/keyed_numbers.hpp"
 #include "core/scene/reading/scene_reader.hpp"
@@ -110,7 +111,7 @@ MotorControl read_control(const JsonNode& node, DrivenCoordinate coordinate,
 
 void read_motor(const JsonNode& node, const Joint& joint, NumberReader& numbers,
                 JointForce& force) {
-  if (joint.drive && joint.drive->coordinate == force.coordinate) {
+  if (is_driven(joint, force.coordinate)) {
     node.fail(fmt::format("would have no effect: the joint \"{}\" is driven", joint.name));
   }
   const bool has_type = node.value().is_object() && node.find("type");

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/scene/held_points.hpp"
+#include "core/scene/joint_kind.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 
 namespace pleuel {
@@ -47,7 +48,7 @@ std::optional<JointCoordinate> coordinate_of(const Load& load) {
 
 void check_turning(const JsonNode& node, const Scene& scene) {
   for (const Joint& joint : scene.joints) {
-    if (!joint.drive || joint.drive->coordinate != DrivenCoordinate::angle) continue;
+    if (!is_driven(joint, DrivenCoordinate::angle)) continue;
     check_that_bodies_can_turn(node.at("joints").at(joint.name).at("drive"), scene, joint);
   }
   for (const Load& load : scene.loads) {
