@@ -1,7 +1,7 @@
 #include "core/forces/joint_force.hpp"
 
 #include "core/forces/damper_force.hpp"
-#include "core/forces/force_term.hpp"
+#include "core/forces/make_force_element.hpp"
 #include "core/forces/marker_gauge.hpp"
 
 namespace pleuel {
@@ -107,24 +107,25 @@ struct JointForceLaw {
   }
 };
 
+/// @param what  it is to who reads an error
+JointForceLaw law_of(const std::string& what, const JointForceTopology& topology) {
+  const std::string name = what + " " + topology.name;
+  return {name, {name, topology.coordinate, topology.sense}};
+}
+
 }  // namespace
 
-std::unique_ptr<Term> make_joint_force_term(
-    JointForceTopology topology, JointForceData<double> data,
-    std::vector<DesignDerivative<JointForceData<double>>> derivatives) {
-  return std::make_unique<ForceTerm<JointForceLaw>>(
-      JointForceLaw{"joint force " + topology.name,
-                    {"joint force " + topology.name, topology.coordinate, topology.sense}},
-      std::move(topology.markers), std::move(data), derivatives);
+ForceElement make_joint_force(
+    const JointForceTopology& topology, const JointForceData<double>& data,
+    const std::vector<DesignDerivative<JointForceData<double>>>& derivatives) {
+  return make_force_element(law_of("joint force", topology), topology.markers, data, derivatives);
 }
 
 std::unique_ptr<Gauge> make_joint_gauge(
-    JointForceTopology topology, JointForceData<double> data,
-    std::vector<DesignDerivative<JointForceData<double>>> derivatives) {
-  return std::make_unique<MarkerGauge<JointForceLaw>>(
-      JointForceLaw{"joint " + topology.name,
-                    {"joint " + topology.name, topology.coordinate, topology.sense}},
-      std::move(topology.markers), std::move(data), derivatives);
+    const JointForceTopology& topology, const JointForceData<double>& data,
+    const std::vector<DesignDerivative<JointForceData<double>>>& derivatives) {
+  return std::make_unique<MarkerGauge<JointForceLaw>>(law_of("joint", topology), topology.markers,
+                                                      data, derivatives);
 }
 
 }  // namespace pleuel

@@ -1,13 +1,14 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/base/time_law.hpp"
+#include "core/forces/force_element.hpp"
 #include "core/forces/relative_kinematics.hpp"
 #include "core/frame/marker.hpp"
-#include "core/system/gauge.hpp"
-#include "core/system/term.hpp"
 
 namespace pleuel {
 
@@ -59,16 +60,17 @@ struct JointForceTopology {
 ///     τ = −k (s − s₀) − c ṡ − r(s − s₀, ṡ, t) + M,
 ///     M = m(t, s, ṡ) + proportional (s* − s) + derivative (ṡ* − ṡ)
 /// on the second body, the opposite on the first.
-/// The term throws SimulationError, with name and time, where the angle has no value.
+/// Its gauge reads s, ṡ, −k (s − s₀) − c ṡ − r, the power M ṡ of the motor, and what the damper and
+/// the resistance to a rate take.
+/// Both throw SimulationError, with name and time, where the angle has no value.
 /// @param derivatives  of the numbers with respect to the variables they depend on
-std::unique_ptr<Term> make_joint_force_term(
-    JointForceTopology topology, JointForceData<double> data,
-    std::vector<DesignDerivative<JointForceData<double>>> derivatives);
+ForceElement make_joint_force(
+    const JointForceTopology& topology, const JointForceData<double>& data,
+    const std::vector<DesignDerivative<JointForceData<double>>>& derivatives);
 
-/// Reads s, ṡ, −k (s − s₀) − c ṡ − r, the power M ṡ of the motor, and what the damper and the
-/// resistance to a rate take.
+/// Reads a joint in which nothing acts.
 std::unique_ptr<Gauge> make_joint_gauge(
-    JointForceTopology topology, JointForceData<double> data,
-    std::vector<DesignDerivative<JointForceData<double>>> derivatives);
+    const JointForceTopology& topology, const JointForceData<double>& data,
+    const std::vector<DesignDerivative<JointForceData<double>>>& derivatives);
 
 }  // namespace pleuel

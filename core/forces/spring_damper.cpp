@@ -4,8 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/forces/damper_force.hpp"
-#include "core/forces/force_term.hpp"
-#include "core/forces/marker_gauge.hpp"
+#include "core/forces/make_force_element.hpp"
 
 namespace pleuel {
 
@@ -94,20 +93,11 @@ struct SpringDamperLaw {
 
 }  // namespace
 
-std::unique_ptr<Term> make_spring_damper_term(
-    SpringDamperTopology topology, SpringDamperData<double> data,
-    std::vector<DesignDerivative<SpringDamperData<double>>> derivatives) {
-  return std::make_unique<ForceTerm<SpringDamperLaw>>(
-      SpringDamperLaw{"spring-damper " + topology.name}, std::move(topology.markers),
-      std::move(data), derivatives);
-}
-
-std::unique_ptr<Gauge> make_spring_gauge(
-    SpringDamperTopology topology, SpringDamperData<double> data,
-    std::vector<DesignDerivative<SpringDamperData<double>>> derivatives) {
-  return std::make_unique<MarkerGauge<SpringDamperLaw>>(
-      SpringDamperLaw{"spring-damper " + topology.name}, std::move(topology.markers),
-      std::move(data), derivatives);
+ForceElement make_spring_damper(
+    const SpringDamperTopology& topology, const SpringDamperData<double>& data,
+    const std::vector<DesignDerivative<SpringDamperData<double>>>& derivatives) {
+  return make_force_element(SpringDamperLaw{"spring-damper " + topology.name}, topology.markers,
+                            data, derivatives);
 }
 
 }  // namespace pleuel

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <memory>
+#include <array>
 #include <string>
+#include <vector>
 
 #include "core/base/time_law.hpp"
+#include "core/forces/force_element.hpp"
 #include "core/frame/marker.hpp"
-#include "core/system/gauge.hpp"
-#include "core/system/term.hpp"
 
 namespace pleuel {
 
@@ -36,16 +36,12 @@ struct SpringDamperTopology {
   std::array<Marker, 2> markers;
 };
 
-/// Pulls its two points together with k (l − l₀) + c l̇ + r.
-/// The term throws SimulationError, with name and time, where the two points coincide.
+/// Pulls its two points together with k (l − l₀) + c l̇ + r. Its gauge reads l, l̇, this pull and the
+/// power that the damper takes.
+/// Both throw SimulationError, with name and time, where the two points coincide.
 /// @param derivatives  of the numbers with respect to the variables they depend on
-std::unique_ptr<Term> make_spring_damper_term(
-    SpringDamperTopology topology, SpringDamperData<double> data,
-    std::vector<DesignDerivative<SpringDamperData<double>>> derivatives);
-
-/// Reads its length l, l̇, its pull and the power that the damper takes.
-std::unique_ptr<Gauge> make_spring_gauge(
-    SpringDamperTopology topology, SpringDamperData<double> data,
-    std::vector<DesignDerivative<SpringDamperData<double>>> derivatives);
+ForceElement make_spring_damper(
+    const SpringDamperTopology& topology, const SpringDamperData<double>& data,
+    const std::vector<DesignDerivative<SpringDamperData<double>>>& derivatives);
 
 }  // namespace pleuel

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/base/find_named.hpp"
+#include "core/forces/force_element.hpp"
 #include "core/forces/joint_force.hpp"
 #include "core/forces/load_over_joint.hpp"
 #include "core/forces/point_force.hpp"
@@ -86,8 +87,7 @@ class LoadBuilder {
     };
     const auto parts = parts_of<SpringDamperData>(data);
     const SpringDamperTopology topology{load_.name, {parts.markers[0], parts.markers[1]}};
-    return {project(make_spring_damper_term(topology, parts.numbers, parts.derivatives), parts.map),
-            GaugeModel{make_spring_gauge(topology, parts.numbers, parts.derivatives), parts.map}};
+    return with_gauge(make_spring_damper(topology, parts.numbers, parts.derivatives), parts.map);
   }
 
   BuiltLoad operator()(const JointForce& force) {
@@ -111,8 +111,7 @@ class LoadBuilder {
     };
     const auto parts = parts_of<JointForceData>(data);
     topology.markers = {parts.markers[0], parts.markers[1]};
-    return {project(make_joint_force_term(topology, parts.numbers, parts.derivatives), parts.map),
-            GaugeModel{make_joint_gauge(topology, parts.numbers, parts.derivatives), parts.map}};
+    return with_gauge(make_joint_force(topology, parts.numbers, parts.derivatives), parts.map);
   }
 
   /// Of a joint in which nothing acts.
@@ -262,6 +261,10 @@ class LoadBuilder {
                                 const std::optional<CoordinateMap>& map) const {
     if (!map) return term;
     return std::make_unique<ProjectedTerm>(std::move(term), *map, coordinates_);
+  }
+
+  BuiltLoad with_gauge(ForceElement element, const std::optional<CoordinateMap>& map) const {
+    return {project(std::move(element.term), map), GaugeModel{std::move(element.gauge), map}};
   }
 
   const Load& load_;

@@ -195,7 +195,7 @@ TEST(JointForce, TurnsTheSecondBodyAboutTheAxisAndTheFirstBack) {
   data.damping = 0.5;
   data.motor = constant(4.0);
   const auto term =
-      make_joint_force_term({"j", {first, second}, RelativeCoordinate::angle}, data, {});
+      make_joint_force({"j", {first, second}, RelativeCoordinate::angle}, data, {}).term;
   State state(12, 0);
   state.q(5) = 0.3;
   state.q(11) = 1.0;
@@ -216,7 +216,7 @@ TEST(JointForce, CountsWholeTurnsInThePlane) {
   JointForceData<double> data;
   data.stiffness = 6.0;
   data.rest = 0.2;
-  const auto term = make_joint_force_term({"j", {ground, wheel}}, data, {});
+  const auto term = make_joint_force({"j", {ground, wheel}}, data, {}).term;
   State state(1, 0);
   state.q(0) = 7.0;
   EXPECT_NEAR(residual_of(*term, state, position_level)(0), 40.8, 1e-13);
@@ -235,15 +235,17 @@ std::string message_of(const Function& function) {
 TEST(SpringDamper, SaysWhereItsEndsCoincide) {
   Marker ground, mass;
   ground.frame = ground_frame();
-  const auto term =
-      make_spring_damper_term({"buffer", {ground, mass}}, {.stiffness = 1.0, .damping = 1.0}, {});
+  const ForceElement buffer =
+      make_spring_damper({"buffer", {ground, mass}}, {.stiffness = 1.0, .damping = 1.0}, {});
   State state(3, 0);
   state.time = 0.25;
-  const std::string from_residual = message_of([&] { residual_of(*term, state, position_level); });
+  const std::string from_residual =
+      message_of([&] { residual_of(*buffer.term, state, position_level); });
   EXPECT_THAT(from_residual, testing::HasSubstr("buffer"));
   EXPECT_THAT(from_residual, testing::HasSubstr("t = 0.25 s"));
-  EXPECT_EQ(message_of([&] { tangent_of(*term, state, {.q = 1.0}, position_level); }),
+  EXPECT_EQ(message_of([&] { tangent_of(*buffer.term, state, {.q = 1.0}, position_level); }),
             from_residual);
+  EXPECT_EQ(message_of([&] { (void)buffer.gauge->read(state, Reading::force); }), from_residual);
 }
 
 TEST(JointForce, SaysWhereItsAngleHasNoValue) {
@@ -253,7 +255,7 @@ TEST(JointForce, SaysWhereItsAngleHasNoValue) {
   JointForceData<double> data;
   data.directions = {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};  // along the axis
   const auto term =
-      make_joint_force_term({"hinge", {ground, body}, RelativeCoordinate::angle}, data, {});
+      make_joint_force({"hinge", {ground, body}, RelativeCoordinate::angle}, data, {}).term;
   const State state(6, 0);
   EXPECT_THAT(message_of([&] { residual_of(*term, state, position_level); }),
               testing::HasSubstr("hinge"));

@@ -149,7 +149,7 @@ ForceSample spring_damper_sample(const Mount& mount) {
                                       /*damping=*/0.9,
                                       /*free_length=*/0.6};
   const auto make = [=](const auto& at, auto derivatives) {
-    return make_spring_damper_term({"s", mount.markers}, at, derivatives);
+    return make_spring_damper({"s", mount.markers}, at, derivatives).term;
   };
   set_data(sample, data, make);
   set_parts(sample, data, make);
@@ -194,7 +194,7 @@ ForceSample joint_force_sample(const Mount& mount, RelativeCoordinate kind, cons
   JointForceData<double> data = joint_force_data();
   if (kind == RelativeCoordinate::planar_angle) data.offset = 0.4;
   const auto make = [=](const auto& at, auto derivatives) {
-    return make_joint_force_term({"j", mount.markers, kind, sense}, at, derivatives);
+    return make_joint_force({"j", mount.markers, kind, sense}, at, derivatives).term;
   };
   set_parts(sample, data, make);
   sample.rest = data.rest;

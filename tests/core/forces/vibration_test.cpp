@@ -63,7 +63,7 @@ TEST(TorsionSpring, MakesAWheelSwingAsTheTextbookSays) {
   data.stiffness = 20.0;
   std::vector<std::unique_ptr<Term>> terms;
   terms.push_back(rigid_body(wheel.frame, second_moment()));
-  terms.push_back(make_joint_force_term({"spring", {ground, wheel}}, data, {}));
+  terms.push_back(make_joint_force({"spring", {ground, wheel}}, data, {}).term);
   System system = make_system(1, std::move(terms));
   EXPECT_NEAR(largest_square_frequency(system), 20.0 / 0.5, 40.0 * 1e-13);
 }
@@ -79,7 +79,7 @@ TEST(TorsionSpring, MakesABodyInSpaceSwingAsTheTextbookSays) {
   std::vector<std::unique_ptr<Term>> terms;
   terms.push_back(rigid_body(body.frame, second_moment()));
   terms.push_back(
-      make_joint_force_term({"spring", {ground, body}, RelativeCoordinate::angle}, data, {}));
+      make_joint_force({"spring", {ground, body}, RelativeCoordinate::angle}, data, {}).term);
   System system = make_system(6, std::move(terms));
   EXPECT_NEAR(largest_square_frequency(system), 20.0 / 0.4, 50.0 * 1e-13);
 }
@@ -109,8 +109,9 @@ TEST(SpringDamper, MakesTwoMassesSwingAlongAndAcross) {
   masses[1].frame.origin = Vector3d(0.5, 0.0, 0.0);
   std::vector<std::unique_ptr<Term>> terms;
   for (const Marker& marker : masses) terms.push_back(rigid_body(marker.frame, Matrix3d::Zero()));
-  terms.push_back(make_spring_damper_term(
-      {"spring", masses}, {.stiffness = 80.0, .damping = 3.0, .free_length = 0.4}, {}));
+  terms.push_back(make_spring_damper({"spring", masses},
+                                     {.stiffness = 80.0, .damping = 3.0, .free_length = 0.4}, {})
+                      .term);
   System system = make_system(6, std::move(terms));
   const MatrixXd K = tangent(system, {.q = 1.0}), M = tangent(system, {.a = 1.0});
   const Eigen::VectorXd squares = natural_modes(K, M).lambda;
