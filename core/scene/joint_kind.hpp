@@ -82,6 +82,20 @@ constexpr const JointKind& kind_of(JointType type) {
   return joint_kinds[static_cast<std::size_t>(type)];
 }
 
+/// A key in a problem file that only some types of joints have.
+struct JointKey {
+  std::string_view word;
+  bool (JointKind::*is_had)() const;
+
+  constexpr bool is_of(const JointKind& kind) const { return (kind.*is_had)(); }
+};
+
+inline constexpr JointKey joint_keys[] = {
+    {"to", &JointKind::has_length},
+    {"axis", &JointKind::has_axis},
+    {"second_axis", &JointKind::has_second_axis},
+};
+
 /// Whether the drive of a joint prescribes this coordinate.
 inline bool is_driven(const Joint& joint, DrivenCoordinate coordinate) {
   return joint.drive && joint.drive->coordinate == coordinate;

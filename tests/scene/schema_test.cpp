@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -72,6 +73,45 @@ TEST(Schema, NamesEveryTypeOfJoint) {
   nlohmann::json words = nlohmann::json::array();
   for (const JointKind& kind : joint_kinds) words.push_back(std::string(kind.word));
   EXPECT_EQ(schema.at(pointer), words);
+}
+
+/// The types of joints that may have a key: all others have a rule that refuses it.
+nlohmann::json types_with(const std::string& key) {
+  const nlohmann::json schema = load(problems / "problem.schema.json");
+  for (const nlohmann::json& rule : schema.at("definitions").at("joint").at("allOf")) {
+    const auto properties = rule.at("then").value("properties", nlohmann::json::object());
+    if (properties.value(key, nlohmann::json(true)) != false) continue;
+    return rule.at("if").at("properties").at("type").at("not").at("enum");
+  }
+  return {};
+}
+
+TEST(Schema, SaysWhichTypesOfJointHaveAKey) {
+  for (const JointKey& key : joint_keys) {
+    nlohmann::json words = nlohmann::json::array();
+    for (const JointKind& kind : joint_kinds) {
+      if (key.is_of(kind)) words.push_back(std::string(kind.word));
+    }
+    EXPECT_EQ(types_with(std::string(key.word)), words) << key.word;
+  }
+}
+
+TEST_F(ProblemSchema, RefusesKeysOfOtherJoints) {
+  const Json good = good_mechanism();
+  int refused = 0;
+  for (const auto& [name, joint] : good.at("scene").at("joints").items()) {
+    const std::string type = joint.at("type");
+    const JointKind& kind = *std::ranges::find(joint_kinds, type, &JointKind::word);
+    for (const JointKey& key : joint_keys) {
+      if (key.is_of(kind)) continue;
+      const std::string pointer = "/scene/joints/" + name + "/" + std::string(key.word);
+      const Json document = edited(good, pointer, "[1, 0, 0]");
+      EXPECT_NE(complaints(nlohmann::json::parse(document.dump())), "") << pointer;
+      EXPECT_NE(complaint(document), "") << pointer;
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 9);
 }
 
 TEST_F(ProblemSchema, KnowsWhatLoadCasesMayChange) {

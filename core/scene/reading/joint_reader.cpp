@@ -1,7 +1,11 @@
 #include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "core/scene/joint_kind.hpp"
 #include "core/scene/reading/joint_type.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/time_function_reader.hpp"
@@ -13,25 +17,38 @@ namespace {
 /// Cosine of the angle between axes that are meant to be normal to each other: rounding.
 constexpr double normal_tolerance = 1e-9;
 
+std::vector<std::string_view> keys_of_joints() {
+  std::vector<std::string_view> words = {"type", "bodies", "at"};
+  for (const JointKey& key : joint_keys) words.push_back(key.word);
+  words.push_back("drive");
+  return words;
+}
+
+[[noreturn]] void fail_key_of_others(const JsonNode& node, const JointKey& key, JointType type) {
+  std::vector<std::string_view> owners;
+  for (const JointKind& kind : joint_kinds) {
+    if (key.is_of(kind)) owners.push_back(kind.word);
+  }
+  if (owners.size() == 1) node.fail(fmt::format("is for {} joints only", owners.front()));
+  node.fail(fmt::format("is not for a {} joint, which has no {}", name_of(type), key.word));
+}
+
+void refuse_keys_of_others(const JsonNode& node, JointType type) {
+  for (const JointKey& key : joint_keys) {
+    if (key.is_of(kind_of(type))) continue;
+    if (const auto found = node.find(std::string(key.word))) fail_key_of_others(*found, key, type);
+  }
+}
+
 /// A direction of sliding has no sensible default; the axis of rotation of a planar mechanism has.
 void read_axis(const JsonNode& node, Joint& joint, const NumberReader& numbers) {
-  const std::optional<JsonNode> axis = node.find("axis");
   const JointKind& kind = kind_of(joint.type);
-  if (!kind.has_axis()) {
-    if (axis) {
-      axis->fail(fmt::format("is not for a {} joint, which has no axis", name_of(joint.type)));
-    }
-    return;
-  }
-  if (!axis && kind.only_turns_about_axis()) return;
+  if (!kind.has_axis() || (kind.only_turns_about_axis() && !node.find("axis"))) return;
   joint.axis = numbers.direction(node.at("axis"));
 }
 
 void read_second_axis(const JsonNode& node, Joint& joint, const NumberReader& numbers) {
-  if (!kind_of(joint.type).has_second_axis()) {
-    if (const auto axis = node.find("second_axis")) axis->fail("is for universal joints only");
-    return;
-  }
+  if (!kind_of(joint.type).has_second_axis()) return;
   const JsonNode second = node.at("second_axis");
   joint.second_axis = numbers.direction(second);
   const std::array<double, 3> a = numbers.unit_vector(node.at("axis"));
@@ -42,11 +59,8 @@ void read_second_axis(const JsonNode& node, Joint& joint, const NumberReader& nu
 }
 
 void read_second_point(const JsonNode& node, Joint& joint, NumberReader& numbers) {
-  if (kind_of(joint.type).has_length()) {
-    joint.to = numbers.triple(node.at("to"), quantities::length);
-  } else if (const auto to = node.find("to")) {
-    to->fail("is for distance joints only");
-  }
+  if (!kind_of(joint.type).has_length()) return;
+  joint.to = numbers.triple(node.at("to"), quantities::length);
 }
 
 Drive read_drive(const JsonNode& node, const Joint& joint, NumberReader& numbers) {
@@ -67,12 +81,13 @@ std::array<std::string, 2> read_pair(const JsonNode& node, const std::vector<std
 
 Joint read_joint(const std::string& name, const JsonNode& node,
                  const std::vector<std::string>& bodies, NumberReader& numbers) {
-  node.allow_keys({"type", "bodies", "at", "to", "axis", "second_axis", "drive"});
+  node.allow_keys(keys_of_joints());
   Joint joint;
   joint.name = name;
   joint.type = read_joint_type(node.at("type"));
   joint.bodies = read_pair(node.at("bodies"), bodies);
   joint.at = numbers.triple(node.at("at"), quantities::length);
+  refuse_keys_of_others(node, joint.type);
   read_second_point(node, joint, numbers);
   read_axis(node, joint, numbers);
   read_second_axis(node, joint, numbers);
