@@ -130,11 +130,20 @@ Json body_document(const ProblemFile& problem, const Body& body, const Values& s
   return document;
 }
 
+/// How a body slides on a joint; none where it does not, as on a rod between points.
+std::optional<std::string> sliding_of(const JointKind& kind) {
+  if (kind.has_displacement()) return "along";
+  if (kind.slides == JointSlides::across_axis) return "across";
+  return std::nullopt;
+}
+
 Json joint_document(const Joint& joint) {
   const JointKind& kind = kind_of(joint.type);
-  Json document = {{"name", joint.name},      {"type", kind.word},
-                   {"freedom", kind.freedom}, {"freedoms", kind.freedoms()},
-                   {"bodies", joint.bodies},  {"axis", vector_document(joint.axis)}};
+  Json document = {{"name", joint.name},         {"type", kind.word},
+                   {"freedom", kind.freedom},    {"freedoms", kind.freedoms()},
+                   {"bodies", joint.bodies},     {"axis", vector_document(joint.axis)},
+                   {"is_guide", kind.is_guide()}};
+  if (const auto sliding = sliding_of(kind)) document["slides"] = *sliding;
   if (kind.has_second_axis()) {
     document["second_axis"] = vector_document(joint.second_axis);
   }

@@ -107,6 +107,10 @@ export interface SceneJoint {
   bodies: [string, string];
   axis: Vec3;
   second_axis?: Vec3;
+  /** Along the axis, or in the plane across it. */
+  slides?: "along" | "across";
+  /** Whether the axis keeps its direction in the body that slides along it. */
+  is_guide: boolean;
   drive?: "angle" | "displacement";
 }
 

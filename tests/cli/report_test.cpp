@@ -430,6 +430,16 @@ TEST(Show, SaysWhatStartsBent) {
   EXPECT_FALSE(named(bodies, "crank").contains("starts_bent"));
 }
 
+TEST(Show, SaysWhichJointsABodySlidesOn) {
+  const TemporaryFolder folder;
+  run_program(folder.path(), {"show", problem("spatial_slider_crank"), "-o", "page.html"});
+  const json joints = data_of(folder.path() / "page.html").at("picture").at("scene").at("joints");
+  EXPECT_EQ(named(joints, "guide").at("slides"), "along");
+  EXPECT_EQ(named(joints, "guide").at("is_guide"), true);
+  EXPECT_FALSE(named(joints, "bearing").contains("slides"));
+  EXPECT_EQ(named(joints, "bearing").at("is_guide"), false);
+}
+
 TEST(Show, DrawsTheMechanismBeforeAnythingIsSimulated) {
   const TemporaryFolder folder;
   const ProgramRun run =

@@ -222,9 +222,6 @@ export class BeamMember implements Member {
   }
 }
 
-/** Joints that a body slides in: it is drawn as a block. */
-const guides = ["prismatic", "point-on-line", "cylindrical", "planar"];
-
 /** In the frame of a body: where joints and loads hold it. */
 function heldPoints(motion: Motion, body: number): Vector3[] {
   const { joints, loads } = motion.design.geometry;
@@ -237,7 +234,7 @@ function guideOf(motion: Motion, body: number): { point: Vector3; turn: Quaterni
   const { joints } = motion.design.geometry;
   for (const [j, joint] of motion.scene.joints.entries()) {
     const place = joints[j].places.find((one) => one.body === body);
-    if (!place || !guides.includes(joint.type)) continue;
+    if (!place || !joint.slides) continue;
     const axis = new Vector3(...joint.axis).normalize().applyQuaternion(motion.startFrame(body).invert());
     return { point: new Vector3(...(place.point ?? [0, 0, 0])), turn: new Quaternion().setFromUnitVectors(new Vector3(1, 0, 0), axis) };
   }

@@ -146,13 +146,13 @@ export function jointSymbol(motion: Motion, j: number, view: View): Symbol3 {
   const r = 0.02 * view.symbolSize;
   const axis = new Vector3(...joint.axis).normalize();
   const isGrounded = joint.bodies.includes("ground");
-  const slides = ["prismatic", "point-on-line", "cylindrical"].includes(joint.type);
+  const slidesAlong = joint.slides === "along";
   const isSeenAlongAxis = view.isPlanar && Math.abs(axis.dot(view.normal)) > 0.99;
   const front = new Group();
   let second: Object3D | null = null;
   object.add(front);
 
-  if (slides && isGrounded) {
+  if (slidesAlong && isGrounded) {
     const [low, high] = travel(motion, j, axis);
     const side = Math.abs(axis.dot(view.normal)) > 0.95 ? view.up : view.normal;
     const track = rails(r, low - 3 * r, high + 3 * r);
@@ -162,7 +162,7 @@ export function jointSymbol(motion: Motion, j: number, view: View): Symbol3 {
     helper.matrix.makeBasis(axis, y, new Vector3().crossVectors(axis, y));
     track.quaternion.setFromRotationMatrix(helper.matrix);
     object.add(track);
-    if (joint.type === "prismatic" || joint.type === "cylindrical") {
+    if (joint.is_guide) {
       front.add(square(0.8 * r, !!joint.drive));
       front.quaternion.copy(track.quaternion);
     }
@@ -200,7 +200,7 @@ export function jointSymbol(motion: Motion, j: number, view: View): Symbol3 {
     object.add(arrow.object);
     arrow.object.name = "arrow";
   }
-  if (isGrounded && !slides) {
+  if (isGrounded && !slidesAlong) {
     const foot = support(r);
     foot.quaternion.copy(facing(view.normal, view.up));
     foot.position.set(...places[joint.bodies[0] === "ground" ? 0 : 1].at);
@@ -215,7 +215,7 @@ export function jointSymbol(motion: Motion, j: number, view: View): Symbol3 {
     update(_time, poses) {
       const at = motion.place(places[1].body >= 0 ? places[1] : places[0], poses);
       const first = motion.place(places[0].body >= 0 ? places[0] : places[1], poses);
-      const isSlider = slides || joint.type === "planar" || joint.type === "distance";
+      const isSlider = !!joint.slides || joint.type === "distance";
       front.position.copy(isSlider ? at : first);
       const carrier = axisBody(motion, j);
       if (carrier >= 0 && !view.isPlanar) {
