@@ -5,6 +5,8 @@
 #include "core/model/build_context.hpp"
 #include "core/model/end_fittings.hpp"
 #include "core/model/scene_geometry.hpp"
+#include "core/scene/held_points.hpp"
+#include "core/scene/joint_kind.hpp"
 
 namespace pleuel {
 
@@ -58,11 +60,6 @@ Scalar distance(const BeamBody& beam, int end, const Place& place, const Design<
   const Scalar along = position(beam, resolve_place(place, design), design);
   return end == 0 ? Scalar(-along)
                   : Scalar(along - position(beam, resolve_point(beam.to, design), design));
-}
-
-/// The place where a joint holds on to its first or second body.
-const Point& place_on(const Joint& joint, std::size_t side) {
-  return joint.type == JointType::distance && side == 1 ? joint.to : joint.at;
 }
 
 }  // namespace
@@ -136,7 +133,7 @@ class EndFittings::Builder {
         const std::string& other = joint.bodies[1 - side];
         if (!bodies.contains(joint.bodies[side])) continue;
         if (bodies.contains(other) || other == body_.name) continue;
-        const Point& point = place_on(joint, side);
+        const Point& point = side == 0 ? joint.at : second_point(joint);
         places.push_back({&point});
         built_.joints_.push_back({end, start_position(point), differentiated(end, places.back())});
       }
@@ -157,13 +154,10 @@ class EndFittings::Builder {
 
   void add_loads(const std::set<std::string>& bodies, std::vector<Place>& places) const {
     for (const Load& load : scene_.loads) {
-      if (const auto* force = std::get_if<PointForce>(&load.element)) {
-        if (bodies.contains(force->body)) places.push_back({&force->at});
-      } else if (const auto* spring = std::get_if<SpringDamper>(&load.element)) {
-        for (std::size_t side = 0; side < 2; ++side) {
-          if (bodies.contains(spring->bodies[side])) places.push_back({&spring->at[side]});
-        }
-      }
+      if (!has_forces(load)) continue;
+      visit_held_points(load, [&](const std::string& body, const Point& at, const PointKey&) {
+        if (bodies.contains(body)) places.push_back({&at});
+      });
     }
   }
 

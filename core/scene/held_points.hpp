@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -39,6 +40,22 @@ void visit_held_points(Holder& holder, Visit&& visit) {
         },
         holder.element);
   }
+}
+
+/// Calls visit(at, key) for the same points, once where both bodies of a joint are held at one.
+template <class Holder, class Visit>
+void visit_held_places(const Holder& holder, Visit&& visit) {
+  const Point* last = nullptr;
+  visit_held_points(holder, [&](const std::string&, const Point& at, const PointKey& key) {
+    if (&at != last) visit(at, key);
+    last = &at;
+  });
+}
+
+/// Whether a load is made of forces. Only their places tell how large a mechanism is and how far its
+/// parts reach: a torque may be written at any point of a rigid body.
+inline bool has_forces(const Load& load) {
+  return !std::holds_alternative<PointTorque>(load.element);
 }
 
 }  // namespace pleuel

@@ -12,7 +12,7 @@
 
 #include "core/base/diameter.hpp"
 #include "core/model/scene_geometry.hpp"
-#include "core/scene/joint_kind.hpp"
+#include "core/scene/held_points.hpp"
 
 namespace pleuel {
 
@@ -81,19 +81,18 @@ class Proportions {
         place(at + "/at", std::get<PointMass>(body.shape).at);
       }
     }
-    for (const Joint& joint : scene_.joints) {
-      place("/scene/joints/" + joint.name + "/at", joint.at);
-      if (kind_of(joint.type).has_length()) {
-        place("/scene/joints/" + joint.name + "/to", joint.to);
-      }
-    }
+    for (const Joint& joint : scene_.joints) place_held("/scene/joints/", joint);
     for (const Load& load : scene_.loads) {
-      const std::string at = "/scene/loads/" + load.name + "/at";
-      if (const auto* force = std::get_if<PointForce>(&load.element)) place(at, force->at);
-      if (const auto* spring = std::get_if<SpringDamper>(&load.element)) {
-        for (const Point& point : spring->at) place(at, point);
-      }
+      if (has_forces(load)) place_held("/scene/loads/", load);
     }
+  }
+
+  /// @param list  in which the joint or load stands
+  template <class Holder>
+  void place_held(const std::string& list, const Holder& holder) {
+    visit_held_places(holder, [&](const Point& at, const PointKey& key) {
+      place(list + holder.name + "/" + key.key, at);
+    });
   }
 
   /// A point, or few at one place or near each other, far from the rest. Where many are far, the

@@ -1,10 +1,13 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/scene/held_points.hpp"
 #include "core/scene/packed_problem.hpp"
 #include "core/scene/response_quantity.hpp"
 #include "core/scene/visit_numbers.hpp"
@@ -18,6 +21,7 @@ using testing::DoubleEq;
 using testing::DoubleNear;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 constexpr double rounding = 1e-14;  // relative, of one or two conversions of units
 
@@ -136,6 +140,22 @@ TEST_F(Mechanism, HasForcesAndTorques) {
   EXPECT_THAT(twist.direction, ElementsAre(-1.0, 0.0, 0.0));
   EXPECT_EQ(std::get<HarmonicFunction>(twist.value).amplitude.constant, 3.0);
   EXPECT_EQ(std::get<HarmonicFunction>(twist.value).phase.constant, 0.0);
+}
+
+TEST_F(Mechanism, HasEachPlaceOfAJointOrLoadOnce) {
+  const auto keys_of = [](const auto& holder) {
+    std::vector<std::string> keys;
+    visit_held_places(holder, [&](const Point&, const PointKey& key) { keys.push_back(key.key); });
+    return keys;
+  };
+  EXPECT_THAT(keys_of(joint("shoulder")), ElementsAre("at"));
+  EXPECT_THAT(keys_of(joint("tie")), ElementsAre("at", "to"));
+  const std::vector<Load>& loads = problem_.scene.loads;
+  EXPECT_THAT(keys_of(named(loads, "push")), ElementsAre("at"));
+  EXPECT_THAT(keys_of(named(loads, "strap")), ElementsAre("at", "at"));
+  EXPECT_THAT(keys_of(named(loads, "hinge")), IsEmpty());
+  EXPECT_FALSE(has_forces(named(loads, "twist")));
+  EXPECT_TRUE(has_forces(named(loads, "strap")));
 }
 
 TEST_F(Mechanism, HasSprings) {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/scene/body_axes.hpp"
-#include "core/scene/joint_kind.hpp"
+#include "core/scene/held_points.hpp"
 
 namespace pleuel {
 namespace {
@@ -28,8 +28,8 @@ std::vector<Eigen::Vector3d> all_places(const Scene& scene, const Design<double>
     }
   }
   for (const Joint& joint : scene.joints) {
-    places.push_back(position(joint.at, design));
-    if (kind_of(joint.type).has_length()) places.push_back(position(joint.to, design));
+    visit_held_places(
+        joint, [&](const Point& at, const PointKey&) { places.push_back(position(at, design)); });
   }
   return places;
 }
