@@ -36,8 +36,8 @@ struct SpringDamperTopology {
   std::array<Marker, 2> markers;
 };
 
-/// Pulls its two points together with k (l − l₀) + c l̇ + r. Its gauge reads l, l̇, this pull and the
-/// power that the damper takes.
+/// Pulls its two points together with k (l − l₀) + c l̇ + r. Its gauge reads l, l̇, this pull and
+/// the power that the damper takes.
 /// Both throw SimulationError, with name and time, where the two points coincide.
 /// @param derivatives  of the numbers with respect to the variables they depend on
 ForceElement make_spring_damper(

@@ -52,8 +52,8 @@ void visit_held_places(const Holder& holder, Visit&& visit) {
   });
 }
 
-/// Whether a load is made of forces. Only their places tell how large a mechanism is and how far its
-/// parts reach: a torque may be written at any point of a rigid body.
+/// Whether a load is made of forces. Only their places tell how large a mechanism is and how far
+/// its parts reach: a torque may be written at any point of a rigid body.
 inline bool has_forces(const Load& load) {
   return !std::holds_alternative<PointTorque>(load.element);
 }

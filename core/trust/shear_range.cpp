@@ -340,8 +340,8 @@ class ShearDoubts {
       case ResponseType::lateral_buckling:
         return is_of_body ? euler_share(body) : 0.0;
       case ResponseType::frequency:
-        if (response.bodies.empty()) return mode_share(body, index);
-        return is_of_body ? mode_share(body, response.mode) : 0.0;
+        if (response.bodies.empty()) return error_of_mechanism_frequency(body, index);
+        return is_of_body ? error_of_body_frequency(body, response.mode) : 0.0;
       case ResponseType::stress:
       case ResponseType::fatigue:
       case ResponseType::fatigue_damage:
@@ -389,30 +389,73 @@ class ShearDoubts {
     return 1.0 - with / without;
   }
 
-  /// Half of the ratio of the energies of a mode: ω² is stiffness.
-  double mode_share(const std::string& name, const ModeChoice& choice) const {
-    const auto& full = run_.analysis.full;
-    const BodyModel& body = (full ? full->model : model_).body(name);
-    const BodyMode mode = body_mode(body, choice);
-    const BendingReader reader(run_.problem, run_.x, name);
-    State state(body.elastic_offset() + body.elastic_size(), 0);
-    state.q.tail(body.elastic_size()) = mode.shapes.col(0).real();
-    const double shear = shear_energy(reader, body, state);
-    const double of_mode = 0.5 * mode.square;  // all energy of a mode with unit mass
-    return 0.5 * shear / (of_mode + shear);
+  /// A natural mode, and by how much of it shear would lower its frequency.
+  struct LoweredMode {
+    double frequency = 0.0, share = 0.0;
+  };
+
+  /// What shear would change of the frequency with a number: modes whose frequency it lowers more may
+  /// pass others.
+  /// @param modes  ascending, so many that none that is left out can pass
+  static double lowered(const std::vector<LoweredMode>& modes, int number) {
+    std::vector<double> with_shear;
+    for (const LoweredMode& mode : modes) with_shear.push_back(mode.frequency * (1.0 - mode.share));
+    std::sort(with_shear.begin(), with_shear.end());
+    const double shown = modes[number].frequency;
+    return shown > 0.0 ? std::max(0.0, 1.0 - with_shear[number] / shown) : 0.0;
   }
 
-  /// The same of a mode of the whole mechanism.
-  double mode_share(const std::string& name, std::size_t response) const {
-    const Analysis& analysis = run_.analysis;
-    const Model& model = model_of_modes(analysis);
+  /// Half of the share of shear in the energy of a mode: ω² is stiffness.
+  static double share_of_mode(double shear, double energy_of_mode) {
+    return energy_of_mode > 0.0 ? 0.5 * shear / (energy_of_mode + shear) : 0.0;
+  }
+
+  /// Modes of up to twice the frequency of one: what shear takes is less than half of it.
+  static constexpr double highest_passing = 2.0;
+
+  double error_of_body_frequency(const std::string& name, const ModeChoice& choice) const {
+    const BodyModel& body = model_of_modes(run_.analysis).body(name);
     const BendingReader reader(run_.problem, run_.x, name);
-    State shape(model.mechanism.system->coordinates(), model.mechanism.system->multipliers());
-    const Vibration& mode = vibration_of(response);
-    shape.q = mode.shape;
+    const auto lowered_mode = [&](const BodyMode& mode) {
+      State state(body.elastic_offset() + body.elastic_size(), 0);
+      state.q.tail(body.elastic_size()) = mode.shapes.col(0).real();
+      const double of_mode = 0.5 * mode.square;  // all energy of a mode with unit mass
+      return LoweredMode{std::sqrt(mode.square),
+                         share_of_mode(shear_energy(reader, body, state), of_mode)};
+    };
+    const LoweredMode shown = lowered_mode(body_mode(body, choice));
+    if (choice.axis) return shown.share;
+    std::vector<LoweredMode> modes;
+    for (int i = 0; i < body.elastic_size(); ++i) {
+      modes.push_back(lowered_mode(body_mode(body, {i})));
+      if (modes.back().frequency > highest_passing * shown.frequency) break;
+    }
+    return lowered(modes, choice.number);
+  }
+
+  double error_of_mechanism_frequency(const std::string& name, std::size_t response) const {
+    const int number = run_.analysis.mechanism_modes[response];
+    const ModeChoice& choice = run_.problem.responses[response].mode;
+    const Eigen::VectorXd& frequencies = run_.analysis.mechanism_frequencies;
+    if (choice.axis) return lowered_mode(name, number).share;
+    std::vector<LoweredMode> modes;
+    for (int i = 0; i < frequencies.size(); ++i) {
+      if (frequencies(i) > highest_passing * std::abs(frequencies(number))) break;
+      modes.push_back(lowered_mode(name, i));
+    }
+    return lowered(modes, number);
+  }
+
+  /// Of the whole mechanism, by shear in one body.
+  LoweredMode lowered_mode(const std::string& name, int number) const {
+    const Model& model = model_of_modes(run_.analysis);
+    const BendingReader reader(run_.problem, run_.x, name);
+    const Vibration& mode = vibration(number);
+    State state(model.mechanism.system->coordinates(), model.mechanism.system->multipliers());
+    state.q = mode.shape;
     double shear = 0.0;
-    for (const BodyModel* part : model.parts(name)) shear += shear_energy(reader, *part, shape);
-    return mode.energy > 0.0 ? 0.5 * shear / (mode.energy + shear) : 0.0;
+    for (const BodyModel* part : model.parts(name)) shear += shear_energy(reader, *part, state);
+    return {run_.analysis.mechanism_frequencies(number), share_of_mode(shear, mode.energy)};
   }
 
   /// A mode of the mechanism, with its energy.
@@ -421,21 +464,22 @@ class ShearDoubts {
     double energy = 0.0;  ///< ½ ω² φᵀ M φ; 0 of what does not vibrate
   };
 
-  const Vibration& vibration_of(std::size_t response) const {
-    const auto known = vibrations_.find(response);
+  const Vibration& vibration(int number) const {
+    const auto known = vibrations_.find(number);
     if (known != vibrations_.end()) return known->second;
-    const Analysis& analysis = run_.analysis;
-    const FrozenMechanism frozen =
-        freeze(model_of_modes(analysis).mechanism, state_of_modes(analysis));
-    const ModalVectors vectors =
-        modal_vectors(frozen, modes_of(frozen), analysis.mechanism_modes[response]);
+    if (!frozen_) {
+      const Analysis& analysis = run_.analysis;
+      frozen_ = freeze(model_of_modes(analysis).mechanism, state_of_modes(analysis));
+      modes_ = modes_of(*frozen_);
+    }
+    const ModalVectors vectors = modal_vectors(*frozen_, modes_, number);
     const Eigen::VectorXcd first = vectors.right.col(0);
     Eigen::Index largest = 0;
     first.cwiseAbs().maxCoeff(&largest);
     const Eigen::VectorXd shape = (first / first(largest)).real();
     const double frequency = std::max(frequency_of(vectors.s), 0.0);
-    const double energy = 0.5 * frequency * frequency * shape.dot(frozen.M * shape);
-    return vibrations_[response] = {shape, energy};
+    const double energy = 0.5 * frequency * frequency * shape.dot(frozen_->M * shape);
+    return vibrations_[number] = {shape, energy};
   }
 
   /// What shear stores in a body of the model that is deformed as in a state.
@@ -471,7 +515,10 @@ class ShearDoubts {
   std::map<std::string, double> known_;  ///< largest rotations [rad]
   std::map<std::string, int> steps_;     ///< of these
   std::map<std::string, ShearShare> shares_;
-  mutable std::map<std::size_t, Vibration> vibrations_;  ///< of responses, as they are asked for
+  // Of the mechanism, as they are asked for.
+  mutable std::optional<FrozenMechanism> frozen_;
+  mutable Eigen::VectorXcd modes_;
+  mutable std::map<int, Vibration> vibrations_;
 };
 
 }  // namespace

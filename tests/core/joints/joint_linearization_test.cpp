@@ -37,7 +37,7 @@ Marker planar_marker() {
   return marker;
 }
 
-/// Between two bodies that move in space, or in a plane where the equation has a meaning there only.
+/// Between two bodies that move in space; in a plane if the equation is for that only.
 JointTopology topology_with(const JointEquation& equation) {
   const bool is_planar = equation.kind == EquationKind::planar_angle;
   JointTopology topology;
