@@ -23,15 +23,18 @@ struct Direction {
 class FrequencySensitivity {
  public:
   FrequencySensitivity(const Model& model, const State& state, const ModeChoice& choice)
-      : mechanism_(model.mechanism),
+      : FrequencySensitivity(FrozenModes(model, state), state, choice) {}
+
+  FrequencySensitivity(const FrozenModes& modes, const State& state, const ModeChoice& choice)
+      : mechanism_(modes.model.mechanism),
         state_(state),
         n_(state.q.size()),
         m_(state.lambda.size()),
-        frozen_(freeze(mechanism_, state)),
-        vectors_(modal_vectors(frozen_, modes_of(frozen_), find_mode(model, state, choice))) {
+        frozen_(modes.frozen),
+        vectors_(modal_vectors(frozen_, modes.modes, find_mode(modes, choice))) {
     const Eigen::Index count = vectors_.right.cols();
     counted_ = choice.axis ? combinations_along(vectors_.right, frozen_.M,
-                                                mass_along(model, state, *choice.axis))
+                                                mass_along(modes.model, state, *choice.axis))
                            : Eigen::MatrixXcd::Identity(count, count).eval();
     const Eigen::MatrixXcd inertia = vectors_.right.adjoint() * frozen_.M * vectors_.right;
     components_ = choice.axis ? (counted_.adjoint() * inertia).eval() : counted_;

@@ -71,6 +71,19 @@ bool is_given(const std::string& place, const std::vector<std::string>& assignme
   });
 }
 
+/// An assignment, and how it is told.
+struct Assignment {
+  std::string text, shown;
+};
+
+Assignment assignment(const std::string& load_case, const Json::json_pointer& place,
+                      const Json& value) {
+  const std::string plain = fmt::format("{}={}", place.to_string(), value.dump());
+  if (load_case.empty()) return {plain, plain};
+  return {fmt::format("{}={}", place_in_case(load_case, place), value.dump()),
+          fmt::format("{} in case {}", plain, load_case)};
+}
+
 class RunSetting {
  public:
   /// @param result   of the optimization
@@ -79,7 +92,7 @@ class RunSetting {
       : arguments_(arguments), result_(result), problem_(problem) {}
 
   /// Assignments; nothing if the problem is not that of the run.
-  std::optional<std::vector<std::string>> find() {
+  std::optional<std::vector<Assignment>> find() {
     const Json& setting = result_.at("setting");
     if (!problem_.contains("cases") || problem_.at("cases").empty()) {
       return setting.contains("overrides") && add(setting, "") ? std::optional(assignments_)
@@ -109,19 +122,19 @@ class RunSetting {
       const bool is_given_otherwise = is_given(place.to_string(), arguments_.overrides) ||
                                       (!in_case.empty() && is_given(in_case, arguments_.overrides));
       if (is_given_otherwise) continue;
-      assignments_.push_back((in_case.empty() ? place.to_string() : in_case) + "=" + value.dump());
+      assignments_.push_back(assignment(load_case, place, value));
     }
     return true;
   }
 
   const Arguments& arguments_;
   const Json &result_, &problem_;
-  std::vector<std::string> assignments_;
+  std::vector<Assignment> assignments_;
 };
 
 struct FoundSetting {
   bool fits = true;  ///< otherwise the run is of another mechanism
-  std::vector<std::string> assignments;
+  std::vector<Assignment> assignments;
 };
 
 /// Nothing where no accuracy was asked of the run, or where one is asked for now.
@@ -161,11 +174,15 @@ void take_setting_of_run(Arguments& arguments) {
                                      run)));
   }
   if (found.assignments.empty()) return;
+  std::vector<std::string> shown, overrides;
+  for (const Assignment& one : found.assignments) {
+    shown.push_back(one.shown);
+    overrides.push_back(one.text);
+  }
   show(stderr, wrapped(fmt::format("{}: note: simulated with the steps and elements that this "
                                    "optimum was found with ({}); --set takes others\n",
-                                   run, fmt::join(found.assignments, ", "))));
-  arguments.overrides.insert(arguments.overrides.begin(), found.assignments.begin(),
-                             found.assignments.end());
+                                   run, fmt::join(shown, ", "))));
+  arguments.overrides.insert(arguments.overrides.begin(), overrides.begin(), overrides.end());
 }
 
 }  // namespace pleuel

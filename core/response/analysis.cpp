@@ -51,14 +51,13 @@ void set_mechanism_frequencies(Analysis& analysis) {
   if (analysis.trajectory.periodic && !analysis.full) {
     analysis.placed = initial_state(analysis.model.mechanism).state;
   }
-  const Model& model = model_of_modes(analysis);
-  const State state = state_of_modes(analysis);
-  analysis.mechanism_frequencies = mechanism_frequencies(model.mechanism, state);
+  const FrozenModes mechanism(model_of_modes(analysis), state_of_modes(analysis));
+  analysis.mechanism_frequencies = mechanism.modes.unaryExpr(&frequency_of).real();
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     const Response& response = analysis.responses[i];
     if (!response.frequency()) continue;
     try {
-      analysis.mechanism_modes[i] = find_mode(model, state, response.frequency()->choice);
+      analysis.mechanism_modes[i] = find_mode(mechanism, response.frequency()->choice);
     } catch (const InputError& error) {
       refuse_response(response.name, error.what());
     }

@@ -75,9 +75,14 @@ ModalVectors modal_vectors(const FrozenMechanism& frozen, const Eigen::VectorXcd
   return vectors;
 }
 
-int find_mode(const Model& model, const State& state, const ModeChoice& choice) {
-  const FrozenMechanism frozen = freeze(model.mechanism, state);
-  const Eigen::VectorXcd modes = modes_of(frozen);
+FrozenModes::FrozenModes(const Model& frozen_model, const State& at)
+    : model(frozen_model),
+      state(at),
+      frozen(freeze(model.mechanism, state)),
+      modes(modes_of(frozen)) {}
+
+int find_mode(const FrozenModes& mechanism, const ModeChoice& choice) {
+  const auto& [model, state, frozen, modes] = mechanism;
   if (!choice.axis) {
     if (choice.number >= modes.size()) refuse_mode(modes.size(), choice);
     return choice.number;

@@ -18,10 +18,19 @@ struct ModalVectors {
 /// @param mode   from 0, one of them
 ModalVectors modal_vectors(const FrozenMechanism& frozen, const Eigen::VectorXcd& modes, int mode);
 
+/// A mechanism that is frozen in a state, with its modes.
+struct FrozenModes {
+  const Model& model;
+  State state;
+  FrozenMechanism frozen;
+  Eigen::VectorXcd modes;  ///< modes_of(frozen)
+
+  FrozenModes(const Model& frozen_model, const State& at);
+};
+
 /// Which of the modes of a mechanism is meant; of those that coincide the first.
-/// @param state   that is frozen
 /// @param choice  its axis is a global one
 /// @throws InputError `the mechanism has … natural frequencies …, not …`
-int find_mode(const Model& model, const State& state, const ModeChoice& choice);
+int find_mode(const FrozenModes& mechanism, const ModeChoice& choice);
 
 }  // namespace pleuel

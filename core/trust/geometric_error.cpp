@@ -29,6 +29,9 @@ std::string GeometricError::most() const {
 
 namespace {
 
+/// Share of its buckling load up to which a pressed beam makes more of moments.
+constexpr double nearest_to_buckling = 0.95;
+
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
@@ -178,7 +181,7 @@ class ExactBeam {
       changes.push_back(sum + half);
       sum += 2.0 * half;
     }
-    const Vector3d relief = relief_by_tension();
+    const Vector3d share = share_beside_axial_force();
     double x = 0.0;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       Piece& piece = pieces_[i];
@@ -191,7 +194,7 @@ class ExactBeam {
       }
       x += 0.5 * piece.length;
       const Vector3d before = piece.stiffness.cwiseProduct(piece.curvature);
-      const Vector3d local = rotations[i].transpose() * (before + relief.cwiseProduct(moment));
+      const Vector3d local = rotations[i].transpose() * (before + share.cwiseProduct(moment));
       for (int k = 0; k < 3; ++k) {
         if (!has_coordinate(3 + k)) continue;
         piece.curvature(k) += (local(k) - before(k)) / piece.stiffness(k);
@@ -203,10 +206,11 @@ class ExactBeam {
     }
   }
 
-  /// What a beam takes of moments, as curvature, where the rest is taken by its tension: that which
-  /// a half sine against the chord (a quarter against a tangent) makes of it,  1/(1 + N/P),
-  /// P = π² EI/L² (a quarter of it). Of a taut one that bends little it is next to nothing.
-  Vector3d relief_by_tension() const {
+  /// What a beam makes of moments, as curvature, where its axial force N takes a part or adds one: that
+  /// which a half sine against the chord (a quarter against a tangent) makes of it,  1/(1 + N/P),
+  /// P = π² EI/L² (a quarter of it). Of a taut one that bends little it is next to nothing. One that
+  /// bears more pressure than P is held more firmly than that: a wave of half the length has 4 P.
+  Vector3d share_beside_axial_force() const {
     const double waves = is_chord() ? 1.0 : 0.5;
     double work = 0.0;  // N L
     Vector3d flexibility = Vector3d::Zero();
@@ -214,14 +218,15 @@ class ExactBeam {
       work += piece.length * piece.axial * piece.strain;
       flexibility += piece.length * piece.stiffness.cwiseInverse();
     }
-    const double tension = std::max(0.0, work / length());
-    Vector3d relief = Vector3d::Ones();
-    if (!body_.has_stiffening) return relief;
+    Vector3d share = Vector3d::Ones();
+    if (!body_.has_stiffening) return share;
     for (int k : {1, 2}) {
       const double buckling = std::pow(waves * std::numbers::pi, 2) / (flexibility(k) * length());
-      relief(k) = 1.0 / (1.0 + tension / buckling);
+      double ratio = work / length() / buckling;
+      while (ratio <= -1.0) ratio *= 0.25;
+      share(k) = 1.0 / (1.0 + std::max(ratio, -nearest_to_buckling));
     }
-    return relief;
+    return share;
   }
 
   /// Whether the model has a nodal displacement (0 … 5) at all.

@@ -467,18 +467,14 @@ class ShearDoubts {
   const Vibration& vibration(int number) const {
     const auto known = vibrations_.find(number);
     if (known != vibrations_.end()) return known->second;
-    if (!frozen_) {
-      const Analysis& analysis = run_.analysis;
-      frozen_ = freeze(model_of_modes(analysis).mechanism, state_of_modes(analysis));
-      modes_ = modes_of(*frozen_);
-    }
-    const ModalVectors vectors = modal_vectors(*frozen_, modes_, number);
+    if (!frozen_) frozen_.emplace(model_of_modes(run_.analysis), state_of_modes(run_.analysis));
+    const ModalVectors vectors = modal_vectors(frozen_->frozen, frozen_->modes, number);
     const Eigen::VectorXcd first = vectors.right.col(0);
     Eigen::Index largest = 0;
     first.cwiseAbs().maxCoeff(&largest);
     const Eigen::VectorXd shape = (first / first(largest)).real();
     const double frequency = std::max(frequency_of(vectors.s), 0.0);
-    const double energy = 0.5 * frequency * frequency * shape.dot(frozen_->M * shape);
+    const double energy = 0.5 * frequency * frequency * shape.dot(frozen_->frozen.M * shape);
     return vibrations_[number] = {shape, energy};
   }
 
@@ -516,8 +512,7 @@ class ShearDoubts {
   std::map<std::string, int> steps_;     ///< of these
   std::map<std::string, ShearShare> shares_;
   // Of the mechanism, as they are asked for.
-  mutable std::optional<FrozenMechanism> frozen_;
-  mutable Eigen::VectorXcd modes_;
+  mutable std::optional<FrozenModes> frozen_;
   mutable std::map<int, Vibration> vibrations_;
 };
 

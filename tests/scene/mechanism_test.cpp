@@ -192,9 +192,9 @@ TEST_F(Mechanism, HasResponsesOfMotion) {
   EXPECT_EQ(response("speed").at, 0.5);
   EXPECT_EQ(response("jolt").type, ResponseType::acceleration);
   EXPECT_EQ(response("jolt").direction, 1);
-  EXPECT_EQ(response("tone").mode, 1);  // counted from 0 here, from 1 in a file
+  EXPECT_EQ(response("tone").mode.number, 1);  // counted from 0 here, from 1 in a file
   EXPECT_THAT(response("tone").bodies, ElementsAre("arm"));
-  EXPECT_EQ(response("mechanism_tone").mode, 0);
+  EXPECT_EQ(response("mechanism_tone").mode.number, 0);
   EXPECT_TRUE(response("mechanism_tone").bodies.empty());
 }
 
