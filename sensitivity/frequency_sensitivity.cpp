@@ -33,8 +33,10 @@ class FrequencySensitivity {
         frozen_(modes.frozen),
         vectors_(modal_vectors(frozen_, modes.modes, find_mode(modes, choice))) {
     const Eigen::Index count = vectors_.right.cols();
-    counted_ = choice.axis ? combinations_along(vectors_.right, frozen_.M,
-                                                mass_along(modes.model, state, *choice.axis))
+    counted_ = choice.axis ? combinations_along(
+                                 vectors_.right, frozen_.M,
+                                 mass_along(modes.model, state,
+                                            Eigen::Map<const Eigen::Vector3d>(choice.axis->data())))
                            : Eigen::MatrixXcd::Identity(count, count).eval();
     const Eigen::MatrixXcd inertia = vectors_.right.adjoint() * frozen_.M * vectors_.right;
     components_ = choice.axis ? (counted_.adjoint() * inertia).eval() : counted_;

@@ -118,6 +118,9 @@ class RunSetting {
     const std::optional<Setting> setting = setting_of(chosen, problem_);
     if (!setting) return false;
     for (const auto& [place, value] : *setting) {
+      // The lengths of segments may go by their elements, and masses with them.
+      const bool is_of_segment = place.to_string().find("/segments/") != std::string::npos;
+      if (is_of_segment && !load_case.empty()) return false;
       const std::string in_case = load_case.empty() ? "" : place_in_case(load_case, place);
       const bool is_given_otherwise = is_given(place.to_string(), arguments_.overrides) ||
                                       (!in_case.empty() && is_given(in_case, arguments_.overrides));

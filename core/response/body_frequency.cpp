@@ -1,5 +1,7 @@
 #include "core/response/body_frequency.hpp"
 
+#include <array>
+
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
@@ -32,7 +34,8 @@ class BodyModes {
       Eigen::MatrixXcd shapes = modes_.shapes.middleCols(first, end - first);
       if (choice.axis) shapes = shapes * combinations(shapes, *choice.axis);
       if (choice.number < counted + shapes.cols()) {
-        return {modes_.lambda(first + choice.number - counted), shapes};
+        return {choice.axis ? square_of(shapes) : modes_.lambda(first + choice.number - counted),
+                shapes};
       }
       counted += shapes.cols();
     }
@@ -40,6 +43,13 @@ class BodyModes {
   }
 
  private:
+  /// By Rayleigh's quotient: of modes that nearly coincide each has its own.
+  double square_of(const Eigen::MatrixXcd& shapes) const {
+    const Eigen::MatrixXd stiffness = dense(body_.invariants.stiffness);
+    return (shapes.adjoint() * stiffness * shapes).trace().real() /
+           static_cast<double>(shapes.cols());
+  }
+
   Eigen::Index end_of_coinciding(Eigen::Index first) const {
     Eigen::Index end = first + 1;
     const double square = modes_.lambda(first);
@@ -50,8 +60,11 @@ class BodyModes {
     return end;
   }
 
-  Eigen::MatrixXcd combinations(const Eigen::MatrixXcd& shapes, int axis) const {
-    return combinations_along(shapes, mass_, elastic_mass_along(body_.invariants, axis));
+  Eigen::MatrixXcd combinations(const Eigen::MatrixXcd& shapes,
+                                const std::array<double, 3>& axis) const {
+    return combinations_along(
+        shapes, mass_,
+        elastic_mass_along(body_.invariants, Eigen::Map<const Eigen::Vector3d>(axis.data())));
   }
 
   const BodyModel& body_;

@@ -87,7 +87,8 @@ int find_mode(const FrozenModes& mechanism, const ModeChoice& choice) {
     if (choice.number >= modes.size()) refuse_mode(modes.size(), choice);
     return choice.number;
   }
-  const Eigen::MatrixXd along = mass_along(model, state, *choice.axis);
+  const Eigen::MatrixXd along =
+      mass_along(model, state, Eigen::Map<const Eigen::Vector3d>(choice.axis->data()));
   Eigen::Index counted = 0;
   for (int mode = 0; mode < int_size(modes); ++mode) {
     if (coinciding(modes, mode).front() != mode) continue;

@@ -115,7 +115,8 @@ class Monitoring {
     monitors_.work = integral(trajectory_.time, acting_);
     monitors_.energy = kinetic_ + elastic_ + weight_;
     // Changes that are lost in the last digits of the potential are none.
-    double largest = resolved * weight_.lpNorm<Eigen::Infinity>();
+    const double round_off = energy_of_round_off();
+    double largest = std::max(round_off, resolved * weight_.lpNorm<Eigen::Infinity>());
     weight_.array() -= weight_(0);
     for (const auto* part : {&kinetic_, &elastic_, &weight_, &monitors_.work}) {
       largest = std::max(largest, part->lpNorm<Eigen::Infinity>());
@@ -124,7 +125,25 @@ class Monitoring {
     const Eigen::VectorXd error = (monitors_.energy - monitors_.work).array() - monitors_.energy(0);
     monitors_.energy_error = error.lpNorm<Eigen::Infinity>() / largest;
     const double elastic = elastic_.lpNorm<Eigen::Infinity>();
-    if (elastic > 0.0) monitors_.elastic_energy_error = monitors_.energy_error * largest / elastic;
+    if (elastic > round_off)
+      monitors_.elastic_energy_error = monitors_.energy_error * largest / elastic;
+  }
+
+  /// What displacements hold that are lost in the last digits of a length of the mechanism, and their
+  /// rates in its time: all that moves where nothing acts.
+  double energy_of_round_off() const {
+    const Mechanism& mechanism = model_.mechanism;
+    if (mechanism.scale.size() == 0) return 0.0;
+    const double length = resolved * mechanism.scale.maxCoeff();
+    const double speed = length / trajectory_.time(trajectory_.time.size() - 1);
+    double energy = 0.0;
+    for (const BodyModel& body : model_.bodies) {
+      energy += 0.5 * body.mass * speed * speed;
+      if (body.elastic_size() == 0) continue;
+      const double stiffness = body.invariants.stiffness.lpNorm<Eigen::Infinity>();
+      energy += 0.5 * stiffness * length * length;
+    }
+    return energy;
   }
 
   /// A sum of squares is beyond the range of numbers before the motion is.

@@ -71,20 +71,19 @@ void add_body(const BodyModel& body, const State& state, const Eigen::Vector3d& 
 
 }  // namespace
 
-Eigen::MatrixXd elastic_mass_along(const Invariants<double>& body, int axis) {
+Eigen::MatrixXd elastic_mass_along(const Invariants<double>& body, const Eigen::Vector3d& d) {
+  Eigen::VectorXd entries = Eigen::VectorXd::Zero(body.pattern.nonzeros());
   for (std::size_t pair = 0; pair < body.pairs.size(); ++pair) {
-    if (body.pairs[pair] != std::pair(axis, axis)) continue;
-    return dense_matrix(body.pattern, body.moments.col(pair));
+    const auto [k, l] = body.pairs[pair];
+    entries += d(k) * d(l) * body.moments.col(pair);
   }
-  return Eigen::MatrixXd::Zero(body.size(), body.size());
+  return dense_matrix(body.pattern, entries);
 }
 
-Eigen::MatrixXd mass_along(const Model& model, const State& state, int axis) {
+Eigen::MatrixXd mass_along(const Model& model, const State& state, const Eigen::Vector3d& d) {
   const Eigen::Index n = state.q.size();
   Eigen::MatrixXd lower = Eigen::MatrixXd::Zero(n, n);
-  for (const BodyModel& body : model.bodies) {
-    add_body(body, state, Eigen::Vector3d::Unit(axis), lower);
-  }
+  for (const BodyModel& body : model.bodies) add_body(body, state, d, lower);
   return lower.selfadjointView<Eigen::Lower>();
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -10,20 +12,32 @@ namespace pleuel {
 /// Which natural frequency is meant.
 struct ModeChoice {
   int number = 0;  ///< from 0 for the lowest of those that count
-  /// 0 … 2: only modes along x, y or z count, with more than half of their kinetic energy. Axes are
-  /// those of the body whose frequency it is, and global ones of a mechanism.
-  std::optional<int> axis = {};
+  /// A unit vector: only modes along it count, with more than half of their kinetic energy. Its axes
+  /// are those of the body whose frequency it is, and global ones of a mechanism.
+  std::optional<std::array<double, 3>> axis = {};
 };
 
-/// `the body "rod" has 3 natural frequencies along y, not 4`
+/// `along y`, or `along (0.6, 0.8, 0)`.
+inline std::string describe_axis(const std::array<double, 3>& axis) {
+  constexpr const char* names[] = {"along x", "along y", "along z"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (axis[i] == 1.0) return names[i];
+  }
+  return fmt::format("along ({:.3g}, {:.3g}, {:.3g})", axis[0], axis[1], axis[2]);
+}
+
+/// `the body "rod" has 3 natural frequencies along y (modes with more than half of their kinetic
+/// energy in it), not 4`
 /// @param owner  what they are of, as `the body "rod"`
 /// @param count  how many count
 inline std::string missing_mode(const std::string& owner, std::ptrdiff_t count,
                                 const ModeChoice& choice) {
-  constexpr const char* axes[] = {" along x", " along y", " along z"};
+  const std::string which =
+      choice.axis ? fmt::format(" {} (modes with more than half of their kinetic energy in it)",
+                                describe_axis(*choice.axis))
+                  : std::string();
   return fmt::format("{} has {} natural frequenc{}{}, not {}", owner, count,
-                     count == 1 ? "y" : "ies", choice.axis ? axes[*choice.axis] : "",
-                     choice.number + 1);
+                     count == 1 ? "y" : "ies", which, choice.number + 1);
 }
 
 }  // namespace pleuel

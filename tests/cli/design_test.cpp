@@ -189,7 +189,7 @@ TEST(DesignOfARun, ThatDoesNotFitTheFileLeavesItsSettingWithANote) {
   std::ofstream(folder.path() / "other.json") << other;
   const ProgramRun run = run_program(folder.path(), {"simulate", "other.json", "--design", "run"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.err, HasSubstr("those of this optimum do not fit it"));
+  EXPECT_THAT(run.err, HasSubstr("those of this optimum do not fit"));
 }
 
 class WrongDesign : public testing::Test {

@@ -53,6 +53,18 @@ TEST(FrequencyDirection, HasTheGradientOfItsPlaneWherePlanesCoincide) {
   }
 }
 
+/// Along vectors, as of a beam whose section stands obliquely: those of its own axes.
+TEST(FrequencyDirection, MayBeAVector) {
+  ProblemFile problem = square_cantilever();
+  for (ResponseSettings& response : problem.responses) {
+    if (response.name == "in_plane") response.mode.axis = {{-0.5, 0.8660254037844386, 0.0}};
+  }
+  problem.variables[0].start = 0.012;  // so that planes do not coincide
+  const Eigen::VectorXd x = start_design(problem);
+  const Eigen::VectorXd values = values_of(*analyze(problem, x));
+  EXPECT_NEAR(values(5) / values(0), 1.0, 1e-7);
+}
+
 /// They are smooth there: central differences of designs on both sides have one limit. 1e-6: what
 /// differences of fourth order with steps of 1e-3 leave of frequencies that are exact to 1e-12.
 TEST(FrequencyDirection, IsSmoothWherePlanesCoincide) {

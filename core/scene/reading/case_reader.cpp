@@ -255,9 +255,16 @@ bool mentions_any(const Json& value, const std::set<std::string>& names) {
          });
 }
 
+/// The elements of a beam without segments, whose lengths may go by their numbers.
+bool is_number_of_elements(const std::string& pointer) {
+  const Json::json_pointer place(pointer);
+  return pointer.starts_with("/scene/bodies/") && place.back() == "elements" &&
+         place.parent_pointer().parent_pointer() == Json::json_pointer("/scene/bodies");
+}
+
 /// Whether a change leaves the masses of these bodies as they are (none: of all bodies).
 bool keeps_masses(const std::string& pointer, const std::vector<std::string>& bodies) {
-  if (leads_into_any(pointer, massless)) return true;
+  if (leads_into_any(pointer, massless) || is_number_of_elements(pointer)) return true;
   if (bodies.empty() || !pointer.starts_with("/scene/bodies/")) return false;
   return std::none_of(bodies.begin(), bodies.end(), [&](const std::string& body) {
     return leads_into(pointer, child_pointer("/scene/bodies", body));

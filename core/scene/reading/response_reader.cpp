@@ -1,6 +1,8 @@
 #include "core/scene/reading/response_reader.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 
 #include <fmt/format.h>
 
@@ -172,7 +174,17 @@ void read_mass(const JsonNode& node, const Scene& scene, ResponseSettings& respo
   if (response.bodies.empty()) many->fail("must name at least one body");
 }
 
-void read_frequency(const JsonNode& node, const Scene& scene, ResponseSettings& response) {
+/// A component or a vector.
+std::array<double, 3> read_axis(const JsonNode& node, const ResponseContext& context) {
+  if (node.value().is_array()) return context.numbers.unit_vector(node);
+  std::array<double, 3> axis{};
+  axis[read_choice<std::size_t>(node, {{"x", 0}, {"y", 1}, {"z", 2}})] = 1.0;
+  return axis;
+}
+
+void read_frequency(const JsonNode& node, const ResponseContext& context,
+                    ResponseSettings& response) {
+  const Scene& scene = context.scene;
   node.allow_keys({"type", "body", "mode", "direction", "over_time"});
   if (const auto over_time = node.find("over_time")) {
     over_time->fail("is not for a frequency, which does not change in time");
@@ -180,11 +192,10 @@ void read_frequency(const JsonNode& node, const Scene& scene, ResponseSettings& 
   if (node.find("body") && find_imported(node, scene, response) == nullptr) {
     read_elastic_beam(node, scene, response);
   }
-  if (const auto mode = node.find("mode"))
+  if (const auto mode = node.find("mode")) {
     response.mode.number = mode->whole_number(1, most_modes) - 1;
-  if (const auto axis = node.find("direction")) {
-    response.mode.axis = read_choice<int>(*axis, {{"x", 0}, {"y", 1}, {"z", 2}});
   }
+  if (const auto axis = node.find("direction")) response.mode.axis = read_axis(*axis, context);
 }
 
 /// Names of columns in files of histories (docs/reference/responses.md).
@@ -205,7 +216,7 @@ ResponseSettings read_response(const std::string& name, const JsonNode& node,
       read_mass(node, context.scene, response);
       break;
     case ResponseType::frequency:
-      read_frequency(node, context.scene, response);
+      read_frequency(node, context, response);
       break;
     case ResponseType::stress:
       read_stress(node, context, response);

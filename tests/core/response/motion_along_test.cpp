@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/dense_solvers.hpp"
+#include "core/base/rotation_vector.hpp"
 #include "core/beam/elastic_basis.hpp"
 #include "core/response/mechanism_modes.hpp"
 #include "tests/support/random_state.hpp"
@@ -22,7 +23,8 @@ TEST_P(MotionAlong, OfAllAxesIsTheMassMatrixOfABody) {
   for (const BodyModel& body : model_.bodies) {
     const Invariants<double>& constants = body.invariants;
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(body.elastic_size(), body.elastic_size());
-    for (int axis = 0; axis < 3; ++axis) sum += elastic_mass_along(constants, axis);
+    for (int axis = 0; axis < 3; ++axis)
+      sum += elastic_mass_along(constants, Eigen::Vector3d::Unit(axis));
     const Eigen::MatrixXd mass = dense_matrix(constants.pattern, constants.mass_matrix);
     EXPECT_LE((sum - mass).norm(), 1e-14 * mass.norm()) << body.name;
   }
@@ -34,7 +36,7 @@ TEST_P(MotionAlong, OfAllAxesIsTheMassMatrixOfAMechanism) {
   const Eigen::MatrixXd mass = freeze(model_.mechanism, state).M;
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(mass.rows(), mass.cols());
   for (int axis = 0; axis < 3; ++axis) {
-    const Eigen::MatrixXd along = mass_along(model_, state, axis);
+    const Eigen::MatrixXd along = mass_along(model_, state, Eigen::Vector3d::Unit(axis));
     EXPECT_LE((along - along.transpose()).norm(), 1e-14 * mass.norm());
     EXPECT_GE(symmetric_eigenvalues(along).minCoeff(), -1e-12 * mass.norm());
     sum += along;
@@ -43,6 +45,16 @@ TEST_P(MotionAlong, OfAllAxesIsTheMassMatrixOfAMechanism) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, MotionAlong, testing::Range(0, sample_count), sample_name);
+
+/// Along an oblique axis of all axes that are normal to each other, too.
+TEST_P(MotionAlong, OfObliqueAxesIsTheMassMatrix) {
+  const State state = random_state(model_, 8);
+  const Eigen::MatrixXd mass = freeze(model_.mechanism, state).M;
+  const Eigen::Matrix3d axes = rotation_of(Eigen::Vector3d(0.3, -0.7, 1.1));
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(mass.rows(), mass.cols());
+  for (int i = 0; i < 3; ++i) sum += mass_along(model_, state, axes.col(i));
+  EXPECT_LE((sum - mass).norm(), 1e-12 * mass.norm());
+}
 
 /// A point mass at 3 m/s along y and 4 m/s along z: m v² along each.
 TEST(MotionAlong, OfAPointMassIsThatOfItsVelocity) {
@@ -57,7 +69,8 @@ TEST(MotionAlong, OfAPointMassIsThatOfItsVelocity) {
   const Eigen::Vector3d velocity(0.0, 3.0, 4.0);
   const double squares[] = {0.0, 9.0, 16.0};
   for (int axis = 0; axis < 3; ++axis) {
-    EXPECT_DOUBLE_EQ(velocity.dot(mass_along(model, state, axis) * velocity), 2.0 * squares[axis]);
+    EXPECT_DOUBLE_EQ(velocity.dot(mass_along(model, state, Eigen::Vector3d::Unit(axis)) * velocity),
+                     2.0 * squares[axis]);
   }
 }
 
