@@ -39,8 +39,8 @@ struct Mechanism {
   std::vector<std::string> equation_names;
   /// Those of the system's terms that are springs, dampers and motors.
   std::vector<Term*> springs;
-  /// Whether forces follow laws of the motion, as friction, stops and tables over a coordinate do: they may
-  /// change within a step in a way that the steps before tell nothing of.
+  /// Whether forces are laws of the motion, as friction, stops and tables over a coordinate are: they
+  /// may change within a step in a way that the steps before tell nothing of.
   bool has_laws_of_motion = false;
   /// Elastic coordinates.
   std::vector<int> elastic;

@@ -21,7 +21,8 @@ class BodyModes {
   explicit BodyModes(const BodyModel& body)
       : body_(body),
         mass_(dense(body.invariants.mass_matrix)),
-        modes_(natural_modes(dense(body.invariants.stiffness), mass_)) {}
+        modes_(body.elastic_size() > 0 ? natural_modes(dense(body.invariants.stiffness), mass_)
+                                       : NaturalModes()) {}  // there is nothing to decompose
 
   Eigen::MatrixXd dense(const Eigen::VectorXd& entries) const {
     return dense_matrix(body_.invariants.pattern, entries);

@@ -108,6 +108,16 @@ TEST(Frequency, ThatIsNotAlongAnAxisIsAnErrorThatSaysSo) {
   }
 }
 
+/// Without elasticity, as the price of that effect is measured.
+TEST(Frequency, OfABodyThatIsRigidIsAnErrorThatSaysSo) {
+  EffectSettings effects;
+  effects.elasticity = EffectChoice::off;
+  const Model model = build_model(cantilever(), effects, {}, {});
+  for (const ModeChoice& choice : {ModeChoice{0}, ModeChoice{0, {{0, 1, 0}}}}) {
+    EXPECT_THROW(body_frequency(model.body("beam"), choice, 0), InputError);
+  }
+}
+
 Scene hanging_body() {
   Scene scene;
   scene.gravity = {0.0, -9.81, 0.0};
