@@ -13,13 +13,11 @@
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/sparse_rows.hpp"
-#include "core/beam/beam_shape.hpp"
 #include "core/model/body_energy.hpp"
-#include "core/model/shear_area.hpp"
-#include "core/response/body_frequency.hpp"
-#include "core/response/modal_vectors.hpp"
 #include "core/scene/body_groups.hpp"
+#include "core/trust/beam_bending.hpp"
 #include "core/trust/beam_state.hpp"
+#include "core/trust/shear_in_modes.hpp"
 
 namespace pleuel {
 
@@ -32,62 +30,6 @@ constexpr double tolerable_shear = 0.01;
 constexpr double alarming = 0.1;
 /// Planes in which a beam deflects less than this share of the other do not count.
 constexpr double still = 1e-3;
-
-/// A plane of bending of one element.
-struct ElementBending {
-  double length = 0.0, stiffness = 0.0;  ///< ℓ [m], EI [N m²]
-  double shear_stiffness = 0.0;          ///< κ G A [N]
-  std::array<double, 2> curvature{};     ///< at both ends [1/m]
-  std::array<double, 2> deflection{};    ///< at both ends [m]
-
-  double force() const { return stiffness * (curvature[1] - curvature[0]) / length; }
-  double bending_energy() const {
-    const auto [a, b] = curvature;
-    return stiffness * length * (a * a + a * b + b * b) / 6.0;
-  }
-  double shear_energy() const { return 0.5 * force() * force() / shear_stiffness * length; }
-};
-
-using BeamBending = std::vector<ElementBending>;
-
-class BendingReader {
- public:
-  BendingReader(const ProblemFile& problem, const Eigen::VectorXd& x, const std::string& body)
-      : design_(x.begin(), x.end()),
-        beam_(&std::get<BeamBody>(find_named(problem.scene.bodies, body)->shape)) {}
-
-  /// @param plane  0: along y, 1: along z
-  BeamBending read(const BodyModel& body, const Eigen::MatrixXd& nodal, int plane) const {
-    BeamBending elements;
-    for (std::size_t e = 0; e < body.beam.elements.size(); ++e) {
-      const BeamElement<double>& element = body.beam.elements[e];
-      const std::size_t segment = body.mesh.elements[e].segment;
-      const double nu = element.young / (2.0 * element.shear) - 1.0;
-      const ShearArea<double> area =
-          shear_area(beam_->segments[segment].section, element.section, nu, design_);
-      const ElementForm<double> form = form_of(element);
-      Eigen::Matrix<double, 12, 1> q;
-      q << nodal.col(e), nodal.col(e + 1);
-      ElementBending bending;
-      bending.length = element.length;
-      bending.stiffness =
-          element.young * (plane == 0 ? element.section.inertia_z : element.section.inertia_y);
-      bending.shear_stiffness = element.shear * (plane == 0 ? area.along_y : area.along_z);
-      for (std::size_t end = 0; end < 2; ++end) {
-        const double xi = static_cast<double>(end);
-        const auto row = plane == 0 ? deflection_y_row(xi, form, 2) : deflection_z_row(xi, form, 2);
-        bending.curvature[end] = row.dot(q);
-        bending.deflection[end] = nodal(1 + plane, e + static_cast<Eigen::Index>(end));
-      }
-      elements.push_back(bending);
-    }
-    return elements;
-  }
-
- private:
-  Design<double> design_;
-  const BeamBody* beam_ = nullptr;
-};
 
 double energy_ratio(const BeamBending& elements) {
   double bending = 0.0, shear = 0.0;
@@ -191,7 +133,7 @@ namespace {
 class ShearDoubts {
  public:
   explicit ShearDoubts(const TrustedRun& run)
-      : run_(run), model_(run.analysis.model), groups_(run.problem.scene) {}
+      : run_(run), model_(run.analysis.model), groups_(run.problem.scene), modes_(run) {}
 
   std::vector<Doubt> find() {
     is_held_twice_ = is_held_twice();
@@ -264,8 +206,7 @@ class ShearDoubts {
     return (beyond.transpose() * lambda).norm() / lambda.norm();
   }
 
-  void add_doubt(const std::string& body, const ShearShare& share,
-                 std::vector<Doubt>& doubts) const {
+  void add_doubt(const std::string& body, const ShearShare& share, std::vector<Doubt>& doubts) {
     double worst = 0.0;
     std::vector<std::string> responses;
     for (std::size_t i = 0; i < run_.problem.responses.size(); ++i) {
@@ -316,7 +257,7 @@ class ShearDoubts {
   }
 
   /// What shear that is left out changes of a response, over what it is with shear.
-  double error_of(std::size_t index, const std::string& body, const ShearShare& share) const {
+  double error_of(std::size_t index, const std::string& body, const ShearShare& share) {
     const ResponseSettings& response = run_.problem.responses[index];
     if (scene_beam(body).has_shear || !depends_on(response, body)) return 0.0;
     const bool is_of_body =
@@ -340,8 +281,8 @@ class ShearDoubts {
       case ResponseType::lateral_buckling:
         return is_of_body ? euler_share(body) : 0.0;
       case ResponseType::frequency:
-        if (response.bodies.empty()) return error_of_mechanism_frequency(body, index);
-        return is_of_body ? error_of_body_frequency(body, response.mode) : 0.0;
+        if (response.bodies.empty()) return modes_.of_mechanism(body, index);
+        return is_of_body ? modes_.of_body(body, response.mode) : 0.0;
       case ResponseType::stress:
       case ResponseType::fatigue:
       case ResponseType::fatigue_damage:
@@ -389,108 +330,6 @@ class ShearDoubts {
     return 1.0 - with / without;
   }
 
-  /// A natural mode, and by how much of it shear would lower its frequency.
-  struct LoweredMode {
-    double frequency = 0.0, share = 0.0;
-  };
-
-  /// What shear would change of the frequency with a number: modes whose frequency it lowers more may
-  /// pass others.
-  /// @param modes  ascending, so many that none that is left out can pass
-  static double lowered(const std::vector<LoweredMode>& modes, int number) {
-    std::vector<double> with_shear;
-    for (const LoweredMode& mode : modes) with_shear.push_back(mode.frequency * (1.0 - mode.share));
-    std::sort(with_shear.begin(), with_shear.end());
-    const double shown = modes[number].frequency;
-    return shown > 0.0 ? std::max(0.0, 1.0 - with_shear[number] / shown) : 0.0;
-  }
-
-  /// Half of the share of shear in the energy of a mode: ω² is stiffness.
-  static double share_of_mode(double shear, double energy_of_mode) {
-    return energy_of_mode > 0.0 ? 0.5 * shear / (energy_of_mode + shear) : 0.0;
-  }
-
-  /// Modes of up to twice the frequency of one: what shear takes is less than half of it.
-  static constexpr double highest_passing = 2.0;
-
-  double error_of_body_frequency(const std::string& name, const ModeChoice& choice) const {
-    const BodyModel& body = model_of_modes(run_.analysis).body(name);
-    const BendingReader reader(run_.problem, run_.x, name);
-    const auto lowered_mode = [&](const BodyMode& mode) {
-      State state(body.elastic_offset() + body.elastic_size(), 0);
-      state.q.tail(body.elastic_size()) = mode.shapes.col(0).real();
-      const double of_mode = 0.5 * mode.square;  // all energy of a mode with unit mass
-      return LoweredMode{std::sqrt(mode.square),
-                         share_of_mode(shear_energy(reader, body, state), of_mode)};
-    };
-    const LoweredMode shown = lowered_mode(body_mode(body, choice));
-    if (choice.axis) return shown.share;
-    std::vector<LoweredMode> modes;
-    for (int i = 0; i < body.elastic_size(); ++i) {
-      modes.push_back(lowered_mode(body_mode(body, {i})));
-      if (modes.back().frequency > highest_passing * shown.frequency) break;
-    }
-    return lowered(modes, choice.number);
-  }
-
-  double error_of_mechanism_frequency(const std::string& name, std::size_t response) const {
-    const int number = run_.analysis.mechanism_modes[response];
-    const ModeChoice& choice = run_.problem.responses[response].mode;
-    const Eigen::VectorXd& frequencies = run_.analysis.mechanism_frequencies;
-    if (choice.axis) return lowered_mode(name, number).share;
-    std::vector<LoweredMode> modes;
-    for (int i = 0; i < frequencies.size(); ++i) {
-      if (frequencies(i) > highest_passing * std::abs(frequencies(number))) break;
-      modes.push_back(lowered_mode(name, i));
-    }
-    return lowered(modes, number);
-  }
-
-  /// Of the whole mechanism, by shear in one body.
-  LoweredMode lowered_mode(const std::string& name, int number) const {
-    const Model& model = model_of_modes(run_.analysis);
-    const BendingReader reader(run_.problem, run_.x, name);
-    const Vibration& mode = vibration(number);
-    State state(model.mechanism.system->coordinates(), model.mechanism.system->multipliers());
-    state.q = mode.shape;
-    double shear = 0.0;
-    for (const BodyModel* part : model.parts(name)) shear += shear_energy(reader, *part, state);
-    return {run_.analysis.mechanism_frequencies(number), share_of_mode(shear, mode.energy)};
-  }
-
-  /// A mode of the mechanism, with its energy.
-  struct Vibration {
-    Eigen::VectorXd shape;
-    double energy = 0.0;  ///< ½ ω² φᵀ M φ; 0 of what does not vibrate
-  };
-
-  const Vibration& vibration(int number) const {
-    const auto known = vibrations_.find(number);
-    if (known != vibrations_.end()) return known->second;
-    if (!frozen_) frozen_.emplace(model_of_modes(run_.analysis), state_of_modes(run_.analysis));
-    const ModalVectors vectors = modal_vectors(frozen_->frozen, frozen_->modes, number);
-    const Eigen::VectorXcd first = vectors.right.col(0);
-    Eigen::Index largest = 0;
-    first.cwiseAbs().maxCoeff(&largest);
-    const Eigen::VectorXd shape = (first / first(largest)).real();
-    const double frequency = std::max(frequency_of(vectors.s), 0.0);
-    const double energy = 0.5 * frequency * frequency * shape.dot(frozen_->frozen.M * shape);
-    return vibrations_[number] = {shape, energy};
-  }
-
-  /// What shear stores in a body of the model that is deformed as in a state.
-  double shear_energy(const BendingReader& reader, const BodyModel& body,
-                      const State& state) const {
-    const Eigen::MatrixXd nodal = nodal_displacements(body, state);
-    double energy = 0.0;
-    for (int plane = 0; plane < 2; ++plane) {
-      for (const ElementBending& element : reader.read(body, nodal, plane)) {
-        energy += element.shear_energy();
-      }
-    }
-    return energy;
-  }
-
   /// How much of the elastic energy of all bodies is in one, where it bends most.
   double energy_share(const std::string& name) const {
     State state;
@@ -511,9 +350,7 @@ class ShearDoubts {
   std::map<std::string, double> known_;  ///< largest rotations [rad]
   std::map<std::string, int> steps_;     ///< of these
   std::map<std::string, ShearShare> shares_;
-  // Of the mechanism, as they are asked for.
-  mutable std::optional<FrozenModes> frozen_;
-  mutable std::map<int, Vibration> vibrations_;
+  ShearInModes modes_;
 };
 
 }  // namespace

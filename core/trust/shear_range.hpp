@@ -23,8 +23,8 @@ ShearShare shear_share(const ProblemFile& problem, const Eigen::VectorXd& x, con
                        const std::string& body, const State& state);
 
 /// Beams that are too stubby for responses that rest on their bending stiffness: deflection,
-/// elastic energy, buckling and frequencies of the beam, positions and deflections of the
-/// mechanism as far as the beam moves them; and its stresses, and forces and moments of joints and
+/// elastic energy, buckling and frequencies of the beam, positions, deflections, elastic energy and
+/// frequencies of the mechanism as far as the beam has a part in them; and its stresses, and forces and moments of joints and
 /// drives, where these hold more than rigid bodies need. Of beams that have shear only lateral
 /// buckling, which leaves it out.
 std::vector<Doubt> doubt_shear_range(const TrustedRun& run);
