@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "core/model/model.hpp"
+#include "core/response/analysis.hpp"
 
 namespace pleuel {
 
@@ -12,5 +12,16 @@ namespace pleuel {
 /// for other places and other bodies.
 std::optional<double> share_of_place(const Model& model, const std::string& body,
                                      const std::string& place);
+
+/// When and where a response has its peak.
+struct Peak {
+  double time = 0.0;              ///< of the instant next to it [s]
+  std::string place;              ///< as its signal says it
+  std::optional<double> share{};  ///< where along the beam it is, 0 … 1
+};
+
+/// Of a response that is a peak over time; nothing for others.
+std::optional<Peak> find_peak(const ProblemFile& problem, const Analysis& analysis,
+                              std::size_t response);
 
 }  // namespace pleuel

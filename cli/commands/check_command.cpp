@@ -95,7 +95,7 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
 }
 
 Json responses_with_verdicts(const ProblemFile& problem, const Examination& findings) {
-  Json document = responses_document(*findings.analysis);
+  Json document = responses_document(problem, *findings.analysis);
   for (std::size_t i = 0; i < findings.derivatives.size(); ++i) {
     document[findings.analysis->responses[i].name]["derivatives"] =
         derivative_document(problem, findings.derivatives[i]);

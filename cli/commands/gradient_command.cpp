@@ -167,7 +167,7 @@ Json choice_document(const MethodChoice& choice) {
 
 Json gradient_document(const ProblemFile& problem, const MethodFindings& findings) {
   const Analysis& analysis = *findings.analysis;
-  Json document = {{"responses", responses_document(analysis, findings.errors)},
+  Json document = {{"responses", responses_document(problem, analysis, findings.errors)},
                    {"seconds", {{"simulate", findings.simulation_seconds}}}};
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     Json& response = document["responses"][analysis.responses[i].name];

@@ -94,7 +94,7 @@ Json simulation_document(const ProblemFile& problem, const Simulated& run) {
   const Trajectory& trajectory = analysis.trajectory;
   const System& system = *analysis.model.mechanism.system;
   Json document = {{"status", run.is_checked ? "done" : "interrupted"},
-                   {"responses", responses_document(analysis, run.errors)},
+                   {"responses", responses_document(problem, analysis, run.errors)},
                    {"steps", trajectory.steps()},
                    {"split_steps", trajectory.split_steps},
                    {"rejected_steps", trajectory.rejected_steps},

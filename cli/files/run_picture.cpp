@@ -125,17 +125,10 @@ Json response_document(const ProblemFile& problem, const ShownDesign& design, st
   add_influence(problem, design, i, room, document);
   if (!response.history()) return document;
   std::vector<int> kept;
-  if (response.is_peak_over_time() && !reduction.samples.empty()) {
-    const Sample& peak = *std::max_element(
-        reduction.samples.begin(), reduction.samples.end(),
-        [](const Sample& a, const Sample& b) { return std::abs(a.weight) < std::abs(b.weight); });
-    document["peak_time"] = analysis.trajectory.time(peak.step);
-    const std::string place = response.history()->signal->describe(peak.channel);
-    document["peak_place"] = place;
-    const std::vector<std::string>& bodies = problem.responses[i].bodies;
-    const auto share =
-        bodies.size() != 1 ? std::nullopt : share_of_place(analysis.model, bodies.front(), place);
-    if (share) document["peak_share"] = *share;
+  if (const auto peak = find_peak(problem, analysis, i)) {
+    document["peak_time"] = peak->time;
+    document["peak_place"] = peak->place;
+    if (peak->share) document["peak_share"] = *peak->share;
     for (const Sample& sample : reduction.samples) kept.push_back(sample.step);
   }
   document["history"] =

@@ -2,21 +2,49 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/text/table.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/shown_unit.hpp"
+#include "picture/peak_place.hpp"
 
 namespace pleuel {
 
-Json responses_document(const Analysis& analysis, const ErrorBars& errors) {
+namespace {
+
+Json peak_document(const Peak& peak) {
+  Json document = {{"time", peak.time}, {"place", peak.place}};
+  if (peak.share) document["share"] = *peak.share;
+  return document;
+}
+
+/// "0.1176 s, 0.42 of the length"
+std::string peak_text(const std::optional<Peak>& peak) {
+  if (!peak) return "";
+  const std::string time = fmt::format("{:.4g} s", peak->time);
+  return peak->share ? fmt::format("{}, {:.2g} of the length", time, *peak->share) : time;
+}
+
+bool has_peaks(const Analysis& analysis) {
+  return std::any_of(analysis.responses.begin(), analysis.responses.end(),
+                     [](const Response& response) { return response.is_peak_over_time(); });
+}
+
+}  // namespace
+
+Json responses_document(const ProblemFile& problem, const Analysis& analysis,
+                        const ErrorBars& errors) {
   Json document = Json::object();
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     const Response& response = analysis.responses[i];
     document[response.name] = {{"value", analysis.reductions[i].value}, {"unit", response.unit}};
     if (!errors.empty()) document[response.name]["error"] = error_document(error_of(errors, i));
+    if (const auto peak = find_peak(problem, analysis, i)) {
+      document[response.name]["peak"] = peak_document(*peak);
+    }
   }
   return document;
 }
@@ -43,12 +71,18 @@ std::string responses_text(const ProblemFile& problem, const Analysis& analysis,
   std::vector<Table::Column> columns = {
       {"response", Table::Align::left}, {"value"}, {"unit", Table::Align::left}};
   if (!errors.empty()) columns.push_back({"error", Table::Align::left});
+  if (has_peaks(analysis)) columns.push_back({"peak at", Table::Align::left});
   Table table(columns);
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     const ShownUnit unit = unit_of(problem.responses[i]);
-    table.add_row({analysis.responses[i].name,
-                   significant(unit.shown(without_round_off(analysis, i))), unit.name,
-                   errors.empty() ? "" : error_text(error_of(errors, i), unit)});
+    const double value = without_round_off(analysis, i);
+    std::vector<std::string> row = {analysis.responses[i].name, significant(unit.shown(value)),
+                                    unit.name};
+    if (!errors.empty()) row.push_back(error_text(error_of(errors, i), unit));
+    if (has_peaks(analysis)) {
+      row.push_back(value == 0.0 ? "" : peak_text(find_peak(problem, analysis, i)));
+    }
+    table.add_row(std::move(row));
   }
   return table.is_empty() ? "  The file asks for no responses.\n" : table.text();
 }

@@ -9,8 +9,10 @@
 /// What simulate, gradient and check have in common to say of one simulated design.
 namespace pleuel {
 
-/// {NAME: {"value", "unit", "error"}} [SI]; without "error" where none are known
-Json responses_document(const Analysis& analysis, const ErrorBars& errors = {});
+/// {NAME: {"value", "unit", "error", "peak"}} [SI]; without "error" where none are known, and "peak"
+/// (time, place) of peaks over time only
+Json responses_document(const ProblemFile& problem, const Analysis& analysis,
+                        const ErrorBars& errors = {});
 
 /// Of the mechanism as it is drawn; 0 if nothing in it moves [m].
 double size_of(const Model& model);

@@ -121,7 +121,11 @@ class ResponseMaker {
 
   DesignConstant frequency_of_body() const {
     const BodyModel& body = with_all_modes_.body(settings_.bodies.front());
-    return body_frequency(body, settings_.mode, variables());
+    try {
+      return body_frequency(body, settings_.mode, variables());
+    } catch (const InputError& error) {
+      fail(error.what());
+    }
   }
 
   const JointModel& driven_joint() const {

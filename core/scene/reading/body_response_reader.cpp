@@ -46,7 +46,7 @@ void read_direction_or_vector(const JsonNode& node, const ResponseContext& conte
 }
 
 double read_place(const JsonNode& node) {
-  if (!is_within(Range::fraction, node.number())) {
+  if (!node.value().is_number() || !is_within(Range::fraction, node.number())) {
     node.fail_with_value("must be a place along the beam from 0 to 1");
   }
   return node.number();

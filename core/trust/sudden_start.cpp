@@ -1,0 +1,104 @@
+#include "core/trust/sudden_start.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "core/trust/asked_responses.hpp"
+#include "core/trust/round_off.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Share of a peak that the start may add without a word.
+constexpr double small_addition = 0.05;
+/// Of the largest elastic acceleration: starts with less are no shock.
+constexpr double small_shock = 1e-3;
+
+bool can_be_sudden(const TrustedRun& run) {
+  const std::vector<Body>& bodies = run.problem.scene.bodies;
+  return run.problem.simulation.checks_resolution && !run.analysis.trajectory.periodic &&
+         !run.problem.simulation.quasi_static_start &&
+         !run.analysis.model.mechanism.elastic.empty() &&
+         std::none_of(bodies.begin(), bodies.end(),
+                      [](const Body& body) { return !body.initial_deflections.empty(); });
+}
+
+/// Whether elastic coordinates are accelerated at t = 0.
+bool begins_with_a_shock(const Analysis& analysis) {
+  constexpr int instants = 20;
+  const Mechanism& mechanism = analysis.model.mechanism;
+  const Trajectory& trajectory = analysis.trajectory;
+  State state;
+  const auto largest_at = [&](int step) {
+    trajectory.states->load(step, state);
+    double largest = 0.0;
+    for (const int i : mechanism.elastic) {
+      largest = std::max(largest, std::abs(state.a(i)) / mechanism.scale(i));
+    }
+    return largest;
+  };
+  const double first = largest_at(0);
+  double largest = first;
+  for (int i = 1; i <= instants; ++i) {
+    largest = std::max(largest, largest_at(i * trajectory.steps() / instants));
+  }
+  return first > small_shock * largest;
+}
+
+/// The peaks of a start in equilibrium; none where there is no stable one.
+std::unique_ptr<Analysis> from_equilibrium(const TrustedRun& run) {
+  ProblemFile problem = run.problem;
+  problem.simulation.quasi_static_start = true;
+  try {
+    return analyze(problem, run.x);
+  } catch (const SimulationError&) {
+    return nullptr;
+  } catch (const InputError&) {  // of what does not go with such a start
+    return nullptr;
+  }
+}
+
+bool is_compared(const Response& response) {
+  return response.is_peak_over_time() || response.expression();
+}
+
+}  // namespace
+
+std::vector<Doubt> doubt_sudden_start(const TrustedRun& run) {
+  if (!can_be_sudden(run) || !begins_with_a_shock(run.analysis)) return {};
+  const std::unique_ptr<Analysis> settled = from_equilibrium(run);
+  if (!settled) return {};
+  Doubt doubt;
+  double worst = 0.0, worst_value = 0.0;
+  const std::vector<bool> is_round_off = find_round_off(run);
+  for (const std::size_t i : asked_responses(run.problem)) {
+    const Response& response = run.analysis.responses[i];
+    const double value = run.analysis.reductions[i].value, other = settled->reductions[i].value;
+    const double change = std::abs(value - other);
+    if (!is_compared(response) || is_round_off[i]) continue;
+    if (!(change > small_addition * std::max(std::abs(value), std::abs(other)))) continue;
+    doubt.responses.push_back(response.name);
+    const double share = change / std::max(std::abs(other), small_addition * std::abs(value));
+    if (share <= worst) continue;
+    worst = share;
+    worst_value = other / value;
+    doubt.text = response.name;
+  }
+  if (doubt.responses.empty()) return {};
+  const std::size_t others = doubt.responses.size() - 1;
+  doubt.text = fmt::format(
+      "the start decides \"{}\"{}: elastic bodies begin undeformed under loads and speeds that are "
+      "there at once, and vibrate. From their equilibrium it would be {:.3g} times as large: "
+      "\"initial_state\": \"quasi-static\", or \"periodic\" for a machine that has been running. "
+      "Where the sudden start is meant, nothing is to be done.",
+      doubt.text,
+      others == 0 ? "" : fmt::format(" and {} other response{}", others, others == 1 ? "" : "s"),
+      worst_value);
+  return {doubt};
+}
+
+}  // namespace pleuel
