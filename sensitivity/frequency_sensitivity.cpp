@@ -111,22 +111,28 @@ class FrequencySensitivity {
     std::vector<Eigen::MatrixXcd> changes(mechanism_.system->variables(),
                                           Eigen::MatrixXcd::Zero(count, count));
     if (changes.empty()) return changes;
+    const Eigen::MatrixXcd turned_right = turned_by_motion(mechanism_, state_, vectors_.right),
+                           turned_left = turned_by_motion(mechanism_, state_, vectors_.left);
     std::vector<Eigen::MatrixXcd> damping_of_left;
     for (Eigen::Index i = 0; i < count; ++i) {
       damping_of_left.push_back(along_rates(vectors_.left.col(i).conjugate()));
     }
     for (Eigen::Index j = 0; j < count; ++j) {
       const Eigen::VectorXcd right = vectors_.right.col(j);
-      const Eigen::MatrixXcd whole = along_positions(right, vectors_.right_multipliers.col(j)) +
-                                     s * s * along_accelerations(right);
-      const Eigen::MatrixXcd damping = along_rates(right);
+      const Eigen::MatrixXcd inertia = along_accelerations(right);
+      const Eigen::MatrixXcd whole =
+          along_positions(right, vectors_.right_multipliers.col(j)) + s * s * inertia;
+      // G = ½ (R_v − R_vᵀ − M W − W M)
+      const Eigen::MatrixXcd damping =
+          along_rates(right) - along_accelerations(turned_right.col(j));
       for (Eigen::Index i = 0; i < count; ++i) {
         const Eigen::VectorXcd left = vectors_.left.col(i);
         const Eigen::RowVectorXcd row =
             left.adjoint() * whole.topRows(n_) +
             vectors_.left_multipliers.col(i).adjoint() * whole.bottomRows(m_) +
             0.5 * s *
-                (left.adjoint() * damping.topRows(n_) -
+                (left.adjoint() * damping.topRows(n_) +
+                 turned_left.col(i).adjoint() * inertia.topRows(n_) -
                  right.transpose() * damping_of_left[i].topRows(n_));
         for (std::size_t k = 0; k < changes.size(); ++k) {
           changes[k](i, j) += row(k);

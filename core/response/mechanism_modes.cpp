@@ -9,6 +9,7 @@
 
 #include "core/base/dense_solvers.hpp"
 #include "core/base/error.hpp"
+#include "core/base/skew.hpp"
 
 namespace pleuel {
 
@@ -80,11 +81,25 @@ FrozenMechanism freeze(const Mechanism& mechanism, const State& state) {
   const Eigen::MatrixXd stiffness(matrices[0]), damping(matrices[1]), mass(matrices[2]);
   FrozenMechanism frozen;
   frozen.M = mass.topLeftCorner(n, n);
-  frozen.G = 0.5 * (damping.topLeftCorner(n, n) - damping.topLeftCorner(n, n).transpose());
+  Eigen::MatrixXd of_rates = damping.topLeftCorner(n, n);
+  for (const int first : mechanism.rotations) {
+    of_rates.middleCols<3>(first) -=
+        frozen.M.middleCols<3>(first) * skew<double>(state.v.segment<3>(first));
+  }
+  frozen.G = 0.5 * (of_rates - of_rates.transpose());
   frozen.K = stiffness.topLeftCorner(n, n);
   frozen.phi = stiffness.bottomLeftCorner(m, n);
   frozen.left_out = system.left_out();
   return frozen;
+}
+
+Eigen::MatrixXcd turned_by_motion(const Mechanism& mechanism, const State& state,
+                                  const Eigen::MatrixXcd& y) {
+  Eigen::MatrixXcd turned = Eigen::MatrixXcd::Zero(y.rows(), y.cols());
+  for (const int first : mechanism.rotations) {
+    turned.middleRows<3>(first) = skew<double>(state.v.segment<3>(first)) * y.middleRows<3>(first);
+  }
+  return turned;
 }
 
 Pencil pencil_at(const FrozenMechanism& frozen, std::complex<double> s) {

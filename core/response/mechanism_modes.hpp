@@ -10,9 +10,12 @@ namespace pleuel {
 
 /// Matrices of the equations of motion at a state, frozen there:
 ///     M ÿ + G ẏ + K y + Φ_qᵀ μ = 0,   Φ_q y = 0
-/// M = R_a and K = R_q with the share of λ; G is the skew part of R_v: gyroscopic forces. Damping,
-/// which is symmetric, is left out: frequencies are undamped, like those of a body. For rotation
-/// vectors y is a right perturbation.
+/// M = R_a and K = R_q with the share of λ. Of rotation vectors y is a right perturbation ψ, the
+/// components of a rotation in axes that stand still and are those of the body at the instant. As the
+/// body turns on, its angular velocity, which is in axes of the body, changes by ψ̇ and its angular
+/// acceleration by ψ̈ − ω × ψ̇: G is the skew part of R_v − R_a W, W = diag(ω×) in rotations, which
+/// makes −(J ω)× of a rigid body, its gyroscopic moments. What is symmetric, as damping, is left out:
+/// frequencies are undamped, like those of a body.
 struct FrozenMechanism {
   Eigen::MatrixXd M, G, K;  ///< n × n
   Eigen::MatrixXd phi;      ///< Φ_q, m × n
@@ -21,6 +24,11 @@ struct FrozenMechanism {
 };
 
 FrozenMechanism freeze(const Mechanism& mechanism, const State& state);
+
+/// W y with ω × in the rows of rotation vectors, zero in the others.
+/// @param y  n × any number
+Eigen::MatrixXcd turned_by_motion(const Mechanism& mechanism, const State& state,
+                                  const Eigen::MatrixXcd& y);
 
 /// [ s²M + sG + K  κΦ_qᵀ ; κΦ_q  0 ], singular where s is an eigenvalue. κ makes the multipliers as
 /// large as the stiffness, for the sake of round-off; they are μ/κ.
