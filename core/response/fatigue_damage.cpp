@@ -7,6 +7,7 @@
 
 #include "core/integration/periodic_start.hpp"
 #include "core/response/fatigue.hpp"
+#include "core/response/history_jump.hpp"
 #include "core/response/rainflow.hpp"
 
 namespace pleuel {
@@ -123,7 +124,9 @@ class PointDamage {
   TurningPoint extreme(int row, int step) const {
     const std::array<int, 3> steps = {before(step), step, after(step)};
     const double value = values_(row, step), previous = values_(row, steps[0]);
-    if (value == previous || is_broken(step)) return {step, {{step, 1.0}}};
+    if (value == previous || is_broken(step) || jumps_beside(time_, values_, row, step)) {
+      return {step, {{step, 1.0}}};
+    }
     const double turn = time_(range_.last) - time_(range_.first);
     const Eigen::Vector3d times(time_(steps[0]) - (steps[0] > step ? turn : 0.0), time_(step),
                                 time_(steps[2]) + (steps[2] < step ? turn : 0.0));

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/base/int_size.hpp"
+#include "core/response/history_jump.hpp"
 
 namespace pleuel {
 
@@ -71,7 +72,8 @@ void add_peaks(const Search& search, double sign, double threshold, std::vector<
         if (!(step == whole.last && b >= a)) continue;
       }
       Peak peak{b, 0.0, channel, step, sign, {0.0, 1.0, 0.0}, 0.0};
-      if (step > whole.first && step < whole.last && !search.is_broken(step)) {
+      if (step > whole.first && step < whole.last && !search.is_broken(step) &&
+          !jumps_beside(time, values, channel, step)) {
         const Peak vertex =
             interpolate(a, b, c, time(step) - time(step - 1), time(step + 1) - time(step));
         peak.height = vertex.height;

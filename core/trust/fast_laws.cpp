@@ -35,6 +35,20 @@ void add_load(const std::string& name, const TimeFunction& function, const Desig
              missed.scale, doubts);
 }
 
+/// What the motor of a load follows.
+void add_target(const std::string& name, const TimeFunction& target, const Design<double>& design,
+                const Eigen::VectorXd& time, std::vector<Doubt>& doubts) {
+  const TimeLaw<double> law = resolve_time_law(target, design, LawOf::motion);
+  const MissedValues missed = missed_by(
+      time,
+      [&](double t) -> ObservedValues {
+        return {law.at(t).value, 0.0};
+      },
+      sharp_times(target, time(time.size() - 1)));
+  add_missed({fmt::format("the motor of the load \"{}\"", name), "target", most_missed_share},
+             missed, missed.scale, doubts);
+}
+
 /// The first time within the simulation at which the speed of straight lines or of a formula jumps.
 std::optional<double> speed_jump(const TimeFunction& motion, const TimeLaw<double>& law,
                                  double end) {
@@ -110,6 +124,7 @@ std::vector<Doubt> find_fast_laws(const Scene& scene, const Design<double>& desi
       add(load.name, torque->value);
     } else if (const auto* joint = std::get_if<JointForce>(&load.element)) {
       if (joint->motor) add(load.name, *joint->motor);
+      if (joint->control) add_target(load.name, joint->control->target, design, time, doubts);
     }
   }
   return doubts;

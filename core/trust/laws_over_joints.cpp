@@ -22,27 +22,40 @@ constexpr double most_ripple = 0.01, left_by_halves = 0.5;
 /// A direction is known from what it was a step before [rad].
 constexpr double most_turned = 0.5 * std::numbers::pi;
 
-/// A law of a load over the coordinate of a joint.
-struct LawOverJoint {
+/// Of the largest force, by which it exceeds those at both ends of a step: of a law over a rate, as
+/// friction at rest. Where it only changes from one to the other, runs with other steps see it.
+constexpr double most_exceeded = 0.1;
+
+/// A law of a load over the coordinate of a joint, or the elongation of a spring where the name of the
+/// joint is empty.
+struct LawOverCoordinate {
   std::string load, joint;
   DrivenCoordinate coordinate;
   TimeLaw<double> law;
   double rest = 0.0;  ///< is taken off the coordinate
 };
 
-/// The coordinate of a joint in a simulation, between the instants as a cubic.
-class JointHistory {
+/// Such a coordinate in a simulation, between the instants as a cubic.
+class CoordinateHistory {
  public:
-  JointHistory(const TrustedRun& run, const std::string& joint, DrivenCoordinate coordinate)
+  CoordinateHistory(const TrustedRun& run, const LawOverCoordinate& of)
       : time_(run.analysis.trajectory.time), values_(time_.size()), rates_(time_.size()) {
     ResponseSettings settings;
-    settings.name = settings.joint = joint;
-    settings.coordinate = coordinate;
+    settings.name = of.load;
+    if (of.joint.empty()) {
+      settings.load = of.load;
+      settings.type = ResponseType::spring_length;
+      read(run, settings, values_);
+      take_differences();
+      return;
+    }
+    settings.joint = of.joint;
+    settings.coordinate = of.coordinate;
     settings.type = ResponseType::joint_position;
     read(run, settings, values_);
     settings.type = ResponseType::joint_velocity;
     read(run, settings, rates_);
-    if (coordinate == DrivenCoordinate::angle) count_turns();
+    if (of.coordinate == DrivenCoordinate::angle) count_turns();
   }
 
   /// @param step  whose end is the instant `step`
@@ -53,7 +66,10 @@ class JointHistory {
     return chord + share * rest *
                        (rest * (h * rates_(step - 1) - slope) - share * (h * rates_(step) - slope));
   }
-  double rate_before(int step) const { return rates_(step - 1); }
+  double rate(int instant) const { return rates_(instant); }
+  double rate_at(int step, double share) const {
+    return rates_(step - 1) + share * (rates_(step) - rates_(step - 1));
+  }
   double value(int instant) const { return values_(instant); }
 
  private:
@@ -64,6 +80,15 @@ class JointHistory {
     for (int i = 0; i < static_cast<int>(history.size()); ++i) {
       run.analysis.trajectory.states->load(i, state);
       signal->observe(state, history.segment(i, 1));
+    }
+  }
+
+  /// For want of rates.
+  void take_differences() {
+    const Eigen::Index last = time_.size() - 1;
+    for (Eigen::Index i = 0; i <= last; ++i) {
+      const Eigen::Index from = std::max<Eigen::Index>(0, i - 1), to = std::min(last, i + 1);
+      rates_(i) = (values_(to) - values_(from)) / (time_(to) - time_(from));
     }
   }
 
@@ -81,15 +106,20 @@ class JointHistory {
   Eigen::VectorXd values_, rates_;
 };
 
-std::vector<LawOverJoint> laws_over_joints(const TrustedRun& run) {
+double free_length(const SpringDamper& spring, const Design<double>& design) {
+  if (spring.free_length) return resolve(*spring.free_length, design);
+  return (resolve_point(spring.at[1], design) - resolve_point(spring.at[0], design)).norm();
+}
+
+std::vector<LawOverCoordinate> laws_over_coordinates(const TrustedRun& run) {
   const Design<double> design(run.x.begin(), run.x.end());
-  std::vector<LawOverJoint> laws;
+  std::vector<LawOverCoordinate> laws;
   const auto add = [&](const std::string& load, const JointCoordinate& over,
                        const TimeFunction& function, double rest) {
     const bool is_table = std::holds_alternative<TableFunction>(function);
     if (!is_table && !std::holds_alternative<ExpressionFunction>(function)) return;
     TimeLaw<double> law = resolve_time_law(function, design);
-    if (is_table && law.argument != LawArgument::coordinate) return;
+    if (is_table && law.argument == LawArgument::time) return;
     laws.push_back({load, over.joint, over.coordinate, std::move(law), rest});
   };
   for (const Load& load : run.problem.scene.loads) {
@@ -103,18 +133,24 @@ std::vector<LawOverJoint> laws_over_joints(const TrustedRun& run) {
       if (joint->resistance) {
         add(load.name, over, *joint->resistance, resolve(joint->rest, design));
       }
+    } else if (const auto* spring = std::get_if<SpringDamper>(&load.element)) {
+      if (spring->resistance) add(load.name, {}, *spring->resistance, free_length(*spring, design));
     }
   }
   return laws;
 }
 
-/// Times at which the coordinate passes the points of a table.
-std::vector<double> passages(const LawOverJoint& one, const JointHistory& history,
+/// Times at which the argument of a table passes its points.
+std::vector<double> passages(const LawOverCoordinate& one, const CoordinateHistory& history,
                              const Eigen::VectorXd& time) {
   std::vector<double> times;
   const TimeLaw<double>& law = one.law;
+  const auto argument = [&](int instant) {
+    return law.argument == LawArgument::rate ? history.rate(instant)
+                                             : history.value(instant) - one.rest;
+  };
   for (int step = 1; step < static_cast<int>(time.size()); ++step) {
-    const double begin = history.value(step - 1) - one.rest, end = history.value(step) - one.rest;
+    const double begin = argument(step - 1), end = argument(step);
     if (begin == end) continue;
     std::vector<double> shares;
     for (const double knot : law.knots) {
@@ -132,29 +168,82 @@ std::vector<double> passages(const LawOverJoint& one, const JointHistory& histor
   return times;
 }
 
+/// What a law is between the instants.
+class LawBetweenInstants {
+ public:
+  LawBetweenInstants(const LawOverCoordinate& one, const CoordinateHistory& history,
+                     const Eigen::VectorXd& time)
+      : one_(one), history_(history), time_(time) {}
+
+  /// By the coordinate and the time alone, at the rate before the step: friction that turns round
+  /// within it is seen by other steps.
+  MissedValues at_frozen_rates(const std::vector<double>& knots) {
+    return missed_by(
+        time_,
+        [this](double t) -> ObservedValues {
+          const auto [step, share] = place_of(t);
+          return {value(t, step, share, history_.rate(step - 1)), 0.0};
+        },
+        knots);
+  }
+
+  /// What exceeds the values at both ends of the step, as the rate changes.
+  MissedValues beyond_ends(const std::vector<double>& knots) {
+    return missed_by(
+        time_,
+        [this](double t) -> ObservedValues {
+          const auto [step, share] = place_of(t);
+          const double begin = value(time_(step - 1), step, 0.0, history_.rate(step - 1)),
+                       end = value(time_(step), step, 1.0, history_.rate(step));
+          const double found = value(t, step, share, history_.rate_at(step, share));
+          const double within = std::clamp(found, std::min(begin, end), std::max(begin, end));
+          return {begin + share * (end - begin) + found - within, 0.0};
+        },
+        knots);
+  }
+
+ private:
+  struct Place {
+    int step;
+    double share;
+  };
+  Place place_of(double t) {
+    while (step_ > 1 && t < time_(step_ - 1)) --step_;
+    while (step_ + 1 < static_cast<int>(time_.size()) && t > time_(step_)) ++step_;
+    return {step_, (t - time_(step_ - 1)) / (time_(step_) - time_(step_ - 1))};
+  }
+  double value(double t, int step, double share, double rate) const {
+    return one_.law.value_at(t, history_.at(step, share) - one_.rest, rate);
+  }
+
+  const LawOverCoordinate& one_;
+  const CoordinateHistory& history_;
+  const Eigen::VectorXd& time_;
+  int step_ = 1;
+};
+
 }  // namespace
 
 std::vector<Doubt> doubt_laws_over_joints(const TrustedRun& run) {
   const Eigen::VectorXd& time = run.analysis.trajectory.time;
   std::vector<Doubt> doubts;
   if (time.size() < 2) return doubts;
-  for (const LawOverJoint& one : laws_over_joints(run)) {
-    const JointHistory history(run, one.joint, one.coordinate);
-    int step = 1;
-    // By the coordinate alone: friction that changes its sign is seen by other steps.
-    const ObservedFunction value = [&](double t) -> ObservedValues {
-      while (step > 1 && t < time(step - 1)) --step;
-      while (step + 1 < static_cast<int>(time.size()) && t > time(step)) ++step;
-      const double share = (t - time(step - 1)) / (time(step) - time(step - 1));
-      return {one.law.value_at(t, history.at(step, share) - one.rest, history.rate_before(step)),
-              0.0};
-    };
-    const MissedValues missed = missed_by(time, value, passages(one, history, time));
-    const bool is_ripple = missed.median_of_halves > left_by_halves * missed.median &&
-                           missed.median > most_ripple * missed.scale;
-    add_missed({fmt::format("the load \"{}\"", one.load), "value",
-                is_ripple ? most_ripple : most_passed_over},
-               missed, missed.scale, doubts);
+  for (const LawOverCoordinate& one : laws_over_coordinates(run)) {
+    const CoordinateHistory history(run, one);
+    LawBetweenInstants law(one, history, time);
+    const std::vector<double> knots = passages(one, history, time);
+    const std::string who = fmt::format("the load \"{}\"", one.load);
+    const std::size_t before = doubts.size();
+    if (one.law.argument != LawArgument::rate) {
+      const MissedValues missed = law.at_frozen_rates(knots);
+      const bool is_ripple = missed.median_of_halves > left_by_halves * missed.median &&
+                             missed.median > most_ripple * missed.scale;
+      add_missed({who, "value", is_ripple ? most_ripple : most_passed_over}, missed, missed.scale,
+                 doubts);
+    }
+    if (doubts.size() > before) continue;
+    const MissedValues exceeded = law.beyond_ends(knots);
+    add_missed({who, "value", most_exceeded}, exceeded, exceeded.scale, doubts);
   }
   return doubts;
 }

@@ -52,11 +52,12 @@ struct Course {
   double against_chord() const {
     double largest = 0.0;
     for (std::size_t i = 0; i < value.size(); ++i) {
-      const double share = x[i] / x.back();
-      const double line = (1.0 - share) * value.front() + share * value.back();
-      largest = std::max(largest, std::abs(value[i] - line));
+      largest = std::max(largest, std::abs(value[i] - chord_at(x[i] / x.back())));
     }
     return largest;
+  }
+  double chord_at(double share) const {
+    return (1.0 - share) * value.front() + share * value.back();
   }
 };
 
@@ -64,26 +65,61 @@ double ratio(double part, double whole) {
   return whole > 0.0 ? part / whole : 0.0;
 }
 
+/// Deflections by bending and by shear along a beam.
+struct Deflections {
+  Course bending, shear;
+
+  explicit Deflections(const BeamBending& elements) {
+    bending.value = {elements.front().deflection[0]};
+    shear.value = {0.0};
+    for (const ElementBending& element : elements) {
+      for (Course* course : {&bending, &shear})
+        course->x.push_back(course->x.back() + element.length);
+      bending.value.push_back(element.deflection[1]);
+      // V = −EI v''' bends by +V/κGA
+      shear.value.push_back(shear.value.back() -
+                            element.force() / element.shear_stiffness * element.length);
+    }
+  }
+};
+
+bool is_against_chord(const BodyModel& body) {
+  return body.condition == ReferenceCondition::chord ||
+         body.condition == ReferenceCondition::mean_axis;
+}
+
+std::size_t clamped_node(const BodyModel& body, const BeamBending& elements) {
+  return body.condition == ReferenceCondition::tangent_end ? elements.size() : 0;
+}
+
+/// At a place along the beam, against its frame: of deflections that count beside the largest.
+double displacement_ratio_at(double place, const BodyModel& body, const BeamBending& elements) {
+  const auto [bending, shear] = Deflections(elements);
+  const double x = place * bending.x.back();
+  std::size_t i = 0;
+  while (i + 1 < elements.size() && x > bending.x[i + 1]) ++i;
+  const double length = elements[i].length, share = (x - bending.x[i]) / length;
+  const auto [a, b] = elements[i].curvature;
+  const double bow =
+      length * length * share * (1.0 - share) * (a * (2.0 - share) + b * (1.0 + share)) / 6.0;
+  const auto at = [&](const Course& course) {
+    const double reference = is_against_chord(body) ? course.chord_at(place)
+                                                    : course.value[clamped_node(body, elements)];
+    return (1.0 - share) * course.value[i] + share * course.value[i + 1] - reference;
+  };
+  const double largest = is_against_chord(body)
+                             ? bending.against_chord()
+                             : bending.against_node(clamped_node(body, elements));
+  const double bent = std::abs(at(bending) - bow);
+  return bent > still * largest ? std::abs(at(shear)) / bent : 0.0;
+}
+
 /// The larger one of the shares against the frame and against the chord.
 double displacement_ratio(const BodyModel& body, const BeamBending& elements) {
-  Course bending, shear;
-  bending.value = {elements.front().deflection[0]};
-  shear.value = {0.0};
-  for (const ElementBending& element : elements) {
-    for (Course* course : {&bending, &shear})
-      course->x.push_back(course->x.back() + element.length);
-    bending.value.push_back(element.deflection[1]);
-    // V = −EI v''' bends by +V/κGA
-    shear.value.push_back(shear.value.back() -
-                          element.force() / element.shear_stiffness * element.length);
-  }
+  const auto [bending, shear] = Deflections(elements);
   const double chord = ratio(shear.against_chord(), bending.against_chord());
-  if (body.condition == ReferenceCondition::chord ||
-      body.condition == ReferenceCondition::mean_axis) {
-    return chord;
-  }
-  const bool is_end = body.condition == ReferenceCondition::tangent_end;
-  const std::size_t clamped = is_end ? elements.size() : 0;
+  if (is_against_chord(body)) return chord;
+  const std::size_t clamped = clamped_node(body, elements);
   return std::max(chord, ratio(shear.against_node(clamped), bending.against_node(clamped)));
 }
 
@@ -106,7 +142,7 @@ double largest_deflection(const BeamBending& elements) {
 }  // namespace
 
 ShearShare shear_share(const ProblemFile& problem, const Eigen::VectorXd& x, const Model& model,
-                       const std::string& name, const State& state) {
+                       const std::string& name, const State& state, std::optional<double> place) {
   const BendingReader reader(problem, x, name);
   const std::vector<const BodyModel*> parts = model.parts(name);
   std::array<BeamBending, 2> planes;
@@ -122,8 +158,13 @@ ShearShare shear_share(const ProblemFile& problem, const Eigen::VectorXd& x, con
   std::array<double, 2> shares{};
   for (std::size_t plane = 0; plane < 2; ++plane) {
     if (size[plane] <= still * size[1 - plane] || size[plane] == 0.0) continue;
-    shares[plane] = parts.size() > 1 ? energy_ratio(planes[plane])
-                                     : displacement_ratio(*parts.front(), planes[plane]);
+    if (parts.size() > 1) {
+      shares[plane] = energy_ratio(planes[plane]);
+    } else if (place) {
+      shares[plane] = displacement_ratio_at(*place, *parts.front(), planes[plane]);
+    } else {
+      shares[plane] = displacement_ratio(*parts.front(), planes[plane]);
+    }
   }
   return {shares[0], shares[1], std::max(size[0], size[1])};
 }
@@ -266,11 +307,12 @@ class ShearDoubts {
     switch (response.type) {
       case ResponseType::deflection: {
         if (response.against == DeflectionReference::rigid_mechanism) return moved(index, share);
-        if (response.direction == 0) return 0.0;  // along the beam
-        const double own = response.direction == 1   ? share.along_y
-                           : response.direction == 2 ? share.along_z
-                                                     : share.largest();
-        return is_of_body ? own / (1.0 + own) : 0.0;
+        if (response.direction == 0 || !is_of_body) return 0.0;  // along the beam
+        const ShearShare there = share_at(body, response.at);
+        const double own = response.direction == 1   ? there.along_y
+                           : response.direction == 2 ? there.along_z
+                                                     : there.largest();
+        return own / (1.0 + own);
       }
       case ResponseType::position:
         return moved(index, share);
@@ -298,6 +340,13 @@ class ShearDoubts {
       default:
         return 0.0;
     }
+  }
+
+  /// Where the beam bends most, of the deflection at a place.
+  ShearShare share_at(const std::string& body, double place) const {
+    State state;
+    run_.analysis.trajectory.states->load(steps_.at(body), state);
+    return shear_share(run_.problem, run_.x, model_, body, state, place);
   }
 
   /// Of the range of a position or a deflection against the rigid mechanism.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/trust/doubt.hpp"
 #include "core/trust/trusted_run.hpp"
 
@@ -19,8 +21,11 @@ struct ShearShare {
 
 /// @param problem  knows the sections
 /// @param x        design variables [SI]
+/// @param place    along a beam that is not divided, 0 … 1: of the deflection there instead of the
+///                 largest
 ShearShare shear_share(const ProblemFile& problem, const Eigen::VectorXd& x, const Model& model,
-                       const std::string& body, const State& state);
+                       const std::string& body, const State& state,
+                       std::optional<double> place = std::nullopt);
 
 /// Beams that are too stubby for responses that rest on their bending stiffness: deflection,
 /// elastic energy, buckling and frequencies of the beam, positions, deflections, elastic energy and
