@@ -6,7 +6,7 @@ namespace pleuel {
 
 bool jumps_beside(const Eigen::VectorXd& time, const Eigen::MatrixXd& values, Eigen::Index channel,
                   Eigen::Index step) {
-  constexpr double opposite = 0.5;  // of the change of slope at the instant
+  constexpr double opposite = 0.8;  // of the change of slope at the instant
   constexpr double little = 0.25;   // of it is left beside a jump that an end of the history hides
   const Eigen::Index last = time.size() - 1;
   const auto slope = [&](Eigen::Index k) {

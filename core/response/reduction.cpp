@@ -8,6 +8,7 @@
 
 #include "core/base/int_size.hpp"
 #include "core/response/history_jump.hpp"
+#include "core/response/limits_at_ends.hpp"
 
 namespace pleuel {
 
@@ -293,6 +294,12 @@ Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::Matrix
 
 Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
                  const StepRange& range, const BrokenInstants& breaks, AmongChannels among) {
+  const LimitsAtEnds limits(values, range, breaks);
+  if (!limits.is_empty()) {
+    Reduction reduction = reduce(kind, time, limits.applied(), range, breaks, among);
+    limits.restore(reduction);
+    return reduction;
+  }
   if (is_peak(kind)) return reduce_stretch(kind, {time, values, range, range, breaks});
   const double duration = time(range.last) - time(range.first);
   switch (kind) {

@@ -28,6 +28,7 @@
 #include "core/trust/sliding_contact.hpp"
 #include "core/trust/sudden_start.hpp"
 #include "core/trust/taut_members.hpp"
+#include "core/trust/turned_sections.hpp"
 #include "core/trust/unstable_members.hpp"
 
 namespace pleuel {
@@ -85,13 +86,13 @@ Trust judge_run(const TrustedRun& run) {
     doubts.insert(doubts.end(), found.begin(), found.end());
   };
   for (const auto find : {
-           doubt_bending_range,     doubt_blocked_drives,     doubt_energy_balance,
-           doubt_extrapolation,     doubt_far_limits,         doubt_frequencies,
-           doubt_idle_freedoms,     doubt_initial_motion,     doubt_joint_turns,
-           doubt_lost_stiffening,   doubt_misaligned_joints,  doubt_other_side,
-           doubt_promised_buckling, doubt_proportions,        doubt_section_axes,
-           doubt_shear_range,       doubt_sliding_contacts,   doubt_sudden_start,
-           doubt_taut_members,      doubt_unconnected_bodies,
+           doubt_bending_range,     doubt_blocked_drives,    doubt_energy_balance,
+           doubt_extrapolation,     doubt_far_limits,        doubt_frequencies,
+           doubt_idle_freedoms,     doubt_initial_motion,    doubt_joint_turns,
+           doubt_lost_stiffening,   doubt_misaligned_joints, doubt_other_side,
+           doubt_promised_buckling, doubt_proportions,       doubt_section_axes,
+           doubt_shear_range,       doubt_sliding_contacts,  doubt_sudden_start,
+           doubt_taut_members,      doubt_turned_sections,   doubt_unconnected_bodies,
        }) {
     add(find(run));
   }

@@ -56,8 +56,12 @@ std::optional<double> speed_jump(const TimeFunction& motion, const TimeLaw<doubl
   const bool is_straight = table && table->interpolation == Interpolation::linear;
   if (!is_straight && !std::holds_alternative<ExpressionFunction>(motion)) return std::nullopt;
   constexpr double small = 1e-6, close = 1e-9;
+  constexpr int samples = 100;
   const std::vector<double> times = sharp_times(motion, end);
   double fastest = 0.0;
+  for (int i = 0; i <= samples; ++i) {
+    fastest = std::max(fastest, std::abs(law.at(i * end / samples).rate));
+  }
   for (const double time : times) {
     fastest = std::max(fastest, std::abs(law.at(time + close * end).rate));
     fastest = std::max(fastest, std::abs(law.at(time - close * end).rate));

@@ -241,7 +241,8 @@ std::vector<Doubt> doubt_laws_over_joints(const TrustedRun& run) {
       add_missed({who, "value", is_ripple ? most_ripple : most_passed_over}, missed, missed.scale,
                  doubts);
     }
-    if (doubts.size() > before) continue;
+    const bool has_rate = one.law.argument == LawArgument::rate || one.law.expression;
+    if (doubts.size() > before || !has_rate) continue;
     const MissedValues exceeded = law.beyond_ends(knots);
     add_missed({who, "value", most_exceeded}, exceeded, exceeded.scale, doubts);
   }

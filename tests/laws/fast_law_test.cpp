@@ -46,6 +46,23 @@ TEST(FastLoad, IsDoubtedWhereATableIsFinerThanTheSteps) {
   }
 }
 
+/// A motor shall follow a pulse of 0.5 ms, or of 20 ms, in steps of 1 ms.
+TEST(FastLoad, IsDoubtedOfTheTargetOfAMotor) {
+  const auto followed = [](double rise) {
+    return pushed_block(
+        "1", {fmt::format(R"(/scene/loads/push={{"type": "joint", "joint": "slide", "motor":
+            {{"type": "control", "target": {{"type": "trapezoid", "value": "10 mm", "rise": "{} ms",
+            "hold": "0.1 ms", "begin": "50.3 ms"}}, "proportional": 100, "derivative": 10}}}})",
+                          rise)});
+  };
+  const std::vector<Doubt> doubts = doubts_about(followed(0.2));
+  ASSERT_EQ(doubts.size(), 1U);
+  EXPECT_TRUE(doubts[0].is_serious);
+  EXPECT_THAT(doubts[0].text, testing::HasSubstr("the motor of the load \"push\""));
+  EXPECT_THAT(doubts[0].text, testing::HasSubstr("its target is"));
+  EXPECT_TRUE(doubts_about(followed(20)).empty());
+}
+
 TEST(FastLoad, IsKnownBeforeTheSimulation) {
   EXPECT_TRUE(doubt_fast_laws_before(pushed_block(harmonic(23))).empty());
   const ProblemFile fast = pushed_block(harmonic(10));

@@ -153,6 +153,8 @@ TEST(FormulaWithKinks, IsDoubtedAsADriveWhoseSpeedJumps) {
   EXPECT_TRUE(doubts[0].is_serious);
   EXPECT_THAT(doubts[0].text, testing::HasSubstr("its speed jumps at t = 0.25 s"));
   EXPECT_TRUE(doubt_fast_laws_before(disc_driven_by("= 2 rad/s*t + 0.5 rad")).empty());
+  // A kink of a formula whose speed and acceleration go on.
+  EXPECT_TRUE(doubt_fast_laws_before(disc_driven_by("= 1 rad*max(0, t/(1 s) - 0.0333)^3")).empty());
 }
 
 TEST(FormulaOfTime, IsAnsweredWithItsColumn) {

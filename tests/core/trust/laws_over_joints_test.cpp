@@ -97,5 +97,43 @@ TEST(FastTurning, IsDoubtedBeyondAQuarterOfATurn) {
   EXPECT_THAT(doubts[0].text, HasSubstr("\"wheel\" turns by 360 deg within the step of 0.01 s"));
 }
 
+/// A block that is moved from 100 mm to 400 mm in a second, on a spring with a resistance.
+ProblemFile sprung_block(const std::string& resistance, double step) {
+  return read_scene(fmt::format(
+      R"j({{"scene": {{"bodies": {{"m": {{"type": "point-mass", "at": ["100 mm", 0, 0], "mass": 2}}}},
+        "joints": {{"g": {{"type": "point-on-line", "bodies": ["ground", "m"], "at": ["100 mm", 0, 0],
+          "axis": [1, 0, 0], "drive": {{"type": "step", "to": "300 mm", "rise": "1 s"}}}}}},
+        "loads": {{"s": {{"type": "spring", "bodies": ["ground", "m"],
+          "at": [[0, 0, 0], ["100 mm", 0, 0]], "resistance": {}}}}}}},
+      "simulation": {{"end_time": 1.2, "step": {}}},
+      "responses": {{"F": {{"type": "spring-force", "load": "s", "over_time": "max"}}}}}})j",
+      resistance, step));
+}
+
+/// A tooth of 1 mm on a way of 300 mm at up to 0.6 m/s, over the elongation or as a formula of it; a
+/// hill of 100 mm is seen.
+TEST(LawsOverSprings, AreDoubtedWhereAStepPassesATooth) {
+  const auto table = [](double width) {
+    return fmt::format(
+        R"j({{"type": "table", "elongations": ["0 mm", "{} mm", "150 mm", "{} mm", "300 mm"],
+        "values": [0, 0, 100, 0, 0]}})j",
+        150 - width, 150 + width);
+  };
+  EXPECT_THAT(doubts_of(sprung_block(table(0.5), 2.5e-3), doubt_laws_over_joints), SizeIs(1));
+  EXPECT_THAT(doubts_of(sprung_block(table(0.5), 5e-5), doubt_laws_over_joints), IsEmpty());
+  EXPECT_THAT(doubts_of(sprung_block(table(100), 2.5e-3), doubt_laws_over_joints), IsEmpty());
+}
+
+/// A peak at a speed that the block passes within a step, and friction, whose sign changes with it.
+TEST(LawsOverSprings, AreDoubtedWhereASpeedIsPassedOver) {
+  const std::string peak =
+      R"j({"type": "table", "speeds": ["-1 m/s", "0.199 m/s", "0.2 m/s", "0.201 m/s", "1 m/s"],
+      "values": [0, 0, 100, 0, 0]})j";
+  EXPECT_THAT(doubts_of(sprung_block(peak, 1e-2), doubt_laws_over_joints), SizeIs(1));
+  EXPECT_THAT(doubts_of(sprung_block(peak, 1e-5), doubt_laws_over_joints), IsEmpty());
+  const std::string friction = R"j({"type": "friction", "value": 100, "speed": "1 mm/s"})j";
+  EXPECT_THAT(doubts_of(sprung_block(friction, 1e-2), doubt_laws_over_joints), IsEmpty());
+}
+
 }  // namespace
 }  // namespace pleuel::test::laws_over_joints_test

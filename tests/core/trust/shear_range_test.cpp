@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -58,10 +59,10 @@ struct ShearedBeam {
 
   explicit ShearedBeam(const StubbyBeam& beam)
       : problem(beam.problem()), x(start_design(problem)), analysis(analyze(problem, x)) {}
-  double share() const {
+  double share(std::optional<double> place = std::nullopt) const {
     State state;
     analysis->trajectory.states->load(0, state);
-    return shear_share(problem, x, analysis->model, "beam", state).along_y;
+    return shear_share(problem, x, analysis->model, "beam", state, place).along_y;
   }
   std::vector<Doubt> doubts() const { return doubt_shear_range({problem, x, *analysis, monitors}); }
 };
@@ -95,6 +96,26 @@ TEST(ShearShare, IsThatOfTimoshenkosClosedForm) {
       }
     }
   }
+}
+
+/// P x²(3L − x)/(6EI) and P x/(κGA) of a cantilever, P x(3L² − 4x²)/(48EI) and P x/(2κGA) between a pin
+/// and the middle of a beam on two, at nodes and between them: near a clamp shear is all there is.
+TEST(ShearShare, AtAPlaceIsThatOfTheDeflectionThere) {
+  const double kappa = 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu);
+  const double ratio = 2.0 * (1.0 + nu) / kappa * 0.1 * 0.1 / 12.0;
+  StubbyBeam beam{rectangle(0.1)};
+  beam.response = R"({"type": "mass"})";
+  const ShearedBeam clamped(beam);
+  beam.is_pinned = true;
+  beam.frame = "chord";
+  const ShearedBeam pinned(beam);
+  for (const double x : {0.1, 0.25, 0.3, 0.49}) {
+    const double of_clamped = 6.0 * ratio / (x * (3.0 - x)),
+                 of_pinned = 24.0 * ratio / (3.0 - 4.0 * x * x);
+    EXPECT_NEAR(clamped.share(x), of_clamped, 1e-3 * of_clamped) << x;
+    EXPECT_NEAR(pinned.share(x), of_pinned, 1e-2 * of_pinned) << x;
+  }
+  EXPECT_NEAR(clamped.share(1.0), 3.0 * ratio, 3e-3 * ratio);
 }
 
 /// The case of h/L = 0.5 is 16 % too stiff; slender beams are left in peace.
