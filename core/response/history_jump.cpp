@@ -6,23 +6,28 @@ namespace pleuel {
 
 bool jumps_beside(const Eigen::VectorXd& time, const Eigen::MatrixXd& values, Eigen::Index channel,
                   Eigen::Index step) {
-  constexpr double opposite = 0.8;  // of the change of slope at the instant
-  constexpr double little = 0.25;   // of it is left beside a jump that an end of the history hides
+  // Of the change of slope at the instant.
+  constexpr double opposite = 0.8, calm = 0.5, hidden = 0.25;
   const Eigen::Index last = time.size() - 1;
   const auto slope = [&](Eigen::Index k) {
     return (values(channel, k) - values(channel, k - 1)) / (time(k) - time(k - 1));
   };
-  const auto change = [&](Eigen::Index k) {
-    return k < 1 || k >= last ? 0.0 : slope(k + 1) - slope(k);
+  const auto is_known = [&](Eigen::Index k) { return k >= 1 && k < last; };
+  const auto change = [&](Eigen::Index k) { return slope(k + 1) - slope(k); };
+  const double here = change(step), size = std::abs(here);
+  const auto is_opposite = [&](double sum) {
+    return here * sum < 0.0 && std::abs(sum) > opposite * size;
   };
-  const double here = change(step), least = opposite * std::abs(here);
-  const auto is_opposite = [&](double sum) { return here * sum < 0.0 && std::abs(sum) > least; };
   for (const Eigen::Index side : {-1, 1}) {
-    const double next = change(step + side);
+    const Eigen::Index one = step + side, two = one + side, three = two + side;
+    if (!is_known(one)) continue;
     const bool is_beside_end = step - side == 0 || step - side == last;
-    const bool is_known = step + side >= 1 && step + side < last;
-    if (is_beside_end && is_known && std::abs(next) < little * std::abs(here)) return true;
-    if (is_opposite(next) || is_opposite(next + change(step + 2 * side))) return true;
+    if (is_beside_end && std::abs(change(one)) < hidden * size) return true;
+    if (!is_known(two)) continue;
+    if (is_opposite(change(one)) && std::abs(change(two)) < calm * size) return true;
+    if (!is_known(three)) continue;
+    const bool is_calm = std::abs(change(three)) < calm * size;
+    if (is_opposite(change(one) + change(two)) && is_calm) return true;
   }
   return false;
 }

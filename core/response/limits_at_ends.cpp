@@ -52,14 +52,14 @@ void LimitsAtEnds::restore(Reduction& reduction) const {
 }
 
 void LimitsAtEnds::restore(std::vector<Sample>& samples) const {
-  for (const auto& [step, within, channel] : limits_) {
+  for (const Limit& limit : limits_) {
     const auto found = std::find_if(samples.begin(), samples.end(), [&](const Sample& sample) {
-      return sample.step == step && sample.channel == channel;
+      return sample.step == limit.step && sample.channel == limit.channel;
     });
     if (found == samples.end()) continue;
     const double weight = found->weight;
-    *found = {step + within, channel, 2.0 * weight};
-    samples.push_back({step + 2 * within, channel, -weight});
+    *found = {limit.step + limit.within, limit.channel, 2.0 * weight};
+    samples.push_back({limit.step + 2 * limit.within, limit.channel, -weight});
   }
 }
 

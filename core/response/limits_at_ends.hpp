@@ -2,7 +2,9 @@
 
 #include <vector>
 
-#include "core/response/reduction.hpp"
+#include <Eigen/Core>
+
+#include "core/response/reduced_value.hpp"
 
 namespace pleuel {
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.hpp"
 #include "core/response/body_frequency.hpp"
 #include "core/response/drift_signal.hpp"
 #include "core/response/drive_signals.hpp"

@@ -29,7 +29,7 @@ bool can_be_sudden(const TrustedRun& run) {
 
 /// Whether elastic coordinates are accelerated at t = 0.
 bool begins_with_a_shock(const Analysis& analysis) {
-  constexpr int instants = 20;
+  constexpr int instants = 4;
   const Mechanism& mechanism = analysis.model.mechanism;
   const Trajectory& trajectory = analysis.trajectory;
   State state;

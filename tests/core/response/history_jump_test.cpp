@@ -37,10 +37,10 @@ TEST(HistoryJump, BehindTheFirstInstantIsSeen) {
   EXPECT_EQ(reduce(OverTime::max, instants(20), values).value, 39.9);
 }
 
-/// Sines with 6 steps a period or more, wherever the peak lies between them, and bells with a
+/// Sines with 5.5 steps a period or more, wherever the peak lies between them, and bells with a
 /// deviation of 1.2 steps.
 TEST(HistoryJump, IsNoneInWhatIsSmooth) {
-  for (const double steps : {6.0, 8.0, 22.0, 100.0}) {
+  for (const double steps : {5.5, 6.0, 7.0, 8.0, 22.0, 100.0}) {
     for (double phase = 0.0; phase < 1.0; phase += 0.1) {
       Eigen::MatrixXd values(1, 200);
       for (int i = 0; i < 200; ++i) {
@@ -50,6 +50,8 @@ TEST(HistoryJump, IsNoneInWhatIsSmooth) {
       // Of the parabola, at most (remainder of interpolation); of the samples it is (π/n)²/2.
       const double most = std::pow(2.0 * std::numbers::pi / steps, 4) / 32.0;
       EXPECT_NEAR(found, 1.0, most + 1e-12) << steps << " " << phase;
+      const Eigen::Index middle = std::lround(std::round(100.0 / steps) * steps - phase);
+      EXPECT_FALSE(jumps_beside(instants(200), values, 0, middle)) << steps << " " << phase;
     }
   }
   for (double phase = -0.5; phase <= 0.5; phase += 0.1) {
