@@ -9,8 +9,8 @@
 /// What simulate, gradient and check have in common to say of one simulated design.
 namespace pleuel {
 
-/// {NAME: {"value", "unit", "error", "peak"}} [SI]; without "error" where none are known, and "peak"
-/// (time, place) of peaks over time only
+/// {NAME: {"value", "unit", "error", "peak"}} [SI]; without "error" where none are known, and
+/// "peak" (time, place) of peaks over time only
 Json responses_document(const ProblemFile& problem, const Analysis& analysis,
                         const ErrorBars& errors = {});
 

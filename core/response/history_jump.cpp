@@ -14,6 +14,7 @@ bool jumps_beside(const Eigen::VectorXd& time, const Eigen::MatrixXd& values, Ei
   };
   const auto is_known = [&](Eigen::Index k) { return k >= 1 && k < last; };
   const auto change = [&](Eigen::Index k) { return slope(k + 1) - slope(k); };
+  if (!is_known(step)) return false;
   const double here = change(step), size = std::abs(here);
   const auto is_opposite = [&](double sum) {
     return here * sum < 0.0 && std::abs(sum) > opposite * size;

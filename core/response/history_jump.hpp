@@ -10,7 +10,6 @@ namespace pleuel {
 /// jumps there is one change, its opposite within two steps, and then next to none; behind a jump
 /// at the first instant there is none at once. Pulses that rise and fall within two steps look the
 /// same. Within three instants of the ends of a history jumps are not told.
-/// @param step  neither the first nor the last
 /// @param values  a row a channel
 bool jumps_beside(const Eigen::VectorXd& time, const Eigen::MatrixXd& values, Eigen::Index channel,
                   Eigen::Index step);

@@ -9,8 +9,8 @@ namespace pleuel {
 
 namespace {
 
-/// A jump is so many times what the steps beside it change, and the sample is so much of it from both
-/// sides at least.
+/// A jump is so many times what the steps beside it change, and the sample is so much of it from
+/// both sides at least.
 constexpr double steep = 8.0, inside = 0.25;
 
 }  // namespace

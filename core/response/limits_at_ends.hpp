@@ -8,9 +8,9 @@
 
 namespace pleuel {
 
-/// Limits from within at the ends of a range that lie on a jump, as a window that begins when a load is
-/// let go: the sample there is the mean of both sides. Along the straight line through the two samples
-/// within, of those channels that jump.
+/// Limits from within at the ends of a range that lie on a jump, as a window that begins when a
+/// load is let go: the sample there is the mean of both sides. Along the straight line through the
+/// two samples within, of those channels that jump.
 class LimitsAtEnds {
  public:
   /// @param values  channels × instants

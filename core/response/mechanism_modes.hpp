@@ -11,11 +11,11 @@ namespace pleuel {
 /// Matrices of the equations of motion at a state, frozen there:
 ///     M ÿ + G ẏ + K y + Φ_qᵀ μ = 0,   Φ_q y = 0
 /// M = R_a and K = R_q with the share of λ. Of rotation vectors y is a right perturbation ψ, the
-/// components of a rotation in axes that stand still and are those of the body at the instant. As the
-/// body turns on, its angular velocity, which is in axes of the body, changes by ψ̇ and its angular
-/// acceleration by ψ̈ − ω × ψ̇: G is the skew part of R_v − R_a W, W = diag(ω×) in rotations, which
-/// makes −(J ω)× of a rigid body, its gyroscopic moments. What is symmetric, as damping, is left out:
-/// frequencies are undamped, like those of a body.
+/// components of a rotation in axes that stand still and are those of the body at the instant. As
+/// the body turns on, its angular velocity, which is in axes of the body, changes by ψ̇ and its
+/// angular acceleration by ψ̈ − ω × ψ̇: G is the skew part of R_v − R_a W, W = diag(ω×) in
+/// rotations, which makes −(J ω)× of a rigid body, its gyroscopic moments. What is symmetric, as
+/// damping, is left out: frequencies are undamped, like those of a body.
 struct FrozenMechanism {
   Eigen::MatrixXd M, G, K;  ///< n × n
   Eigen::MatrixXd phi;      ///< Φ_q, m × n

@@ -345,6 +345,12 @@ std::vector<Reduction> reduce_windows(OverTime kind, const Eigen::VectorXd& time
                                       const Eigen::MatrixXd& values, int windows,
                                       const StepRange& range, const BrokenInstants& breaks) {
   assert(is_peak(kind));
+  const LimitsAtEnds limits(values, range, breaks);
+  if (!limits.is_empty()) {
+    auto reductions = reduce_windows(kind, time, limits.applied(), windows, range, breaks);
+    for (Reduction& reduction : reductions) limits.restore(reduction);
+    return reductions;
+  }
   std::vector<Reduction> reductions;
   const auto start_of = [&](int window) {
     return range.first + static_cast<int>(std::int64_t{range.steps()} * window / windows);

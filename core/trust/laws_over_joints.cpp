@@ -26,8 +26,8 @@ constexpr double most_turned = 0.5 * std::numbers::pi;
 /// friction at rest. Where it only changes from one to the other, runs with other steps see it.
 constexpr double most_exceeded = 0.1;
 
-/// A law of a load over the coordinate of a joint, or the elongation of a spring where the name of the
-/// joint is empty.
+/// A law of a load over the coordinate of a joint, or the elongation of a spring where the name of
+/// the joint is empty.
 struct LawOverCoordinate {
   std::string load, joint;
   DrivenCoordinate coordinate;

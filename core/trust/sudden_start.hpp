@@ -7,8 +7,8 @@ namespace pleuel {
 
 /// Peaks that are those of the start: elastic bodies which begin undeformed, under loads and speeds
 /// that are there at once, vibrate about the deformation that these would have made, up to twice as
-/// far. Such peaks are compared with those of a start in elastic equilibrium; laws that jump at t = 0
-/// (`step`) are meant and are sudden in both. The numbers are right, so this is never serious.
+/// far. Such peaks are compared with those of a start in elastic equilibrium; laws that jump at t =
+/// 0 (`step`) are meant and are sudden in both. The numbers are right, so this is never serious.
 std::vector<Doubt> doubt_sudden_start(const TrustedRun& run);
 
 }  // namespace pleuel

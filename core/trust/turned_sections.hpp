@@ -5,8 +5,9 @@
 
 namespace pleuel {
 
-/// Axial section forces of bent beams. Section forces are in axes of the body frame; a section that is
-/// turned by θ takes V θ of the shear force V into its own axial force, which may be all there is.
+/// Axial section forces of bent beams. Section forces are in axes of the body frame; a section that
+/// is turned by θ takes V θ of the shear force V into its own axial force, which may be all there
+/// is.
 std::vector<Doubt> doubt_turned_sections(const TrustedRun& run);
 
 }  // namespace pleuel

@@ -2,6 +2,7 @@
 
 #include "core/response/history_jump.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -16,13 +17,14 @@ Eigen::VectorXd instants(int count) {
   return Eigen::VectorXd::LinSpaced(count, 0.0, 0.01 * (count - 1));
 }
 
-/// A force 20 that friction of 20 is added to until it turns round: it does not come near 45, which is
-/// what a parabola through 40, 40 and 0 makes of it.
+/// A force 20 that friction of 20 is added to until it turns round: it does not come near 45, which
+/// is what a parabola through 40, 40 and 0 makes of it.
 TEST(HistoryJump, OfFrictionThatTurnsRoundHasNoPeakAboveItsSamples) {
   Eigen::MatrixXd values(1, 20);
   for (int i = 0; i < 20; ++i) values(0, i) = 20.0 + (i < 10 ? 20.0 : -20.0);
   EXPECT_TRUE(jumps_beside(instants(20), values, 0, 9));
   EXPECT_EQ(reduce(OverTime::max, instants(20), values).value, 40.0);
+  for (const Eigen::Index end : {0, 19}) EXPECT_FALSE(jumps_beside(instants(20), values, 0, end));
   values(0, 10) = 20.0;  // an instant within the jump
   EXPECT_EQ(reduce(OverTime::max, instants(20), values).value, 40.0);
   values.reverseInPlace();
@@ -62,8 +64,8 @@ TEST(HistoryJump, IsNoneInWhatIsSmooth) {
   }
 }
 
-/// At a load that falls from 10 to 1 at the instant 10 the sample is 5.5: windows see their own side,
-/// with derivatives of the samples that it is made from.
+/// At a load that falls from 10 to 1 at the instant 10 the sample is 5.5: windows see their own
+/// side, with derivatives of the samples that it is made from.
 TEST(HistoryJump, AtTheEndOfARangeCountsFromWithin) {
   const auto value = [](int i) { return (i < 10 ? 10.0 : 1.0) + 0.01 * i; };
   Eigen::MatrixXd values(1, 21);
@@ -80,6 +82,11 @@ TEST(HistoryJump, AtTheEndOfARangeCountsFromWithin) {
   EXPECT_NEAR(reduce(OverTime::max, time, values, {0, 10}, breaks).value, 10.1, 1e-12);
   EXPECT_NEAR(reduce(OverTime::min, time, values, {10, 20}, breaks).value, 1.1, 1e-12);
   EXPECT_NEAR(reduce(OverTime::mean, time, values, {10, 20}, breaks).value, 1.15, 1e-12);
+  double lowest = 100.0;
+  for (const Reduction& one : reduce_windows(OverTime::min, time, values, 3, {10, 20}, breaks)) {
+    lowest = std::min(lowest, one.value);
+  }
+  EXPECT_NEAR(lowest, 1.1, 1e-12);
   // Elsewhere, and without a break, it is a sample like others.
   EXPECT_NEAR(reduce(OverTime::final, time, values, {0, 10}).value, 5.6, 1e-12);
   EXPECT_NEAR(reduce(OverTime::max, time, values, {0, 20}, breaks).value, 10.09, 1e-12);

@@ -110,8 +110,8 @@ ProblemFile sprung_block(const std::string& resistance, double step) {
       resistance, step));
 }
 
-/// A tooth of 1 mm on a way of 300 mm at up to 0.6 m/s, over the elongation or as a formula of it; a
-/// hill of 100 mm is seen.
+/// A tooth of 1 mm on a way of 300 mm at up to 0.6 m/s, over the elongation or as a formula of it;
+/// a hill of 100 mm is seen.
 TEST(LawsOverSprings, AreDoubtedWhereAStepPassesATooth) {
   const auto table = [](double width) {
     return fmt::format(

@@ -98,8 +98,9 @@ TEST(ShearShare, IsThatOfTimoshenkosClosedForm) {
   }
 }
 
-/// P x²(3L − x)/(6EI) and P x/(κGA) of a cantilever, P x(3L² − 4x²)/(48EI) and P x/(2κGA) between a pin
-/// and the middle of a beam on two, at nodes and between them: near a clamp shear is all there is.
+/// P x²(3L − x)/(6EI) and P x/(κGA) of a cantilever, P x(3L² − 4x²)/(48EI) and P x/(2κGA) between a
+/// pin and the middle of a beam on two, at nodes and between them: near a clamp shear is all there
+/// is.
 TEST(ShearShare, AtAPlaceIsThatOfTheDeflectionThere) {
   const double kappa = 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu);
   const double ratio = 2.0 * (1.0 + nu) / kappa * 0.1 * 0.1 / 12.0;

@@ -15,8 +15,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-/// A leaf of 1 m × 20 mm × 5 mm with a force of 8 N across its tip, which bends it by 61 mm, and one
-/// along it.
+/// A leaf of 1 m × 20 mm × 5 mm with a force of 8 N across its tip, which bends it by 61 mm, and
+/// one along it.
 std::vector<Doubt> doubts(double along, double place, int frames) {
   return doubts_of(
       read_scene(fmt::format(
