@@ -8,6 +8,7 @@
 #include "cli/files/scene_picture.hpp"
 #include "cli/reports/analysis_report.hpp"
 #include "cli/text/packed_numbers.hpp"
+#include "core/response/peak_place.hpp"
 #include "core/response/shown_history.hpp"
 #include "core/scene/response_kind.hpp"
 #include "core/scene/response_names.hpp"
@@ -16,7 +17,6 @@
 #include "picture/companions.hpp"
 #include "picture/frames_of_motion.hpp"
 #include "picture/motion.hpp"
-#include "picture/peak_place.hpp"
 #include "picture/thinned.hpp"
 
 namespace pleuel {

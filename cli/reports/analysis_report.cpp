@@ -8,8 +8,8 @@
 
 #include "cli/text/table.hpp"
 #include "core/base/number_text.hpp"
+#include "core/response/peak_place.hpp"
 #include "core/scene/shown_unit.hpp"
-#include "picture/peak_place.hpp"
 
 namespace pleuel {
 

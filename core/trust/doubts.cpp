@@ -11,11 +11,12 @@
 #include "core/trust/far_bounds.hpp"
 #include "core/trust/far_limits.hpp"
 #include "core/trust/fast_laws.hpp"
+#include "core/trust/fast_turning.hpp"
 #include "core/trust/frequency_meaning.hpp"
 #include "core/trust/idle_freedoms.hpp"
 #include "core/trust/initial_motion.hpp"
 #include "core/trust/joint_turns.hpp"
-#include "core/trust/laws_over_joints.hpp"
+#include "core/trust/laws_over_coordinates.hpp"
 #include "core/trust/left_out_effects.hpp"
 #include "core/trust/misaligned_joints.hpp"
 #include "core/trust/other_side.hpp"
@@ -50,7 +51,7 @@ namespace {
 std::vector<Doubt> doubt_all_too_fast(const TrustedRun& run) {
   std::vector<Doubt> doubts = doubt_fast_laws(run);
   if (doubts.empty()) doubts = doubt_fast_turning(run);
-  const std::vector<Doubt> over_joints = doubt_laws_over_joints(run);
+  const std::vector<Doubt> over_joints = doubt_laws_over_coordinates(run);
   doubts.insert(doubts.end(), over_joints.begin(), over_joints.end());
   return doubts;
 }

@@ -21,32 +21,29 @@ constexpr double most_missed_share = 1e-2;
 /// steps a revolution.
 constexpr double most_missed_direction = 5e-3;
 
-void add_load(const std::string& name, const TimeFunction& function, const Design<double>& design,
-              const Eigen::VectorXd& time, std::vector<Doubt>& doubts) {
-  if (depends_on_state(function)) return;
-  const TimeLaw<double> law = resolve_time_law(function, design);
+void add_law(const MissedSubject& subject, const TimeFunction& function, const TimeLaw<double>& law,
+             const Eigen::VectorXd& time, std::vector<Doubt>& doubts) {
   const MissedValues missed = missed_by(
       time,
       [&](double t) -> ObservedValues {
         return {law.at(t).value, 0.0};
       },
       sharp_times(function, time(time.size() - 1)));
-  add_missed({fmt::format("the load \"{}\"", name), "value", most_missed_share}, missed,
-             missed.scale, doubts);
+  add_missed(subject, missed, missed.scale, doubts);
+}
+
+void add_load(const std::string& name, const TimeFunction& function, const Design<double>& design,
+              const Eigen::VectorXd& time, std::vector<Doubt>& doubts) {
+  if (depends_on_state(function)) return;
+  add_law({fmt::format("the load \"{}\"", name), "value", most_missed_share}, function,
+          resolve_time_law(function, design), time, doubts);
 }
 
 /// What the motor of a load follows.
 void add_target(const std::string& name, const TimeFunction& target, const Design<double>& design,
                 const Eigen::VectorXd& time, std::vector<Doubt>& doubts) {
-  const TimeLaw<double> law = resolve_time_law(target, design, LawOf::motion);
-  const MissedValues missed = missed_by(
-      time,
-      [&](double t) -> ObservedValues {
-        return {law.at(t).value, 0.0};
-      },
-      sharp_times(target, time(time.size() - 1)));
-  add_missed({fmt::format("the motor of the load \"{}\"", name), "target", most_missed_share},
-             missed, missed.scale, doubts);
+  add_law({fmt::format("the motor of the load \"{}\"", name), "target", most_missed_share}, target,
+          resolve_time_law(target, design, LawOf::motion), time, doubts);
 }
 
 /// The first time within the simulation at which the speed of straight lines or of a formula jumps.

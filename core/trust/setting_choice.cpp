@@ -15,7 +15,8 @@
 #include "core/trust/asked_responses.hpp"
 #include "core/trust/doubts.hpp"
 #include "core/trust/error_bars.hpp"
-#include "core/trust/laws_over_joints.hpp"
+#include "core/trust/fast_turning.hpp"
+#include "core/trust/laws_over_coordinates.hpp"
 
 namespace pleuel {
 
@@ -190,7 +191,7 @@ class Search {
     const Monitors monitors = monitor(analysis->model, analysis->trajectory);
     const TrustedRun run{divided, x_, *analysis, monitors};
     return monitors.energy_error > most_missing_energy ||
-           has_serious(doubt_laws_over_joints(run)) || has_serious(doubt_fast_turning(run));
+           has_serious(doubt_laws_over_coordinates(run)) || has_serious(doubt_fast_turning(run));
   }
 
   /// A coarser setting, if its errors are still small: those of the finer one with what differs.

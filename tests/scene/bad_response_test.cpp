@@ -71,6 +71,8 @@ INSTANTIATE_TEST_SUITE_P(
                 R"(/responses/drift/level must be "position" or "velocity", got "speed")"},
         BadEdit{"/responses/normal/at", "1.1",
                 "/responses/normal/at must be a place along the beam from 0 to 1, got 1.1"},
+        BadEdit{"/responses/normal/at", R"("0.2 m")",
+                R"(/responses/normal/at must be a place along the beam from 0 to 1, got "0.2 m")"},
         BadEdit{
             "/responses/life", R"({"type": "fatigue", "body": "arm", "criterion": "goodmann"})",
             R"(/responses/life/criterion must be "goodman", "gerber" or "soderberg", got "goodmann"; did you mean "goodman"?)"},

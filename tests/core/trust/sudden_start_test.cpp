@@ -31,7 +31,7 @@ ProblemFile pushed_cantilever(const std::string& push,
               "simulation": {{"end_time": 0.2, "step": 0.0002}},
               "responses": {{
                 "tip": {{"type": "deflection", "body": "beam", "at": 1, "over_time": "max-abs"}},
-                "side": {{"type": "section-force", "body": "beam", "part": "axial",
+                "pull": {{"type": "section-force", "body": "beam", "part": "axial",
                           "at": 0.5, "over_time": "max-abs"}},
                 "end": {{"type": "deflection", "body": "beam", "at": 1, "over_time": "final"}}}}}})",
           push),

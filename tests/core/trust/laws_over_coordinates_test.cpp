@@ -1,13 +1,14 @@
-#include "core/trust/laws_over_joints.hpp"
+#include "core/trust/laws_over_coordinates.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/trust/fast_turning.hpp"
 #include "tests/core/trust/doubts_of.hpp"
 
 /// Forces over the angle of a joint, and rotors, that turn too far in a step.
-namespace pleuel::test::laws_over_joints_test {
+namespace pleuel::test::laws_over_coordinates_test {
 namespace {
 
 using testing::HasSubstr;
@@ -35,11 +36,13 @@ ProblemFile rotor(const std::string& resistance, double step, const std::string&
 TEST(LawsOverJoints, AreDoubtedWhereAStepPassesATooth) {
   const std::string teeth = R"j({"type": "expression", "value": "= 1 N m*sin(48*angle + 1 rad)"})j";
   for (const char* plane : {"auto", "on"}) {
-    const std::vector<Doubt> doubts = doubts_of(rotor(teeth, 1e-3, plane), doubt_laws_over_joints);
+    const std::vector<Doubt> doubts =
+        doubts_of(rotor(teeth, 1e-3, plane), doubt_laws_over_coordinates);
     ASSERT_THAT(doubts, SizeIs(1)) << plane;
     EXPECT_TRUE(doubts[0].is_serious);
     EXPECT_THAT(doubts[0].text, HasSubstr("the load \"cogging\" changes faster than the steps"));
-    EXPECT_THAT(doubts_of(rotor(teeth, 1e-4, plane), doubt_laws_over_joints), IsEmpty()) << plane;
+    EXPECT_THAT(doubts_of(rotor(teeth, 1e-4, plane), doubt_laws_over_coordinates), IsEmpty())
+        << plane;
   }
 }
 
@@ -49,7 +52,7 @@ TEST(LawsOverJoints, AreDoubtedWhereARippleIsInStepWithTheSteps) {
   const auto doubts_at = [](double ripple, double step) {
     const std::string torque = fmt::format(
         R"j({{"type": "expression", "value": "= 1 N m + {} N m*sin(48*angle)"}})j", ripple);
-    return doubts_of(rotor(torque, step), doubt_laws_over_joints);
+    return doubts_of(rotor(torque, step), doubt_laws_over_coordinates);
   };
   EXPECT_THAT(doubts_at(0.2, 1e-3), SizeIs(1));
   EXPECT_THAT(doubts_at(0.2, 2e-3), SizeIs(1));
@@ -63,8 +66,8 @@ TEST(LawsOverJoints, AreDoubtedWhereAStepPassesThePeakOfATable) {
   const std::string table =
       R"({"type": "table", "angles": [0, 2.9, 3.0, 3.1, 6.283185307179586],
           "values": [0, 0, 5, 0, 0], "period": 6.283185307179586, "interpolation": "linear"})";
-  EXPECT_THAT(doubts_of(rotor(table, 4e-3), doubt_laws_over_joints), SizeIs(1));
-  EXPECT_THAT(doubts_of(rotor(table, 2e-4), doubt_laws_over_joints), IsEmpty());
+  EXPECT_THAT(doubts_of(rotor(table, 4e-3), doubt_laws_over_coordinates), SizeIs(1));
+  EXPECT_THAT(doubts_of(rotor(table, 2e-4), doubt_laws_over_coordinates), IsEmpty());
 }
 
 /// Friction that changes its sign within a step is none of these.
@@ -72,7 +75,7 @@ TEST(LawsOverJoints, AreNotDoubtedForTheirRates) {
   EXPECT_THAT(
       doubts_of(
           rotor(R"j({"type": "expression", "value": "= 1 N m*tanh(speed/(1 rad/s))"})j", 1e-3),
-          doubt_laws_over_joints),
+          doubt_laws_over_coordinates),
       IsEmpty());
 }
 
@@ -119,9 +122,9 @@ TEST(LawsOverSprings, AreDoubtedWhereAStepPassesATooth) {
         "values": [0, 0, 100, 0, 0]}})j",
         150 - width, 150 + width);
   };
-  EXPECT_THAT(doubts_of(sprung_block(table(0.5), 2.5e-3), doubt_laws_over_joints), SizeIs(1));
-  EXPECT_THAT(doubts_of(sprung_block(table(0.5), 5e-5), doubt_laws_over_joints), IsEmpty());
-  EXPECT_THAT(doubts_of(sprung_block(table(100), 2.5e-3), doubt_laws_over_joints), IsEmpty());
+  EXPECT_THAT(doubts_of(sprung_block(table(0.5), 2.5e-3), doubt_laws_over_coordinates), SizeIs(1));
+  EXPECT_THAT(doubts_of(sprung_block(table(0.5), 5e-5), doubt_laws_over_coordinates), IsEmpty());
+  EXPECT_THAT(doubts_of(sprung_block(table(100), 2.5e-3), doubt_laws_over_coordinates), IsEmpty());
 }
 
 /// A peak at a speed that the block passes within a step, and friction, whose sign changes with it.
@@ -129,11 +132,11 @@ TEST(LawsOverSprings, AreDoubtedWhereASpeedIsPassedOver) {
   const std::string peak =
       R"j({"type": "table", "speeds": ["-1 m/s", "0.199 m/s", "0.2 m/s", "0.201 m/s", "1 m/s"],
       "values": [0, 0, 100, 0, 0]})j";
-  EXPECT_THAT(doubts_of(sprung_block(peak, 1e-2), doubt_laws_over_joints), SizeIs(1));
-  EXPECT_THAT(doubts_of(sprung_block(peak, 1e-5), doubt_laws_over_joints), IsEmpty());
+  EXPECT_THAT(doubts_of(sprung_block(peak, 1e-2), doubt_laws_over_coordinates), SizeIs(1));
+  EXPECT_THAT(doubts_of(sprung_block(peak, 1e-5), doubt_laws_over_coordinates), IsEmpty());
   const std::string friction = R"j({"type": "friction", "value": 100, "speed": "1 mm/s"})j";
-  EXPECT_THAT(doubts_of(sprung_block(friction, 1e-2), doubt_laws_over_joints), IsEmpty());
+  EXPECT_THAT(doubts_of(sprung_block(friction, 1e-2), doubt_laws_over_coordinates), IsEmpty());
 }
 
 }  // namespace
-}  // namespace pleuel::test::laws_over_joints_test
+}  // namespace pleuel::test::laws_over_coordinates_test

@@ -1,4 +1,4 @@
-#include "picture/peak_place.hpp"
+#include "core/response/peak_place.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/trust/laws_over_joints.hpp"
+#include "core/trust/laws_over_coordinates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,9 +19,6 @@ namespace {
 constexpr double most_passed_over = 0.3;
 /// The same of a ripple that swings within most steps: so much is left of it where they are halved.
 constexpr double most_ripple = 0.01, left_by_halves = 0.5;
-/// A direction is known from what it was a step before [rad].
-constexpr double most_turned = 0.5 * std::numbers::pi;
-
 /// Of the largest force, by which it exceeds those at both ends of a step: of a law over a rate, as
 /// friction at rest. Where it only changes from one to the other, runs with other steps see it.
 constexpr double most_exceeded = 0.1;
@@ -224,7 +221,7 @@ class LawBetweenInstants {
 
 }  // namespace
 
-std::vector<Doubt> doubt_laws_over_joints(const TrustedRun& run) {
+std::vector<Doubt> doubt_laws_over_coordinates(const TrustedRun& run) {
   const Eigen::VectorXd& time = run.analysis.trajectory.time;
   std::vector<Doubt> doubts;
   if (time.size() < 2) return doubts;
@@ -247,35 +244,6 @@ std::vector<Doubt> doubt_laws_over_joints(const TrustedRun& run) {
     add_missed({who, "value", most_exceeded}, exceeded, exceeded.scale, doubts);
   }
   return doubts;
-}
-
-std::vector<Doubt> doubt_fast_turning(const TrustedRun& run) {
-  const Trajectory& trajectory = run.analysis.trajectory;
-  double most = most_turned, step_size = 0.0, time = 0.0;
-  const BodyModel* fastest = nullptr;
-  State state;
-  for (int step = 1; step <= trajectory.steps(); ++step) {
-    trajectory.states->load(step, state);
-    for (const BodyModel& body : run.analysis.model.bodies) {
-      const BodyFrame& frame = body.frame;
-      const double speed =
-          state.v.segment(frame.offset + frame.translations(), frame.rotations()).norm();
-      const double turned = speed * trajectory.step_size(step);
-      if (!(turned > most)) continue;
-      most = turned;
-      step_size = trajectory.step_size(step);
-      time = trajectory.time(step);
-      fastest = &body;
-    }
-  }
-  if (fastest == nullptr) return {};
-  return {
-      {fmt::format("\"{}\" turns by {:.3g} deg within the step of {:.3g} s at t = {:.4g} s: what "
-                   "its direction changes is not seen. Give a revolution 32 steps: a "
-                   "/simulation/step of {:.2g} s.",
-                   fastest->name, most * 180.0 / std::numbers::pi, step_size, time,
-                   step_size * 2.0 * std::numbers::pi / (32.0 * most)),
-       true}};
 }
 
 }  // namespace pleuel
