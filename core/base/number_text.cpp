@@ -42,6 +42,13 @@ std::string signed_percent(double fraction) {
   return (fraction < 0 ? "−" : "+") + size;
 }
 
+std::string times_as_large(double ratio) {
+  constexpr double most = 100.0;
+  if (ratio < 0.0) return "of the other sign";
+  if (!(ratio <= most)) return "larger by far";  // infinite, too
+  return fmt::format("{:.3g} times as large", ratio);
+}
+
 std::string duration(double seconds) {
   if (seconds < 9.95) return fmt::format("{:.2g} s", seconds);
   if (seconds < 99.95) return fmt::format("{:.1f} s", seconds);

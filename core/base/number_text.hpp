@@ -23,6 +23,9 @@ std::string rough_percent(double share);
 /// "+2.1 %", "−45.2 %", "0.0 %"
 std::string signed_percent(double fraction);
 
+/// "1.97 times as large", "larger by far" or "of the other sign"
+std::string times_as_large(double ratio);
+
 /// "0.083 s", "12.4 s", "3 min 20 s"
 std::string duration(double seconds);
 

@@ -30,6 +30,7 @@
 #include "core/trust/sudden_start.hpp"
 #include "core/trust/taut_members.hpp"
 #include "core/trust/turned_sections.hpp"
+#include "core/trust/unseen_overshoot.hpp"
 #include "core/trust/unstable_members.hpp"
 
 namespace pleuel {
@@ -51,15 +52,28 @@ namespace {
 std::vector<Doubt> doubt_all_too_fast(const TrustedRun& run) {
   std::vector<Doubt> doubts = doubt_fast_laws(run);
   if (doubts.empty()) doubts = doubt_fast_turning(run);
-  const std::vector<Doubt> over_joints = doubt_laws_over_coordinates(run);
-  doubts.insert(doubts.end(), over_joints.begin(), over_joints.end());
+  for (const auto find : {doubt_laws_over_coordinates, doubt_unseen_overshoot}) {
+    const std::vector<Doubt> more = find(run);
+    doubts.insert(doubts.end(), more.begin(), more.end());
+  }
   return doubts;
 }
 
-/// What acts between two instants is seen by no run with larger steps, which judge the error.
-void leave_steps_unresolved(const TrustedRun& run, std::vector<std::optional<ErrorBar>>& errors) {
+bool concerns(const Doubt& doubt, const std::string& response) {
+  const std::vector<std::string>& named = doubt.responses;
+  return named.empty() || std::find(named.begin(), named.end(), response) != named.end();
+}
+
+/// What happens between two instants is seen by no run with larger steps, which judge the error.
+void leave_steps_unresolved(const TrustedRun& run, const std::vector<Doubt>& doubts,
+                            std::vector<std::optional<ErrorBar>>& errors) {
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    if (errors[i] && run.analysis.histories[i].size() > 0) errors[i]->step.is_resolved = false;
+    if (!errors[i] || run.analysis.histories[i].size() == 0) continue;
+    const std::string& name = run.analysis.responses[i].name;
+    if (std::any_of(doubts.begin(), doubts.end(),
+                    [&](const Doubt& doubt) { return concerns(doubt, name); })) {
+      errors[i]->step.is_resolved = false;
+    }
   }
 }
 
@@ -107,7 +121,7 @@ Trust judge_run(const TrustedRun& run) {
   trust.errors = std::move(resolution.bars);
   trust.evidence = std::move(resolution.evidence);
   trust.bands = std::move(resolution.bands);
-  if (!too_fast.empty()) leave_steps_unresolved(run, trust.errors);
+  leave_steps_unresolved(run, too_fast, trust.errors);
   if (complete) add_left_out_effects(run, *complete, trust.errors);
   std::stable_partition(doubts.begin(), doubts.end(),
                         [](const Doubt& doubt) { return doubt.is_serious; });

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/number_text.hpp"
 #include "core/trust/asked_responses.hpp"
 #include "core/trust/round_off.hpp"
 
@@ -92,12 +93,12 @@ std::vector<Doubt> doubt_sudden_start(const TrustedRun& run) {
   const std::size_t others = doubt.responses.size() - 1;
   doubt.text = fmt::format(
       "the start decides \"{}\"{}: elastic bodies begin undeformed under loads and speeds that are "
-      "there at once, and vibrate. From their equilibrium it would be {:.3g} times as large: "
+      "there at once, and vibrate. From their equilibrium it would be {}: "
       "\"initial_state\": \"quasi-static\", or \"periodic\" for a machine that has been running. "
       "Where the sudden start is meant, nothing is to be done.",
       doubt.text,
       others == 0 ? "" : fmt::format(" and {} other response{}", others, others == 1 ? "" : "s"),
-      worst_value);
+      times_as_large(worst_value));
   return {doubt};
 }
 

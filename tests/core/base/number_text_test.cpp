@@ -41,5 +41,13 @@ TEST(NumberText, OfRoughPercentsHasTwoDigits) {
   EXPECT_EQ(rough_percent(2.347), "235 %");
 }
 
+TEST(NumberText, OfRatiosSaysWhereTheyTellNothing) {
+  EXPECT_EQ(times_as_large(1.9666), "1.97 times as large");
+  EXPECT_EQ(times_as_large(0.5), "0.5 times as large");
+  EXPECT_EQ(times_as_large(1e4), "larger by far");
+  EXPECT_EQ(times_as_large(1.0 / 0.0), "larger by far");
+  EXPECT_EQ(times_as_large(-3.0), "of the other sign");
+}
+
 }  // namespace
 }  // namespace pleuel::test::number_text_test
