@@ -30,6 +30,8 @@ constexpr double least_condition = 1e-13;
 /// Growth of disturbances in a period that is more than round-off: motions without damping neither grow
 /// nor die.
 constexpr double unstable = 1.0 + 1e-5;
+/// Growth below which a motion surely forgets how it began.
+constexpr double forgetful = 1.0 - 1e-5;
 
 /// One period of the simulation.
 SimulationOptions options_of_period(const SimulationOptions& options) {
@@ -181,6 +183,12 @@ class PeriodicSearch {
     ++differentiations_;
     map_ = std::make_shared<PeriodMap>(mechanism_, trajectory, trajectory.steps());
     if (map_->reciprocal_condition() >= least_condition) return;
+    if (map_->growth() < forgetful) {
+      throw SimulationError(fmt::format(
+          "/simulation/initial_state: the motion that repeats itself after {:.6g} s drowns in the "
+          "round-off of {} steps: take a larger /simulation/step, fewer elements or modes",
+          one_.period, trajectory.steps()));
+    }
     throw SimulationError(fmt::format(
         "/simulation/initial_state: no motion that repeats itself after {:.6g} s can be found: "
         "after a period nothing has brought back a motion{} "

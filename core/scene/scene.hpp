@@ -148,7 +148,7 @@ struct BeamBody {
 struct RigidBody {
   Point at;                       ///< centre of mass at t = 0 [m]
   Number mass;                    ///< [kg]
-  std::array<Number, 6> inertia;  ///< xx, yy, zz, xy, xz, yz about the centre of mass [kg m²]
+  std::array<Number, 6> inertia;  ///< tensor xx, yy, zz, xy, xz, yz about `at` [kg m²]
 };
 
 struct PointMass {

@@ -104,6 +104,29 @@ bool counts_cycles(const std::string& name) {
   return name.ends_with("Hz") || name.ends_with("hertz");
 }
 
+/// Words that the database takes for something that few of those mean who write them.
+struct Misread {
+  std::string_view word, why;
+};
+constexpr Misread misread_words[] = {
+    {"ton", "is 907 kg to some and 1000 kg to others: write t for 1000 kg, or lb"},
+    {"tons", "is 907 kg to some and 1000 kg to others: write t for 1000 kg, or lb"},
+    {"Mm", "is a thousand kilometres; write mm"},
+};
+
+void refuse_misread(const std::string& unit) {
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  for (auto begin = unit.begin(); begin != unit.end();) {
+    begin = std::find_if(begin, unit.end(), is_letter);
+    const auto end = std::find_if_not(begin, unit.end(), is_letter);
+    const std::string_view word(begin, end);
+    for (const Misread& misread : misread_words) {
+      if (word == misread.word) throw UnitError(fmt::format("\"{}\" {}", word, misread.why));
+    }
+    begin = end;
+  }
+}
+
 double cycles_factor(const std::string& name, const Quantity& quantity, const ut_unit* from) {
   const auto is = [&quantity](const Quantity& other) {
     return quantity.name == other.name && quantity.unit == other.unit;
@@ -213,6 +236,7 @@ SystemHandle read_database() {
   add_symbol(system.get(), "deg", "degree");
   add_symbol(system.get(), "rev", "turn");
   add_symbol(system.get(), "Nm", "N m");
+  add_symbol(system.get(), "PS", "735.49875 W");  // metric horsepower, no petasiemens
   add_bytes(system.get());
   return system;
 }
@@ -233,6 +257,7 @@ double UnitSystem::scale(const std::string& unit, const Quantity& quantity) cons
 
 double UnitSystem::scale_by_database(const std::string& unit, const Quantity& quantity) const {
   const std::string name = trim(unit);
+  refuse_misread(name);
   const UnitHandle from = has_stray_number(name) ? nullptr : parse_unit(database(), name);
   if (!from) throw unknown_unit(name, quantity.unit);
   const UnitHandle to = parse_unit(database(), std::string(quantity.unit));
@@ -245,6 +270,7 @@ double UnitSystem::scale_by_database(const std::string& unit, const Quantity& qu
 
 MeasuredUnit UnitSystem::measure(const std::string& unit) const {
   const std::string name = trim(unit);
+  refuse_misread(name);
   const UnitHandle handle = has_stray_number(name) ? nullptr : parse_unit(database(), name);
   if (!handle && name != "1") throw unknown_unit(name, "");
   UnitTaker taker;

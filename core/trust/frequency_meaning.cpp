@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <string>
 
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
 #include "core/response/full_mechanism.hpp"
 #include "core/response/mechanism_modes.hpp"
+#include "core/scene/shown_unit.hpp"
 #include "core/trust/turning_axes.hpp"
 
 namespace pleuel {
@@ -35,8 +37,14 @@ std::vector<std::string> names_of(const std::vector<const Response*>& responses)
 /// A frequency that is another one by more than is worth a word, as it may be looked at otherwise.
 struct Shift {
   const Response* response;
-  double shown, other;  ///< [rad/s]
+  std::string shown, other;  ///< as people see them: "12.4 Hz"
 };
+
+/// In the unit of a response.
+std::string frequency_text(const TrustedRun& run, const Response& response, double frequency) {
+  const ShownUnit unit = unit_of(find_response(run.problem, response.name));
+  return fmt::format("{:.5g}{}", unit.shown(frequency), unit.suffix());
+}
 
 /// @param others  frequencies of the mechanism, one a mode
 std::vector<Shift> shifts(const TrustedRun& run, const std::vector<const Response*>& responses,
@@ -47,7 +55,8 @@ std::vector<Shift> shifts(const TrustedRun& run, const std::vector<const Respons
     if (mode >= others.size()) continue;
     const double shown = run.analysis.mechanism_frequencies(mode);
     if (std::abs(others(mode) - shown) <= small_shift * std::abs(shown)) continue;
-    found.push_back({response, shown, others(mode)});
+    found.push_back({response, frequency_text(run, *response, shown),
+                     frequency_text(run, *response, others(mode))});
   }
   return found;
 }
@@ -95,9 +104,9 @@ void add_missing_stress(const TrustedRun& run, const std::vector<const Response*
   }
   for (const auto& [response, shown, other] : shifts(run, responses, stressed)) {
     doubts.push_back(
-        {fmt::format("the frequency \"{}\" is {:.5g} rad/s for members that start undeformed; the "
+        {fmt::format("the frequency \"{}\" is {} for members that start undeformed; the "
                      "stress of the motion and the loads at t = 0 is missing in it, with which it "
-                     "is {:.5g} rad/s: /simulation/initial_state \"quasi-static\" has it.",
+                     "is {}: /simulation/initial_state \"quasi-static\" has it.",
                      response->name, shown, other),
          false,
          {response->name}});
@@ -135,8 +144,8 @@ void add_frames(const TrustedRun& run, const std::vector<const Response*>& respo
   }
   for (const auto& [response, shown, other] : shifts(run, responses, found)) {
     doubts.push_back(
-        {fmt::format("the frequency \"{}\" is {:.5g} rad/s with the body frames as they are, and "
-                     "{:.5g} rad/s with \"mean-axis\" ones (\"chord\" in place of those): "
+        {fmt::format("the frequency \"{}\" is {} with the body frames as they are, and "
+                     "{} with \"mean-axis\" ones (\"chord\" in place of those): "
                      "members are bent or twisted so much at the start that what it does to their "
                      "stiffness is not resolved. Divide them: \"frames\".",
                      response->name, shown, other),
@@ -155,11 +164,12 @@ void add_flutter(const TrustedRun& run, const std::vector<const Response*>& resp
   const Eigen::VectorXcd modes = modes_of(freeze(model_of_modes(run.analysis).mechanism, state));
   for (const std::complex<double>& mode : modes) {
     if (!(mode.imag() > 0.0 && mode.real() > noise * mode.imag())) continue;
-    doubts.push_back({fmt::format("the mechanism flutters where it starts: its vibration of {:.5g} "
-                                  "rad/s grows as exp({:.4g} t), damping left out. A force that "
-                                  "follows a body feeds it.",
-                                  mode.imag(), mode.real()),
-                      true, names_of(responses)});
+    doubts.push_back(
+        {fmt::format("the mechanism flutters where it starts: its vibration of {} "
+                     "grows as exp({:.4g} t), damping left out. A force that "
+                     "follows a body feeds it.",
+                     frequency_text(run, *responses.front(), mode.imag()), mode.real()),
+         true, names_of(responses)});
     return;
   }
 }
@@ -174,8 +184,8 @@ void add_turning(const TrustedRun& run, const std::vector<const Response*>& resp
   for (const auto& [response, shown, other] : shifts(run, responses, turning)) {
     doubts.push_back(
         {fmt::format("the frequency \"{}\" is not high against the speed at which the mechanism "
-                     "moves at t = 0: it is {:.5g} rad/s in axes that stand still, and {:.5g} "
-                     "rad/s in axes that turn with the bodies, which is right where all turn "
+                     "moves at t = 0: it is {} in axes that stand still, and {} "
+                     "in axes that turn with the bodies, which is right where all turn "
                      "alike. Do not rely on it.",
                      response->name, shown, other),
          true,

@@ -62,26 +62,28 @@ constexpr double pi = std::numbers::pi;
 
 INSTANTIATE_TEST_SUITE_P(
     Units, UnitReading,
-    testing::Values(
-        Reading{"120 mm", length, 0.12}, Reading{"120mm", length, 0.12},
-        Reading{" +1.5e2 mm ", length, 0.15}, Reading{"-3 cm", length, -0.03},
-        Reading{".5 m", length, 0.5}, Reading{"1 in", length, 0.0254},
-        Reading{"5 \xC2\xB5m", length, 5e-6}, Reading{"0 mm", length, 0.0},
-        Reading{"5 nm", length, 5e-9}, Reading{"210 GPa", stress, 2.1e11},
-        Reading{"200 N/mm^2", stress, 2e8}, Reading{"200 N/mm2", stress, 2e8},
-        Reading{"200 N mm-2", stress, 2e8}, Reading{"7850 kg/m^3", density, 7850.0},
-        Reading{"7.85 g/cm^3", density, 7850.0}, Reading{"7850 kg/m\xC2\xB3", density, 7850.0},
-        Reading{"2 t", mass, 2000.0}, Reading{"1e-5 s", time, 1e-5}, Reading{"50 ms", time, 0.05},
-        Reading{"2 min", time, 120.0}, Reading{"2 1/s", rate, 2.0}, Reading{"2 Hz", rate, 2.0},
-        Reading{"2 kHz", frequency, 2000.0}, Reading{"2 1/s", frequency, 2.0},
-        Reading{"9.81 m/s^2", acceleration, 9.81}, Reading{"3 N m", torque, 3.0},
-        Reading{"3 Nm", torque, 3.0}, Reading{"3 J", torque, 3.0},
-        Reading{"4 kg m^2", inertia, 4.0}, Reading{"5 N m s", times_time(torque), 5.0},
-        Reading{"5 mm s", times_time(length), 0.005}, Reading{"5 MPa s", times_time(stress), 5e6},
-        Reading{"0.3", pure_number, 0.3}, Reading{"30 %", pure_number, 0.3},
-        Reading{"4096 B", data, 4096.0}, Reading{"1.5 kB", data, 1500.0},
-        Reading{"4 GB", data, 4e9}, Reading{"1 KiB", data, 1024.0},
-        Reading{"512 MiB", data, 536870912.0}, Reading{"2 GiB", data, 2147483648.0}),
+    testing::Values(Reading{"120 mm", length, 0.12}, Reading{"120mm", length, 0.12},
+                    Reading{" +1.5e2 mm ", length, 0.15}, Reading{"-3 cm", length, -0.03},
+                    Reading{".5 m", length, 0.5}, Reading{"1 in", length, 0.0254},
+                    Reading{"5 \xC2\xB5m", length, 5e-6}, Reading{"0 mm", length, 0.0},
+                    Reading{"5 nm", length, 5e-9}, Reading{"210 GPa", stress, 2.1e11},
+                    Reading{"200 N/mm^2", stress, 2e8}, Reading{"200 N/mm2", stress, 2e8},
+                    Reading{"200 N mm-2", stress, 2e8}, Reading{"7850 kg/m^3", density, 7850.0},
+                    Reading{"7.85 g/cm^3", density, 7850.0},
+                    Reading{"7850 kg/m\xC2\xB3", density, 7850.0}, Reading{"2 t", mass, 2000.0},
+                    Reading{"1e-5 s", time, 1e-5}, Reading{"50 ms", time, 0.05},
+                    Reading{"2 min", time, 120.0}, Reading{"2 1/s", rate, 2.0},
+                    Reading{"2 Hz", rate, 2.0}, Reading{"2 kHz", frequency, 2000.0},
+                    Reading{"2 1/s", frequency, 2.0}, Reading{"9.81 m/s^2", acceleration, 9.81},
+                    Reading{"3 N m", torque, 3.0}, Reading{"3 Nm", torque, 3.0},
+                    Reading{"3 J", torque, 3.0}, Reading{"4 kg m^2", inertia, 4.0},
+                    Reading{"5 N m s", times_time(torque), 5.0},
+                    Reading{"5 mm s", times_time(length), 0.005},
+                    Reading{"5 MPa s", times_time(stress), 5e6}, Reading{"0.3", pure_number, 0.3},
+                    Reading{"30 %", pure_number, 0.3}, Reading{"4096 B", data, 4096.0},
+                    Reading{"1.5 kB", data, 1500.0}, Reading{"4 GB", data, 4e9},
+                    Reading{"1 KiB", data, 1024.0}, Reading{"512 MiB", data, 536870912.0},
+                    Reading{"2 GiB", data, 2147483648.0}, Reading{"10 PS", power, 7354.9875}),
     named_by(&Reading::text));
 
 INSTANTIATE_TEST_SUITE_P(UnitsOfAngularSpeed, UnitReading,
@@ -130,6 +132,14 @@ TEST(Units, ThatAreUnknownAreRefused) {
   EXPECT_EQ(complaint("12 parrots", mass), "\"parrots\" is not a known unit");
   EXPECT_EQ(complaint("1,5 mm", length), "numbers have a decimal point, no comma; write 1.5 mm");
   EXPECT_EQ(complaint("0x10 mm", length), "\"x10 mm\" is not a known unit");
+}
+
+/// The database has them as short tons and megametres.
+TEST(Units, ThatMeanTwoThingsAreRefused) {
+  EXPECT_EQ(complaint("1 ton", mass),
+            "\"ton\" is 907 kg to some and 1000 kg to others: write t for 1000 kg, or lb");
+  EXPECT_EQ(complaint("28 Mm", length), "\"Mm\" is a thousand kilometres; write mm");
+  EXPECT_THROW((void)UnitSystem().measure("tons/m"), UnitError);
 }
 
 TEST(Integrals, HaveAUnitForEveryResponse) {

@@ -17,9 +17,11 @@ namespace {
 /// Cosine of the angle between axes that are meant to be normal to each other: rounding.
 constexpr double normal_tolerance = 1e-9;
 
-std::vector<std::string_view> keys_of_joints() {
+std::vector<std::string_view> keys_of(JointType type) {
   std::vector<std::string_view> words = {"type", "bodies", "at"};
-  for (const JointKey& key : joint_keys) words.push_back(key.word);
+  for (const JointKey& key : joint_keys) {
+    if (key.is_of(kind_of(type))) words.push_back(key.word);
+  }
   words.push_back("drive");
   return words;
 }
@@ -81,13 +83,13 @@ std::array<std::string, 2> read_pair(const JsonNode& node, const std::vector<std
 
 Joint read_joint(const std::string& name, const JsonNode& node,
                  const std::vector<std::string>& bodies, NumberReader& numbers) {
-  node.allow_keys(keys_of_joints());
   Joint joint;
   joint.name = name;
   joint.type = read_joint_type(node.at("type"));
+  refuse_keys_of_others(node, joint.type);
+  node.allow_keys(keys_of(joint.type));
   joint.bodies = read_pair(node.at("bodies"), bodies);
   joint.at = numbers.triple(node.at("at"), quantities::length);
-  refuse_keys_of_others(node, joint.type);
   read_second_point(node, joint, numbers);
   read_axis(node, joint, numbers);
   read_second_axis(node, joint, numbers);
