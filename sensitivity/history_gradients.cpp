@@ -1,25 +1,31 @@
 #include "sensitivity/history_gradients.hpp"
 
+#include "core/base/int_size.hpp"
+#include "core/response/history_reduction.hpp"
 #include "sensitivity/sampled_gradients.hpp"
 
 namespace pleuel {
 
 namespace {
 
-/// The rows of the signal that make the history: of a balance both, amount and rate.
-std::vector<int> channels_of(const Response& response, const HistoryGradients& history) {
-  if (response.is_balance()) return {0, 1};
-  return {history.place};
+/// Channels of the signal that make a channel of the history.
+std::vector<int> observed_channels(const Response& response, int channel) {
+  const auto& map = response.history()->map;
+  return map ? map->observed_channels(channel) : std::vector<int>{channel};
 }
 
-/// A balance is a sum over the time before, and linear in amount and rate.
-Eigen::MatrixXd balance_gradients(const Response& response, const Eigen::VectorXd& time,
-                                  const Eigen::MatrixXd& amount, const Eigen::MatrixXd& rate) {
-  Eigen::MatrixXd gradients(amount.rows(), amount.cols());
-  for (Eigen::Index j = 0; j < gradients.cols(); ++j) {
-    Eigen::MatrixXd changes(2, amount.rows());
-    changes << amount.col(j).transpose(), rate.col(j).transpose();
-    gradients.col(j) = balance_history(time, changes, response.steps(time)).transpose();
+/// @param observed  of those channels, one after the other: (channels · instants) × variables
+/// @returns instants × variables
+Eigen::MatrixXd mapped(const Response& response, const Eigen::VectorXd& time,
+                       const Eigen::MatrixXd& observed) {
+  const auto& map = response.history()->map;
+  if (!map) return observed;
+  const StepRange range = response.steps(time);
+  const Eigen::Index instants = time.size();
+  Eigen::MatrixXd gradients(instants, observed.cols());
+  for (Eigen::Index j = 0; j < observed.cols(); ++j) {
+    const auto changes = observed.col(j).reshaped(instants, observed.rows() / instants).transpose();
+    gradients.col(j) = map->apply(time, range, changes).transpose();
   }
   return gradients;
 }
@@ -29,32 +35,30 @@ Eigen::MatrixXd balance_gradients(const Response& response, const Eigen::VectorX
 ResponseDerivatives differentiate(Analysis& analysis, std::vector<SampledValue> values) {
   const Eigen::VectorXd& time = analysis.trajectory.time;
   const Eigen::Index asked = values.size();
+  for (SampledValue& value : values) {
+    value.samples = observed_samples(analysis.responses[value.response], time, value.samples);
+  }
   std::vector<HistoryGradients> histories;
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     const Response& response = analysis.responses[i];
     if (!response.history()) continue;
     const auto& samples = analysis.reductions[i].samples;
-    const int place = samples.empty() || response.is_balance() ? 0 : samples.front().channel;
+    const int place = samples.empty() ? 0 : samples.front().channel;
     histories.push_back({i, place, analysis.histories[i].row(place).transpose(), {}});
-    for (const int channel : channels_of(response, histories.back())) {
-      for (int step = 0; step < time.size(); ++step) {
+    for (const int channel : observed_channels(response, place)) {
+      for (int step = 0; step < int_size(time); ++step) {
         values.push_back({i, {{step, channel, 1.0}}});
       }
     }
   }
   if (values.empty()) return {};
-  const Eigen::MatrixXd all = sampled_gradients(analysis, values, ExactMethod::direct);
+  const Eigen::MatrixXd all = observed_gradients(analysis, values, ExactMethod::direct);
   Eigen::Index next = asked;
-  const auto take = [&] {
-    next += time.size();
-    return all.middleRows(next - time.size(), time.size());
-  };
   for (HistoryGradients& history : histories) {
     const Response& response = analysis.responses[history.response];
-    history.gradients = take();
-    if (response.is_balance()) {
-      history.gradients = balance_gradients(response, time, history.gradients, take());
-    }
+    const Eigen::Index count = time.size() * int_size(observed_channels(response, history.place));
+    history.gradients = mapped(response, time, all.middleRows(next, count));
+    next += count;
   }
   return {all.topRows(asked), std::move(histories)};
 }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/base/int_size.hpp"
+#include "core/response/history_reduction.hpp"
 #include "core/response/linearized_expression.hpp"
 #include "sensitivity/adjoint.hpp"
 #include "sensitivity/direct.hpp"
@@ -25,21 +26,34 @@ using Gradients = Eigen::MatrixXd;  // values × variables
 /// the way several times; its linear systems are cheap beside their many right-hand sides.
 constexpr Eigen::Index most_adjoint_bytes = 48 << 20;
 
-/// Part of a value: samples of one response that is no expression.
+/// Part of a value: samples of the signal of one response that is no expression.
 struct Part {
   std::size_t response;
-  const std::vector<Sample>* samples;
+  std::vector<Sample> samples;
   double weight;
 };
 
+/// What samples are samples of.
+enum class SamplesOf { history, signal };
+
+std::vector<Sample> samples_of_signal(const Analysis& analysis, const SampledValue& value,
+                                      SamplesOf of) {
+  if (of == SamplesOf::signal) return value.samples;
+  return observed_samples(analysis.responses[value.response], analysis.trajectory.time,
+                          value.samples);
+}
+
 /// A value itself, or what its expression is made from.
-std::vector<Part> parts_of(const Analysis& analysis, const SampledValue& value) {
+std::vector<Part> parts_of(const Analysis& analysis, const SampledValue& value,
+                           SamplesOf of = SamplesOf::history) {
   if (!analysis.responses[value.response].expression()) {
-    return {{value.response, &value.samples, 1.0}};
+    return {{value.response, samples_of_signal(analysis, value, of), 1.0}};
   }
   std::vector<Part> parts;
   for (const WeightedResponse& one : linearized(analysis, value.response).parts) {
-    parts.push_back({one.response, &analysis.reductions[one.response].samples, one.weight});
+    const SampledValue part{one.response, analysis.reductions[one.response].samples};
+    parts.push_back(
+        {one.response, samples_of_signal(analysis, part, SamplesOf::history), one.weight});
   }
   return parts;
 }
@@ -54,13 +68,13 @@ struct Use {
 
 class SampledGradients {
  public:
-  SampledGradients(Analysis& analysis, const std::vector<SampledValue>& values)
+  SampledGradients(Analysis& analysis, const std::vector<SampledValue>& values, SamplesOf of)
       : analysis_(analysis),
         mechanism_(analysis.model.mechanism),
         gradients_(Gradients::Zero(values.size(), mechanism_.system->variables())),
         part_(mechanism_.system->coordinates(), mechanism_.system->multipliers(),
               mechanism_.system->variables()) {
-    for (std::size_t i = 0; i < values.size(); ++i) add_value(i, values[i]);
+    for (std::size_t i = 0; i < values.size(); ++i) add_value(i, values[i], of);
   }
 
   Gradients direct() {
@@ -126,13 +140,13 @@ class SampledGradients {
     }
   }
 
-  void add_value(std::size_t i, const SampledValue& value) {
+  void add_value(std::size_t i, const SampledValue& value, SamplesOf of) {
     const Eigen::Index row = i;
     if (analysis_.responses[value.response].expression()) {
       require_derivatives(analysis_, value.response);
       gradients_.row(row) += linearized(analysis_, value.response).design.transpose();
     }
-    for (const Part& part : parts_of(analysis_, value)) add_part(row, part);
+    for (const Part& part : parts_of(analysis_, value, of)) add_part(row, part);
   }
 
   void add_part(Eigen::Index row, const Part& part) {
@@ -143,7 +157,7 @@ class SampledGradients {
       gradients_.row(row) += part.weight * frequency_gradient(response.frequency()->choice);
     } else {
       Signal* signal = response.history()->signal.get();
-      for (const Sample& sample : *part.samples) {
+      for (const Sample& sample : part.samples) {
         uses_[sample.step].push_back({row, signal, sample.channel, part.weight * sample.weight});
       }
     }
@@ -203,13 +217,14 @@ struct RigidValues {
   std::vector<double> weights;
 };
 
-RigidValues rigid_values(const Analysis& analysis, const std::vector<SampledValue>& values) {
+RigidValues rigid_values(const Analysis& analysis, const std::vector<SampledValue>& values,
+                         SamplesOf of) {
   RigidValues rigid;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    for (const Part& part : parts_of(analysis, values[i])) {
+    for (const Part& part : parts_of(analysis, values[i], of)) {
       const ResponseHistory* history = analysis.responses[part.response].history();
       if (!history || !history->rigid_response) continue;
-      rigid.values.push_back({*history->rigid_response, *part.samples});
+      rigid.values.push_back({*history->rigid_response, part.samples});
       rigid.rows.push_back(i);
       rigid.weights.push_back(part.weight);
     }
@@ -217,25 +232,35 @@ RigidValues rigid_values(const Analysis& analysis, const std::vector<SampledValu
   return rigid;
 }
 
-}  // namespace
-
-Eigen::MatrixXd sampled_gradients(Analysis& analysis, const std::vector<SampledValue>& values,
-                                  ExactMethod method) {
-  SampledGradients run(analysis, values);
+Gradients gradients_of(Analysis& analysis, const std::vector<SampledValue>& values,
+                       ExactMethod method, SamplesOf of) {
+  SampledGradients run(analysis, values, of);
   Gradients gradients = method == ExactMethod::direct ? run.direct() : run.adjoint();
-  const RigidValues rigid = rigid_values(analysis, values);
+  const RigidValues rigid = rigid_values(analysis, values, of);
   if (rigid.values.empty()) return gradients;
-  const Gradients found = sampled_gradients(*analysis.rigid, rigid.values, method);
+  const Gradients found = gradients_of(*analysis.rigid, rigid.values, method, SamplesOf::signal);
   for (std::size_t i = 0; i < rigid.rows.size(); ++i) {
     gradients.row(rigid.rows[i]) -= rigid.weights[i] * found.row(i);
   }
   return gradients;
 }
 
+}  // namespace
+
+Eigen::MatrixXd sampled_gradients(Analysis& analysis, const std::vector<SampledValue>& values,
+                                  ExactMethod method) {
+  return gradients_of(analysis, values, method, SamplesOf::history);
+}
+
+Eigen::MatrixXd observed_gradients(Analysis& analysis, const std::vector<SampledValue>& values,
+                                   ExactMethod method) {
+  return gradients_of(analysis, values, method, SamplesOf::signal);
+}
+
 int last_step(const Analysis& analysis, const SampledValue& value) {
   int last = -1;
   for (const Part& part : parts_of(analysis, value)) {
-    for (const Sample& sample : *part.samples) last = std::max(last, sample.step);
+    for (const Sample& sample : part.samples) last = std::max(last, sample.step);
   }
   return last;
 }

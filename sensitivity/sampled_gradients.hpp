@@ -7,7 +7,7 @@
 
 namespace pleuel {
 
-/// Something whose gradient is asked for: Σ weight · (channel at step) of a response's signal, or a
+/// Something whose gradient is asked for: Σ weight · (channel at step) of a response's history, or a
 /// response that is constant in time or an expression (no samples).
 struct SampledValue {
   std::size_t response;
@@ -33,5 +33,10 @@ std::string to_string(ExactMethod method);
 /// @throws SimulationError
 Eigen::MatrixXd sampled_gradients(Analysis& analysis, const std::vector<SampledValue>& values,
                                   ExactMethod method);
+
+/// The same where samples are those of what signals observe: they differ where a response has a
+/// HistoryMap.
+Eigen::MatrixXd observed_gradients(Analysis& analysis, const std::vector<SampledValue>& values,
+                                   ExactMethod method);
 
 }  // namespace pleuel

@@ -251,8 +251,6 @@ class Study {
   void linearize_histories() {
     study_.time = analysis_->trajectory.time;
     for (const HistoryGradients& history : history_gradients(*analysis_)) {
-      // That of a balance is no signal but a sum over the time before.
-      if (analysis_->responses[history.response].is_balance()) continue;
       const Eigen::MatrixXd parts =
           columns_of(history.gradients, settings_.parameters) * deviations_.asDiagonal();
       study_.histories.push_back({history.response, history.values, parts.rowwise().norm(), {}});

@@ -12,7 +12,7 @@
 #include "core/integration/equilibrium.hpp"
 #include "core/integration/initial_state.hpp"
 #include "core/response/expression_value.hpp"
-#include "core/response/fatigue_damage.hpp"
+#include "core/response/history_reduction.hpp"
 #include "core/response/make_responses.hpp"
 #include "core/response/mechanism_modes.hpp"
 #include "core/response/misalignment.hpp"
@@ -92,30 +92,6 @@ void set_rigid_mechanism(const ProblemFile& problem, const Eigen::VectorXd& x, A
   }
 }
 
-/// Reduces a history over time; that of a balance becomes the error at each instant.
-Reduction reduce_history(const Response& response, const Trajectory& trajectory,
-                         const BrokenInstants& breaks, Eigen::MatrixXd& history) {
-  const Eigen::VectorXd& time = trajectory.time;
-  const StepRange range = response.steps(time);
-  if (response.is_fatigue()) {
-    Reduction reduction = reduce_fatigue(*response.history(), trajectory, history, range, breaks);
-    if (!std::isfinite(reduction.value)) {
-      throw SimulationError(
-          fmt::format("the response \"{}\" has no finite value: a mean stress reaches the strength "
-                      "of the material, beyond which it bears no cycle",
-                      response.name));
-    }
-    return reduction;
-  }
-  if (!response.is_balance()) {
-    return reduce(response.history()->over_time, time, history, range, breaks,
-                  response.history()->among);
-  }
-  Reduction reduction = reduce_balance(time, history, range);
-  history = balance_history(time, history, range);
-  return reduction;
-}
-
 /// Where windows of responses begin and end [s]: there are instants.
 std::vector<double> window_ends(const ProblemFile& problem) {
   std::vector<double> ends;
@@ -184,7 +160,8 @@ Reduction reduce_response(std::size_t i, Analysis& analysis) {
   if (response.history()) {
     Eigen::MatrixXd& history = analysis.histories[i];
     history = against_rigid(response, std::move(history), analysis);
-    return reduce_history(response, analysis.trajectory, analysis.breaks, history);
+    history = mapped_history(response, analysis.trajectory.time, std::move(history));
+    return reduce_history(response, analysis.trajectory, history, analysis.breaks);
   }
   Reduction constant;
   if (response.expression()) {

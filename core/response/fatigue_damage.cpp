@@ -236,15 +236,4 @@ RangeEnds ends_of(const StepRange& range, const Trajectory& trajectory) {
   return is_whole ? RangeEnds::repeating : RangeEnds::cut;
 }
 
-Reduction reduce_fatigue(const ResponseHistory& history, const Trajectory& trajectory,
-                         const Eigen::MatrixXd& values, const StepRange& range,
-                         const BrokenInstants& breaks) {
-  const Eigen::VectorXd& time = trajectory.time;
-  if (history.transform == HistoryTransform::cycle) {
-    return reduce_cycle(history.criterion, time, values, range, breaks);
-  }
-  return reduce_damage(history.criterion, history.fatigue_exponent, time, values, range, breaks,
-                       ends_of(range, trajectory));
-}
-
 }  // namespace pleuel

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/integration/trajectory.hpp"
-#include "core/response/response.hpp"
+#include "core/response/reduction.hpp"
 
 namespace pleuel {
 
@@ -28,10 +28,5 @@ Reduction reduce_damage(FatigueCriterion criterion, double exponent, const Eigen
 
 /// Whether a range is a whole number of periods of a motion that repeats itself.
 RangeEnds ends_of(const StepRange& range, const Trajectory& trajectory);
-
-/// What the history of a fatigue becomes, by its transform: reduce_cycle() or reduce_damage().
-Reduction reduce_fatigue(const ResponseHistory& history, const Trajectory& trajectory,
-                         const Eigen::MatrixXd& values, const StepRange& range,
-                         const BrokenInstants& breaks);
 
 }  // namespace pleuel

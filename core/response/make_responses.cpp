@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/response/balance_map.hpp"
 #include "core/response/body_frequency.hpp"
 #include "core/response/drift_signal.hpp"
 #include "core/response/drive_signals.hpp"
@@ -12,8 +13,10 @@
 #include "core/response/gauge_signal.hpp"
 #include "core/response/least_norm_signal.hpp"
 #include "core/response/projected_signal.hpp"
+#include "core/response/rate_map.hpp"
 #include "core/response/reaction_signal.hpp"
 #include "core/response/signal_of_body.hpp"
+#include "core/scene/response_kind.hpp"
 #include "core/scene/response_quantity.hpp"
 
 namespace pleuel {
@@ -67,27 +70,23 @@ class ResponseMaker {
   ResponseHistory history() {
     ResponseHistory history{make_signal(), settings_.over_time, settings_.from, settings_.to};
     if (settings_.type == ResponseType::energy_balance) {
-      history.transform = HistoryTransform::balance;
+      history.map = std::make_unique<BalanceMap>();
     }
+    if (kind_of(settings_.type).rate_of) history.map = std::make_unique<RateMap>();
     // Both sides of a load: a force is not larger because it points the other way.
     if (settings_.type == ResponseType::section_force) {
       history.among = AmongChannels::largest_magnitude;
     }
-    if (settings_.type == ResponseType::fatigue) {
-      history.transform = HistoryTransform::cycle;
-      history.criterion = settings_.criterion;
-    }
+    if (settings_.type == ResponseType::fatigue) history.fatigue = {settings_.criterion};
     if (settings_.type == ResponseType::fatigue_damage) {
-      history.transform = HistoryTransform::damage;
-      history.criterion = settings_.criterion;
       const BodyModel& body = *model_.parts(settings_.bodies.front()).front();
-      history.fatigue_exponent = body.beam.elements.front().fatigue_exponent;
+      history.fatigue = {settings_.criterion, body.beam.elements.front().fatigue_exponent};
     }
     return history;
   }
 
   std::unique_ptr<Signal> make_signal() {
-    switch (settings_.type) {
+    switch (observed_type(settings_.type)) {
       case ResponseType::drive_torque:
       case ResponseType::drive_force:
         return of_multipliers(make_drive_effort_signal(driven_joint()));

@@ -314,28 +314,6 @@ Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::Matrix
   }
 }
 
-Reduction reduce_balance(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
-                         const StepRange& range) {
-  const Eigen::VectorXd weights = quadrature(time, range);
-  Reduction reduction;
-  reduction.value =
-      values(0, range.last) - values(0, range.first) - values.row(1).dot(weights.transpose());
-  reduction.samples = {{range.first, 0, -1.0}, {range.last, 0, 1.0}};
-  for (int i = range.first; i <= range.last; ++i) reduction.samples.push_back({i, 1, -weights(i)});
-  return reduction;
-}
-
-Eigen::MatrixXd balance_history(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
-                                const StepRange& range) {
-  Eigen::RowVectorXd gained = Eigen::RowVectorXd::Zero(time.size());
-  for (Eigen::Index i = 1; i < time.size(); ++i) {
-    const double step = time(i) - time(i - 1);
-    gained(i) = gained(i - 1) + 0.5 * step * (values(1, i - 1) + values(1, i));
-  }
-  const Eigen::RowVectorXd missing = values.row(0) - gained;
-  return missing.array() - missing(range.first);
-}
-
 std::vector<Reduction> reduce_windows(OverTime kind, const Eigen::VectorXd& time,
                                       const Eigen::MatrixXd& values, int windows) {
   return reduce_windows(kind, time, values, windows, whole_range(time));

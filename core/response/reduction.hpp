@@ -40,16 +40,6 @@ Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::Matrix
                  AmongChannels among = AmongChannels::largest);
 Reduction reduce(OverTime kind, const Eigen::VectorXd& time, const Eigen::MatrixXd& values);
 
-/// What is missing in a balance of an amount and its rate: amount(t₁) − amount(t₀) − ∫ rate dt over
-/// a range, by the trapezoidal rule.
-/// @param values  two rows: amount, rate
-Reduction reduce_balance(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
-                         const StepRange& range);
-
-/// The same from the first step of the range to each step, 1 × (steps + 1).
-Eigen::MatrixXd balance_history(const Eigen::VectorXd& time, const Eigen::MatrixXd& values,
-                                const StepRange& range);
-
 /// Whether it is the height of a peak: max, min, max-abs.
 bool is_peak(OverTime kind);
 

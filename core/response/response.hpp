@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "core/response/history_map.hpp"
 #include "core/response/reduction.hpp"
 #include "core/response/signal.hpp"
 #include "core/scene/mode_choice.hpp"
@@ -27,12 +28,12 @@ struct ResponseExpression {
   std::shared_ptr<const Expression> expression;
 };
 
-/// What becomes of the observed numbers before they are reduced.
-enum class HistoryTransform {
-  none,
-  balance,  ///< of an amount and its rate: see reduce_balance()
-  cycle,    ///< of stress over what it may be: see reduce_cycle()
-  damage    ///< by all cycles of it: see reduce_damage()
+/// How cycles of stress become a number, in place of a reduction over time. The channels of the
+/// history are pairs: stress over two strengths.
+struct FatigueRule {
+  FatigueCriterion criterion = FatigueCriterion::goodman;
+  /// Of the damage by all cycles (reduce_damage()); without it, by the largest one (reduce_cycle()).
+  std::optional<double> damage_exponent = {};
 };
 
 /// A signal over time, reduced to a number.
@@ -40,18 +41,12 @@ struct ResponseHistory {
   std::unique_ptr<Signal> signal;
   OverTime over_time = OverTime::max;
   std::optional<double> from = {}, to = {};  ///< window of time that is reduced [s]
-  HistoryTransform transform = HistoryTransform::none;
-  FatigueCriterion criterion = FatigueCriterion::goodman;  ///< of cycles
-  double fatigue_exponent = 0.0;                           ///< of damage
+  /// From what is observed to what is shown and reduced; null: the same.
+  std::unique_ptr<const HistoryMap> map = {};
+  std::optional<FatigueRule> fatigue = {};
   AmongChannels among = AmongChannels::largest;
   /// Of a deflection against the rigid mechanism: which response of Analysis::rigid is taken off.
   std::optional<std::size_t> rigid_response = {};
-
-  bool is_balance() const { return transform == HistoryTransform::balance; }
-  /// Whether its channels are pairs: stress over two strengths.
-  bool is_fatigue() const {
-    return transform == HistoryTransform::cycle || transform == HistoryTransform::damage;
-  }
 };
 
 /// A number that the user asks for.
@@ -67,8 +62,7 @@ struct Response {
     const auto* formula = std::get_if<ResponseExpression>(&source);
     return formula ? formula->expression.get() : nullptr;
   }
-  bool is_balance() const { return history() && history()->is_balance(); }
-  bool is_fatigue() const { return history() && history()->is_fatigue(); }
+  bool is_fatigue() const { return history() && history()->fatigue; }
   /// Whether its number is reduced over time in one of these ways.
   bool is_reduced_by(OverTime kind) const { return history() && history()->over_time == kind; }
   bool is_peak_over_time() const { return history() && is_peak(history()->over_time); }

@@ -21,6 +21,7 @@
 #include "core/response/signal_list.hpp"
 #include "core/response/signal_sum.hpp"
 #include "core/response/stress_signal.hpp"
+#include "core/scene/response_kind.hpp"
 
 namespace pleuel {
 
@@ -38,7 +39,7 @@ class BodySignalMaker {
       : settings_(settings), model_(model), body_(body) {}
 
   std::unique_ptr<Signal> make() const {
-    switch (settings_.type) {
+    switch (observed_type(settings_.type)) {
       case ResponseType::stress:
         return make_stress();
       case ResponseType::fatigue:
@@ -252,7 +253,7 @@ class DividedSignalMaker {
       : settings_(settings), model_(model), parts_(model.parts(settings.bodies.front())) {}
 
   std::unique_ptr<Signal> make() const {
-    switch (settings_.type) {
+    switch (observed_type(settings_.type)) {
       case ResponseType::stress:
       case ResponseType::fatigue:
       case ResponseType::fatigue_damage:

@@ -111,10 +111,12 @@ enum class ResponseType {
   damper_power,  ///< what damper and resistance to a rate take, of a spring or in a joint
   angle,         ///< of a body frame
   angular_acceleration,
-  fatigue,          ///< utilization by the cycle of a window of time
-  shear_stress,     ///< of shear forces and torsion
-  fatigue_damage,   ///< by all cycles of a window of time
-  lateral_buckling  ///< out of the plane in which a beam bends
+  fatigue,           ///< utilization by the cycle of a window of time
+  shear_stress,      ///< of shear forces and torsion
+  fatigue_damage,    ///< by all cycles of a window of time
+  lateral_buckling,  ///< out of the plane in which a beam bends
+  jerk,
+  angular_jerk
 };
 enum class OverTime { max, min, max_abs, rms, mean, integral, final };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string_view>
 
 #include "core/scene/kind_table.hpp"
@@ -16,6 +17,8 @@ struct ResponseKind {
   /// At an instant. What a part, a coordinate or a formula decides, quantity_of() knows.
   Quantity quantity;
   bool is_of_point = false;  ///< of a body, at the place `at`
+  /// What it is the derivative of with respect to time: it has the keys and the signal of that.
+  std::optional<ResponseType> rate_of = {};
 };
 
 /// In the order of ResponseType.
@@ -54,11 +57,22 @@ inline constexpr ResponseKind response_kinds[] = {
     {ResponseType::shear_stress, "shear-stress", quantities::stress},
     {ResponseType::fatigue_damage, "fatigue-damage", quantities::pure_number},
     {ResponseType::lateral_buckling, "lateral-buckling", quantities::pure_number},
+    {ResponseType::jerk, "jerk", {"a jerk", "m/s^3"}, true, ResponseType::acceleration},
+    {ResponseType::angular_jerk,
+     "angular-jerk",
+     {"an angular jerk", "rad/s^3"},
+     false,
+     ResponseType::angular_acceleration},
 };
 static_assert(are_in_order(response_kinds));
 
 constexpr const ResponseKind& kind_of(ResponseType type) {
   return response_kinds[static_cast<std::size_t>(type)];
+}
+
+/// The type whose signal a response observes: of a rate, what changes; else its own.
+constexpr ResponseType observed_type(ResponseType type) {
+  return kind_of(type).rate_of.value_or(type);
 }
 
 }  // namespace pleuel

@@ -73,7 +73,6 @@ double local_difference(const Analysis& analysis, std::size_t response, const Ne
   const Eigen::VectorXd& time = analysis.trajectory.time;
   double difference = 0.0;
   for (const Sample& sample : analysis.reductions[response].samples) {
-    if (sample.channel >= history.rows()) continue;  // the rate of a balance, which is not kept
     const Eigen::Index there = nearest(other.time, time(sample.step));
     const Eigen::Index here = nearest(time, other.time(there));
     difference += sample.weight * (history(sample.channel, here) -

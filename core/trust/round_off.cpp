@@ -4,9 +4,11 @@
 #include <optional>
 #include <utility>
 
+#include "core/response/history_reduction.hpp"
 #include "core/response/make_responses.hpp"
 #include "core/response/recorder.hpp"
 #include "core/scene/magnitude_direction.hpp"
+#include "core/scene/response_kind.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/scene/response_quantity.hpp"
 
@@ -79,7 +81,7 @@ class RoundOff {
 
   /// Of a length or an angle, and of its rates.
   double length_scale(const ResponseSettings& response) const {
-    constexpr int most_rates = 2;
+    constexpr int most_rates = 3;
     const Trajectory& trajectory = run_.analysis.trajectory;
     const double step = trajectory.time(trajectory.steps()) / trajectory.steps();
     ResponseSettings instant = response;
@@ -116,7 +118,7 @@ class RoundOff {
   double of_unit_strain(const ResponseSettings& response,
                         const BeamElement<double>& element) const {
     const double force = element.young * element.section.area;
-    switch (response.type) {
+    switch (observed_type(response.type)) {
       case ResponseType::section_force:
         return is_force(response.section_part) ? force : force * size_;
       case ResponseType::shear_stress:
@@ -132,7 +134,7 @@ class RoundOff {
     ResponseSettings whole = response;
     whole.over_time = OverTime::max_abs;
     whole.from = whole.to = std::nullopt;
-    switch (response.type) {
+    switch (observed_type(response.type)) {
       case ResponseType::stress:
         whole.segment = std::nullopt;
         whole.station = std::nullopt;
@@ -221,9 +223,10 @@ class RoundOff {
       trajectory.states->load(step, state);
       recorder.see(step, state);
     }
+    std::vector<Eigen::MatrixXd> observed = recorder.take(trajectory.steps() + 1);
     std::vector<double> all;
-    for (const Eigen::MatrixXd& history : recorder.take(trajectory.steps() + 1)) {
-      all.push_back(largest(history));
+    for (std::size_t i = 0; i < responses.size(); ++i) {
+      all.push_back(largest(mapped_history(responses[i], trajectory.time, std::move(observed[i]))));
     }
     return all;
   }

@@ -65,7 +65,7 @@ class UnseenOvershoots {
 
  private:
   static bool is_judged(const Response& response) {
-    return response.is_peak_over_time() && !response.is_fatigue() && !response.is_balance() &&
+    return response.is_peak_over_time() && !response.is_fatigue() && !response.history()->map &&
            !response.history()->rigid_response;
   }
 

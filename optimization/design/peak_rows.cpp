@@ -5,7 +5,7 @@
 
 #include "core/base/int_size.hpp"
 #include "core/model/motion_plane.hpp"
-#include "core/response/fatigue_damage.hpp"
+#include "core/response/history_reduction.hpp"
 #include "core/response/signal_of_body.hpp"
 
 namespace pleuel {
@@ -132,14 +132,8 @@ std::vector<ChannelRange> places_of(const Analysis& analysis, const ProblemFile&
 /// The peak of each window of some channels of a response.
 std::vector<Reduction> peaks_of(const Analysis& analysis, std::size_t response,
                                 const Eigen::MatrixXd& values, int windows) {
-  const Response& observed = analysis.responses[response];
-  const Eigen::VectorXd& time = analysis.trajectory.time;
-  if (observed.is_fatigue()) {  // of the whole time: no window has the whole cycle
-    return {reduce_fatigue(*observed.history(), analysis.trajectory, values, observed.steps(time),
-                           analysis.breaks)};
-  }
-  return reduce_windows(observed.history()->over_time, time, values, windows, observed.steps(time),
-                        analysis.breaks);
+  return reduce_history_windows(analysis.responses[response], analysis.trajectory, values, windows,
+                                analysis.breaks);
 }
 
 }  // namespace

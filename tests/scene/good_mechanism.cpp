@@ -116,6 +116,9 @@ Json good_mechanism() {
     "swing": {"type": "kinetic-energy", "body": "block", "over_time": "integral"},
     "spring": {"type": "elastic-energy", "body": "arm", "over_time": "mean", "from": 0.05},
     "missing": {"type": "energy-balance", "to": 0.05},
+    "comfort": {"type": "jerk", "body": "block", "direction": "y", "over_time": "rms"},
+    "swerve": {"type": "angular-jerk", "body": "rod", "direction": [0, 0, 2],
+               "over_time": "max-abs"},
     "drift": {"type": "constraint-drift", "over_time": "max-abs"},
     "speed_drift": {"type": "constraint-drift", "level": "velocity", "over_time": "rms"}
   },

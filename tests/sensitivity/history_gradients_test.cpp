@@ -47,7 +47,7 @@ TEST_F(Histories, ComeWithTheGradientsOfTheValuesByTheSameRun) {
 TEST_F(Histories, HaveTheGradientsOfTheirInstantsAlone) {
   const int step = analysis_->trajectory.steps() / 3;
   for (const HistoryGradients& history : histories_) {
-    if (analysis_->responses[history.response].is_balance()) continue;  // a sum over instants
+    if (analysis_->responses[history.response].history()->map) continue;  // of several instants
     const SampledValue alone{history.response, {{step, history.place, 1.0}}};
     const Eigen::MatrixXd found = sampled_gradients(*analysis_, {alone}, ExactMethod::direct);
     EXPECT_EQ(found.row(0), history.gradients.row(step)) << history.response;
@@ -78,7 +78,7 @@ TEST_F(Histories, HaveTheDerivativesOfCentralDifferences) {
     const Eigen::MatrixXd expected =
         (4 * differences(history, 5e-4) - differences(history, 1e-3)) / 3 * x_.asDiagonal();
     double round_off = 0.0;
-    if (response.is_balance()) round_off = 1e-9 * 100;
+    if (response.history()->map) round_off = 1e-9 * 100;
     if (response.name == "slider_end") round_off = 1e-12;
     EXPECT_LE((found - expected).lpNorm<Eigen::Infinity>(),
               1e-6 * expected.lpNorm<Eigen::Infinity>() + round_off)
@@ -95,7 +95,7 @@ TEST_F(Histories, LeadToTheGradientsOfTheValues) {
     const auto row = static_cast<Eigen::Index>(history.response);
     const Eigen::RowVectorXd last = history.gradients.bottomRows(1);
     Eigen::RowVectorXd expected;
-    if (response.is_reduced_by(OverTime::final) || response.is_balance()) expected = last;
+    if (response.is_reduced_by(OverTime::final)) expected = last;
     if (response.name == "torque_rms") {
       const Eigen::VectorXd& y = history.values;  // equal steps: trapezoidal weights
       Eigen::VectorXd weights = Eigen::VectorXd::Constant(y.size(), 1.0 / double(y.size() - 1));

@@ -243,15 +243,20 @@ TEST(Uncertainty, OfHistoriesIsThatOfMonteCarlo) {
   }
 }
 
-/// What a sum over time misses is no signal: it has a deviation, but no band.
-TEST(Uncertainty, OfAnEnergyBalanceHasNoHistory) {
+/// What is missing is summed up in time: its history ends with its value.
+TEST(Uncertainty, OfAnEnergyBalanceIsThatOfTheEndOfItsHistory) {
   const ProblemFile problem =
       quick_problem({R"(/responses/balance={"type": "energy-balance"})",
                      R"(/uncertainty={"parameters": {"rod_diameter": {"deviation": "0.1 mm"}}})"});
   const UncertaintyStudy study = uncertainty_study(problem, {.tasks = {.jobs = 1}});
-  for (const UncertainHistory& history : study.histories) {
-    EXPECT_NE(problem.responses[history.response].name, "balance");
-  }
+  const UncertainResponse balance = response_of(problem, study, "balance");
+  const auto history = std::find_if(study.histories.begin(), study.histories.end(), [&](auto& one) {
+    return problem.responses[one.response].name == "balance";
+  });
+  ASSERT_NE(history, study.histories.end());
+  EXPECT_GT(balance.deviation, 0.0);
+  EXPECT_NEAR(history->deviations(history->deviations.size() - 1), balance.deviation,
+              1e-6 * balance.deviation);
 }
 
 /// The samples are drawn before they are shared out.

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/magnitude_direction.hpp"
 #include "core/scene/reading/body_response_reader.hpp"
 #include "core/scene/reading/expression_response_reader.hpp"
 #include "core/scene/reading/joint_type.hpp"
@@ -206,12 +207,23 @@ void check_column(const std::string& name, const JsonNode& node) {
   }
 }
 
+/// A magnitude is no linear function of what changes: its rate is another number.
+void refuse_rate_of_magnitude(const JsonNode& node, const ResponseSettings& response) {
+  if (response.direction != magnitude_direction || response.along) return;
+  node.at("direction")
+      .fail_with_value(fmt::format("must be \"x\", \"y\", \"z\" or a vector, as the magnitude of "
+                                   "the {} is no rate of that of "
+                                   "the {}",
+                                   kind_of(response.type).word,
+                                   kind_of(observed_type(response.type)).word));
+}
+
 ResponseSettings read_response(const std::string& name, const JsonNode& node,
                                const ResponseContext& context) {
   ResponseSettings response;
   response.name = name;
   response.type = read_kind(node.at("type"), response_kinds);
-  switch (response.type) {
+  switch (observed_type(response.type)) {
     case ResponseType::mass:
       read_mass(node, context.scene, response);
       break;
@@ -281,9 +293,12 @@ ResponseSettings read_response(const std::string& name, const JsonNode& node,
     case ResponseType::damper_power:
       read_damper_power(node, context, response);
       break;
+    case ResponseType::jerk:  // read as what they are the rates of
+    case ResponseType::angular_jerk:
     case ResponseType::expression:  // once all others are read
       break;
   }
+  if (kind_of(response.type).rate_of) refuse_rate_of_magnitude(node, response);
   return response;
 }
 

@@ -1,0 +1,90 @@
+/// Jerks: rates of accelerations.
+
+#include <gmock/gmock.h>
+
+#include "core/base/error.hpp"
+#include "sensitivity/gradients.hpp"
+#include "sensitivity/sampled_gradients.hpp"
+#include "tests/laws/law_problems.hpp"
+#include "tests/support/differences.hpp"
+
+namespace pleuel::test::jerk_test {
+namespace {
+
+using testing::HasSubstr;
+
+/// A carriage with the motion c t³ and a wheel on it with the angle c t³, c = 2.
+ProblemFile cubic_motion(const std::vector<std::string>& changes = {}) {
+  return read_problem_text(R"({"scene": {"bodies": {
+    "carriage": {"type": "rigid", "at": [0, 0, 0], "mass": 1, "inertia": [1, 1, 1, 0, 0, 0]},
+    "wheel": {"type": "rigid", "at": [0, 0, 0], "mass": 1, "inertia": [1, 1, 1, 0, 0, 0]}},
+  "joints": {
+    "rail": {"type": "prismatic", "bodies": ["ground", "carriage"], "at": [0, 0, 0],
+              "axis": [1, 0, 0], "drive": {"type": "polynomial",
+              "coefficients": [0, 0, 0, {"variable": "c"}]}},
+    "hub": {"type": "revolute", "bodies": ["carriage", "wheel"], "at": [0, 0, 0],
+             "axis": [0, 0, 1], "drive": {"type": "polynomial",
+             "coefficients": [0, 0, 0, {"variable": "turn"}]}}}},
+  "variables": {"c": {"start": 2, "lower": 1, "upper": 3},
+                 "turn": {"start": 2, "lower": 1, "upper": 3}},
+  "simulation": {"end_time": 0.5, "step": 0.01},
+  "responses": {
+    "jerk": {"type": "jerk", "body": "carriage", "direction": "x", "over_time": "max-abs"},
+    "least": {"type": "jerk", "body": "carriage", "direction": [1, 0, 0], "over_time": "min"},
+    "first": {"type": "jerk", "body": "carriage", "direction": "x", "to": 0.02,
+               "over_time": "mean"},
+    "turning": {"type": "angular-jerk", "body": "wheel", "direction": "z",
+                 "over_time": "final"}},
+  "objective": {"minimize": "jerk"}})",
+                           "cubic.json", changes)
+      .complete();
+}
+
+/// 6 c at all instants, the first and the last as well.
+TEST(Jerk, OfACubicMotionIsConstant) {
+  const ProblemFile problem = cubic_motion();
+  const auto analysis = analyze(problem, start_design(problem));
+  for (const Reduction& reduction : analysis->reductions) EXPECT_NEAR(reduction.value, 12.0, 1e-7);
+  for (const ExactMethod method : {ExactMethod::direct, ExactMethod::adjoint}) {
+    const Eigen::MatrixXd gradients =
+        sampled_gradients(*analysis, response_values(*analysis), method);
+    const Eigen::MatrixXd expected{{6.0, 0.0}, {6.0, 0.0}, {6.0, 0.0}, {0.0, 6.0}};
+    EXPECT_LE((gradients - expected).cwiseAbs().maxCoeff(), 1e-6) << gradients;
+  }
+}
+
+TEST(Jerk, HasNoMagnitudeOfItsOwn) {
+  try {
+    cubic_motion({"/responses/jerk/direction=\"magnitude\""});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("the magnitude of the jerk is no rate of that of the "
+                                        "acceleration"));
+  }
+}
+
+/// The tip of a cantilever under a load that comes up: a peak between the steps, and the mean square.
+TEST(Jerk, HasTheGradientOfItsSimulation) {
+  const ProblemFile problem = loaded_cantilever(
+      R"({"type": "ramp", "to": {"variable": "force"}, "begin": 0.02, "end": 0.06, "rounding": 0.01})",
+      {R"(/responses/end={"type": "jerk", "body": "beam", "at": 1, "direction": "y",
+          "over_time": "rms"})",
+       R"(/responses/sag={"type": "jerk", "body": "beam", "at": 1, "direction": "y",
+          "over_time": "max", "to": 0.05})",
+       "/simulation/newton_tolerance=1e-13"});
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const std::vector<SampledValue> values = response_values(*analysis);
+  const Eigen::MatrixXd direct = sampled_gradients(*analysis, values, ExactMethod::direct),
+                        adjoint = sampled_gradients(*analysis, values, ExactMethod::adjoint);
+  EXPECT_LE(relative_difference(adjoint, direct), 1e-9);
+  const Eigen::MatrixXd wide = central_differences(problem, x, 1e-3),
+                        narrow = central_differences(problem, x, 5e-4);
+  const Eigen::MatrixXd expected = (4 * narrow - wide) / 3;
+  for (Eigen::Index i = 0; i < expected.rows(); ++i) {
+    EXPECT_LE((direct.row(i) - expected.row(i)).norm(), 1e-5 * expected.row(i).norm()) << i;
+  }
+}
+
+}  // namespace
+}  // namespace pleuel::test::jerk_test
