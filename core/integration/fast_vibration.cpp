@@ -1,91 +1,237 @@
 #include "core/integration/fast_vibration.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "core/base/dense_solvers.hpp"
+#include "core/base/int_size.hpp"
 #include "core/integration/linear_solver.hpp"
 
 namespace pleuel {
 
 namespace {
 
-/// The equations about a state, linearized: sparse matrices and their solutions.
+constexpr int most_vectors = 12;
+/// What is new in a vector, of all: below it errors of solutions would break constraints.
+constexpr double exhausted = 1e-4;
+/// Of all energy: modes that do not count.
+constexpr double small_energy = 1e-2;
+
+/// The equations about a state, linearized: products, and solutions with one of two matrices.
 class LinearizedEquations {
  public:
-  LinearizedEquations(const Mechanism& mechanism, const State& state)
-      : mechanism_(mechanism), system_(*mechanism.system), state_(state) {}
+  using Matrix = System::Matrix;
 
-  /// @returns whether there is one
-  bool solve(const Weights& weights, ConstraintLevel level, Eigen::VectorXd& rhs) const {
-    const System::Matrix matrix = tangent(weights, level);
-    LinearSolver solver(matrix, mechanism_.elastic);
-    if (!solver.factorize(matrix)) return false;
-    solver.solve(rhs);
-    return rhs.allFinite();
+  LinearizedEquations(const Mechanism& mechanism, const State& state, double shift)
+      : system_(*mechanism.system),
+        state_(state),
+        n_(system_.coordinates()),
+        mass_(tangent({.a = 1.0}, ConstraintLevel::position)),
+        stiffness_(tangent({.q = 1.0}, ConstraintLevel::position)),
+        accelerating_(tangent({.a = 1.0}, ConstraintLevel::acceleration)),
+        displacing_(tangent({.q = 1.0, .a = shift * shift}, ConstraintLevel::position)),
+        at_once_(accelerating_, mechanism.elastic),
+        shifted_(displacing_, mechanism.elastic) {
+    is_regular_ = at_once_.factorize(accelerating_) && shifted_.factorize(displacing_);
+    system_.residual(state_, ConstraintLevel::position, residual_);
   }
 
-  /// (w.q R_q + w.v R_v + w.a R_a) y of the coordinates.
-  Eigen::VectorXd product(const Weights& weights, const Eigen::VectorXd& y) const {
-    const System::Matrix matrix = tangent(weights, ConstraintLevel::position);
-    return matrix.topLeftCorner(y.size(), y.size()) * y;
+  bool is_regular() const { return is_regular_; }
+
+  /// M a + Φ_qᵀ μ = f, Φ_q a = γ.
+  Eigen::VectorXd accelerated(Eigen::VectorXd forces) {
+    at_once_.solve(forces);
+    return forces;
+  }
+  /// (σ² M + K) y + Φ_qᵀ μ = f, Φ_q y = γ.
+  Eigen::VectorXd displaced(Eigen::VectorXd forces) {
+    shifted_.solve(forces);
+    return forces;
+  }
+  /// With no more equations than coordinates: the others are zero.
+  Eigen::VectorXd with_constraints(const Eigen::VectorXd& forces) const {
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(system_.size());
+    all.head(n_) = forces;
+    return all;
+  }
+
+  Eigen::VectorXd mass(const Eigen::VectorXd& x) const { return product(mass_, x); }
+  Eigen::VectorXd stiffness(const Eigen::VectorXd& x) const { return product(stiffness_, x); }
+  /// What resists a speed on top of that of the state.
+  Eigen::VectorXd resistance(const Eigen::VectorXd& speed) {
+    State moved = state_;
+    moved.v += speed;
+    Eigen::VectorXd residual;
+    system_.residual(moved, ConstraintLevel::position, residual);
+    return (residual - residual_).head(n_);
   }
 
  private:
-  System::Matrix tangent(const Weights& weights, ConstraintLevel level) const {
-    System::Matrix matrix = system_.make_matrix();
+  Matrix tangent(const Weights& weights, ConstraintLevel level) const {
+    Matrix matrix = system_.make_matrix();
     system_.tangent(state_, weights, level, matrix);
     return matrix;
   }
+  Eigen::VectorXd product(const Matrix& matrix, const Eigen::VectorXd& x) const {
+    return (matrix.leftCols(n_) * x).head(n_);
+  }
 
-  const Mechanism& mechanism_;
   System& system_;
   const State& state_;
+  int n_;
+  Matrix mass_, stiffness_;
+  Matrix accelerating_, displacing_;  ///< which the solvers look at
+  LinearSolver at_once_, shifted_;
+  bool is_regular_ = false;
+  Eigen::VectorXd residual_;
 };
+
+/// Vectors with Xᵀ M X = 1 that begin with a deformation; each next one is what the inertia of the
+/// last deforms.
+Eigen::MatrixXd ritz_vectors(LinearizedEquations& equations, Eigen::VectorXd x) {
+  const auto norm = [&](const Eigen::VectorXd& y) {
+    return std::sqrt(std::max(0.0, y.dot(equations.mass(y))));
+  };
+  Eigen::MatrixXd vectors(x.size(), 0), inertia(x.size(), 0);
+  for (int k = 0; k < most_vectors; ++k) {
+    const double all = norm(x);
+    for (int i = 0; i < 2; ++i) x -= vectors * (inertia.transpose() * x);
+    const double added = norm(x);
+    if (!(added > exhausted * all)) break;
+    vectors.conservativeResize(Eigen::NoChange, k + 1);
+    inertia.conservativeResize(Eigen::NoChange, k + 1);
+    vectors.col(k) = x / added;
+    inertia.col(k) = equations.mass(vectors.col(k));
+    x = equations.displaced(equations.with_constraints(inertia.col(k))).head(x.size());
+    if (!x.allFinite()) break;
+  }
+  return vectors;
+}
 
 }  // namespace
 
-double FastVibration::overshoot() const {
-  if (damping_ratio >= 1.0) return 0.0;
-  return std::exp(-std::numbers::pi * damping_ratio /
-                  std::sqrt(1.0 - damping_ratio * damping_ratio));
+FastVibration::FastVibration(const Mechanism& mechanism, const State& behind,
+                             const Eigen::VectorXd& change, double slowest) {
+  const int n = mechanism.system->coordinates(), m = mechanism.system->multipliers();
+  a_ = Eigen::VectorXd::Zero(n);
+  lambda_ = Eigen::VectorXd::Zero(m);
+  if (change.isZero(0.0)) return;
+  LinearizedEquations equations(mechanism, behind, slowest);
+  if (!equations.is_regular()) return;
+  const Eigen::VectorXd at_once = equations.accelerated(-change);
+  // σ² y is what the slow modes and the motions as rigid bodies are accelerated by.
+  Eigen::VectorXd forces = -change;
+  forces.tail(m) /= slowest * slowest;
+  const Eigen::VectorXd y = equations.displaced(forces).head(n);
+  if (!at_once.allFinite() || !y.allFinite()) return;
+  a_ = at_once.head(n);
+  lambda_ = at_once.tail(m);
+  const Eigen::VectorXd fast = equations.mass(a_ - slowest * slowest * y);
+  const Eigen::MatrixXd X =
+      ritz_vectors(equations, equations.displaced(equations.with_constraints(fast)).head(n));
+  if (X.cols() == 0) return;
+  Eigen::MatrixXd KX(n, X.cols());
+  for (Eigen::Index k = 0; k < X.cols(); ++k) KX.col(k) = equations.stiffness(X.col(k));
+  const Eigen::MatrixXd reduced = X.transpose() * KX;
+  const SymmetricModes ritz = symmetric_modes(0.5 * (reduced + reduced.transpose()));
+  for (Eigen::Index k = 0; k < X.cols(); ++k) {
+    const double square = ritz.values(k);
+    if (!(square >= slowest * slowest)) continue;
+    const Eigen::VectorXd shape = X * ritz.vectors.col(k);
+    // Of the force on the mode, ω²/(σ² + ω²) is in the fast accelerations.
+    const double force = shape.dot(fast) * (slowest * slowest + square) / square;
+    Mode mode;
+    mode.frequency = std::sqrt(square);
+    mode.energy = 0.5 * force * force / square;
+    mode.q = force / square * shape;
+    const Eigen::VectorXd speed = mode.frequency * mode.q;
+    const Eigen::VectorXd resistance = equations.resistance(speed) / mode.frequency;
+    mode.damping_ratio =
+        std::max(0.0, mode.q.dot(resistance) * mode.frequency / (4.0 * mode.energy));
+    const Eigen::VectorXd of_q =
+        equations.accelerated(equations.with_constraints(-equations.stiffness(mode.q)));
+    const Eigen::VectorXd of_v = equations.accelerated(equations.with_constraints(-resistance));
+    mode.a_q = of_q.head(n);
+    mode.lambda_q = of_q.tail(m);
+    mode.a_v = of_v.head(n);
+    mode.lambda_v = of_v.tail(m);
+    if (mode.energy > 0.0 && of_q.allFinite() && of_v.allFinite())
+      modes_.push_back(std::move(mode));
+  }
+  std::stable_sort(modes_.begin(), modes_.end(),
+                   [](const Mode& a, const Mode& b) { return a.energy > b.energy; });
 }
 
-FastVibration fast_vibration(const Mechanism& mechanism, const State& state,
-                             const Eigen::VectorXd& change, double sigma) {
-  const int n = mechanism.system->coordinates(), m = mechanism.system->multipliers();
-  const LinearizedEquations equations(mechanism, state);
-  const Weights slow{.q = 1.0, .a = sigma * sigma};
-  FastVibration found;
-  found.settled_q = found.settled_a = Eigen::VectorXd::Zero(n);
-  found.settled_lambda = Eigen::VectorXd::Zero(m);
+double FastVibration::main_period() const {
+  return 2.0 * std::numbers::pi / modes_.front().frequency;
+}
 
-  // M a₀ + Φ_qᵀ μ₀ = f
-  Eigen::VectorXd at_once = -change;
-  if (!equations.solve({.a = 1.0}, ConstraintLevel::acceleration, at_once)) return found;
-  found.a = at_once.head(n);
-  found.lambda = at_once.tail(m);
+double FastVibration::shortest_period() const {
+  double highest = 0.0;
+  for (const Mode& mode : modes_) {
+    if (mode.energy >= small_energy * modes_.front().energy) {
+      highest = std::max(highest, mode.frequency);
+    }
+  }
+  return 2.0 * std::numbers::pi / highest;
+}
 
-  // (σ² M + K) y + Φ_qᵀ μ = f: σ² y is what the slow modes and the rigid motions are accelerated by.
-  Eigen::VectorXd y = -change;
-  y.tail(m) /= sigma * sigma;
-  if (!equations.solve(slow, ConstraintLevel::position, y)) return found;
-  const Eigen::VectorXd fast = found.a - sigma * sigma * y.head(n);
+double FastVibration::longest_period() const {
+  double lowest = modes_.front().frequency;
+  for (const Mode& mode : modes_) {
+    if (mode.energy >= small_energy * modes_.front().energy) {
+      lowest = std::min(lowest, mode.frequency);
+    }
+  }
+  return 2.0 * std::numbers::pi / lowest;
+}
 
-  // The same of the forces that accelerate the fast modes. Their statics: K z + Φ_qᵀ μ = M a.
-  Eigen::VectorXd z = Eigen::VectorXd::Zero(n + m);
-  z.head(n) = equations.product({.a = 1.0}, fast);
-  if (!equations.solve(slow, ConstraintLevel::position, z)) return found;
-  found.settled_q = z.head(n);
-  found.settled_a = sigma * sigma * z.head(n) - fast;
-  found.settled_lambda = z.tail(m);
+FastVibration::Swing FastVibration::swing(const Mode& mode, double time) {
+  constexpr double close_to_one = 1e-6;
+  const double w = mode.frequency;
+  double ratio = mode.damping_ratio;
+  if (std::abs(ratio - 1.0) < close_to_one) ratio = 1.0 + close_to_one;
+  if (ratio < 1.0) {
+    const double root = std::sqrt(1.0 - ratio * ratio), decay = std::exp(-ratio * w * time);
+    const double c = std::cos(root * w * time), s = std::sin(root * w * time);
+    return {1.0 - decay * (c + ratio / root * s), decay * w / root * s};
+  }
+  const double root = std::sqrt(ratio * ratio - 1.0);
+  const double quick = w * (ratio + root), slow = w / (ratio + root);
+  const double late = std::exp(-slow * time), early = std::exp(-quick * time);
+  return {1.0 - (quick * late - slow * early) / (quick - slow),
+          quick * slow * (late - early) / (quick - slow)};
+}
 
-  const double stiffness = found.settled_q.dot(equations.product({.q = 1.0}, found.settled_q));
-  const double mass = found.settled_q.dot(equations.product({.a = 1.0}, found.settled_q));
-  const double damping = found.settled_q.dot(equations.product({.v = 1.0}, found.settled_q));
-  if (!(stiffness > 0.0) || !(mass > 0.0)) return found;
-  found.frequency = std::sqrt(stiffness / mass);
-  found.damping_ratio = damping / (2.0 * std::sqrt(stiffness * mass));
-  return found;
+void FastVibration::add(const Mode& mode, const Swing& swing, State& state) {
+  state.q += swing.way * mode.q;
+  state.v += swing.rate * mode.q;
+  state.a += swing.way * mode.a_q + swing.rate * mode.a_v;
+  state.lambda += swing.way * mode.lambda_q + swing.rate * mode.lambda_v;
+}
+
+void FastVibration::add_at_once(State& state) const {
+  state.a += a_;
+  state.lambda += lambda_;
+}
+
+void FastVibration::add(double time, State& state) const {
+  add_at_once(state);
+  for (const Mode& mode : modes_) add(mode, swing(mode, time), state);
+}
+
+void FastVibration::add_swing(double time, State& state) const {
+  for (const Mode& mode : modes_) {
+    Swing beside = swing(mode, time);
+    beside.way -= 1.0;
+    add(mode, beside, state);
+  }
+}
+
+void FastVibration::add_settled(State& state) const {
+  add_at_once(state);
+  for (const Mode& mode : modes_) add(mode, {1.0, 0.0}, state);
 }
 
 }  // namespace pleuel

@@ -6,6 +6,7 @@
 
 #include "core/response/projected_signal.hpp"
 #include "core/response/response.hpp"
+#include "core/scene/response_kind.hpp"
 #include "core/system/gauge.hpp"
 
 namespace pleuel {
@@ -67,7 +68,8 @@ std::unique_ptr<Signal> make_gauge_signal(const ResponseSettings& settings, cons
                                                "bodies is a point that does not turn",
                                                name));
   }
-  auto signal = std::make_unique<GaugeSignal>(found->gauge, reading_of(settings.type), name);
+  auto signal =
+      std::make_unique<GaugeSignal>(found->gauge, reading_of(observed_type(settings.type)), name);
   if (!found->map) return signal;
   return std::make_unique<ProjectedSignal>(std::move(signal), *found->map,
                                            model.mechanism.system->variables());

@@ -116,7 +116,8 @@ enum class ResponseType {
   fatigue_damage,    ///< by all cycles of a window of time
   lateral_buckling,  ///< out of the plane in which a beam bends
   jerk,
-  angular_jerk
+  angular_jerk,
+  joint_acceleration
 };
 enum class OverTime { max, min, max_abs, rms, mean, integral, final };
 

@@ -63,6 +63,8 @@ inline constexpr ResponseKind response_kinds[] = {
      {"an angular jerk", "rad/s^3"},
      false,
      ResponseType::angular_acceleration},
+    {ResponseType::joint_acceleration, "joint-acceleration", quantities::acceleration, false,
+     ResponseType::joint_velocity},
 };
 static_assert(are_in_order(response_kinds));
 

@@ -28,6 +28,9 @@ Quantity instant_quantity(const ResponseSettings& response) {
     case ResponseType::joint_velocity:
       if (is_angle) return quantities::angular_speed;
       break;
+    case ResponseType::joint_acceleration:
+      if (is_angle) return kind_of(ResponseType::angular_acceleration).quantity;
+      break;
     default:
       break;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/scene/load_cases.hpp"
+#include "core/scene/response_parts.hpp"
 #include "core/trust/bending_range.hpp"
 #include "core/trust/blocked_drives.hpp"
 #include "core/trust/case_doubts.hpp"
@@ -23,6 +24,7 @@
 #include "core/trust/promised_buckling.hpp"
 #include "core/trust/proportions.hpp"
 #include "core/trust/resolution.hpp"
+#include "core/trust/restless_jerks.hpp"
 #include "core/trust/section_axes.hpp"
 #include "core/trust/shear_range.hpp"
 #include "core/trust/sideways_buckling.hpp"
@@ -52,26 +54,39 @@ namespace {
 std::vector<Doubt> doubt_all_too_fast(const TrustedRun& run) {
   std::vector<Doubt> doubts = doubt_fast_laws(run);
   if (doubts.empty()) doubts = doubt_fast_turning(run);
-  for (const auto find : {doubt_laws_over_coordinates, doubt_unseen_overshoot}) {
+  for (const auto find :
+       {doubt_laws_over_coordinates, doubt_restless_jerks, doubt_unseen_overshoot}) {
     const std::vector<Doubt> more = find(run);
     doubts.insert(doubts.end(), more.begin(), more.end());
   }
   return doubts;
 }
 
-bool concerns(const Doubt& doubt, const std::string& response) {
-  const std::vector<std::string>& named = doubt.responses;
-  return named.empty() || std::find(named.begin(), named.end(), response) != named.end();
+/// Whether a doubt is about a response, or about what its formula is made from.
+bool concerns(const Doubt& doubt, const ProblemFile& problem, std::size_t response) {
+  const auto is_named = [&](std::size_t i) {
+    const std::vector<std::string>& named = doubt.responses;
+    return std::find(named.begin(), named.end(), problem.responses[i].name) != named.end();
+  };
+  const std::vector<std::size_t> parts = parts_of(problem, response);
+  return doubt.responses.empty() || is_named(response) ||
+         std::any_of(parts.begin(), parts.end(), is_named);
+}
+
+/// Whether a response is made from the motion.
+bool moves(const TrustedRun& run, std::size_t response) {
+  const std::vector<std::size_t> parts = parts_of(run.problem, response);
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](std::size_t part) { return run.analysis.histories[part].size() > 0; });
 }
 
 /// What happens between two instants is seen by no run with larger steps, which judge the error.
 void leave_steps_unresolved(const TrustedRun& run, const std::vector<Doubt>& doubts,
                             std::vector<std::optional<ErrorBar>>& errors) {
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    if (!errors[i] || run.analysis.histories[i].size() == 0) continue;
-    const std::string& name = run.analysis.responses[i].name;
+    if (!errors[i] || !moves(run, i)) continue;
     if (std::any_of(doubts.begin(), doubts.end(),
-                    [&](const Doubt& doubt) { return concerns(doubt, name); })) {
+                    [&](const Doubt& doubt) { return concerns(doubt, run.problem, i); })) {
       errors[i]->step.is_resolved = false;
     }
   }

@@ -2,43 +2,46 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <optional>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "core/base/number_text.hpp"
 #include "core/integration/fast_vibration.hpp"
+#include "core/response/fatigue.hpp"
+#include "core/scene/response_parts.hpp"
 #include "core/trust/asked_responses.hpp"
 
 namespace pleuel {
 
 namespace {
 
-/// Shares of a peak that may be unseen without a word, and without harm.
-constexpr double small_missing_share = 0.02, serious_missing_share = 0.1;
-/// σ of what is fast, times the step: half a period.
-constexpr double fast_angle = std::numbers::pi;
+/// Share of a history that may be unseen: a few Ritz vectors know a swing to some percent.
+constexpr double small_missing_share = 0.1;
+/// Angular frequency from which on a mode is fast, times the step: three steps a period.
+constexpr double fast_angle = 2.0;
 /// Before and behind a jump, in steps.
 constexpr double beside = 1e-6;
 /// Steps a period that see a peak.
 constexpr double good_steps = 20.0;
+/// Of so many jumps the largest are looked at.
+constexpr std::size_t most_jumps = 16;
+/// A swing is followed for so many of its longest periods, with so many samples of its shortest.
+constexpr double followed_periods = 1.5, samples_of_period = 12.0;
+constexpr int most_samples = 200;
 
 /// A jump of what acts.
 struct Jump {
-  int step;      ///< the instant
-  State before;  ///< what it meets
-  FastVibration vibration;
-
-  double period() const { return 2.0 * std::numbers::pi / vibration.frequency; }
+  int step;              ///< the instant
+  State before, behind;  ///< what it meets; positions and velocities at it, and the instant behind
+  Eigen::VectorXd change;  ///< of the residual
 };
 
 /// The largest that the steps leave unseen of a response.
 struct Unseen {
   std::size_t response;
   double swung;   ///< the peak that it would have
-  double share;   ///< what is missing, of that or of what was found
+  double share;   ///< what is missing, of the largest of all
   int step;       ///< where
   double period;  ///< [s]
 };
@@ -48,56 +51,80 @@ class UnseenOvershoots {
   explicit UnseenOvershoots(const TrustedRun& run)
       : run_(run), mechanism_(run.analysis.model.mechanism), trajectory_(run.analysis.trajectory) {
     for (const std::size_t i : asked_responses(run.problem)) {
-      if (is_judged(run.analysis.responses[i])) judged_.push_back(i);
+      add_judged(i);
+      for (const std::size_t part : parts_of(run.problem, i)) add_judged(part);
     }
   }
 
   /// The worst first.
   std::vector<Unseen> find() {
     if (judged_.empty() || (mechanism_.elastic.empty() && mechanism_.springs.empty())) return {};
-    for (int step = trajectory_.periodic ? 1 : 0; step < trajectory_.steps(); ++step) {
-      if (step == 0 || (!run_.analysis.breaks.empty() && run_.analysis.breaks[step])) look_at(step);
-    }
+    for (const Jump& jump : largest_jumps()) look_at(jump);
     std::stable_sort(found_.begin(), found_.end(),
                      [](const Unseen& a, const Unseen& b) { return a.share > b.share; });
     return std::move(found_);
   }
 
  private:
-  static bool is_judged(const Response& response) {
-    return response.is_peak_over_time() && !response.is_fatigue() && !response.history()->map &&
-           !response.history()->rigid_response;
+  void add_judged(std::size_t i) {
+    const Response& response = run_.analysis.responses[i];
+    const bool is_cycle = response.is_fatigue() && !response.history()->fatigue->damage_exponent;
+    const bool is_judged = (is_cycle || (response.is_peak_over_time() && !response.is_fatigue())) &&
+                           !response.history()->map;
+    if (is_judged && std::find(judged_.begin(), judged_.end(), i) == judged_.end()) {
+      judged_.push_back(i);
+    }
   }
 
   double step_behind(int step) const { return trajectory_.time(step + 1) - trajectory_.time(step); }
 
+  std::vector<Jump> largest_jumps() const {
+    const BrokenInstants& breaks = run_.analysis.breaks;
+    std::vector<Jump> jumps = {trajectory_.periodic ? seam() : start()};
+    for (int step = 1; step < trajectory_.steps(); ++step) {
+      if (!breaks.empty() && breaks[step]) jumps.push_back(jump_at(step));
+    }
+    std::erase_if(jumps, [](const Jump& jump) { return jump.change.isZero(0.0); });
+    if (jumps.size() > most_jumps) {
+      std::stable_sort(jumps.begin(), jumps.end(), [](const Jump& a, const Jump& b) {
+        return a.change.squaredNorm() > b.change.squaredNorm();
+      });
+      jumps.resize(most_jumps);
+    }
+    return jumps;
+  }
+
   /// The first instant: nothing is accelerated yet, and nothing holds.
-  std::optional<Jump> start() const {
+  Jump start() const {
     State state;
     trajectory_.states->load(0, state);
     state.time += beside * step_behind(0);
     state.a.setZero();
     state.lambda.setZero();
-    return jump_of(0, state, state, residual(state));
+    return {0, state, state, residual(state)};
   }
 
-  std::optional<Jump> jump_at(int step) const {
+  /// Between the end of a motion that repeats itself and its beginning.
+  Jump seam() const {
+    State at;
+    trajectory_.states->load(0, at);
+    return jump_of(0, at, at, trajectory_.time(trajectory_.steps()), at.time);
+  }
+
+  Jump jump_at(int step) const {
     State before, at;
     trajectory_.states->load(step - 1, before);
     trajectory_.states->load(step, at);
-    const double time = at.time, close = beside * step_behind(step);
-    at.time = time - close;
-    const Eigen::VectorXd sooner = residual(at);
-    at.time = time + close;
-    return jump_of(step, before, at, residual(at) - sooner);
+    return jump_of(step, before, at, at.time, at.time);
   }
 
-  std::optional<Jump> jump_of(int step, const State& before, const State& behind,
-                              const Eigen::VectorXd& change) const {
-    Jump jump{step, before,
-              fast_vibration(mechanism_, behind, change, fast_angle / step_behind(step))};
-    if (!(jump.vibration.frequency > 0.0)) return std::nullopt;
-    return jump;
+  /// @param end, begin  the same instant, as one before and one behind it
+  Jump jump_of(int step, const State& before, State at, double end, double begin) const {
+    const double close = beside * step_behind(step);
+    at.time = end - close;
+    const Eigen::VectorXd sooner = residual(at);
+    at.time = begin + close;
+    return {step, before, at, residual(at) - sooner};
   }
 
   Eigen::VectorXd residual(const State& state) const {
@@ -106,40 +133,98 @@ class UnseenOvershoots {
     return residual;
   }
 
-  void look_at(int step) {
-    const std::optional<Jump> jump = step == 0 ? start() : jump_at(step);
-    if (!jump) return;
+  void look_at(const Jump& jump) {
+    const FastVibration fast(mechanism_, jump.behind, jump.change,
+                             fast_angle / step_behind(jump.step));
+    if (fast.is_empty()) return;
     for (const std::size_t i : judged_) {
       const StepRange range = run_.analysis.responses[i].steps(trajectory_.time);
-      if (step >= range.first && step < range.last) look_at(*jump, i);
+      if (range.last > jump.step) look_at(jump, fast, i, range);
     }
   }
 
-  /// Of a state in which the fast modes are so far on the way to their equilibrium.
-  double value_at(const Jump& jump, std::size_t response, double way) const {
-    const FastVibration& fast = jump.vibration;
-    State state = jump.before;
-    state.q += way * fast.settled_q;
-    state.a += fast.a + way * fast.settled_a;
-    state.lambda += fast.lambda + way * fast.settled_lambda;
-    const ResponseHistory& history = *run_.analysis.responses[response].history();
-    Eigen::VectorXd observed(history.signal->channels());
-    history.signal->observe(state, observed);
-    Eigen::MatrixXd values(observed.size(), 2);
-    values << observed, observed;
-    return reduce(history.over_time, Eigen::Vector2d(0.0, 1.0), values, {0, 1}, {}, history.among)
-        .value;
+  /// What a response is in a state, measured as its history is.
+  Eigen::VectorXd observed(std::size_t response, const State& state) const {
+    Signal& signal = *run_.analysis.responses[response].history()->signal;
+    Eigen::VectorXd values(signal.channels());
+    signal.observe(state, values);
+    return values;
   }
 
-  void look_at(const Jump& jump, std::size_t response) {
+  /// A swing as it goes on within the window of a response.
+  struct Swing {
+    Eigen::VectorXd time;
+    Eigen::MatrixXd values;  ///< channels × samples
+    double settled = 0.0;    ///< the number that it would be without the swing
+  };
+
+  Swing swing_of(const Jump& jump, const FastVibration& fast, std::size_t response,
+                 const StepRange& range) const {
+    const double at = trajectory_.time(jump.step);
+    const double from = std::max(0.0, trajectory_.time(range.first) - at);
+    const double length = std::min(followed_periods * fast.longest_period(),
+                                   trajectory_.time(range.last) - at - from);
+    const int samples =
+        std::clamp(static_cast<int>(std::ceil(length / fast.shortest_period() * samples_of_period)),
+                   3, most_samples);
+    const bool is_later = range.first > jump.step;
+    State base = jump.before;
+    if (is_later) trajectory_.states->load(range.first, base);
+    Swing swing;
+    swing.time = Eigen::VectorXd::LinSpaced(samples, from, from + length);
+    const Eigen::VectorXd offset = offset_of(response, is_later ? range.first : before(jump), base);
+    for (int k = 0; k < samples; ++k) {
+      State state = base;
+      if (is_later) {
+        fast.add_swing(swing.time(k), state);
+      } else {
+        fast.add(swing.time(k), state);
+      }
+      const Eigen::VectorXd values = observed(response, state) + offset;
+      if (k == 0) swing.values.resize(values.size(), samples);
+      swing.values.col(k) = values;
+    }
+    if (!is_later) fast.add_settled(base);
+    const Eigen::VectorXd rest = observed(response, base) + offset;
+    swing.settled =
+        number_of(response, range, Eigen::Vector2d(from, from + length), rest.replicate(1, 2));
+    return swing;
+  }
+
+  static int before(const Jump& jump) { return std::max(0, jump.step - 1); }
+
+  /// What is taken off what is observed: the mechanism without elasticity.
+  Eigen::VectorXd offset_of(std::size_t response, int step, const State& state) const {
+    const ResponseHistory& history = *run_.analysis.responses[response].history();
+    if (!history.rigid_response) return Eigen::VectorXd::Zero(history.signal->channels());
+    return run_.analysis.histories[response].col(step) - observed(response, state);
+  }
+
+  /// The number of a response from a stretch of its history; of a cycle with all of the history.
+  double number_of(std::size_t response, const StepRange& range, const Eigen::VectorXd& time,
+                   const Eigen::MatrixXd& values) const {
+    const ResponseHistory& history = *run_.analysis.responses[response].history();
+    if (!history.fatigue) {
+      return reduce(history.over_time, time, values, whole_range(time), {}, history.among).value;
+    }
+    const Eigen::MatrixXd& known = run_.analysis.histories[response];
+    Eigen::MatrixXd all(known.rows(), range.steps() + values.cols());
+    all << known.middleCols(range.first, range.steps()), values;
+    const Eigen::VectorXd instants = Eigen::VectorXd::LinSpaced(all.cols(), 0.0, 1.0);
+    return reduce_cycle(history.fatigue->criterion, instants, all, whole_range(instants)).value;
+  }
+
+  void look_at(const Jump& jump, const FastVibration& fast, std::size_t response,
+               const StepRange& range) {
     const double sign = run_.analysis.responses[response].is_reduced_by(OverTime::min) ? -1.0 : 1.0;
     const double value = run_.analysis.reductions[response].value;
-    const double settled = value_at(jump, response, 1.0),
-                 swung = value_at(jump, response, 1.0 + jump.vibration.overshoot());
-    const double missing = std::min(sign * (swung - value), sign * (swung - settled));
-    const double size = std::max(std::abs(value), std::abs(swung));
+    const Swing swing = swing_of(jump, fast, response, range);
+    const double swung = number_of(response, range, swing.time, swing.values);
+    const double missing = std::min(sign * (swung - value), sign * (swung - swing.settled));
+    const double size = std::max({std::abs(value), std::abs(swung),
+                                  run_.analysis.histories[response].lpNorm<Eigen::Infinity>()});
     if (!(missing > small_missing_share * size)) return;
-    const Unseen unseen{response, swung, missing / size, jump.step, jump.period()};
+    const Unseen unseen{response, swung, missing / size, jump.step, fast.main_period()};
     const auto known = std::find_if(found_.begin(), found_.end(), [&](const Unseen& other) {
       return other.response == response;
     });
@@ -166,7 +251,7 @@ std::vector<Doubt> doubt_unseen_overshoot(const TrustedRun& run) {
   const Unseen& worst = found.front();
   const Trajectory& trajectory = run.analysis.trajectory;
   Doubt doubt;
-  doubt.is_serious = worst.share > serious_missing_share;
+  doubt.is_serious = true;
   double period = worst.period;
   for (const Unseen& one : found) {
     doubt.responses.push_back(run.analysis.responses[one.response].name);
@@ -175,13 +260,13 @@ std::vector<Doubt> doubt_unseen_overshoot(const TrustedRun& run) {
   const std::size_t others = found.size() - 1;
   const bool is_start = worst.step == 0;
   doubt.text = fmt::format(
-      "the steps do not see how far \"{}\"{}: {}, and elastic bodies swing beyond their new "
+      "the steps do not see how far \"{}\"{}: {}, and what is elastic swings beyond its new "
       "equilibrium with a period of {:.2g} s, in steps of {:.2g} s. The peak would be {}. Try a "
       "/simulation/step of {:.1g} s, or {}.",
       doubt.responses.front(),
       others == 0 ? " swings"
                   : fmt::format(" and {} other response{} swing", others, others == 1 ? "" : "s"),
-      is_start ? "they begin undeformed under loads and speeds that are there at once"
+      is_start ? "bodies begin undeformed under loads and speeds that are there at once"
                : fmt::format("what acts jumps at t = {:.4g} s", trajectory.time(worst.step)),
       worst.period, trajectory.step_size(worst.step + 1),
       times_as_large(worst.swung / run.analysis.reductions[worst.response].value),

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "core/base/error.hpp"
+#include "core/trust/restless_jerks.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/sampled_gradients.hpp"
 #include "tests/laws/law_problems.hpp"
@@ -51,6 +52,33 @@ TEST(Jerk, OfACubicMotionIsConstant) {
     const Eigen::MatrixXd expected{{6.0, 0.0}, {6.0, 0.0}, {6.0, 0.0}, {0.0, 6.0}};
     EXPECT_LE((gradients - expected).cwiseAbs().maxCoeff(), 1e-6) << gradients;
   }
+}
+
+/// 20 (t − t₀)³: 120 m/s³, of which index 3 makes 159. Index 1 has it, but for the first step behind the
+/// corner; the cubic that begins with the simulation has no corner.
+TEST(Jerk, AtACornerOfADriveIsToldWhereItRings) {
+  const std::string corner =
+      R"(/scene/joints/rail/drive={"type": "expression",
+         "value": "= 20 m/s^3 * max(0 s, t - 100 ms)^3"})";
+  const ProblemFile ringing = cubic_motion({corner});
+  const Eigen::VectorXd x = start_design(ringing);
+  const auto analysis = analyze(ringing, x);
+  EXPECT_GT(analysis->reductions[0].value, 1.2 * 120.0);
+  const Monitors monitors = monitor(analysis->model, analysis->trajectory);
+  const std::vector<Doubt> found = doubt_restless_jerks({ringing, x, *analysis, monitors});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(found[0].is_serious);
+  EXPECT_THAT(found[0].text, HasSubstr("the peak of the jerk \"jerk\" is at a corner"));
+  EXPECT_THAT(found[0].text, HasSubstr("(t = 0.1 s)"));
+
+  const ProblemFile calm = cubic_motion({corner, "/simulation/formulation=index-1"});
+  const auto right = analyze(calm, x);
+  EXPECT_NEAR(right->reductions[0].value, 120.0, 1e-6);
+  EXPECT_TRUE(doubt_restless_jerks({calm, x, *right, monitors}).empty());
+
+  const ProblemFile smooth = cubic_motion();
+  const auto all = analyze(smooth, x);
+  EXPECT_TRUE(doubt_restless_jerks({smooth, x, *all, monitors}).empty());
 }
 
 TEST(Jerk, HasNoMagnitudeOfItsOwn) {

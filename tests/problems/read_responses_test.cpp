@@ -52,6 +52,7 @@ TEST(SpringResponse, IsThatOfTheSpringLaw) {
       "length": {"type": "spring-length", "load": "spring", "over_time": "final"},
       "force": {"type": "spring-force", "load": "spring", "over_time": "final"},
       "loss": {"type": "damper-power", "load": "spring", "over_time": "mean"},
+      "gain": {"type": "joint-acceleration", "joint": "axle", "over_time": "max"},
       "aslant": {"type": "velocity", "body": "block", "direction": [3, 0, -4], "over_time": "mean"},
       "travel": {"type": "joint-position", "joint": "guide", "over_time": "final"},
       "speed": {"type": "joint-velocity", "joint": "guide", "over_time": "mean"}
@@ -94,6 +95,7 @@ TEST(MotorResponse, IsTorqueTimesAngularVelocity) {
     }})");
   EXPECT_NEAR(wheel.value("turn"), -40.0, 1e-8);    // counted, about +z
   EXPECT_NEAR(wheel.value("growth"), -20.0, 1e-8);  // 8/0.4
+  EXPECT_NEAR(wheel.value("gain"), 20.0, 1e-8);     // about the axis −z
   EXPECT_NEAR(wheel.value("aslant"), -32.0, 1e-8);  // 4/5 of the one about z
   EXPECT_NEAR(wheel.value("rate"), 40.0, 1e-8);     // 8 · 2/0.4
   EXPECT_NEAR(wheel.value("angle"), 40.0, 1e-8);    // 8 · 4/0.8: more than six turns

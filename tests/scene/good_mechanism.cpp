@@ -117,6 +117,7 @@ Json good_mechanism() {
     "spring": {"type": "elastic-energy", "body": "arm", "over_time": "mean", "from": 0.05},
     "missing": {"type": "energy-balance", "to": 0.05},
     "comfort": {"type": "jerk", "body": "block", "direction": "y", "over_time": "rms"},
+    "surge": {"type": "joint-acceleration", "joint": "elbow", "over_time": "max"},
     "swerve": {"type": "angular-jerk", "body": "rod", "direction": [0, 0, 2],
                "over_time": "max-abs"},
     "drift": {"type": "constraint-drift", "over_time": "max-abs"},

@@ -209,13 +209,13 @@ void check_column(const std::string& name, const JsonNode& node) {
 
 /// A magnitude is no linear function of what changes: its rate is another number.
 void refuse_rate_of_magnitude(const JsonNode& node, const ResponseSettings& response) {
-  if (response.direction != magnitude_direction || response.along) return;
-  node.at("direction")
-      .fail_with_value(fmt::format("must be \"x\", \"y\", \"z\" or a vector, as the magnitude of "
-                                   "the {} is no rate of that of "
-                                   "the {}",
-                                   kind_of(response.type).word,
-                                   kind_of(observed_type(response.type)).word));
+  const auto direction = node.find("direction");
+  if (!direction || response.direction != magnitude_direction || response.along) return;
+  direction->fail_with_value(
+      fmt::format("must be \"x\", \"y\", \"z\" or a vector, as the magnitude of "
+                  "the {} is no rate of that of "
+                  "the {}",
+                  kind_of(response.type).word, kind_of(observed_type(response.type)).word));
 }
 
 ResponseSettings read_response(const std::string& name, const JsonNode& node,
@@ -295,6 +295,7 @@ ResponseSettings read_response(const std::string& name, const JsonNode& node,
       break;
     case ResponseType::jerk:  // read as what they are the rates of
     case ResponseType::angular_jerk:
+    case ResponseType::joint_acceleration:
     case ResponseType::expression:  // once all others are read
       break;
   }
