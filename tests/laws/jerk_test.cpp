@@ -59,7 +59,7 @@ TEST(Jerk, OfACubicMotionIsConstant) {
 TEST(Jerk, AtACornerOfADriveIsToldWhereItRings) {
   const std::string corner =
       R"(/scene/joints/rail/drive={"type": "expression",
-         "value": "= 20 m/s^3 * max(0 s, t - 100 ms)^3"})";
+         "value": "= c * 10 m/s^3 * max(0 s, t - 100 ms)^3"})";
   const ProblemFile ringing = cubic_motion({corner});
   const Eigen::VectorXd x = start_design(ringing);
   const auto analysis = analyze(ringing, x);

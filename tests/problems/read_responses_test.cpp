@@ -52,7 +52,6 @@ TEST(SpringResponse, IsThatOfTheSpringLaw) {
       "length": {"type": "spring-length", "load": "spring", "over_time": "final"},
       "force": {"type": "spring-force", "load": "spring", "over_time": "final"},
       "loss": {"type": "damper-power", "load": "spring", "over_time": "mean"},
-      "gain": {"type": "joint-acceleration", "joint": "axle", "over_time": "max"},
       "aslant": {"type": "velocity", "body": "block", "direction": [3, 0, -4], "over_time": "mean"},
       "travel": {"type": "joint-position", "joint": "guide", "over_time": "final"},
       "speed": {"type": "joint-velocity", "joint": "guide", "over_time": "mean"}
@@ -87,6 +86,7 @@ TEST(MotorResponse, IsTorqueTimesAngularVelocity) {
       "size": {"type": "angular-velocity", "body": "wheel", "direction": "magnitude",
                "over_time": "final"},
       "turn": {"type": "angle", "body": "wheel", "direction": "z", "over_time": "final"},
+      "gain": {"type": "joint-acceleration", "joint": "axle", "over_time": "max"},
       "growth": {"type": "angular-acceleration", "body": "wheel", "direction": "z",
                  "over_time": "mean"},
       "aslant": {"type": "angular-velocity", "body": "wheel", "direction": [0, 3, 4],
