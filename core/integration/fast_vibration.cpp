@@ -49,7 +49,7 @@ class LinearizedEquations {
     shifted_.solve(forces);
     return forces;
   }
-  /// With no more equations than coordinates: the others are zero.
+  /// Forces on the coordinates as a right-hand side; those of the constraints are zero.
   Eigen::VectorXd with_constraints(const Eigen::VectorXd& forces) const {
     Eigen::VectorXd all = Eigen::VectorXd::Zero(system_.size());
     all.head(n_) = forces;

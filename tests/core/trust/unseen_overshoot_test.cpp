@@ -154,17 +154,18 @@ TEST(UnseenOvershoot, OfALoadThatJumpsIsTold) {
   const std::vector<Doubt> found = doubts(pulled_rod(jump));
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_TRUE(found[0].is_serious);
-  EXPECT_THAT(found[0].responses, IsSupersetOf({"pull", "hold"}));
+  EXPECT_THAT(found[0].responses, UnorderedElementsAre("pull", "press", "hold"));
   EXPECT_THAT(found[0].text, HasSubstr("jumps at t = 0.02 s"));
   EXPECT_THAT(found[0].text, HasSubstr("period of 0.0017 s"));
-  EXPECT_THAT(found[0].text, HasSubstr("would be 2."));
+  EXPECT_THAT(found[0].text, HasSubstr("would be 2.14 times as large"));
   const ProblemFile fine = pulled_rod(jump, {"/simulation/step=1e-5"});
   EXPECT_THAT(doubts(fine), IsEmpty());
   const double coarse_pull = analyze_pull(pulled_rod(jump)), fine_pull = analyze_pull(fine);
   EXPECT_NEAR(fine_pull / coarse_pull, 2.2, 0.05);
 }
 
-/// The rod that is let go is pressed as much as it was pulled.
+/// The rod that is let go is pressed as much as it was pulled. What is missing of the pull is close to the
+/// tenth from which it is told.
 TEST(UnseenOvershoot, OfALoadThatIsLetGoIsToldOfTheLeast) {
   const std::vector<Doubt> found =
       doubts(pulled_rod(R"({"type": "table", "times": [0, 0.02], "values": [8000, 0],
@@ -172,7 +173,7 @@ TEST(UnseenOvershoot, OfALoadThatIsLetGoIsToldOfTheLeast) {
                         {R"(/simulation/initial_state="quasi-static")"}));
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_THAT(found[0].responses, IsSupersetOf({"press", "hold"}));
-  EXPECT_THAT(found[0].text, HasSubstr("The peak would be "));
+  EXPECT_THAT(found[0].text, HasSubstr("larger by far"));
 }
 
 /// Which the implicit Euler method loses.
@@ -180,7 +181,7 @@ TEST(UnseenOvershoot, OfASuddenStartIsTold) {
   const std::string euler = R"(/simulation/scheme="implicit-euler")";
   const std::vector<Doubt> found = doubts(pulled_rod("8000", {euler}));
   ASSERT_THAT(found, SizeIs(1));
-  EXPECT_THAT(found[0].responses, IsSupersetOf({"pull", "hold"}));
+  EXPECT_THAT(found[0].responses, UnorderedElementsAre("pull", "press", "hold"));
   EXPECT_THAT(found[0].text, HasSubstr("begin undeformed"));
   EXPECT_THAT(doubts(pulled_rod("8000", {euler, R"(/simulation/initial_state="quasi-static")"})),
               IsEmpty());
@@ -196,8 +197,8 @@ TEST(UnseenOvershoot, OfADriveWhoseAccelerationJumpsIsTold) {
             R"(/simulation/scheme="implicit-euler")", "/scene/bodies/rod/section/width=0.05",
             "/scene/bodies/rod/section/height=0.05"}));
   ASSERT_THAT(found, SizeIs(1));
-  EXPECT_THAT(found[0].responses, IsSupersetOf({"press", "hold"}));
-  EXPECT_THAT(found[0].text, HasSubstr("would be 1."));
+  EXPECT_THAT(found[0].responses, UnorderedElementsAre("press", "hold"));
+  EXPECT_THAT(found[0].text, HasSubstr("would be 1.89 times as large"));
 }
 
 /// Formulas of what swings, cycles of it, and windows that begin behind the jump.
