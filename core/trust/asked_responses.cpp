@@ -1,6 +1,9 @@
 #include "core/trust/asked_responses.hpp"
 
 #include <algorithm>
+#include <set>
+
+#include "core/scene/response_parts.hpp"
 
 namespace pleuel {
 
@@ -23,6 +26,14 @@ std::vector<std::size_t> asked_responses(const ProblemFile& problem) {
     if (is_asked(problem, problem.responses[i].name)) asked.push_back(i);
   }
   return asked.empty() ? all : asked;
+}
+
+std::vector<std::size_t> asked_parts(const ProblemFile& problem) {
+  std::set<std::size_t> all;
+  for (const std::size_t response : asked_responses(problem)) {
+    for (const std::size_t part : parts_of(problem, response)) all.insert(part);
+  }
+  return {all.begin(), all.end()};
 }
 
 }  // namespace pleuel

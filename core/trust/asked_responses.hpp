@@ -10,4 +10,7 @@ namespace pleuel {
 /// listed in the block `accuracy`; of a file that does nothing of this, all.
 std::vector<std::size_t> asked_responses(const ProblemFile& problem);
 
+/// Those of them that are no expressions, and what their expressions are made from, each once.
+std::vector<std::size_t> asked_parts(const ProblemFile& problem);
+
 }  // namespace pleuel

@@ -38,7 +38,7 @@ std::vector<Doubt> doubt_restless_jerks(const TrustedRun& run) {
     corners.insert(corners.end(), times.begin(), times.end());
   }
   std::vector<Doubt> doubts;
-  for (const std::size_t i : asked_responses(run.problem)) {
+  for (const std::size_t i : asked_parts(run.problem)) {
     const std::optional<ResponseType> rate_of = kind_of(run.problem.responses[i].type).rate_of;
     const bool is_jerk =
         rate_of == ResponseType::acceleration || rate_of == ResponseType::angular_acceleration;
@@ -46,15 +46,16 @@ std::vector<Doubt> doubt_restless_jerks(const TrustedRun& run) {
     if (!peak) continue;
     const auto corner = corner_at(corners, peak->time, trajectory.scheme.step);
     if (!corner) continue;
+    const std::string& name = run.analysis.responses[i].name;
     doubts.push_back(
         {fmt::format(
              "the peak of the jerk \"{}\" is at a corner in the acceleration of a drive (t = "
-             "{:.4g} s): the accelerations ring there, and the jerk is wrong by some 30 % "
-             "with any step. Take the /simulation/formulation \"index-1\", or a law without "
-             "a corner there.",
-             run.analysis.responses[i].name, *corner),
+             "{:.4g} s): the accelerations ring there, and the jerk is wrong by up to a "
+             "third with any step. Take the /simulation/formulation \"index-1\", or a law "
+             "without a corner there.",
+             name, *corner),
          true,
-         {run.analysis.responses[i].name}});
+         {name}});
   }
   return doubts;
 }

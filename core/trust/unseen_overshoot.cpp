@@ -9,7 +9,6 @@
 #include "core/base/number_text.hpp"
 #include "core/integration/fast_vibration.hpp"
 #include "core/response/fatigue.hpp"
-#include "core/scene/response_parts.hpp"
 #include "core/trust/asked_responses.hpp"
 
 namespace pleuel {
@@ -50,9 +49,8 @@ class UnseenOvershoots {
  public:
   explicit UnseenOvershoots(const TrustedRun& run)
       : run_(run), mechanism_(run.analysis.model.mechanism), trajectory_(run.analysis.trajectory) {
-    for (const std::size_t i : asked_responses(run.problem)) {
-      add_judged(i);
-      for (const std::size_t part : parts_of(run.problem, i)) add_judged(part);
+    for (const std::size_t i : asked_parts(run.problem)) {
+      if (is_judged(run.analysis.responses[i])) judged_.push_back(i);
     }
   }
 
@@ -66,14 +64,10 @@ class UnseenOvershoots {
   }
 
  private:
-  void add_judged(std::size_t i) {
-    const Response& response = run_.analysis.responses[i];
-    const bool is_cycle = response.is_fatigue() && !response.history()->fatigue->damage_exponent;
-    const bool is_judged = (is_cycle || (response.is_peak_over_time() && !response.is_fatigue())) &&
-                           !response.history()->map;
-    if (is_judged && std::find(judged_.begin(), judged_.end(), i) == judged_.end()) {
-      judged_.push_back(i);
-    }
+  static bool is_judged(const Response& response) {
+    if (!response.history() || response.history()->map) return false;
+    if (response.is_fatigue()) return !response.history()->fatigue->damage_exponent;
+    return response.is_peak_over_time();
   }
 
   double step_behind(int step) const { return trajectory_.time(step + 1) - trajectory_.time(step); }

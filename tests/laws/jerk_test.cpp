@@ -71,6 +71,13 @@ TEST(Jerk, AtACornerOfADriveIsToldWhereItRings) {
   EXPECT_THAT(found[0].text, HasSubstr("the peak of the jerk \"jerk\" is at a corner"));
   EXPECT_THAT(found[0].text, HasSubstr("(t = 0.1 s)"));
 
+  // A formula of it is no way around.
+  const ProblemFile formula =
+      cubic_motion({corner, R"(/responses/twice={"type": "expression", "value": "= 2 * jerk"})",
+                    R"(/objective={"minimize": "twice"})"});
+  const auto doubled = analyze(formula, x);
+  EXPECT_EQ(doubt_restless_jerks({formula, x, *doubled, monitors}).size(), 1u);
+
   const ProblemFile calm = cubic_motion({corner, "/simulation/formulation=index-1"});
   const auto right = analyze(calm, x);
   EXPECT_NEAR(right->reductions[0].value, 120.0, 1e-6);
