@@ -16,6 +16,7 @@
 #include "core/trust/frequency_meaning.hpp"
 #include "core/trust/idle_freedoms.hpp"
 #include "core/trust/initial_motion.hpp"
+#include "core/trust/jerk_at_corners.hpp"
 #include "core/trust/joint_turns.hpp"
 #include "core/trust/laws_over_coordinates.hpp"
 #include "core/trust/left_out_effects.hpp"
@@ -24,7 +25,6 @@
 #include "core/trust/promised_buckling.hpp"
 #include "core/trust/proportions.hpp"
 #include "core/trust/resolution.hpp"
-#include "core/trust/restless_jerks.hpp"
 #include "core/trust/section_axes.hpp"
 #include "core/trust/shear_range.hpp"
 #include "core/trust/sideways_buckling.hpp"
@@ -55,7 +55,7 @@ std::vector<Doubt> doubt_all_too_fast(const TrustedRun& run) {
   std::vector<Doubt> doubts = doubt_fast_laws(run);
   if (doubts.empty()) doubts = doubt_fast_turning(run);
   for (const auto find :
-       {doubt_laws_over_coordinates, doubt_restless_jerks, doubt_unseen_overshoot}) {
+       {doubt_laws_over_coordinates, doubt_jerks_at_corners, doubt_unseen_overshoot}) {
     const std::vector<Doubt> more = find(run);
     doubts.insert(doubts.end(), more.begin(), more.end());
   }

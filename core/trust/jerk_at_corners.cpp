@@ -1,4 +1,4 @@
-#include "core/trust/restless_jerks.hpp"
+#include "core/trust/jerk_at_corners.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -27,7 +27,7 @@ std::optional<double> corner_at(const std::vector<double>& corners, double peak,
 
 }  // namespace
 
-std::vector<Doubt> doubt_restless_jerks(const TrustedRun& run) {
+std::vector<Doubt> doubt_jerks_at_corners(const TrustedRun& run) {
   const Trajectory& trajectory = run.analysis.trajectory;
   if (run.problem.simulation.formulation.constraints == ConstraintForm::index_1) return {};
   std::vector<double> corners;
