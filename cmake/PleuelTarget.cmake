@@ -1,15 +1,18 @@
 # One library a folder: the include rule of the house is its link rule.
 #
-#   pleuel_library(NAME SOURCES a.cpp b.cpp PUBLIC libs... PRIVATE libs...)
+#   pleuel_library(NAME [LIGHT] SOURCES a.cpp b.cpp PUBLIC libs... PRIVATE libs...)
 #
+# LIGHT: what does not compute in every step, compiled with PLEUEL_LIGHT_FLAGS.
 # Headers are included from the root of the repository: #include "core/beam/beam_element.hpp".
 function(pleuel_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "LIGHT" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   if(ARG_SOURCES)
     add_library(${name} STATIC ${ARG_SOURCES})
     target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
     target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} pleuel_warnings)
-    if(NOT name STREQUAL "pleuel_base")
+    if(ARG_LIGHT)
+      pleuel_compile_lightly(${name})
+    elseif(NOT name STREQUAL "pleuel_base")
       pleuel_precompile(${name} REUSE_FROM pleuel_base)
     endif()
     pleuel_compile_together(${name})
@@ -17,6 +20,20 @@ function(pleuel_library name)
     add_library(${name} INTERFACE)
     target_include_directories(${name} INTERFACE ${PROJECT_SOURCE_DIR})
     target_link_libraries(${name} INTERFACE ${ARG_PUBLIC})
+  endif()
+endfunction()
+
+# Most of the compiler's time is optimization, and most of the program never runs in a step: it reads, judges,
+# and writes. The flags have precompiled headers of their own, those of the first such target.
+set(PLEUEL_LIGHT_FLAGS "" CACHE STRING "Compiler flags of what does not compute in every step, after the others")
+function(pleuel_compile_lightly name)
+  separate_arguments(flags UNIX_COMMAND "${PLEUEL_LIGHT_FLAGS}")
+  target_compile_options(${name} PRIVATE ${flags})
+  set_target_properties(${name} PROPERTIES PLEUEL_LIGHT ON)
+  if(name STREQUAL "pleuel_scene")
+    pleuel_precompile(${name})
+  else()
+    pleuel_precompile(${name} REUSE_FROM pleuel_scene)
   endif()
 endfunction()
 
@@ -92,3 +109,54 @@ if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache$")
   set(CMAKE_CXX_COMPILER_LAUNCHER
       ${CMAKE_COMMAND} -E env ${pleuel_ccache} ${CMAKE_CXX_COMPILER_LAUNCHER})
 endif()
+
+# The static libraries behind a target, without those of the tests.
+function(pleuel_libraries_behind target result)
+  get_target_property(type ${target} TYPE)
+  get_target_property(folder ${target} SOURCE_DIR)
+  get_target_property(is_imported ${target} IMPORTED)
+  if(is_imported OR target IN_LIST ${result})
+    return()
+  endif()
+  set(libraries ${${result}})
+  if(type STREQUAL "INTERFACE_LIBRARY")
+    get_target_property(links ${target} INTERFACE_LINK_LIBRARIES)
+  else()
+    get_target_property(links ${target} LINK_LIBRARIES)
+  endif()
+  foreach(link IN LISTS links)
+    if(TARGET "${link}")
+      pleuel_libraries_behind(${link} libraries)
+    endif()
+  endforeach()
+  string(FIND "${folder}" "${PROJECT_SOURCE_DIR}/tests" in_tests)
+  if(type STREQUAL "STATIC_LIBRARY" AND NOT in_tests EQUAL 0)
+    list(APPEND libraries ${target})
+  endif()
+  set(${result} ${libraries} PARENT_SCOPE)
+endfunction()
+
+# Of a function that several libraries and a program contain, as a template of Eigen, the linker takes the first.
+# So libraries that are compiled with all optimization stand before those with less, and before what the program itself
+# consists of. They are linked as a whole for this, since nothing has asked for a part of them yet.
+#
+#   pleuel_link_optimized_first(NAME FLAGS)    FLAGS: those of NAME itself; none: there is nothing to do
+function(pleuel_link_optimized_first name flags)
+  set(libraries "")
+  pleuel_libraries_behind(${name} libraries)
+  if(NOT flags OR NOT libraries)
+    return()
+  endif()
+  set(optimized "")
+  set(light "")
+  foreach(library IN LISTS libraries)
+    get_target_property(is_light ${library} PLEUEL_LIGHT)
+    if(is_light)
+      list(APPEND light $<TARGET_FILE:${library}>)
+    else()
+      list(APPEND optimized $<TARGET_FILE:${library}>)
+    endif()
+  endforeach()
+  target_link_options(${name} PRIVATE
+                      LINKER:--whole-archive ${optimized} ${light} LINKER:--no-whole-archive)
+endfunction()

@@ -16,7 +16,7 @@ constexpr int most_vectors = 12;
 /// What is new in a vector, of all: below it errors of solutions would break constraints.
 constexpr double exhausted = 1e-4;
 /// Of all energy: modes that do not count.
-constexpr double small_energy = 1e-2;
+constexpr double small_energy = 1e-4;
 
 /// The equations about a state, linearized: products, and solutions with one of two matrices.
 class LinearizedEquations {
@@ -34,7 +34,6 @@ class LinearizedEquations {
         at_once_(accelerating_, mechanism.elastic),
         shifted_(displacing_, mechanism.elastic) {
     is_regular_ = at_once_.factorize(accelerating_) && shifted_.factorize(displacing_);
-    system_.residual(state_, ConstraintLevel::position, residual_);
   }
 
   bool is_regular() const { return is_regular_; }
@@ -58,14 +57,6 @@ class LinearizedEquations {
 
   Eigen::VectorXd mass(const Eigen::VectorXd& x) const { return product(mass_, x); }
   Eigen::VectorXd stiffness(const Eigen::VectorXd& x) const { return product(stiffness_, x); }
-  /// What resists a speed on top of that of the state.
-  Eigen::VectorXd resistance(const Eigen::VectorXd& speed) {
-    State moved = state_;
-    moved.v += speed;
-    Eigen::VectorXd residual;
-    system_.residual(moved, ConstraintLevel::position, residual);
-    return (residual - residual_).head(n_);
-  }
 
  private:
   Matrix tangent(const Weights& weights, ConstraintLevel level) const {
@@ -84,7 +75,6 @@ class LinearizedEquations {
   Matrix accelerating_, displacing_;  ///< which the solvers look at
   LinearSolver at_once_, shifted_;
   bool is_regular_ = false;
-  Eigen::VectorXd residual_;
 };
 
 /// Vectors with Xᵀ M X = 1 that begin with a deformation; each next one is what the inertia of the
@@ -145,19 +135,11 @@ FastVibration::FastVibration(const Mechanism& mechanism, const State& behind,
     mode.frequency = std::sqrt(square);
     mode.energy = 0.5 * force * force / square;
     mode.q = force / square * shape;
-    const Eigen::VectorXd speed = mode.frequency * mode.q;
-    const Eigen::VectorXd resistance = equations.resistance(speed) / mode.frequency;
-    mode.damping_ratio =
-        std::max(0.0, mode.q.dot(resistance) * mode.frequency / (4.0 * mode.energy));
-    const Eigen::VectorXd of_q =
+    const Eigen::VectorXd at_q =
         equations.accelerated(equations.with_constraints(-equations.stiffness(mode.q)));
-    const Eigen::VectorXd of_v = equations.accelerated(equations.with_constraints(-resistance));
-    mode.a_q = of_q.head(n);
-    mode.lambda_q = of_q.tail(m);
-    mode.a_v = of_v.head(n);
-    mode.lambda_v = of_v.tail(m);
-    if (mode.energy > 0.0 && of_q.allFinite() && of_v.allFinite())
-      modes_.push_back(std::move(mode));
+    mode.a = at_q.head(n);
+    mode.lambda = at_q.tail(m);
+    if (mode.energy > 0.0 && at_q.allFinite()) modes_.push_back(std::move(mode));
   }
   std::stable_sort(modes_.begin(), modes_.end(),
                    [](const Mode& a, const Mode& b) { return a.energy > b.energy; });
@@ -187,51 +169,27 @@ double FastVibration::longest_period() const {
   return 2.0 * std::numbers::pi / lowest;
 }
 
-FastVibration::Swing FastVibration::swing(const Mode& mode, double time) {
-  constexpr double close_to_one = 1e-6;
-  const double w = mode.frequency;
-  double ratio = mode.damping_ratio;
-  if (std::abs(ratio - 1.0) < close_to_one) ratio = 1.0 + close_to_one;
-  if (ratio < 1.0) {
-    const double root = std::sqrt(1.0 - ratio * ratio), decay = std::exp(-ratio * w * time);
-    const double c = std::cos(root * w * time), s = std::sin(root * w * time);
-    return {1.0 - decay * (c + ratio / root * s), decay * w / root * s};
-  }
-  const double root = std::sqrt(ratio * ratio - 1.0);
-  const double quick = w * (ratio + root), slow = w / (ratio + root);
-  const double late = std::exp(-slow * time), early = std::exp(-quick * time);
-  return {1.0 - (quick * late - slow * early) / (quick - slow),
-          quick * slow * (late - early) / (quick - slow)};
-}
-
-void FastVibration::add(const Mode& mode, const Swing& swing, State& state) {
-  state.q += swing.way * mode.q;
-  state.v += swing.rate * mode.q;
-  state.a += swing.way * mode.a_q + swing.rate * mode.a_v;
-  state.lambda += swing.way * mode.lambda_q + swing.rate * mode.lambda_v;
-}
-
-void FastVibration::add_at_once(State& state) const {
-  state.a += a_;
-  state.lambda += lambda_;
+void FastVibration::add(const Mode& mode, double way, double rate, State& state) {
+  state.q += way * mode.q;
+  state.v += rate * mode.q;
+  state.a += way * mode.a;
+  state.lambda += way * mode.lambda;
 }
 
 void FastVibration::add(double time, State& state) const {
-  add_at_once(state);
-  for (const Mode& mode : modes_) add(mode, swing(mode, time), state);
+  state.a += a_;
+  state.lambda += lambda_;
+  for (const Mode& mode : modes_) {
+    const double angle = mode.frequency * time;
+    add(mode, 1.0 - std::cos(angle), mode.frequency * std::sin(angle), state);
+  }
 }
 
 void FastVibration::add_swing(double time, State& state) const {
   for (const Mode& mode : modes_) {
-    Swing beside = swing(mode, time);
-    beside.way -= 1.0;
-    add(mode, beside, state);
+    const double angle = mode.frequency * time;
+    add(mode, -std::cos(angle), mode.frequency * std::sin(angle), state);
   }
-}
-
-void FastVibration::add_settled(State& state) const {
-  add_at_once(state);
-  for (const Mode& mode : modes_) add(mode, {1.0, 0.0}, state);
 }
 
 }  // namespace pleuel

@@ -9,9 +9,9 @@
 namespace pleuel {
 
 /// What a sudden change of the forces does to a mechanism that is frozen at a state: accelerations
-/// at once, and vibrations faster than steps can follow about the new equilibrium. These are Ritz
-/// vectors of the load (Wilson, Yuan & Dickens 1982): a few solutions find the modes that it
-/// excites.
+/// at once, and vibrations faster than steps can follow about the new equilibrium, as they would be
+/// if nothing damped them. These are Ritz vectors of the load (Wilson, Yuan & Dickens 1982): a few
+/// solutions find the modes that it excites.
 class FastVibration {
  public:
   /// @param behind   positions and velocities, and the instant behind the change
@@ -22,7 +22,7 @@ class FastVibration {
 
   /// Whether there is none.
   bool is_empty() const { return modes_.empty(); }
-  /// Of the modes that deform: those with the hundredth part of the energy do not count [s].
+  /// Of the modes that deform: those with a ten-thousandth of the energy do not count [s].
   double shortest_period() const;
   double longest_period() const;
   /// Of the mode with the most energy [s].
@@ -32,24 +32,15 @@ class FastVibration {
   void add(double time, State& state) const;
   /// Takes a state in which they rest to where they are at a time behind the change.
   void add_swing(double time, State& state) const;
-  /// Takes a state at the change to the new equilibrium of the fast modes.
-  void add_settled(State& state) const;
 
  private:
   struct Mode {
-    double frequency = 0.0;                        ///< [rad/s]
-    double damping_ratio = 0.0;                    ///< by what resists at the speed of the swing
-    double energy = 0.0;                           ///< of the way to the equilibrium [J]
-    Eigen::VectorXd q;                             ///< that way
-    Eigen::VectorXd a_q, lambda_q, a_v, lambda_v;  ///< what it and its rate accelerate and hold
+    double frequency = 0.0;        ///< [rad/s]
+    double energy = 0.0;           ///< of the way to the equilibrium [J]
+    Eigen::VectorXd q, a, lambda;  ///< that way, what it accelerates and holds
   };
-  /// Way and rate of a mode, as shares of its q.
-  struct Swing {
-    double way = 0.0, rate = 0.0;
-  };
-  static Swing swing(const Mode& mode, double time);
-  static void add(const Mode& mode, const Swing& swing, State& state);
-  void add_at_once(State& state) const;
+  /// @param way, rate  of each mode: share of its q, and its change per time [1/s]
+  static void add(const Mode& mode, double way, double rate, State& state);
 
   Eigen::VectorXd a_, lambda_;  ///< at once
   std::vector<Mode> modes_;

@@ -1,8 +1,11 @@
 #include "core/integration/periodic_simulation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -33,12 +36,40 @@ constexpr double unstable = 1.0 + 1e-5;
 /// Growth below which a motion surely forgets how it began.
 constexpr double forgetful = 1.0 - 1e-5;
 
+/// Of a period: instants closer than this are one but for round-off.
+constexpr double round_off_of_time = 1e-9;
+
+/// Breaks of any period as those of the first, each as the earliest period has it.
+std::vector<double> folded(const std::vector<double>& breaks, double period) {
+  std::vector<std::pair<double, double>> times;  // in the first period, and as given
+  for (const double time : breaks) times.push_back({std::fmod(time, period), time});
+  std::sort(times.begin(), times.end());
+  std::vector<std::pair<double, double>> different;
+  for (const auto& time : times) {
+    if (different.empty() || time.first - different.back().first > round_off_of_time * period) {
+      different.push_back(time);
+    } else if (time.second < different.back().second) {
+      different.back() = time;
+    }
+  }
+  std::vector<double> folded;
+  for (const auto& time : different) folded.push_back(time.first);
+  return folded;
+}
+
+/// The break that an instant is but for round-off, or the instant.
+double snapped(double instant, const std::vector<double>& sorted_breaks, double round_off) {
+  const auto next =
+      std::lower_bound(sorted_breaks.begin(), sorted_breaks.end(), instant - round_off);
+  return next != sorted_breaks.end() && *next <= instant + round_off ? *next : instant;
+}
+
 /// One period of the simulation.
 SimulationOptions options_of_period(const SimulationOptions& options) {
   SimulationOptions one = options;
   one.end_time = options.period;
   one.step = options.period / step_count(one);
-  for (double& time : one.breaks) time = std::fmod(time, options.period);  // of any period
+  one.breaks = folded(options.breaks, options.period);
   const double end = options.period * (1.0 + 1e-9);
   if (options.instants.empty()) {
     one.instants = regular_instants(one);
@@ -55,11 +86,14 @@ SimulationOptions options_of_all(const SimulationOptions& options, const Simulat
   all.step = one.step;
   if (!options.instants.empty()) return all;
   all.instants = {0.0};
+  std::vector<double> breaks = options.breaks;
+  std::sort(breaks.begin(), breaks.end());
   for (int period = 0; period < periods; ++period) {
     for (std::size_t i = 1; i < one.instants.size(); ++i) {
       const bool is_last = i + 1 == one.instants.size();
       all.instants.push_back(is_last ? options.end_time * (period + 1) / periods
-                                     : period * options.period + one.instants[i]);
+                                     : snapped(period * options.period + one.instants[i], breaks,
+                                               round_off_of_time * options.period));
     }
   }
   return all;

@@ -267,10 +267,12 @@ bool is_peak(OverTime kind) {
 
 BrokenInstants instants_at(const std::vector<double>& breaks, const Eigen::VectorXd& time) {
   if (breaks.empty()) return {};
+  constexpr double round_off = 1e-9;  // of all time: instants of later periods are sums
+  const double span = time(time.size() - 1) - time(0);
   BrokenInstants broken(time.size(), false);
   for (const double at : breaks) {
-    const auto found = std::find(time.begin(), time.end(), at);
-    if (found != time.end()) broken[found - time.begin()] = true;
+    const auto found = std::lower_bound(time.begin(), time.end(), at - round_off * span);
+    if (found != time.end() && *found <= at + round_off * span) broken[found - time.begin()] = true;
   }
   return broken;
 }

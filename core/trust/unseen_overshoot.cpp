@@ -2,47 +2,59 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
 #include "core/integration/fast_vibration.hpp"
 #include "core/response/fatigue.hpp"
 #include "core/trust/asked_responses.hpp"
+#include "core/trust/shorter_steps.hpp"
+#include "core/trust/sudden_jumps.hpp"
 
 namespace pleuel {
 
 namespace {
 
-/// Share of a history that may be unseen: a few Ritz vectors know a swing to some percent.
+/// Share of a history that may be unseen.
 constexpr double small_missing_share = 0.1;
 /// Angular frequency from which on a mode is fast, times the step: three steps a period.
 constexpr double fast_angle = 2.0;
-/// Before and behind a jump, in steps.
-constexpr double beside = 1e-6;
-/// Steps a period that see a peak.
-constexpr double good_steps = 20.0;
-/// Of so many jumps the largest are looked at.
-constexpr std::size_t most_jumps = 16;
+/// Steps behind a jump of which the longest counts: some may end early, where something else begins.
+constexpr int steps_behind_a_jump = 3;
+/// Steps a period that see a peak; and, where there is no room for more, that see most of it.
+constexpr double good_steps = 20.0, fair_steps = 12.0;
 /// A swing is followed for so many of its longest periods, with so many samples of its shortest.
 constexpr double followed_periods = 1.5, samples_of_period = 12.0;
-constexpr int most_samples = 200;
-
-/// A jump of what acts.
-struct Jump {
-  int step;              ///< the instant
-  State before, behind;  ///< what it meets; positions and velocities at it, and the instant behind
-  Eigen::VectorXd change;  ///< of the residual
+constexpr int most_samples = 80;
+/// The swings are simulated with so many more steps at most, or as many as the run has: fewer of large
+/// mechanisms, by their coordinates.
+constexpr int coordinates_in_steps = 60000, least_more_steps = 200, enough_more_steps = 2000;
+/// A jump whose swing may be unseen, as it would be without damping.
+struct Suspect {
+  int step;                           ///< where
+  double share = 0.0;                 ///< what is missing, of the largest of all
+  double until = 0.0;                 ///< as long as it matters behind the jump [s]
+  double main = 0.0, shortest = 0.0;  ///< periods [s]
+  struct Predicted {
+    double share = 0.0, factor = 1.0;
+  };
+  std::map<std::size_t, Predicted> predicted = {};  ///< of each response that misses some
 };
 
-/// The largest that the steps leave unseen of a response.
+/// What the steps leave unseen of a response.
 struct Unseen {
   std::size_t response;
-  double swung;   ///< the peak that it would have
+  double factor;  ///< by which its number would be larger
   double share;   ///< what is missing, of the largest of all
-  int step;       ///< where
-  double period;  ///< [s]
+  Suspect suspect;
+  bool is_predicted;  ///< as if nothing damped it; else of a run with short steps there
 };
 
 class UnseenOvershoots {
@@ -57,84 +69,49 @@ class UnseenOvershoots {
   /// The worst first.
   std::vector<Unseen> find() {
     if (judged_.empty() || (mechanism_.elastic.empty() && mechanism_.springs.empty())) return {};
-    for (const Jump& jump : largest_jumps()) look_at(jump);
-    std::stable_sort(found_.begin(), found_.end(),
+    std::vector<StepRange> windows;
+    for (const std::size_t i : judged_) windows.push_back(window(i));
+    for (const SuddenJump& jump : different_jumps(sudden_jumps(run_.analysis), windows)) {
+      look_at(jump);
+    }
+    if (suspects_.empty()) return {};
+    std::stable_sort(suspects_.begin(), suspects_.end(),
+                     [](const Suspect& a, const Suspect& b) { return a.share > b.share; });
+    const std::unique_ptr<Analysis> fine = simulate_swings();
+    std::vector<Unseen> found;
+    for (const std::size_t i : judged_) {
+      if (const auto unseen = unseen_of(i, fine.get())) found.push_back(*unseen);
+    }
+    std::stable_sort(found.begin(), found.end(),
                      [](const Unseen& a, const Unseen& b) { return a.share > b.share; });
-    return std::move(found_);
+    return found;
   }
 
  private:
   static bool is_judged(const Response& response) {
     if (!response.history() || response.history()->map) return false;
-    if (response.is_fatigue()) return !response.history()->fatigue->damage_exponent;
-    return response.is_peak_over_time();
+    return response.is_fatigue() || response.is_peak_over_time();
   }
 
-  double step_behind(int step) const { return trajectory_.time(step + 1) - trajectory_.time(step); }
-
-  std::vector<Jump> largest_jumps() const {
-    const BrokenInstants& breaks = run_.analysis.breaks;
-    std::vector<Jump> jumps = {trajectory_.periodic ? seam() : start()};
-    for (int step = 1; step < trajectory_.steps(); ++step) {
-      if (!breaks.empty() && breaks[step]) jumps.push_back(jump_at(step));
-    }
-    std::erase_if(jumps, [](const Jump& jump) { return jump.change.isZero(0.0); });
-    if (jumps.size() > most_jumps) {
-      std::stable_sort(jumps.begin(), jumps.end(), [](const Jump& a, const Jump& b) {
-        return a.change.squaredNorm() > b.change.squaredNorm();
-      });
-      jumps.resize(most_jumps);
-    }
-    return jumps;
+  double end() const { return trajectory_.time(trajectory_.steps()); }
+  double step_at(int step) const { return trajectory_.time(step + 1) - trajectory_.time(step); }
+  double longest_step_behind(int step) const {
+    double longest = 0.0;
+    const int last = std::min(step + steps_behind_a_jump, trajectory_.steps());
+    for (int k = step; k < last; ++k) longest = std::max(longest, step_at(k));
+    return longest;
+  }
+  StepRange window(std::size_t response) const {
+    return run_.analysis.responses[response].steps(trajectory_.time);
   }
 
-  /// The first instant: nothing is accelerated yet, and nothing holds.
-  Jump start() const {
-    State state;
-    trajectory_.states->load(0, state);
-    state.time += beside * step_behind(0);
-    state.a.setZero();
-    state.lambda.setZero();
-    return {0, state, state, residual(state)};
-  }
-
-  /// Between the end of a motion that repeats itself and its beginning.
-  Jump seam() const {
-    State at;
-    trajectory_.states->load(0, at);
-    return jump_of(0, at, at, trajectory_.time(trajectory_.steps()), at.time);
-  }
-
-  Jump jump_at(int step) const {
-    State before, at;
-    trajectory_.states->load(step - 1, before);
-    trajectory_.states->load(step, at);
-    return jump_of(step, before, at, at.time, at.time);
-  }
-
-  /// @param end, begin  the same instant, as one before and one behind it
-  Jump jump_of(int step, const State& before, State at, double end, double begin) const {
-    const double close = beside * step_behind(step);
-    at.time = end - close;
-    const Eigen::VectorXd sooner = residual(at);
-    at.time = begin + close;
-    return {step, before, at, residual(at) - sooner};
-  }
-
-  Eigen::VectorXd residual(const State& state) const {
-    Eigen::VectorXd residual;
-    mechanism_.system->residual(state, ConstraintLevel::acceleration, residual);
-    return residual;
-  }
-
-  void look_at(const Jump& jump) {
+  void look_at(const SuddenJump& jump) {
     const FastVibration fast(mechanism_, jump.behind, jump.change,
-                             fast_angle / step_behind(jump.step));
+                             fast_angle / longest_step_behind(jump.step));
     if (fast.is_empty()) return;
-    for (const std::size_t i : judged_) {
-      const StepRange range = run_.analysis.responses[i].steps(trajectory_.time);
-      if (range.last > jump.step) look_at(jump, fast, i, range);
-    }
+    Suspect suspect{jump.step, 0.0, 0.0, fast.main_period(), fast.shortest_period()};
+    for (const std::size_t i : judged_) look_at(jump, fast, i, suspect);
+    if (suspect.share > 0.0) suspects_.push_back(suspect);
   }
 
   /// What a response is in a state, measured as its history is.
@@ -147,21 +124,26 @@ class UnseenOvershoots {
 
   /// A swing as it goes on within the window of a response.
   struct Swing {
-    Eigen::VectorXd time;
+    Eigen::VectorXd time;    ///< behind the jump [s]
     Eigen::MatrixXd values;  ///< channels × samples
-    double settled = 0.0;    ///< the number that it would be without the swing
   };
 
-  Swing swing_of(const Jump& jump, const FastVibration& fast, std::size_t response,
+  /// Where the window begins behind a jump [s]; of a motion that repeats itself, also in the next period.
+  double way_to(const StepRange& range, const SuddenJump& jump) const {
+    const double from = trajectory_.time(range.first) - trajectory_.time(jump.step);
+    return std::max(0.0, range.last <= jump.step ? from + end() : from);
+  }
+
+  Swing swing_of(const SuddenJump& jump, const FastVibration& fast, std::size_t response,
                  const StepRange& range) const {
-    const double at = trajectory_.time(jump.step);
-    const double from = std::max(0.0, trajectory_.time(range.first) - at);
-    const double length = std::min(followed_periods * fast.longest_period(),
-                                   trajectory_.time(range.last) - at - from);
+    const double from = way_to(range, jump);
+    const bool is_later = from > 0.0;
+    const double window =
+        trajectory_.time(range.last) - trajectory_.time(is_later ? range.first : jump.step);
+    const double length = std::min(followed_periods * fast.longest_period(), window);
     const int samples =
         std::clamp(static_cast<int>(std::ceil(length / fast.shortest_period() * samples_of_period)),
                    3, most_samples);
-    const bool is_later = range.first > jump.step;
     State base = jump.before;
     if (is_later) trajectory_.states->load(range.first, base);
     Swing swing;
@@ -178,14 +160,10 @@ class UnseenOvershoots {
       if (k == 0) swing.values.resize(values.size(), samples);
       swing.values.col(k) = values;
     }
-    if (!is_later) fast.add_settled(base);
-    const Eigen::VectorXd rest = observed(response, base) + offset;
-    swing.settled =
-        number_of(response, range, Eigen::Vector2d(from, from + length), rest.replicate(1, 2));
     return swing;
   }
 
-  static int before(const Jump& jump) { return std::max(0, jump.step - 1); }
+  static int before(const SuddenJump& jump) { return std::max(0, jump.step - 1); }
 
   /// What is taken off what is observed: the mechanism without elasticity.
   Eigen::VectorXd offset_of(std::size_t response, int step, const State& state) const {
@@ -208,33 +186,139 @@ class UnseenOvershoots {
     return reduce_cycle(history.fatigue->criterion, instants, all, whole_range(instants)).value;
   }
 
-  void look_at(const Jump& jump, const FastVibration& fast, std::size_t response,
-               const StepRange& range) {
-    const double sign = run_.analysis.responses[response].is_reduced_by(OverTime::min) ? -1.0 : 1.0;
-    const double value = run_.analysis.reductions[response].value;
+  void look_at(const SuddenJump& jump, const FastVibration& fast, std::size_t response,
+               Suspect& suspect) const {
+    const StepRange range = window(response);
+    if (range.last <= jump.step && !trajectory_.periodic) return;
     const Swing swing = swing_of(jump, fast, response, range);
+    const double value = run_.analysis.responses[response].is_fatigue()
+                             ? number_of(response, range, {}, {})
+                             : run_.analysis.reductions[response].value;
     const double swung = number_of(response, range, swing.time, swing.values);
-    const double missing = std::min(sign * (swung - value), sign * (swung - swing.settled));
-    const double size = std::max({std::abs(value), std::abs(swung),
-                                  run_.analysis.histories[response].lpNorm<Eigen::Infinity>()});
-    if (!(missing > small_missing_share * size)) return;
-    const Unseen unseen{response, swung, missing / size, jump.step, fast.main_period()};
-    const auto known = std::find_if(found_.begin(), found_.end(), [&](const Unseen& other) {
-      return other.response == response;
-    });
-    if (known == found_.end()) {
-      found_.push_back(unseen);
-    } else if (known->share < unseen.share) {
-      *known = unseen;
+    const double share = missing_share(response, value, swung);
+    if (!(share > small_missing_share)) return;
+    suspect.share = std::max(suspect.share, share);
+    suspect.predicted[response] = {share, swung / value};
+    suspect.until =
+        std::max(suspect.until, way_to(range, jump) + followed_periods * fast.longest_period());
+  }
+
+  /// What a peak is short of another one, of the largest within the window.
+  double missing_share(std::size_t response, double value, double swung) const {
+    const StepRange range = window(response);
+    const double sign = run_.analysis.responses[response].is_reduced_by(OverTime::min) ? -1.0 : 1.0;
+    double size = std::max(std::abs(value), std::abs(swung));
+    if (!run_.analysis.responses[response].is_fatigue()) {
+      size = std::max(size, run_.analysis.histories[response]
+                                .middleCols(range.first, range.steps())
+                                .lpNorm<Eigen::Infinity>());
     }
+    return sign * (swung - value) / size;
+  }
+
+  /// A swing goes on into the next jump if that is close: how both add up depends on every period.
+  double end_of(const Suspect& suspect) const {
+    const double begin = trajectory_.time(suspect.step), end = begin + suspect.until;
+    double last = end;
+    for (const Suspect& other : suspects_) {
+      const double next = trajectory_.time(other.step);
+      if (next > begin && next - end < suspect.until) last = std::max(last, next);
+    }
+    return last;
+  }
+
+  /// The instants of the run, with more of them behind jumps, the worst first, while there is room.
+  std::vector<double> refined_instants() const {
+    const int more_steps = std::clamp(coordinates_in_steps / mechanism_.system->coordinates(),
+                                      least_more_steps, enough_more_steps);
+    const double room = trajectory_.steps() + std::max(more_steps, trajectory_.steps());
+    std::vector<ShorterSteps> stretches;
+    std::vector<double> instants;
+    for (const Suspect& suspect : suspects_) {
+      const double begin = trajectory_.time(suspect.step);
+      const double step = std::max(suspect.shortest / good_steps, 1.5 * suspect.until / more_steps);
+      if (step > suspect.main / fair_steps) break;
+      stretches.push_back({begin, end_of(suspect), step});
+      std::vector<double> more = instants_with(trajectory_, stretches);
+      if (static_cast<double>(more.size()) > room) break;
+      instants = std::move(more);
+    }
+    return instants;
+  }
+
+  /// What the run would have seen with short steps there; nothing if there is no room for them, or no step
+  /// converges.
+  std::unique_ptr<Analysis> simulate_swings() const {
+    ProblemFile fine = run_.problem;
+    fine.simulation.instants = refined_instants();
+    if (fine.simulation.instants.empty()) return nullptr;
+    // Whose multipliers have no transient where the size of steps changes.
+    ConstraintForm& form = fine.simulation.formulation.constraints;
+    if (form == ConstraintForm::index_3) form = ConstraintForm::stabilized_index_2;
+    try {
+      return analyze(fine, run_.x);
+    } catch (const SimulationError&) {
+      return nullptr;
+    }
+  }
+
+  std::optional<Unseen> unseen_of(std::size_t response, const Analysis* fine) const {
+    const Suspect& suspect = suspect_of(response);
+    const auto known = suspect.predicted.find(response);
+    if (known == suspect.predicted.end()) return std::nullopt;
+    const double exponent = damage_exponent(response);
+    if (!fine) {
+      const auto& [share, factor] = known->second;
+      return Unseen{response, std::pow(factor, exponent), share, suspect, true};
+    }
+    const double value = run_.analysis.reductions[response].value;
+    const double peak = fine->reductions[response].value;
+    const double share = 1.0 - std::pow(1.0 - missing_share(response, value, peak), 1.0 / exponent);
+    if (!(share > small_missing_share)) return std::nullopt;
+    return Unseen{response, peak / value, share, suspect, false};
+  }
+
+  /// Of damage, which grows with it as a power of stress; else 1.
+  double damage_exponent(std::size_t response) const {
+    const ResponseHistory& history = *run_.analysis.responses[response].history();
+    return history.fatigue ? history.fatigue->damage_exponent.value_or(1.0) : 1.0;
+  }
+
+  /// Where most of a response is missing.
+  const Suspect& suspect_of(std::size_t response) const {
+    const auto share = [response](const Suspect& suspect) {
+      const auto found = suspect.predicted.find(response);
+      return found == suspect.predicted.end() ? 0.0 : found->second.share;
+    };
+    return *std::max_element(
+        suspects_.begin(), suspects_.end(),
+        [&](const Suspect& a, const Suspect& b) { return share(a) < share(b); });
   }
 
   const TrustedRun& run_;
   const Mechanism& mechanism_;
   const Trajectory& trajectory_;
   std::vector<std::size_t> judged_;
-  std::vector<Unseen> found_;  ///< one a response at most
+  std::vector<Suspect> suspects_;
 };
+
+/// What begins it.
+std::string cause_of(const TrustedRun& run, int step) {
+  if (step > 0 || run.analysis.trajectory.periodic) {
+    return fmt::format("what acts jumps at t = {:.4g} s", run.analysis.trajectory.time(step));
+  }
+  return run.problem.simulation.quasi_static_start
+             ? "the motion begins at once"
+             : "bodies begin undeformed under loads and speeds that are there at once";
+}
+
+std::string remedy_of(const TrustedRun& run, int step) {
+  if (step > 0 || run.analysis.trajectory.periodic) {
+    return ", or a \"ramp\" in place of a jump where it comes up slower than that";
+  }
+  return run.problem.simulation.quasi_static_start ? ""
+                                                   : ", or \"initial_state\": \"quasi-static\"";
+}
 
 }  // namespace
 
@@ -246,27 +330,23 @@ std::vector<Doubt> doubt_unseen_overshoot(const TrustedRun& run) {
   const Trajectory& trajectory = run.analysis.trajectory;
   Doubt doubt;
   doubt.is_serious = true;
-  double period = worst.period;
+  double period = worst.suspect.main;
   for (const Unseen& one : found) {
     doubt.responses.push_back(run.analysis.responses[one.response].name);
-    period = std::min(period, one.period);
+    period = std::min(period, one.suspect.main);
   }
   const std::size_t others = found.size() - 1;
-  const bool is_start = worst.step == 0;
+  const int step = worst.suspect.step;
   doubt.text = fmt::format(
       "the steps do not see how far \"{}\"{}: {}, and what is elastic swings beyond its new "
-      "equilibrium with a period of {:.2g} s, in steps of {:.2g} s. The peak would be {}. Try a "
-      "/simulation/step of {:.1g} s, or {}.",
+      "equilibrium with a period of {:.2g} s, in steps of {:.2g} s. {} would be {}. Try a "
+      "/simulation/step of {:.1g} s{}.",
       doubt.responses.front(),
       others == 0 ? " swings"
                   : fmt::format(" and {} other response{} swing", others, others == 1 ? "" : "s"),
-      is_start ? "bodies begin undeformed under loads and speeds that are there at once"
-               : fmt::format("what acts jumps at t = {:.4g} s", trajectory.time(worst.step)),
-      worst.period, trajectory.step_size(worst.step + 1),
-      times_as_large(worst.swung / run.analysis.reductions[worst.response].value),
-      period / good_steps,
-      is_start ? "\"initial_state\": \"quasi-static\""
-               : "a \"ramp\" in place of a jump where it comes up slower than that");
+      cause_of(run, step), worst.suspect.main, trajectory.step_size(step + 1),
+      worst.is_predicted ? "Without damping the peak" : "The peak", times_as_large(worst.factor),
+      period / good_steps, remedy_of(run, step));
   return {doubt};
 }
 

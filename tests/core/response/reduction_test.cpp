@@ -170,5 +170,14 @@ TEST(Reduction, TellsTheOtherPeakOfAPeriodHoweverManyPeriodsThereAre) {
   }
 }
 
+/// Instants of later periods are sums: 0.1 + 0.2 is not 0.3.
+TEST(BrokenInstants, AreThereButForRoundOff) {
+  const Eigen::Vector4d time(0.0, 0.1, 0.1 + 0.2, 0.4);
+  ASSERT_NE(time(2), 0.3);
+  EXPECT_EQ(instants_at({0.3}, time), BrokenInstants({false, false, true, false}));
+  EXPECT_EQ(instants_at({0.29, 0.4, 0.5}, time), BrokenInstants({false, false, false, true}));
+  EXPECT_TRUE(instants_at({}, time).empty());
+}
+
 }  // namespace
 }  // namespace pleuel::test::reduction_test

@@ -5,12 +5,14 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "core/integration/fast_vibration.hpp"
 #include "tests/core/trust/doubts_of.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace pleuel::test::unseen_overshoot_test {
 namespace {
@@ -18,6 +20,7 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::IsSupersetOf;
+using testing::Not;
 using testing::SizeIs;
 using testing::UnorderedElementsAre;
 
@@ -63,6 +66,55 @@ std::vector<Doubt> doubts(const ProblemFile& problem) {
   return doubts_of(problem, doubt_unseen_overshoot);
 }
 
+/// By how much the peak of a message would be larger.
+double told_factor(const std::vector<Doubt>& found) {
+  const std::string words = "The peak would be ";
+  const std::string& text = found.at(0).text;
+  return std::stod(text.substr(text.find(words) + words.size()));
+}
+
+/// A mass on a spring (1 MN/m, 1 kg: 6 ms), beside what else the changes bring; in
+/// steps of 20 ms, which a scheme without spectral radius damps at once.
+ProblemFile sprung_mass(const std::string& push, const std::vector<std::string>& changes = {}) {
+  return read_scene(fmt::format(
+                        R"({{"scene": {{"bodies": {{
+                "mass": {{"type": "point-mass", "at": [1, 0, 0], "mass": 1}}}},
+              "joints": {{"guide": {{"type": "point-on-line", "bodies": ["ground", "mass"],
+                                     "at": [1, 0, 0], "axis": [1, 0, 0]}}}},
+              "loads": {{
+                "spring": {{"type": "spring", "bodies": ["ground", "mass"],
+                            "at": [[0, 0, 0], [1, 0, 0]], "stiffness": 1e6, "damping": 20}},
+                "push": {{"type": "force", "body": "mass", "at": [1, 0, 0],
+                          "direction": [1, 0, 0], "value": {}}}}}}},
+              "simulation": {{"end_time": 0.4, "step": 0.02, "spectral_radius": 0}},
+              "responses": {{
+                "hold": {{"type": "spring-force", "load": "spring", "over_time": "max"}}}}}})",
+                        push),
+                    changes);
+}
+
+std::string steps_of_load(const std::string& times, const std::string& values,
+                          const std::string& more = "") {
+  return fmt::format(R"({{"type": "table", "times": {}, "values": {}, "interpolation": "step"{}}})",
+                     times, values, more);
+}
+
+const std::string push_at_once = R"({"type": "step", "to": 100, "time": 0.1})";
+
+/// What the run with steps of a 60th of the period has more of the hold.
+double true_factor(const ProblemFile& problem) {
+  ProblemFile fine = problem;
+  fine.simulation.step = 1e-4;
+  fine.simulation.spectral_radius = 0.8;
+  return analyze_pull(fine) / analyze_pull(problem);
+}
+
+void expect_true_factor(const ProblemFile& problem) {
+  const std::vector<Doubt> found = doubts(problem);
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_NEAR(told_factor(found), true_factor(problem), 0.07 * true_factor(problem));
+}
+
 /// The rod at rest, and what the pull changes in its equations.
 struct SuddenPull {
   std::unique_ptr<Analysis> analysis;
@@ -91,16 +143,12 @@ struct SuddenPull {
 
 constexpr double slow = 10.0;
 
-/// F L / E A; and x tan x = m/M with x = ω L / c of a rod of the mass m with a mass M at its end
-/// (E A u' = ω² M u there), of which four elements make 0.2 %.
-TEST(FastVibration, HasTheEquilibriumAndThePeriodOfTheRod) {
+/// x tan x = m/M with x = ω L / c of a rod of the mass m with a mass M at its end (E A u' = ω² M u there), of
+/// which four elements make 0.2 %.
+TEST(FastVibration, HasThePeriodOfTheRod) {
   SuddenPull pull({});
   const FastVibration found = pull.vibration(slow);
   ASSERT_FALSE(found.is_empty());
-  State settled = pull.state;
-  found.add_settled(settled);
-  const double stretch = force / stiffness;
-  EXPECT_NEAR((settled.q - pull.state.q).maxCoeff(), stretch, 1e-4 * stretch);
   double low = 0.1, high = 1.5;
   for (int i = 0; i < 60; ++i) {
     const double x = 0.5 * (low + high);
@@ -113,38 +161,29 @@ TEST(FastVibration, HasTheEquilibriumAndThePeriodOfTheRod) {
   EXPECT_TRUE(pull.vibration(1e6).is_empty());
 }
 
-/// At any time its state is one of the equations of motion, multipliers and damping included.
+/// At any time its state is one of the equations of motion without damping, multipliers included.
 TEST(FastVibration, KeepsTheEquationsOfMotion) {
-  for (const char* damping : {"1e-6", "1e-4", "1e-3"}) {
-    SuddenPull pull({fmt::format("/scene/bodies/rod/damping={{\"stiffness\": {}}}", damping)});
-    const FastVibration found = pull.vibration(slow);
-    for (const double share : {0.0, 0.2, 0.5, 1.3}) {
-      State state = pull.state;
-      found.add(share * found.main_period(), state);
-      EXPECT_LE(pull.residual(state).cwiseAbs().maxCoeff(), 5e-3 * force)
-          << damping << " " << share;
-    }
+  SuddenPull pull({});
+  const FastVibration found = pull.vibration(slow);
+  for (const double share : {0.0, 0.2, 0.5, 1.3}) {
+    State state = pull.state;
+    found.add(share * found.main_period(), state);
+    EXPECT_LE(pull.residual(state).cwiseAbs().maxCoeff(), 5e-3 * force) << share;
   }
 }
 
-/// Twice as far without damping, half a period later; no further than the equilibrium where it creeps.
-TEST(FastVibration, SwingsAsFarAgainUnlessItCreeps) {
+/// Twice as far as F L / E A, half a period later.
+TEST(FastVibration, SwingsAsFarAgain) {
   const double stretch = force / stiffness;
-  const auto farthest = [&](SuddenPull pull) {
-    const FastVibration found = pull.vibration(slow);
-    double most = 0.0;
-    for (double share = 0.0; share < 3.0; share += 0.02) {
-      State state = pull.state;
-      found.add(share * found.main_period(), state);
-      most = std::max(most, (state.q - pull.state.q).maxCoeff());
-    }
-    return most;
-  };
-  EXPECT_NEAR(farthest(SuddenPull({})), 2.0 * stretch, 0.05 * stretch);
-  const double creeping =
-      farthest(SuddenPull({R"(/scene/bodies/rod/damping={"stiffness": 1e-3})"}));
-  EXPECT_NEAR(creeping, stretch, 1e-2 * stretch);
-  EXPECT_LE(creeping, (1.0 + 1e-6) * stretch);
+  SuddenPull pull({});
+  const FastVibration found = pull.vibration(slow);
+  double most = 0.0;
+  for (double share = 0.0; share < 3.0; share += 0.02) {
+    State state = pull.state;
+    found.add(share * found.main_period(), state);
+    most = std::max(most, (state.q - pull.state.q).maxCoeff());
+  }
+  EXPECT_NEAR(most, 2.0 * stretch, 0.05 * stretch);
 }
 
 /// More than half of the peaks is missing, as the further modes add to the first, and that the rod is
@@ -157,11 +196,10 @@ TEST(UnseenOvershoot, OfALoadThatJumpsIsTold) {
   EXPECT_THAT(found[0].responses, UnorderedElementsAre("pull", "press", "hold"));
   EXPECT_THAT(found[0].text, HasSubstr("jumps at t = 0.02 s"));
   EXPECT_THAT(found[0].text, HasSubstr("period of 0.0017 s"));
-  EXPECT_THAT(found[0].text, HasSubstr("would be 2.14 times as large"));
   const ProblemFile fine = pulled_rod(jump, {"/simulation/step=1e-5"});
   EXPECT_THAT(doubts(fine), IsEmpty());
   const double coarse_pull = analyze_pull(pulled_rod(jump)), fine_pull = analyze_pull(fine);
-  EXPECT_NEAR(fine_pull / coarse_pull, 2.2, 0.05);
+  EXPECT_NEAR(fine_pull / coarse_pull, told_factor(found), 0.05);
 }
 
 /// The rod that is let go is pressed as much as it was pulled. What is missing of the pull is close to the
@@ -181,7 +219,7 @@ TEST(UnseenOvershoot, OfASuddenStartIsTold) {
   const std::string euler = R"(/simulation/scheme="implicit-euler")";
   const std::vector<Doubt> found = doubts(pulled_rod("8000", {euler}));
   ASSERT_THAT(found, SizeIs(1));
-  EXPECT_THAT(found[0].responses, UnorderedElementsAre("pull", "press", "hold"));
+  EXPECT_THAT(found[0].responses, IsSupersetOf({"pull", "hold"}));
   EXPECT_THAT(found[0].text, HasSubstr("begin undeformed"));
   EXPECT_THAT(doubts(pulled_rod("8000", {euler, R"(/simulation/initial_state="quasi-static")"})),
               IsEmpty());
@@ -198,7 +236,7 @@ TEST(UnseenOvershoot, OfADriveWhoseAccelerationJumpsIsTold) {
             "/scene/bodies/rod/section/height=0.05"}));
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_THAT(found[0].responses, UnorderedElementsAre("press", "hold"));
-  EXPECT_THAT(found[0].text, HasSubstr("would be 1.89 times as large"));
+  EXPECT_NEAR(told_factor(found), 1.9, 0.1);
 }
 
 /// Formulas of what swings, cycles of it, and windows that begin behind the jump.
@@ -237,6 +275,110 @@ TEST(UnseenOvershoot, IsNotToldWhereThereIsNone) {
   EXPECT_THAT(doubts(pulled_rod(jump, {"/responses/pull/to=0.015", "/responses/hold/to=0.015",
                                        "/responses/press/to=0.015"})),
               IsEmpty());
+}
+
+/// What came before its window, and how long the step behind a jump happens to be, does not matter.
+TEST(UnseenOvershoot, IsMeasuredWithinTheWindow) {
+  expect_true_factor(sprung_mass(steps_of_load("[0, 0.1, 0.2]", "[2000, 100, 200]"),
+                                 {R"(/simulation/initial_state="quasi-static")",
+                                  "/responses/hold/from=0.18", "/scene/loads/spring/damping=200"}));
+  expect_true_factor(sprung_mass(
+      push_at_once, {"/scene/loads/spring/stiffness=141376",
+                     R"(/responses/other={"type": "position", "body": "mass", "direction": "x",
+                         "over_time": "mean", "from": 0.1052})"}));
+}
+
+/// A damper that blocks one of two masses leaves the other one to swing.
+TEST(UnseenOvershoot, IsNotDampedByADamperElsewhere) {
+  expect_true_factor(sprung_mass(
+      "0", {R"(/scene/bodies/end={"type": "point-mass", "at": [2, 0, 0], "mass": 1})",
+            R"(/scene/joints/other={"type": "point-on-line", "bodies": ["ground", "end"],
+                "at": [2, 0, 0], "axis": [1, 0, 0]})",
+            R"(/scene/loads/between={"type": "spring", "bodies": ["mass", "end"],
+                "at": [[1, 0, 0], [2, 0, 0]], "stiffness": 1e6, "damping": 1e5})",
+            fmt::format(R"(/scene/loads/pull={{"type": "force", "body": "end", "at": [2, 0, 0],
+                            "direction": [1, 0, 0], "value": {}}})",
+                        push_at_once)}));
+}
+
+/// A spring that hardens is far stiffer than where the steps leave it, so that of its swing a sixth is missing.
+TEST(UnseenOvershoot, IsMostOfThatOfHardeningSprings) {
+  const ProblemFile problem = sprung_mass(
+      push_at_once,
+      {R"(/scene/loads/spring/resistance={"type": "expression", "value": "= 1e15 N/m^3 * elongation^3"})"});
+  const std::vector<Doubt> found = doubts(problem);
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_NEAR(told_factor(found), true_factor(problem), 0.18 * true_factor(problem));
+}
+
+/// Friction beyond the load carries it: 1100 N of 1000. With 300 N of friction it swings by 1.7 times.
+TEST(UnseenOvershoot, IsHeldByDryFriction) {
+  const std::string push = R"({"type": "step", "to": 1000, "time": 0.1})";
+  const auto friction = [](double value) {
+    return fmt::format(
+        R"(/scene/loads/spring/resistance={{"type": "friction", "value": {}, "speed": 0.01}})",
+        value);
+  };
+  const std::string undamped = "/scene/loads/spring/damping=0";
+  EXPECT_THAT(doubts(sprung_mass(push, {undamped, friction(1100)})), IsEmpty());
+  expect_true_factor(sprung_mass(push, {undamped, friction(300)}));
+}
+
+/// Forty jumps of another mass hide none of this one, nor do forty of its own those of a late window.
+TEST(UnseenOvershoot, IsFoundAmongManyJumps) {
+  std::string times = "[0", values = "[0";
+  for (int i = 1; i <= 40; ++i) {
+    times += fmt::format(", {}", 0.01 * i);
+    values += i % 2 == 1 ? ", 2000" : ", 0";
+  }
+  const std::string toggles = steps_of_load(times + "]", values + "]");
+  expect_true_factor(sprung_mass(
+      R"({"type": "step", "to": 100, "time": 0.255})",
+      {"/simulation/step=0.005",
+       R"(/scene/bodies/other={"type": "point-mass", "at": [1, 1, 0], "mass": 1})",
+       R"(/scene/joints/rail={"type": "point-on-line", "bodies": ["ground", "other"],
+           "at": [1, 1, 0], "axis": [1, 0, 0]})",
+       R"(/scene/loads/soft={"type": "spring", "bodies": ["ground", "other"],
+           "at": [[0, 1, 0], [1, 1, 0]], "stiffness": 1e6, "damping": 20})",
+       fmt::format(R"(/scene/loads/toggle={{"type": "force", "body": "other", "at": [1, 1, 0],
+                       "direction": [1, 0, 0], "value": {}}})",
+                   toggles)}));
+  expect_true_factor(sprung_mass(
+      toggles,
+      {"/simulation/step=0.005", "/scene/loads/spring/damping=400", "/responses/hold/from=0.38"}));
+}
+
+/// 0.5 s is 0.1 s behind the first period of 0.4 s, but for round-off.
+TEST(UnseenOvershoot, OfAMotionThatRepeatsItselfIsToldWhereverTheLoadJumps) {
+  const std::string periodic = R"(/simulation/initial_state={"type": "periodic", "period": 0.4})";
+  for (const double on : {0.04, 0.1, 0.12, 0.3}) {
+    const ProblemFile problem =
+        sprung_mass(steps_of_load(fmt::format("[0, {}, {}, 0.4]", on, on + 0.08), "[0, 100, 0, 0]",
+                                  R"(, "period": 0.4)"),
+                    {periodic});
+    const std::vector<Doubt> found = doubts(problem);
+    ASSERT_THAT(found, SizeIs(1)) << on;
+    EXPECT_NEAR(told_factor(found), true_factor(problem), 0.1 * true_factor(problem)) << on;
+    EXPECT_THAT(found[0].text, Not(HasSubstr("quasi-static"))) << on;
+  }
+}
+
+/// Steps of index 3 that are divided suddenly have a transient in the forces of joints: not in the
+/// peaks that are told. 200 rad/s in steps of 2 ms.
+TEST(UnseenOvershoot, OfForcesOfAFastMechanismIsNoTransientOfTheSteps) {
+  const ProblemFile coarse =
+      read_problem(
+          source_folder() + "/problems/slider_crank.json",
+          {R"(/scene/loads={"hit": {"type": "force", "body": "slider", "at": ["300 mm", 0, 0],
+          "direction": [1, 0, 0], "value": {"type": "step", "to": -2000, "time": 0.08}}})",
+           R"(/scene/joints/bearing/drive/ramp="10 ms")", "/simulation/step=2e-3",
+           R"(/scene/bodies/crank/damping={"stiffness": "1e-4 s"})",
+           R"(/scene/bodies/rod/damping={"stiffness": "1e-4 s"})",
+           R"(/responses/pin={"type": "reaction-force", "joint": "slider_pin", "direction": "x",
+           "over_time": "max-abs"})",
+           R"(/constraints/pin={"response": "pin", "upper": "1 MN"})"})
+          .complete();
+  EXPECT_THAT(doubts(coarse), IsEmpty());
 }
 
 }  // namespace
