@@ -30,8 +30,8 @@ constexpr int most_halvings_of_corrections = 6;
 constexpr double gap_of_round_off = 1e-9, no_progress = 0.5;
 /// Below it, 1 − M is singular.
 constexpr double least_condition = 1e-13;
-/// Growth of disturbances in a period that is more than round-off: motions without damping neither grow
-/// nor die.
+/// Growth of disturbances in a period that is more than round-off: motions without damping neither
+/// grow nor die.
 constexpr double unstable = 1.0 + 1e-5;
 /// Growth below which a motion surely forgets how it began.
 constexpr double forgetful = 1.0 - 1e-5;

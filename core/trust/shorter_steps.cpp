@@ -10,7 +10,8 @@ namespace pleuel {
 
 namespace {
 
-/// From one step to the next. Where they change by more than 30 %, the scheme takes up the motion anew.
+/// From one step to the next. Where they change by more than 30 %, the scheme takes up the motion
+/// anew.
 constexpr double growth_of_steps = 0.25;
 /// Of a number of steps.
 constexpr double round_off_of_parts = 1e-6;

@@ -26,15 +26,16 @@ namespace {
 constexpr double small_missing_share = 0.1;
 /// Angular frequency from which on a mode is fast, times the step: three steps a period.
 constexpr double fast_angle = 2.0;
-/// Steps behind a jump of which the longest counts: some may end early, where something else begins.
+/// Steps behind a jump of which the longest counts: some may end early, where something else
+/// begins.
 constexpr int steps_behind_a_jump = 3;
 /// Steps a period that see a peak; and, where there is no room for more, that see most of it.
 constexpr double good_steps = 20.0, fair_steps = 12.0;
 /// A swing is followed for so many of its longest periods, with so many samples of its shortest.
 constexpr double followed_periods = 1.5, samples_of_period = 12.0;
 constexpr int most_samples = 80;
-/// The swings are simulated with so many more steps at most, or as many as the run has: fewer of large
-/// mechanisms, by their coordinates.
+/// The swings are simulated with so many more steps at most, or as many as the run has: fewer of
+/// large mechanisms, by their coordinates.
 constexpr int coordinates_in_steps = 60000, least_more_steps = 200, enough_more_steps = 2000;
 /// A jump whose swing may be unseen, as it would be without damping.
 struct Suspect {
@@ -128,7 +129,8 @@ class UnseenOvershoots {
     Eigen::MatrixXd values;  ///< channels × samples
   };
 
-  /// Where the window begins behind a jump [s]; of a motion that repeats itself, also in the next period.
+  /// Where the window begins behind a jump [s]; of a motion that repeats itself, also in the next
+  /// period.
   double way_to(const StepRange& range, const SuddenJump& jump) const {
     const double from = trajectory_.time(range.first) - trajectory_.time(jump.step);
     return std::max(0.0, range.last <= jump.step ? from + end() : from);
@@ -246,8 +248,8 @@ class UnseenOvershoots {
     return instants;
   }
 
-  /// What the run would have seen with short steps there; nothing if there is no room for them, or no step
-  /// converges.
+  /// What the run would have seen with short steps there; nothing if there is no room for them, or
+  /// no step converges.
   std::unique_ptr<Analysis> simulate_swings() const {
     ProblemFile fine = run_.problem;
     fine.simulation.instants = refined_instants();

@@ -5,11 +5,11 @@
 
 namespace pleuel {
 
-/// Peaks that the steps pass over: where a load or the acceleration of a drive jumps, elastic bodies
-/// swing beyond their new equilibrium, up to as far again (the dynamic factor of two). Of those that
-/// do so within a step nothing is left, with twice and half of it neither. Which may do so the
-/// equations about that instant tell (fast_vibration.hpp); what is missing is seen by one more
-/// simulation, with short steps behind such jumps (shorter_steps.hpp).
+/// Peaks that the steps pass over: where a load or the acceleration of a drive jumps, elastic
+/// bodies swing beyond their new equilibrium, up to as far again (the dynamic factor of two). Of
+/// those that do so within a step nothing is left, with twice and half of it neither. Which may do
+/// so the equations about that instant tell (fast_vibration.hpp); what is missing is seen by one
+/// more simulation, with short steps behind such jumps (shorter_steps.hpp).
 std::vector<Doubt> doubt_unseen_overshoot(const TrustedRun& run);
 
 }  // namespace pleuel

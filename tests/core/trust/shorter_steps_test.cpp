@@ -20,7 +20,8 @@ TEST(ShorterSteps, OfNoneAreThoseOfTheTrajectory) {
               ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10));
 }
 
-/// Short from the jump at 2 to 2.5, with one before it; then no step is 1.3 times as long as the last.
+/// Short from the jump at 2 to 2.5, with one before it; then no step is 1.3 times as long as the
+/// last.
 TEST(ShorterSteps, AreShortBehindTheJumpAndGrowSlowly) {
   const Trajectory trajectory = with_steps_of_one();
   const std::vector<double> found = instants_with(trajectory, {{2.0, 2.5, 0.1}});

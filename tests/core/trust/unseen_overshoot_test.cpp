@@ -143,8 +143,8 @@ struct SuddenPull {
 
 constexpr double slow = 10.0;
 
-/// x tan x = m/M with x = ω L / c of a rod of the mass m with a mass M at its end (E A u' = ω² M u there), of
-/// which four elements make 0.2 %.
+/// x tan x = m/M with x = ω L / c of a rod of the mass m with a mass M at its end (E A u' = ω² M u
+/// there), of which four elements make 0.2 %.
 TEST(FastVibration, HasThePeriodOfTheRod) {
   SuddenPull pull({});
   const FastVibration found = pull.vibration(slow);
@@ -186,9 +186,9 @@ TEST(FastVibration, SwingsAsFarAgain) {
   EXPECT_NEAR(most, 2.0 * stretch, 0.05 * stretch);
 }
 
-/// More than half of the peaks is missing, as the further modes add to the first, and that the rod is
-/// pressed, too; the position of the tip moves by 0.01 % only. With steps of a 170th of the period all is
-/// there, and nothing is said.
+/// More than half of the peaks is missing, as the further modes add to the first, and that the rod
+/// is pressed, too; the position of the tip moves by 0.01 % only. With steps of a 170th of the
+/// period all is there, and nothing is said.
 TEST(UnseenOvershoot, OfALoadThatJumpsIsTold) {
   const std::vector<Doubt> found = doubts(pulled_rod(jump));
   ASSERT_THAT(found, SizeIs(1));
@@ -202,8 +202,8 @@ TEST(UnseenOvershoot, OfALoadThatJumpsIsTold) {
   EXPECT_NEAR(fine_pull / coarse_pull, told_factor(found), 0.05);
 }
 
-/// The rod that is let go is pressed as much as it was pulled. What is missing of the pull is close to the
-/// tenth from which it is told.
+/// The rod that is let go is pressed as much as it was pulled. What is missing of the pull is close
+/// to the tenth from which it is told.
 TEST(UnseenOvershoot, OfALoadThatIsLetGoIsToldOfTheLeast) {
   const std::vector<Doubt> found =
       doubts(pulled_rod(R"({"type": "table", "times": [0, 0.02], "values": [8000, 0],
@@ -301,7 +301,8 @@ TEST(UnseenOvershoot, IsNotDampedByADamperElsewhere) {
                         push_at_once)}));
 }
 
-/// A spring that hardens is far stiffer than where the steps leave it, so that of its swing a sixth is missing.
+/// A spring that hardens is far stiffer than where the steps leave it, so that of its swing a sixth
+/// is missing.
 TEST(UnseenOvershoot, IsMostOfThatOfHardeningSprings) {
   const ProblemFile problem = sprung_mass(
       push_at_once,
@@ -311,7 +312,8 @@ TEST(UnseenOvershoot, IsMostOfThatOfHardeningSprings) {
   EXPECT_NEAR(told_factor(found), true_factor(problem), 0.18 * true_factor(problem));
 }
 
-/// Friction beyond the load carries it: 1100 N of 1000. With 300 N of friction it swings by 1.7 times.
+/// Friction beyond the load carries it: 1100 N of 1000. With 300 N of friction it swings by 1.7
+/// times.
 TEST(UnseenOvershoot, IsHeldByDryFriction) {
   const std::string push = R"({"type": "step", "to": 1000, "time": 0.1})";
   const auto friction = [](double value) {
@@ -324,7 +326,8 @@ TEST(UnseenOvershoot, IsHeldByDryFriction) {
   expect_true_factor(sprung_mass(push, {undamped, friction(300)}));
 }
 
-/// Forty jumps of another mass hide none of this one, nor do forty of its own those of a late window.
+/// Forty jumps of another mass hide none of this one, nor do forty of its own those of a late
+/// window.
 TEST(UnseenOvershoot, IsFoundAmongManyJumps) {
   std::string times = "[0", values = "[0";
   for (int i = 1; i <= 40; ++i) {
