@@ -32,8 +32,8 @@ std::string neighbours_text(const Optimum& optimum) {
   }
   return fmt::format(
       "of the {} choices of sizes that were tried none that keeps them {}, also with any one size "
-      "exchanged for the next; the others were not tried",
-      sizes.tried, better);
+      "exchanged for {}; the others were not tried",
+      sizes.tried, better, sizes.are_lists_tried ? "another" : "the next");
 }
 
 std::string accuracy_text(const Optimum& optimum) {

@@ -124,6 +124,8 @@ class PeriodicSearch {
     }
     complaint_ = complaint_about_repetition(mechanism_, attempt.trajectory, one_.period);
     if (!complaint_.empty()) throw SimulationError(complaint_ + advice_);
+    // The map may be that of a motion on the way, whose disturbances grow otherwise.
+    if (map_->growth() > unstable) make_map(attempt.trajectory);
     return attempt;
   }
 
@@ -132,9 +134,9 @@ class PeriodicSearch {
     if (growth > unstable) {
       throw SimulationError(
           fmt::format("/simulation/initial_state: the motion that repeats itself after {:.6g} s is "
-                      "unstable: disturbances grow by a factor of {:.4g} in each period, so that "
-                      "no machine would run so",
-                      one_.period, growth));
+                      "unstable: disturbances grow by {:.2g} % in each period, so that no machine "
+                      "would run so",
+                      one_.period, 100.0 * (growth - 1.0)));
     }
     return {one_.period,  attempt.trajectory.steps(), map_,
             simulations_, differentiations_,          attempt.gap,

@@ -42,6 +42,18 @@ void LeastNormSignal::add_gradient(const State& state, int channel, double weigh
   gradient.design += local_.design;
 }
 
+bool LeastNormSignal::is_determined(const State& state) {
+  constexpr double round_off = 1e-6;
+  set(state);
+  for (int channel = 0; channel < channels(); ++channel) {
+    local_.set_zero();
+    inner_->add_gradient(least_, channel, 1.0, local_);
+    const Eigen::VectorXd shared = norm_->slope(state.lambda, local_.lambda).beta;
+    if (shared.norm() > round_off * local_.lambda.norm()) return false;
+  }
+  return true;
+}
+
 /// ∂(motionᵀ Φ_qᵀ λ)/∂(q, x): of what joints and loads exert, the part that is linear in λ.
 void LeastNormSignal::add_change_of_forces(const Eigen::VectorXd& motion,
                                            const Eigen::VectorXd& multipliers,

@@ -24,6 +24,7 @@ class LeastNormSignal final : public Signal {
   /// Along changes that keep the constraints and their redundancy: others do not occur.
   void add_gradient(const State& state, int channel, double weight,
                     SignalGradient& gradient) override;
+  bool is_determined(const State& state) override;
 
  private:
   void set(const State& state);

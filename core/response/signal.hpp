@@ -36,6 +36,9 @@ class Signal {
                             SignalGradient& gradient) = 0;
   /// Where a channel is, for people: "element 3, end 1, y = −0.015 m".
   virtual std::string describe(int channel) const = 0;
+  /// Whether the equations of motion determine it: not of a reaction that joints share in more than
+  /// one way.
+  virtual bool is_determined(const State& /*state*/) { return true; }
 };
 
 }  // namespace pleuel

@@ -51,7 +51,8 @@ std::vector<Doubt> doubt_jerks_at_corners(const TrustedRun& run) {
         {fmt::format(
              "the peak of the jerk \"{}\" is at a corner in the acceleration of a drive (t = "
              "{:.4g} s): the accelerations ring there, and the jerk is wrong by up to a "
-             "third with any step. Take the /simulation/formulation \"index-1\", or a law "
+             "third of its jump there with any step. Take the /simulation/formulation \"index-1\", "
+             "or a law "
              "without a corner there.",
              name, *corner),
          true,

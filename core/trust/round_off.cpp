@@ -27,6 +27,8 @@ constexpr double tiny_inertia = 2e-13, most_inertia = 1e-6;
 constexpr double vanishing = 1e-3;
 /// Of stress: a strain of round-off, against the size of the mechanism.
 constexpr double tiny_strain = 1e-13;
+/// Of shares of a buckling load.
+constexpr double tiny_share = 1e-12;
 /// Of lengths, which are exact to the last digits.
 constexpr double tiny_length = 1e-12;
 /// Of lengths that rates over one step are made from.
@@ -119,6 +121,9 @@ class RoundOff {
                         const BeamElement<double>& element) const {
     const double force = element.young * element.section.area;
     switch (observed_type(response.type)) {
+      case ResponseType::buckling:
+      case ResponseType::lateral_buckling:
+        return tiny_share / tiny_strain;
       case ResponseType::section_force:
         return is_force(response.section_part) ? force : force * size_;
       case ResponseType::shear_stress:

@@ -15,6 +15,7 @@
 #include "core/integration/fast_vibration.hpp"
 #include "core/response/fatigue.hpp"
 #include "core/trust/asked_responses.hpp"
+#include "core/trust/round_off.hpp"
 #include "core/trust/shorter_steps.hpp"
 #include "core/trust/sudden_jumps.hpp"
 
@@ -79,8 +80,10 @@ class UnseenOvershoots {
     std::stable_sort(suspects_.begin(), suspects_.end(),
                      [](const Suspect& a, const Suspect& b) { return a.share > b.share; });
     const std::unique_ptr<Analysis> fine = simulate_swings();
+    const std::vector<bool> is_round_off = find_round_off(run_);
     std::vector<Unseen> found;
     for (const std::size_t i : judged_) {
+      if (is_round_off[i]) continue;
       if (const auto unseen = unseen_of(i, fine.get())) found.push_back(*unseen);
     }
     std::stable_sort(found.begin(), found.end(),

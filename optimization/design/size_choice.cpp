@@ -128,6 +128,7 @@ class SizeSearch {
         if (report_.tried == before) break;
       }
       if (*best_ == from) attempt(lists_.neighbours(from), x);
+      if (*best_ == from) try_whole_lists(from, x);
       if (*best_ == from) {
         is_settled_ = true;
         return;
@@ -136,6 +137,16 @@ class SizeSearch {
                          objective_text(tried_.at(*best_).objective),
                          tried_.at(*best_).keeps_limits() ? "" : ", outside the limits"));
     }
+  }
+
+  /// Lists whose sections differ in more than size, as tubes with several walls do, go up and down in
+  /// stiffness on the way: the better one may be far away.
+  void try_whole_lists(const Sizes& from, const Eigen::VectorXd& x) {
+    const std::vector<Sizes> exchanges = lists_.exchanges(from);
+    const double most = is_optimized_ ? most_optimized : most_simulated_choices;
+    if (static_cast<double>(exchanges.size()) > most) return;
+    attempt(exchanges, x);
+    report_.are_lists_tried = true;
   }
 
   /// Values and gradients at the best choice; multipliers where other variables were optimized.
@@ -271,8 +282,10 @@ class SizeSearch {
                           count_text(report_.combinations), report_.feasible)
             : fmt::format("the best choice of sizes that was found: {} of {} were tried, and {}",
                           report_.tried, count_text(report_.combinations),
-                          is_settled_ ? "none with one size exchanged for the next is better"
-                                      : "the search was not at its end");
+                          !is_settled_ ? "the search was not at its end"
+                          : report_.are_lists_tried
+                              ? "none with one size exchanged is better"
+                              : "none with one size exchanged for the next is better");
     if (is_sound && !report_.is_exhaustive && !is_settled_) result.status = Status::stalled;
     result.message =
         what + bound_text(objective) + (is_sound ? "" : fmt::format("; {}", result.message));

@@ -15,6 +15,7 @@ struct SizeChoiceReport {
   int feasible = 0;                        ///< of those
   bool is_exhaustive = false;              ///< all were tried
   bool is_choice = false;                  ///< whether the design is one of them
+  bool are_lists_tried = false;            ///< with any other size in place of each one of it
 
   /// Of the objective, relative to the continuous optimum; positive: choosing costs that much.
   double penalty(double objective) const;

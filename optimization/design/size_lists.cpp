@@ -72,4 +72,16 @@ std::vector<Sizes> SizeLists::neighbours(const Sizes& from) const {
   return all;
 }
 
+std::vector<Sizes> SizeLists::exchanges(const Sizes& from) const {
+  std::vector<Sizes> all;
+  for (std::size_t k = 0; k < count(); ++k) {
+    for (int size = 0; size < sizes(k); ++size) {
+      if (size == from[k]) continue;
+      all.push_back(from);
+      all.back()[k] = size;
+    }
+  }
+  return all;
+}
+
 }  // namespace pleuel

@@ -37,6 +37,8 @@ class SizeLists {
 
   /// Each size one up or down.
   std::vector<Sizes> neighbours(const Sizes& from) const;
+  /// Any other size in place of each.
+  std::vector<Sizes> exchanges(const Sizes& from) const;
 
  private:
   struct List {

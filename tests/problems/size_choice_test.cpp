@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
 #include <optional>
 
 #include <fmt/format.h>
@@ -16,8 +19,8 @@ namespace {
 
 using testing::HasSubstr;
 
-// A cantilever of steps of 100 mm, 20 mm wide, with 1 kN at its tip from the start on, in equilibrium.
-// The stress at the root of a step is 6 F (distance to the tip) / (b h²).
+// A cantilever of steps of 100 mm, 20 mm wide, with 1 kN at its tip from the start on, in
+// equilibrium. The stress at the root of a step is 6 F (distance to the tip) / (b h²).
 constexpr double force = 1000.0, width = 0.02, step_length = 0.1, strength = 100e6;
 
 double least_height(int step, int steps) {
@@ -150,7 +153,8 @@ TEST(SizeChoice, FindsWhatIsBestAmongTooManyChoicesToTryAll) {
   EXPECT_THAT(answer.result().message, HasSubstr("which no choice can beat if"));
 }
 
-/// Of the tip, by bending alone (E = 210 GPa): F/(3 E I) (a³ − c³) of each step from c to a before the tip.
+/// Of the tip, by bending alone (E = 210 GPa): F/(3 E I) (a³ − c³) of each step from c to a before
+/// the tip.
 double sag(const std::vector<double>& heights) {
   const auto steps = static_cast<int>(heights.size());
   double sum = 0.0;
@@ -190,6 +194,74 @@ TEST(SizeChoice, TradesOneSizeForAnotherWhereALimitJoinsThem) {
   }
 }
 
+/// Tubes of several walls are not in order of stiffness: 24 of them for each half of a cantilever
+/// of 600 mm with 400 N, 160 MPa and 4 mm. Found by one size anywhere in its list, where it stopped
+/// 30 % above.
+TEST(SizeChoice, LooksThroughListsWhoseSectionsGoUpAndDown) {
+  struct Tube {
+    double outer, wall;
+    double inner() const { return outer - 2.0 * wall; }
+    double area() const { return 0.25 * std::numbers::pi * (outer * outer - inner() * inner()); }
+    double inertia() const {
+      return std::numbers::pi / 64.0 * (std::pow(outer, 4) - std::pow(inner(), 4));
+    }
+  };
+  std::vector<Tube> tubes;
+  std::string sections, names;
+  for (const double outer : {0.020, 0.025, 0.030, 0.038, 0.044, 0.050}) {
+    for (const double wall : {0.0015, 0.002, 0.003, 0.004}) {
+      const std::string comma = tubes.empty() ? "" : ", ", name = fmt::format("T{}", tubes.size());
+      sections +=
+          comma + fmt::format(R"("{}": {{"type": "tube", "outer_diameter": {}, "thickness": {}}})",
+                              name, outer, wall);
+      names += comma + fmt::format("\"{}\"", name);
+      tubes.push_back({outer, wall});
+    }
+  }
+  constexpr double load = 400.0, length = 0.6, half = 0.3, young = 210e9;
+  double lightest = 1e9;
+  for (const Tube& root : tubes) {
+    for (const Tube& tip : tubes) {
+      const double stress = std::max(load * length * root.outer / root.inertia(),
+                                     load * half * tip.outer / tip.inertia()) /
+                            2.0;
+      const double bent = load / (3.0 * young) *
+                          ((std::pow(length, 3) - std::pow(half, 3)) / root.inertia() +
+                           std::pow(half, 3) / tip.inertia());
+      if (stress > 160e6 || bent > 4e-3) continue;
+      lightest = std::min(lightest, 7850.0 * half * (root.area() + tip.area()));
+    }
+  }
+  const std::string folder = testing::TempDir() + "/walls";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder + "/tubes.json") << fmt::format(R"({{"sections": {{{}}}}})", sections);
+  std::ofstream(folder + "/cantilever.json") << fmt::format(
+      R"({{"scene": {{"gravity": [0, 0, 0], "catalogue": "tubes.json",
+            "materials": {{"plain": {{"young": 210e9, "poisson": 0.3, "density": 7850}}}},
+            "bodies": {{"beam": {{"type": "beam", "from": [0, 0, 0], "to": [0.6, 0, 0],
+              "material": "plain", "segments": [
+                {{"section": {{"variable": "root"}}, "elements": 1, "length_fraction": 0.5}},
+                {{"section": {{"variable": "tip"}}, "elements": 1, "length_fraction": 0.5}}]}}}},
+            "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}}}},
+            "loads": {{"pull": {{"type": "force", "body": "beam", "at": [0.6, 0, 0],
+              "direction": [0, 1, 0], "value": 400}}}}}},
+          "simulation": {{"end_time": 2e-3, "step": 1e-3, "initial_state": "quasi-static",
+            "resolution_check": false}},
+          "variables": {{"root": {{"choices": [{0}]}}, "tip": {{"choices": [{0}]}}}},
+          "responses": {{"mass": {{"type": "mass"}},
+            "stress": {{"type": "stress", "body": "beam", "over_time": "max"}},
+            "sag": {{"type": "deflection", "body": "beam", "at": 1, "over_time": "max-abs"}}}},
+          "objective": {{"minimize": "mass"}},
+          "constraints": {{"stress": {{"response": "stress", "upper": 160e6}},
+                           "sag": {{"response": "sag", "upper": 4e-3}}}}}})",
+      names);
+  const Answer answer = solved(read_problem(folder + "/cantilever.json").complete());
+  EXPECT_TRUE(answer.report.are_lists_tried);
+  EXPECT_EQ(answer.result().status, Status::verified) << answer.result().message;
+  EXPECT_NEAR(answer.result().evaluation.objective, lightest, 1e-4 * lightest);
+  EXPECT_THAT(answer.result().message, HasSubstr("none with one size exchanged is better"));
+}
+
 TEST(SizeChoice, SaysThatNoChoiceKeepsTheLimits) {
   // 3 steps need 30 mm at the wall.
   const Answer answer = solved(make_cantilever({.steps = 3, .sizes = {0.02, 0.015, 0.025}}));
@@ -202,8 +274,8 @@ TEST(SizeChoice, SaysThatNoChoiceKeepsTheLimits) {
 }
 
 TEST(SizeChoice, OptimizesOtherVariablesForEachChoice) {
-  // The width is free and one height is chosen: b h² is needed, the mass is b h, so the largest height
-  // and the width that it needs are best.
+  // The width is free and one height is chosen: b h² is needed, the mass is b h, so the largest
+  // height and the width that it needs are best.
   const Answer answer = solved(make_cantilever(
       {.steps = 1,
        .sizes = {0.02, 0.03, 0.04},

@@ -1,0 +1,71 @@
+#include "core/trust/modal_damping.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "core/base/number_text.hpp"
+#include "core/trust/beam_state.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Of the damping of bending.
+constexpr double small_growth = 0.01;
+/// What a cantilever's damping grows by in its first mode is 0.09 L/r θ² (θ: rotation of the tip, r:
+/// radius of gyration): the shortening 0.6 w²/L goes twice as fast, with the damping coefficient of
+/// the first axial mode, 2 ζ ω_a m.
+constexpr double growth_of_damping = 0.09;
+
+/// Length over the radius of gyration.
+double slenderness(const Beam<double>& beam) {
+  double length = 0.0, radius = std::numeric_limits<double>::infinity();
+  for (const BeamElement<double>& element : beam.elements) {
+    const SectionProperties<double>& section = element.section;
+    length += element.length;
+    radius =
+        std::min(radius, std::sqrt(std::min(section.inertia_y, section.inertia_z) / section.area));
+  }
+  return length / radius;
+}
+
+bool is_damped_by_modes(const ProblemFile& problem, const std::string& name) {
+  return std::ranges::any_of(problem.scene.bodies, [&](const Body& body) {
+    const auto* beam = std::get_if<BeamBody>(&body.shape);
+    return beam && body.name == name &&
+           (beam->damping.modal.is_bound() || beam->damping.modal.constant > 0.0);
+  });
+}
+
+}  // namespace
+
+std::vector<Doubt> doubt_modal_damping(const TrustedRun& run) {
+  const Model& model = run.analysis.model;
+  const auto is_concerned = [&](const BodyModel& body) {
+    return body.has_stiffening && body.is_beam() && is_damped_by_modes(run.problem, body.name);
+  };
+  if (std::ranges::none_of(model.bodies, is_concerned)) return {};
+  const auto largest = largest_deformations(model, run.analysis.trajectory);
+  std::vector<Doubt> doubts;
+  for (std::size_t i = 0; i < largest.size(); ++i) {
+    const BodyModel& body = model.bodies[i];
+    if (!is_concerned(body)) continue;
+    const double rotation = largest[i].bending;
+    const double share = growth_of_damping * slenderness(body.beam) * rotation * rotation;
+    if (share < small_growth) continue;
+    doubts.push_back({fmt::format(
+        "\"{}\" bends by {:.2g} rad, and its \"modal\" damping takes the shortening that goes "
+        "with it for a stretch: bending is damped by some {} % too much, so that resonances are "
+        "lower and free vibrations die sooner. Give it damping by \"stiffness\", which knows the "
+        "difference.",
+        body.name, rotation, significant(100.0 * share, 1))});
+  }
+  return doubts;
+}
+
+}  // namespace pleuel
