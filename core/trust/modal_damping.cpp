@@ -17,9 +17,9 @@ namespace {
 
 /// Of the damping of bending.
 constexpr double small_growth = 0.01;
-/// What a cantilever's damping grows by in its first mode is 0.09 L/r θ² (θ: rotation of the tip, r:
-/// radius of gyration): the shortening 0.6 w²/L goes twice as fast, with the damping coefficient of
-/// the first axial mode, 2 ζ ω_a m.
+/// What a cantilever's damping grows by in its first mode is 0.09 L/r θ² (θ: rotation of the tip,
+/// r: radius of gyration): the shortening 0.6 w²/L goes twice as fast, with the damping coefficient
+/// of the first axial mode, 2 ζ ω_a m.
 constexpr double growth_of_damping = 0.09;
 
 /// Length over the radius of gyration.
