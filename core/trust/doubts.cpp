@@ -129,6 +129,7 @@ Trust judge_run(const TrustedRun& run) {
            doubt_sliding_contacts,   doubt_sudden_start,
            doubt_taut_members,       doubt_turned_sections,
            doubt_unconnected_bodies, doubt_undetermined_reactions,
+           doubt_modal_damping,
        }) {
     add(find(run));
   }

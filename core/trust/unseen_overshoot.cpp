@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
 #include "core/integration/fast_vibration.hpp"
 #include "core/response/fatigue.hpp"
 #include "core/trust/asked_responses.hpp"
+#include "core/trust/nested_runs.hpp"
 #include "core/trust/round_off.hpp"
 #include "core/trust/shorter_steps.hpp"
 #include "core/trust/sudden_jumps.hpp"
@@ -38,6 +38,7 @@ constexpr int most_samples = 80;
 /// The swings are simulated with so many more steps at most, or as many as the run has: fewer of
 /// large mechanisms, by their coordinates.
 constexpr int coordinates_in_steps = 60000, least_more_steps = 200, enough_more_steps = 2000;
+
 /// A jump whose swing may be unseen, as it would be without damping.
 struct Suspect {
   int step;                           ///< where
@@ -48,6 +49,7 @@ struct Suspect {
     double share = 0.0, factor = 1.0;
   };
   std::map<std::size_t, Predicted> predicted = {};  ///< of each response that misses some
+  bool is_simulated = false;                        ///< with short steps
 };
 
 /// What the steps leave unseen of a response.
@@ -79,12 +81,12 @@ class UnseenOvershoots {
     if (suspects_.empty()) return {};
     std::stable_sort(suspects_.begin(), suspects_.end(),
                      [](const Suspect& a, const Suspect& b) { return a.share > b.share; });
-    const std::unique_ptr<Analysis> fine = simulate_swings();
+    const std::optional<NestedRun> fine = simulate_swings();
     const std::vector<bool> is_round_off = find_round_off(run_);
     std::vector<Unseen> found;
     for (const std::size_t i : judged_) {
       if (is_round_off[i]) continue;
-      if (const auto unseen = unseen_of(i, fine.get())) found.push_back(*unseen);
+      if (const auto unseen = unseen_of(i, fine)) found.push_back(*unseen);
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const Unseen& a, const Unseen& b) { return a.share > b.share; });
@@ -195,6 +197,8 @@ class UnseenOvershoots {
                Suspect& suspect) const {
     const StepRange range = window(response);
     if (range.last <= jump.step && !trajectory_.periodic) return;
+    // So far behind it that the run has no room for the way there.
+    if (way_to(range, jump) * fair_steps > more_steps() * fast.main_period()) return;
     const Swing swing = swing_of(jump, fast, response, range);
     const double value = run_.analysis.responses[response].is_fatigue()
                              ? number_of(response, range, {}, {})
@@ -232,20 +236,34 @@ class UnseenOvershoots {
     return last;
   }
 
+  int more_steps() const {
+    return std::clamp(coordinates_in_steps / std::max(1, mechanism_.system->coordinates()),
+                      least_more_steps, enough_more_steps);
+  }
+
+  /// Short steps behind a jump, and where a motion that repeats itself goes on at its beginning.
+  std::vector<ShorterSteps> stretches_of(const Suspect& suspect, double step) const {
+    const double begin = trajectory_.time(suspect.step), last = end_of(suspect);
+    std::vector<ShorterSteps> stretches = {{begin, last, step}};
+    if (trajectory_.periodic && last > end()) stretches.push_back({0.0, last - end(), step});
+    return stretches;
+  }
+
   /// The instants of the run, with more of them behind jumps, the worst first, while there is room.
-  std::vector<double> refined_instants() const {
-    const int more_steps = std::clamp(coordinates_in_steps / mechanism_.system->coordinates(),
-                                      least_more_steps, enough_more_steps);
-    const double room = trajectory_.steps() + std::max(more_steps, trajectory_.steps());
+  std::vector<double> refined_instants() {
+    const double room = trajectory_.steps() + std::max(more_steps(), trajectory_.steps());
     std::vector<ShorterSteps> stretches;
     std::vector<double> instants;
-    for (const Suspect& suspect : suspects_) {
-      const double begin = trajectory_.time(suspect.step);
-      const double step = std::max(suspect.shortest / good_steps, 1.5 * suspect.until / more_steps);
-      if (step > suspect.main / fair_steps) break;
-      stretches.push_back({begin, end_of(suspect), step});
-      std::vector<double> more = instants_with(trajectory_, stretches);
-      if (static_cast<double>(more.size()) > room) break;
+    for (Suspect& suspect : suspects_) {
+      const double step =
+          std::max(suspect.shortest / good_steps, 1.5 * suspect.until / more_steps());
+      if (step > suspect.main / fair_steps) continue;
+      std::vector<ShorterSteps> all = stretches;
+      for (const ShorterSteps& one : stretches_of(suspect, step)) all.push_back(one);
+      std::vector<double> more = instants_with(trajectory_, all);
+      if (static_cast<double>(more.size()) > room) continue;
+      suspect.is_simulated = true;
+      stretches = std::move(all);
       instants = std::move(more);
     }
     return instants;
@@ -253,31 +271,30 @@ class UnseenOvershoots {
 
   /// What the run would have seen with short steps there; nothing if there is no room for them, or
   /// no step converges.
-  std::unique_ptr<Analysis> simulate_swings() const {
+  std::optional<NestedRun> simulate_swings() {
     ProblemFile fine = run_.problem;
     fine.simulation.instants = refined_instants();
-    if (fine.simulation.instants.empty()) return nullptr;
+    if (fine.simulation.instants.empty()) return std::nullopt;
     // Whose multipliers have no transient where the size of steps changes.
     ConstraintForm& form = fine.simulation.formulation.constraints;
     if (form == ConstraintForm::index_3) form = ConstraintForm::stabilized_index_2;
-    try {
-      return analyze(fine, run_.x);
-    } catch (const SimulationError&) {
-      return nullptr;
-    }
+    NestedRun run = make_nested_run(fine, run_.x, {});
+    if (run.has_failed()) return std::nullopt;
+    return run;
   }
 
-  std::optional<Unseen> unseen_of(std::size_t response, const Analysis* fine) const {
-    const Suspect& suspect = suspect_of(response);
+  std::optional<Unseen> unseen_of(std::size_t response,
+                                  const std::optional<NestedRun>& fine) const {
+    const Suspect& suspect = suspect_of(response, fine.has_value());
     const auto known = suspect.predicted.find(response);
     if (known == suspect.predicted.end()) return std::nullopt;
     const double exponent = damage_exponent(response);
-    if (!fine) {
+    if (!fine || !suspect.is_simulated) {
       const auto& [share, factor] = known->second;
       return Unseen{response, std::pow(factor, exponent), share, suspect, true};
     }
     const double value = run_.analysis.reductions[response].value;
-    const double peak = fine->reductions[response].value;
+    const double peak = fine->values(static_cast<Eigen::Index>(response));
     const double share = 1.0 - std::pow(1.0 - missing_share(response, value, peak), 1.0 / exponent);
     if (!(share > small_missing_share)) return std::nullopt;
     return Unseen{response, peak / value, share, suspect, false};
@@ -289,15 +306,16 @@ class UnseenOvershoots {
     return history.fatigue ? history.fatigue->damage_exponent.value_or(1.0) : 1.0;
   }
 
-  /// Where most of a response is missing.
-  const Suspect& suspect_of(std::size_t response) const {
-    const auto share = [response](const Suspect& suspect) {
+  /// Where most of a response is missing: among those that were simulated, if any of them miss some.
+  const Suspect& suspect_of(std::size_t response, bool is_simulated) const {
+    const auto rank = [&](const Suspect& suspect) {
       const auto found = suspect.predicted.find(response);
-      return found == suspect.predicted.end() ? 0.0 : found->second.share;
+      const bool misses = found != suspect.predicted.end();
+      return std::pair(misses && is_simulated && suspect.is_simulated,
+                       misses ? found->second.share : 0.0);
     };
-    return *std::max_element(
-        suspects_.begin(), suspects_.end(),
-        [&](const Suspect& a, const Suspect& b) { return share(a) < share(b); });
+    return *std::max_element(suspects_.begin(), suspects_.end(),
+                             [&](const Suspect& a, const Suspect& b) { return rank(a) < rank(b); });
   }
 
   const TrustedRun& run_;
