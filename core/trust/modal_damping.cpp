@@ -17,9 +17,10 @@ namespace {
 
 /// Of the damping of bending.
 constexpr double small_growth = 0.01;
-/// What a cantilever's damping grows by in its first mode is 0.09 L/r θ² (θ: rotation of the tip,
-/// r: radius of gyration): the shortening 0.6 w²/L goes twice as fast, with the damping coefficient
-/// of the first axial mode, 2 ζ ω_a m.
+/// Of a cantilever in its first mode damping grows by some 0.09 L/r θ² (θ: rotation of the tip, r:
+/// radius of gyration): the shortening goes as w²/L, and axial modes are damped more than bending
+/// ones by the ratio of their frequencies, which is that of L to r. The factor is that of resonances
+/// with L/r from 87 to 346, which are 0.6 to 11 % too low.
 constexpr double growth_of_damping = 0.09;
 
 /// Length over the radius of gyration.

@@ -272,6 +272,26 @@ TEST(Rooms, OfTheCommandKnowOnlyThoseBefore) {
   }
 }
 
+/// A doubt that nobody asks for is never told, whatever its own tests say.
+TEST(Doubts, AreAllAskedFor) {
+  static const std::regex name("doubt_[a-z_]+");
+  Names declared, used;
+  for (const auto& [file, line] : read_lines()) {
+    if (!file.starts_with("core/trust/")) continue;
+    std::smatch found;
+    if (!std::regex_search(line, found, name)) continue;
+    if (file.ends_with(".hpp") && line.starts_with("std::vector<Doubt> ")) {
+      declared.insert(found.str());
+    }
+    if (!file.ends_with(".cpp") || line.starts_with("std::vector<Doubt> doubt_")) continue;
+    for (std::sregex_iterator at(line.begin(), line.end(), name), end; at != end; ++at) {
+      used.insert(at->str());
+    }
+  }
+  EXPECT_GT(declared.size(), 20u);
+  for (const std::string& one : declared) EXPECT_TRUE(used.contains(one)) << one;
+}
+
 TEST(Floors, AreReadAtAll) {
   EXPECT_GT(read_includes().size(), 200U);
 }

@@ -10,6 +10,8 @@
 namespace pleuel::test::modal_damping_test {
 namespace {
 
+using testing::Contains;
+using testing::Field;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
@@ -49,6 +51,8 @@ TEST(ModalDamping, OfABeamThatBendsFarIsTold) {
   const std::vector<Doubt> found = doubts_of(shaken(8.0, by_modes), doubt_modal_damping);
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_THAT(found[0].text, HasSubstr("some 8 % too much"));
+  EXPECT_THAT(doubts_of(shaken(8.0, by_modes)),
+              Contains(Field(&Doubt::text, HasSubstr("some 8 % too much"))));
   EXPECT_NEAR(tip(shaken(8.0, by_stiffness)) / tip(shaken(8.0, by_modes)), 1.08, 0.01);
   EXPECT_THAT(doubts_of(shaken(8.0, by_stiffness), doubt_modal_damping), IsEmpty());
   EXPECT_THAT(doubts_of(shaken(0.8, by_modes), doubt_modal_damping), IsEmpty());

@@ -101,6 +101,18 @@ std::string steps_of_load(const std::string& times, const std::string& values,
 
 const std::string push_at_once = R"({"type": "step", "to": 100, "time": 0.1})";
 
+/// Another mass of 1 kg on a line along x.
+std::vector<std::string> with_mass(const std::string& name, double x, double y,
+                                   std::vector<std::string> changes) {
+  changes.push_back(fmt::format(
+      R"(/scene/bodies/{}={{"type": "point-mass", "at": [{}, {}, 0], "mass": 1}})", name, x, y));
+  changes.push_back(fmt::format(
+      R"(/scene/joints/rail_of_{0}={{"type": "point-on-line", "bodies": ["ground", "{0}"],
+          "at": [{1}, {2}, 0], "axis": [1, 0, 0]}})",
+      name, x, y));
+  return changes;
+}
+
 /// What the run with steps of a 60th of the period has more of the hold.
 double true_factor(const ProblemFile& problem) {
   ProblemFile fine = problem;
@@ -291,14 +303,14 @@ TEST(UnseenOvershoot, IsMeasuredWithinTheWindow) {
 /// A damper that blocks one of two masses leaves the other one to swing.
 TEST(UnseenOvershoot, IsNotDampedByADamperElsewhere) {
   expect_true_factor(sprung_mass(
-      "0", {R"(/scene/bodies/end={"type": "point-mass", "at": [2, 0, 0], "mass": 1})",
-            R"(/scene/joints/other={"type": "point-on-line", "bodies": ["ground", "end"],
-                "at": [2, 0, 0], "axis": [1, 0, 0]})",
-            R"(/scene/loads/between={"type": "spring", "bodies": ["mass", "end"],
+      "0", with_mass("end", 2, 0,
+                     {
+                         R"(/scene/loads/between={"type": "spring", "bodies": ["mass", "end"],
                 "at": [[1, 0, 0], [2, 0, 0]], "stiffness": 1e6, "damping": 1e5})",
-            fmt::format(R"(/scene/loads/pull={{"type": "force", "body": "end", "at": [2, 0, 0],
+                         fmt::format(
+                             R"(/scene/loads/pull={{"type": "force", "body": "end", "at": [2, 0, 0],
                             "direction": [1, 0, 0], "value": {}}})",
-                        push_at_once)}));
+                             push_at_once)})));
 }
 
 /// A spring that hardens is far stiffer than where the steps leave it, so that of its swing a sixth
@@ -337,15 +349,14 @@ TEST(UnseenOvershoot, IsFoundAmongManyJumps) {
   const std::string toggles = steps_of_load(times + "]", values + "]");
   expect_true_factor(sprung_mass(
       R"({"type": "step", "to": 100, "time": 0.255})",
-      {"/simulation/step=0.005",
-       R"(/scene/bodies/other={"type": "point-mass", "at": [1, 1, 0], "mass": 1})",
-       R"(/scene/joints/rail={"type": "point-on-line", "bodies": ["ground", "other"],
-           "at": [1, 1, 0], "axis": [1, 0, 0]})",
-       R"(/scene/loads/soft={"type": "spring", "bodies": ["ground", "other"],
+      with_mass(
+          "other", 1, 1,
+          {"/simulation/step=0.005",
+           R"(/scene/loads/soft={"type": "spring", "bodies": ["ground", "other"],
            "at": [[0, 1, 0], [1, 1, 0]], "stiffness": 1e6, "damping": 20})",
-       fmt::format(R"(/scene/loads/toggle={{"type": "force", "body": "other", "at": [1, 1, 0],
+           fmt::format(R"(/scene/loads/toggle={{"type": "force", "body": "other", "at": [1, 1, 0],
                        "direction": [1, 0, 0], "value": {}}})",
-                   toggles)}));
+                       toggles)})));
   expect_true_factor(sprung_mass(
       toggles,
       {"/simulation/step=0.005", "/scene/loads/spring/damping=400", "/responses/hold/from=0.38"}));
@@ -382,6 +393,29 @@ TEST(UnseenOvershoot, OfForcesOfAFastMechanismIsNoTransientOfTheSteps) {
            R"(/constraints/pin={"response": "pin", "upper": "1 MN"})"})
           .complete();
   EXPECT_THAT(doubts(coarse), IsEmpty());
+}
+
+/// A swing that is over long before its window begins is none: 5 % of damping, 60 and 1500 periods.
+TEST(UnseenOvershoot, IsOverInWindowsFarBehind) {
+  for (const double end : {0.6, 10.0}) {
+    EXPECT_THAT(
+        doubts(sprung_mass(push_at_once, {fmt::format("/simulation/end_time={}", end),
+                                          "/scene/loads/spring/damping=100",
+                                          fmt::format("/responses/hold/from={}", end - 0.1)})),
+        IsEmpty())
+        << end;
+  }
+}
+
+/// Its window is in the period after the jump, 10 ms before the end of this one.
+TEST(UnseenOvershoot, GoesOnInTheNextPeriod) {
+  const ProblemFile problem =
+      sprung_mass(steps_of_load("[0, 0.39, 0.4]", "[0, 100, 0]", R"(, "period": 0.4)"),
+                  {R"(/simulation/initial_state={"type": "periodic", "period": 0.4})",
+                   "/responses/hold/to=0.08"});
+  const std::vector<Doubt> found = doubts(problem);
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_NEAR(told_factor(found), true_factor(problem), 0.1 * true_factor(problem));
 }
 
 }  // namespace
