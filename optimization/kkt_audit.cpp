@@ -67,6 +67,7 @@ std::vector<Limit> near_bounds(const Problem& problem, const Eigen::VectorXd& x,
   std::vector<Limit> limits;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const Variable& variable = problem.variables()[i];
+    if (variable.is_fixed()) continue;
     add_near_limits(limits, {i, 0.0, variable_scales[i], 0.0, Eigen::VectorXd::Unit(x.size(), i)},
                     x[i], variable.lower, variable.upper);
   }
@@ -143,6 +144,26 @@ double gradient_scale(const Problem& problem, const EvaluatedDesign& design,
       {here, std::min(at_start, 0.1 * value), flat * value, std::numeric_limits<double>::min()});
 }
 
+/// Magnitudes of the variables; zero of fixed ones, so that they are in no balance.
+Eigen::VectorXd scales_of_free(const Problem& problem, const Eigen::VectorXd& x) {
+  Eigen::VectorXd scales = local_scales(problem, x);
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    if (problem.variables()[i].is_fixed()) scales[i] = 0.0;
+  }
+  return scales;
+}
+
+/// What holds fixed variables in place: whatever the limits leave of their slopes.
+void add_multipliers_of_fixed(KktAudit& audit, const Problem& problem,
+                              const Evaluation& evaluation) {
+  const Eigen::VectorXd slopes =
+      evaluation.objective_gradient +
+      evaluation.constraint_jacobian.transpose() * audit.constraint_multipliers;
+  for (Eigen::Index i = 0; i < slopes.size(); ++i) {
+    if (problem.variables()[i].is_fixed()) audit.bound_multipliers[i] = -slopes[i];
+  }
+}
+
 /// How far multipliers are from explaining the design: by all variables together, and by the worst
 /// one, which may be ten times as far off (verdict.hpp).
 double distance_from_optimum(const KktAudit& audit) {
@@ -160,7 +181,7 @@ Eigen::VectorXd KktAudit::variable_residuals(const Eigen::VectorXd& curvatures) 
 
 KktAudit audit_kkt(const Problem& problem, const EvaluatedDesign& design, const Evaluation& start,
                    const Eigen::VectorXd& scales) {
-  const Eigen::VectorXd s = local_scales(problem, design.x);
+  const Eigen::VectorXd s = scales_of_free(problem, design.x);
   std::vector<Limit> limits = near_constraints(problem, design.evaluation, scales, s);
   const std::size_t constraints = limits.size();
   const std::vector<Limit> bounds = near_bounds(problem, design.x, s);
@@ -184,6 +205,7 @@ KktAudit audit_kkt(const Problem& problem, const EvaluatedDesign& design, const 
     if (!(distance_from_optimum(weighted) < distance_from_optimum(audit))) break;
     audit = std::move(weighted);
   }
+  add_multipliers_of_fixed(audit, problem, design.evaluation);
   return audit;
 }
 

@@ -53,7 +53,7 @@ struct KktAudit {
 /// gradient_scale is ‖s ∘ ∇f‖₂. Near an optimum without active limits this vanishes with the
 /// residual: it is therefore at least min(G, |f| / 10), with the same floor of |f|, where G is the
 /// larger one of ‖s ∘ ∇f(start)‖₂ and |f(start) − f|, since a start may be stationary; and at least
-/// |f| / 1000.
+/// |f| / 1000. Fixed variables are in no balance: what limits leave of their slopes is their β.
 /// @param design  with gradients of the true, un-aggregated constraints.
 /// @param start   evaluation of the first design, with gradients.
 /// @param scales  magnitudes C of the constraints.

@@ -99,7 +99,7 @@ class AdjointRun {
     Eigen::MatrixXd whole = left.cwiseAbs();
     PeriodicCorrection progress;
     while (!progress.is_done(left, sizes_of(whole)) || !adjoint_.lambda.isZero(0.0)) {
-      const Eigen::MatrixXd end = periodic.map->solve_transposed(left);
+      const Eigen::MatrixXd end = progress.map(mechanism_, trajectory_).solve_transposed(left);
       const Eigen::MatrixXd columns = units.cwiseInverse().asDiagonal() * end;
       adjoint_.q = columns.topRows(n);
       adjoint_.v = columns.middleRows(n, n);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/integration/periodic_start.hpp"
 
 namespace pleuel {
 
@@ -33,11 +34,23 @@ bool PeriodicCorrection::is_done(const Eigen::MatrixXd& left, const Eigen::RowVe
   before_ = share;
   if (shrinks && count_ < most_corrections) return false;
   if (share <= left_of_round_off) return true;
+  if (!needs_own_map_) {
+    needs_own_map_ = true;
+    count_ = 0;
+    return false;
+  }
   throw SimulationError(
       fmt::format("the derivatives of the motion that repeats itself do not converge: {:.1e} of "
                   "them is left after {} periods. Try a smaller /simulation/newton_tolerance, or "
                   "/sensitivity/method \"central-difference\"",
                   share, count_));
+}
+
+const PeriodMap& PeriodicCorrection::map(Mechanism& mechanism, const Trajectory& trajectory) {
+  const PeriodicStart& periodic = *trajectory.periodic;
+  if (!needs_own_map_) return *periodic.map;
+  if (!own_map_) own_map_ = std::make_shared<PeriodMap>(mechanism, trajectory, periodic.steps);
+  return *own_map_;
 }
 
 }  // namespace pleuel

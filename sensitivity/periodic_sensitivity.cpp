@@ -58,7 +58,7 @@ StateSensitivity periodic_sensitivity(Mechanism& mechanism, const Trajectory& tr
     const Eigen::MatrixXd end = states.stack(motion.sensitivity()), gap = end - states.stack(start);
     start.lambda = motion.sensitivity().lambda;
     if (progress.is_done(gap, compared_sizes(end, start.lambda, last.lambda))) return start;
-    const StateSensitivity step = states.unstack(periodic.map->solve(gap));
+    const StateSensitivity step = states.unstack(progress.map(mechanism, trajectory).solve(gap));
     start.q += step.q;
     start.v += step.v;
     start.a += step.a;

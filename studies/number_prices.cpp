@@ -6,6 +6,11 @@
 #include <fmt/format.h>
 
 #include "core/base/dense_solvers.hpp"
+#include "core/base/int_size.hpp"
+#include "core/integration/periodic_start.hpp"
+#include "core/integration/repetition.hpp"
+#include "core/response/analysis.hpp"
+#include "optimization/design/size_trials.hpp"
 #include "optimization/scaling.hpp"
 #include "studies/priced_numbers.hpp"
 #include "studies/row_prices.hpp"
@@ -138,6 +143,36 @@ Eigen::VectorXd extended_design(const ProblemFile& extended, const Eigen::Vector
   return design;
 }
 
+/// Sizes that are chosen from lists stay as they are.
+ProblemFile with_sizes_at(ProblemFile problem, const Eigen::VectorXd& x) {
+  problem = with_sizes(std::move(problem), x);
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    if (problem.variables[i].has_choices()) problem.variables[i].start = x(i);
+  }
+  return problem;
+}
+
+/// Without the numbers that set the period of a motion that repeats itself, as the speed of its drive.
+PricedNumbers without_periods(const ProblemText& text, const ProblemFile& problem,
+                              const Eigen::VectorXd& x, PricedNumbers numbers) {
+  std::vector<NumberGroup>& groups = numbers.groups;
+  const ProblemFile extended = with_numbers(text, problem, groups);
+  const auto analysis = analyze(extended, extended_design(extended, x));
+  const Trajectory& trajectory = analysis->trajectory;
+  if (!trajectory.periodic) return numbers;
+  const std::vector<int> variables =
+      variables_of_unrepeated_derivatives(analysis->model.mechanism, trajectory,
+                                          trajectory.periodic->steps, trajectory.periodic->period);
+  const int first = int_size(extended.variables) - int_size(groups);
+  for (auto variable = variables.rbegin(); variable != variables.rend(); ++variable) {
+    if (*variable < first) continue;
+    const auto group = groups.begin() + (*variable - first);
+    numbers.left_out.push_back(group->name);
+    groups.erase(group);
+  }
+  return numbers;
+}
+
 void add_limits(const ProblemFile& problem, const RowPrices& optimum, PriceList& list) {
   const Eigen::VectorXd multipliers =
       optimum.rows().peaks().fold_multipliers(optimum.multipliers());
@@ -162,6 +197,7 @@ void add_variables(const ProblemFile& problem, const RowPrices& optimum, const P
   const std::vector<ShownUnit> units = variable_units(problem);
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     const DesignVariable& variable = problem.variables[i];
+    if (variable.has_choices()) continue;  // there is no more of it
     NumberPrice price;
     price.unit = units[i];
     if (variable.lower == variable.upper) {
@@ -200,15 +236,21 @@ void add_numbers(const ProblemFile& extended, const std::vector<NumberGroup>& gr
 
 }  // namespace
 
-PriceList number_prices(const ProblemText& text, const ProblemFile& problem,
-                        const Eigen::VectorXd& x, int threads) {
+PriceList number_prices(const ProblemText& text, const ProblemFile& file, const Eigen::VectorXd& x,
+                        int threads) {
+  const ProblemFile problem = with_sizes_at(file, x);
   const int windows = windows_at(problem, x, threads);
   const RowPrices optimum(problem, x, windows, threads);
-  const std::vector<NumberGroup> groups = priced_numbers(text, problem);
-  const ProblemFile extended = with_numbers(text, problem, groups);
+  PricedNumbers numbers = priced_numbers(text, problem);
+  if (problem.simulation.period > 0.0) {
+    numbers = without_periods(text, problem, x, std::move(numbers));
+  }
+  const std::vector<NumberGroup>& groups = numbers.groups;
+  const ProblemFile extended = with_sizes_at(with_numbers(text, problem, groups), x);
   DesignRows rows(extended, extended_design(extended, x), windows, threads);
   const Pricing pricing(optimum, rows.evaluation());
   PriceList list;
+  list.unknown = numbers.left_out;
   const Evaluation& evaluation = optimum.rows().evaluation();
   list.objective =
       optimum.rows().peaks().fold_objective(evaluation.objective, evaluation.constraints);

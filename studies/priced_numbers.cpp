@@ -119,7 +119,7 @@ Groups bindable(const ProblemText& text, const Groups& groups) {
 
 }  // namespace
 
-Groups priced_numbers(const ProblemText& text, const ProblemFile& problem) {
+PricedNumbers priced_numbers(const ProblemText& text, const ProblemFile& problem) {
   const Eigen::VectorXd start = start_design(problem);
   const Design<double> design(start.begin(), start.end());
   std::set<std::string> taken;
@@ -127,7 +127,15 @@ Groups priced_numbers(const ProblemText& text, const ProblemFile& problem) {
     taken.insert(place_text(point.x(), point.y(), point.z()));
   }
   const PlaneAnalysis plane = find_motion_plane(problem.scene, design);
-  return bindable(text, grouped(scene_numbers(text), plane.plane, taken));
+  const Groups wanted = grouped(scene_numbers(text), plane.plane, taken);
+  PricedNumbers priced{bindable(text, wanted), {}};
+  for (const NumberGroup& group : wanted) {
+    const bool is_priced =
+        std::any_of(priced.groups.begin(), priced.groups.end(),
+                    [&](const NumberGroup& one) { return one.name == group.name; });
+    if (!is_priced) priced.left_out.push_back(group.name);
+  }
+  return priced;
 }
 
 }  // namespace pleuel

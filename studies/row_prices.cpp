@@ -54,7 +54,10 @@ RowPrices::RowPrices(const ProblemFile& problem, const Eigen::VectorXd& x, int w
   const Evaluation& evaluation = rows_.evaluation();
   scales_ = constraint_scales(peaks, evaluation, variable_scales(peaks, rows_.x()));
   const double violation = max_violation(peaks, evaluation.constraints, scales_);
-  const KktAudit audit = audit_kkt(peaks, {rows_.x(), evaluation, violation}, evaluation, scales_);
+  // No search led here: the objective itself says what is small of its slopes.
+  Evaluation reference = evaluation;
+  reference.objective *= 2.0;
+  const KktAudit audit = audit_kkt(peaks, {rows_.x(), evaluation, violation}, reference, scales_);
   residual_ = audit.residual;
   multipliers_ = prices_of(peaks, evaluation.constraints, audit.constraint_multipliers, scales_);
   bound_multipliers_ = audit.bound_multipliers;

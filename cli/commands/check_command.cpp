@@ -24,6 +24,7 @@
 #include "core/scene/body_rules.hpp"
 #include "core/trust/doubts.hpp"
 #include "sensitivity/gradients.hpp"
+#include "sensitivity/unknown_derivatives.hpp"
 #include "studies/derivative_check.hpp"
 
 namespace pleuel {
@@ -52,6 +53,7 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
     findings.warnings.insert(findings.warnings.end(), sentences.begin(), sentences.end());
   };
   warn(impossible_corners(problem));
+  warn(unknown_derivatives(problem, Design<double>(x.begin(), x.end())));
   const Stopwatch simulation;
   findings.analysis = analyze(problem, x);
   findings.simulation_seconds = simulation.seconds();

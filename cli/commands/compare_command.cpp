@@ -100,8 +100,10 @@ std::string inputs_text(const std::vector<Difference>& differences) {
 struct Compared {
   std::string group, name, unit;  ///< SI
   Json first, second;
+  std::string title;  ///< what of it, if that is not its value; of points their number
 
   bool has_both() const { return first.is_number() && second.is_number(); }
+  std::string shown_name() const { return title.empty() ? name : name + ", " + title; }
 };
 
 /// In which units the first run, or else the second, was asked for its numbers.
@@ -113,8 +115,10 @@ class Units {
   }
 
   ShownUnit of(const Compared& value) const {
-    const auto known = units_.find({value.group, value.name});
-    const bool fits = known != units_.end() && known->second.si == value.unit;
+    const auto known =
+        units_.find({value.group == "points" ? "responses" : value.group, value.name});
+    const bool fits =
+        known != units_.end() && (known->second.si == value.unit || value.group == "variables");
     return fits ? known->second : engineering_unit(value.unit);
   }
 
@@ -138,26 +142,79 @@ class Units {
   std::map<std::pair<std::string, std::string>, ShownUnit> units_;
 };
 
-/// The values of {NAME: {"value", "unit"}} in both results.
+/// A part of a result, by name; nothing where it is not there.
+Json part_of(const OlderRun& run, const std::string& name) {
+  const Json part = run.result.is_object() ? run.result.value(name, Json()) : Json();
+  return part.is_object() ? part : Json::object();
+}
+
+Json member(const Json& values, const std::string& name, const char* key) {
+  const Json value = values.value(name, Json());
+  return value.is_object() ? value.value(key, Json()) : Json();
+}
+
+/// What there is of each name of a group, which has one unit: a key of its entry in the results, and what
+/// it is called.
+struct ComparedKey {
+  const char* key;
+  const char* title;
+};
+
+/// The numbers of {NAME: {"value", "deviation", "unit"}} in both results.
 void add_values(const OlderRun& first, const OlderRun& second, const std::string& group,
                 std::vector<Compared>& compared) {
-  const auto part = [&](const OlderRun& run) {
-    const Json values = run.result.is_object() ? run.result.value(group, Json()) : Json();
-    return values.is_object() ? values : Json::object();
-  };
-  const Json one = part(first), other = part(second);
+  constexpr ComparedKey keys[] = {{"value", ""}, {"deviation", "deviation"}};
+  const Json one = part_of(first, group), other = part_of(second, group);
   Json all = one;
   all.update(other);
   for (const auto& entry : all.items()) {
     const std::string& name = entry.key();
-    const auto value_of = [&](const Json& values, const char* key) {
-      const Json value = values.value(name, Json());
-      return value.is_object() ? value.value(key, Json()) : Json();
-    };
-    const Json unit = value_of(one.contains(name) ? one : other, "unit");
-    const Json a = value_of(one, "value"), b = value_of(other, "value");
-    if (!a.is_number() && !b.is_number()) continue;
-    compared.push_back({group, name, unit.is_string() ? unit.get<std::string>() : "", a, b});
+    const Json unit = member(one.contains(name) ? one : other, name, "unit");
+    for (const auto& [key, title] : keys) {
+      const Json a = member(one, name, key), b = member(other, name, key);
+      if (!a.is_number() && !b.is_number()) continue;
+      compared.push_back(
+          {group, name, unit.is_string() ? unit.get<std::string>() : "", a, b, title});
+    }
+  }
+}
+
+/// What one percent more of each number changes of the optimum.
+void add_prices(const OlderRun& first, const OlderRun& second, std::vector<Compared>& compared) {
+  const Json one = part_of(first, "prices"), other = part_of(second, "prices");
+  if (one.empty() || other.empty()) return;
+  const Json objective = part_of(first, "objective");
+  const std::string unit = objective.value("unit", "");
+  compared.push_back({"objective", objective.value("name", ""), unit,
+                      objective.value("value", Json()),
+                      part_of(second, "objective").value("value", Json()), ""});
+  for (const auto& entry : one.items()) {
+    const Json a = member(one, entry.key(), "per_percent");
+    const Json b = member(other, entry.key(), "per_percent");
+    if (!a.is_number() || !b.is_number() || (a == 0.0 && b == 0.0)) continue;
+    compared.push_back({"prices", entry.key(), unit, a, b, "at +1 %"});
+  }
+}
+
+/// Points of fronts, in their order.
+void add_points(const OlderRun& first, const OlderRun& second, std::vector<Compared>& compared) {
+  const auto points_of = [](const OlderRun& run) {
+    const Json points = run.result.is_object() ? run.result.value("points", Json()) : Json();
+    return points.is_array() ? points : Json::array();
+  };
+  const Json one = points_of(first), other = points_of(second);
+  if (one.empty() || other.empty()) return;
+  compared.push_back({"points", "number", "", one.size(), other.size(), ""});
+  const Json units = part_of(first, "units");
+  for (std::size_t i = 0; i < std::min(one.size(), other.size()); ++i) {
+    const Json here = one[i].value("objectives", Json::object());
+    const Json there = other[i].value("objectives", Json::object());
+    for (const auto& entry : here.items()) {
+      const Json unit = units.value(entry.key(), Json());
+      compared.push_back({"points", entry.key(), unit.is_string() ? unit.get<std::string>() : "",
+                          entry.value(), there.value(entry.key(), Json()),
+                          fmt::format("{}", i + 1)});
+    }
   }
 }
 
@@ -166,8 +223,10 @@ std::vector<Compared> outcome_values(const OlderRun& first, const OlderRun& seco
   for (const char* group : {"variables", "constraints", "responses"}) {
     add_values(first, second, group, compared);
   }
+  add_prices(first, second, compared);
+  add_points(first, second, compared);
   const auto add = [&](const char* name, const Json& a, const Json& b) {
-    if (a.is_number() || b.is_number()) compared.push_back({"effort", name, "", a, b});
+    if (a.is_number() || b.is_number()) compared.push_back({"effort", name, "", a, b, ""});
   };
   const auto of = [](const OlderRun& run, const char* key) {
     return run.result.is_object() ? run.result.value(key, Json()) : Json();
@@ -228,7 +287,7 @@ std::string outcomes_text(const OlderRun& first, const OlderRun& second,
   for (const Compared& value : values) {
     const bool is_effort = value.group == "effort";
     const ShownUnit unit = is_effort ? ShownUnit{} : units.of(value);
-    table.add_row({value.group, value.name, number_text(value, value.first, unit),
+    table.add_row({value.group, value.shown_name(), number_text(value, value.first, unit),
                    number_text(value, value.second, unit),
                    unit.name.empty() || unit.name == "1" ? "–" : unit.name,
                    change_text(value, unit)});
@@ -256,11 +315,10 @@ Outcome run_compare(const Arguments& arguments) {
         {{"place", one.place}, {"first", one.first}, {"second", one.second}});
   }
   for (const Compared& one : values) {
-    document["outcome"].push_back({{"group", one.group},
-                                   {"name", one.name},
-                                   {"unit", one.unit},
-                                   {"first", one.first},
-                                   {"second", one.second}});
+    Json entry = {{"group", one.group}, {"name", one.name}};
+    if (!one.title.empty()) entry["of"] = one.title;
+    entry.update({{"unit", one.unit}, {"first", one.first}, {"second", one.second}});
+    document["outcome"].push_back(std::move(entry));
   }
   outcome.text =
       fmt::format("first: {}, second: {}\n\n{}\n{}", first.folder.string(), second.folder.string(),

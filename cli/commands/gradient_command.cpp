@@ -24,6 +24,7 @@
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/kinks.hpp"
 #include "sensitivity/method_choice.hpp"
+#include "sensitivity/unknown_derivatives.hpp"
 #include "studies/method_comparison.hpp"
 
 namespace pleuel {
@@ -326,7 +327,9 @@ Outcome run_gradient(const Arguments& arguments) {
   TrustedRun judged{problem, input.design, *findings.analysis, monitors};
   if (input.choice) judged.known = &input.choice->bars;
   Trust trust = judge_run(judged);
-  findings.warnings = texts_of(trust.doubts);
+  findings.warnings =
+      unknown_derivatives(problem, Design<double>(input.design.begin(), input.design.end()));
+  add_new(findings.warnings, texts_of(trust.doubts));
   findings.errors = std::move(trust.errors);
   Outcome outcome = make_outcome(arguments, problem, findings);
   if (record) write_run(*record, arguments, input, *findings.analysis, outcome);

@@ -18,7 +18,9 @@
 #include "core/trust/doubts.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/design/design_solve.hpp"
+#include "optimization/design/size_choice.hpp"
 #include "studies/number_prices.hpp"
+#include "studies/sized_search.hpp"
 
 namespace pleuel {
 
@@ -37,15 +39,28 @@ struct AnalyzedDesign {
   std::vector<std::string> warnings;
 };
 
+AnalyzedDesign described(const Result& result) {
+  const bool is_optimum = result.status == Status::verified || result.status == Status::unresolved;
+  return {result.x, fmt::format("{}: {}", to_string(result.status), result.message), is_optimum,
+          result.warnings};
+}
+
+/// The choice of sizes, whose prices are those with these sizes.
+AnalyzedDesign find_best_sizes(const ProblemInput& input, const SolveOptions& options) {
+  AnalyzedDesign design = described(search_with_sizes(input.problem, options, nullptr).result);
+  design.verdict +=
+      "; these are prices with the sizes that were chosen, as they stay for small changes";
+  return design;
+}
+
 AnalyzedDesign find_optimum(const ProblemInput& input, const Arguments& arguments) {
   const SolveOptions options = solve_options(input.problem, arguments);
+  if (has_choices(input.problem)) return find_best_sizes(input, options);
   DesignProblem problem(input.problem, arguments.jobs);
   IterationLines lines(arguments.progress(), input.problem);
   const Result result =
       solve_design(problem, options, [&](const EvaluationRecord& record) { lines.see(record); });
-  const bool is_optimum = result.status == Status::verified || result.status == Status::unresolved;
-  return {result.x, fmt::format("{}: {}", to_string(result.status), result.message), is_optimum,
-          result.warnings};
+  return described(result);
 }
 
 AnalyzedDesign given_design(const ProblemInput& input) {
@@ -90,6 +105,7 @@ Json make_document(const ProblemFile& problem, const AnalyzedDesign& design,
                    {"kkt_residual", list.residual},
                    {"prices", Json::object()},
                    {"variables", Json::object()},
+                   {"unknown", list.unknown},
                    {"warnings", design.warnings}};
   for (const NumberPrice& price : list.prices) {
     document["prices"][price.name] = price_document(price);
@@ -110,10 +126,14 @@ void write_csv(const ResultFile& file, const PriceList& list) {
   }
 }
 
-std::string shown_name(const NumberPrice& price) {
-  std::string name = price.name;
+std::string short_name(std::string name) {
   if (name.starts_with("/scene/")) name = name.substr(7);
   if (name.starts_with("/")) name = name.substr(1);
+  return name;
+}
+
+std::string shown_name(const NumberPrice& price) {
+  const std::string name = short_name(price.name);
   const std::size_t others = price.pointers.size() - 1;
   return others > 0 ? fmt::format("{} (+{})", name, others) : name;
 }
@@ -160,6 +180,18 @@ std::string left_out_text(const PriceList& list) {
   std::string text;
   if (priced > most_lines) {
     text += fmt::format("{} smaller ones stand in prices.csv. ", priced - most_lines);
+  }
+  if (!list.unknown.empty()) {
+    constexpr std::size_t most_names = 3;
+    std::vector<std::string> names;
+    for (const std::string& name : list.unknown) {
+      if (names.size() < most_names) names.push_back(short_name(name));
+    }
+    const std::size_t more = list.unknown.size() - names.size();
+    text += fmt::format(
+        "Not known: what {}{} would change (a place on an elastic beam keeps its share of the "
+        "length, a periodic motion its period). ",
+        fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
   }
   if (free > 0) text += fmt::format("Without influence on the optimum: {} more. ", free);
   return text;

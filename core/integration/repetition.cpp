@@ -67,6 +67,19 @@ class RepetitionCheck {
     return nullptr;
   }
 
+  /// The columns that some term does not repeat.
+  std::vector<int> unrepeated_columns() const {
+    std::vector<int> columns;
+    for (int k = 0; k < system_.variables(); ++k) {
+      for (std::size_t i = 0; i < changes_.size(); ++i) {
+        if (repeats(changes_[i][k], largest_[i][k])) continue;
+        columns.push_back(k);
+        break;
+      }
+    }
+    return columns;
+  }
+
  private:
   bool repeats(const Share& change, const Share& largest) const {
     const double constraints = compared_ == Compared::residual ? 1.0 : largest.constraints;
@@ -101,8 +114,8 @@ class RepetitionCheck {
 /// Between the instants of a period, as laws may jump at them, and at no simple share of it, where they
 /// may all be zero.
 /// @param samples  at most
-const Term* find_unrepeated(Mechanism& mechanism, const Trajectory& trajectory, int steps,
-                            double period, Compared compared, int samples) {
+RepetitionCheck check_repetition(Mechanism& mechanism, const Trajectory& trajectory, int steps,
+                                 double period, Compared compared, int samples) {
   RepetitionCheck check(mechanism, period, compared);
   State state, end;
   trajectory.states->load(0, state);
@@ -114,7 +127,7 @@ const Term* find_unrepeated(Mechanism& mechanism, const Trajectory& trajectory, 
     state.time -= golden_share * trajectory.step_size(step);
     check.see(state, turns);
   }
-  return check.find();
+  return check;
 }
 
 }  // namespace
@@ -138,8 +151,9 @@ std::string advice_to_be_exact(const Mechanism& mechanism, const Trajectory& tra
 
 std::string complaint_about_repetition(Mechanism& mechanism, const Trajectory& trajectory,
                                        double period) {
-  const Term* term = find_unrepeated(mechanism, trajectory, trajectory.steps(), period,
-                                     Compared::residual, most_samples);
+  const Term* term = check_repetition(mechanism, trajectory, trajectory.steps(), period,
+                                      Compared::residual, most_samples)
+                         .find();
   if (term == nullptr) return "";
   return fmt::format(
       "/simulation/initial_state: the motion cannot repeat itself after {:.9g} s: {} does not. "
@@ -150,14 +164,23 @@ std::string complaint_about_repetition(Mechanism& mechanism, const Trajectory& t
 
 std::string complaint_about_repeated_derivatives(Mechanism& mechanism, const Trajectory& trajectory,
                                                  int steps, double period) {
-  const Term* term = find_unrepeated(mechanism, trajectory, steps, period,
-                                     Compared::design_derivatives, most_samples_of_derivatives);
+  const Term* term = check_repetition(mechanism, trajectory, steps, period,
+                                      Compared::design_derivatives, most_samples_of_derivatives)
+                         .find();
   if (term == nullptr) return "";
   return fmt::format(
       "/simulation/initial_state: a motion that repeats itself after {:.6g} s has no derivatives: "
       "at other values of the design variables {} no longer repeats itself with this "
       "period. A speed, a frequency or a duration that sets the period cannot be a design variable",
       period, term->name());
+}
+
+std::vector<int> variables_of_unrepeated_derivatives(Mechanism& mechanism,
+                                                     const Trajectory& trajectory, int steps,
+                                                     double period) {
+  return check_repetition(mechanism, trajectory, steps, period, Compared::design_derivatives,
+                          most_samples_of_derivatives)
+      .unrepeated_columns();
 }
 
 }  // namespace pleuel

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/integration/mechanism.hpp"
 #include "core/integration/trajectory.hpp"
@@ -20,6 +21,11 @@ std::string complaint_about_repetition(Mechanism& mechanism, const Trajectory& t
 /// @param trajectory  begins with a period of that many steps
 std::string complaint_about_repeated_derivatives(Mechanism& mechanism, const Trajectory& trajectory,
                                                  int steps, double period);
+
+/// The design variables, in ascending order, that keep the motion from repeating itself at designs close by.
+std::vector<int> variables_of_unrepeated_derivatives(Mechanism& mechanism,
+                                                     const Trajectory& trajectory, int steps,
+                                                     double period);
 
 /// Of a period that is rounded: a sentence, with its full stop before it, that says what nearly makes
 /// whole turns in it; or nothing.

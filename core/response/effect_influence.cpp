@@ -71,7 +71,8 @@ std::vector<Turned> turned_problems(const ProblemFile& fixed, const Model& model
   std::vector<Turned> turned;
   for (const EffectRecord& record : model.effects) {
     const Body* body = find_named(fixed.scene.bodies, record.body);
-    if (!body || is_exact(record)) continue;
+    // Of bodies that a file describes effects are told, but not decided.
+    if (!body || !std::holds_alternative<BeamBody>(body->shape) || is_exact(record)) continue;
     ProblemFile problem = fixed;
     problem.effects.decisions.measured[{record.body, record.name}].is_needed = !record.is_built;
     const bool changes_nothing = is_same(decide_beam_effects(*body, problem.effects),

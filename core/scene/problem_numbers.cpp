@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "core/base/error.hpp"
 #include "core/scene/material_library.hpp"
 #include "core/scene/reading/document_reader.hpp"
+#include "core/scene/scene_rules.hpp"
 
 namespace pleuel {
 namespace {
@@ -48,6 +50,17 @@ Json document_of(const ProblemText& text, const UnitSystem& units) {
   return document;
 }
 
+/// @throws InputError if a number would move a point along an elastic beam
+void check_places(const ProblemFile& problem, const std::vector<NumberGroup>& groups) {
+  Design<double> start;
+  for (const DesignVariable& variable : problem.variables) start.push_back(variable.start);
+  const std::size_t first = problem.variables.size() - groups.size();
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const auto moved = find_point_moved_along(problem.scene, start, first + i);
+    if (moved) throw InputError(groups[i].name + " " + *moved);
+  }
+}
+
 std::string written_unit(const Json& value) {
   return value.is_string() ? split_quantity(value.get<std::string>()).unit : "";
 }
@@ -81,7 +94,9 @@ ProblemFile bind_numbers(const ProblemText& text, const std::vector<NumberGroup>
   }
   const JsonNode root(document, text.file);
   NumberReader reader(units, variable_names(root));
-  return read_document(root, reader);
+  ProblemFile problem = read_document(root, reader);
+  check_places(problem, groups);
+  return problem;
 }
 
 }  // namespace pleuel

@@ -33,7 +33,7 @@ struct NumberGroup {
 /// The problem with a further variable for each group, in their order after those of the file and
 /// fixed at the value that the numbers have. Everything it decides at its start stays as it was,
 /// unless a number is bound that is decided upon (a coordinate that may leave the plane).
-/// @throws InputError as read_problem_text()
+/// @throws InputError as read_problem_text(); if a number would move a point along an elastic beam
 ProblemFile bind_numbers(const ProblemText& text, const std::vector<NumberGroup>& groups);
 
 }  // namespace pleuel

@@ -77,7 +77,32 @@ std::optional<std::string> complaint(const PlacedPoint& placed, const PointMass&
                      placed.body->name, describe(position(mass.at, design)), describe(at));
 }
 
+/// A change that any tolerance of places tells from rounding.
+double moved_value(double value) {
+  constexpr double change = 1e-2;
+  return value == 0.0 ? change : value * (1.0 + change);
+}
+
 }  // namespace
+
+std::optional<std::string> find_point_moved_along(const Scene& scene, const Design<double>& start,
+                                                  std::size_t variable) {
+  Design<double> moved = start;
+  moved[variable] = moved_value(start[variable]);
+  for (const PlacedPoint& placed : placed_points(scene)) {
+    if (placed.body == nullptr) continue;
+    const auto* beam = std::get_if<BeamBody>(&placed.body->shape);
+    if (beam == nullptr || beam->is_rigid) continue;
+    const double share = nearest_share(*beam, position(*placed.point, start), start);
+    if (is_on_beam(*beam, share, position(*placed.point, moved), moved)) continue;
+    return fmt::format(
+        "moves {} along the beam \"{}\", or the beam under it, but a place of an elastic beam "
+        "keeps "
+        "its share of the length ({:.4g}): what it changes is not known",
+        placed.pointer(), placed.body->name, share);
+  }
+  return std::nullopt;
+}
 
 std::optional<std::string> find_impossible(const Scene& scene, const Design<double>& start,
                                            const Design<double>& design) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -15,5 +16,11 @@ namespace pleuel {
 /// @param start  decides at which share of a beam a point is
 std::optional<std::string> find_impossible(const Scene& scene, const Design<double>& start,
                                            const Design<double>& design);
+
+/// Why nobody knows what a variable changes, as the end of a sentence that begins with its name: a point of an elastic
+/// beam, between its ends, would move along it, where the model keeps its share of the length. Bounds refuse such variables where they
+/// are free; this is asked where one with equal bounds scatters, is priced, or is differentiated.
+std::optional<std::string> find_point_moved_along(const Scene& scene, const Design<double>& start,
+                                                  std::size_t variable);
 
 }  // namespace pleuel

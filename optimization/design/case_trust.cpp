@@ -1,5 +1,6 @@
 #include "optimization/design/case_trust.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -46,6 +47,10 @@ std::optional<ErrorBar> error_of_sum(const ProblemFile& joined, const Trust& tru
                                      const std::vector<WeightedResponse>& parts, double magnitude) {
   std::map<std::size_t, Evidence> sums;
   ErrorPart effects;
+  for (const WeightedResponse& part : parts) {  // a sum may cancel, and what is small of it is small beside its terms
+    if (!trust.evidence[part.response]) continue;
+    magnitude = std::max(magnitude, std::abs(part.weight * trust.evidence[part.response]->value));
+  }
   for (const WeightedResponse& part : parts) {
     if (!trust.errors[part.response] || part.weight == 0.0) continue;
     effects.add(trust.errors[part.response]->effects, part.weight);

@@ -62,6 +62,10 @@ TEST(Invariants, TakeThePlaceOfTheBeam) {
   for (const char* name : {"rod_stress", "rod_bow", "torque_rms"}) {
     EXPECT_NEAR(value(body, name) / value(beam, name), 1.0, 1e-9) << name;
   }
+  // Effects of bodies of files are told, but cannot be left out.
+  document["scene"]["bodies"]["rod"]["other_designs"] = "linear";
+  std::ofstream(folder.path() / "linear.json") << document;
+  EXPECT_THAT(run({"check", "linear.json"}).out, HasSubstr("rod_bow"));
   const ProgramRun moved =
       run_program(folder.path(),
                   joined({"gradient", "imported.json", "--method", "central-difference"}, quick()));

@@ -78,6 +78,30 @@ TEST_F(OlderRuns, ThatWereKilledAreToldFromThoseAtWork) {
   EXPECT_EQ(status("killed"), "killed");
 }
 
+/// The mass goes with the density: its deviation, too.
+TEST_F(OlderRuns, AreComparedInTheirDeviations) {
+  for (const char* deviation : {"50", "100"}) {
+    const ProgramRun run = run_program(
+        folder_.path(),
+        joined(
+            {"uncertainty", problem("slider_crank_round"), "-o", std::string("runs/") + deviation,
+             "--set", R"(/scene/materials/steel/density={"variable": "density"})", "--set",
+             R"(/variables/density={"start": 7850, "lower": 7850, "upper": 7850})", "--set",
+             fmt::format(R"(/uncertainty={{"parameters": {{"density": {{"deviation": {}}}}}}})",
+                         deviation)},
+            quick()));
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+  }
+  const nlohmann::json document =
+      run_program(folder_.path(), {"compare", "runs/50", "runs/100", "--json"}).document();
+  const auto& values = document.at("outcome");
+  const auto found = std::find_if(values.begin(), values.end(), [](const auto& value) {
+    return value.at("name") == "crank_and_rod" && value.value("of", "") == "deviation";
+  });
+  ASSERT_NE(found, values.end());
+  EXPECT_NEAR(found->at("second").get<double>(), 2.0 * found->at("first").get<double>(), 1e-12);
+}
+
 TEST_F(OlderRuns, AreComparedInInputAndOutcome) {
   ASSERT_EQ(optimize("one").exit_code, 0);
   ASSERT_EQ(optimize("two", {"--set", "/simulation/spectral_radius=0.7"}).exit_code, 0);

@@ -36,10 +36,12 @@ std::vector<Symbol> symbols() {
           {"q", dimension("m"), {}, argument(4)},
           {"load", dimension("kg"), {}, argument(5)},
           {"stroke", dimension("m"), 0.08, {}},
-          {"tip deflection", dimension("m"), {}, argument(6)}};
+          {"tip deflection", dimension("m"), {}, argument(6)},
+          {"f", dimension("rad/s"), {}, argument(7)},
+          {"beat", dimension("Hz"), 60.0, {}}};
 }
 
-constexpr double values[] = {0.7, 1.3, 0.4, 0.12, 0.35, 2.5, 0.003};
+constexpr double values[] = {0.7, 1.3, 0.4, 0.12, 0.35, 2.5, 0.003, 40.0};
 
 std::vector<double> arguments_of(const Expression& expression) {
   std::vector<double> arguments;
@@ -66,6 +68,16 @@ std::string complaint(const std::string& text) {
     return std::to_string(error.column()) + ": " + error.what();
   }
   return "";
+}
+
+/// f is 40 rad/s, or 6.37 cycles a second: over 60 cycles that is 0.106, and over 60 Hz it would be an angle of 0.667.
+TEST(Expression, TakesNoAngleForARatioOfFrequencies) {
+  for (const char* text : {"f/(60 Hz)", "f/beat", "f^2/(60 Hz)^2", "1 + f/(60/(1 s))"}) {
+    EXPECT_NE(complaint(text).find("write \"rev/s\" in place of \"Hz\""), std::string::npos)
+        << text;
+  }
+  EXPECT_NEAR(value_of("f/(60 rev/s)"), 40.0 / (2.0 * std::numbers::pi * 60.0), 1e-15);
+  EXPECT_DOUBLE_EQ(value_of("f*(2 s)"), 80.0);  // an angle
 }
 
 TEST(Expression, FollowsTheUsualPrecedence) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/error.hpp"
 #include "core/scene/problem_reader.hpp"
 
 /// What formulas must keep at every design: bounds are those of variables, not of what formulas make
@@ -103,6 +104,33 @@ TEST(PlaceOfAMass, MustStayWhereItsJointIs) {
   const auto found = find_impossible(problem.scene, {1.0, 0.5}, {1.5, 0.8});
   ASSERT_TRUE(found);
   EXPECT_THAT(*found, HasSubstr("/scene/joints/tip/at must be where the point mass \"end\" is"));
+}
+
+/// b places the load in the middle of the tube; a is the length of the tube with all at its end.
+TEST(PlaceOfALoad, IsKnownNotToMoveAlongAnElasticBeam) {
+  const std::vector<std::string> middle = {
+      R"(/variables/b={"start": 0.5, "lower": 0.5, "upper": 0.5})",
+      "/scene/loads/push/at/0== b*1 m"};
+  const ProblemFile problem = cantilever(middle);
+  const auto found = find_point_moved_along(problem.scene, {1.0, 0.5}, 1);
+  ASSERT_TRUE(found);
+  EXPECT_THAT(*found, HasSubstr("moves /scene/loads/push/at along the beam \"tube\""));
+  EXPECT_FALSE(find_point_moved_along(problem.scene, {1.0, 0.5}, 0));
+  const ProblemFile end =
+      cantilever({"/scene/bodies/tube/to/0== a*1 m", "/scene/loads/push/at/0== a*1 m",
+                  "/scene/bodies/end/at/0== a*1 m", "/scene/joints/tip/at/0== a*1 m"});
+  EXPECT_FALSE(find_point_moved_along(end.scene, {1.0, 0.5}, 0));
+}
+
+TEST(PlaceOfALoad, DoesNotScatterAlongAnElasticBeam) {
+  try {
+    cantilever({R"(/variables/b={"start": 0.5, "lower": 0.5, "upper": 0.5})",
+                "/scene/loads/push/at/0== b*1 m",
+                R"(/uncertainty={"parameters": {"b": {"deviation": 0.01}}})"});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("/uncertainty/parameters/b moves /scene/loads/push/at"));
+  }
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "core/scene/reading/settings_reader.hpp"
 #include "core/scene/reading/simulation_reader.hpp"
 #include "core/scene/reading/variable_reader.hpp"
+#include "core/scene/scene_rules.hpp"
 
 namespace pleuel {
 namespace {
@@ -57,6 +58,18 @@ void read_settings(const JsonNode& root, const NumberReader& numbers, ProblemFil
     problem.uncertainty = read_uncertainty(node, numbers, problem.variables);
   });
   mistakes.fail_if_any();
+}
+
+void check_scattering_places(const JsonNode& root, const ProblemFile& problem) {
+  if (!problem.uncertainty) return;
+  Design<double> start;
+  for (const DesignVariable& variable : problem.variables) start.push_back(variable.start);
+  for (const UncertainParameter& parameter : problem.uncertainty->parameters) {
+    const auto moved = find_point_moved_along(problem.scene, start, parameter.variable);
+    if (!moved) continue;
+    const std::string& name = problem.variables[parameter.variable].name;
+    root.at("uncertainty").at("parameters").at(name).fail(*moved);
+  }
 }
 
 void check_margins(const JsonNode& root, const ProblemFile& problem) {
@@ -133,6 +146,7 @@ ProblemFile read_document(const JsonNode& root, NumberReader& numbers) {
   problem.scene.formulas = numbers.ranged_formulas();
   read_settings(root, numbers, problem);
   check_margins(root, problem);
+  check_scattering_places(root, problem);
   check_scene(root.at("scene"), problem);
   if (const auto effects = root.find("effects")) check_effects(*effects, problem);
   return problem;

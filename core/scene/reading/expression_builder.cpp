@@ -22,6 +22,16 @@ std::string without_blanks_at_powers(const std::string& unit) {
   return text;
 }
 
+Dimension rate() {
+  Dimension rate;
+  rate.powers[2] = -1.0;
+  return rate;
+}
+
+Dimension angular_speed() {
+  return Dimension::angle() * rate();
+}
+
 }  // namespace
 
 void ExpressionBuilder::fail(std::size_t position, const std::string& why) const {
@@ -140,6 +150,7 @@ Dimension ExpressionBuilder::dimension_of(std::size_t position, Operation operat
     case Operation::times:
       return fact(first).dimension * fact(second).dimension;
     case Operation::over:
+      check_no_ratio_of_frequencies(position, first, second);
       return fact(first).dimension / fact(second).dimension;
     case Operation::power:
       return power(position, first, second);
@@ -167,6 +178,19 @@ Dimension ExpressionBuilder::dimension_of(std::size_t position, Operation operat
     default:
       return fact(first).dimension;
   }
+}
+
+/// f/(60 Hz) looks like a ratio, but would be 2π times as large, as an angle [rad] whose unit no limit asks for.
+void ExpressionBuilder::check_no_ratio_of_frequencies(std::size_t position, int first,
+                                                      int second) const {
+  const double power = fact(second).dimension.powers[2];
+  const bool is_rate = power != 0.0 && fact(second).dimension == rate().to_the(-power);
+  if (!is_rate || !fact(second).constant) return;
+  if (!(fact(first).dimension == angular_speed().to_the(-power))) return;
+  fail(position,
+       fmt::format("{} over {} is no ratio but an angle: Hz counts cycles, and frequencies are "
+                   "angular ones here; write \"rev/s\" in place of \"Hz\"",
+                   described(first), described(second)));
 }
 
 void ExpressionBuilder::check_number(std::size_t position, int step) const {

@@ -58,6 +58,7 @@ class ExpressionBuilder {
 
   Dimension dimension_of(std::size_t position, Operation operation, int first, int second) const;
   void check_number(std::size_t position, int step) const;
+  void check_no_ratio_of_frequencies(std::size_t position, int first, int second) const;
   Dimension common(std::size_t position, int first, int second, const char* what) const;
   Dimension power(std::size_t position, int base, int exponent) const;
 

@@ -1,0 +1,82 @@
+/// Objectives that are many decades larger at the start than at their optimum: what is small beside the start says
+/// nothing of a design.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "backend_names.hpp"
+#include "complex_step.hpp"
+#include "known_problems.hpp"
+#include "optimization/backends.hpp"
+#include "optimization/find_optimum.hpp"
+
+namespace pleuel::test::far_objective_test {
+namespace {
+
+template <typename V, typename... Entries>
+auto column(const V&, const Entries&... entries) {
+  Vector<typename V::Scalar> result(sizeof...(entries));
+  Eigen::Index row = 0;
+  ((result[row++] = entries), ...);
+  return result;
+}
+
+/// Damage (100/(b h²))¹⁰ of a section of b by h cm with at most 6 cm² and h ≤ 3 b, from one of 0.6 by 1.2 cm, where it is 4e20.
+/// Both limits hold the optimum: b = √2, h = 3√2, so that b h² = 18 √2.
+KnownProblem damage() {
+  return {"damage",
+          {{{"b", 0.6, 0.4, 6.0}, {"h", 1.2, 1.0, 6.0}},
+           {{"area", -infinity, 6.0}, {"slenderness", -infinity, 0.0}},
+           by_complex_step([](const auto& x) {
+             const auto ratio = 100.0 / (x[0] * x[1] * x[1]);
+             const auto fifth = ratio * ratio * ratio * ratio * ratio;
+             return column(x, fifth * fifth, x[0] * x[1], x[1] - 3.0 * x[0]);
+           })},
+          std::pow(100.0 / (18.0 * std::sqrt(2.0)), 10.0)};
+}
+
+/// d² + exp(20 (2/d³ − 1)), from d = 0.7, where it is 4e41: least where 2 d = 120 d⁻⁴ e, which bisection solves.
+KnownProblem penalty() {
+  const auto e = [](double d) { return std::exp(20.0 * (2.0 / (d * d * d) - 1.0)); };
+  double low = 0.7, high = 4.0;
+  for (int i = 0; i < 100; ++i) {
+    const double d = 0.5 * (low + high);
+    (2.0 * d < 120.0 * e(d) / (d * d * d * d) ? low : high) = d;
+  }
+  return {"penalty",
+          {{{"d", 0.7, 0.6, 4.0}}, {}, by_complex_step([](const auto& x) {
+             using std::exp;
+             return column(x, x[0] * x[0] + exp(20.0 * (2.0 / (x[0] * x[0] * x[0]) - 1.0)));
+           })},
+          low * low + e(low)};
+}
+
+class FarObjective : public testing::TestWithParam<std::string> {};
+
+TEST_P(FarObjective, IsProvenByWhatItIsAtTheEnd) {
+  for (KnownProblem known : {damage(), penalty()}) {
+    const Result result = find_optimum(known.problem, {.backend = GetParam()});
+    EXPECT_EQ(result.status, Status::verified) << known.name << ": " << result.message;
+    EXPECT_NEAR(result.evaluation.objective, known.optimum, 1e-3 * known.optimum) << known.name;
+  }
+}
+
+/// (x − 1)² + (y − x²)², which vanishes at (1, 1), from where it is 4e5: beside what it is there nothing is small, and still it is proven.
+TEST_P(FarObjective, ThatVanishesIsProvenByItsCurvature) {
+  FunctionProblem squares({{"x", -25.0, -30.0, 30.0}, {"y", 3.0, -30.0, 30.0}}, {},
+                          by_complex_step([](const auto& x) {
+                            const auto a = x[0] - 1.0, b = x[1] - x[0] * x[0];
+                            return column(x, a * a + b * b);
+                          }));
+  const Result result = find_optimum(squares, {.backend = GetParam(), .max_iterations = 2000});
+  EXPECT_EQ(result.status, Status::verified) << result.message;
+  EXPECT_NEAR(result.x[0], 1.0, 0.05);
+  EXPECT_NEAR(result.x[1], 1.0, 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, FarObjective, testing::ValuesIn(optimizer_names()),
+                         name_of_backend);
+
+}  // namespace
+}  // namespace pleuel::test::far_objective_test
