@@ -314,12 +314,17 @@ class Study {
       if (larger <= round_off * std::abs(response.value)) continue;
       if (std::abs(sampled - first) <= std::max(small, scatter) * larger) continue;
       const std::string& name = analysis_->responses[i].name;
-      study_.doubts.push_back(
-          {fmt::format("\"{}\" is not linear over the range of the parameters: its deviation by "
-                       "samples is {:.3g} times that of first order. Rely on the samples.",
-                       name, sampled / first),
-           false,
-           {name}});
+      const std::string share = first <= round_off * sampled
+                                    ? "samples deviate, where first order says that nothing does"
+                                    : fmt::format(
+                                          "its deviation by samples is {:.3g} times that of "
+                                          "first order",
+                                          sampled / first);
+      study_.doubts.push_back({fmt::format("\"{}\" is not linear over the range of the parameters: "
+                                           "{}. Rely on the samples.",
+                                           name, share),
+                               false,
+                               {name}});
     }
   }
 

@@ -1,5 +1,6 @@
 #include "core/base/expression.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/value_path.hpp"
@@ -14,9 +15,15 @@ struct Partials {
   double by_first = 0.0, by_second = 0.0;
 };
 
+/// Numbers that are equal but for their round-off, as the frequencies of a square section along two axes.
+bool is_tie(double a, double b) {
+  constexpr double round_off = 1e-12;
+  return std::abs(a - b) <= round_off * std::max(std::abs(a), std::abs(b));
+}
+
 /// The operand that counts; at a tie the mean of both.
 Partials chosen(double a, double b, bool is_first) {
-  if (a == b) return {a, 0.5, 0.5};
+  if (is_tie(a, b)) return {is_first ? a : b, 0.5, 0.5};
   return is_first ? Partials{a, 1.0, 0.0} : Partials{b, 0.0, 1.0};
 }
 

@@ -105,7 +105,8 @@ class Proportions {
       if (near.size() > most_far_away() || rest.empty()) continue;
       std::vector<Eigen::Vector3d> others;
       for (const std::size_t k : rest) others.push_back(places_[k].position);
-      const double size = diameter(others);
+      // Points that are meant to be one, a little apart, are no mechanism that another one is far from.
+      const double size = std::max(diameter(others), deepest_section());
       const double distance = distance_to(places_[i].position, others);
       if (size == 0.0 || distance <= far_away * size) continue;
       named.insert(near.begin(), near.end());
@@ -193,6 +194,18 @@ class Proportions {
                       "({:.3g} m)",
                       at, length, length / least, least));
     }
+  }
+
+  double deepest_section() const {
+    double deepest = 0.0;
+    for (const Body& body : scene_.bodies) {
+      const auto* beam = std::get_if<BeamBody>(&body.shape);
+      if (!beam) continue;
+      for (const Segment& segment : beam->segments) {
+        deepest = std::max(deepest, depth_of(resolve_section(segment.section, design_)));
+      }
+    }
+    return deepest;
   }
 
   /// √(12 I/A) about the stiffer axis: of a rectangle its larger side.

@@ -80,6 +80,17 @@ TEST(Expression, TakesNoAngleForARatioOfFrequencies) {
   EXPECT_DOUBLE_EQ(value_of("f*(2 s)"), 80.0);  // an angle
 }
 
+/// What is equal but for its round-off is a tie, with the mean of both derivatives.
+TEST(Expression, HasTheMeanDerivativeWhereTwoAreEqualButForRoundOff) {
+  const ReadExpression read = read_expression("min(a, b)", symbols(), units());
+  for (const double part : {0.0, 1e-15, -1e-15}) {
+    const ExpressionValue found = evaluate(*read.expression, {1.3, 1.3 * (1.0 + part)});
+    EXPECT_EQ(found.derivatives, (std::vector<double>{0.5, 0.5})) << part;
+  }
+  EXPECT_EQ(evaluate(*read.expression, {1.3, 1.3 * (1.0 + 1e-9)}).derivatives,
+            (std::vector<double>{1.0, 0.0}));
+}
+
 TEST(Expression, FollowsTheUsualPrecedence) {
   EXPECT_DOUBLE_EQ(value_of("1 + 2*3^2"), 19.0);
   EXPECT_DOUBLE_EQ(value_of("-2^2"), -4.0);

@@ -412,6 +412,27 @@ TEST(SteadyMachineErrors, NameAMotionThatNothingBringsBack) {
   EXPECT_THAT(failure, testing::HasSubstr("nothing has brought back"));
 }
 
+/// A slender bar that bends so far under its load that its stiffening couples both directions: the map of the search is that of a motion
+/// on the way, too far from the motion itself to find the derivatives by its end's height. They were refused.
+TEST(SteadyBar, HasDerivativesWhereTheMapOfTheSearchIsTooFarAway) {
+  const ProblemFile bar = read_problem_text(R"({"scene": {
+        "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [0.4, {"variable": "rise"}, 0],
+                           "material": "steel", "elements": 2, "damping": {"stiffness": "0.1 ms"},
+                           "section": {"type": "rectangle", "width": 0.03, "height": {"variable": "height"}}}},
+        "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}},
+        "loads": {"press": {"type": "force", "body": "bar", "at": [0.4, {"variable": "rise"}, 0],
+          "direction": [0, -1, 0],
+          "value": {"type": "harmonic", "amplitude": "0.5 kN", "frequency": "40 Hz"}}}},
+      "simulation": {"end_time": "25 ms", "step": "0.5 ms", "initial_state": "periodic",
+                     "newton_tolerance": 1e-12},
+      "variables": {"height": {"start": 0.02, "lower": 0.01, "upper": 0.03},
+                    "rise": {"start": 1e-3, "lower": 1e-3, "upper": 1e-3}},
+      "responses": {"s": {"type": "stress", "body": "bar", "over_time": "max"}}})",
+                                            "bar.json")
+                              .complete();
+  expect_equal_gradients(bar);
+}
+
 /// A disc on a tube, twisted to and fro without damping: neither grows nor dies, wherever in its
 /// period it begins. On the way to its motion it turns on the average, and that motion would grow.
 TEST(SteadyMachineErrors, AreNoneOfAMotionThatIsFoundFromOneThatGrows) {

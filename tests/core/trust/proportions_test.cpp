@@ -99,6 +99,20 @@ TEST(SizesOutOfProportion, ArePointsFarAwayAndInertiaOfOtherUnits) {
   EXPECT_THAT(heavy("1e2")[0].text, HasSubstr("/scene/bodies/more/inertia"));
 }
 
+/// A mass that is held a tenth of a millimetre beside the end of a bar of 400 mm is no mechanism that the other end is far from.
+TEST(SizesOutOfProportion, AreNoneWherePointsAreALittleApart) {
+  const ProblemFile lug = read_scene(R"({"scene": {
+        "bodies": {"arm": {"type": "beam", "from": [0, 0, 0], "to": [0.4, 0, 0], "material": "steel", "elements": 2,
+                           "section": {"type": "circle", "diameter": 0.04}},
+                   "lug": {"type": "rigid", "at": [0.4, 0.0001, 0], "mass": 20, "inertia": [0.01, 0.01, 0.01, 0, 0, 0]}},
+        "joints": {"wall": {"type": "fixed", "bodies": ["ground", "arm"], "at": [0, 0, 0]},
+                   "weld": {"type": "fixed", "bodies": ["arm", "lug"], "at": [0.4, 0, 0]}},
+        "loads": {"push": {"type": "force", "body": "arm", "at": [0.4, 0, 0], "direction": [0, 1, 0], "value": 1}}},
+      "simulation": {"end_time": 2e-3, "step": 1e-3},
+      "responses": {"m": {"type": "mass"}}})");
+  EXPECT_THAT(doubts_of(lug, doubt_proportions), IsEmpty());
+}
+
 /// A radius of gyration of ten times the mechanism's size; a hundred times its size away.
 TEST(SizesOutOfProportion, BeginAtTenTimesTheInertiaAndAHundredTimesTheDistance) {
   // Bar of 1 m, and a wheel at its end: nothing else has a place.
